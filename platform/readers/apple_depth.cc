@@ -20,7 +20,7 @@ std::string TypeOf(const XmpNode& xmp) {
 
 bool IsMap(const std::string& type) { return type == "disparity" || type == "depth"; }
 
-// Parses the XMP of an auxiliary picture. Packets that are not well-formed are skipped.
+// Parses the XMP packets of an auxiliary picture. Skips packets that are not well-formed.
 XmpNode ReadPackets(const JpegParts& parts) {
   XmpNode root;
   for (const Span& packet : parts.xmp) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads depth maps that are stored as Apple's auxiliary pictures. Interprets the XMP of these
-// pictures in HEIC and JPEG files, and finds the pictures in JPEG files.
+// Reads depth maps that are stored as Apple's auxiliary pictures. Interprets the XMP of auxiliary
+// pictures in HEIC and JPEG files, and finds auxiliary pictures in JPEG files.
 #ifndef STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 
@@ -11,12 +11,14 @@
 
 namespace starfocus {
 
-// Converts the levels of the map to inverse distances with the range in the XMP of the auxiliary
-// picture. If the XMP has no valid range, the map receives the meaning MapMeaning::kOrder.
+// Converts the grey levels of photo->map to inverse distances, by the range in the XMP of the
+// auxiliary picture. If the XMP has no valid range, the map receives the meaning
+// MapMeaning::kOrder.
 void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
-// Reads the first map of disparities or depths among the pictures after the primary picture, if
-// there is such a map. photo->picture must already be set. Adds a fact if the file has a gain map.
+// Reads the first map of disparities or depths among the pictures that follow the primary picture
+// of a JPEG file. photo->picture must already be set. Adds a fact to `photo` if the JPEG file has a
+// gain map.
 Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -46,7 +46,7 @@ Result<Capture> OpenOwn(const std::string& folder, const Names& names) {
   if (Error error = FindViewFiles(folder).MoveTo(&capture.files)) return error;
   if (HasDisparity(folder)) capture.map_path = DisparityPath(folder);
   capture.coverage_path = CoveragePath(folder);
-  // In stereo pairs, infinite disparities are unknown.
+  // In disparity maps of stereo pairs, infinite values mean unknown disparities.
   if (Has(names, "im0.png")) capture.care = MapCare::kFill;
   if (!Has(names, "im0.png") || !Has(names, "calib.txt")) return capture;
   if (Error error = ReadMiddlebury(folder, &capture)) return error;
@@ -86,14 +86,14 @@ Result<Capture> OpenFolder(const std::string& folder) {
   return IsHci(*names) ? OpenHci(folder, *names) : OpenArray(folder, pictures);
 }
 
-// Moves the two views of a stereo pair to the capture. A pair has no map.
+// Moves the two views of a stereo pair to the capture. A stereo pair in one file has no map.
 void TakePair(const std::string& path, DepthPhoto* photo, Capture* capture) {
   capture->files = {{{0, 0}, path}, {{1, 0}, path}};
   capture->light_field.positions = {{0, 0}, {1, 0}};
   capture->light_field.views = {std::move(photo->picture), std::move(photo->right)};
 }
 
-// Returns the pixel at a fraction of the width or height, in [0, 1].
+// Converts a fraction of the width or height, in [0, 1], to a pixel coordinate.
 int PixelAt(double share, int pixels) {
   return std::min(static_cast<int>(share * pixels), pixels - 1);
 }
@@ -147,7 +147,7 @@ void SelectViews(const std::vector<ViewFile>& chosen, LightField* light_field) {
   *light_field = std::move(result);
 }
 
-// Loads the map for views that are already loaded.
+// Loads the map of a capture whose views are already loaded.
 Error LoadMapOf(Capture* capture) {
   if (LowerExtension(capture->map_path) != ".pfm") return LoadGreyMap(capture);
   Error error = LoadMap(capture->map_path, &capture->light_field);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens any input that can be refocused: a folder of views in one of several layouts, or a
-// photograph with a depth map. The type of the input is detected from its content.
+// photograph with a depth map. OpenCapture detects the type of an input from its content.
 #ifndef STARFOCUS_PLATFORM_READERS_CAPTURE_H_
 #define STARFOCUS_PLATFORM_READERS_CAPTURE_H_
 
@@ -13,47 +13,47 @@
 
 namespace starfocus {
 
-// Processing that a map of this format requires before use.
+// Processing that a disparity map of the format requires before refocusing.
 enum class MapCare { kNone, kFill, kRepair };
 
 struct CaptureOptions {
-  std::string depth;       // depth picture of a photograph; empty: in the file or next to the file
-  DepthOptions map;        // how to read the depth picture
-  bool small_map = false;  // keep the map of a photo at its own size until LoadCapture
+  std::string depth;       // path of the depth picture; empty: in the photo's file or next to it
+  DepthOptions map;        // interpretation of the depth picture
+  bool small_map = false;  // true: LoadCapture, not OpenCapture, resizes the map of a photo
 };
 
 struct Capture {
   std::string path, format;
-  bool photo = false;           // one file with one view
+  bool photo = false;           // true if the input is one file with one view
   std::vector<ViewFile> files;  // files of the views, the centre first
-  std::string map_path;         // file of the map, for reading and for errors; empty: none
-  std::string coverage_path;    // file of the coverage; empty: none
-  double map_scale = 1;         // factor of the values in the map's file
+  std::string map_path;         // file of the map, for reading and for errors; empty: no map
+  std::string coverage_path;    // file of the coverage; empty: no coverage
+  double map_scale = 1;         // factor that converts values in the file of the map to disparities
   MapCare care = MapCare::kNone;
   double widest = 0;  // f-stop of an aperture of radius 1; 0: unknown
-  double f_stop = 0;  // default f-stop; 0: the widest
+  double f_stop = 0;  // default f-stop; 0: the widest f-stop
   bool has_focus = false;
-  int focus_x = 0, focus_y = 0;  // pixel in focus by the format
+  int focus_x = 0, focus_y = 0;  // pixel in focus as stated by the file
   bool has_subject = false;
-  int subject_x = 0, subject_y = 0;  // pixel of the subject by EXIF
+  int subject_x = 0, subject_y = 0;  // pixel of the subject as stated by EXIF
   double focus = NAN;                // disparity in focus; NaN: unknown
   Metadata metadata;
   Facts facts;
   std::vector<std::string> notes;
-  LightField light_field;  // set by OpenCapture for a photo or a pair in one file
+  LightField light_field;  // filled by OpenCapture for one-file inputs, otherwise by LoadCapture
 };
 
-// Opens `path`. The path "-" means a photograph on standard input. A photograph is read completely.
-// For a folder, only the list of files and the calibration are read, but no pictures. An error
-// describes the content that was found and the content that is missing.
+// Opens `path`. The path "-" means a photograph on standard input. OpenCapture reads a photograph
+// completely. For a folder, OpenCapture reads only the list of files and the calibration, but no
+// pictures. An error message describes the content that was found and the content that is missing.
 Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& options);
 
-// Reads the views at the positions `wanted`, or all views if `wanted` is empty. Also reads the map
-// and the coverage if they exist. `runner` decodes several views at a time; if `runner` is null,
-// the calling thread decodes all views.
+// Reads the views at the positions `wanted`, or all views if `wanted` is empty. Reads the disparity
+// map and the coverage if they exist. `runner` decodes several views at a time; if `runner` is
+// null, the calling thread decodes all views.
 Error LoadCapture(const Positions& wanted, Capture* capture, ThreadRunner* runner = nullptr);
 
-// Returns the paths of all input files that are known so far.
+// Returns the paths of all input files that `capture` names.
 std::vector<std::string> CaptureFiles(const Capture& capture);
 
 }  // namespace starfocus

@@ -8,8 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Reads numbers of a given number of bits. After the end of the data, returns zeros and sets `good`
-// to false.
+// Reads integers with a given number of bits. Reads past the end of the data return zero bits, and
+// good() is then false.
 class Bits {
  public:
   explicit Bits(Span bytes) : bytes_(bytes) {}
@@ -41,7 +41,7 @@ void Widen(int64_t width, int64_t height, CodedSize* most) {
   most->height = std::max(most->height, height);
 }
 
-// Returns a NAL unit without its emulation prevention bytes.
+// Returns an HEVC NAL unit without its emulation prevention bytes.
 Bytes Unescape(Span unit) {
   Bytes bytes;
   size_t zeros = 0;
@@ -56,7 +56,7 @@ Bytes Unescape(Span unit) {
   return bytes;
 }
 
-// Reads a sequence parameter set (23008-2, 7.3.2.2) up to the size.
+// Reads an HEVC sequence parameter set (23008-2, 7.3.2.2) as far as the picture size.
 void ReadParameterSet(Span unit, CodedSize* most) {
   constexpr int kSequenceSet = 33;
   if (unit.size < 2 || (unit.data[0] >> 1 & 63) != kSequenceSet) return;
@@ -64,8 +64,8 @@ void ReadParameterSet(Span unit, CodedSize* most) {
   const Bytes bytes = Unescape(unit);
   Bits bits({bytes.data(), bytes.size()});
   bits.Skip(16 + 4);
-  const uint32_t layers = bits.Read(3);  // number of sub-layers minus 1
-  bits.Skip(1 + 88 + 8);                 // profile and level
+  const uint32_t layers = bits.Read(3);  // number of temporal sub-layers minus 1
+  bits.Skip(1 + 88 + 8);                 // skips flags, profile and level
   size_t more = 0;
   for (uint32_t k = 0; k < layers; ++k) {
     if (bits.Read(1) != 0) more += 88;
@@ -73,18 +73,18 @@ void ReadParameterSet(Span unit, CodedSize* most) {
   }
   if (layers > 0) bits.Skip(2 * (8 - layers));
   bits.Skip(more);
-  bits.ReadGolomb();                         // identifier of the set
-  if (bits.ReadGolomb() == 3) bits.Skip(1);  // separate colour planes
+  bits.ReadGolomb();                         // skips the identifier of the parameter set
+  if (bits.ReadGolomb() == 3) bits.Skip(1);  // skips the flag for separate colour planes
   const uint32_t own_width = bits.ReadGolomb(), own_height = bits.ReadGolomb();
   if (bits.good()) Widen(own_width, own_height, most);
 }
 
-// Reads a sequence header (AV1 specification, 5.5.1) up to the size.
+// Reads an AV1 sequence header (AV1 specification, 5.5.1) as far as the picture size.
 void ReadSequenceHeader(Span header, CodedSize* most) {
   Bits bits(header);
   bits.Skip(3 + 1);
   if (bits.Read(1) != 0) {
-    bits.Skip(5);  // level of a still picture
+    bits.Skip(5);  // skips the level of a still picture
   } else {
     bool model = false;
     uint32_t delay_bits = 0;
@@ -113,8 +113,8 @@ void ReadSequenceHeader(Span header, CodedSize* most) {
   if (bits.good()) Widen(own_width, own_height, most);
 }
 
-// Reads open bitstream units (AV1 specification, 5.3). Each unit has a header, an optional size in
-// LEB128, and a payload.
+// Reads open bitstream units (AV1 specification, 5.3). Each open bitstream unit has a header, an
+// optional size in LEB128, and a payload.
 void ReadUnits(Span units, CodedSize* most) {
   constexpr int kSequenceHeader = 1;
   while (units.size >= 2) {
@@ -130,7 +130,7 @@ void ReadUnits(Span units, CodedSize* most) {
       }
     }
     if (at > units.size) return;
-    const size_t held = std::min(size, units.size - at);  // `head` may cut the last unit
+    const size_t held = std::min(size, units.size - at);  // `units` may end within the last unit
     if ((first >> 3 & 15) == kSequenceHeader) {
       ReadSequenceHeader({units.data + at, held}, most);
     }
@@ -140,7 +140,8 @@ void ReadUnits(Span units, CodedSize* most) {
 
 }  // namespace
 
-// Format of hvcC: 22 bytes, then arrays of NAL units (14496-15, 8.3.3.1).
+// `configuration` is the property hvcC: 22 bytes, followed by arrays of NAL units (14496-15,
+// 8.3.3.1).
 CodedSize HevcSize(Span configuration, const Bytes& head) {
   CodedSize most;
   constexpr size_t kArrays = 22;
@@ -158,7 +159,7 @@ CodedSize HevcSize(Span configuration, const Bytes& head) {
       at += size;
     }
   }
-  for (size_t from = 0; from + 4 < head.size();) {  // each unit follows its size, a 4-byte integer
+  for (size_t from = 0; from + 4 < head.size();) {  // a 4-byte size precedes each NAL unit
     const size_t size = ReadBigEndian32(&head[from]);
     from += 4;
     const size_t held = std::min(size, head.size() - from);

@@ -10,15 +10,15 @@
 namespace starfocus {
 
 struct CodedSize {
-  int64_t width = 0, height = 0;  // 0: not found
+  int64_t width = 0, height = 0;  // 0: no size was found
 };
 
-// Returns the largest picture size in the sequence parameter sets of a decoder configuration record
-// (hvcC) and of the start of a picture's data.
+// Returns the largest picture size in HEVC sequence parameter sets. Searches the decoder
+// configuration record (hvcC) and `head`, the first bytes of the picture's data.
 CodedSize HevcSize(Span configuration, const Bytes& head);
 
-// Returns the largest picture size in the AV1 sequence headers of the configuration (av1C) and of
-// the start of a picture's data.
+// Returns the largest picture size in AV1 sequence headers. Searches the configuration (av1C) and
+// `head`, the first bytes of the picture's data.
 CodedSize Av1Size(Span configuration, const Bytes& head);
 
 }  // namespace starfocus

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-// Returns the mean of the known values in rows from `from` to `to` - 1.
+// Returns the mean of the known values of a map in rows `from` to `to` - 1.
 double MeanOfRows(const FloatMap& map, int from, int to) {
   double sum = 0, count = 0;
   for (int y = from; y < to; ++y) {

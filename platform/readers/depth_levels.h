@@ -13,29 +13,29 @@ namespace starfocus {
 
 // A distance range with 0 < near < far. `far` may be infinite if `inverse` is true.
 struct DepthRange {
-  bool inverse = true;  // levels are linear in 1 / distance; otherwise in the distance
+  bool inverse = true;  // true: levels are linear in 1 / distance; false: linear in distance
   double near = 0, far = 0;
 };
 
-// Converts levels to inverse distances. Level 0 has the distance `near`, level 1 the distance
-// `far`.
+// Converts levels to inverse distances. Level 0 means the distance `near`, and level 1 means the
+// distance `far`.
 void ToInverse(const DepthRange& range, FloatMap* map);
 
-// Maps level 0 to `low` and level 1 to `high`, linearly.
+// Converts levels linearly, such that level 0 becomes `low` and level 1 becomes `high`.
 void ToRange(double low, double high, FloatMap* map);
 
-// Replaces distances by their inverse. Distances that are not positive become unknown.
+// Replaces each distance z by 1 / z. Distances that are not positive become unknown (NaN).
 void Invert(FloatMap* map);
 
-// Inverts a map of meaning kOrder if necessary, so that larger values are nearer. If `near` is
-// kUnknown, the function guesses which end of the range is near, and adds a note. The guess assumes
-// that the bottom of a photograph is nearer than its top.
+// Inverts a map whose meaning is MapMeaning::kOrder if necessary, so that larger values are nearer.
+// If `near` is kUnknown, the function guesses which end of the value range is near, and adds a
+// note. The guess assumes that the bottom of a photograph is nearer than its top.
 void ToOrder(Near near, DepthPhoto* photo);
 
 // Adds a fact that describes how the file stores the map.
 void TellMap(const std::string& text, DepthPhoto* photo);
 
-// Decodes the picture of a JPEG file and takes EXIF and the ICC profile from `parts`.
+// Decodes the picture of a JPEG file. The result receives EXIF and the ICC profile from `parts`.
 Result<DepthPhoto> ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts);
 
 }  // namespace starfocus

@@ -7,22 +7,22 @@
 
 namespace starfocus {
 
-// Near end of the value range of a depth picture.
+// The end of the grey range of a depth picture that means near: white, black, or unknown.
 enum class Near { kUnknown, kWhite, kBlack };
 
 // Unit of the values of a depth picture.
 enum class DepthUnit {
-  kNone,         // only an order
+  kNone,         // values without a unit, which define only an order of depth
   kMetres,       // distances in metres
   kMillimetres,  // distances in millimetres
-  kDisparity,    // disparities: pixels of the photo for an aperture of radius 1
+  kDisparity,    // disparities in pixels of the photo, for an aperture of radius 1
 };
 
-// How a depth picture is oriented in its file, relative to the photo.
+// Orientation of a depth picture in its file, relative to the photo.
 enum class DepthOrientation {
-  kUnknown,  // decided by comparing the edges of photo and map
-  kPhoto,    // oriented as the photo's file: EXIF's orientation applies to both
-  kUpright,  // oriented as the photo after EXIF's orientation is applied
+  kUnknown,  // proportions and edges of photo and map decide
+  kPhoto,    // oriented like the stored photo: EXIF's orientation applies to photo and map
+  kUpright,  // upright: EXIF's orientation applies only to the photo
 };
 
 struct DepthOptions {
@@ -33,7 +33,7 @@ struct DepthOptions {
   // whether 0 and 65535 are depths in 16-bit maps.
   bool has_unknown = false;
   std::vector<double> unknown;
-  bool use_alpha = true;  // treat transparent pixels as unknown
+  bool use_alpha = true;  // true: transparent pixels have unknown depth
 };
 
 }  // namespace starfocus

@@ -32,7 +32,7 @@ void IgnoreXmp(const Error& error, DepthPhoto* photo) {
   if (photo->map_problem.empty()) photo->map_problem = error.line();
 }
 
-// Adds a packet to the children of `root`. An unreadable packet is ignored with a note.
+// Adds an XMP packet to the children of `root`. Ignores an unreadable packet and adds a note.
 void AddPacket(const std::string& name, const char* text, size_t size, XmpNode* root,
                DepthPhoto* photo) {
   Result<XmpNode> packet = ParseXmp(name + " is ignored", text, size);
@@ -41,7 +41,7 @@ void AddPacket(const std::string& name, const char* text, size_t size, XmpNode* 
 }
 
 // Parses the XMP of a JPEG file: the packets of its segments, then the extended XMP. If `all` is
-// false, only the extended XMP that a packet refers to is read.
+// false, reads only the extended XMP to which an XMP packet refers.
 XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
   XmpNode root;
   if (!CanReadXmp()) return root;
@@ -65,7 +65,8 @@ XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
   return root;
 }
 
-// Reads the map in the first format that succeeds.
+// Reads the depth map of a file by trying each format. The first format whose reader succeeds is
+// used.
 void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, DepthPhoto* photo) {
   const auto read = [photo](const Error& error) {
     if (error) photo->map = {};
@@ -100,9 +101,9 @@ Error CheckOptions(const std::string& path, const DepthOptions& options) {
                   "a depth map in the photo");
 }
 
-// Reads the map from extended XMP that no packet refers to. Editors that rewrite the packet leave
-// such stray XMP in the file. The specification says to ignore stray XMP, so all other maps take
-// precedence.
+// Reads the map from extended XMP that no packet refers to. Editors that rewrite the XMP packet
+// leave stray extended XMP in the file. The XMP specification requires readers to ignore stray
+// extended XMP, so all other depth maps take precedence.
 bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
   if (!IsJpeg(file)) return false;
   const Result<JpegParts> parts = ReadJpegParts("", file);
@@ -163,7 +164,7 @@ Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool wi
 
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth) {
-  const bool stream = path == "-";  // a stream has no neighbouring depth picture
+  const bool stream = path == "-";  // standard input has no depth picture next to it
   const std::string where = InputName(path);
   const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
   if (!bytes) return bytes.error();

@@ -11,16 +11,17 @@
 
 namespace starfocus {
 
-// Reads a photograph and its map. The map is read from the depth picture `depth` if the path is not
-// empty. Otherwise, the map is read from the file of the photograph or, if the file has none, from
-// a depth picture next to the file. If there is no map, the file may be a stereo pair; then
-// photo.right is the right picture. Damaged optional data is ignored with a note. `options` apply
-// to a depth picture. If the map is in the file, any option except `near` is an error.
+// Reads a photograph and its depth map. The map is read from the depth picture `depth` if the path
+// is not empty. If `depth` is empty, the map is read from the file of the photograph or, if this
+// file has no map, from a depth picture next to the file. A file without a map may be a stereo
+// pair; in this case, `right` of the result is the right picture. The function ignores damaged
+// optional data and adds a note. `options` apply to a separate depth picture. If the map is in the
+// file of the photograph, any option except `near` is an error.
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth);
 
-// Decodes a photograph in memory, and its map if `with_map` is true. The map is empty if the file
-// has no readable map.
+// Decodes a photograph in memory, and its depth map if `with_map` is true. The map is empty if the
+// file has no readable map.
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near);
 
 }  // namespace starfocus

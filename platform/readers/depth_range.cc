@@ -18,7 +18,7 @@ std::string Quoted(const std::string* text) {
   return text == nullptr ? "absent" : "'" + text->substr(0, 40) + "'";
 }
 
-// Returns the number of metres per unit of distance, or 0 if the unit is unknown.
+// Returns the number of metres per unit of distance, or 0 for an unknown name of a unit.
 double MetresOf(const std::string& units) {
   if (units == "m" || units == "meters") return 1;
   return units == "mm" || units == "millimeters" ? 0.001 : 0;
@@ -63,7 +63,7 @@ double ApplyRange(const RangeProperties& properties, Near near, DepthPhoto* phot
         "the far end of the depth map is infinite: white is infinitely far away");
   }
   // Some cameras write "diopters" but store values that decrease towards the lens, as distances do.
-  // Real diopters would increase.
+  // Values in diopters would increase towards the lens.
   if (units == "diopters") {
     photo->notes.push_back(
         "the unit of the depth map, diopters, is ignored: near and far are distances in an unknown "

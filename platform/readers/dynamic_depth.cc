@@ -17,12 +17,12 @@ namespace {
 constexpr size_t kMostItems = 64;
 constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G'};
 const std::string kMap = "http://ns.google.com/photos/dd/1.0/depthmap/|";
-// Namespaces of items: the namespace of the specification, and the namespace of later files by the
-// same vendor.
+// XMP namespaces of directory items: the namespace of the Dynamic Depth specification, and the
+// namespace of later files from Google.
 const std::string kItems[] = {"http://ns.google.com/photos/dd/1.0/item/|",
                               "http://ns.google.com/photos/1.0/container/item/|"};
 
-// An item of the directory: a picture in the file, in directory order.
+// An item of the Dynamic Depth directory, which describes one picture in the file.
 struct Item {
   std::string mime, uri, semantic;
   size_t length = 0, padding = 0;
@@ -33,7 +33,8 @@ std::string TextOf(const XmpNode& node, const std::string& name) {
   return text == nullptr ? "" : *text;
 }
 
-// Returns a size in bytes, or 0 if the property is missing or is not a whole number up to `file`.
+// Returns a size in bytes from a property of `node`. Returns 0 if the property is missing or is not
+// a whole number up to `file`.
 size_t LengthOf(const XmpNode& node, const std::string& name, size_t file) {
   const double value = XmpNumber(OwnProperty(node, name)).value_or(0);
   const bool fits = value >= 0 && value <= static_cast<double>(file) && value == std::floor(value);
@@ -69,9 +70,9 @@ Span From(Span file, size_t at) {
 }
 
 // Finds item `index` by the lengths in the directory. The lengths of all earlier items give the
-// position of the item. If other data was inserted, the lengths are counted from the end of the
-// file. Decoders ignore data after the item. Returns an empty span if no picture starts at either
-// position.
+// first candidate position. If a program inserted other data, the lengths are counted back from the
+// end of the file. The result extends to the end of the file, because decoders ignore data after
+// the item. Returns an empty span if neither candidate position contains the start of a picture.
 Span FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& items,
                    size_t index) {
   size_t begin = parts.end + items[0].padding, behind = 0;
@@ -87,9 +88,9 @@ Span FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& i
   return {};
 }
 
-// Finds item `index` if the lengths are wrong. A PNG item is the first PNG file after the primary
-// picture. A JPEG item is found by its position among the JPEG items of the directory. Returns an
-// empty span if none is found.
+// Finds item `index` of the directory without using the lengths in the directory. A PNG item is the
+// first PNG file after the primary picture. A JPEG item is found by its position among the JPEG
+// items of the directory. Returns an empty span if no such picture is found.
 Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>& items,
                      size_t index) {
   if (items[index].mime == "image/png") {
@@ -103,8 +104,9 @@ Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>&
   return jpeg < pictures.size() ? pictures[jpeg].file : Span{};
 }
 
-// Returns the index of the depth map. Searches for the name `uri` and, if no item has this name,
-// for the semantic "Depth". Returns 0, the index of the primary picture, if no depth map is found.
+// Returns the index of the depth map in the directory. Searches for an item with the name `uri`,
+// then for an item with the semantic "Depth". Returns 0, the index of the primary picture, if no
+// depth map is found.
 size_t FindDepth(const std::vector<Item>& items, const std::string* uri) {
   for (size_t k = 1; k < items.size() && uri != nullptr; ++k) {
     if (items[k].uri == *uri) return k;
@@ -115,7 +117,7 @@ size_t FindDepth(const std::vector<Item>& items, const std::string* uri) {
   return 0;
 }
 
-// Returns the description of the depth map. Other descriptions belong to segmentation maps.
+// Returns the XMP node that describes the depth map. Skips nodes that describe segmentation maps.
 const XmpNode* FindMap(const XmpNode& xmp) {
   std::vector<const XmpNode*> nodes;
   for (const char* name : {"DepthURI", "Format", "Near"}) FindOwners(xmp, kMap + name, &nodes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads Dynamic Depth 1.0, Google's format since 2018. XMP in a JPEG file lists the pictures that
-// follow the primary picture, and the purpose of each picture.
+// Reads Dynamic Depth 1.0, Google's format since 2018. In Dynamic Depth, the XMP of a JPEG file
+// lists the pictures that follow the primary picture, and the purpose of each picture.
 #ifndef STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
 
@@ -13,8 +13,8 @@ namespace starfocus {
 
 bool HasDynamicDepth(const XmpNode& xmp);
 
-// Reads the map. photo->picture must already be set. `near` applies only if the file does not state
-// which end of the map is near.
+// Reads the depth map of a Dynamic Depth file. photo->picture must already be set. `near` applies
+// only if the file does not state which end of the grey range is near.
 Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
                        DepthPhoto* photo);
 

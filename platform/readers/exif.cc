@@ -12,10 +12,10 @@ namespace {
 
 #ifdef STARFOCUS_HAS_EXIF
 
-constexpr size_t kMostBytes = 65535;  // limit of a JPEG segment
+constexpr size_t kMostBytes = 65535;  // size limit of a JPEG segment in bytes
 
-// Returns the 16-bit or 32-bit integers of a tag, at most four. The result is empty if the tag is
-// missing or has another type.
+// Returns the first four integers of a tag with 16-bit or 32-bit integers. The result is empty if
+// the tag is missing or has another type.
 std::vector<double> NumbersOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   std::vector<double> numbers;
   ExifEntry* entry = exif_content_get_entry(data->ifd[directory], tag);
@@ -31,7 +31,7 @@ std::vector<double> NumbersOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   return numbers;
 }
 
-// Returns a 16-bit integer, or 0 if the tag is missing or has another type.
+// Returns the value of a tag with a 16-bit integer, or 0 if the tag is missing or has another type.
 int ShortOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   const ExifEntry* entry = exif_content_get_entry(data->ifd[directory], tag);
   const std::vector<double> numbers = NumbersOf(data, directory, tag);
@@ -39,8 +39,9 @@ int ShortOf(ExifData* data, ExifIfd directory, ExifTag tag) {
   return static_cast<int>(numbers[0]);
 }
 
-// Reads the position of the subject. The first two numbers of the tag are the centre of the
-// subject. The diameter of a circle or the sides of a rectangle may follow (EXIF 2.32, 4.6.6.5).
+// Reads the position of the subject. The first two numbers of SubjectArea or SubjectLocation are
+// the centre of the subject. The diameter of a circle or the sides of a rectangle may follow (EXIF
+// 2.32, 4.6.6.5).
 void ReadSubject(ExifData* data, double width, double height, DepthPhoto* photo) {
   std::vector<double> subject = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_SUBJECT_AREA);
   if (subject.size() < 2) subject = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_SUBJECT_LOCATION);
@@ -48,8 +49,8 @@ void ReadSubject(ExifData* data, double width, double height, DepthPhoto* photo)
   const std::vector<double> y = NumbersOf(data, EXIF_IFD_EXIF, EXIF_TAG_PIXEL_Y_DIMENSION);
   if (subject.size() < 2 || !(width > 0 && height > 0)) return;
   if (x.size() == 1 && y.size() == 1 && x[0] > 0 && y[0] > 0) {
-    // If the proportions differ from the size in EXIF, the picture was cropped, and EXIF does not
-    // state where.
+    // If the proportions of the picture differ from the size in EXIF, the picture was cropped, and
+    // the position of the subject is unknown.
     constexpr double kSameShape = 0.01;
     if (std::fabs(x[0] * height / (y[0] * width) - 1) > kSameShape) return;
     width = x[0];
@@ -74,7 +75,7 @@ void ReadExif(int width, int height, DepthPhoto* photo) {
   segment.insert(segment.end(), exif.begin(), exif.end());
   ExifData* data = exif_data_new();
   if (data == nullptr) return;
-  // Keep the data unchanged: do not add or correct entries.
+  // Prevent libexif from adding or correcting EXIF entries.
   exif_data_unset_option(data, EXIF_DATA_OPTION_FOLLOW_SPECIFICATION);
   exif_data_load_data(data, segment.data(), static_cast<unsigned>(segment.size()));
   const int orientation = ShortOf(data, EXIF_IFD_0, EXIF_TAG_ORIENTATION);

@@ -8,13 +8,13 @@
 namespace starfocus {
 
 // Reads photo->metadata.exif, if any, into `orientation`, `focal_35mm` and the subject
-// (SubjectArea, otherwise SubjectLocation), and adds a fact. Damaged EXIF is ignored, since the
-// picture is usable without it. `width` and `height` are the size of the picture before its
+// (SubjectArea, otherwise SubjectLocation), and adds a fact. Ignores damaged EXIF, since the
+// picture is usable without EXIF. `width` and `height` are the size of the picture before its
 // orientation is applied. The subject's coordinates refer to this size if EXIF states no size.
 void ReadExif(int width, int height, DepthPhoto* photo);
 
-// Reads EXIF as above, with the size of photo->picture. The orientation must not have been applied
-// yet.
+// Reads EXIF with the size of photo->picture. The caller must not have applied the EXIF orientation
+// to photo->picture yet.
 void ReadExif(DepthPhoto* photo);
 
 }  // namespace starfocus

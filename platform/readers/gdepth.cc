@@ -45,8 +45,8 @@ Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   return {};
 }
 
-// Converts the inverse distances of a file that this program wrote back to the original
-// disparities, in pixels of photo->picture.
+// If starfocus wrote the file, converts the inverse distances back to the original disparities, in
+// pixels of photo->picture.
 void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string own = std::string(kOwnNamespace) + "|";
   const auto low = XmpNumber(FindProperty(xmp, own + kFarDisparity));
@@ -64,8 +64,8 @@ void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
   photo->is_ready = true;
 }
 
-// Replaces the primary picture, which is already blurred, by the sharp picture in the XMP. An
-// unreadable sharp picture is ignored with a note.
+// Replaces the primary picture, which is already blurred, by the sharp picture in the XMP. Ignores
+// an unreadable sharp picture and adds a note.
 void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kImage + "Data");
   if (data == nullptr) return;

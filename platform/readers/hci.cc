@@ -26,15 +26,15 @@ bool Has(const std::vector<std::string>& names, const std::string& name) {
 }
 
 // Sets the widest f-stop, which belongs to a lens whose rim passes through the outermost views.
-// This f-stop is the focal length divided by twice the distance of the outermost views from the
-// centre.
+// The widest f-stop is the focal length, divided by twice the distance of the outermost views from
+// the centre.
 Error ReadParameters(const std::string& path, int reach, Capture* capture) {
   Result<KeyValues> read = ReadKeyValues(path);
   if (!read) return read.error();
   KeyValues& values = *read;
   const auto baseline = NumberOf(values, "baseline_mm");
   const auto focal = NumberOf(values, "focal_length_mm");
-  if (!(baseline > 0.0 && focal > 0.0)) return {};  // a missing value compares less than any number
+  if (!(baseline > 0.0 && focal > 0.0)) return {};  // a missing value is not above 0
   capture->widest = *focal / (2 * reach * *baseline);
   char f_stop[32];
   std::snprintf(f_stop, sizeof(f_stop), "%.3g", capture->widest);
@@ -69,7 +69,7 @@ Result<Capture> OpenHci(const std::string& folder, const std::vector<std::string
   capture.files = std::move(star->views);
   if (Has(names, kMap)) {
     capture.map_path = (std::filesystem::path(folder) / kMap).string();
-    capture.map_scale = star->reach;  // the file stores disparities between neighbouring views
+    capture.map_scale = star->reach;  // the HCI map stores disparities between neighbouring views
   }
   if (!Has(names, kParameters)) return capture;
   const std::string parameters = (std::filesystem::path(folder) / kParameters).string();

@@ -127,7 +127,7 @@ Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* 
   return map;
 }
 
-// Returns the first metadata block of a type, or no bytes if none is found.
+// Returns the first metadata block of a type, or an empty result if the file has no such block.
 Bytes ReadMetadata(const heif_image_handle* handle, const char* type, const char* content) {
   heif_item_id ids[16];
   const int count = heif_image_handle_get_list_of_metadata_block_IDs(handle, type, ids, 16);
@@ -146,17 +146,17 @@ Bytes ReadMetadata(const heif_image_handle* handle, const char* type, const char
 
 void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   Bytes exif = ReadMetadata(handle, "Exif", nullptr);
-  // The first four bytes are the offset of the TIFF header, counted from the end of these four
-  // bytes.
+  // The first four bytes of the EXIF item are the offset of the TIFF header, counted from the fifth
+  // byte.
   if (exif.size() > 4) {
     const size_t skip = ReadBigEndian32(exif.data());
     if (skip < exif.size() - 4) {
       photo->metadata.exif.assign(exif.begin() + 4 + static_cast<ptrdiff_t>(skip), exif.end());
     }
   }
-  // libheif has already rotated the pictures by the transformations of the file. In most files,
-  // EXIF's orientation is the same transformation and therefore applies to the subject. If the two
-  // differ, the stored size shows the difference.
+  // libheif has already rotated the pictures by the transformations of the file. In most HEIF
+  // files, EXIF's orientation equals these transformations and therefore applies to the subject. If
+  // the size of the picture contradicts EXIF's orientation, the subject is ignored.
   const int stored_width = heif_image_handle_get_ispe_width(handle);
   const int stored_height = heif_image_handle_get_ispe_height(handle);
   ReadExif(stored_width, stored_height, photo);
@@ -172,7 +172,7 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   CheckProfile(photo);
 }
 
-// Reads the properties that describe the photograph. XMP that is not well-formed is ignored.
+// Reads the XMP properties that describe the photograph. Ignores XMP that is not well-formed.
 void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
   const Bytes xmp = ReadMetadata(handle, "mime", "application/rdf+xml");
   if (xmp.empty() || !CanReadXmp()) return;
@@ -219,7 +219,8 @@ Error UnderstandInformation(const std::string& where, const Information& informa
                             information.z_near, information.z_far};
   if (type != heif_depth_representation_type_uniform_disparity && information.has_z_near &&
       information.has_z_far && range.near > 0 && range.far > range.near) {
-    if (range.inverse) ToRange(1, 0, &photo->map);  // the largest inverse distance is nearest
+    // If levels are inverse distances, the largest level is the nearest.
+    if (range.inverse) ToRange(1, 0, &photo->map);
     ToInverse(range, &photo->map);
     TellMap("distances from " + std::to_string(range.near) + " to " + std::to_string(range.far) +
                 ", right up to a factor",
@@ -269,9 +270,9 @@ Error ReadMap(const std::string& where, const heif_image_handle* primary, size_t
   return Understand(where, primary, raw, id, near, photo);
 }
 
-// Returns true if a top-level box (ISO/IEC 14496-12, 4.2) is longer than the rest of the file.
+// Returns true if a top-level box (ISO/IEC 14496-12, 4.2) extends beyond the end of the file.
 bool EndsWithinBox(Span file) {
-  constexpr uint64_t kToTheEnd = 0, kLong = 1;  // special values of the size field
+  constexpr uint64_t kToTheEnd = 0, kLong = 1;  // special values of the size field of a box
   uint64_t at = 0;
   while (at + 16 <= file.size) {
     const uint8_t* box = file.data + at;

@@ -12,11 +12,12 @@
 
 namespace starfocus {
 
-// Returns true if the bytes start like a HEIF file.
+// Returns true if the bytes start with the file type box of a HEIF file.
 bool IsHeif(Span file);
 
-// Reads the primary picture and its map, with the file's rotation applied. photo->map is empty if
-// there is no map. `near` applies only if the file does not state which end of the map is near.
+// Reads the primary picture and its depth map, and applies the rotation that the file states. The
+// map of the result is empty if the file has no map. `near` applies only if the file does not state
+// which end of the grey range is near.
 Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near);
 
 }  // namespace starfocus

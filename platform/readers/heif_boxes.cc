@@ -8,14 +8,14 @@ namespace starfocus {
 namespace {
 
 constexpr size_t kMostItems = 4096, kMostReferences = 65536;
-constexpr size_t kHead = 256;  // number of bytes kept of an item's data
+constexpr size_t kHead = 256;  // number of bytes that HeifItem::head keeps of an item's data
 
 struct Box {
   std::string type;
   Span body;
 };
 
-// Reads big-endian integers. After the end of the data, returns 0 and sets `good` to false.
+// Reads big-endian integers. Reads past the end of the data return 0, and good() is then false.
 class Cursor {
  public:
   explicit Cursor(Span bytes) : rest_(bytes) {}
@@ -43,7 +43,7 @@ class Cursor {
     rest_ = {rest_.data + size, rest_.size - size};
     return taken;
   }
-  // Returns the next box, or nullopt at the end or if the box is malformed.
+  // Returns the next box, or nullopt if the data ends or the box is malformed.
   std::optional<Box> Next() {
     if (rest_.size < 8) return {};
     size_t size = Whole32(4), header = 8;
@@ -73,7 +73,7 @@ FullBox ReadFullBox(Cursor* cursor) {
   return {word >> 24, word & 0xffffff};
 }
 
-// Returns the first box of a type, or an empty span if none is found.
+// Returns the content of the first box of a type, or an empty span if no box has this type.
 Span FindBox(Span boxes, const std::string& wanted) {
   Cursor cursor(boxes);
   while (const std::optional<Box> box = cursor.Next()) {
@@ -90,7 +90,7 @@ bool ReadTypes(Span iinf, HeifItems* items) {
     if (infe->type != "infe") continue;
     Cursor entry(infe->body);
     const FullBox own = ReadFullBox(&entry);
-    if (own.version < 2) continue;  // versions 0 and 1 describe other kinds of files
+    if (own.version < 2) continue;  // infe boxes of versions 0 and 1 do not describe pictures
     const uint32_t id = entry.Whole32(own.version == 2 ? 2 : 4);
     entry.Whole(2);  // protection index
     (*items)[id].type = entry.Text(4);
@@ -166,7 +166,8 @@ void AppendHead(Span source, uint64_t offset, uint64_t length, Bytes* head) {
   head->insert(head->end(), source.data + offset, source.data + offset + size);
 }
 
-// Copies the first bytes of each item's data, which its extents locate (14496-12, 8.11.3).
+// Copies the first bytes of the data of each item. The box iloc locates the data (14496-12,
+// 8.11.3).
 bool ReadHeads(Span file, Span idat, Span iloc, HeifItems* items) {
   Cursor cursor(iloc);
   const FullBox box = ReadFullBox(&cursor);
@@ -177,7 +178,7 @@ bool ReadHeads(Span file, Span idat, Span iloc, HeifItems* items) {
   for (uint32_t k = 0; k < count && cursor.good(); ++k) {
     const auto item = items->find(cursor.Whole32(box.version < 2 ? 2 : 4));
     const uint32_t method = box.version > 0 ? cursor.Whole32(2) & 15 : 0;
-    cursor.Whole(2);  // data reference: this file
+    cursor.Whole(2);  // skips the data reference, which is this file
     const uint64_t base = cursor.Whole(base_size);
     const uint32_t extents = cursor.Whole32(2);
     for (uint32_t i = 0; i < extents && cursor.good(); ++i) {
@@ -209,7 +210,7 @@ std::vector<std::string> HeifBrands(Span file) {
   if (!first || first->type != "ftyp") return {};
   Cursor brands(first->body);
   std::vector<std::string> result = {brands.Text(4)};
-  brands.Whole(4);  // version of the major brand
+  brands.Whole(4);  // skips the version of the major brand
   while (brands.good() && brands.rest().size >= 4) result.push_back(brands.Text(4));
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parses the boxes of HEIF files (ISO/IEC 14496-12 and 23008-12) that declare the sizes and
-// components of pictures. heif_limits.h checks these declarations before libheif allocates memory
-// for the pictures.
+// components of pictures. heif_limits.h checks the declared sizes and components before libheif
+// allocates memory for the pictures.
 #ifndef STARFOCUS_PLATFORM_READERS_HEIF_BOXES_H_
 #define STARFOCUS_PLATFORM_READERS_HEIF_BOXES_H_
 
@@ -15,23 +15,23 @@
 
 namespace starfocus {
 
-// A picture or another item of a file.
+// An item of a HEIF file, such as a picture.
 struct HeifItem {
-  std::string type;                // four-character code
-  uint32_t width = 0, height = 0;  // from the property ispe of the item; 0: none
-  std::vector<uint32_t> inputs;    // identifiers of the items that a derived picture consists of
+  std::string type;                // four-character code of the item type
+  uint32_t width = 0, height = 0;  // size in the property ispe; 0: no property ispe
+  std::vector<uint32_t> inputs;    // identifiers of the items that form a derived picture
   Span configuration;              // content of the property hvcC or av1C
   Bytes head;                      // first bytes of the item's data
 };
 
-using HeifItems = std::map<uint32_t, HeifItem>;  // by item identifier
+using HeifItems = std::map<uint32_t, HeifItem>;  // items by their identifiers
 
-// Reads the items of a file. Returns nullopt if a box is malformed or there are more than 4096
-// items.
+// Reads the items of a HEIF file. Returns nullopt if a box is malformed or the file has more than
+// 4096 items.
 std::optional<HeifItems> ReadHeifItems(Span file);
 
-// Returns the brands of the file, the major brand first. The result is empty if the file does not
-// start with a file type box.
+// Returns the brands of a HEIF file, the major brand first. The result is empty if the file does
+// not start with a file type box.
 std::vector<std::string> HeifBrands(Span file);
 
 }  // namespace starfocus

@@ -8,10 +8,11 @@
 namespace starfocus {
 namespace {
 
-// Largest width and height. A square of this size has 2^28 pixels. Up to this limit, libheif may
-// allocate the size that a file declares.
+// Largest width and height of a HEIF picture. A square picture of this size has 2^28 pixels.
+// libheif may allocate memory for any declared size up to kMostSide.
 constexpr int64_t kMostSide = 16384;
-// Limit of pixels per byte of the file. An AVIF picture of one colour has 31 000 pixels per byte.
+// Limits of the number of pixels: per byte of the file, and for any file. An AVIF picture of one
+// colour has 31 000 pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 32768, kAnyFilesPixels = int64_t{1} << 20;
 // Limit of the total area of all tiles, per pixel of the picture that the tiles form, in addition
 // to kAnyFilesPixels.
@@ -23,8 +24,8 @@ bool IsMadeOfOthers(const HeifItem& item) {
   return item.type == "grid" || item.type == "iovl" || item.type == "iden";
 }
 
-// Returns true if libheif decodes the item. libheif 1.15 aborts the program if a derived picture
-// contains any other kind of item.
+// Returns true if the item is a coded picture, which libheif can decode. libheif 1.15 aborts the
+// program if a derived picture contains any other kind of item.
 bool IsCoded(const HeifItem& item) { return item.type == "hvc1" || item.type == "av01"; }
 
 uint32_t WholeOf(const Bytes& bytes, size_t at, size_t size) {
@@ -39,7 +40,7 @@ bool FitsItsData(const HeifItem& item) {
   const bool grid = item.type == "grid";
   const size_t number = item.head.size() > 1 && (item.head[1] & 1) != 0 ? 4 : 2;
   const size_t sizes =
-      grid ? 4 : 10;  // offset: after version, flags, and tile counts or canvas colour
+      grid ? 4 : 10;  // bytes before the size: version, flags, tile counts or colour
   if (item.head.size() < sizes + 2 * number) return false;
   const size_t tiles = (size_t{item.head[2]} + 1) * (size_t{item.head[3]} + 1);
   if (grid && tiles != item.inputs.size()) return false;
@@ -70,11 +71,11 @@ Error CheckInputs(const std::string& where, const HeifItems& items, const HeifIt
 }
 
 Error CheckCoded(const std::string& where, const HeifItem& item) {
-  constexpr int64_t kPadding = 128;  // both codecs pad to whole blocks
+  constexpr int64_t kPadding = 128;  // HEVC and AV1 pad pictures to whole blocks
   if (!IsCoded(item)) return {};
   const CodedSize size = item.type == "hvc1" ? HevcSize(item.configuration, item.head)
                                              : Av1Size(item.configuration, item.head);
-  // If the header has no readable size, libheif cannot read a size from it either.
+  // If the header of a coded picture has no readable size, libheif cannot read a size either.
   if (size.width <= item.width + kPadding && size.height <= item.height + kPadding) return {};
   return Expected(
       where, "a coded picture of " + SizeText(item.width, item.height) + ", as its item declares",
@@ -98,7 +99,7 @@ Error CheckHeif(const std::string& where, Span file) {
   if (!items) {
     return Expected(where, "a HEIF file with at most 4096 items in complete boxes", "other data");
   }
-  for (const auto& [id, item] : *items) {  // before CheckInputs multiplies sizes
+  for (const auto& [id, item] : *items) {  // check sizes before CheckInputs multiplies them
     if (item.width == 0 || item.height == 0) continue;
     if (Error error = CheckHeifSize(where, item.width, item.height, file.size)) return error;
   }

@@ -12,13 +12,13 @@
 namespace starfocus {
 namespace {
 
-constexpr size_t kMostSegments = 4096;  // 256 MiB of segments
+constexpr size_t kMostSegments = 4096;  // at most 256 MiB of segments
 constexpr size_t kGuidSize = 32;
 
 constexpr uint8_t kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;
 
 // Removes `name` and its terminating zero byte from the start of a segment. Returns false if the
-// segment does not start with these bytes.
+// segment does not start with `name`.
 template <size_t kSize>
 bool Strip(const char (&name)[kSize], Span* segment) {
   if (segment->size < kSize || std::memcmp(segment->data, name, kSize) != 0) return false;
@@ -29,7 +29,8 @@ bool Strip(const char (&name)[kSize], Span* segment) {
 
 void TakeExif(Span segment, Bytes* exif) {
   if (!exif->empty() || segment.empty()) return;
-  exif->assign(segment.data + 1, segment.data + segment.size);  // skips a second zero byte
+  // Skip the second zero byte after "Exif".
+  exif->assign(segment.data + 1, segment.data + segment.size);
 }
 
 void TakeExtension(Span segment, std::vector<XmpExtension>* extensions) {
@@ -56,8 +57,8 @@ void TakeApp2(Span segment, std::vector<Span>* profile, JpegParts* parts) {
   if (Strip("ICC_PROFILE", &segment) && segment.size >= 2) profile->push_back(segment);
 }
 
-// Joins the parts of a profile (ICC.1 annex B.4). Each part starts with its own number, counted
-// from 1, and the total number of parts.
+// Joins the parts of an ICC profile (ICC.1 annex B.4). Each part starts with its own number,
+// counted from 1, and the total number of parts.
 void JoinProfile(std::vector<Span> profile, JpegParts* result) {
   if (profile.empty()) return;
   std::stable_sort(profile.begin(), profile.end(),
@@ -78,9 +79,9 @@ void JoinProfile(std::vector<Span> profile, JpegParts* result) {
                            : "some of its " + std::to_string(count) + " parts are missing");
 }
 
-// Finds IPTC records among Photoshop's image resources, which may continue in the next segment. A
-// resource consists of "8BIM", a number, a name and data. The name and the data each start with a
-// length and are padded to an even size.
+// Finds IPTC records among the image resources of Photoshop, which may extend over several
+// segments. An image resource consists of "8BIM", a number, a name and data. The name and the data
+// of an image resource each start with a length and are padded to an even size.
 Bytes FindIptc(const std::vector<Span>& segments) {
   constexpr size_t kHeader = 6;
   constexpr uint8_t kIptc[] = {'8', 'B', 'I', 'M', 0x04, 0x04};
@@ -102,8 +103,8 @@ Bytes FindIptc(const std::vector<Span>& segments) {
   return {};
 }
 
-// Compares GUIDs of extended XMP in hexadecimal. The specification requires capitals, but files may
-// have small letters.
+// Compares hexadecimal GUIDs of extended XMP. The XMP specification requires upper case, but files
+// may use lower case.
 bool SameHex(const std::string& a, const std::string& b) {
   const auto same = [](char x, char y) { return std::toupper(x) == std::toupper(y); };
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same);

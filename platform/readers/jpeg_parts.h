@@ -13,7 +13,7 @@
 
 namespace starfocus {
 
-// Bytes of a file; does not own them.
+// A range of bytes. Span does not own the bytes.
 struct Span {
   const uint8_t* data = nullptr;
   size_t size = 0;
@@ -24,27 +24,28 @@ struct Span {
 // A segment of extended XMP (XMP specification part 3, 1.1.3.1).
 struct XmpExtension {
   std::string guid;
-  uint32_t total = 0, offset = 0;  // length of the whole text, and offset of this part
+  // length of the whole extended XMP in bytes, and offset of this segment in the extended XMP
+  uint32_t total = 0, offset = 0;
   Span text;
 };
 
 struct JpegParts {
   Metadata metadata;      // EXIF, ICC profile and IPTC
-  std::string ignored;    // reason for ignoring a profile; empty: no profile was ignored
-  std::vector<Span> xmp;  // packets; some files have several, against the specification
+  std::string ignored;    // reason for ignoring an ICC profile; empty: no profile was ignored
+  std::vector<Span> xmp;  // XMP packets; some files have several, against the specification
   std::vector<XmpExtension> extensions;
-  Span multi_picture;  // index of CIPA DC-007: from the TIFF header to the end of the segment
-  size_t end = 0;      // end of the first picture; the rest belongs to other pictures
+  Span multi_picture;  // index of CIPA DC-007, from its TIFF header to the end of the segment
+  size_t end = 0;      // end of the first picture; other pictures may follow
 };
 
-// Returns true if the bytes start like a JPEG file.
+// Returns true if the bytes start with the signature of JPEG files.
 bool IsJpeg(Span file);
 
-// Reads the segments of the first picture. The parts of an ICC profile may be in any order. An ICC
-// profile is ignored if it is incomplete or not for RGB colours.
+// Reads the segments of the first picture of a JPEG file. The parts of an ICC profile may be in any
+// order. An ICC profile is ignored if it is incomplete or not for RGB colours.
 Result<JpegParts> ReadJpegParts(const std::string& where, Span file);
 
-// Joins the parts of the extended XMP with this GUID.
+// Joins the parts of the extended XMP that have the GUID `guid`.
 Result<std::string> JoinExtensions(const std::string& where, const JpegParts& parts,
                                    const std::string& guid);
 

@@ -34,14 +34,15 @@ constexpr Namespace kKept[] = {
     {"acdsee", "http://ns.acdsee.com/iptc/1.0/"},
 };
 
-// Properties of these namespaces that describe the file or its edits.
+// Properties of the namespaces in kKept that describe the file or its edits, and are therefore
+// omitted.
 constexpr const char* kLeftOut[] = {"xmp:ModifyDate",       "xmp:MetadataDate",
                                     "xmp:Thumbnails",       "photoshop:ColorMode",
                                     "photoshop:ICCProfile", "photoshop:DocumentAncestors",
                                     "photoshop:History",    "photoshop:TextLayers"};
 
-// Converts "<namespace>|<name>" to "prefix:name". Returns an empty string if the property is not
-// kept.
+// Converts "<namespace>|<name>" to "prefix:name". Returns an empty string for properties that
+// KeptXmp omits.
 std::string KeptName(const std::string& full) {
   const size_t bar = full.rfind('|');
   if (bar == std::string::npos) return "";
@@ -55,8 +56,8 @@ std::string KeptName(const std::string& full) {
   return "";
 }
 
-// Returns the name of a node inside a kept property, with the prefix of a namespace in kKept, or
-// rdf or xml. Returns an empty string for other names.
+// Returns the name of a node inside a kept property, with the prefix of its namespace: rdf, xml, or
+// a namespace in kKept. Returns an empty string for names in other namespaces.
 std::string InnerName(const std::string& full) {
   for (const Namespace& one : {kRdf, kXml}) {
     const std::string uri = std::string(one.uri) + "|";
@@ -67,7 +68,8 @@ std::string InnerName(const std::string& full) {
   return KeptName(full);
 }
 
-// Writes an element with its content. Omits names for which InnerName returns an empty string.
+// Returns an XML element with its content. Omits elements and attributes for which InnerName
+// returns an empty string.
 std::string Write(const XmpNode& node) {
   const std::string name = InnerName(node.name);
   if (name.empty()) return "";
@@ -82,8 +84,8 @@ std::string Write(const XmpNode& node) {
   return text + "</" + name + ">";
 }
 
-// Appends the properties of all descriptions. A file may have several packets, so only the first
-// occurrence of each property is written.
+// Appends the kept properties of all rdf:Descriptions. A file may have several XMP packets, so only
+// the first occurrence of each property is written.
 void WriteProperties(const XmpNode& node, std::set<std::string>* written, std::string* text) {
   if (node.name != std::string(kRdf.uri) + "|Description") {
     for (const XmpNode& child : node.children) WriteProperties(child, written, text);

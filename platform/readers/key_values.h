@@ -17,7 +17,7 @@ using KeyValues = std::map<std::string, std::string>;
 // non-printable characters.
 KeyValues ParseKeyValues(const std::string& text);
 
-// Parses a file of at most 1 MiB (ReadSmallFile).
+// Parses the "key = value" lines of a file of at most 1 MiB (ReadSmallFile).
 Result<KeyValues> ReadKeyValues(const std::string& path);
 
 // Returns the value of a key, or nullopt if the key is absent or its value is not a finite number.

@@ -12,11 +12,12 @@
 namespace starfocus {
 namespace {
 
-// Limit of the longer side of pictures whose edges are compared, in pixels. Pictures are reduced by
-// a whole factor, because cells of different sizes would produce artificial edges.
+// Limit in pixels of the longer side of pictures whose edges are compared. Larger pictures are
+// reduced by a whole factor, because averaging over cells of different sizes would produce
+// artificial edges.
 constexpr int kSmall = 512;
 
-// Returns the mean brightness of each cell of the picture.
+// Reduces a picture to width x height cells and returns the mean brightness of each cell.
 FloatMap ShrinkPicture(const Image& picture, int width, int height) {
   FloatMap small = {width, height, {}};
   small.values.reserve(size_t(width) * size_t(height));
@@ -62,8 +63,8 @@ double Agreement(const FloatMap& picture, const FloatMap& map) {
   return first > 0 && second > 0 ? both / std::sqrt(first * second) : 0;
 }
 
-// Result of comparing the edges of picture and map. `sure` is true if the edges agree clearly
-// better in one of the two orientations.
+// Result of a comparison between the edges of picture and map. `sure` is true if the edges agree
+// clearly better in one of the orientations upright and stored.
 struct Uprightness {
   bool upright, sure;
 };
@@ -87,8 +88,8 @@ Uprightness JudgeByEdges(const DepthPhoto& photo) {
   return {sure && upright > turned, sure};
 }
 
-// Decides by edges whether the map is upright. Used if the proportions fit both orientations. Adds
-// a note.
+// Decides by the edges of picture and map whether the map is upright. Called if the proportions fit
+// both orientations. Adds a note.
 bool ChooseByEdges(DepthPhoto* photo) {
   const auto [upright, sure] = JudgeByEdges(*photo);
   photo->notes.push_back(std::string("the depth picture is taken to be ") +
@@ -105,8 +106,8 @@ bool ChooseByEdges(DepthPhoto* photo) {
 bool HasSameProportions(const FloatMap& map, int width, int height) {
   constexpr double kTolerance = 0.03;
   const double a = double(map.width) * height, b = double(map.height) * width;
-  // Allow an error of one pixel in the smaller of the two sizes, because sizes are rounded to whole
-  // pixels.
+  // Allow an error of one pixel in the smaller of the sizes of picture and map, because sizes are
+  // rounded to whole pixels.
   return std::fabs(a - b) <= std::max({kTolerance * std::min(a, b), double(width), double(height)});
 }
 

@@ -8,14 +8,14 @@
 
 namespace starfocus {
 
-// Returns true if a map of this size can belong to a picture of the given size. The proportions of
+// Returns true if `map` can belong to a picture of `width` x `height` pixels. The proportions of
 // map and picture may differ by rounding, or by 3 % because networks round sizes to whole blocks.
 bool HasSameProportions(const FloatMap& map, int width, int height);
 
 // Applies EXIF's orientation only to the picture if photo->map was read from an upright depth
 // picture. `choice` states whether the map is upright. If `choice` is kUnknown, the proportions of
-// picture and map decide. If the proportions fit both orientations, the edges of picture and map
-// decide, and a note reports the result.
+// picture and map decide. If the proportions fit the upright and the stored orientation, the edges
+// of picture and map decide, and a note reports the result.
 void StandWithPhoto(DepthOrientation choice, DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -14,21 +14,22 @@
 namespace starfocus {
 namespace {
 
-// A published size of a scene, and the factor by which levels of this size exceed disparities.
-// Sizes are sorted from large to small.
+// A published size of a scene. `multiple` is the ratio of grey levels to disparities in maps of
+// this size. The published sizes of a pair are sorted from large to small.
 struct Size {
   int least_height, multiple;
 };
 
-// A pair whose map is a grey picture, and its published sizes.
+// A kind of stereo pair whose map is a grey picture: its file names and published sizes.
 struct GreyMapPair {
   const char *format, *left, *right, *map;
   Size sizes[4];
 };
 
 constexpr const char* kViewExtensions[] = {".png", ".ppm", ".pgm"};
-// Pictures of 2003 are 375, 750 or 1500 pixels high. Pictures of 2005 and 2006 are 370, 555 or 1110
-// pixels high. Data sets of 2001 have the file names of 2003, and levels of 8 times the disparity.
+// Middlebury's pictures of 2003 are 375, 750 or 1500 pixels high. Middlebury's pictures of 2005 and
+// 2006 are 370, 555 or 1110 pixels high. Data sets of 2001 use the file names of 2003, and grey
+// levels of 8 times the disparity.
 constexpr GreyMapPair kPairs[] = {{"Middlebury stereo pair of 2003",
                                    "im2",
                                    "im6",
@@ -40,7 +41,8 @@ constexpr GreyMapPair kPairs[] = {{"Middlebury stereo pair of 2003",
                                    "disp1",
                                    {{830, 1}, {460, 2}, {0, 3}, {0, 3}}}};
 
-// Returns the file with this name and a known extension, or an empty string if none is found.
+// Returns the entry of `names` that consists of `name` and a known extension, or an empty string if
+// no such entry exists.
 std::string Find(const std::vector<std::string>& names, const std::string& name) {
   for (const char* extension : kViewExtensions) {
     if (std::binary_search(names.begin(), names.end(), name + extension)) return name + extension;
@@ -48,10 +50,12 @@ std::string Find(const std::vector<std::string>& names, const std::string& name)
   return "";
 }
 
-// Returns the mean difference of the two pictures at corresponding pixels, if the levels are
-// `multiple` times the disparity. The smallest multiple decides which pixels are compared.
+// Returns the mean difference of the left and right pictures at corresponding pixels, assuming that
+// grey levels are `multiple` times the disparity. Compares only pixels that correspond to a pixel
+// of the right picture for every multiple.
 double Difference(const LightField& field, const FloatMap& levels, int multiple) {
-  constexpr int kCutOff = 90, kStep = 2;  // limits occluded pixels; compares every other row
+  // kCutOff limits the difference at occluded pixels, and kStep = 2 skips every other row.
+  constexpr int kCutOff = 90, kStep = 2;
   const Image &left = field.views[0], &right = field.views[1];
   double sum = 0, count = 0;
   for (int y = 0; y < levels.height; y += kStep) {
@@ -70,7 +74,9 @@ double Difference(const LightField& field, const FloatMap& levels, int multiple)
 }
 
 int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const FloatMap& levels) {
-  constexpr double kClearly = 0.7, kLevel = 1;  // kLevel exceeds rounding errors
+  // A multiple is clearly better if its difference is below kClearly times the difference of the
+  // default, minus kLevel for rounding errors.
+  constexpr double kClearly = 0.7, kLevel = 1;
   const Size* own =
       std::find_if(std::begin(pair.sizes), std::end(pair.sizes),
                    [&](const Size& size) { return levels.height >= size.least_height; });

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads Middlebury's stereo pairs. Data sets of 2014 and later have im0.png, im1.png, calib.txt and
-// disp0.pfm, with inf for unknown disparities. Older data sets store maps as grey pictures. A level
-// is a multiple of the disparity, or 0 if the disparity is unknown. The files of older data sets
-// are im2, im6 and disp2 (2003), or view1, view5 and disp1 (2005 and 2006).
+// Reads Middlebury's stereo pairs. Middlebury's data sets of 2014 and later have im0.png, im1.png,
+// calib.txt and disp0.pfm, with inf for unknown disparities. Older data sets store disparity maps
+// as grey pictures. A grey level is a multiple of the disparity, or 0 if the disparity is unknown.
+// The files of these older data sets are im2, im6 and disp2 (2003), or view1, view5 and disp1 (2005
+// and 2006).
 #ifndef STARFOCUS_PLATFORM_READERS_MIDDLEBURY_H_
 #define STARFOCUS_PLATFORM_READERS_MIDDLEBURY_H_
 
@@ -15,16 +16,17 @@
 
 namespace starfocus {
 
-// Adds the properties in calib.txt to a folder that is already open.
+// Adds the properties in calib.txt to the capture of an already opened folder.
 Error ReadMiddlebury(const std::string& folder, Capture* capture);
 
-// Finds a pair whose map is a grey picture, and returns its files and format, or nullopt if the
-// folder has no such pair. `names` are sorted.
+// Finds a stereo pair whose map is a grey picture. Returns the files and the format of the pair, or
+// nullopt if the folder has no such pair. `names` must be sorted.
 std::optional<Capture> FindGreyMapPair(const std::string& folder,
                                        const std::vector<std::string>& names);
 
-// Loads the grey map of a pair whose views are loaded. The multiple of the disparity depends on the
-// size of the pictures, unless the two pictures agree clearly better with another multiple.
+// Loads the grey map of a stereo pair whose views are already loaded. The ratio of grey levels to
+// disparities follows from the size of the pictures, unless the left and right pictures agree
+// clearly better with another ratio.
 Error LoadGreyMap(Capture* capture);
 
 }  // namespace starfocus

@@ -9,13 +9,13 @@
 namespace starfocus {
 namespace {
 
-// Limits the number of attempts: a start code without a picture costs a scan of the rest of the
-// file.
+// Limit of the number of pictures, because a start code without a picture causes a scan of the rest
+// of the file.
 constexpr size_t kMostPictures = 64;
 constexpr size_t kEntrySize = 16;
 constexpr uint32_t kEntryTag = 0xb002, kTypeBits = 0xffffff;
 
-// Reads integers of a TIFF header in either byte order. Returns 0 after the end of the header.
+// Reads integers of a TIFF header in either byte order. Reads after the end of the header return 0.
 struct Tiff {
   Span bytes;
   bool little = false;
@@ -30,14 +30,14 @@ struct Tiff {
   }
 };
 
-// An entry of the index: the position and the type of a picture.
+// An entry of the multi-picture index: the position and the type of a picture.
 struct Entry {
   size_t begin = 0;
   uint32_t type = 0;
 };
 
-// Entries of the index without the first picture, and the number of pictures that the index states.
-// Editors may leave a number that is too small.
+// Entries of the multi-picture index except the entry of the first picture. `counted` is the number
+// of pictures that the index states, which may be too small after edits.
 struct Index {
   std::vector<Entry> entries;
   size_t counted = 0;
@@ -63,8 +63,8 @@ Index ReadIndex(Span file, Span index, size_t pictures) {
   return result;
 }
 
-// Returns the next position from `at` where a JPEG file may start, or the file's size if no start
-// is found.
+// Returns the first position from `at` on where a JPEG file may start, or the size of `file` if no
+// start is found.
 size_t FindBeginning(Span file, size_t at) {
   while (at + 2 < file.size) {
     const void* found = std::memchr(file.data + at, 0xff, file.size - at);
@@ -76,15 +76,16 @@ size_t FindBeginning(Span file, size_t at) {
   return file.size;
 }
 
-// Returns true if CIPA DC-007 defines the type. Unrelated bytes rarely match.
+// Returns true if CIPA DC-007 defines the picture type. Unrelated bytes rarely match a defined
+// type.
 bool IsType(uint32_t type) {
   constexpr uint32_t kTypes[] = {0x000000, 0x010001, 0x010002, 0x020001,
                                  0x020002, 0x020003, 0x030000};
   return std::find(std::begin(kTypes), std::end(kTypes), type) != std::end(kTypes);
 }
 
-// Assigns types by position. If no position of the index matches, pictures have been moved, and
-// types are assigned in order.
+// Assigns types of the multi-picture index to pictures with matching positions. If no position
+// matches, an editor has moved the pictures, and types are assigned in order.
 void TakeIndex(Span file, const Index& index, std::vector<MultiPicture>* pictures) {
   const std::vector<Entry>& entries = index.entries;
   bool any = false;

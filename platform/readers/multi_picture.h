@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists the pictures that follow the first picture of a JPEG file. The index of the Multi-Picture
-// Format (CIPA DC-007) gives the type of each picture. Editors move or remove the index, so the
-// module also searches the file for pictures.
+// Format (CIPA DC-007) states the type of each picture. Editors move or remove the multi-picture
+// index, so the module searches the file for pictures as well.
 #ifndef STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 #define STARFOCUS_PLATFORM_READERS_MULTI_PICTURE_H_
 
@@ -14,17 +14,17 @@ namespace starfocus {
 
 struct MultiPicture {
   Span file;             // JPEG file of this picture
-  JpegParts parts;       // segments of the file
+  JpegParts parts;       // segments of the JPEG file
   bool indexed = false;  // true if the index contains the position of this picture
-  uint32_t type = 0;     // type from the index: 0x020002 is a view of a stereo pair, 0 is unknown
+  uint32_t type = 0;     // type in the index: 0x020002 is a view of a stereo pair, 0 is unknown
 };
 
 struct MultiPictures {
   std::vector<MultiPicture> pictures;
-  bool missing = false;  // true if a picture of the index is truncated or missing
+  bool missing = false;  // true if a picture that the index lists is truncated or missing
 };
 
-// Lists the complete JPEG files after the first picture, at most 64.
+// Lists the complete pictures that follow the first picture of a JPEG file, at most 64.
 MultiPictures ListMultiPictures(Span file, const JpegParts& parts);
 
 }  // namespace starfocus

@@ -4,17 +4,18 @@
 namespace starfocus {
 namespace {
 
-// The next functions decompose an orientation. An orientation states which sides of the scene row 0
-// and column 0 show (EXIF 2.32, tag 274).
+// SwapsSides, FromRight and FromBelow decompose an EXIF orientation. An EXIF orientation states at
+// which sides of the scene row 0 and column 0 of the picture are (EXIF 2.32, tag 274).
 bool SwapsSides(int orientation) { return orientation >= 5; }
-bool FromRight(int orientation) {  // x runs to the left, before sides are swapped
+bool FromRight(int orientation) {  // x runs to the left before SwapsSides is applied
   return orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
 }
 bool FromBelow(int orientation) {
   return orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7;
 }
 
-// Maps pixels of the upright picture, width x height, to pixels of the file.
+// Maps pixels of the upright picture, whose size is width x height, to pixels of the stored
+// picture.
 struct Turn {
   int orientation, width, height;
 

@@ -7,10 +7,11 @@
 
 namespace starfocus {
 
-// Rotates and mirrors a map.
+// Rotates and mirrors a map by an EXIF orientation.
 void TurnMap(int orientation, FloatMap* map);
 
-// Rotates and mirrors a point, given as fractions of width and height.
+// Rotates and mirrors a point by an EXIF orientation. The coordinates are fractions of width and
+// height.
 void TurnPoint(int orientation, double* x, double* y);
 
 // Rotates and mirrors picture, map, focus and subject by photo->orientation. Sets

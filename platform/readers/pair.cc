@@ -27,7 +27,8 @@ bool EndsIn(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// Returns the part of a depth picture's name before "-depth", or an empty string for other files.
+// Returns the part of the name of a depth picture before "-depth", "_depth" or ".depth", or an
+// empty string for other names.
 std::string NameBefore(const std::string& stem) {
   const std::string lower = Lower(stem);
   if (!EndsIn(lower, kDepth)) return "";
@@ -35,7 +36,8 @@ std::string NameBefore(const std::string& stem) {
   return std::string(kSeparators).find(lower[at]) == std::string::npos ? "" : stem.substr(0, at);
 }
 
-// A depth picture next to the photo, ordered by how well its name matches: the best is smallest.
+// A depth picture next to the photo. Candidates are ordered by how well their names match the
+// photo, the best match first.
 struct Candidate {
   bool other_case;
   size_t separator, extension;
@@ -47,8 +49,8 @@ struct Candidate {
   }
 };
 
-// Returns the file as a candidate depth picture of `photo`, or nullopt if the file is not a depth
-// picture of `photo`.
+// Returns a Candidate if the name `file` is the name of a depth picture of `photo`, otherwise
+// nullopt.
 std::optional<Candidate> Fit(const std::string& photo, const std::string& file) {
   const fs::path path(file);
   const std::string stem = path.stem().string(), name = NameBefore(stem);

@@ -17,11 +17,12 @@
 namespace starfocus {
 namespace {
 
-// Full frame is 36 x 24 mm, the reference of "35 mm equivalent" focal lengths. If nothing is known,
-// a portrait is assumed: a 50 mm lens at a distance of 1.5 m.
+// Diagonal of a full-frame sensor of 36 x 24 mm, the reference of "35 mm equivalent" focal lengths.
+// If the file states neither a lens nor distances, a portrait is assumed: a 50 mm lens at a
+// distance of 1.5 m.
 constexpr double kDiagonal = 43.2666, kPortraitLens = 50, kPortraitDistance = 1.5;
 
-// Position of a pixel of the larger size between two pixels of the smaller size.
+// Position of a pixel of the resized map between two pixels of the original map.
 struct Between {
   int first, second;
   float weight;  // weight of `second`
@@ -43,14 +44,14 @@ std::string Rounded(double value) {
   return text;
 }
 
-// Returns the disparity of an inverse distance of 1 / m. This disparity is the blur radius of an
-// infinitely distant point, in pixels, for a lens of f/1 with the focal length `focal_35mm`,
-// focused at 1 m.
+// Returns the disparity that an inverse distance of 1 / m corresponds to. The result is the blur
+// radius of an infinitely distant point, in pixels, for a lens of f/1 with the focal length
+// `focal_35mm`, focused at 1 m.
 double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
   return focal_35mm / kDiagonal * diagonal_pixels * focal_35mm / 1000 / 2;
 }
 
-// Sets disparity = factor * (value - zero), at most `most`.
+// Replaces each map value by the disparity factor * (value - zero), at most `most`.
 void Scale(double factor, double zero, double most, DepthPhoto* photo) {
   photo->focus_value = factor * (photo->focus_value - zero);
   for (float& value : photo->map.values) {
@@ -81,7 +82,7 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
                                 "in front of a 50 mm lens on full frame");
 }
 
-// Checks that the map's disparities are in range, and does not change them.
+// Returns an error if a disparity of the map is out of range. Does not change the map.
 Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
   const auto [low, high] = std::minmax_element(photo->map.values.begin(), photo->map.values.end());
   if (double(*low) >= -STARFOCUS_MAX_DISPARITY && double(*high) <= STARFOCUS_MAX_DISPARITY) {
@@ -93,7 +94,7 @@ Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
                   Rounded(double(*low)) + " to " + Rounded(double(*high)));
 }
 
-// Fills unknown values of the map and adds a note.
+// Fills unknown values of the depth map and adds a note that states their number.
 void FillUnknown(DepthPhoto* photo) {
   const size_t filled = FillBehind(&photo->map), all = photo->map.values.size();
   if (filled == 0) return;
@@ -126,7 +127,8 @@ FloatMap Resize(const FloatMap& map, int width, int height) {
       add(column.second, row.first, column.weight * (1 - row.weight));
       add(column.first, row.second, (1 - column.weight) * row.weight);
       add(column.second, row.second, column.weight * row.weight);
-      // Rounding errors may move a mean outside the range of its values.
+      // Clamp the mean, because rounding errors may move a mean outside the range of the averaged
+      // values.
       result.values.push_back(weights > 0 ? std::clamp(sum / weights, low, high)
                                           : std::numeric_limits<float>::quiet_NaN());
     }

@@ -9,16 +9,16 @@
 
 namespace starfocus {
 
-// Resizes a map by bilinear interpolation. Unknown values have no weight.
+// Resizes a map by bilinear interpolation. Unknown values of the map (NaN) have no weight.
 FloatMap Resize(const FloatMap& map, int width, int height);
 
-// Applies the orientation of the photo, and converts the map to disparities of the picture. An
-// aperture of radius 1 is then a lens of f/1 on full frame (docs/formats.md). The light field takes
-// over the picture and the map. The map keeps its size. photo->focus_value is also converted to a
-// disparity.
+// Applies the EXIF orientation of the photo, and converts the map to disparities in pixels of the
+// picture. With these disparities, an aperture of radius 1 is a lens of f/1 on full frame
+// (docs/formats.md). Moves the picture and the map to the light field. The map keeps its size.
+// photo->focus_value is also converted to a disparity.
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo);
 
-// Resizes the map of a photo to the size of the picture.
+// Resizes the disparity map of a one-view light field to the size of the view.
 void FitMap(LightField* light_field);
 
 }  // namespace starfocus

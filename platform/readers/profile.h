@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// Adds a fact about photo->metadata.icc unless the profile is empty. Clears a profile that is
-// incomplete or not for RGB (icc_profile.h).
+// Adds a fact about photo->metadata.icc unless the profile is empty. Clears photo->metadata.icc if
+// the profile is incomplete or not for RGB (icc_profile.h).
 void CheckProfile(DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -12,14 +12,14 @@
 namespace starfocus {
 namespace {
 
-constexpr uint32_t kUndefined = 0, kStereo = 0x020002;  // types of CIPA DC-007
+constexpr uint32_t kUndefined = 0, kStereo = 0x020002;  // picture types of CIPA DC-007
 
 bool Contains(Span text, const std::string& part) {
   const uint8_t* end = text.data + text.size;
   return std::search(text.data, end, part.begin(), part.end()) != end;
 }
 
-// Returns true if the picture's XMP shows that it is not a view but, for example, a gain map or a
+// Returns true if the XMP of the picture marks it as an auxiliary picture, such as a gain map or a
 // matte.
 bool IsAuxiliary(const MultiPicture& picture) {
   return std::any_of(picture.parts.xmp.begin(), picture.parts.xmp.end(), [](const Span& xmp) {

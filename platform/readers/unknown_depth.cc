@@ -12,22 +12,23 @@ namespace starfocus {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr float kTop = 65535;  // largest value of 16 bits
+constexpr float kTop = 65535;  // largest 16-bit value
 // The value 0 or 65535 is a depth if its distance to the other values is less than this fraction of
 // their range. Sensors leave a larger gap at 0, because the nearest distance that a sensor measures
 // is at least 5 % of the range.
 constexpr float kBesidePart = 0.02F;
 
-// Occurrence of 0 and 65535 in a 16-bit map, and whether these two values are depths.
+// Number of pixels with the values 0 and 65535 in a 16-bit map, and whether these values are
+// depths.
 struct Ends {
   size_t zeros = 0, tops = 0;
   bool are_depths = false;
 };
 
-// Decides whether 0 and 65535 are depths in a 16-bit map. Both values are depths if the map was
-// stretched to the whole range. A map counts as stretched if values other than 0 and 65535 come
-// close to 0 or 65535. A map with both 0 and 65535 also counts as stretched if other values lie in
-// the upper half of the range, or if there are no other values.
+// Decides whether 0 and 65535 are depths in a 16-bit map. The values 0 and 65535 are depths if the
+// map was stretched to the whole range. A map counts as stretched if values other than 0 and 65535
+// come close to 0 or 65535. A map with both 0 and 65535 also counts as stretched if other values
+// lie in the upper half of the range, or if there are no other values.
 Ends JudgeEnds(const FloatMap& map) {
   Ends ends;
   std::vector<float> others;
@@ -44,7 +45,7 @@ Ends JudgeEnds(const FloatMap& map) {
   if (ends.zeros > 0 && ends.tops > 0) {
     ends.are_depths = !range.known || range.high >= kTop / 2;
   } else if (!range.known) {
-    ends.are_depths = true;  // all values are equal
+    ends.are_depths = true;  // all values are 0 or all are 65535
   }
   const float beside = kBesidePart * (range.high - range.low);
   if (range.known && range.high > range.low) {
@@ -58,17 +59,19 @@ void Forget(float unknown, FloatMap* map) {
   std::replace(map->values.begin(), map->values.end(), unknown, kUnknown);
 }
 
-// Value that an unknown pixel would receive along a row or a column of a map.
+// A gap of unknown pixels in a row or a column of a map. `value` is the value that fills one pixel
+// of the gap.
 struct Gap {
   float value = kUnknown;
   int length = std::numeric_limits<int>::max();  // length of the gap around the pixel
 };
 
-// Calls `visit` with the gap of each unknown pixel of a line of `count` values at distance `step`.
-// If the values at the two ends of a gap differ by at most `alike`, both values belong to one
-// surface, and the pixel's value is interpolated. Otherwise, the pixel receives the smaller value,
-// which is the background. A gap at the border has a value at one end only. The length of such a
-// gap counts twice, because no second value confirms the first.
+// Calls `visit` for each unknown pixel of a line, with the gap that contains the pixel. The line
+// has `count` values, `step` elements apart. If the values at the two ends of a gap differ by at
+// most `alike`, both values belong to one surface, and the pixel's value is interpolated.
+// If the two values differ by more than `alike`, the pixel receives the smaller value, which is the
+// background. A gap at the border of the map has a known value at one end only. The length of a gap
+// at the border counts twice, because no second value confirms the value at the known end.
 template <class Visit>
 void FindGaps(const float* line, size_t step, int count, float alike, const Visit& visit) {
   const auto at = [&](int k) { return line[size_t(k) * step]; };
@@ -130,7 +133,7 @@ void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo) {
   for (const double value : options.unknown) Forget(static_cast<float>(value), map);
   const bool distances =
       options.unit == DepthUnit::kMetres || options.unit == DepthUnit::kMillimetres;
-  if (distances) Forget(0, map);  // distance 0 means no measurement
+  if (distances) Forget(0, map);  // sensors store the distance 0 for pixels without a measurement
   if (options.has_unknown || largest <= 255) return;
   const Ends ends = JudgeEnds(*map);
   if (ends.zeros + ends.tops == 0) return;
@@ -152,7 +155,7 @@ size_t FillBehind(FloatMap* map) {
   const auto unknown = std::count_if(map->values.begin(), map->values.end(),
                                      [](float value) { return std::isnan(value); });
   if (unknown == 0) return 0;
-  constexpr float kAlikePart = 0.05F;  // fraction of the range
+  constexpr float kAlikePart = 0.05F;  // fraction of the value range
   const RobustRange range = RobustRangeOf(map->values);
   const float alike = kAlikePart * (range.high - range.low);
   // The first pass completes every row and column that contains a known pixel, so the second pass

@@ -13,9 +13,9 @@ namespace {
 
 constexpr size_t kMostViews = 4096, kMostDigits = 6;
 
-// A file name split into its numbers and the text between them.
+// A file name, split into numbers and the text between the numbers.
 struct Parts {
-  std::string between;  // contains a zero byte for each number
+  std::string between;  // text with a zero byte in place of each number
   std::vector<int> numbers;
 };
 
@@ -38,7 +38,7 @@ Parts Split(const std::string& stem) {
   return parts;
 }
 
-// Returns the indices of the numbers that differ between names.
+// Returns the indices of the numbers that differ between the file names.
 std::vector<size_t> FindVarying(const std::vector<Parts>& names) {
   std::vector<size_t> varying;
   for (size_t k = 0; k < names[0].numbers.size(); ++k) {
@@ -54,12 +54,12 @@ std::string Count(int rows, int columns) {
   return std::to_string(rows) + " rows of " + std::to_string(columns);
 }
 
-// Returns the number of views on each side of the centre in the longest row of odd length within
-// `count` views.
+// Returns the number of views on each side of the centre view in a row of `count` views. If `count`
+// is even, the last view is ignored.
 int HalfOf(int count) { return (count - 1) / 2; }
 
-// Returns the distance of the outermost views from the centre, in views. Odd distances above 4 are
-// reduced by one to an even distance.
+// Returns the reach of a star: the distance of its outermost views from the centre, in views. Odd
+// distances above 4 are reduced by one to an even distance.
 int ReachOf(int half) { return half % 2 == 1 && half > 4 ? half - 1 : half; }
 
 struct Chooser {
@@ -82,7 +82,7 @@ void ChooseSquare(const Chooser& chooser) {
   }
 }
 
-// Chooses the views of a single row or column: all of them, or every second, third and so on.
+// Chooses views of a single row or column: all views, or every second or third view, and so on.
 void ChooseLine(const Chooser& chooser, bool is_row) {
   const int reach = chooser.star->reach, step = (2 * reach) / (STARFOCUS_MAX_VIEWS - 1) + 1;
   for (int k = 0; k <= reach; k += step) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds arrays of views in rows and columns, as most light fields are published, and chooses a star
-// of views from them.
+// of views from an array.
 #ifndef STARFOCUS_PLATFORM_READERS_VIEW_ARRAY_H_
 #define STARFOCUS_PLATFORM_READERS_VIEW_ARRAY_H_
 
@@ -13,8 +13,8 @@
 
 namespace starfocus {
 
-// Paths of rows * columns pictures. Rows are listed from top to bottom, and each row from left to
-// right.
+// An array of views: the paths of rows * columns pictures. The paths are sorted by row from top to
+// bottom, then by column from left to right.
 struct ViewArray {
   int rows = 0, columns = 0;
   std::vector<std::string> paths;
@@ -28,13 +28,15 @@ struct Star {
 };
 
 // Chooses the largest star in an array of at least 3 x 3 views. The star has 17 views if half its
-// reach is a whole number, otherwise 9. From a single row or column, the function chooses up to 17
-// views. If the number of rows or columns is even, the last row or column is ignored. Adds a fact.
+// reach is a whole number, otherwise 9. If the array is a single row or column, ChooseStar chooses
+// up to 17 views. If the number of rows or columns is even, the last row or column is ignored. Adds
+// a fact.
 Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts* facts);
 
 // Finds pictures whose names differ in two numbers (row and column) or in a single number, for
-// example NAME_00_01.png. Only the first two differing numbers count, which excludes the camera
-// positions in Stanford's names. The array is empty if the names do not have this form.
+// example NAME_00_01.png. If file names differ in more than two numbers, only the first two numbers
+// count, which excludes the camera positions in Stanford's names. The array is empty if the names
+// do not differ in such numbers.
 Result<ViewArray> FindArray(const std::string& folder, const std::vector<std::string>& names);
 
 }  // namespace starfocus

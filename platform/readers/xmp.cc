@@ -21,12 +21,13 @@ namespace {
 constexpr size_t kMostBytes = size_t{1} << 26, kMostDepth = 32, kMostParts = 20000;
 constexpr char kBetween = '|';  // separates a namespace from a name
 
-// State of expat's callbacks. Exceptions must not leave a callback.
+// State of the expat callbacks that build the tree of elements. Exceptions must not leave a
+// callback of expat.
 struct Builder {
   XML_Parser parser = nullptr;
-  std::vector<XmpNode> open;    // from the unnamed root to the innermost element
-  size_t parts = 0;             // number of elements and attributes
-  std::string expected, found;  // reason for stopping
+  std::vector<XmpNode> open;    // open elements, from the unnamed root to the innermost element
+  size_t parts = 0;             // number of elements and attributes so far
+  std::string expected, found;  // reason why parsing was stopped
   bool out_of_memory = false;
 
   void Stop(const std::string& what_expected, const std::string& what_found) {
@@ -113,7 +114,8 @@ Result<XmpNode> ParseXmp(const std::string& where, const char* text, size_t size
     return Expected(where, "XMP of at most " + std::to_string(kMostBytes) + " bytes",
                     std::to_string(size));
   }
-  while (size > 0 && text[size - 1] == '\0') --size;  // some writers pad with zero bytes
+  // Some programs pad XMP packets with zero bytes.
+  while (size > 0 && text[size - 1] == '\0') --size;
   Builder builder;
   builder.open.emplace_back();
   builder.parser = XML_ParserCreateNS(nullptr, kBetween);
