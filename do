@@ -68,7 +68,8 @@ watch() {
   done
 }
 
-# step NAME LABEL COMMAND...: runs a command with its output in build/log/NAME.log. Prints the log on failure.
+# step NAME LABEL COMMAND...: runs a command with its output in build/log/NAME.log. If the command fails, prints the
+# log.
 step() {
   local label=$2 log=$LOGS/$1.log start=$SECONDS watcher= result=0
   shift 2

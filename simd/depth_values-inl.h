@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 using DepthTag = hn::ScalableTag<float>;
 using DepthBits = hn::RebindToSigned<DepthTag>;
 
-// Converts bytes or 16-bit numbers. A float represents each of these numbers exactly.
+// Converts bytes or 16-bit numbers to floats, which represent all 16-bit numbers exactly.
 template <class T>
 HWY_INLINE bool WidenNumbers(const T* HWY_RESTRICT values, size_t count, float* HWY_RESTRICT z) {
   const DepthTag df;
@@ -94,7 +94,7 @@ HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, con
 
 inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,
                                  int16_t* HWY_RESTRICT out) {
-#if HWY_ARCH_ARM_V7  // vectors flush denormals to 0 and approximate divisions
+#if HWY_ARCH_ARM_V7  // ARMv7 vectors flush denormals to 0 and approximate divisions
   return reference::DepthToDisparity(z, count, rule, out);
 #else
   const auto scale = hn::Set(DepthTag(), rule.scale);

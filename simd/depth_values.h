@@ -50,9 +50,9 @@ uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, i
 // b[n] differ by more than kBlendStep, out[n] is a[n] if share < 128, and b[n] otherwise.
 void BlendRows(const int16_t* a, const int16_t* b, size_t count, uint32_t share, int16_t* out);
 
-// Interpolates along a row like BlendRows. columns[n] is the position of output pixel n in the row.
-// Each pair contains an element of the row in its low half, and the next element to the right in
-// its high half. The first pair starts at element `first`.
+// Interpolates along a row like BlendRows. Element columns[n] is the position of output pixel n in
+// the row. Each pair contains an element of the row in its low half, and the next element to the
+// right in its high half. The first pair starts at element `first`.
 void SpreadRow(const int32_t* pairs, const uint32_t* columns, size_t count, uint32_t first,
                int16_t* out);
 

@@ -39,8 +39,8 @@ HWY_INLINE DisparityRange RangeOfColumns(const int16_t* HWY_RESTRICT disparity, 
                                          size_t rows, size_t count) {
   const LanesTag d16;
   const auto none = hn::Set(d16, kNoSurface), one = hn::Set(d16, int16_t{1});
-  // `below` is the lowest disparity minus 1. kNoSurface minus 1 wraps to INT16_MAX, so that missing
-  // surfaces have no effect.
+  // `below` is the lowest disparity minus 1. Subtracting 1 from kNoSurface wraps to INT16_MAX, so
+  // that missing surfaces have no effect.
   auto below = hn::Set(d16, int16_t{INT16_MAX}), high = none;
   for (size_t n = 0; n < count; n += hn::Lanes(d16)) {
     const auto counted = hn::FirstN(d16, count - n);

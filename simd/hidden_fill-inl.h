@@ -96,7 +96,7 @@ inline void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t co
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   const auto most = hn::Set(d16, unit), least = hn::Set(d16, static_cast<int16_t>(-unit));
-  // Largest distance n with 2 n < step.
+  // Largest integer distance n for which 2 n < step.
   const auto short_of = hn::Set(d16, static_cast<int16_t>((step - 1) / 2));
   const auto mean = [&](LanesVec a, LanesVec b) HWY_ATTR {
     return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));

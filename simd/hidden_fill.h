@@ -30,7 +30,7 @@ struct FarRow {
 };
 
 // A row (index 1), the row `step` rows above (index 0) and the row `step` rows below (index 2).
-// `source` belongs to row 1. kSliceLanes pixels beyond both ends of the rows must be readable.
+// `source` belongs to row 1. At both ends of the rows, kSliceLanes more pixels must be readable.
 // Colours are light and not negative.
 struct FarRows {
   const int16_t* disparity[3];

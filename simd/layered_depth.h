@@ -81,7 +81,7 @@ inline constexpr int16_t kMostUnit = 1 << 10;
 inline constexpr int kViewLooks = 2;
 
 // A row of a field in which hidden surfaces are searched. The rows of the field are `stride`
-// samples apart. kSliceLanes samples before and after the row must be readable.
+// samples apart. Before and after the row, kSliceLanes more samples must be readable.
 struct DepthRow {
   const int16_t* disparity;
   ptrdiff_t stride;
@@ -160,12 +160,12 @@ uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const Co
 // Finds up to two surfaces behind each pixel of a row. On each side, the first candidate is the
 // surface beyond the next edge. The second candidate is the surface that the far side of this edge
 // hides beyond another edge. The second candidate must be at most kMostDistance pixels away. A view
-// at distance 1 must also be able to see the second candidate, so its distance is limited by its
-// depth behind the pixel.
+// at distance 1 must be able to see the second candidate, so the candidate's distance is limited by
+// its depth behind the pixel.
 //
-// The first hidden surface is the candidate with the lowest rank. If two candidates have the same
-// rank, the nearer one is chosen. The second hidden surface is chosen in the same way, from the
-// candidates that differ from the first hidden surface by more than 2^unit_bits.
+// The first hidden surface is the candidate with the lowest rank. If two candidates have equal
+// rank, the nearer candidate is chosen. The second hidden surface is chosen by the rule of the
+// first, from the candidates that differ from the first hidden surface by more than 2^unit_bits.
 //
 // A view shows a hidden surface behind a pixel if no pixel on the line of the ViewLook covers the
 // hidden surface. A pixel of the line covers the surface if two conditions hold. First, the pixel

@@ -55,7 +55,7 @@ inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const E
   const size_t lanes = hn::Lanes(d16);
   if (count < lanes) return reference::Encode(light, count, encoding, codes);
   constexpr int kStepBits = 3;
-  static_assert(1 << kStepBits == kEncodeStep, "entries are looked up by shifted light");
+  static_assert(1 << kStepBits == kEncodeStep, "kEncodeStep must be 2^kStepBits");
   uint16_t steps[kEncodeChunk], entries[kEncodeChunk];
   ForVectors(count, lanes, [&](size_t n) HWY_ATTR {
     const auto value = hn::BitCast(du16, hn::LoadU(d16, light + n));

@@ -32,8 +32,8 @@ namespace reference {
 // Sets light[n] to the light of codes[n], n < count.
 void Decode(const uint8_t* codes, size_t count, const Encoding& encoding, int16_t* light);
 
-// Sets codes[n] to the code of light[n] for n < count. light[n] must be in [0, kLightWhite]. No
-// other elements of `codes` are written.
+// Sets codes[n] to the code of light[n] for n < count. Each light[n] must be in [0, kLightWhite].
+// No other elements of `codes` are written.
 void Encode(const int16_t* light, size_t count, const Encoding& encoding, uint8_t* codes);
 
 // Encodes accumulators with `shift` fractional bits, in [8, 24]. If light is the code itself,

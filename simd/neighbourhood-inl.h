@@ -132,7 +132,8 @@ class ColumnReach {
   const int16_t* const margins_;
   const int32_t first_;
   const ColumnGaps gaps_;
-  // Horizontal distance of pixels from the block at layers 0, 1 and 2.
+  // Largest horizontal distance from the block to pixels that reach the block or the margin of
+  // layer 0, 1 or 2.
   LanesVec x0_ = hn::Zero(LanesTag()), x1_ = x0_, x2_ = x0_;
   LanesVec radius_ = x0_, edge_ = x0_;
 };

@@ -75,7 +75,8 @@ void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[
 // distances in columns and rows. The cell counts if the kReachPlane of the middle cell exceeds (d -
 // 1) kCellPixels. A cell with a larger kHighPlane than the middle cell counts as well if its own
 // kNearPlane exceeds (d - 1) kCellPixels. Farther surfaces stay hidden, regardless of their reach.
-// kNearPlane is at most kReachPlane. Whole groups of kSliceLanes are read and written.
+// Values of kNearPlane are at most the values of kReachPlane. Whole groups of kSliceLanes are read
+// and written.
 void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
                    const CellRanges& ranges);
 

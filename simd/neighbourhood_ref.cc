@@ -31,8 +31,8 @@ void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[
         return cell[static_cast<size_t>(plane) * planes.plane];
       };
       const int gap_x = GapTo(x, around), gap_y = GapTo(y, around);
-      // A cell to the left of the block reaches the block across the right side of the cell. The
-      // other sides correspond accordingly.
+      // Cells reach the block across their side that faces the block: a cell to the left of the
+      // block across its right side.
       const int from_x = x < around ? kReachRight : kReachLeft;
       const int from_y = y < around ? kReachBottom : kReachTop;
       for (int layer = 0; layer < 3; ++layer) {

@@ -37,7 +37,8 @@ HWY_INLINE MatchVec Between(MatchVec a, MatchVec b, int32_t part) {
   return hn::ShiftRight<7>(hn::Add(sum, hn::Set(du16, uint16_t{64})));
 }
 
-// Implements InterpolateRow. kAcross and kDown are true if the shift in this direction is not 0.
+// Implements InterpolateRow. The parameters kAcross and kDown are true if the shift in the
+// respective direction is not 0.
 template <bool kAcross, bool kDown>
 HWY_INLINE void InterpolateMoved(const uint8_t* HWY_RESTRICT row, const uint8_t* HWY_RESTRICT next,
                                  int32_t across, int32_t down, size_t count,

@@ -170,7 +170,7 @@ HWY_INLINE void SpreadBy(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const S
 
 inline void SpreadSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const SliceTaps& taps,
                         size_t count, int16_t* HWY_RESTRICT out) {
-  static_assert(kMaxSpread == 3, "SpreadSlice has a case for each reach");
+  static_assert(kMaxSpread == 3, "SpreadSlice must handle every reach up to kMaxSpread");
   if (taps.reach == 1) return SpreadBy<1>(in, step, taps, count, out);
   if (taps.reach == 2) return SpreadBy<2>(in, step, taps, count, out);
   SpreadBy<3>(in, step, taps, count, out);

@@ -207,7 +207,7 @@ HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec exces
 }
 
 // Adds the contribution of a slice to a vector of rows of a view. `at` is the first sample of the
-// slice. Each row of the view is interpolated from kTaps rows of the slice, 2 to 4.
+// slice. Each row of the view is interpolated from kTaps (2 to 4) rows of the slice.
 template <int kTaps, Known kKnown>
 HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
                          const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,

@@ -14,12 +14,12 @@ namespace {
 using BandDisparities = DisparitiesAround<kBandReach + 2>;
 
 // A tile counts as thin structure if at least kLeastRagged of its pixels have a nearer neighbour.
-// In tiles of hair, 38 or more pixels have a nearer neighbour. The number of such pixels is 16 to
-// 23 in tiles with a straight edge, and up to 40 in tiles with a wire two pixels wide.
+// In tiles of hair, 38 or more pixels have a nearer neighbour. Tiles with a straight edge have 16
+// to 23 pixels with a nearer neighbour, and tiles with a wire two pixels wide have up to 40.
 constexpr int32_t kLeastRagged = 36;
 
-// Offset to a neighbour that is at most kBandReach pixels away in x and in y: as (x, y), and as a
-// difference of array indices.
+// Offset to a neighbour at most kBandReach pixels away in x and y: as (x, y), and as a difference
+// of array indices.
 struct BandOffset {
   int8_t x, y;
   int16_t at;

@@ -49,7 +49,7 @@ inline constexpr int32_t kMostMove = 32;
 // Number of columns on each side of the picture that may be read.
 inline constexpr int32_t kAside = 48;
 static_assert(kAside >= kMostMove + 2 && kAside % kCoverageTile == 0,
-              "columns beyond the edge cover the largest move");
+              "kAside must exceed kMostMove and be a multiple of a tile");
 inline constexpr int16_t kNowhere = INT16_MIN;
 
 // Levels of cells, with sides of 1, 2, 4, 8 and 16 pixels.
@@ -61,10 +61,10 @@ struct CoverageTile {
   uint64_t near_bins;
   int16_t low, high;  // smallest and largest disparity of both surfaces of all split pixels
   // True if many pixels of the tile are next to depth edges. If the light field provides coverage,
-  // one pixel next to an edge is enough.
+  // one pixel next to an edge makes the tile ragged.
   uint8_t ragged;
   // True if the tile is ragged and has many mixed pixels. If the light field provides coverage, one
-  // mixed pixel is enough.
+  // mixed pixel makes the tile mixed.
   uint8_t mixed;
   // True if pixels near edges are split in this tile, because this tile or a neighbouring tile is
   // mixed.

@@ -17,8 +17,8 @@ constexpr int32_t kWithin = 3 << (kDisparityBits - 1);
 // log2 of the factor by which the weight of the centre view is reduced. Near edges, all pixels of
 // the centre view are mixtures.
 constexpr int kCentreBits = 3;
-// The far light of a pixel counts as fully known if the weights of all samples read for the pixel
-// sum to at least 2^kEnoughBits * kKnown.
+// The far light of a pixel is fully known if the weights of its samples from all views sum to at
+// least 2^kEnoughBits * kKnown.
 constexpr int kEnoughBits = 1;
 
 // A side view from which far light is read.
@@ -158,7 +158,7 @@ class TileLooker {
     return true;
   }
 
-  // Adds the coverage of row y by surfaces that may move onto the row from a distance of `m` pixels
+  // Updates `covered` with the surfaces that may move onto row y from a distance of `m` pixels
   // along the view's axis.
   void CoverFrom(const SideLook& view, int32_t y, int32_t m, int16_t* covered) const {
     // Movements have kDisparityBits - 1 fractional bits, because the SIMD kernel interprets `along`

@@ -34,14 +34,15 @@ inline int32_t LargestMoveBefore(const starfocus_config& config) {
   return Min(static_cast<int32_t>(range.max - range.min) + 3, kMostMove + 1);
 }
 
-// Returns the number of rows of tiles that a pass is ahead of the last pass.
+// Returns the number of rows of tiles by which a pass must be ahead of the last pass.
 inline int32_t TilesAhead(const starfocus_config& config, int pass) {
   const int32_t moved = (LargestMoveBefore(config) + kCoverageTile - 1) / kCoverageTile;
   switch (pass) {
     case kUnmixAgain:
       return 0;
     case kLook:
-      // UnmixAgain fills in unknown far light from the surrounding tiles.
+      // UnmixAgain fills in unknown far light from the surrounding tiles, so it requires the far
+      // light of the next row of tiles.
       return 1;
     case kUnmixFirst:
       // A tile next to a mixed tile is thin, so the Look pass requires `mixed` one row ahead.

@@ -21,8 +21,8 @@ constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
 constexpr int32_t kLeastContrast = 300 * kSquareOne;
 // Squared noise that is tolerated in mixed colours. The trust in a mixed colour decreases with the
 // distance of the colour from the line through the near and far colours. Let s^2 be kNoise plus a
-// sixteenth of the squared contrast. The trust is 1 if this distance is at most s / 2, and 0 if
-// this distance is at least 3 s / 2.
+// sixteenth of the squared contrast. The trust is 1 at distances of at most s / 2 from the line,
+// and 0 at distances of at least 3 s / 2.
 constexpr int32_t kNoise = 81 * kSquareOne;
 // Alpha is computed only if the weights of the near samples around a pixel sum to at least
 // kLeastNear, in units of 2^-15.
@@ -48,8 +48,8 @@ struct NearTile {
   }
 };
 
-// Loads a tile and its surroundings. weight_of(x, y) returns the weight of pixel (x, y) in a mean
-// of the near light.
+// Loads a tile and its surroundings. The function weight_of(x, y) returns the weight of pixel (x,
+// y) in a mean of the near light.
 template <class Weight>
 void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const Weight& weight_of,
                   NearTile* tile) {
@@ -137,8 +137,8 @@ void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column
 
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
   const CoverageMap& map = *in.map;
-  // Returns 0 for pixels on the far side of an edge. For other pixels, the weight increases with
-  // the number of near-side pixels in the surrounding 3x3 pixels.
+  // Returns a weight of 0 for pixels on the far side of an edge. For other pixels, the weight
+  // increases with the number of near-side pixels in the surrounding 3x3 pixels.
   const auto weight_of = [&](int32_t x, int32_t y) {
     if (map.alpha[map.At(x, y)] == 0) return 0;
     int32_t count = 0;

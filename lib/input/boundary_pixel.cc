@@ -9,8 +9,8 @@ namespace {
 constexpr int kColourBits = 4;
 constexpr int64_t kSquareOne = 1 << (2 * kColourBits);
 // Smallest squared distance between two colours whose mixtures can be recognised: 8/255 of white in
-// one channel. docs/constants.md describes how kLeastContrast, kNoise and kContrastParts were
-// measured.
+// one channel. The measurements of kLeastContrast, kNoise and kContrastParts are in
+// docs/constants.md.
 constexpr int64_t kLeastContrast = 64 * kSquareOne;
 // Largest squared distance of a mixture from the line between the two colours: noise of 3/255 of
 // white in each channel, plus 1/16 of the squared contrast.

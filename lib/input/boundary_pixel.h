@@ -51,11 +51,11 @@ struct Mixture {
   Colour near, far;
 };
 
-// Separates a boundary pixel. The near colour is the colour of the first pixel on the other side of
-// the edge, or of the second pixel if both are on the same surface. The far colour comes from a
-// captured side view in which the nearer surface does not cover the far surface. Without such a
-// view, the far colour is the colour of the next pixel away from the edge. If the window contains
-// excess, both colours are excess, but the share is computed from light.
+// Separates a boundary pixel. The near colour is read at the second pixel beyond the edge, or at
+// the first pixel if the two pixels are on different surfaces. The far colour comes from a captured
+// side view in which the nearer surface does not cover the far surface. Without such a view, the
+// far colour is the colour of the next pixel away from the edge. If the window contains excess,
+// both colours are excess, but the share is computed from light.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
 // Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Rounding changes filtered

@@ -32,11 +32,11 @@ struct LampRun {
   uint16_t line = 0, first = 0, last = 0, length = 0;
 };
 
-// Cache of runs, so that neighbouring pixels do not count the same run again. Each worker uses one
-// cache while it renders a block.
+// Cache of runs of highlights, so that the pixels of a run do not count the run again. Each worker
+// uses one cache while it renders a block.
 struct LampRuns {
   static constexpr int32_t kCount = 1024;  // number of entries, a power of two
-  static constexpr int kSpanBits = 6;      // log2 of the pixels of a line for each entry
+  static constexpr int kSpanBits = 6;  // log2 of the number of pixels of a line that share an entry
 
   LampRun along[kCount], down[kCount];
 

@@ -21,8 +21,8 @@ void RepeatEdges(int32_t first, int32_t last, int32_t width, int16_t* rgb, int16
   }
 }
 
-// Copies every 2^kLayer-th value. The inner loop has a fixed length, so that the compiler unrolls
-// it.
+// Copies every 2^kLayer-th value. The inner loop has a fixed length, so that the compiler can
+// unroll the loop.
 template <int kLayer>
 void CopyEvery(const int16_t* from, int32_t count, int16_t* to) {
   constexpr int32_t kGroup = 8;

@@ -12,8 +12,8 @@
 namespace starfocus {
 
 // Position of a rendered view, and the captured view (u, v) that fills the holes of the rendered
-// view. u and v are -1, 0 or 1, in units of the full distance of the star, or of the half distance
-// if `half`. All fields are in the orientation of the view's lines.
+// view. The coordinates u and v are -1, 0 or 1, in units of the full distance of the star, or of
+// the half distance if `half`. All fields are in the orientation of the view's lines.
 struct HoleView {
   const Window* window;
   const ViewGrid* grid;

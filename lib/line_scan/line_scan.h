@@ -37,7 +37,7 @@ struct ScanTask {
 };
 
 // Widest gap in pixels that may be a stretched surface, regardless of the disparities.
-// docs/constants.md compares this value with twice and half the value.
+// A comparison of kMaxStretch with twice and half its value is in docs/constants.md.
 inline constexpr int32_t kMaxStretch = 4;
 
 // Rounded values of 2^23 / subaperture, for subapertures in [0, kShiftOne]. The value for a
@@ -235,8 +235,8 @@ class LineScan {
     edge_.run = nullptr;
   }
 
-  // Emits positions [first, end) with their neighbours. A pixel at the upper end of its surface has
-  // no neighbour above, and a pixel at the lower end of the line has no neighbour below.
+  // Emits positions [first, end) with their neighbours. The pixel at the upper end of a surface has
+  // no neighbour above, and the pixel at the lower end of a line has no neighbour below.
   void AddBlended(const Run& run, int32_t first, int32_t end, int32_t whole, int32_t offset,
                   int32_t weight) const {
     if (offset > 0) {

@@ -61,7 +61,7 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
 
 // Largest shift t that leaves a pixel unchanged, in kShiftBits. The pixel stays in place and its
 // neighbour has weight 0 if 2 |t| + L <= 1 (SubapertureWeight), where the subaperture L is at most
-// |t|. kStill is one unit smaller than this limit, to allow for rounding.
+// |t|. One unit is subtracted from kShiftOne / 3, to allow for rounding.
 constexpr int32_t kStill = kShiftOne / 3 - 1;
 
 // Returns false at layers 1 and 2, because blocks at these layers are resampled.

@@ -90,7 +90,7 @@ class Star {
   }
   SpanList Blending(int16_t* line) const { return SpanList(*job_.kernels, scratch_->spans, line); }
 
-  // Adds `pixels` pixels with the same weight.
+  // Adds `pixels` pixels of a line, all with weight `weight`.
   static void AddLine(const int16_t* rgb, int32_t pixels, uint32_t weight, uint32_t target,
                       SpanList* list) {
     list->Add(
@@ -310,7 +310,7 @@ class Star {
     }
   }
 
-  // Adds the sums of the pass over rows. The pass over rows stores its sums in column order.
+  // Adds the sums of the pass over rows, which are stored in column order.
   void AddTransposed() {
     const int32_t width = job_.rect.width, height = job_.rect.height;
     for (int32_t y = 0; y < height; ++y) {

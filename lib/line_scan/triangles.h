@@ -18,8 +18,8 @@ namespace starfocus {
 inline constexpr int32_t kStripRows = 16;
 
 // Scratch memory of one worker. E is the largest side of an extended rectangle, and R the largest
-// side of a rectangle without border. Numbers in the comments are numbers of elements. Each buffer
-// is followed by simd::kPadding bytes.
+// side of a rectangle without border. The comments of the members state the number of elements of
+// each buffer. Each buffer is followed by simd::kPadding bytes.
 struct LineScanScratch {
   // Light of the field and of the transposed field: E rows of RgbStride(E) each.
   int16_t* field_rgb[2];

@@ -12,9 +12,9 @@ constexpr int32_t kShareOne = 1 << kShareBits;
 // subsampled layers begin, would hide outlines (docs/constants.md).
 constexpr int32_t kSharp = 2 * kShiftOne;
 
-// Returns the part of the near surface to remove from the pixel, kShiftBits; negative values count
-// as 0. The part is 1 if the near blur radius exceeds the far blur radius by at least one pixel,
-// and the far blur radius is at most kSharp.
+// Returns the part of the near surface (kShiftBits) that is removed from a mixed pixel; negative
+// values count as 0. The part is 1 if the near blur radius exceeds the far blur radius by at least
+// one pixel, and the far blur radius is at most kSharp.
 int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
   return Min(Min(near_radius - far_radius, kSharp + kShiftOne - far_radius), kShiftOne);
 }
@@ -53,8 +53,8 @@ class Unmixer {
 
   // Returns the part of a pixel (kShareBits) that the far colour replaces. The part is 1 if the
   // share of the nearer surface is at least one half. Pixels with a smaller share are replaced only
-  // in part, because most of the light removed from such pixels is missing from the nearer surface
-  // on the other side of the edge. `strength` reduces the part where no outline would be visible.
+  // in part. Most of the light removed from such pixels would be missing from the nearer surface
+  // beyond the edge. `strength` reduces the part where no outline would be visible.
   static int32_t AmountOf(int32_t share, int32_t strength) {
     return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
   }

@@ -11,10 +11,10 @@
 namespace starfocus {
 
 // Removes the nearer surface from adjacent pixels of a sharp farther surface, if the nearer surface
-// is more defocused. Otherwise the nearer surface's part of these pixels would remain sharp, and
-// would outline an object that the blur has dissolved. The colour of the far surface comes from a
-// captured side view in which the nearer surface does not cover the far surface. Pixels that are
-// not mixtures of both colours are not changed.
+// is more defocused. Without this removal, the nearer surface's part of mixed pixels would remain
+// sharp, and would outline an object that the blur has dissolved. The colour of the far surface
+// comes from a captured side view in which the nearer surface does not cover the far surface.
+// Pixels that are not mixtures of both colours are not changed.
 //
 // The field must come from LoadBlock. Pixels outside the picture and the outermost pixels, which do
 // not splat into the rectangle, are not changed. Only layer 0 requires UnmixEdges, because

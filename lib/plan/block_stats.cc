@@ -46,7 +46,7 @@ uint8_t SpanOf(int32_t reach) {
   return static_cast<uint8_t>(Checked(ranges::kReach, reach) + kCellSize);
 }
 
-// Stores the reach of a cell whose pixels all have the same reach.
+// Stores the reach of a cell in which all pixels have equal reach.
 void StoreSides(int32_t reach, Cell* cell) {
   for (int side = 0; side < 4; ++side) {
     cell->span[side] = SpanOf(reach);
@@ -145,7 +145,7 @@ class CellRow {
     return measure;
   }
 
-  // A cell with thin structures contains both surfaces, and therefore an edge.
+  // A cell with thin structures contains a near and a far surface, and therefore a depth edge.
   void AddThin(int32_t x, simd::CellMeasure* found) const {
     const CoverageMap& map = *window_.coverage;
     const int32_t column = x / kCoverageTile, row = y_ / kCoverageTile;

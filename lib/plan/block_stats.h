@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Analysis of blocks of variable size (paper, V-A). This module measures the blur of 8x8 cells and
-// combines cells into blocks. The partition uses the statistics to choose blocks.
+// combines cells into blocks. The partition (lib/plan/partition.h) chooses blocks according to
+// these statistics.
 #ifndef STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
 #define STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
 
@@ -116,19 +117,19 @@ constexpr int32_t LayerMargin(int32_t layer) {
 // LayerMargin of each layer, converted to pixels of the picture.
 inline constexpr int16_t kLayerMargin[3] = {0, LayerMargin(1) << 1, LayerMargin(2) << 2};
 
-// Statistics of a block. r_max and has_edge include all pixels that splat into the block. r_min
-// includes only the cells of the block, and r_shown includes the cells around the block as well.
-// `border` contains, for each layer, the distance beyond which no pixel splats into the block with
-// its margin.
+// Statistics of a block. The members r_max and has_edge include all pixels that splat into the
+// block. The member r_min includes only the cells of the block, and r_shown includes the cells
+// around the block as well. `border` contains, for each layer, the distance beyond which no pixel
+// splats into the block with its margin.
 struct BlockStats {
   int32_t r_min, r_shown, r_max;
   bool has_edge;
   Border border[3];
-  Content content[2];  // content of the pixels inside, along rows and along columns
+  Content content[2];  // content of the pixels in the block, along rows and along columns
 };
 
-// Returns the statistics of a block made of four children with side `side`, in z-order. Children
-// outside the picture are null.
+// Returns the statistics of a block that consists of four smaller blocks with side `side`, the
+// children, in z-order. Children outside the picture are null.
 BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side);
 
 }  // namespace starfocus

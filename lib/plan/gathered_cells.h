@@ -46,7 +46,7 @@ struct BlockCells {
   // Returns true if the cell that contains pixel (x, y) of the picture is gathered.
   bool IsGathered(int32_t x, int32_t y) const { return map->FirstLayer(x, y) <= layer; }
   // Returns true if the cell is gathered with a single PSF instead of a radius per pixel.
-  // kSlopeMark is larger than any layer.
+  // IsFlat returns false for cells with kSlopeMark, because kSlopeMark is larger than any layer.
   bool IsFlat(int32_t x, int32_t y) const { return map->At(x, y) <= layer; }
 
   // Returns the pixels of the layer that belong to the cell at pixel (x, y) of the picture.

@@ -52,7 +52,7 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
                               int32_t around, int16_t* samples) {
   static_assert(kCellSize == simd::kCellPixels && int{kLeft} == int{simd::kReachLeft} &&
                     int{kBottom} == int{simd::kReachBottom},
-                "sides of cells are the kernels'");
+                "cells must have the size and the order of sides of the SIMD kernels");
   const auto stride = static_cast<size_t>(cells.width + 2 * around);
   const size_t plane = stride * static_cast<size_t>(cells.height + 2 * around);
   int16_t* out = samples;
@@ -82,7 +82,7 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
     }
   }
   // Upsampling from layer 1 reads up to kLayerMargin[1] pixels around the block.
-  static_assert(kLayerMargin[1] <= kCellSize, "the cells around the block hold the margin");
+  static_assert(kLayerMargin[1] <= kCellSize, "the margin must not exceed one cell");
   const int32_t top = Max(row - 1, grid.first_row), bottom = Min(row + 3, grid.last_row);
   for (int32_t y = top; y < bottom; ++y) {
     for (int32_t x = Max(column - 1, 0); x < Min(column + 3, grid.columns); ++x) {

@@ -15,7 +15,7 @@ namespace starfocus {
 // A rectangle of cells and the cells up to `around` cells away, as planes for the SIMD kernels.
 // Cells outside the picture repeat its edge.
 struct Surroundings {
-  simd::CellPlanes planes;  // the planes' pointers are at the first cell of the rectangle
+  simd::CellPlanes planes;  // pointers to the first cell of the rectangle
   int32_t column, row, columns, rows;
   int32_t around;
 

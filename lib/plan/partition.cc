@@ -33,7 +33,7 @@ class Partition {
   void Measure(const CellGrid& cells, int32_t x, int32_t y, int32_t around) {
     x_ = x;
     y_ = y;
-    // `inside` contains the cells of whole smallest blocks, which may extend beyond the picture.
+    // `inside` covers the cells of complete smallest blocks, which may extend beyond the picture.
     const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(config_.width - x),
                          CellsWithin(config_.height - y)};
     const Surroundings surroundings =

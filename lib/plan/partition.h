@@ -74,7 +74,7 @@ struct PartitionScratch {
   int16_t* cells;
 };
 
-// Inputs of a partition.
+// Input data for the partition of a superblock.
 struct PlanInput {
   const simd::Kernels& kernels;
   const PartitionRules& rules;
