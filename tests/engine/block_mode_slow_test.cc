@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kBlocks[] = {32, 64, 128, 256};
 
-// Everything that a refocused picture depends on, except the content of the scene.
+// Parameters and configuration of a refocused picture.
 struct Setup {
   double focus = 0, aperture = 1;
   int block = 64, max_layer = 2, deblocking = 35;
@@ -88,7 +88,7 @@ void CheckStreamed(const test::Scene& scene, const Setup& s) {
   test::CheckStreamed(scene, Config(s, scene), s.Params());
 }
 
-TEST_CASE("block: streamed rows equal the rows of the whole picture at sizes of every kind") {
+TEST_CASE("block: streamed rows equal the rows of the whole picture for pictures of many sizes") {
   test::Random random(31);
   constexpr int kSizes[][2] = {{1, 1},   {1, 40},  {40, 1},   {1, 150},  {150, 1},  {2, 3},
                                {15, 17}, {16, 16}, {17, 15},  {31, 33},  {32, 32},  {33, 70},
@@ -105,7 +105,9 @@ TEST_CASE("block: streamed rows equal the rows of the whole picture at sizes of 
   }
 }
 
-TEST_CASE("block: streamed rows equal the rows of the whole picture in blur mode and on noise") {
+TEST_CASE(
+    "block: streamed rows equal the rows of the whole picture in blur mode and with noisy "
+    "disparities") {
   test::Random random(32);
   for (int round = 0; round < 12; ++round) {
     test::Scene scene =
@@ -119,7 +121,7 @@ TEST_CASE("block: streamed rows equal the rows of the whole picture in blur mode
   }
 }
 
-TEST_CASE("block: constant pictures do not change in any bit") {
+TEST_CASE("block: refocusing changes no bit of constant pictures") {
   test::Random random(35);
   for (int round = 0; round < 256; ++round) {
     const float limit = random.Int(0, 2) == 0 ? 16.0f : 6.0f;
@@ -152,7 +154,7 @@ TEST_CASE("block: a scene in focus is a copy of the centre view in every configu
         CHECK_MESSAGE(same, Text(s, scene));
         CHECK(report.layers[0].pixels == uint64_t(size.first) * uint64_t(size.second));
         CHECK(report.layers[1].blocks + report.layers[2].blocks == 0);
-        CHECK(report.n == 0);  // only the centre view
+        CHECK(report.n == 0);  // N = 0: blocks are copies of the centre view
         CHECK(report.layers[0].views == report.layers[0].blocks);
       }
     }
@@ -165,7 +167,7 @@ TEST_CASE("block: a scene far out of focus is rendered at the largest allowed la
       const test::Scene scene = test::LayeredScene(size.first, size.second, 5, 2, 44);
       Setup s;
       s.focus = 20;
-      // The rule of subapertures excludes layer 2 at silhouettes, so the line scan is used.
+      // The renderer slices uses no layer 2 at silhouettes, so the test uses the line scan.
       s.renderer = STARFOCUS_RENDERER_LINE_SCAN;
       s.max_layer = max_layer;
       s.block = 128;
@@ -185,7 +187,7 @@ struct Told {
   std::vector<int> covered;
   uint64_t blocks = 0, views = 0;
   int largest_n = 0;
-  bool subapertures = false;  // true if blocks use the rule of subapertures
+  bool subapertures = false;  // true if blocks are rendered by subapertures
 };
 
 TEST_CASE("block: the visited blocks cover the picture once and agree with the report") {
@@ -260,7 +262,7 @@ test::Scene SmoothScene(int width, int height, int views) {
   return scene;
 }
 
-TEST_CASE("block: on a slanted plane, the picture agrees with the benchmark") {
+TEST_CASE("block: for a slanted plane, pictures of block and benchmark mode agree to 45 dB PSNR") {
   const test::Scene scene = SmoothScene(320, 160, 17);
   for (const double focus : {-6.0, -2.0, 0.0, 3.5, 6.0}) {
     Setup s;
@@ -317,7 +319,8 @@ TEST_CASE("block: deblocking of a whole picture equals deblocking of stripes") {
   CHECK(changed > 20);
 }
 
-TEST_CASE("block: at layer 0, mirrored light fields of whole blocks give mirrored pictures") {
+TEST_CASE(
+    "block: at layer 0, a mirrored light field of whole blocks results in the mirrored picture") {
   test::Random random(38);
   for (int round = 0; round < 24; ++round) {
     const int block = kBlocks[random.Int(0, 1)];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that the declared borders are sufficient and not too large. Replacing all values beyond the
-// borders by noise must not change the bytes of a block. With borders smaller by one pixel, some
-// block must change.
+// Tests that the borders which the engine declares for a block are sufficient and not too large.
+// Noise in place of all values beyond the borders must not change the bytes of a block. If the
+// noise starts one pixel nearer, at least one block must change.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -26,7 +26,8 @@ using test::Borders;
 
 constexpr int kAll = 10000;  // a border that keeps the whole picture
 
-// Distances from a rectangle, in pixels. Farther parts of the light field are replaced by noise.
+// Widths of the borders, in pixels, within which the centre view, the map and the side views are
+// kept. Parts of the light field beyond these borders are replaced by noise.
 struct Kept {
   int centre = kAll, map = kAll, sides = kAll;
 };
@@ -58,8 +59,8 @@ test::Scene Poisoned(const test::Scene& scene, const Rect& rect, const Kept& kep
   return poisoned;
 }
 
-// Returns noise on rectangles of a few disparities, or on the areas of LayeredScene. If `bright`,
-// everything is clipped.
+// Returns a LayeredScene, or pictures of noise with random rectangles in the map of a LayeredScene.
+// If `bright` is true, all pixels are highlights.
 test::Scene AnyScene(int side, int views, float limit, bool bright, test::Random* random) {
   test::Scene scene = test::LayeredScene(side, side, views, limit, random->Next());
   if (random->Int(0, 3) == 0 && !bright) return scene;
@@ -80,7 +81,7 @@ test::Scene AnyScene(int side, int views, float limit, bool bright, test::Random
   return scene;
 }
 
-// Settings for the refocusing of a superblock.
+// Configuration and lens for refocusing a superblock.
 struct Way {
   int views = 5, mode = STARFOCUS_MODE_BLOCK, renderer = STARFOCUS_RENDERER_SLICES, max_layer = 2,
       gather = 1;
@@ -169,7 +170,7 @@ Way AnyWay(test::Random* random) {
   return way;
 }
 
-TEST_CASE("borders: nothing beyond the borders of a superblock is read") {
+TEST_CASE("borders: values beyond the borders of a superblock do not affect its bytes") {
   test::Random random(1);
   uint64_t pixels[STARFOCUS_LAYERS] = {}, gathered = 0;
   for (int round = 0; round < test::Rounds(400); ++round) {
@@ -189,7 +190,8 @@ TEST_CASE("borders: nothing beyond the borders of a superblock is read") {
   CHECK(gathered > 0);
 }
 
-// A setting that tests one total border. The output requires every pixel of this border.
+// Configuration in which the output of a superblock depends on all pixels of one border, except the
+// outermost `unused` pixels. The member pointer `border` selects the tested border.
 struct Sum {
   const char* name;
   int views, renderer, max_layer;
@@ -198,7 +200,7 @@ struct Sum {
   double blur, aperture, part;
   int Borders::*border;
   int Kept::*kept;
-  int unused;  // pixels of the border that no known picture depends on
+  int unused;  // outermost pixels that affect no known picture
   float highlights = 1;
   int side = 160;
 
@@ -222,7 +224,8 @@ struct Sum {
 // - Layers: blocks begin and end with whole cells, which determine their bytes. The outermost taps
 //   of two successive filters leave a part of a pixel that is rounded to 0.
 // - Side views: hidden pixels at the edge of the border are hardly visible, especially at layers 1
-//   and 2. The disparities of hidden pixels are seldom the largest of the configuration.
+//   and 2. The disparities of hidden pixels seldom reach the largest disparity of the
+//   configuration.
 const Sum kSums[] = {
     {"boundary pixels", 1, STARFOCUS_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
     {"edges", 5, STARFOCUS_RENDERER_SLICES, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1,
@@ -240,7 +243,8 @@ const Sum kSums[] = {
      &Kept::sides, 0, 8},
 };
 
-TEST_CASE("borders: if a border is one pixel narrower than the sum, pictures change") {
+TEST_CASE(
+    "borders: if a border is one pixel narrower than declared, the bytes of superblocks change") {
   for (const Sum& sum : kSums) {
     test::Random random(5);
     bool beyond = false, within = false;
@@ -260,13 +264,13 @@ TEST_CASE("borders: if a border is one pixel narrower than the sum, pictures cha
   }
 }
 
-// Records if the output of a step depends on samples beyond the border, and if the output depends
-// on the outermost samples within the border.
+// Records whether the output of a step depends on samples beyond the border, and whether the output
+// depends on the outermost samples within the border.
 struct Dependence {
   bool beyond = false, within = false;
 
-  // run(border) returns the output of the step. `run` replaces all input farther away than the
-  // border.
+  // run(border) returns the output of the step. `run` replaces all input beyond the border by
+  // noise.
   template <class Run>
   void Add(int border, const Run& run) {
     const auto all = run(kAll);
@@ -279,8 +283,8 @@ struct Dependence {
   }
 };
 
-// Returns a picture of noise around a rectangle. The noise beyond the border differs from the noise
-// within.
+// Returns a picture of noise around a rectangle. Noise beyond the border comes from another
+// sequence of random numbers.
 std::vector<uint8_t> NoiseAround(int side, const Rect& rect, int border, uint64_t seed) {
   test::Random inside(seed), outside(border == kAll ? seed : seed + 1);
   std::vector<uint8_t> picture(3 * size_t(side) * size_t(side));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that an opaque surface with varying disparities lets no light through. The slices of the
-// surface move apart, but no gap may show the background.
+// Tests that an opaque surface with varying disparities lets no light through. The slices of such a
+// surface move apart, but no gap between the slices may show the background.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace closed_test {
 namespace {
 
-// Side of the picture; first column and row of the surface, and the end of both.
+// Side of the square picture; the surface covers the columns and rows from kFirst to kLast - 1.
 constexpr int kSide = 160, kFirst = 40, kLast = 120;
 
 // Returns a dark square of one colour in front of a bright wall.

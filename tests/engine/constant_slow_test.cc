@@ -23,8 +23,8 @@ struct Trial {
   starfocus_mode mode = STARFOCUS_MODE_FRAME;
   int block = 64;
   bool noisy = false;
-  int levels = 0;  // number of disparities, chosen at random per pixel
-  double max_blur = 64, n_scale = 1, theta = 0;  // a theta of 0 is the default
+  int levels = 0;  // if > 0, number of different disparities, at random per pixel
+  double max_blur = 64, n_scale = 1, theta = 0;  // theta 0: default fall-off
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
   int transfer = STARFOCUS_TRANSFER_SRGB;
   uint64_t shape = 0;  // seed of a random shape; 0 is the default shape
@@ -42,7 +42,7 @@ std::string Text(const Trial& t) {
          std::to_string(t.shape) + " seed " + std::to_string(t.seed);
 }
 
-// Refocuses a picture of one colour. Returns the number of samples that changed.
+// Refocuses a picture of the trial's colour. Returns the number of samples that changed.
 int Changed(const Trial& t) {
   test::Random random(t.seed);
   test::Scene scene = test::EmptyScene(t.width, t.height, t.views, t.low, t.high);
@@ -88,7 +88,7 @@ TEST_CASE("constant: a constant picture of any level is unchanged") {
   }
 }
 
-TEST_CASE("constant: every N leaves the picture unchanged") {
+TEST_CASE("constant: for every N, a constant picture is unchanged") {
   Trial t = {21, 18};
   t.color = {255, 128, 1};
   for (int views : test::kStars) {
@@ -107,10 +107,10 @@ TEST_CASE("constant: every N leaves the picture unchanged") {
   }
 }
 
-TEST_CASE("constant: every shape of the opening leaves the picture unchanged") {
+TEST_CASE("constant: for every shape of the opening, a constant picture is unchanged") {
   Trial t = {70, 41};
   t.color = {255, 127, 1};
-  // With sanitizers, a quarter of the shapes suffices to run the same code.
+  // With sanitizers, a quarter of the shapes suffices, since these shapes execute all of the code.
 #if defined(__SANITIZE_ADDRESS__)
   constexpr uint64_t kShapes = 60;
 #else
@@ -147,7 +147,7 @@ TEST_CASE("constant: a constant picture of any small size is unchanged") {
 
 // Tests a wide lens with few views. If subapertures are wider than three pixels, slices are spread
 // in separate memory. With N = 4, subapertures extend beyond the blur radius.
-TEST_CASE("constant: wide subapertures leave the picture unchanged") {
+TEST_CASE("constant: with wide subapertures, a constant picture is unchanged") {
   Trial t = {64, 64, 1};
   t.levels = 6;
   t.renderer = STARFOCUS_RENDERER_SLICES;
@@ -169,8 +169,8 @@ TEST_CASE("constant: wide subapertures leave the picture unchanged") {
 }
 
 // If an opening is much brighter in the middle, most views have small weights, and dark codes are
-// few levels of light. The engine therefore scales the weights up and sums the products in shares.
-// The remaining error is the rounding of slices that cover parts of a pixel. This rounding error
+// few levels of light. The engine therefore scales the weights up and adds the products in several
+// parts. Slices that cover parts of a pixel still cause a rounding error. This rounding error
 // affects up to three pixels of a few pictures.
 TEST_CASE(
     "constant: openings with a steep fall-off hardly change constant pictures of dark codes") {
@@ -197,8 +197,7 @@ TEST_CASE(
   CHECK(pictures <= 2);
 }
 
-TEST_CASE(
-    "constant: random sizes, ranges, focuses, apertures and blocks leave the picture unchanged") {
+TEST_CASE("constant: for random configurations and lenses, a constant picture is unchanged") {
   test::Random random(2024);
   constexpr int kBlocks[] = {32, 64, 128, 256};
   // Number of pictures with a changed pixel. Coverage is rounded to 15 bits, which may change a

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kPeriod = 16, kMargin = 24, kSide = kPeriod + 2 * kMargin;
 
-// Returns noise. The second half of each period is the inverse of the first half around `mean`.
+// Returns periodic noise. The right half of each period is the left half, inverted around the level
+// `mean`.
 test::Scene PeriodicScene(int mean, uint64_t seed) {
   test::Random random(seed);
   test::Scene scene = test::EmptyScene(kSide, kSide, 1, 0, 0);
@@ -33,7 +34,7 @@ test::Scene PeriodicScene(int mean, uint64_t seed) {
   return scene;
 }
 
-TEST_CASE("energy: blending with half weights does not brighten the picture") {
+TEST_CASE("energy: views shifted by half a pixel do not change the mean brightness") {
   for (const starfocus_mode mode : test::kModes) {
     for (const double radius : {0.5, 1.0, 1.5, 3.03125, 4.5, 6.25}) {
       double sum = 0;

@@ -17,7 +17,7 @@ namespace {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A scene with partly unknown disparities, and the same scene filled by hand.
+// A scene with partly unknown disparities, and this scene with the expected filled disparities.
 struct Scenes {
   test::Scene unknown, filled;
   int64_t count = 0;
@@ -72,7 +72,7 @@ TEST_CASE("fill unknown: in every mode, gaps get the farther known value of the 
   }
 }
 
-TEST_CASE("fill unknown: all ways to refocus fill alike") {
+TEST_CASE("fill unknown: all ways to refocus fill unknown disparities with equal values") {
   const Scenes scenes = WithGaps(5);
   const starfocus_config config = FillingConfig(scenes.unknown);
   const starfocus_params params = test::Params(0.5, 0.5, STARFOCUS_MODE_BLOCK);
@@ -81,7 +81,8 @@ TEST_CASE("fill unknown: all ways to refocus fill alike") {
   CHECK(report.unknown_pixels == uint64_t(scenes.count));
 }
 
-TEST_CASE("fill unknown: values outside the range are rejected, also next to unknown values") {
+TEST_CASE(
+    "fill unknown: known values outside the range are rejected, even next to unknown values") {
   Scenes scenes = WithGaps(1);
   scenes.unknown.Disparity(70, 10) = scenes.unknown.disparity_max + 1;
   const starfocus_config config = FillingConfig(scenes.unknown);
@@ -92,7 +93,7 @@ TEST_CASE("fill unknown: values outside the range are rejected, also next to unk
   CHECK(out.Untouched());
 }
 
-TEST_CASE("fill unknown: without the feature, the engine rejects unknown values") {
+TEST_CASE("fill unknown: without STARFOCUS_FEATURE_FILL_UNKNOWN, unknown values are rejected") {
   const Scenes scenes = WithGaps(1);
   test::Engine engine(test::ConfigFor(scenes.unknown, 32));
   test::Output out(scenes.unknown.width, scenes.unknown.height);

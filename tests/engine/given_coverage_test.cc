@@ -96,7 +96,7 @@ test::Scene Without(test::Scene scene) {
   return scene;
 }
 
-TEST_CASE("given coverage: coverage takes precedence over a map without gaps") {
+TEST_CASE("given coverage: coverage shows gaps of a comb that the disparity map lacks") {
   const test::Scene scene = Comb();
   const starfocus_params params = ThroughDisc(kFar);
   const double with = PsnrOf(test::OutputOf(CombConfig(scene), params, scene));
@@ -112,7 +112,7 @@ TEST_CASE("given coverage: the wall ends where coverage ends, even deep inside a
     for (int x = 0; x < scene.width; ++x) {
       scene.coverage.push_back(x < kEdge ? 255 : 0);
       std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(x < kEdge ? kDark : kBright));
-      // A ramp that ends in the near surface, as in maps of neural networks.
+      // The disparities form a ramp inside the near surface, as in maps of neural networks.
       const double near = std::clamp((kEdge - kOff - x) / 8.0, 0.0, 1.0);
       scene.Disparity(x, y) = float(near * kRadius);
     }
@@ -142,8 +142,8 @@ TEST_CASE("given coverage: all ways to refocus return the same bytes") {
   }
 }
 
-// Returns the scene at twice the size, with doubled disparities. The coverage varies within each
-// group of 2x2 pixels that replaces one pixel.
+// Returns the scene at twice the size, with doubled disparities. Each pixel becomes 2x2 pixels,
+// which vary in coverage.
 test::Scene Doubled(const test::Scene& scene) {
   test::Scene doubled = test::EmptyScene(2 * kWidth, 2 * kHeight, 1, 2 * scene.disparity_min,
                                          2 * scene.disparity_max);
@@ -159,7 +159,7 @@ test::Scene Doubled(const test::Scene& scene) {
   return doubled;
 }
 
-TEST_CASE("given coverage: previews use the mean coverage of their pixels") {
+TEST_CASE("given coverage: each preview pixel has the mean coverage of 2x2 pixels") {
   const test::Scene scene = Comb(), doubled = Doubled(scene);
   starfocus_config config = CombConfig(doubled);
   config.max_blur = 4 * kNear;
@@ -176,7 +176,7 @@ TEST_CASE("given coverage: previews use the mean coverage of their pixels") {
   CHECK((preview.bytes != test::OutputOf(CombConfig(scene), params, Without(scene)).bytes));
 }
 
-TEST_CASE("given coverage: a frame after another frame detects changes of coverage") {
+TEST_CASE("given coverage: with a previous frame, changes of coverage are detected") {
   const test::Scene before = Comb();
   const starfocus_config config = CombConfig(before);
   const starfocus_params params = ThroughDisc(kFar);
@@ -195,7 +195,8 @@ TEST_CASE("given coverage: a frame after another frame detects changes of covera
   }
 }
 
-TEST_CASE("given coverage: without blur, colours that contradict the coverage do not change") {
+TEST_CASE(
+    "given coverage: without blur, the picture does not change even if the coverage is random") {
   test::Scene scene = Comb();
   test::Random random(3);
   for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
@@ -224,7 +225,8 @@ TEST_CASE("given coverage: highlights brighten only their surroundings") {
   CHECK(largest <= 1);
 }
 
-TEST_CASE("given coverage: without the feature coverage is ignored, and bad input is rejected") {
+TEST_CASE(
+    "given coverage: without the coverage feature, coverage is ignored; bad input is rejected") {
   const test::Scene scene = Comb();
   starfocus_config config = CombConfig(scene);
   config.features |= STARFOCUS_FEATURE_STREAMING;

@@ -39,7 +39,7 @@ struct Case {
   test::Depth depth;
   Lens lens;
   int block;
-  int levels = 0, range = 0;                // levels and range of a LevelCase, or 0
+  int levels = 0, range = 0;                // fields of a LevelCase, or 0
   const test::NamedShape* shape = nullptr;  // shape of the lens, or null for the default shape
 };
 
@@ -65,8 +65,8 @@ std::vector<Case> Cases() {
     for (const test::Depth depth :
          {test::Depth::kLayers, test::Depth::kSlanted, test::Depth::kNoise}) {
       for (const Lens& lens : kLenses) {
-        // Two lenses suffice for noise, since the views of a noisy line differ from each other with
-        // any lens.
+        // Two lenses suffice for noisy disparities, since with any lens, all views of a noisy line
+        // differ.
         if (depth == test::Depth::kNoise && &lens != &kLenses[1] && &lens != &kLenses[4]) continue;
         Case one = {"", 97, 70, views, depth, lens, number % 2 == 0 ? 32 : 64};
         char name[80];
@@ -79,9 +79,9 @@ std::vector<Case> Cases() {
       }
     }
   }
-  // Cases whose slices have almost MostSliceArea, or slightly more. Each picture would change if
-  // the limit were 1 % larger or smaller. In the last case, a block is cut into four tiles, and the
-  // picture differs from the picture of the uncut block.
+  // In these cases, the area of all slices is slightly below or above MostSliceArea. Each picture
+  // would change if MostSliceArea were 1 % larger or smaller. In the last case, a block is cut into
+  // four tiles, and the picture differs from the picture of the uncut block.
   for (const LevelCase& level : kLevelCases) {
     Case one = {"",          level.block,         level.block,
                 1,           test::Depth::kNoise, {STARFOCUS_MODE_FRAME, 0, 1},
@@ -90,7 +90,8 @@ std::vector<Case> Cases() {
                std::to_string(level.block);
     cases.push_back(one);
   }
-  // The lenses of these cases test both rules in block mode, PSFs, and wide blurs.
+  // The lenses of these cases test both renderers in block mode, the PSFs of blur mode, and wide
+  // blurs.
   for (const test::NamedShape& shape : test::kShapes) {
     for (const Lens& lens : {kLenses[5], kLenses[6], kLenses[7]}) {
       for (const int block : {32, 64}) {
@@ -115,7 +116,7 @@ struct Covered {
   uint64_t gathered = 0;
 };
 
-// Returns the checksum of a picture, and adds its pixels to `covered`.
+// Returns the checksum of the refocused picture, and adds its pixels to `covered`.
 std::string Refocus(const Case& one, const test::Scene& scene,
                     const starfocus::simd::Kernels* kernels, Covered* covered) {
   starfocus_config config = test::ConfigFor(scene, 43);
@@ -123,7 +124,7 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   // Cases with slanted surfaces average codes as in the paper, and other cases average light.
   config.transfer =
       one.depth == test::Depth::kSlanted ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
-  // The cases with 9 views do not gather, so that they render views at all layers.
+  // Cases with 9 views gather no cells, so that views are rendered at all layers.
   config.tuning.gather = one.views != 9;
   if (one.levels > 0) config.tuning.n_scale = 0.5;
   starfocus_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
@@ -131,8 +132,8 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   test::ReserveFor(params.lens, &config);
   test::Engine engine(config);
   test::UseKernels(kernels, engine.get());
-  // The rule of subapertures excludes layer 2 at depth edges, so cases with blocks of 32 use the
-  // line scan.
+  // The renderer slices uses no layer 2 at depth edges, so cases with blocks of 32 use the line
+  // scan.
   if (one.block == 32) params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
   if (one.levels > 0) params.renderer = STARFOCUS_RENDERER_SLICES;
   starfocus_report report = {};
@@ -168,7 +169,8 @@ void WriteGolden(const std::vector<Case>& cases, Golden golden) {
   CHECK(std::fclose(file) == 0);
 }
 
-TEST_CASE("golden: pictures are the same on every machine and SIMD target") {
+TEST_CASE(
+    "golden: refocused pictures match the recorded checksums on every machine and SIMD target") {
   std::vector<const starfocus::simd::Kernels*> tables = test::SimdTargets();
   tables.push_back(&starfocus::simd::ReferenceKernels());
   const std::vector<Case> cases = Cases();
@@ -181,7 +183,7 @@ TEST_CASE("golden: pictures are the same on every machine and SIMD target") {
     const test::Scene scene = one.levels > 0
                                   ? test::LevelScene(one.block, one.levels, one.range)
                                   : test::IntegerScene(one.width, one.height, one.views, one.depth);
-    // The last table is the reference, whose checksums are recorded.
+    // The last table holds the reference kernels, whose checksums are recorded.
     if (record) golden[one.name] = Refocus(one, scene, tables.back(), &covered);
     for (const starfocus::simd::Kernels* kernels : tables) {
       CAPTURES(one.name, kernels->name);

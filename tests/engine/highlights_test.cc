@@ -37,7 +37,8 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
                              starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB) {
   starfocus_config config = test::ConfigFor(scene, 20);
   config.superblock = 32;
-  // Near highlights, the engine uses neither layers nor gathering.
+  // The engine disables layers and gathering near highlights; the pictures for comparison do the
+  // same.
   config.tuning.max_layer = config.tuning.gather = 0;
   config.highlights = float(highlights);
   config.transfer = transfer;
@@ -51,7 +52,7 @@ double LightIn(const std::vector<uint8_t>& picture, starfocus_transfer transfer)
   return sum;
 }
 
-TEST_CASE("highlights: a lamp becomes a disc with all of its light") {
+TEST_CASE("highlights: the disc of a blurred lamp has all of the lamp's light") {
   const test::Scene lamp = WhiteRect(58, 59, 3, 3);
   for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_SRGB, STARFOCUS_TRANSFER_NONE}) {
     for (const starfocus_mode mode : test::kModes) {
@@ -68,7 +69,8 @@ TEST_CASE("highlights: a lamp becomes a disc with all of its light") {
   }
 }
 
-TEST_CASE("highlights: codes closer to clipping are brightened more, and codes below 251 are not") {
+TEST_CASE(
+    "highlights: codes from 251 are brightened, most of all 255, and lower codes are unchanged") {
   const auto light = [&](int code, double highlights) {
     return LightIn(Picture(WhiteRect(58, 58, 4, 4, code), 10, highlights), STARFOCUS_TRANSFER_SRGB);
   };
@@ -91,7 +93,7 @@ TEST_CASE("highlights: codes closer to clipping are brightened more, and codes b
   CHECK((Picture(red, 10, 8) == Picture(red, 10, 1)));
 }
 
-TEST_CASE("highlights: walls do not glow") {
+TEST_CASE("highlights: white areas larger than lamps are not brightened") {
   struct Wall {
     int x, y, width, height;
   };
@@ -106,16 +108,16 @@ TEST_CASE("highlights: walls do not glow") {
       for (size_t i = 0; i < plain.size(); ++i) {
         most = std::max(most, std::abs(int(plain[i]) - int(bright[i])));
       }
-      CHECK(most <= 1);  // blocks with highlights render views instead of gathering cells
+      CHECK(most <= 1);  // rounding: blocks with highlights gather no cells
     }
   }
-  // A fluorescent tube counts as a lamp, since it is long in only one direction.
+  // A white area that is long in only one direction, such as a fluorescent tube, counts as a lamp.
   const test::Scene tube = WhiteRect(20, 60, 80, 4);
   CHECK(LightIn(Picture(tube, 11, 4), STARFOCUS_TRANSFER_SRGB) >
         2 * LightIn(Picture(tube, 11, 1), STARFOCUS_TRANSFER_SRGB));
 }
 
-TEST_CASE("highlights: a block that sees only one large highlight is rendered once") {
+TEST_CASE("highlights: for a white picture, the excess of highlights is not rendered") {
   const auto samples = [](const test::Scene& scene, double highlights) {
     starfocus_config config = test::ConfigFor(scene, 20);
     config.tuning.gather = 0;
@@ -132,7 +134,7 @@ TEST_CASE("highlights: a block that sees only one large highlight is rendered on
   }
 }
 
-TEST_CASE("highlights: a picture without highlights is unchanged to the byte") {
+TEST_CASE("highlights: the factor changes no byte of a picture without highlights") {
   for (const int views : {1, 5, 17}) {
     test::Scene scene = test::RandomScene(70, 60, views, -4, 4, 77);
     for (auto& picture : scene.pictures) {

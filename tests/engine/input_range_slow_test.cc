@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the range of a refocused picture with the range of the views. starfocus.h states the
-// largest difference for STARFOCUS_MODE_BLOCK.
+// Compares the range of levels in a refocused picture with the range of levels in the views.
+// starfocus.h states by how much pictures of STARFOCUS_MODE_BLOCK may exceed the range.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace input_range_slow_test {
 namespace {
 
-// Draws two levels in squares or stripes of a few pixels, or at random.
+// Fills all views with two levels, in squares or stripes of a few pixels or at random.
 void DrawTwoLevels(int low, int high, test::Random* random, test::Scene* scene) {
   const int kind = random->Int(0, 3), side_x = random->Int(1, 12), side_y = random->Int(1, 12);
   const bool alike = random->Int(0, 2) > 0;
@@ -42,7 +42,7 @@ struct Trial {
   int low, high;
 };
 
-// Openings that a trial may draw.
+// Set of openings from which a trial takes a random opening.
 enum class Openings { kDefault, kAnyTheta, kAnyShape };
 
 Trial MakeTrial(uint64_t seed, starfocus_mode mode, starfocus_renderer renderer,
@@ -72,11 +72,11 @@ Trial MakeTrial(uint64_t seed, starfocus_mode mode, starfocus_renderer renderer,
   return trial;
 }
 
-// Amount by which a picture exceeds the range of its views.
+// Amount by which the levels of a picture exceed the range of levels in its views.
 struct Beyond {
   int levels = 0;
-  // Excess beyond one level of rounding, as a fraction of the difference between the light of both
-  // levels.
+  // Largest overshoot beyond one level of rounding, as a fraction of the difference of light
+  // between the low and the high level.
   double contrast = 0;
 };
 
@@ -116,7 +116,7 @@ Beyond WorstOf(starfocus_mode mode, starfocus_renderer renderer, Openings openin
 
 }  // namespace
 
-TEST_CASE("input range: frame modes stay within the levels of the views") {
+TEST_CASE("input range: pictures of frame and benchmark mode stay within the levels of the views") {
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     for (const starfocus_renderer renderer : test::kRenderers) {
       for (const Openings openings : {Openings::kAnyTheta, Openings::kAnyShape}) {
@@ -126,7 +126,7 @@ TEST_CASE("input range: frame modes stay within the levels of the views") {
   }
 }
 
-TEST_CASE("input range: subsampled blocks overshoot by no more than the header states") {
+TEST_CASE("input range: pictures of block mode overshoot by no more than starfocus.h states") {
   for (const Openings openings : {Openings::kDefault, Openings::kAnyTheta, Openings::kAnyShape}) {
     const auto contrast = [&](starfocus_renderer renderer) {
       return WorstOf(STARFOCUS_MODE_BLOCK, renderer, openings).contrast;

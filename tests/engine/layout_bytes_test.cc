@@ -42,9 +42,9 @@ TEST_CASE("layout: each allocated piece is aligned, padded and counted" *
       continue;
     }
     CHECK(first == memory);
-    CHECK(reinterpret_cast<uint8_t*>(second) == memory + 128);  // 1 and 64 bytes
-    CHECK(shared == memory + 128 + 256);                        // 140 and 64
-    CHECK(last == shared + 1088);                               // 1000 and 64
+    CHECK(reinterpret_cast<uint8_t*>(second) == memory + 128);  // 1 + 64 bytes, rounded up
+    CHECK(shared == memory + 128 + 256);                        // 140 + 64 bytes, rounded up
+    CHECK(last == shared + 1088);                               // 1000 + 64 bytes, rounded up
   }
   CHECK(counting.Bytes() == 128 + 256 + 1088 + 64);
   CHECK(arena.Bytes() == counting.Bytes());
@@ -61,12 +61,12 @@ TEST_CASE("layout: sizes beyond the address space are reported as too large") {
   CHECK(bytes((kMost - kExtra) / 4, 1) <= kMost);
   CHECK(bytes(1, (kMost - kExtra) / 4) <= kMost);
   CHECK(bytes((kMost - kExtra) / 4 + 1, 1) == kTooLarge);
-  // Checks products that overflow to small numbers.
+  // Products of count and size that overflow to small numbers are reported as too large.
   CHECK(bytes(SIZE_MAX / 4 + 1, 1) == kTooLarge);
   CHECK(bytes(SIZE_MAX / 8 + 2, 2) == kTooLarge);
   CHECK(bytes(SIZE_MAX, SIZE_MAX) == kTooLarge);
   CHECK(bytes(0, SIZE_MAX) == starfocus::kRedZone + 64);
-  // A sum that overflows: the size must remain kTooLarge afterwards.
+  // After the sum of sizes overflows, the total must remain kTooLarge.
   Arena arena(nullptr);
   arena.Take<uint8_t>(SIZE_MAX / 2 - kExtra);
   CHECK(arena.Bytes() <= SIZE_MAX / 2);
@@ -77,7 +77,7 @@ TEST_CASE("layout: sizes beyond the address space are reported as too large") {
   CHECK(arena.Bytes() == kTooLarge);
 }
 
-// The size of a workspace on a board in KiB (docs/boards.md), with all modes and rules.
+// The recorded sizes are the sizes in KiB in docs/boards.md, for all modes and both renderers.
 TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes" *
           doctest::skip(starfocus::kRedZone > 0)) {
   const auto with_coverage = [](starfocus_config config) {
@@ -92,12 +92,12 @@ TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes"
       {with_coverage(test::BoardConfig(640, 480, 1, 32, 8, 1)), 4161},
       {with_coverage(test::BoardConfig(1920, 1080, 17, 64, 32, 0)), 14443},
       {with_coverage(test::BoardConfig(1920, 1080, 1, 64, 32, 0)), 13148},
-      // VGA, one streamed view, blocks of 32, blurs of 8.
+      // VGA, one streamed view, blocks of 32 pixels, blurs of up to 8 pixels.
       {test::BoardConfig(640, 480, 1, 32, 8, 1), 1141},
-      // Full HD, whole pictures, blocks of 64, blurs of 32.
+      // Full HD, whole pictures, blocks of 64 pixels, blurs of up to 32 pixels.
       {test::BoardConfig(1920, 1080, 17, 64, 32, 0), 3049},
       {test::BoardConfig(1920, 1080, 1, 64, 32, 0), 3049},
-      // The last board has no layers 1 and 2.
+      // On the last board, the engine has no layers 1 and 2.
       {[] {
          starfocus_config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
          config.tuning.max_layer = 0;
@@ -113,8 +113,9 @@ TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes"
   }
 }
 
-// The table of docs/boards.md consists of these parts.
-TEST_CASE("layout: the parts sum to the whole workspace" * doctest::skip(starfocus::kRedZone > 0)) {
+// docs/boards.md lists the parts that MeasureParts returns.
+TEST_CASE("layout: the sizes of all parts add up to the size of the workspace" *
+          doctest::skip(starfocus::kRedZone > 0)) {
   for (const int streaming : {0, 1}) {
     for (const int images : {0, 1}) {
       starfocus_config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
@@ -129,7 +130,7 @@ TEST_CASE("layout: the parts sum to the whole workspace" * doctest::skip(starfoc
 }
 
 // To make a preview, the engine lays out its memory again for a smaller picture.
-TEST_CASE("layout: the layout of a smaller picture fits into the same memory") {
+TEST_CASE("layout: the layout of a preview fits into the workspace of the full picture") {
   test::Random random(44);
   for (int round = 0; round < 300; ++round) {
     starfocus_config config;
@@ -195,8 +196,8 @@ TEST_CASE("layout: sizes never overflow, and every call rejects sizes that are t
   int refused = 0;
   for (int width = 999; width <= STARFOCUS_MAX_SIZE; width += 1000) {
     config.width = width;
-    // Rings hold views with 3 bytes per pixel. Rings have the rows of a stripe, and the rows within
-    // reach of disparities and blurs.
+    // Ring buffers of streams hold all views with 3 bytes per pixel. A ring buffer has the rows of
+    // a stripe, and the rows within reach of the largest disparity and blur.
     const uint64_t rings = uint64_t{3 * STARFOCUS_MAX_VIEWS * (256 + 2 * 628)} * uint64_t(width);
     const uint64_t disparities = uint64_t{2 * 65535} * uint64_t(width);
     for (const bool prepared : {false, true}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the work that the engine omits because its result is known. Blocks that look equal in all
-// views are copied, and layers that no block reads are not computed.
+// Tests the work that the engine omits because its result is known. Blocks in which no view moves a
+// pixel are copied, and layers that no block reads are not computed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -53,8 +53,8 @@ test::Scene VariedScene(int width, int height, int views, float limit, test::Ran
   return scene;
 }
 
-// Refocuses a scene. Each block of the last stripe must have the same bytes if it is rendered again
-// without copying. Returns the number of copied pixels.
+// Refocuses a scene. Checks that each block of the last stripe has unchanged bytes if the block is
+// rendered instead of copied. Returns the number of copied pixels.
 uint64_t CheckRendered(const test::Scene& scene, const starfocus_config& config,
                        const starfocus_params& params) {
   test::Engine engine(config);
@@ -69,7 +69,7 @@ uint64_t CheckRendered(const test::Scene& scene, const starfocus_config& config,
   return report.copied_pixels;
 }
 
-TEST_CASE("left out: in every mode, a copied block has the bytes of a rendered block") {
+TEST_CASE("omitted work: in every mode, a copied block has the bytes of a rendered block") {
   test::Random random(51);
   uint64_t copied = 0;
   for (int round = 0; round < test::Rounds(400); ++round) {
@@ -95,7 +95,7 @@ TEST_CASE("left out: in every mode, a copied block has the bytes of a rendered b
   CHECK(copied > kSome * 256);
 }
 
-// Returns noise at disparity 0 with a column of `other` at x.
+// Returns noise at disparity 0, except for column x, which has the disparity `other`.
 test::Scene ColumnScene(int width, int height, int x, float other) {
   test::Random random(7);
   test::Scene scene = test::EmptyScene(width, height, 5, -8, 8);
@@ -107,7 +107,7 @@ test::Scene ColumnScene(int width, int height, int x, float other) {
 }
 
 TEST_CASE(
-    "left out: in frame modes, a block in focus is copied unless other pixels splat into it") {
+    "omitted work: in frame modes, blocks in focus are copied unless other pixels blur into them") {
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Scene scene = ColumnScene(256, 64, 250, 8);
     starfocus_params params = test::Params(0, 1, mode);
@@ -116,13 +116,13 @@ TEST_CASE(
     const test::Refocused picture = test::RefocusScene(scene, config, params);
     CHECK(picture.report.copied_pixels == 3 * 64 * 64);
     CHECK(picture.report.layers[0].views == 3 + uint64_t(picture.report.rendered_views));
-    // The column is within 8 pixels of the edge of the third block.
+    // The defocused column is within 8 pixels of the third block.
     scene = ColumnScene(256, 64, 192 + 7, 8);
     CHECK(test::RefocusScene(scene, config, params).report.copied_pixels == 2 * 64 * 64);
   }
 }
 
-TEST_CASE("left out: with N by (9), blocks with shifts of up to a third of a pixel are copied") {
+TEST_CASE("omitted work: the line scan copies blocks with a blur radius below a third of a pixel") {
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
     const starfocus_params params =
@@ -142,7 +142,7 @@ test::Scene FlatScene() {
   return scene;
 }
 
-TEST_CASE("left out: layers that no block reads are not computed") {
+TEST_CASE("omitted work: layers that no block reads are not computed") {
   const test::Scene scene = FlatScene();
   starfocus_config config = test::ConfigFor(scene, 40);
   const auto columns = [&](double focus) {
@@ -152,8 +152,8 @@ TEST_CASE("left out: layers that no block reads are not computed") {
             STARFOCUS_OK);
     return test::LayerColumns(engine.get());
   };
-  CHECK(columns(2.25) == 0);  // blur radius 0.25
-  // Blur radius 25: all blocks are at layer 2, and no block reads layer 1.
+  CHECK(columns(2.25) == 0);  // at blur radius 0.25, all blocks are at layer 0
+  // At blur radius 25, all blocks are at layer 2, and no block reads layer 1.
   CHECK(columns(27) == 3);
   config.tuning.max_layer = 1;
   CHECK(columns(27) == 3);

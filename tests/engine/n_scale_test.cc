@@ -26,13 +26,13 @@ Refocused Refocus(const test::Scene& scene, const starfocus_params& params, doub
                   double max_blur = 32) {
   starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.n_scale = n_scale;
-  config.tuning.gather = 0;  // without gathering, pictures differ only because of N
+  config.tuning.gather = 0;  // without gathering, only N affects the pictures
   return test::RefocusScene(scene, config, params);
 }
 
 test::Scene FlatScene(uint64_t seed) { return test::RandomScene(40, 36, 5, 0, 0, seed); }
 
-TEST_CASE("n_scale: the scale multiplies N of either rule in frame and block mode") {
+TEST_CASE("n_scale: the scale multiplies N of both renderers in frame and block mode") {
   const test::Scene scene = FlatScene(1);
   for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
     for (const double scale : kScales) {
@@ -42,7 +42,7 @@ TEST_CASE("n_scale: the scale multiplies N of either rule in frame and block mod
           starfocus_config config = test::ConfigFor(scene);
           config.tuning.n_scale = scale;
           config.tuning.max_layer = 0;
-          config.tuning.gather = 0;  // gathered cells would use no views
+          config.tuning.gather = 0;  // gathered cells render no views
           starfocus_report report = {};
           const test::Output out = test::OutputOf(config, params, scene, &report);
           const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN
@@ -69,7 +69,8 @@ TEST_CASE("n_scale: the scale does not affect benchmark and blur mode") {
   }
 }
 
-TEST_CASE("n_scale: the smallest workspace gives the same picture as a large one") {
+TEST_CASE(
+    "n_scale: with scale 2, the smallest workspace and a large workspace give equal pictures") {
   for (const double radius : {0.3, 0.51, 1.0, 2.5}) {
     const test::Scene scene = FlatScene(2);
     for (const starfocus_renderer renderer : test::kRenderers) {
@@ -82,9 +83,10 @@ TEST_CASE("n_scale: the smallest workspace gives the same picture as a large one
   }
 }
 
-TEST_CASE("n_scale: a larger scale uses more views and is closer to the benchmark") {
-  // Only one view is used, because side views of noise show noise beyond the picture, which differs
-  // between layers.
+TEST_CASE(
+    "n_scale: a larger scale renders more views, and the picture is closer to the benchmark") {
+  // The scene has only one view: noise that side views show beyond the picture would differ between
+  // layers.
   const test::Scene scene = test::IntegerScene(160, 120, 1, test::Depth::kSlanted);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
     starfocus_params params = test::Params(-9.5, 1, STARFOCUS_MODE_BENCHMARK);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses a block alone with the border of the analysis, and with wider borders. For one flat
-// surface nothing may change at any layer. Gaps between surfaces may be filled with colours from
-// beyond the border, so small changes are allowed at gaps.
+// Tests the borders that the engine plans for blocks: each block is refocused with this border and
+// with wider borders. For one flat surface, a wider border may not change any block. At gaps
+// between surfaces, which may be filled with colours from beyond the border, small changes are
+// allowed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -37,8 +38,8 @@ test::Scene FlatScene(int width, int height, int views, float limit, test::Rando
   return scene;
 }
 
-// Returns stairs or a pyramid. Each step ends every run without being a depth edge, so that runs do
-// not depend on where a line begins.
+// Returns noise on disparities that form stairs or a pyramid. Each step ends every run but is not a
+// depth edge, so that runs do not depend on where a line begins.
 test::Scene StairScene(int width, int height, int views, float limit, test::Random* random) {
   constexpr float kStep = 1.25f;
   test::Scene scene = NoiseScene(width, height, views, limit, random);
@@ -57,7 +58,7 @@ test::Scene StairScene(int width, int height, int views, float limit, test::Rand
   return scene;
 }
 
-// Returns rectangles whose disparities are so different that every edge ends a run.
+// Returns noise on rectangles whose disparities differ so much that every edge ends a run.
 test::Scene SteppedScene(int width, int height, int views, float limit, test::Random* random) {
   test::Scene scene = NoiseScene(width, height, views, limit, random);
   const int steps = static_cast<int>(limit) / 2;
@@ -75,7 +76,7 @@ test::Scene SteppedScene(int width, int height, int views, float limit, test::Ra
   return scene;
 }
 
-// Changes that wider borders cause, per layer.
+// Numbers of blocks and samples that change with a wider border, for each layer.
 struct FrameDiff {
   int blocks[STARFOCUS_LAYERS] = {}, changed[STARFOCUS_LAYERS] = {}, largest[STARFOCUS_LAYERS] = {};
   int64_t samples[STARFOCUS_LAYERS] = {}, changed_samples[STARFOCUS_LAYERS] = {};
@@ -107,13 +108,13 @@ struct FrameDiff {
 void CheckPicture(const test::Scene& scene, const starfocus_params& params, int more,
                   FrameDiff* changes) {
   starfocus_config config = test::ConfigFor(scene, 40);
-  config.tuning.gather = 0;  // uses views everywhere
-  config.superblock = 128;   // the whole picture, so that every layer is complete
+  config.tuning.gather = 0;  // renders views in all cells
+  config.superblock = 128;   // one superblock, so that layers are complete
   config.tuning.n_scale = more % 2 == 0 ? 1 : STARFOCUS_MIN_N_SCALE;
   test::Engine engine(config);
   const test::Output out = test::OutputOf(&engine, params, scene);
   for (Block block : test::PlanOf(engine.get()).blocks) {
-    // The comparison does not use `out`, because `out` has been deblocked.
+    // The blocks are rendered again, because `out` has been deblocked.
     const std::vector<uint8_t> given = test::RenderOne(block, engine.get());
     block.border.left += more;
     block.border.right += more;
@@ -148,7 +149,7 @@ void CheckSmall(const FrameDiff& changes) {
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     CHECK(changes.blocks[layer] > 50);
     CHECK(changes.changed_samples[layer] * 1000 <= changes.samples[layer]);
-    CHECK(changes.largest[layer] <= 9);  // at most the light of one of 29 views (255 / 29)
+    CHECK(changes.largest[layer] <= 9);  // the light of one of 29 views: 255 / 29
   }
 }
 
@@ -161,11 +162,11 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("refocus_block: stretched surfaces beyond the border hardly change a block") {
+TEST_CASE("refocus_block: for stretched surfaces, a wider border hardly changes a block") {
   CheckSmall(CheckPictures(250, 0.9, StairScene));
 }
 
-TEST_CASE("refocus_block: holes beyond the border hardly change a block") {
+TEST_CASE("refocus_block: for surfaces with holes, a wider border hardly changes a block") {
   CheckSmall(CheckPictures(300, 0.3, SteppedScene));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that a picture depends only on its lens. Memory that a configuration reserves for other
-// lenses changes no byte.
+// Tests that a refocused picture does not depend on the amount of reserved memory. Memory that a
+// configuration reserves for other lenses changes no byte.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace room_bytes_test {
 namespace {
 
-// Returns surfaces of a few disparities, chosen at random per pixel. These surfaces require more
+// Returns a scene of a few disparities, chosen at random for each pixel. The scene requires more
 // slices than the memory holds.
 test::Scene Levels(int side, int count, float range, test::Random* random) {
   test::Scene scene = test::EmptyScene(side, side, random->Int(0, 1) == 0 ? 1 : 5, -range, range);
@@ -40,7 +40,7 @@ std::vector<uint8_t> Picture(const starfocus_config& config, const starfocus_par
 }
 
 TEST_CASE(
-    "room: a workspace for larger blurs, more rows or more workers does not change the picture") {
+    "workspace: space for larger blurs, more rows or more workers does not change the picture") {
   test::Random random(11);
   for (int round = 0; round < test::Rounds(60); ++round) {
     const float range = static_cast<float>(random.Real(2, 40));

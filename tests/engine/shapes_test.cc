@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the blur of a small white patch for openings of every shape. The blur must be the image of
-// the opening, rotated by half a turn if the patch is nearer than the focus.
+// Tests the blur of a small white patch for openings of every shape. The blurred patch must have
+// the shape of the opening, rotated by half a turn if the patch is nearer than the focus.
 #include "tests/support/shapes.h"
 
 #include <doctest/doctest.h>
@@ -20,10 +20,10 @@ namespace {
 constexpr int kSide = 96;
 
 struct Place {
-  int x = kSide / 2, y = kSide / 2;  // centre of the patch
+  int x = kSide / 2, y = kSide / 2;  // centre of the white patch
 };
 
-// Levels of the refocused picture of 3x3 white pixels at disparity 0.
+// Levels of a refocused picture that shows 3x3 white pixels at disparity 0.
 struct Patch {
   std::vector<int> levels;
   Place place;
@@ -38,8 +38,8 @@ struct Patch {
     }
     starfocus_config config = test::ConfigFor(scene, std::abs(focus) + 1);
     config.superblock = 32;
-    config.tuning.max_layer = 0;                // layers would smooth the picture
-    config.transfer = STARFOCUS_TRANSFER_NONE;  // sums of levels are sums of light
+    config.tuning.max_layer = 0;                // layers 1 and 2 would smooth the picture
+    config.transfer = STARFOCUS_TRANSFER_NONE;  // levels are proportional to light
     starfocus_params params = test::Params(focus, 1, mode, renderer);
     shape.Set(&params.lens);
     test::ReserveFor(params.lens, &config);
@@ -49,7 +49,7 @@ struct Patch {
     }
   }
 
-  // Returns the level at (x, y) relative to the patch.
+  // Returns the level at the position (x, y) relative to the centre of the patch.
   int At(int x, int y) const {
     x += place.x;
     y += place.y;
@@ -82,7 +82,7 @@ const test::NamedShape kRing = {"ring", STARFOCUS_SHAPE_RING, 5, 0, 0, 0.6F, 0};
 const test::NamedShape kPentagon = {"pentagon", STARFOCUS_SHAPE_POLYGON, 5, 0, 0, 0.5F, 0};
 const test::NamedShape kCatsEye = {"cat's eye", STARFOCUS_SHAPE_DISC, 5, 0, 0, 0.5F, 1};
 
-TEST_CASE("shapes: the light of a patch is kept for every opening") {
+TEST_CASE("shapes: for every opening, a blurred patch keeps its total light") {
   for (const test::NamedShape& shape : test::kShapes) {
     for (const starfocus_mode mode : test::kModes) {
       CAPTURES(shape.name, mode);
@@ -94,7 +94,8 @@ TEST_CASE("shapes: the light of a patch is kept for every opening") {
   }
 }
 
-TEST_CASE("shapes: dark codes do not change even if views in the middle have much larger weights") {
+TEST_CASE(
+    "shapes: with a steep fall-off, dark areas beyond the reach of bright areas do not change") {
   constexpr int kWidth = 40, kHeight = 12, kEdge = 28;
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, 0, 0);
   const starfocus_config config = test::ConfigFor(scene, 4);
@@ -113,7 +114,7 @@ TEST_CASE("shapes: dark codes do not change even if views in the middle have muc
   }
 }
 
-TEST_CASE("shapes: the middle of a ring is dark") {
+TEST_CASE("shapes: the blur of a ring opening is dark in the middle") {
   for (const starfocus_mode mode : test::kModes) {
     CAPTURE(mode);
     const Patch patch(kRing, -10, mode, STARFOCUS_RENDERER_AUTO, {});
@@ -126,7 +127,9 @@ TEST_CASE("shapes: the middle of a ring is dark") {
   }
 }
 
-TEST_CASE("shapes: a pentagon has one axis of symmetry, and is upside down in front of the focus") {
+TEST_CASE(
+    "shapes: the blur of a pentagon has one axis of symmetry, and is upside down in front of the "
+    "focus") {
   for (const starfocus_mode mode : test::kModes) {
     for (const starfocus_renderer renderer : test::kRenderers) {
       CAPTURES(mode, renderer);
@@ -135,7 +138,8 @@ TEST_CASE("shapes: a pentagon has one axis of symmetry, and is upside down in fr
       CHECK(far.Unlike([&](int x, int y) { return far.At(x, -y); }) > 0.1);
       CHECK(far.Unlike([&](int x, int y) { return far.At(y, x); }) > 0.1);
       CHECK(far.Unlike([&](int x, int y) { return near.At(-x, -y); }) < 0.03);
-      // One corner of the pentagon is at the top, and its lowest edge is at cos(36 degrees).
+      // One corner of the pentagon is at the top, and the lowest edge is cos(36 degrees) radii
+      // below the centre.
       CHECK(far.Sum([](int, int y) { return y < -8 ? 1 : 0; }) > 10);
       CHECK(far.Sum([](int, int y) { return y > 9 ? 1 : 0; }) <= 10);
       CHECK(far.Sum([](int x, int) { return x; }) / far.Light() == doctest::Approx(0).epsilon(0.1));
@@ -143,7 +147,7 @@ TEST_CASE("shapes: a pentagon has one axis of symmetry, and is upside down in fr
   }
 }
 
-TEST_CASE("shapes: all modes use the same opening") {
+TEST_CASE("shapes: in all modes, the blur of a patch is close to the blur of blur mode") {
   for (const test::NamedShape& shape : test::kShapes) {
     if (shape.cats_eye > 0) continue;
     for (const double focus : {6.0, -11.0}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that mirroring, transposing or rotating the light field mirrors, transposes or rotates the
-// refocused picture, if the picture consists of whole blocks. The results must be exact, except for
-// rotations with wide subapertures.
+// refocused picture, if the picture consists of whole blocks. The pictures must be equal to the
+// byte, except for rotations with wide subapertures.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ TEST_CASE("symmetry: transposed and rotated light fields give transposed and rot
   }
 }
 
-TEST_CASE("symmetry: pictures are also symmetric in benchmark mode and with noisy disparities") {
+TEST_CASE("symmetry: benchmark pictures of noisy disparities are symmetric") {
   test::Scene scene = test::RandomScene(64, 32, 17, -2, 3, 33);
   test::Random random(34);
   test::NoisyDisparity(&scene, &random);
@@ -107,8 +107,9 @@ TEST_CASE("symmetry: pictures are also symmetric in benchmark mode and with nois
   for (const Symmetry& s : kTurns) Check(s, scene, lines);
 }
 
-// Tests subapertures up to several pixels wide, on flat, slanted and noisy surfaces.
-TEST_CASE("symmetry: with wide subapertures, mirrored pictures are exact") {
+// The subapertures are up to several pixels wide, and the surfaces are flat, slanted and noisy.
+TEST_CASE(
+    "symmetry: with wide subapertures, mirrored light fields give exactly mirrored pictures") {
   for (const int views : {17, 5, 1}) {
     test::Scene scene = test::RandomScene(64, 32, views, -3, 8, 35);
     test::Random random(36);
@@ -123,8 +124,9 @@ TEST_CASE("symmetry: with wide subapertures, mirrored pictures are exact") {
 }
 
 // With wide subapertures, all views are rendered along rows first. On a single surface, the order
-// changes only the rounding. Next to a depth edge, the order determines which surface is visible.
-TEST_CASE("symmetry: with wide subapertures, rotated pictures are nearly equal") {
+// of rows and columns affects only the rounding. Next to a depth edge, the order of rows and
+// columns determines which surface is visible.
+TEST_CASE("symmetry: with wide subapertures, rotated light fields give nearly rotated pictures") {
   for (const int views : {17, 5, 1}) {
     for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
       for (const double focus : {-12.6, 1.3}) {

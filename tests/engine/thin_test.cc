@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests thin structures: strands thinner than a pixel in front of a wall. The map has the disparity
-// of the surface at the centre of each pixel.
+// Tests thin structures: strands thinner than a pixel in front of a wall. The disparity map has the
+// disparity of the surface at the centre of each pixel.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ constexpr int kWidth = 160, kHeight = 144;
 constexpr double kNear = 6, kFar = -6;
 constexpr double kThick = 0.9;  // thickness of a strand in pixels
 
-// Returns the part of the pixel at (x, y) of the centre view that strands cover. The strands lean
-// to both sides in the middle of the picture.
+// Returns the part of the pixel at (x, y) of the centre view that strands cover. The strands, in
+// the middle rows of the picture, lean to both sides.
 double CoverageAt(double x, double y) {
   double left = 1;
   for (int k = 0; k < 24; ++k) {
@@ -33,13 +33,15 @@ double CoverageAt(double x, double y) {
   return 1 - left;
 }
 
-// WallAt is a bright wall with large soft waves. StrandAt is the dark colour of strands.
+// WallAt returns the light of a bright wall with large soft waves. StrandAt returns the light of
+// dark strands.
 double WallAt(double x, double y, int c) {
   return 170 + 12 * c + 25 * std::sin(x / 19 + c) + 20 * std::cos(y / 23);
 }
 double StrandAt(int c) { return 60 - 12 * c; }
 
-// Returns the light from position (u, v) of the lens, focused at a disparity.
+// Returns the light of a pixel that passes the lens at (u, v), if the lens is focused at the
+// disparity `focus`.
 double LightAt(int x, int y, int c, double u, double v, double focus) {
   const double near_x = x + u * (kNear - focus), near_y = y + v * (kNear - focus);
   const double far_x = x + u * (kFar - focus), far_y = y + v * (kFar - focus);
@@ -78,7 +80,7 @@ starfocus_params ThroughDisc(double focus) {
   return params;
 }
 
-// Returns the mean over a disc of lens positions.
+// Returns the expected picture: the mean of LightAt over positions in a disc.
 std::vector<double> TruthOf(double focus) {
   std::vector<double> truth(3 * kWidth * kHeight, 0.0);
   constexpr int kSteps = 7;
@@ -97,7 +99,7 @@ std::vector<double> TruthOf(double focus) {
   return truth;
 }
 
-// Returns the PSNR in dB without the rim of the picture, where views lack data.
+// Returns the PSNR in dB of the inner part of the picture; near the rim, the views lack data.
 double PsnrOf(const test::Output& out, const std::vector<double>& truth) {
   double sum = 0, count = 0;
   for (int y = 16; y < kHeight - 16; ++y) {
@@ -113,7 +115,8 @@ double PsnrOf(const test::Output& out, const std::vector<double>& truth) {
 
 }  // namespace
 
-TEST_CASE("thin: strands are separated from a wall in focus and from a blurred wall") {
+TEST_CASE(
+    "thin: with coverage, the PSNR of strands in front of a sharp or blurred wall is higher") {
   for (const double focus : {kFar, kNear}) {
     const std::vector<double> truth = TruthOf(focus);
     for (const int views : {1, 5}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests light and its codes as STARFOCUS_TRANSFER_SRGB defines them.
+// Tests conversions between codes and light, and averages of light, with both transfer functions.
 #include "lib/base/transfer.h"
 
 #include <doctest/doctest.h>
@@ -52,7 +52,7 @@ TEST_CASE("transfer: every level of light is rounded to the nearest code") {
   }
 }
 
-// Returns a flat picture with `code_at(x, y)` in all channels.
+// Returns a scene at one disparity, with the code code_at(x, y) in all channels.
 template <class CodeAt>
 test::Scene FlatScene(int width, int height, double disparity, const CodeAt& code_at) {
   test::Scene scene = test::EmptyScene(width, height, 1, float(disparity), float(disparity));
@@ -87,7 +87,7 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone at every focus") {
           for (int x = 1; x < kWidth; ++x) {
             monotone = monotone && at(x) >= at(x - 1) && at(x) - at(x - 1) <= 1;
           }
-          // A blurred ramp must be nearly unchanged, except near the ends of the ramp.
+          // Blur must hardly change the ramp, except near the ends of the ramp.
           for (int x = 45; x < kWidth - 45; ++x) {
             survives = survives && std::abs(at(x) - x / kStep) <= 1;
           }
@@ -99,13 +99,13 @@ TEST_CASE("transfer: a ramp of dark codes stays monotone at every focus") {
   }
 }
 
-TEST_CASE("transfer: half the light of white is code 188, or code 128 without a curve") {
+TEST_CASE("transfer: a blurred black and white chequerboard has code 188, or 128 without a curve") {
   const test::Scene board =
       FlatScene(96, 96, 0, [](int x, int y) { return (x + y) % 2 == 0 ? 255 : 0; });
   for (const starfocus_mode mode : test::kModes) {
     for (const double blur : {6.0, 11.0, 20.0}) {
-      // The rule of the paper is excluded, because views that are approximately a pixel apart
-      // reproduce the pattern of the board.
+      // The line scan is excluded: its views are approximately a pixel apart and reproduce the
+      // pattern of the chequerboard.
       const auto middle = [&](starfocus_transfer transfer) {
         const auto out = RefocusFlat(board, blur, mode, transfer, STARFOCUS_RENDERER_SLICES);
         return int(out.rgb[3 * (48 * 96 + 48)]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the order of the jobs that a runner gets, and that engines in several threads are
+// Tests the order in which jobs are passed to a runner, and that engines in several threads are
 // independent.
 #include <doctest/doctest.h>
 
@@ -28,8 +28,7 @@ struct NotingRunner {
 };
 
 TEST_CASE("workers: each block is a job, and jobs with the largest predicted time start first") {
-  // The flat, blurred area begins within the first superblock, which is therefore split into
-  // blocks.
+  // A flat, blurred area begins within the first superblock, so the engine splits this superblock.
   constexpr int kColumns = 3, kSide = 128;
   test::Scene scene = test::RandomScene(kColumns * kSide, kSide, 5, -9, 9, 31);
   for (int y = 0; y < kSide; ++y) {
@@ -57,7 +56,7 @@ TEST_CASE("workers: each block is a job, and jobs with the largest predicted tim
   CHECK(std::count(runner.sets.begin(), runner.sets.end(), int32_t(planned.size())) >= 1);
 }
 
-TEST_CASE("workers: engines in several threads are independent") {
+TEST_CASE("workers: engines that refocus in several threads at once do not affect each other") {
   constexpr int kThreads = 4;
   std::vector<test::Scene> scenes;
   std::vector<std::vector<uint8_t>> expected(kThreads), got(kThreads);

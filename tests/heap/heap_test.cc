@@ -111,7 +111,7 @@ void operator delete(void* memory, size_t, std::align_val_t) noexcept {
 
 namespace {
 
-TEST_CASE("the watch counts every kind of heap call") {
+TEST_CASE("HeapWatch counts every kind of heap call") {
   HeapWatch watch;
   void* volatile memory = std::malloc(10);
   memory = std::realloc(memory, 1000);
@@ -125,9 +125,9 @@ TEST_CASE("the watch counts every kind of heap call") {
   CHECK(watch.Stop() >= 9);
 }
 
-int wrong = 0;  // number of calls with an unexpected result
+int wrong = 0;  // number of engine calls with an unexpected status
 
-// Replaces CHECK, which may allocate memory.
+// Counts wrong statuses; used instead of CHECK, which may allocate memory.
 void Expect(starfocus_status expected, starfocus_status status) { wrong += status != expected; }
 
 TEST_CASE("size queries, initialisation, refocusing and streaming make no heap call") {
@@ -170,7 +170,7 @@ TEST_CASE("size queries, initialisation, refocusing and streaming make no heap c
   }
 }
 
-TEST_CASE("images make no heap call") {
+TEST_CASE("refocusing and streaming images make no heap call") {
   test::Random random(3);
   const test::Scene scene = test::RandomScene(70, 50, 5, -3, 3, 5);
   test::ImageKind nv12;
@@ -198,7 +198,7 @@ TEST_CASE("images make no heap call") {
 }
 
 TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no heap call") {
-  // The scene is in focus on the left, and strongly blurred on the right.
+  // The left part of the scene is in focus, and the right part is strongly blurred.
   test::Scene scene = test::RandomScene(160, 96, 5, -1, 26, 8);
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
@@ -208,7 +208,7 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
   starfocus_config config = test::ConfigFor(scene, 28);
   config.superblock = 32;
   config.features |= STARFOCUS_FEATURE_STREAMING;
-  config.tuning.gather = 0;     // uses all three layers
+  config.tuning.gather = 0;     // without gathering, blocks use all layers
   test::Engine holder(config);  // only its memory is used
   REQUIRE(holder.status() == STARFOCUS_OK);
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
@@ -235,7 +235,7 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
   for (const starfocus_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
 }
 
-TEST_CASE("creating an engine with an allocator makes no heap call, nor does cancelling") {
+TEST_CASE("creating an engine with an allocator, and cancelling, make no heap call") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
   const starfocus_config config = test::ConfigFor(scene, 16);
   test::Engine holder(config);  // only its memory is used
@@ -264,7 +264,7 @@ TEST_CASE("creating an engine with an allocator makes no heap call, nor does can
   CHECK(counted == 0);
 }
 
-TEST_CASE("preparing, regions and refocusing prepared light fields make no heap call") {
+TEST_CASE("preparing a light field and refocusing regions make no heap call") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
   const starfocus_config config = test::ConfigFor(scene, 16);
   test::Engine holder(config), memory(config);
@@ -290,7 +290,7 @@ TEST_CASE("preparing, regions and refocusing prepared light fields make no heap 
   CHECK(counted == 0);
 }
 
-TEST_CASE("measuring, filling and tapping disparity maps make no heap call") {
+TEST_CASE("measuring, filling and focusing with disparity maps make no heap call") {
   test::Scene scene = test::RandomScene(40, 30, 1, -3, 3, 6);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (int x = 0; x < 40; ++x) scene.Disparity(x, 11) = nan;

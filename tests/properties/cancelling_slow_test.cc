@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that every operation that makes a picture can be cancelled at any call of progress, and
-// leaves the engine unchanged.
+// Checks that every operation that makes a picture can be cancelled at any call of the progress
+// function, and that the engine is then unchanged.
 #include <doctest/doctest.h>
 
 #include "tests/properties/operations.h"
@@ -9,7 +9,9 @@
 namespace cancelling_slow_test {
 namespace {
 
-TEST_CASE("cancelling: after a cancellation at any call, the engine is unchanged") {
+TEST_CASE(
+    "cancelling: after cancellation at any progress call, the engine still returns whole "
+    "pictures") {
   for (const properties::Operation& operation : properties::PictureOperations(false)) {
     properties::CheckCancelling(operation);
   }

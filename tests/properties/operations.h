@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations that make pictures or maps, and the properties that each of them must have. The bytes
-// of a result must not depend on the workers, on the order of jobs, or on earlier results. Failures
-// of a runner and cancelled calls must not affect later results.
+// Operations that make pictures or maps, and checks of the properties that each operation must
+// have. The bytes of a result must not depend on the workers, on the order of jobs, or on earlier
+// results. Calls that were cancelled or whose runner failed must not affect later results.
 #ifndef STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
 #define STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
 
@@ -30,23 +30,23 @@ namespace properties {
 
 using Bytes = std::vector<uint8_t>;
 
-// Conditions that must not change the bytes of a result.
+// Conditions of an operation that must not affect the bytes of the result.
 struct Setup {
   int workers = 1;
   bool used = false;  // true if the engine or the memory was used before
   // A null pointer selects the best kernels of this machine.
   const starfocus::simd::Kernels* kernels = nullptr;
   const starfocus::simd::DepthKernels* depth_kernels = nullptr;
-  test::Symmetry mirror = {false, false, false};  // mirrors the input, and mirrors the result back
+  test::Symmetry mirror = {false, false, false};  // applied to the input; undone in the result
 };
 
-// Runs a prepared operation. Can be called any number of times.
+// Runs a prepared operation. A Run may be called any number of times.
 using Run = std::function<starfocus_status(const starfocus_callbacks& callbacks, Bytes* out)>;
 
 struct Operation {
   std::string name;
-  int32_t rows;   // rows that progress reports
-  int questions;  // smallest number of calls of progress
+  int32_t rows;   // number of rows that the progress function reports
+  int questions;  // smallest number of progress calls
   std::function<Run(const Setup& setup)> set_up;
 };
 
@@ -109,7 +109,7 @@ inline void CheckSetups(const Operation& operation, const std::vector<Setup>& se
 }
 
 // Runner that runs only half of the jobs of one set. The runner reports only every second failure,
-// since the engine must also detect missing jobs without a report.
+// since the engine must detect missing jobs even if the runner reports success.
 struct FailingRunner {
   int fails_at, sets = 0;
 
@@ -121,8 +121,8 @@ struct FailingRunner {
   }
 };
 
-// Checks that after a failure of the runner at any set of jobs, the next call returns the whole
-// result.
+// Checks that the call after a failure of the runner returns the whole result, for a failure at
+// each set of jobs.
 inline void CheckFailingRunner(const Operation& operation) {
   CAPTURE(operation.name);
   const Run run = operation.set_up({});
@@ -144,9 +144,9 @@ inline void CheckFailingRunner(const Operation& operation) {
   }
 }
 
-// Cancels at every call of progress. Slow builds cancel at the first ten calls, and then only at
-// every seventh call. After each cancellation, the same engine must return the result of a new
-// engine.
+// Cancels an operation at each of its progress calls in turn. In slow builds, the operation is
+// cancelled at the first ten calls, and then only at every seventh call. After each cancellation,
+// the same engine must return the result of a new engine.
 inline void CheckCancelling(const Operation& operation) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up({}));
@@ -164,7 +164,7 @@ inline void CheckCancelling(const Operation& operation) {
       Bytes bytes;
       const starfocus_status status = run(callbacks, &bytes);
       CHECK(watch.Good());
-      if (watch.calls <= stop) {  // the operation has ended before the cancellation
+      if (watch.calls <= stop) {  // the operation ended before call `stop`
         CHECK(status == STARFOCUS_OK);
         CHECK(watch.Ended());
         CHECK(watch.rows == operation.rows);

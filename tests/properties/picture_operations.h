@@ -20,7 +20,8 @@
 
 namespace properties {
 
-constexpr int kWidth = 70, kHeight = 75;  // three superblocks in each direction
+// Size of the pictures: three superblocks in each direction.
+constexpr int kWidth = 70, kHeight = 75;
 
 struct Lens {
   const char* name;
@@ -29,8 +30,8 @@ struct Lens {
   double aperture;
   int views;
   float highlights = 1;
-  bool flat = false;     // one surface; blocks are gathered unless `layered`
-  bool layered = false;  // one surface; blocks render views at layers 1 and 2
+  bool flat = false;  // true for a scene of one surface, whose blocks are gathered unless `layered`
+  bool layered = false;  // true if blocks of one surface render views at layers 1 and 2
 };
 
 constexpr Lens kBlocks = {"blocks", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 1, 5};
@@ -53,15 +54,15 @@ constexpr Lens kLenses[] = {
     {"pinhole", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO, 0, 5},
 };
 
-// A scene, the previous frame, and an engine that has prepared the scene.
+// A scene, the frame before this scene, and an engine that has prepared the scene.
 struct Picture {
   Picture(test::Scene of, const Lens& lens, const Setup& setup) : scene(std::move(of)) {
     if (lens.flat) scene.disparity.assign(scene.disparity.size(), 9);
-    for (int view = 0; view < scene.views(); ++view) {  // a white square, which counts as a lamp
+    for (int view = 0; view < scene.views(); ++view) {  // 4x4 white pixels are a lamp
       for (int y = 40; y < 44; ++y) std::fill_n(scene.Pixel(view, 30, y), 12, uint8_t{255});
     }
     before = scene;
-    before.Pixel(0, 50, 60)[1] ^= 64;  // one pixel in the last stripe differs
+    before.Pixel(0, 50, 60)[1] ^= 64;  // the frames differ in one pixel of the last stripe
     config = test::ConfigFor(scene, 13);
     config.superblock = 32;
     config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
@@ -185,8 +186,8 @@ inline Operation OperationOf(const Lens& lens, const NamedWay& way) {
           }};
 }
 
-// Makes a picture from views in the given format and a map of half the size. With `prepares`, the
-// light field is prepared first.
+// Returns an operation that makes a picture from views in the given format and a depth map of half
+// the size. If `prepares` is true, the operation prepares the light field first.
 inline Run SetUpImages(int format, bool prepares, const Setup& setup) {
   test::Random random(uint64_t(format) + 1);
   const test::ImageKind kind = test::AnyKind(format, &random);
@@ -217,7 +218,7 @@ inline Run SetUpImages(int format, bool prepares, const Setup& setup) {
   };
 }
 
-// Returns the operations with images of all formats, or only of NV12.
+// Returns all operations that make pictures; operations on images use all formats, or only NV12.
 inline std::vector<Operation> PictureOperations(bool all_formats = true) {
   std::vector<Operation> all;
   for (const Lens& lens : kLenses) {

@@ -14,14 +14,15 @@ TEST_CASE("pictures: the result does not depend on the number of workers or the 
   for (const Operation& operation : PictureOperations()) CheckWorkers(operation);
 }
 
-TEST_CASE("pictures: a used engine returns the result of a new engine") {
+TEST_CASE("pictures: an engine that was used before returns the bytes of a new engine") {
   Setup used;
   used.used = true;
   for (const Operation& operation : PictureOperations()) CheckSetups(operation, {{}, used});
 }
 
 TEST_CASE(
-    "pictures: after a runner has failed at any jobs, the next call makes the whole picture") {
+    "pictures: after a runner has failed at any set of jobs, the next call returns the whole "
+    "picture") {
   for (const Operation& operation : PictureOperations()) CheckFailingRunner(operation);
 }
 

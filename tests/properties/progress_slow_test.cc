@@ -22,8 +22,8 @@ void SetCallbacks(test::Engine* engine, const starfocus_callbacks& callbacks) {
   REQUIRE(starfocus_set_callbacks(engine->get(), &callbacks) == STARFOCUS_OK);
 }
 
-// Pulls a whole stream. Each pull is cancelled after `every` calls of progress, and is then
-// repeated. Returns the number of cancelled pulls, rounded up to an even number.
+// Pulls a whole stream. Each pull is cancelled after `every` calls of the progress function, and is
+// then repeated. Returns the number of cancelled pulls, rounded up to an even number.
 int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* out) {
   test::Engine engine(f.config);
   Watch watch;
@@ -65,9 +65,9 @@ TEST_CASE("progress: a cancelled stream continues with its rows and returns the 
   CHECK(cancelled > 40);
 }
 
-TEST_CASE("progress: a stream that is cancelled in begin has not begun") {
+TEST_CASE("progress: if starfocus_stream_begin is cancelled, no stream has begun") {
   const Picture f(SceneOf(kBlur), kBlur, {});
-  test::Engine engine(f.config);  // starfocus_stream_begin makes the PSFs
+  test::Engine engine(f.config);  // in blur mode, starfocus_stream_begin computes the PSFs
   Watch watch(0);
   SetCallbacks(&engine, Watched(&watch));
   CHECK(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_ERROR_CANCELLED);
@@ -77,9 +77,9 @@ TEST_CASE("progress: a stream that is cancelled in begin has not begun") {
   CHECK(starfocus_stream_push(engine.get(), &field, 1, &consumed) == STARFOCUS_ERROR_STATE);
 }
 
-// The limit is the work between two calls of progress, not the number of blocks. A job with a
-// single block must therefore call progress repeatedly.
-TEST_CASE("progress: no block computes a million samples between two calls") {
+// The work between two calls of the progress function is limited, even within a large block. A job
+// that computes a single block must therefore call the progress function repeatedly.
+TEST_CASE("progress: at most a million samples are computed between two progress calls") {
   constexpr double kMost = 1 << 20;
   for (const Lens& of : kLenses) {
     CAPTURE(of.name);
@@ -91,12 +91,12 @@ TEST_CASE("progress: no block computes a million samples between two calls") {
     starfocus_config config = test::ConfigFor(scene, 32);
     config.superblock = side;
     config.tuning.max_layer = 0;
-    // For gathered pixels, the test assumes PSFs of half the width, as a lower bound.
+    // As a lower bound of the work for gathered pixels, the test assumes PSFs of half the width.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
     starfocus_params params = test::Params(9 - radius, 1, of.mode, of.renderer);
     test::Engine engine(config);
-    // While the first picture makes the PSFs, progress is called as well. Only the calls of the
-    // second picture are counted.
+    // The first picture also computes the PSFs, which causes further progress calls. The test
+    // therefore counts only the progress calls of the second picture.
     test::Output out = test::OutputOf(&engine, params, scene);
     Watch watch;
     starfocus_report report = {};
@@ -105,7 +105,7 @@ TEST_CASE("progress: no block computes a million samples between two calls") {
     double samples =
         double(report.rendered_samples) + 3.0 * size * size * double(report.gathered_pixels);
     if (of.mode == STARFOCUS_MODE_BLUR)
-      samples = 3.0 * 64 * 64 * 49 * 49;  // lower bound for the smallest blur radius
+      samples = 3.0 * 64 * 64 * 49 * 49;  // work at the smallest blur radius
     CAPTURE(samples);
     CHECK(samples > 4 * kMost);
     CHECK(watch.calls >= samples / kMost);

@@ -45,7 +45,7 @@ std::string Code(const fs::path& path) {
   return code;
 }
 
-// Returns all strings that the first group of the pattern matches.
+// Returns all strings in `text` that match the first group of `pattern`.
 std::set<std::string> Find(const std::string& text, const std::string& pattern) {
   std::set<std::string> found;
   const std::regex expression(pattern);
@@ -79,13 +79,13 @@ TEST_CASE("documents: the README has 110 lines at most") {
   CHECK(text.size() > 1000);
 }
 
-TEST_CASE("documents: they state the version of the library") {
+TEST_CASE("documents: CITATION.cff and CHANGELOG.md state the version of the library") {
   const std::string version = STARFOCUS_VERSION_STRING;
   CHECK(Find(Read(kRoot / "CITATION.cff"), "\nversion: (.+)\n").count(version) == 1);
   CHECK(Find(Read(kRoot / "CHANGELOG.md"), "\n## \\[([^\\]]+)\\]").count(version) == 1);
 }
 
-TEST_CASE("documents: the targets of their links exist") {
+TEST_CASE("documents: the targets of all links in documents exist") {
   size_t links = 0;
   for (const fs::path& document : Documents()) {
     for (const std::string& link : Find(Read(document), "\\]\\(([^)#: ]+)[^): ]*\\)")) {
@@ -97,8 +97,8 @@ TEST_CASE("documents: the targets of their links exist") {
   CHECK(links > 20);
 }
 
-TEST_CASE("documents: the files that they name exist") {
-  // Matches names such as `lib/base/fixed.h`, but not patterns with * or <name>.
+TEST_CASE("documents: all files that documents name exist") {
+  // The pattern matches names such as `lib/base/fixed.h`, but not names with * or <name>.
   size_t files = 0;
   for (const fs::path& document : Documents()) {
     const std::string pattern =
@@ -112,14 +112,14 @@ TEST_CASE("documents: the files that they name exist") {
   CHECK(files > 20);
 }
 
-TEST_CASE("documents: the identifiers that they name exist in the code") {
+TEST_CASE("documents: all identifiers that documents name exist in the code") {
   const std::set<std::string> words = WordsOfCode();
   size_t names = 0;
   for (const fs::path& document : Documents()) {
     const std::string pattern =
         "`((?:starfocus_|STARFOCUS_|k[A-Z]|[A-Z][a-z]+[A-Z])[A-Za-z_0-9]*)[^`]*`";
     for (const std::string& name : Find(Prose(document), pattern)) {
-      if (name.back() == '_') continue;  // a group of names, for example starfocus_stream_*
+      if (name.back() == '_') continue;  // a prefix of names, such as starfocus_stream_*
       CHECK_MESSAGE(words.count(name) == 1, document.filename().string()
                                                 << " names an unknown identifier: " << name);
       ++names;
@@ -138,7 +138,7 @@ std::string ReadAll(const std::vector<std::string>& folders,
   return text;
 }
 
-TEST_CASE("documents: the functions that their example programs call exist") {
+TEST_CASE("documents: all starfocus_ and STARFOCUS_ names in documents exist in the code") {
   const std::set<std::string> words = WordsOfCode();
   size_t names = 0;
   for (const fs::path& document : Documents()) {
@@ -153,7 +153,7 @@ TEST_CASE("documents: the functions that their example programs call exist") {
   CHECK(names > 40);
 }
 
-TEST_CASE("documents: the commands and options that they name exist") {
+TEST_CASE("documents: all commands and options that documents name exist") {
   const std::string sources = ReadAll({"examples", "tests"}, {".cc", ".h"});
   const std::string scripts = Read(kRoot / "do") + ReadAll({"toolchains"}, {".sh", ".cmake"});
   const std::set<std::string> of_others = {"--preset", "--build", "--install", "--prefix",

@@ -20,15 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder may include its own headers and headers of earlier folders in this list. The last folder
-// is lib/analysis, because it measures the engine.
+// Source files may include headers of their own folder and headers of earlier folders in this list.
+// The last folder is lib/analysis, because it measures the engine.
 const std::vector<std::string> kRooms = {
     "simd",       "lib/base",   "lib/convert", "lib/input",     "lib/coverage",
     "lib/plan",   "lib/filter", "lib/slices",  "lib/line_scan", "lib/engine",
     "lib/source", "lib/depth",  "lib/api",     "lib/analysis"};
 
-// Folders outside the engine, each with the folders whose headers it may include. The outside
-// folders may include only public headers of the engine.
+// Folders outside the engine, each with the folders whose headers it may include. From the engine,
+// the outside folders may include only public headers.
 const std::map<std::string, std::set<std::string>> kOutside = {
     {"platform", {"platform"}},
 };
@@ -80,7 +80,8 @@ std::vector<std::string> FindBackward(const std::vector<Include>& includes) {
 
 using Needs = std::map<std::string, std::set<std::string>>;  // modules that a module includes
 
-// Removes modules that include no remaining module. Returns true if a module was removed.
+// Removes modules that do not include any remaining module from `needs`. Returns true if a module
+// was removed.
 bool DropLeaves(Needs* needs) {
   bool changed = false;
   for (auto module = needs->begin(); module != needs->end();) {
@@ -107,8 +108,7 @@ bool DropRoots(Needs* needs) {
   return changed;
 }
 
-// Returns the modules that include each other, directly or indirectly, and the modules on paths
-// between such modules.
+// Returns the modules of circles of includes, and the modules on paths between circles.
 std::set<std::string> FindCircles(const std::vector<Include>& includes) {
   Needs needs;
   for (const Include& include : includes) {
@@ -124,7 +124,7 @@ std::set<std::string> FindCircles(const std::vector<Include>& includes) {
 
 }  // namespace
 
-TEST_CASE("includes: the folders of simd and lib include each other in one direction only") {
+TEST_CASE("includes: folders of simd and lib include only headers of earlier folders") {
   std::vector<Include> includes = ReadIncludes("lib");
   const std::vector<Include> kernels = ReadIncludes("simd");
   includes.insert(includes.end(), kernels.begin(), kernels.end());
@@ -138,12 +138,12 @@ TEST_CASE("includes: the folders of simd and lib include each other in one direc
   }
 }
 
-TEST_CASE("includes: no modules include each other in a circle") {
+TEST_CASE("includes: the modules of simd and lib form no circle of includes") {
   std::vector<Include> includes = ReadIncludes("lib");
   const std::vector<Include> kernels = ReadIncludes("simd");
   includes.insert(includes.end(), kernels.begin(), kernels.end());
   for (const std::string& module : FindCircles(includes))
-    FAIL_CHECK("this module is in a circle of includes: " << module);
+    FAIL_CHECK("a circle of includes contains the module " << module);
 }
 
 TEST_CASE("includes: platform code uses the engine only through its C ABI") {
@@ -165,7 +165,7 @@ TEST_CASE("includes: tests access the internals of the engine through one header
   CHECK(found > 0);
 }
 
-TEST_CASE("includes: the checks detect backward includes and circles") {
+TEST_CASE("includes: FindBackward and FindCircles detect backward includes and circles") {
   const std::vector<Include> backward = {{"lib/plan/timing.cc", "lib/filter/gather.h"}};
   CHECK(FindBackward(backward) ==
         std::vector<std::string>{"lib/plan/timing.cc -> lib/filter/gather.h"});

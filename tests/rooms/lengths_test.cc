@@ -21,8 +21,8 @@ const std::set<std::string> kSources = {".h", ".hpp", ".c", ".cc", ".py", ".java
 
 // Returns the first lines of functions with more than `limit` lines. In the layout of clang-format,
 // the last line of a function contains only a brace. The first line of a function is the last
-// preceding line with the indentation of this brace. Lines that contain only a case label do not
-// count.
+// preceding line with the indentation of this brace. Lines that contain only a case label are not
+// counted.
 std::vector<std::string> FindLong(const std::vector<std::string>& lines, size_t limit) {
   const std::regex type(
       "\\s*(?:public |static |final )*(typedef|template|struct|class|enum|union|namespace)\\b.*");
@@ -63,7 +63,7 @@ TEST_CASE("lengths: no function has more than 60 lines") {
   }
 }
 
-TEST_CASE("lengths: the check detects long functions and ignores lists of cases") {
+TEST_CASE("lengths: FindLong detects long functions and does not count lines of case labels") {
   const auto body = [](const std::string& head, const std::string& line, const std::string& close) {
     std::vector<std::string> lines = {head};
     lines.insert(lines.end(), 20, line);

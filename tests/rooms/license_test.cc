@@ -32,7 +32,7 @@ TEST_CASE("licence: every source file names the licence") {
       {"lib", "simd", "platform", "examples", "tests", "toolchains", "cmake"}, kSources);
   for (const fs::path& path : files) {
     CHECK_MESSAGE(NamesLicence(path),
-                  "its first line must be '// " << kLicence << "': " << path.string());
+                  "the first line of this file must be '// " << kLicence << "': " << path.string());
   }
   CHECK(files.size() > 300);
 }

@@ -11,8 +11,8 @@
 namespace names_test {
 namespace {
 
-// Counts the definitions of structures and classes by name. Nested structures and classes are
-// ignored.
+// Counts the definitions of structures and classes by name. Structures and classes inside other
+// structures and classes are ignored.
 void CountStructures(const std::vector<std::string>& lines, std::map<std::string, int>* counts) {
   static const std::regex kDefinition("(?:struct|class) ([A-Za-z0-9]+)(?: final)?(?: :.*)? \\{.*");
   std::smatch match;
@@ -33,7 +33,7 @@ TEST_CASE("names: no two structures in lib have the same name") {
   }
 }
 
-TEST_CASE("names: the check detects a structure that is defined twice") {
+TEST_CASE("names: CountStructures counts both definitions of a structure that is defined twice") {
   std::map<std::string, int> counts;
   CountStructures({"struct A {", "struct B;", "class A : public B {", "  struct C {"}, &counts);
   CHECK(counts == std::map<std::string, int>{{"A", 2}});

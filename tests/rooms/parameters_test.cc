@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that functions have at most six parameters. Replace longer parameter lists with a
-// structure.
+// Checks that functions have at most six parameters. Functions that require more values take a
+// structure instead.
 #include <doctest/doctest.h>
 
 #include <cctype>
@@ -75,8 +75,8 @@ bool IsDeclaration(const std::vector<Token>& tokens) {
   return false;
 }
 
-// Returns the parameters or arguments of the list whose opening parenthesis is token `open`. Omits
-// the contents of brackets.
+// Returns the parameters or arguments of the list whose opening parenthesis is token `open`. The
+// contents of nested brackets are omitted.
 std::vector<std::vector<Token>> ListAt(const std::vector<Token>& tokens, size_t open) {
   std::vector<std::vector<Token>> list(1);
   int brackets = 0, angles = 0;
@@ -126,11 +126,11 @@ TEST_CASE("parameters: no function has more than six parameters") {
   }
   for (const std::string& name : kWide) {
     CHECK_MESSAGE(wide.count(name) == 1,
-                  "has at most six parameters and is no longer an exception: ", name);
+                  "kWide names a function that has at most six parameters: ", name);
   }
 }
 
-TEST_CASE("parameters: the check counts declarations and ignores calls") {
+TEST_CASE("parameters: FindWide counts parameters of declarations and ignores calls") {
   const auto count = [](const std::string& code) { return FindWide(code, 2).size(); };
   CHECK(count("int Sum(int a, int b, int c);") == 1);
   CHECK(count("int Sum(int a, int b);") == 0);

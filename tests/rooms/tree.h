@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists and reads the files of the project. Used by the tests of this folder.
+// Lists and reads the files of the project. The tests in tests/rooms use these functions.
 #ifndef STARFOCUS_TESTS_ROOMS_TREE_H_
 #define STARFOCUS_TESTS_ROOMS_TREE_H_
 

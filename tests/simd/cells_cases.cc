@@ -14,7 +14,8 @@ CellLimits DrawCellLimits(Draw* draw) {
   return limits;
 }
 
-// Disparities of all sizes. The benchmark uses a surface without edges, which is the common case.
+// Returns disparities of all sizes. The benchmark uses a surface without edges, which is the common
+// case.
 std::vector<int16_t> CellDisparities(size_t count, Draw* draw) {
   const int kind = draw->timed() ? 5 : draw->Int(0, 5);
   const int most = kind == 0 ? 32000 : kind == 1 ? 7000 : kind == 2 ? 200 : kind == 5 ? 0 : 60;
@@ -24,8 +25,8 @@ std::vector<int16_t> CellDisparities(size_t count, Draw* draw) {
   });
 }
 
-// Passes each field of a measure to `take`. Separate fields avoid a comparison of the padding
-// between fields.
+// Passes each field of a measure to `take`. The fields are compared separately, so that the padding
+// between fields is not compared.
 template <class Take>
 void ForFields(const CellMeasure& m, const Take& take) {
   for (const auto* ends : {m.column_low, m.column_high, m.row_low, m.row_high}) take(ends, 8);

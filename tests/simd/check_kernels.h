@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that apply to the kernels of every table, and comparison with values computed by hand.
+// Checks for the kernels of all kernel tables, and comparison of results with values computed by
+// hand.
 #ifndef STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
 #define STARFOCUS_TESTS_SIMD_CHECK_KERNELS_H_
 
@@ -14,7 +15,8 @@
 namespace test {
 
 // Calls each kernel of a table with random arguments on every target. All targets must return the
-// bits of the reference and write nothing else. `Call` is the type of the calls that a case makes.
+// bits that the reference returns, and write nothing else. `Call` is the type of kernel call, such
+// as KernelCall, that the cases make.
 template <class Call, class Cases, class Table>
 void CheckKernels(const Cases& cases, const Table& reference,
                   const std::vector<const Table*>& targets) {
@@ -33,7 +35,8 @@ void CheckKernels(const Cases& cases, const Table& reference,
       CAPTURE(round);
       REQUIRE_MESSAGE(wrong.empty(), wrong);
     }
-    // Each required situation must occur more than kRounds / 50 times.
+    // Each situation in `met` must occur more than kRounds / 50 times, so that the random calls
+    // test the situation.
     for (const auto& what : met) {
       CAPTURE(what.first);
       CHECK(what.second > kRounds / 50);

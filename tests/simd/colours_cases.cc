@@ -5,12 +5,14 @@
 namespace test::depth_cases {
 namespace {
 
-constexpr int kMostCost = 80;  // largest cost of a pixel, without the cost of the colour
+constexpr int kMostCost = 80;  // largest cost in a sample's key, without the cost of colour
 
-// Limits the number of different colours, since random colours are seldom similar.
+// Returns a random level of a primary colour, one of range + 1 levels; with few levels, similar
+// colours are frequent.
 int Primary(int range, Draw* draw) { return draw->Int(0, range) * 255 / range; }
 
-// Returns a random sample. On average, one of `rarity` samples takes part in the comparison.
+// Returns a random sample. On average, one of `rarity` samples has a key and takes part in the
+// comparison.
 ColourSample AnySample(int groups, int colours, int rarity, Draw* draw) {
   const int red = Primary(colours, draw), green = Primary(colours, draw);
   const int blue = Primary(colours, draw);
@@ -35,7 +37,7 @@ void CompareColours(Draw* draw, DepthCall* call) {
   auto* least = call->Results<uint16_t>("least", groups * kSliceLanes);
   std::fill_n(least, groups * kSliceLanes, kNoColourKey);
   call->Runs([=](const DepthKernels& kernels) { kernels.CompareColours(window, stride, least); });
-  // The key of a group cannot be lower than the lowest key of the group's samples.
+  // In `least`, the key of a group must not be lower than the lowest key of the group's samples.
   call->is_right = [=](uint64_t, Met* met) {
     std::vector<uint16_t> lowest(groups, kNoColourKey);
     for (const ColourSample& sample : samples) {

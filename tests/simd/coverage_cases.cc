@@ -27,7 +27,7 @@ std::vector<int16_t> Weights(size_t count, Draw* draw) {
   });
 }
 
-// Returns disparities of two surfaces, with a few arbitrary values.
+// Returns disparities of two surfaces, and a few arbitrary disparities.
 std::vector<int16_t> TwoSurfaces(size_t count, Draw* draw) {
   return Filled<int16_t>(count, [&] {
     if (draw->Rarely(20)) return draw->Int(-32768, 32767);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares every depth kernel with its reference on every SIMD target of this machine. Compares the
-// references with values computed by hand.
+// Compares every depth kernel with its reference on every SIMD target of this machine. Also
+// compares the reference kernels with values computed by hand.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -24,23 +24,22 @@ TEST_CASE("depth kernels: every target returns the bits of the reference and wri
                                       test::DepthTargets());
 }
 
-TEST_CASE(
-    "depth kernels: interpolated samples and pixel differences have values computed by hand") {
+TEST_CASE("depth kernels: InterpolateRow and MatchView return values computed by hand") {
   const uint8_t row[] = {10, 20, 99}, next[] = {30, 50, 99};
   uint8_t sample[16];
   // Interpolation a quarter of the way down results in 15, 27.5 (rounded to 28) and 99.
   // Interpolation half of the way across then results in 21.5 (22) and 63.5 (64).
   ReferenceDepthKernels().InterpolateRow(row, next, 64, 32, 2, sample);
   CheckValues("samples", sample, {22, 64});
-  // Two pixels, stored as planes.
+  // Each array holds two pixels, stored as planes of red, green and blue.
   const uint8_t view[] = {22, 64, 5, 0, 0, 0}, centre[] = {25, 0, 3, 0, 1, 0};
   uint8_t difference[2];
   reference::MatchView(centre, view, 2, 2, difference);
   CheckValues("differences", difference, {3 + 2 + 1, 60});
 }
 
-TEST_CASE("depth kernels: costs of labels have values computed by hand") {
-  // One pixel of level 100, four views, two labels.
+TEST_CASE("depth kernels: CostLabels returns values computed by hand") {
+  // CostLabels computes the costs of two labels for one pixel of level 100 and four views.
   const uint8_t planes[3 * 3] = {100, 107, 160, 100, 100, 100, 100, 100, 100};
   // At the second label, views 0 and 1 on one side have level 107, and the other views have level
   // 160.
@@ -59,7 +58,8 @@ TEST_CASE("depth kernels: costs of labels have values computed by hand") {
   costs.one_side = false;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
-  // The first view does not see the second label, so the opposite view replaces the first view.
+  // At the second label, the pixel is hidden in the first view, so the opposite view replaces the
+  // first view.
   uint8_t hidden[] = {1, 2};
   costs.hidden = hidden;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
@@ -71,7 +71,7 @@ TEST_CASE("depth kernels: costs of labels have values computed by hand") {
   CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
 }
 
-TEST_CASE("depth kernels: a view that sees a pixel replaces the opposite view that does not") {
+TEST_CASE("depth kernels: StandIn replaces a view that does not see a pixel by the opposite view") {
   const uint8_t hidden_a[] = {5, 6, 5, 6}, hidden_b[] = {5, 5, 6, 6};
   uint8_t a[16] = {1, 2, 3, 4}, b[16] = {11, 12, 13, 14};
   reference::StandIn(hidden_a, hidden_b, 5, 4, a, b);
@@ -79,7 +79,7 @@ TEST_CASE("depth kernels: a view that sees a pixel replaces the opposite view th
   CheckValues("b", b, {11, 12, 3, 48});
 }
 
-TEST_CASE("depth kernels: hidden views count little, and more if no view sees the pixel") {
+TEST_CASE("depth kernels: LimitHidden limits the differences of views that do not see the pixel") {
   const uint8_t rows[4][4] = {{5, 6, 6, 6}, {5, 6, 6, 5}, {5, 5, 6, 5}, {5, 6, 6, 5}};
   uint8_t values[4][16] = {{60, 60, 60, 3}, {50, 50, 50, 50}, {40, 40, 40, 40}, {2, 2, 2, 2}};
   const uint8_t* hidden[] = {rows[0], rows[1], rows[2], rows[3]};
@@ -91,10 +91,11 @@ TEST_CASE("depth kernels: hidden views count little, and more if no view sees th
   CheckValues("fourth", values[3], {2, 2, 2, 2});
 }
 
-TEST_CASE("depth kernels: the prior of a map spreads to neighbours at the expected cost") {
+TEST_CASE(
+    "depth kernels: SpreadPrior spreads the prior of a map to neighbours at the expected cost") {
   uint8_t row[2][3][16];
   std::fill_n(row[0][0], sizeof(row), uint8_t{kMostPrior});
-  row[0][1][7] = 0;  // the middle pixel of the previous row
+  row[0][1][7] = 0;  // cost 0 at label 7 of the previous row's middle pixel
   ReferenceDepthKernels().SpreadPrior({row[1][2], row[0][2], 16, -1, 3});
   CHECK(int(row[1][2][7]) == 4);
   CHECK(int(row[1][1][7]) == 3);
@@ -102,13 +103,13 @@ TEST_CASE("depth kernels: the prior of a map spreads to neighbours at the expect
   CHECK(int(row[1][1][6]) == 24);
 }
 
-TEST_CASE("depth kernels: costs of one side and of all views have values computed by hand") {
+TEST_CASE("depth kernels: LeastSide and MeanCost return values computed by hand") {
   const uint8_t values[16] = {60, 60, 60, 60, 6, 9, 15, 60, 60, 60, 60, 60, 0, 3, 9, 60};
   const uint8_t* rows[16];
   for (int k = 0; k < 16; ++k) rows[k] = values + k;
   uint8_t cost[16];
   reference::LeastSide(rows, 8, 2, 1, cost);
-  CHECK(int(cost[0]) == 42 * 171 / 256);  // arms 4, 5 and 6 of both rings
+  CHECK(int(cost[0]) == 42 * 171 / 256);  // the lowest costs are in arms 4, 5 and 6
   reference::LeastSide(rows + 4, 8, 1, 1, cost);
   CHECK(int(cost[0]) == 2 * 30 * 171 / 256);
   reference::LeastSide(rows + 3, 4, 1, 1, cost);
@@ -117,19 +118,19 @@ TEST_CASE("depth kernels: costs of one side and of all views have values compute
   CHECK(int(cost[0]) == 72);
 }
 
-TEST_CASE("depth kernels: the best sample of each group around a pixel is found") {
+TEST_CASE("depth kernels: CompareColours finds the best sample of each group around a pixel") {
   std::vector<ColourSample> samples(kColourWindow * kColourWindow, {90, 0, 0, kNoColourKey, 0});
   const auto set = [&](int row, int column, const ColourSample& sample) {
     samples[size_t(row * kColourWindow + column)] = sample;
   };
   // The first group has two samples within reach of the first pixel. One sample is a grey that is
-  // brighter by 31, and the other sample differs by more than the limit. The third sample has the
-  // same colour but is out of reach.
+  // brighter by 31, and the other sample differs by more than the limit. A third sample has the
+  // colour of the pixel, but is too far away.
   set(0, 16, {121, 0, 0, 5 * 64 + 3, 0});
   set(16, 0, {90, 60, -30, 1 * 64, 0});
   set(8, 17, {90, 0, 0, 2, 0});
-  // The second group has a sample that only the last pixel reaches, at a difference of 3 + 10 + 4 +
-  // 14.
+  // The second group has one sample, which only the last pixel reaches; the difference is 3 + 10 +
+  // 4 + 14.
   set(19, 19, {105, 10, 4, 63, kSliceLanes});
   std::vector<uint16_t> least(2 * kSliceLanes, kNoColourKey);
   ReferenceDepthKernels().CompareColours(samples.data(), kColourWindow, least.data());
@@ -140,8 +141,9 @@ TEST_CASE("depth kernels: the best sample of each group around a pixel is found"
   CHECK(least[2 * kSliceLanes - 1] == 31 * 64 + 63);
 }
 
-TEST_CASE("depth kernels: noise is averaged within a surface") {
-  // Two rows of four pixels. The second row is averaged over both rows.
+TEST_CASE("depth kernels: SmoothDisparity averages noise within a surface") {
+  // The test smooths two rows of four pixels. The disparities of the second row are averaged over
+  // both rows.
   constexpr size_t kPlane = 4;
   const int32_t first[4 * kPlane] = {-104, -100, 900, -90, 90, 90, 90, 690};
   const int32_t second[4 * kPlane] = {-100, -101, -100, -100, 90, 90, 130, 90};
@@ -155,14 +157,15 @@ TEST_CASE("depth kernels: noise is averaged within a surface") {
   rows.tolerance = 10;
   int16_t smooth[2];
   ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
-  // The values -104, -100, -100 and -101 have weight 64, and the other -100 has weight 54.
+  // In this mean, the values -104, -100, -100 and -101 have weight 64, and the other -100 has
+  // weight 54.
   CHECK(smooth[0] == -101);
-  // The value beyond the tolerance has no weight. One -100 has weight 64; the values -100, -101 and
-  // -100 have weight 54.
+  // With a tolerance of 9, the value that differs by 10 has no weight. One value of -100 has weight
+  // 64, and the values -100, -101 and -100 have weight 54.
   rows.tolerance = 9;
   ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
   CHECK(smooth[1] == -100);
-  // Pixels of another colour have weight 1.
+  // Disparities of pixels with another colour have weight 1.
   const int32_t bright[4 * kPlane] = {-96, -96, -96, -96, 690, 690, 690, 690};
   rows.rows[0] = bright + 1;
   rows.rows[1] = second + 2;
@@ -172,7 +175,8 @@ TEST_CASE("depth kernels: noise is averaged within a surface") {
   CHECK(smooth[0] == -100);
 }
 
-TEST_CASE("depth kernels: a path continues from the previous pixel at the expected costs") {
+TEST_CASE(
+    "depth kernels: AddPaths continues a path from the previous pixel at the expected costs") {
   constexpr size_t kLabels = 4, kPlaces = PathLabels(kLabels);
   uint8_t cost[kPlaces] = {1, 2, 3, 4};
   int16_t before[1 + kPlaces] = {0, 7, 90, 500, 33};
@@ -181,14 +185,16 @@ TEST_CASE("depth kernels: a path continues from the previous pixel at the expect
   int16_t path[kPlaces], least = 0, sum[kPlaces] = {10, 20, 30, 40};
   const PathRow row = {cost, before + 1, &before_least, &jump, path, &least, sum, true};
   ReferenceDepthKernels().AddPaths(row, kLabels, 1, 1);
-  // Label 0 continues at no cost, and label 1 at the cost 24 of a slope. Label 3 continues at cost
-  // 26, and label 2 at cost 26 + 24.
+  // Label 0 continues the path at no cost, and label 1 at the cost of a slope, 24. Label 3
+  // continues the path at cost 26, and label 2 at cost 26 + 24.
   CheckValues("path", path, {1, 2 + 24, 3 + 50, 4 + 26, kNoLabel});
   CHECK(sum[3] == 70);
   CHECK(least == 1);
 }
 
-TEST_CASE("depth kernels: the label of the smallest sum and its margin are found") {
+TEST_CASE(
+    "depth kernels: ChooseLabels finds the label of the smallest sum, and the margin of this "
+    "label") {
   constexpr size_t kLabels = 5, kPlaces = PathLabels(kLabels);
   const int16_t sum[3][kPlaces] = {{80, 60, 20, 40, 420}, {3, 9, 9, 3, 3}, {50, 40, 30, 20, 10}};
   int16_t choice[3];

@@ -17,7 +17,8 @@ std::vector<uint16_t> Words(size_t count, Draw* draw) {
   return Filled<uint16_t>(count, [&] { return draw->Next(); });
 }
 
-// Returns disparities with 6 fractional bits. Neighbours are similar, far apart, or unknown.
+// Returns disparities with 6 fractional bits. The disparities of neighbouring pixels are similar,
+// very different, or unknown.
 std::vector<int16_t> Row(size_t count, Draw* draw) {
   int value = draw->Int(-2000, 2000);
   return Filled<int16_t>(count, [&] {
@@ -38,8 +39,8 @@ DepthRule AnyRule(Draw* draw) {
   return rule;
 }
 
-// Values whose disparity is within the limits. In a third of the calls, some values are outside the
-// limits.
+// Returns depth values whose disparities are within the limits of the rule. In a third of the
+// calls, some disparities are outside the limits.
 std::vector<float> Values(size_t count, const DepthRule& rule, Draw* draw) {
   const float bad[] = {kNan, kInfinity, -kInfinity, 0.0f, -0.0f, 1e-42f, 3e38f, 1e6f};
   const bool spoilt = draw->Rarely(3), invalid = draw->Rarely(2);

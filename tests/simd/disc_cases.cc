@@ -13,7 +13,8 @@ size_t OctantIndex(int x, int y) {
   return size_t(high * (high + 1) / 2 + low);
 }
 
-// Returns the smallest number of bits such that 2^bits is at least the sum of all weights.
+// Returns the smallest number of bits, at least 1, such that 2^bits is no less than the sum of all
+// weights.
 int BitsOf(int size, const std::vector<uint16_t>& weights) {
   int64_t sum = 0;
   for (int y = -size; y <= size; ++y) {
@@ -24,9 +25,9 @@ int BitsOf(int size, const std::vector<uint16_t>& weights) {
   return bits;
 }
 
-// Returns a random filter with weights of all sizes, sums up to the maximum, and in some cases
-// rings of zeros outside. The weights of any four pixels sum to at most 15 bits, since kernels
-// weight four pixels together.
+// Returns a random disc filter; its outer weights may be zero, and its sum of weights may reach the
+// maximum. The weights of any four pixels sum to at most 15 bits, since kernels weight four pixels
+// together.
 Disc MakeDisc(Draw* draw, KernelCall* call) {
   const int size = int(draw->Size(0, kMaxDisc, 4));
   const int pixels = (2 * size + 1) * (2 * size + 1);
@@ -43,7 +44,7 @@ Disc MakeDisc(Draw* draw, KernelCall* call) {
   return {size, BitsOf(size, weights), call->Input("weights", weights)};
 }
 
-// Rows of a picture that a disc filters, and the pixels around these rows.
+// A disc filter, the rows of a picture that the disc filters, and the pixels around these rows.
 struct Filtered {
   Disc disc;
   size_t out_stride;
@@ -88,7 +89,8 @@ void FilterDiscLayer(Draw* draw, KernelCall* call) {
   });
 }
 
-// The first disc has some weights of the second disc, and a few weights where the second has zeros.
+// In FilterTwoDiscs, disc `less` takes most weights from disc `more`, and has a few weights where
+// `more` has zeros.
 void FilterTwoDiscs(Draw* draw, KernelCall* call) {
   const Filtered filtered(draw, call);
   const Disc& more = filtered.disc;

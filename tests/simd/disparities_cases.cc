@@ -9,7 +9,8 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns ends of the range, multiples of half a step, and arbitrary values within the range.
+// Returns disparities in [low, high]: the limits, values halfway between steps of 1/64, and
+// arbitrary values.
 std::vector<float> DisparitiesWithin(size_t count, float low, float high, Draw* draw) {
   return Filled<float>(count, [&] {
     const int kind = draw->Int(0, 4);

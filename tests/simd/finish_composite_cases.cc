@@ -4,8 +4,9 @@
 
 namespace test::kernel_cases {
 
-// Coverage is full, zero, arbitrary, or near the limit, and mostly equals the coverage of the
-// previous pixel. In the benchmark, coverage changes as seldom as in pictures.
+// The coverage of a pixel mostly equals the coverage of the previous pixel; otherwise it is full,
+// zero, arbitrary or near the limit. In the benchmark, coverage changes from pixel to pixel as
+// seldom as in pictures.
 void FinishComposite(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
   const size_t plane = whole + draw->Size(0, 5, 0);

@@ -9,8 +9,8 @@ namespace {
 
 constexpr size_t kTimedWidth = 192;
 
-// Returns random sources of hidden surfaces, which are views or repeated pixels. Most repeated
-// pixels are near.
+// Returns random sources of hidden surfaces; each source is a view or the distance of a repeated
+// pixel. Most repeated pixels are at most 20 pixels away.
 std::vector<uint16_t> AnySources(size_t count, Draw* draw) {
   return Filled<uint16_t>(count, [&] {
     const int distance = draw->Int(0, 2) == 0 ? 0 : draw->Int(1, draw->Rarely(5) ? 255 : 20);
@@ -19,7 +19,7 @@ std::vector<uint16_t> AnySources(size_t count, Draw* draw) {
 }
 
 // Returns disparities of surfaces behind the surfaces of `before`. Half of the surfaces are
-// missing, and a few are in front of `before` instead.
+// missing, and a few surfaces are wrongly in front of the surfaces of `before`.
 std::vector<int16_t> Behind(const std::vector<int16_t>& before, Draw* draw) {
   std::vector<int16_t> behind(before.size(), kNoSurface);
   for (size_t n = 0; n < before.size(); ++n) {
@@ -37,7 +37,7 @@ std::vector<uint8_t> Shares(size_t count, Draw* draw) {
   });
 }
 
-// Returns an output row of farthest surfaces.
+// Allocates the output row of TakeFarthest or SmoothFar: the farthest surface of each pixel.
 FarRow OutputOf(size_t whole, Draw* draw, KernelCall* call) {
   const size_t plane = whole + draw->Size(0, 9, 0);
   const FarRow far = {call->Results<int16_t>("far disparity", whole),
@@ -81,7 +81,8 @@ void TakeFarthest(Draw* draw, KernelCall* call) {
   };
 }
 
-// Smooths three rows `step` apart. Readable pixels surround each row.
+// SmoothFar reads three rows of farthest surfaces that are `step` rows apart. Each row has readable
+// pixels on both sides.
 void SmoothFar(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedWidth), whole = SliceSamples(count);
   const size_t row = whole + 2 * kSliceLanes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares every kernel of pictures and depth maps with its reference on every SIMD target of this
-// machine. Compares the references with values computed by hand.
+// Compares every image kernel (pictures and depth maps) with its reference on every SIMD target of
+// this machine. Also compares the reference kernels with values computed by hand.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ TEST_CASE("image kernels: every target returns the bits of the reference and wri
                                       test::ImageTargets());
 }
 
-TEST_CASE("image kernels: every target converts all half floats correctly") {
+TEST_CASE("image kernels: on every target, HalvesToDepth converts all half floats correctly") {
   std::vector<uint16_t> halves(65536);
   for (size_t k = 0; k < halves.size(); ++k) halves[k] = uint16_t(k);
   for (const ImageKernels* kernels : test::ImageTargets()) {
@@ -46,13 +46,13 @@ TEST_CASE("image kernels: every target converts all half floats correctly") {
   }
 }
 
-TEST_CASE("image kernels: depths become the disparities computed by hand") {
+TEST_CASE("image kernels: DepthToDisparity returns values computed by hand") {
   const ImageKernels& kernels = ReferenceImageKernels();
   const DepthRule metres = {4000, -1, 65535, true, -10, 10};
   const float z[] = {1000, 4000, 0, 65535, 500};
   int16_t out[5];
   CHECK(kernels.DepthToDisparity(z, 5, metres, out) == kUnknownDepth);
-  // The third value is a distance of 0, which has no valid disparity.
+  // The third depth value is a distance of 0, which has no valid disparity.
   CheckValues("metres", out, {3 * 64, 0, kNoSurface, kNoSurface, 7 * 64});
   const DepthRule linear = {0.5f, 2, NAN, false, -10, 10};
   const float steps[] = {0, 1, 16, 17};
@@ -61,8 +61,7 @@ TEST_CASE("image kernels: depths become the disparities computed by hand") {
   CHECK(kernels.DepthToDisparity(steps, 4, linear, out) == kDepthOutside);
 }
 
-TEST_CASE(
-    "image kernels: interpolation between rows and columns of a map has the expected values") {
+TEST_CASE("image kernels: BlendRows and SpreadRow return values computed by hand") {
   const ImageKernels& kernels = ReferenceImageKernels();
   const int16_t a[] = {0, 0, 0, kNoSurface}, b[] = {96, 97, -96, 5};
   int16_t out[4];

@@ -40,8 +40,9 @@ size_t CallMemory::Bytes() const {
   return bytes;
 }
 
-// Describes the first wrong byte, or returns an empty string. Results must equal the results of the
-// reference. All other bytes must have the same value as before the call.
+// Returns a description of the first wrong byte in the memory of the call, or an empty string.
+// Results must equal the results of the reference. All bytes that are neither results nor free must
+// not change.
 std::string CallMemory::Compare(const std::string& who) const {
   for (const Region& region : regions_) {
     for (size_t i = 0; i < region.size; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One call of a kernel: the memory, the permitted accesses, and the call itself. kernels_bytes_test
-// checks the call, and starfocus-bench-micro measures the time of the call.
+// checks the results of kernel calls, and starfocus-bench-micro measures their time.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
 #define STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
 
@@ -21,8 +21,8 @@
 
 namespace test {
 
-// Random numbers for a call. A timed call has one size and typical contents. A checked call has any
-// size and contents.
+// Random numbers for the arguments of a kernel call. A timed call has one size and typical
+// contents. A checked call has any size and contents.
 class Draw : public Random {
  public:
   static Draw ForTest(uint64_t seed, int round) { return {seed * 100003 + uint64_t(round), round}; }
@@ -38,7 +38,7 @@ class Draw : public Random {
   size_t Size(int low, int high, int timed_size) {
     return size_t(timed() ? timed_size : Int(low, high));
   }
-  // Returns true once in `of` calls on average. Always returns false in a timed call.
+  // Returns true with a probability of 1 / `of`. For a timed kernel call, always returns false.
   bool Rarely(int of) { return !timed() && Int(1, of) == 1; }
 
  private:
@@ -65,7 +65,7 @@ bool AllRight(size_t count, const IsRight& is_right) {
   return true;
 }
 
-// Counts the situations that the calls of a kernel must produce.
+// Number of kernel calls or values for each situation that the random calls must produce.
 using Met = std::map<std::string, int64_t>;
 
 // The memory of a kernel call.
@@ -85,7 +85,7 @@ class CallMemory {
     Mark(first, values.size(), Role::kInput);
     return first;
   }
-  // Marks input values that no result depends on.
+  // Marks input values that must not affect any result.
   template <class T>
   void Ignore(const T* first, size_t count) {
     Mark(first, count, Role::kIgnored);
@@ -101,13 +101,13 @@ class CallMemory {
   T* Output(const char* name, size_t count) {
     return Add<T>(name, count, kMargin, kMargin, Role::kUntouched);
   }
-  // Marks output values that the kernel determines.
+  // Marks output values that must equal the values of the reference.
   template <class T>
   void Result(const T* first, size_t count) {
     Mark(first, count, Role::kResult);
   }
-  // Allocates values that the kernel determines, followed by `free` values that the kernel may
-  // change.
+  // Allocates `count` results, which must equal the reference, followed by `free` values that the
+  // kernel may change.
   template <class T>
   T* Results(const char* name, size_t count, size_t free = 0) {
     T* first = Output<T>(name, count + free);
@@ -129,21 +129,22 @@ class CallMemory {
   }
 
   // Optional. Returns true if the results of the reference, which returned `returned`, follow the
-  // contract of the kernel. May call Free for values that the contract leaves open.
+  // contract of the kernel. The function may call Free for output values that the contract does not
+  // define.
   std::function<bool(uint64_t returned, Met*)> is_right;
 
-  // Returns the number of bytes that a call reads and writes, each counted once.
+  // Returns the number of bytes that a kernel call reads and writes, each counted once.
   size_t Bytes() const;
 
  protected:
-  // The name of a table, and the call of the kernel of this table.
+  // Name of a kernel table, and a function that calls the kernel in this table.
   struct NamedRun {
     const char* name;
     std::function<uint64_t()> run;
   };
 
-  // Runs the reference, and then each of `others` on the same memory. Returns the first error, or
-  // an empty string. May be called only once.
+  // Runs the reference kernel, and then each of `others` on equal input in the same memory. Returns
+  // the first error, or an empty string. CheckRuns may be called only once.
   std::string CheckRuns(const NamedRun& reference, const std::vector<NamedRun>& others, Met* met);
 
  private:
@@ -153,7 +154,7 @@ class CallMemory {
     const char* name;
     size_t value_size, first, size;  // in bytes; `first` is the offset of the first value
     std::unique_ptr<uint8_t[]> bytes;
-    std::vector<Role> roles;  // one role per byte
+    std::vector<Role> roles;  // one role for each byte
     std::vector<uint8_t> before, expected;
   };
 
@@ -164,7 +165,8 @@ class CallMemory {
   T* Add(const char* name, size_t count, size_t before, size_t behind, Role role) {
     static_assert(std::is_trivially_copyable<T>::value && kMargin % alignof(T) == 0,
                   "plain values");
-    // A random offset, since kernels may rely only on the alignment of the type.
+    // The values start at a random offset, since kernels may rely only on the alignment of the
+    // type.
     before += alignof(T) * size_t(random_.Int(0, 7));
     const size_t size = before + count * sizeof(T) + behind;
     return reinterpret_cast<T*>(AddRegion(name, sizeof(T), before, size, role) + before);
@@ -200,7 +202,7 @@ class CallOf : public CallMemory {
     };
   }
 
-  // Compares the kernel of each table with the kernel of the reference.
+  // Compares the kernel of each table in `tables` with the reference kernel.
   std::string Check(const Table& reference, const std::vector<const Table*>& tables, Met* met) {
     const auto of = [this](const Table& table) {
       return NamedRun{table.name, [this, &table] { return run(table); }};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One case per kernel. A case makes calls with any size and contents for the test, and one call of
-// a typical size for the benchmark.
+// Test and benchmark cases, one for each kernel. A case makes calls with any size and contents for
+// the test, and one call of a typical size for the benchmark.
 #ifndef STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
 #define STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
 
@@ -40,13 +40,13 @@ inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_C
 #undef STARFOCUS_DECLARE_CASE
 #undef STARFOCUS_LIST_CASE
 
-// Number of samples in a benchmark call, unless a case uses another number.
+// Number of samples in a timed kernel call, unless a case uses another number.
 inline constexpr int kTimedSamples = 3 * 1024;
 
-// Upper limits of lengths: more than two of the widest vectors, so that all remainders occur.
+// Longest rows in kernel calls: more than two of the widest vectors, so that all remainders occur.
 inline constexpr int kLongestBytes = 2 * 64 + 3, kLongestSamples = 2 * 32 + 3;
 
-// Returns light that is black, white, or arbitrary.
+// Returns samples of light that are black, white, or arbitrary.
 inline std::vector<int16_t> Light(size_t count, Draw* draw) {
   constexpr int kWhite = starfocus::simd::kLightWhite;
   return Filled<int16_t>(count, [&] {
@@ -55,8 +55,8 @@ inline std::vector<int16_t> Light(size_t count, Draw* draw) {
   });
 }
 
-// Returns random tables, or null tables, with which light equals the code. At most one code begins
-// in each step of a table.
+// Returns random tables for conversion between codes and light, or null tables, which stand for
+// linear codes. At most one code begins in each step of a table.
 inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
   using starfocus::simd::kEncodeBits, starfocus::simd::kEncodeStep;
   if (draw->Int(0, 1) == 0) return {nullptr, nullptr};
@@ -73,7 +73,7 @@ inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
   return {call->Input("light of codes", Light(256, draw)), call->Input("entries", entries)};
 }
 
-// Returns disparities with runs and edges. A few disparities are anywhere in the whole range.
+// Returns disparities with runs and edges. A few of the disparities are arbitrary.
 inline std::vector<int16_t> Disparities(size_t count, Draw* draw) {
   int value = draw->Int(-2000, 2000);
   return Filled<int16_t>(count, [&] {

@@ -19,12 +19,13 @@ using namespace starfocus::simd;
 using test::CheckValues;
 
 TEST_CASE(
-    "kernel definitions: spans, composites, discs and disparities have values computed by hand") {
+    "kernel definitions: kernels for spans, composites, discs and disparities return values "
+    "computed by hand") {
   const int16_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 32640};
   const Span blend = {source + 3, 1, 3, 12288, 4096, 3};
   int16_t line[5] = {1, 1, 1, 1, 1};
   ReferenceKernels().Blend(&blend, 1, line);
-  // (3 * 40 + 70) / 4 = 47.5, rounded half up.
+  // The first blended sample is (3 * 40 + 70) / 4 = 47.5, rounded half up.
   CheckValues("blend", line, {1, 48, 58, 8205, 1});
   const Span span = {source + 3, 1, 3, 192, 64, 3};
   uint32_t sums[5] = {5, 5, 5, 5, 5};
@@ -36,7 +37,7 @@ TEST_CASE(
   uint8_t out[3];
   ReferenceKernels().Finish(wide, 3, 24, {nullptr, nullptr}, out);
   CheckValues("finish", out, {255, 8, 7});
-  const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};  // red of two pixels, in planes of 16
+  const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};  // red light of two pixels, in planes of 16
   std::vector<uint32_t> covered(stack, stack + 4 * 16);
   covered[3 * 16] = 12 << 16;
   covered[3 * 16 + 1] = 99;
@@ -50,7 +51,7 @@ TEST_CASE(
   const int16_t rows[3][9] = {{128, 0, 0, 256, 0, 0, 384, 0, 0},
                               {512, 0, 0, 6400, 0, 0, 768, 0, 0},
                               {896, 0, 0, 1024, 0, 0, 1152, 0, 0}};
-  const uint16_t ring[3] = {4, 2, 1};  // centre, sides and corners; the sum is 16
+  const uint16_t ring[3] = {4, 2, 1};  // weights of centre, sides and corners; sum 16
   uint8_t disc[2] = {0, 77};
   ReferenceKernels().FilterDisc({&rows[1][3], 9, 1, 1}, {1, 4, ring}, {nullptr, nullptr}, disc, 9);
   CheckValues("disc", disc, {(4 * 50 + 2 * (2 + 4 + 6 + 8) + 1 + 3 + 7 + 9 + 8) / 16, 77});
@@ -64,11 +65,12 @@ TEST_CASE(
   CheckValues("disparities", converted, {1, 0, -32000, 32000});
 }
 
-TEST_CASE("kernel definitions: conversions between light and codes have values computed by hand") {
+TEST_CASE(
+    "kernel definitions: Decode, Encode and Finish convert light and codes as computed by hand") {
   int16_t table[256] = {};
   for (int code = 0; code < 256; ++code) table[code] = int16_t(code * code / 2);
   std::vector<uint16_t> entries(kEncodeEntries, 3 << 4);
-  entries[0] = (2 << 4) + 16 - 5;  // code 2 below 5, code 3 from 5
+  entries[0] = (2 << 4) + 16 - 5;  // light below 5 has code 2, and light from 5 has code 3
   const Encoding encoding = {table, entries.data()};
   const uint8_t codes[3] = {0, 10, 255};
   int16_t light[3];
@@ -78,7 +80,7 @@ TEST_CASE("kernel definitions: conversions between light and codes have values c
   uint8_t out[4];
   ReferenceKernels().Encode(levels, 4, encoding, out);
   CheckValues("encode", out, {2, 3, 3, 3});
-  const uint32_t sums[2] = {(4 << 3) + 3, (4 << 3) + 4};  // just below 4.5, and 4.5
+  const uint32_t sums[2] = {(4 << 3) + 3, (4 << 3) + 4};  // light just below 4.5, and light 4.5
   ReferenceKernels().Finish(sums, 2, 10, encoding, out);
   CheckValues("finish", out, {2, 3});
   const int16_t halves[2] = {(7 << 7) + 63, (7 << 7) + 64};
@@ -86,7 +88,7 @@ TEST_CASE("kernel definitions: conversions between light and codes have values c
   CheckValues("halves", out, {7, 8});
 }
 
-TEST_CASE("kernel definitions: ranges of disparities have values computed by hand") {
+TEST_CASE("kernel definitions: FindRanges returns values computed by hand") {
   int16_t in[2 * 20] = {};
   for (int16_t& d : in) d = INT16_MIN;
   DisparityRange ranges[2];
@@ -100,8 +102,9 @@ TEST_CASE("kernel definitions: ranges of disparities have values computed by han
   CHECK(ranges[1].high == 32767);
 }
 
-TEST_CASE("kernel definitions: runs and measures of cells have values computed by hand") {
-  // Two lines of five pixels, read backwards. 10 is within the limits and 11 is not.
+TEST_CASE("kernel definitions: FindRuns and MeasureCell return values computed by hand") {
+  // The kernel reads two lines of five pixels backwards. A difference of 10 is within the limits,
+  // and a difference of 11 is not.
   const int16_t lines[5][2] = {{40, -32000}, {11, 32000}, {0, 31995}, {5, 31990}, {-5, 31989}};
   uint16_t starts[2 * kRunLanes], edges[2 * kRunLanes];
   int16_t middles[17 * kRunLanes];
@@ -123,8 +126,8 @@ TEST_CASE("kernel definitions: runs and measures of cells have values computed b
     CHECK(words[kRunLanes] == 1);
   }
 
-  // A flat cell, except for one pixel inside the cell, one pixel in a corner, and one pixel beyond
-  // the left side.
+  // The disparities are flat, except for one pixel inside the cell, one pixel in a corner, and one
+  // pixel beyond the left side.
   int16_t values[10][10] = {};
   const int16_t* rows[10];
   for (int k = 0; k < 10; ++k) rows[k] = values[k] + 1;
@@ -164,7 +167,7 @@ TEST_CASE("kernel definitions: runs and measures of cells have values computed b
 }
 
 // Halve must return every second pixel of the line that FilterHalfBand returns.
-TEST_CASE("kernel definitions: halving applies the half-band filter at every even pixel") {
+TEST_CASE("kernel definitions: Halve applies the half-band filter at every even pixel") {
   test::Random random(7);
   const Kernels& kernels = ReferenceKernels();
   constexpr size_t kPairs = 20, kKept = kPairs - 3;
@@ -178,7 +181,7 @@ TEST_CASE("kernel definitions: halving applies the half-band filter at every eve
   for (size_t n = 0; n < 3 * kKept; ++n) CHECK(halved[n] == whole[n / 3 * 6 + n % 3]);
 }
 
-TEST_CASE("kernel definitions: layers have values computed by hand") {
+TEST_CASE("kernel definitions: WidenPhases and Halve return values computed by hand") {
   const uint8_t bytes[12] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 255};
   int16_t even[6], odd[6];
   ReferenceKernels().WidenPhases(bytes, 2, {nullptr, nullptr}, even, odd);

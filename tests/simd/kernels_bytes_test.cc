@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares every kernel with its reference on every SIMD target of this machine, and the engine on
-// every target.
+// Compares every kernel with its reference on every SIMD target of this machine.
 #include <doctest/doctest.h>
 #include <hwy/highway.h>
 
@@ -32,7 +31,7 @@ TEST_CASE("kernels: at least two SIMD targets run on this machine") {
   CHECK(std::string(starfocus_simd_target()) == BestKernels().name);
 }
 
-TEST_CASE("kernels: the list of SIMD targets throws if no target runs on this machine") {
+TEST_CASE("kernels: ListTargets throws if no SIMD target runs on this machine") {
   CHECK_THROWS(test::ListTargets(+[](size_t) -> const Kernels* { return nullptr; }));
 }
 
@@ -41,7 +40,7 @@ TEST_CASE("kernels: every target returns the bits of the reference and writes no
                                        test::SimdTargets());
 }
 
-TEST_CASE("kernels: the calls of the benchmark return correct results") {
+TEST_CASE("kernels: the timed calls of the benchmark return correct results") {
   for (const auto& one : test::kernel_cases::kAll) {
     test::Draw draw = test::Draw::ForBench();
     test::KernelCall call(&draw);
@@ -85,14 +84,14 @@ TEST_CASE("kernels: each case calls the kernel that it is named after") {
 #undef STARFOCUS_COUNT_CALLS
 }
 
-// An error that `spoil` adds to the result of Narrow, and the expected complaint.
+// A function that makes a call of the kernel Narrow wrong, and the start of the expected complaint.
 struct Spoilt {
   const char* complaint;
   void (*spoil)(const int16_t* in, size_t count, uint8_t* out);
 };
 constexpr Spoilt kSpoilt[] = {
     {"spoilt differs in out[0]", [](const int16_t*, size_t, uint8_t* out) { out[0] ^= 1; }},
-    // The result must not depend on the sample after the last one, which is arbitrary.
+    // The result must not depend on the arbitrary sample after the last sample.
     {"spoilt differs in out[0]",
      [](const int16_t* in, size_t count, uint8_t* out) { out[0] = uint8_t(out[0] + in[count]); }},
     {"spoilt writes where it may not: out[",
@@ -104,7 +103,7 @@ constexpr Spoilt kSpoilt[] = {
 };
 const Spoilt* spoilt_now = nullptr;
 
-// Returns the first complaint about the kernels of `spoilt` in calls of one case.
+// Calls kernels of `spoilt` as one case does, and returns the first complaint.
 std::string Complaint(const Kernels& spoilt, void (*make)(test::Draw*, test::KernelCall*)) {
   std::string wrong;
   for (int round = 0; round < 20 && wrong.empty(); ++round) {
@@ -117,7 +116,7 @@ std::string Complaint(const Kernels& spoilt, void (*make)(test::Draw*, test::Ker
   return wrong;
 }
 
-TEST_CASE("kernels: the checks detect every kind of forbidden access") {
+TEST_CASE("kernels: KernelCall::Check detects wrong results and forbidden accesses") {
   Kernels spoilt = ReferenceKernels();
   spoilt.name = "spoilt";
   spoilt.Narrow = [](const int16_t* in, size_t count, const Encoding& encoding, uint8_t* out) {

@@ -8,7 +8,7 @@ namespace test::depth_cases {
 namespace {
 
 constexpr int kMostLabels = 40, kTimedLabels = 44, kLongest = 70, kTimed = 320;
-// Largest number of pixels by which labels move views.
+// Largest shift of a view at any label, in pixels.
 constexpr int kReach = 5;
 
 }  // namespace
@@ -24,15 +24,15 @@ void CostLabels(Draw* draw, DepthCall* call) {
   row.limits = draw->timed() || draw->Int(0, 1) == 0;
   row.ends = !draw->timed() && draw->Int(0, 1) == 0;
   const size_t views = row.arms * row.rings;
-  // Half of the calls use similar pictures, because large differences are cut off in dissimilar
-  // pictures.
+  // Half of the calls use similar pictures, because the kernel limits large differences.
   const int least = draw->Int(0, 1) == 0 ? 0 : 225;
   row.plane = count + 2 * kReach;
   const auto planes =
       Filled<uint8_t>(3 * (views + 1) * row.plane, [&] { return draw->Int(least, 255); });
   row.pixels = call->Input("planes", planes, kPadding) + kReach;
-  // `hidden` has labels at which pixels are hidden. With many views, random labels seldom hide a
-  // pixel in all views. Therefore a third of the calls use labels that hide more pixels.
+  // `hidden` holds the label from which a pixel is hidden in a view. With many views, random labels
+  // seldom hide a pixel in all views. Therefore a third of the calls use labels that hide more
+  // pixels.
   const int least_hidden = draw->Rarely(3) ? int(row.labels) / 2 : 0;
   const auto hidden = Filled<uint8_t>(views * row.plane, [&] {
     return draw->Int(0, 5) == 0 && row.ends ? kViewEnds : draw->Int(least_hidden, int(row.labels));

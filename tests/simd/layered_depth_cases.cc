@@ -10,8 +10,8 @@ namespace {
 constexpr int16_t kStep = 48;
 constexpr int kTimedFieldWidth = 192;
 
-// Returns rows of disparities. Each row is the previous row with some pixels moved, either by any
-// amount or by multiples of `step`.
+// Returns rows of disparities. Each row is the previous row with some disparities changed, either
+// by any amount or by multiples of `step`.
 std::vector<int16_t> MovedRows(size_t rows, size_t whole, int step, Draw* draw) {
   std::vector<int16_t> all = Disparities(whole, draw);
   for (size_t n = 0; n < (rows - 1) * whole; ++n) {
@@ -36,7 +36,7 @@ void Split(Draw* draw, KernelCall* call) {
   };
 }
 
-// Finds the edges of each row from the edges of the previous row.
+// Each call of FindEdges finds the edges of a row from the edges of the previous row.
 void FindEdges(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 50, kTimedFieldWidth), whole = SliceSamples(count);
   const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedFieldWidth + 1);
@@ -139,11 +139,12 @@ void BesideSteps(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// A field of disparities. Some edges have the largest possible distance.
+// A rectangle of random disparities, with edges in four directions. Some edges are at the largest
+// possible distance.
 struct DepthField {
   int width, height;
   size_t stride;
-  DepthRow row;  // the fields that all rows share
+  DepthRow row;  // the values that are equal for all rows
   const int16_t* samples;
   const uint8_t* edges[4];
 
@@ -161,7 +162,8 @@ struct Patch {
   int x, y, right, bottom;
 };
 
-// Returns the samples of rectangles of one disparity each. The first rectangle is the background.
+// Returns the disparities of the field: rectangles of one disparity each. The first rectangle is
+// the background.
 std::vector<int16_t> FieldSamples(DepthField* field, Draw* draw) {
   const int width = field->width, height = field->height;
   const int limit = draw->Rarely(4) ? 32000 : 12 << field->row.unit_bits;
@@ -183,8 +185,8 @@ std::vector<int16_t> FieldSamples(DepthField* field, Draw* draw) {
   return samples;
 }
 
-// Returns random distances to edges, which need not exist. All distances end inside the field. In
-// the benchmark, most distances are 0.
+// Returns random distances to edges; the disparities need not have edges at these distances. All
+// distances end inside the field. In the benchmark, most distances are 0.
 std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
   std::vector<uint8_t> distances(field.stride * size_t(field.height));
   for (int y = 0; y < field.height; ++y) {
@@ -198,7 +200,8 @@ std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
   return distances;
 }
 
-// Sets no views, views of a star at one or two distances, or views anywhere.
+// Sets the views that see behind edges: none, views of a star at one or two distances, or views at
+// any positions.
 void SetLooks(Draw* draw, DepthRow* row) {
   const bool none = draw->Rarely(5), second = draw->Int(0, 1) == 0;
   const bool anywhere = !draw->timed() && draw->Int(0, 2) == 0;
@@ -239,7 +242,7 @@ struct HiddenField {
   uint16_t* source[kSurfaces - 1];
   uint16_t* found[kSurfaces - 1];
   uint8_t* share;
-  uint64_t* strips;  // the return value for each row
+  uint64_t* strips;  // return value of LookBehind for each row
 
   HiddenField(const DepthField& field, KernelCall* call) {
     const auto rows = size_t(field.height), samples = field.stride * rows;
@@ -263,8 +266,9 @@ struct HiddenField {
     return row;
   }
 
-  // Returns true if group n of the field is right. In a group with hidden surfaces (`hidden`), the
-  // bits of `found` must match the sources. Other groups may have any contents.
+  // Returns true if the output for group n of the field is right. If `hidden` is true, the group
+  // has hidden surfaces, and the bits of `found` must match the sources. The output of groups
+  // without hidden surfaces may be arbitrary.
   bool IsRight(size_t n, bool hidden, KernelCall* call, Met* met) const {
     bool right = true;
     for (int k = 0; k < kSurfaces - 1; ++k) {

@@ -5,14 +5,14 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns the reach of the blur of a cell. In the benchmark, all reaches are small.
+// Returns a random reach of a cell's blur, in pixels. In the benchmark, all reaches are small.
 int Reach(int around, Draw* draw) {
   const int far = draw->Rarely(3) ? kCellPixels * around : 20;
   return draw->Int(0, 3) == 0 && !draw->timed() ? draw->Int(1, far) : draw->Int(1, 9);
 }
 
-// Makes `columns` x `rows` cells and a border of `around` cells. `cells` points to the first cell
-// inside the border.
+// Makes planes of columns x rows cells, with a border of `around` cells. The `cells` of the result
+// points to the first cell inside the border.
 CellPlanes MakeCells(size_t columns, size_t rows, size_t around, Draw* draw, KernelCall* call) {
   const size_t stride = columns + 2 * around, plane = stride * (rows + 2 * around);
   const int most = draw->Rarely(4) ? 32000 : 300;

@@ -23,7 +23,7 @@ void AddPaths(Draw* draw, DepthCall* call) {
   const size_t labels = draw->Length(1, kMostPathLabels, kTimedPathLabels);
   const size_t count = draw->Size(1, 9, 64), places = PathLabels(labels);
   const ptrdiff_t step = draw->Int(0, 1) == 0 ? 1 : -1;
-  const size_t first = step > 0 ? 0 : count - 1;  // first pixel on the path
+  const size_t first = step > 0 ? 0 : count - 1;  // index of the first pixel on the path
   // The path continues from the previous row or from the previous pixel.
   const bool from_row = draw->timed() || draw->Int(0, 1) == 0;
   const auto costs = Filled<uint8_t>(count * places, [&] { return draw->Int(0, kMostCost); });
@@ -35,8 +35,8 @@ void AddPaths(Draw* draw, DepthCall* call) {
   PathRow row = {};
   row.cost = call->Input("cost", costs, kPadding) + first * places;
   row.jump = call->Input("jump", jumps) + first;
-  // Has one more pixel on each side, since paths along this row continue from the pixel before the
-  // first one.
+  // `path` has one more pixel on each side, since a path along the row continues from the pixel
+  // before the first pixel.
   int16_t* path = call->Output<int16_t>("path", 1 + (count + 2) * places) + 1 + places;
   int16_t* least = call->Output<int16_t>("least", count + 2) + 1;
   auto* sum = call->Results<int16_t>("sum", count * places);

@@ -30,7 +30,7 @@ void InterpolateRow(Draw* draw, DepthCall* call) {
   call->Runs([=](const DepthKernels& kernels) {
     kernels.InterpolateRow(row, next, across, down, count, out);
   });
-  // Each result must lie between the four surrounding samples.
+  // Each interpolated value must lie between the four surrounding samples.
   call->is_right = [=](uint64_t, Met*) {
     return AllRight(count, [&](size_t n) {
       const auto range = std::minmax({row[n], row[n + 1], next[n], next[n + 1]});

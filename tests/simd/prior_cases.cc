@@ -26,7 +26,7 @@ void SpreadPrior(Draw* draw, DepthCall* call) {
   row.prior = prior + first;
   if (!draw->Rarely(4)) row.before = call->Input("before", Priors(size, draw)) + first;
   call->Runs([=](const DepthKernels& kernels) { kernels.SpreadPrior(row); });
-  // The cost of a label must not increase.
+  // SpreadPrior must not increase the cost of any label.
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(size, [&](size_t k) {
       ++(*met)[prior[k] < own[k] ? "lessened" : "as it was"];

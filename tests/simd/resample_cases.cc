@@ -6,8 +6,8 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns black, white and arbitrary samples. If not `in_range`, samples exceed the range as much
-// as filters allow.
+// Returns black, white and arbitrary samples. If `in_range` is false, samples exceed the range as
+// much as the output of filters can exceed it.
 std::vector<int16_t> Samples(size_t count, bool in_range, Draw* draw) {
   const int below = in_range ? 0 : -43 * 64, most = in_range ? kLayerWhite : 298 * 64;
   return Filled<int16_t>(count, [&] {
@@ -21,7 +21,8 @@ HalfBand Taps(Draw* draw) {
   return {draw->Int(-16384, 16384), draw->Int(-16384, 16384), draw->Int(-8192, 8192)};
 }
 
-// The two phases of a line. The kernel may change `more` samples past the end of each phase.
+// Output memory for the even and the odd pixels of a line. The kernel may change `more` samples
+// past the end of each of the two outputs.
 struct Phases {
   Phases(size_t pairs, size_t more, KernelCall* call)
       : even(call->Results<int16_t>("even", 3 * pairs, more)),
@@ -30,7 +31,7 @@ struct Phases {
   int16_t *even, *odd;
 };
 
-// Calls a filter of lines. Consecutive taps are 3 or `count` + 1 samples apart.
+// Makes a call of a kernel that filters lines. Consecutive taps are 3 or `count` + 1 samples apart.
 template <class Filter>
 void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);

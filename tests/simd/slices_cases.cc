@@ -14,8 +14,8 @@ std::vector<uint8_t> MostlyWholeShares(size_t count, Draw* draw) {
   });
 }
 
-// Makes `count` pixels, whose hidden surfaces are often missing. Values that the kernel does not
-// read are arbitrary.
+// Makes a row of `count` pixels with surfaces; hidden surfaces are often missing. Values that the
+// kernel does not read are arbitrary.
 SurfaceRow MakeSurfaces(size_t count, Draw* draw, KernelCall* call) {
   const size_t whole = SliceSamples(count);
   SurfaceRow row = {};
@@ -74,7 +74,7 @@ void SelectSlice(Draw* draw, KernelCall* call) {
   };
 }
 
-// Spreads samples that are `step` apart, in a row or in a column of planes.
+// SpreadSlice spreads samples that are `step` apart, either in a row or in a column of planes.
 void SpreadSlice(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 160, kTimedSamples), whole = SliceSamples(count);
   SliceTaps taps = {int32_t(draw->Size(1, kMaxSpread, 2)), 0, 0, 0};

@@ -34,7 +34,7 @@ void MoveSamples(Draw* draw, KernelCall* call) {
   const size_t stride = whole + 6 + size_t(draw->Int(0, 5));
   const size_t out_stride = whole + size_t(draw->Int(0, 5));
   const HalfMove move = {Between(draw, -32767, 32767), Between(draw, -32767, 32767)};
-  // An eighth of the samples may be out of range.
+  // An eighth of the samples may be outside the range of light.
   std::vector<int16_t> values = Samples((rows + 2) * stride, draw);
   for (int16_t& value : values) {
     if (draw->Rarely(8)) value = Between(draw, -kLayerWhite, 2 * kLayerWhite);

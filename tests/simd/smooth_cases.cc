@@ -10,7 +10,8 @@ namespace {
 constexpr int kTimedRow = 512, kLongestRow = 2 * 16 + 3;
 constexpr int kFarthest = 500 * 64;  // largest disparity
 
-// Returns the four planes of a row. Disparities are near `disparity`, or arbitrary.
+// Returns the four planes of a row: the disparity and three values of the colour. The disparities
+// are either near `disparity` or arbitrary.
 std::vector<int32_t> AnyRow(size_t plane, int disparity, int colours, Draw* draw) {
   std::vector<int32_t> row(4 * plane);
   for (size_t n = 0; n < plane; ++n) {

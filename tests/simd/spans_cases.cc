@@ -10,11 +10,11 @@ struct Spans {
   size_t count, end;
 };
 
-// Makes adjacent spans of the target, with gaps of up to two samples, and their sources. With
-// `blend`, both weights of a span sum to 2^kBlendBits, and the weight of the neighbour is at most
-// half of this sum.
+// Makes consecutive spans, whose targets have gaps of up to two samples, and the source samples of
+// these spans. If `blend` is true, both weights of a span sum to 2^kBlendBits, and the neighbour's
+// weight is at most half of this sum.
 Spans MakeSpans(bool blend, Draw* draw, KernelCall* call) {
-  constexpr size_t kMargin = 8;  // room for neighbours and unaligned starts
+  constexpr size_t kMargin = 8;  // samples for neighbours and unaligned starts
   const size_t samples = draw->Length(1, kLongestBytes, 96);
   const size_t count = draw->Size(1, 5, kTimedSamples / 96);
   const std::vector<int16_t> light = Light(kMargin + samples + kMargin, draw);

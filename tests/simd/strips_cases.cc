@@ -7,8 +7,8 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns a random position of a view: on whole samples, between two samples, or across three or
-// four samples. Between two samples, the weights at edges and inside are equal or different.
+// Returns a random filter for the position of a view: one sample, two samples, or three or four
+// samples. With two samples, the weights at edges and inside surfaces may be equal or different.
 SliceFraction Fraction(Draw* draw) {
   const int taps = draw->timed() ? 2 : draw->Int(1, 5), first = draw->Int(0, 32767);
   if (taps == 1) return {INT16_MIN, INT16_MIN, 0, 0};
@@ -19,9 +19,9 @@ SliceFraction Fraction(Draw* draw) {
   return {edge, edge, int16_t(-third), int16_t(taps == 4 ? 0 : -draw->Int(0, third))};
 }
 
-// Returns rows of four adjacent planes. No colour exceeds its coverage. `share` is the percentage
-// of the stretches of a row that are partly or fully covered. With kFull, all samples are fully
-// covered.
+// Returns rows of samples; each row has four adjacent planes, three colours and the coverage. No
+// colour exceeds its coverage. `share` is the percentage of sequences of samples in a row that are
+// partly or fully covered. If `share` is kFull, all samples are fully covered.
 constexpr int kFull = 101;
 std::vector<int16_t> Planes(size_t rows, size_t plane, int share, Draw* draw) {
   std::vector<int16_t> samples(4 * rows * plane);
@@ -51,7 +51,7 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   const size_t empty = size_t(draw->Int(0, int(rows) - 1));
   std::fill_n(samples.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
   const size_t first = size_t(draw->Int(0, int(more)));
-  // The memory ends with the last sample that the kernel reads.
+  // The memory of `in` ends with the last sample that the kernel reads.
   samples.resize(samples.size() - (more - first));
   const SlicePlanes in = {call->Input("in", samples) + first, in_plane};
   const SliceFraction fraction = Fraction(draw);
@@ -73,8 +73,9 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// Returns the marks of the rows of a strip. `covered` has the number of covered samples per row. A
-// row that is marked as fully covered may additionally be marked as visible.
+// Returns a mark for each row of a strip: kCoveredNear, or the distance to the next row that is not
+// empty. `covered` holds the number of covered samples of each row. If `full` is true, rows
+// followed by covered rows only are marked kCoveredNear.
 std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   std::vector<int8_t> near(covered.size() - kRowsAhead);
   for (size_t row = 0; row < near.size(); ++row) {
@@ -85,14 +86,14 @@ std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   return near;
 }
 
-// Makes a slice in a strip, with some empty rows. The result starts `before` rows after the first
-// row.
+// Makes the samples of a slice in a strip, with some empty rows. The returned pointers point to the
+// row with the index `before`.
 StripSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Met* met) {
   const bool full = draw->Int(0, 1) == 0;
   const auto in = Planes(rows, kSliceLanes, full ? kFull : draw->Int(5, 100), draw);
   const size_t plane = kSliceLanes * rows;
   std::vector<int16_t> samples(4 * plane);
-  std::vector<int> covered(rows + kRowsAhead);  // covered samples of each row
+  std::vector<int> covered(rows + kRowsAhead);  // number of covered samples of each row
   for (size_t row = 0; row < rows; ++row) {
     if (draw->Rarely(full ? 12 : 4)) continue;
     for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
@@ -107,7 +108,8 @@ StripSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Me
           plane};
 }
 
-// kSkipped rows precede the first composited row. Views move by at most kMost rows.
+// In each slice, kSkipped rows precede the first composited row. Views move slices by at most kMost
+// rows.
 constexpr size_t kSkipped = 1, kMost = 4;
 
 SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {

@@ -9,7 +9,8 @@ namespace {
 // Longest row in pixels: more than two of the widest vectors.
 constexpr int kLongestRow = 2 * 64 + 67;
 
-// Returns random coefficients. The largest ones slightly exceed the coefficients of all formats.
+// Returns random coefficients. The largest random coefficients slightly exceed the coefficients of
+// all formats.
 YuvMatrix AnyMatrix(Draw* draw) {
   YuvMatrix m = {};
   m.black = int16_t(16 * draw->Int(0, 1));
@@ -18,7 +19,7 @@ YuvMatrix AnyMatrix(Draw* draw) {
   m.gu = int16_t(draw->Int(-4000, 0));
   m.gv = int16_t(draw->Int(-7000, 0));
   m.bu = int16_t(draw->Int(14000, 17400));
-  const int most = m.black == 0 ? 32768 : 30000;  // so that white is at most 255
+  const int most = m.black == 0 ? 32768 : 30000;  // keeps white at 255 or less
   m.yr = int16_t(draw->Int(6000, 9798));
   m.yb = int16_t(draw->Int(2000, 3735));
   m.yg = int16_t(draw->Int(0, 1) == 0 ? most - m.yr - m.yb : draw->Int(12000, 16000));

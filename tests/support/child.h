@@ -10,8 +10,8 @@
 
 namespace starfocus {
 
-// Starts a process that calls `work`. Sends `signal` as soon as `work` has reported its start, and
-// returns the status of the process.
+// Starts a process that calls `work`. Sends `signal` to the process as soon as `work` has reported
+// its start, and returns the exit status of the process.
 template <class Work>
 int EndBySignal(int signal, const Work& work) {
   int ends[2];
@@ -19,7 +19,7 @@ int EndBySignal(int signal, const Work& work) {
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
-    ::signal(signal, SIG_DFL);  // a parent such as nohup may ignore the signal
+    ::signal(signal, SIG_DFL);  // The parent may ignore the signal, as nohup does.
     work([&] { return write(ends[1], "x", 1) == 1; });
     _exit(0);
   }

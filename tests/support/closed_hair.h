@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A portrait with hair. In the map, the outline of the hair is closed, as in maps of monocular
-// networks.
+// Makes a synthetic portrait with hair. In the disparity map, hair is one closed area without gaps,
+// as in maps of monocular networks.
 #ifndef STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
 #define STARFOCUS_TESTS_SUPPORT_CLOSED_HAIR_H_
 
@@ -23,7 +23,7 @@ struct ClosedHair {
   static constexpr float kNear = 9, kFar = -4;
   static constexpr int kWidth = 240, kHeight = 181;
   Area body = {40, 110, 240, 181}, hair = {40, 60, 180, 110};
-  Strands strands;     // strands of the hair; if empty, the hair is opaque
+  Strands strands;     // strands of the hair; without strands, the hair is opaque
   bool spots = false;  // true if the wall has spots, which contain a quarter of the near colour
   std::vector<uint8_t> rgb, coverage;
   std::vector<float> map;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares errors with the expected lines ("" for no error), and searches for parts of texts.
+// Comparison of errors with expected lines ("" for no error), and search for parts of texts.
 #ifndef STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 #define STARFOCUS_TESTS_SUPPORT_ERROR_LINE_H_
 
@@ -40,14 +40,14 @@ bool Contains(const Result<T>& result, const std::string& part) {
   return Contains(result.error(), part);
 }
 
-// Returns the value of a result. Throws a std::runtime_error if the result is an error.
+// Returns the value that `result` holds. Throws a std::runtime_error if the result is an error.
 template <class T>
 T ValueOf(Result<T> result) {
   if (!result) throw std::runtime_error(result.error().line());
   return std::move(*result);
 }
 
-// Operators that print errors for doctest.
+// doctest prints errors and results with these operators.
 inline std::ostream& operator<<(std::ostream& out, const Error& error) {
   return out << error.line();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields of images, and conversions of these light fields by the definitions in
-// starfocus/image.h.
+// Light fields of images in all formats, and their conversion to R, G, B as starfocus/image.h
+// defines.
 #ifndef STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
 #define STARFOCUS_TESTS_SUPPORT_IMAGE_FIELD_H_
 
@@ -17,10 +17,10 @@ namespace test {
 struct ImageField {
   std::vector<ImageMemory> views;
   DepthMemory depth;
-  Scene converted;  // the converted light field
+  Scene converted;  // the light field, converted to R, G, B
 
-  // Returns the light field from `row` on. A map that is smaller than the picture is always passed
-  // completely.
+  // Returns the part of the light field that starts at `row`. A depth map with fewer rows than the
+  // picture is always passed completely.
   starfocus_light_field Field(int row = 0) const {
     starfocus_light_field field = {};
     for (size_t k = 0; k < views.size(); ++k) field.views[k] = views[k].In(row);
@@ -34,7 +34,7 @@ struct ImageField {
     ImageMemory& centre = const_cast<ImageMemory&>(views[0]);
     return centre.kind().HasAlpha() ? *centre.Colour(x, y, 3) : 255;
   }
-  // Converts `out` to an image of the same size. Pixel (0, 0) of `out` is pixel (x, y) of the
+  // Converts `out` to an image of kind `kind`. Pixel (0, 0) of `out` is pixel (x, y) of the
   // picture.
   ImageMemory Converted(const Output& out, const ImageKind& kind, int x = 0, int y = 0) const {
     ImageMemory image(out.width, out.height, kind);
@@ -74,7 +74,8 @@ inline starfocus_config ImageConfig(const ImageField& field, double max_blur = 2
   return config;
 }
 
-// Streams with at most `push_rows` and `pull_rows` rows per call.
+// Streams a light field of images, with at most `push_rows` rows per push and `pull_rows` rows per
+// pull.
 inline starfocus_status Stream(Engine* engine, const ImageField& field,
                                const starfocus_params& params, int push_rows, int pull_rows,
                                ImageMemory* image, starfocus_report* report) {

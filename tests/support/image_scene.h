@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images and depth maps of every format in memory, and conversions as defined in starfocus/image.h.
+// Images and depth maps of every format in memory, and their conversions as defined in
+// starfocus/image.h.
 #ifndef STARFOCUS_TESTS_SUPPORT_IMAGE_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_IMAGE_SCENE_H_
 
@@ -14,8 +15,8 @@
 
 namespace test {
 
-// Properties of an image except its size. `layout` applies to YUV_420_888 with chroma samples 2
-// bytes apart: 0 (U first), 1 (V first), or 2 (separate memory for U and V).
+// Format and memory layout of an image. `layout` applies to YUV_420_888 with chroma samples 2 bytes
+// apart: 0 (U first), 1 (V first), or 2 (separate memory for U and V).
 struct ImageKind {
   int format = STARFOCUS_FORMAT_RGB, matrix = 0, range = 0, pixel_stride = 0, padding = 0,
       layout = 0;
@@ -45,8 +46,8 @@ inline ImageKind AnyKind(int format, Random* random) {
   return kind;
 }
 
-// An image in memory that ends with the last byte of its last row. Bytes that do not belong to a
-// pixel are poisoned.
+// An image in memory; the memory ends with the last byte of the image's last row. All bytes between
+// pixels and rows are poisoned.
 class ImageMemory {
  public:
   ImageMemory(int width, int height, const ImageKind& kind)
@@ -70,7 +71,7 @@ class ImageMemory {
   int height() const { return height_; }
   const ImageKind& kind() const { return kind_; }
 
-  // Returns the image from an even row on.
+  // Returns the part of the image that starts at `row`, which must be even.
   starfocus_image Out(int row = 0) {
     starfocus_image out = {kind_.format, kind_.matrix, kind_.range, kind_.pixel_stride, {}, {}};
     for (int plane = 0; plane < 3; ++plane) {
@@ -96,7 +97,7 @@ class ImageMemory {
     return &bytes_[0][size_t(y) * strides_[0] + size_t(x * kind_.Step() + place)];
   }
   uint8_t* Luma(int x, int y) { return &bytes_[0][size_t(y) * strides_[0] + size_t(x)]; }
-  // Returns a chroma sample. `which` is 1 for U, 2 for V.
+  // Returns a pointer to a chroma sample. `which` is 1 for U, 2 for V.
   uint8_t* Chroma(int which, int x, int y) {
     const size_t row = size_t(y / 2), column = size_t(x / 2 * kind_.Step());
     if (!bytes_[2].empty()) return &bytes_[which][row * strides_[which] + column];
@@ -128,7 +129,7 @@ class ImageMemory {
   size_t strides_[3] = {};
 };
 
-// P(a, c) and other functions in the definitions of starfocus/image.h.
+// Functions, such as P(a, c), that the definitions in starfocus/image.h use.
 inline int Product(int a, int c) { return (a * c + (1 << 14)) >> 15; }
 inline int Rounded(double value) { return int(std::lround(value)); }
 inline uint8_t Code(int value) { return uint8_t(std::clamp(value, 0, 255)); }
@@ -246,15 +247,15 @@ struct DepthMemory {
   }
 };
 
-// Makes a map of a scene's disparities. Each value is taken at the middle of the pixels that the
-// value represents.
+// Makes a depth map of width x height values from a scene's disparities. Each value is the
+// disparity of the middle of the pixels that the value represents.
 inline DepthMemory MakeDepth(const Scene& scene, int width, int height, starfocus_depth_type type,
                              starfocus_depth_meaning meaning, int padding) {
   DepthMemory depth;
   starfocus_depth_map& map = depth.map;
   map.width = width, map.height = height, map.type = type, map.meaning = meaning;
   const double span = double(scene.disparity_max) - double(scene.disparity_min);
-  // Distances of near surfaces are small. An offset makes all disparities positive.
+  // In reciprocal maps, near surfaces have small values. An offset makes all disparities positive.
   map.offset =
       float(double(scene.disparity_min) - (meaning == STARFOCUS_DEPTH_LINEAR ? 0 : 0.2 * span));
   const double steps = type == STARFOCUS_DEPTH_U8    ? 250
@@ -276,7 +277,7 @@ inline DepthMemory MakeDepth(const Scene& scene, int width, int height, starfocu
   return depth;
 }
 
-// Returns the disparity of a value in 1/64 pixel, or kUnknown.
+// Returns the disparity of a depth value, in 1/64 pixel, or kUnknown.
 constexpr int kUnknown = -32768;
 inline int DepthAt(DepthMemory* depth, int x, int y) {
   const starfocus_depth_map& map = depth->map;
@@ -292,13 +293,14 @@ inline int Between(int d0, int d1, int share) {
   return d0 + ((share * (d1 - d0) + 128) >> 8);
 }
 
-// Returns the position of column x of `width` in a map of `small` columns, in 1/256.
+// Returns the position, in 1/256 columns, of picture column x (of `width` columns) in a map of
+// `small` columns.
 inline int PlaceInMap(int x, int width, int small) {
   const int64_t p = int64_t{128} * (2 * x + 1) * small / width - 128;
   return int(std::clamp<int64_t>(p, 0, int64_t{256} * (small - 1)));
 }
 
-// Converts a depth map to a float map. Unknown disparities become NaN.
+// Converts a depth map to width x height disparities. Unknown disparities become NaN.
 inline std::vector<float> ConvertDepth(DepthMemory* depth, int width, int height) {
   const starfocus_depth_map& map = depth->map;
   std::vector<float> disparity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access to the internals of an engine. No other header of the tests includes lib/engine, so a
-// change of lib/engine affects a single header.
+// Gives tests access to the internals of an engine. Among the tests, only this header includes
+// lib/engine, so changes of lib/engine affect a single header.
 #ifndef STARFOCUS_TESTS_SUPPORT_INSIDE_H_
 #define STARFOCUS_TESTS_SUPPORT_INSIDE_H_
 
@@ -28,8 +28,8 @@ inline void UseKernels(const starfocus::simd::Kernels* kernels, starfocus_engine
 
 using starfocus::Borders;
 
-// BordersOf returns the borders of a configuration, for blur radii up to `max_blur` pixels or up to
-// the configured maximum.
+// BordersOf returns the borders that blocks of a configuration read, for blur radii up to
+// `max_blur` or the configured maximum.
 inline starfocus::Borders BordersOf(const starfocus_config& config, double max_blur) {
   return starfocus::AddBorders(config, max_blur, true);
 }
@@ -42,7 +42,7 @@ inline starfocus::Borders BordersOf(double max_blur) {
   return BordersOf(config, max_blur);
 }
 
-// Plan of the stripe that was refocused last.
+// Blocks and gathered cells of the stripe that was refocused last.
 struct StripeBlocks {
   std::vector<starfocus::Block> blocks;
   starfocus::GatherMap gathered;
@@ -52,8 +52,8 @@ inline StripeBlocks PlanOf(starfocus_engine* engine) {
   return {{plan.blocks, plan.blocks + plan.used}, plan.gathered};
 }
 
-// Returns a poisoned picture with one block of the stripe that was refocused last, without
-// deblocking.
+// Refocuses one block of the last stripe again, without deblocking, and returns the picture; all
+// other pixels are poisoned.
 inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_engine* engine) {
   const starfocus::EngineState& state = StateOf(engine);
   const size_t stride = 3 * static_cast<size_t>(state.config.width);
@@ -63,7 +63,8 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_e
   return out;
 }
 
-// Returns the picture of RenderOne, made with a renderer that never copies blocks.
+// Returns the picture of RenderOne, but renders the block even if the renderer would copy the
+// block.
 inline std::vector<uint8_t> RenderUncopied(const starfocus::Block& block,
                                            starfocus_engine* engine) {
   starfocus::Lens& lens = StateOf(engine).lens;
@@ -76,8 +77,8 @@ inline std::vector<uint8_t> RenderUncopied(const starfocus::Block& block,
   return out;
 }
 
-// Returns the number of columns of superblocks that have been subsampled for the last stripe,
-// summed over all layers.
+// Returns the number of superblock columns that were subsampled for the last stripe, summed over
+// layers 1 and 2.
 inline int LayerColumns(starfocus_engine* engine) {
   const starfocus::EngineState& state = StateOf(engine);
   int columns = 0;
@@ -90,7 +91,7 @@ inline int LayerColumns(starfocus_engine* engine) {
 }
 
 // Returns a reference to the size in bytes of the first worker's pool of slices. Tests may reduce
-// the size.
+// the size of the pool.
 inline size_t& PoolBytes(starfocus_engine* engine) {
   void* scratch = StateOf(engine).workers.scratch[0].renderers[starfocus::kSliceRenderer.index];
   return static_cast<starfocus::CompositorScratch*>(scratch)->pool_bytes;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields that are computed with integers. The light fields are equal on every machine and
-// with every compiler, since neither rounding nor the order of evaluation affects them. Used for
-// checksums and instruction counts.
+// Makes light fields with integer arithmetic. The light fields are equal on every machine and with
+// every compiler, since neither rounding nor the order of evaluation affects them. Tests of
+// checksums and the instruction bench use these light fields.
 #ifndef STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_INTEGER_SCENE_H_
 
@@ -11,8 +11,8 @@ namespace test {
 
 enum class Depth { kLayers, kSlanted, kNoise, kRoom };
 
-// Returns a multiple of 1/64, 1/160, 1/20 or 1/7 as the disparity. A single division per disparity
-// makes the result equal on every machine.
+// Returns a multiple of 1/64, 1/160, 1/20 or 1/7 as the disparity. Each disparity is computed with
+// a single division, so the result is equal on every machine.
 inline float DisparityAt(Depth depth, int x, int y, Random* random) {
   switch (depth) {
     case Depth::kLayers: {
@@ -23,7 +23,8 @@ inline float DisparityAt(Depth depth, int x, int y, Random* random) {
       return static_cast<float>(3 * x - 2 * y) / 160.0f;
     case Depth::kNoise:
       return static_cast<float>(random->Int(-21, 21)) / 7.0f;
-    // a wall, a floor that comes nearer, and a disc and a pole in front of both
+    // The room consists of a wall, a floor that comes nearer towards the bottom, and a disc and a
+    // pole in front.
     case Depth::kRoom: {
       const int dx = x - 120, dy = y - 90;
       if (dx * dx + dy * dy < 56 * 56) return 3.5f;
@@ -34,8 +35,8 @@ inline float DisparityAt(Depth depth, int x, int y, Random* random) {
   return 0;
 }
 
-// Makes smooth shading with noise and hard edges. Views have different shifts and shading, so that
-// samples of a wrong view are detected.
+// Makes pictures of smooth shading with noise and hard edges. Views have different shifts and
+// shading, so that samples of a wrong view are detected.
 inline Scene IntegerScene(int width, int height, int views, Depth depth) {
   Scene scene = EmptyScene(width, height, views, -4, 4);
   Random random(static_cast<uint64_t>(views) * 10 + static_cast<uint64_t>(depth));
@@ -57,8 +58,9 @@ inline Scene IntegerScene(int width, int height, int views, Depth depth) {
   return scene;
 }
 
-// Makes noise: each pixel has one of `levels` random disparities within +-range. Each level
-// requires a slice. If the levels exceed the limit of slices in a block, slices become wider.
+// Makes a picture of noise, in which each pixel has one of `levels` random disparities within
+// +-range. Each of these disparities requires a slice. If `levels` exceeds the limit of slices in a
+// block, the slices become wider.
 inline Scene LevelScene(int side, int levels, int range) {
   Scene scene = EmptyScene(side, side, 1, static_cast<float>(-range), static_cast<float>(range));
   Random random(static_cast<uint64_t>(1000 * range + levels));

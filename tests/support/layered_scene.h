@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light fields for block mode, with areas for every layer.
+// Makes light fields for tests of block mode, with areas for every layer.
 #ifndef STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_
 #define STARFOCUS_TESTS_SUPPORT_LAYERED_SCENE_H_
 
@@ -12,8 +12,8 @@
 
 namespace test {
 
-// Makes a slanted background and rectangles. The scene has edges, and flat areas that are large
-// enough for layers 1 and 2.
+// Makes a scene of a slanted background and rectangles. The scene has edges, and flat areas that
+// are large enough for layers 1 and 2.
 inline Scene LayeredScene(int width, int height, int views, float limit, uint64_t seed) {
   Random random(seed);
   Scene scene = EmptyScene(width, height, views, -limit, limit, int(seed % 4));

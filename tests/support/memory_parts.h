@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the purpose of each byte of a workspace, from the engine's own layout.
+// Measures how many bytes of a workspace each part of the engine uses, from the engine's own
+// layout.
 #ifndef STARFOCUS_TESTS_SUPPORT_MEMORY_PARTS_H_
 #define STARFOCUS_TESTS_SUPPORT_MEMORY_PARTS_H_
 
@@ -16,7 +17,7 @@ namespace test {
 struct MemoryPart {
   const char* name;
   bool shared;  // true if other tasks of the worker share this memory
-  // start of the part; null: the engine does not have this part
+  // start of the part, or null if the engine does not have this part
   const void* first;
   size_t begin = 0, end = 0;
 
@@ -90,7 +91,8 @@ inline std::vector<MemoryPart> MeasureParts(const starfocus_config& config) {
   return walk.next == walk.parts.size() ? walk.parts : std::vector<MemoryPart>();
 }
 
-// Total size and shared size in bytes. The total counts shared memory once.
+// Total size of the parts, and size of the shared memory, in bytes. The total includes shared
+// memory once.
 struct MemorySum {
   size_t all = 0, shared = 0;
 };
@@ -107,7 +109,7 @@ inline MemorySum SumOf(const std::vector<MemoryPart>& parts) {
   return sum;
 }
 
-// Returns a configuration of docs/boards.md, without memory for thin structures.
+// Returns a configuration as in docs/boards.md, without memory for thin structures.
 inline starfocus_config BoardConfig(int width, int height, int views, int block, double blur,
                                     int streaming) {
   starfocus_config config;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small depth photo, and the contents of an opened photo, for the tests of photo readers.
+// For tests of photo readers: makes a small depth photo, opens photos and checks their contents.
 #ifndef STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
 #define STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
 
@@ -35,7 +35,8 @@ inline double PerDiopter(double focal) {
   return focal * focal / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight);
 }
 
-// Nearest disparity of a map without units: 1.5 m from a 50 mm lens.
+// Nearest disparity of a depth map without units, which is assumed to show a distance of 1.5 m and
+// a 50 mm lens.
 inline const double kPortrait = PerDiopter(50) / 1.5;
 
 inline void CheckRamp(const Capture& capture, double at_black, double at_white) {
@@ -46,8 +47,8 @@ inline void CheckRamp(const Capture& capture, double at_black, double at_white) 
   CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(at_white).epsilon(1e-4));
 }
 
-// Opens a photo, and checks that the map is a ramp from `at_black` on the left to `at_white` on the
-// right.
+// Opens a photo, and checks that its disparities are a ramp from `at_black` on the left to
+// `at_white` on the right.
 inline Capture OpenRamp(const std::string& bytes, double at_black, double at_white,
                         const CaptureOptions& options = {}) {
   Capture capture;

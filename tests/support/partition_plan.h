@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plans the partition of a random disparity map independently of the engine. Computes the
 // parameters of each block by the rules for layers, views and gathering and by the timing model.
-// Also computes the costs of all possible partitions.
+// For comparison, the code computes the costs of all possible partitions.
 #ifndef STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_
 #define STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_
 
@@ -38,13 +38,13 @@ using starfocus::Renderer;
 
 constexpr double kRadiusOne = 1 << starfocus::kDisparityBits;
 
-// Apertures of a renderer, for every N that occurs in plans for blur radii up to 128 pixels.
+// Apertures of a renderer, for every N that is planned for blur radii up to 128 pixels.
 struct Apertures {
   explicit Apertures(const Renderer& renderer) : all(&renderer == &kSliceRenderer ? 30 : 110) {
     for (size_t n = 0; n < all.size(); ++n) {
       std::vector<uint16_t> weights(starfocus::ViewWeightsSize(int(n)));
       all[n] = renderer.make_aperture(int(n), starfocus::ApertureFallOff(0.8), weights.data());
-      all[n].weights = nullptr;  // plans do not read weights
+      all[n].weights = nullptr;  // planning reads no weights
     }
   }
   std::vector<starfocus::ViewWeights> all;
@@ -128,7 +128,8 @@ struct Plan {
 
   bool Inside(int x, int y) const { return x < config.width && y < config.height; }
 
-  // Returns the statistics of any block, merged from the statistics of blocks of 16 pixels.
+  // Returns the statistics of a block of `side` pixels, merged from the statistics of blocks of 16
+  // pixels.
   BlockStats Stats(int x, int y, int side) const {
     if (side == kSmallestBlock) {
       return test::MeasureBlock(grid, rules.scale, x / kCellSize, y / kCellSize, around);
@@ -147,7 +148,7 @@ struct Plan {
 
   std::vector<int16_t> disparity;
   std::vector<Cell> cells;
-  std::vector<uint8_t> flags;  // true for gathered cells
+  std::vector<uint8_t> flags;  // for each cell, 1 if the cell is gathered
   starfocus::GatherMap gathered;
   CellGrid grid;
   int around = 0;
@@ -155,14 +156,15 @@ struct Plan {
   PartitionRules rules = {};
 };
 
-// Returns the layer, if layer 1 starts at `radius` and layer 2 starts at twice `radius`.
+// Returns the layer for a smallest blur radius of r_min, where layer 1 starts at `radius` and layer
+// 2 at twice `radius`.
 inline int LayerFrom(double r_min, double radius) {
   return r_min >= 2 * radius ? 2 : r_min >= radius ? 1 : 0;
 }
 
-// Returns the layer by (12), or by the rule for wide subapertures. The rule for wide subapertures
-// uses both layers only for larger radii, and never uses layer 2 for silhouettes. For openings with
-// sharp edges, the layers start at even larger radii.
+// Returns the layer of a block by (12), or by the rule for subapertures. The rule for subapertures
+// uses layers 1 and 2 only for larger radii, and never uses layer 2 for silhouettes. For openings
+// with sharp edges, layers 1 and 2 start at even larger radii.
 inline int LayerOf(bool subapertures, double r_min, bool silhouette, starfocus::Demand demand) {
   constexpr double kPaper[] = {3, 4, 5, 6}, kCells[] = {7, 12, 14, 16};
   const auto index = static_cast<size_t>(demand);
@@ -171,7 +173,7 @@ inline int LayerOf(bool subapertures, double r_min, bool silhouette, starfocus::
   return r_min < first ? 0 : r_min < 24 * first / 7 || silhouette ? 1 : 2;
 }
 
-// Returns N by (9), or by the rule for wide subapertures. By the latter rule, N is larger for
+// Returns N by (9), or by the rule for subapertures. By the rule for subapertures, N is larger for
 // openings without fall-off.
 inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
   if (subapertures && demand >= starfocus::Demand::kPolygon && r_max > 5 && r_max <= 34) return 6;
@@ -193,9 +195,10 @@ inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
 
 inline int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
 
-// Plans the part of a block that views must render. This part is the rectangle of all cells that
-// may not be gathered, in pixels of the layer. At the sides of the block, the rectangle includes
-// the margin. N and the border come from the blocks of 16 pixels that contain such cells.
+// Plans the part of a block that views must render. This part is the bounding rectangle of all
+// cells that may not be gathered, in pixels of the layer. At the sides of the block, the rectangle
+// includes the margin that upsampling reads. N and the border are computed from the blocks of 16
+// pixels that contain cells to be rendered.
 inline void PlanRest(const Plan& plan, Block* block) {
   const Rect rect = block->rect;
   const int scale = 1 << block->layer, margin = kLayerMargin[block->layer];
@@ -208,7 +211,7 @@ inline void PlanRest(const Plan& plan, Block* block) {
       }
     }
   };
-  // Sides in pixels of the picture, rounded to multiples of the layer's pixels.
+  // Rounds the end of the block up to a whole pixel of the layer, in pixels of the picture.
   const auto up = [&](int pixels) { return CeilQuotient(pixels, scale) * scale; };
   for_each([&](int x, int y) {
     left = std::min(left, x - (x == rect.x ? margin : 0));
@@ -262,9 +265,9 @@ struct GatherPlan {
   }
 };
 
-// Gathers all possible cells at the block's layer. If the whole block can be gathered at layer 0,
-// the block is gathered at layer 0. `upsampling` is the predicted time of upsampling, which is part
-// of the block's cost.
+// Plans to gather all cells of the block that may be gathered at the block's layer. If the whole
+// block can be gathered at layer 0, the block is gathered at layer 0. `upsampling` is the predicted
+// time of upsampling, which is part of the block's cost.
 inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
   const GatherPlan here(plan, block->rect, block->layer), below(plan, block->rect, 0);
   if (here.gathered > 0) {
@@ -280,7 +283,7 @@ inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
   if (block->gathers) PlanRest(plan, block);
 }
 
-// Returns a block with the parameters that the rules determine.
+// Returns a block with the layer, N, border and cost that the rules determine.
 inline Block Planned(const Plan& plan, int x, int y, int side) {
   const BlockStats stats = plan.Stats(x, y, side);
   Block block = {};
@@ -332,7 +335,8 @@ inline std::vector<uint64_t> AllCosts(const Plan& plan, int x, int y, int side) 
   return costs;
 }
 
-// Returns the smallest cost of all partitions, even for blocks with too many partitions to list.
+// Returns the smallest cost of all partitions of a block, even if the partitions are too many to
+// list.
 inline uint64_t LeastCost(const Plan& plan, int x, int y, int side) {
   if (side <= 64) {
     const std::vector<uint64_t> all = AllCosts(plan, x, y, side);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes depth photos byte by byte, as defined in the public specifications of the formats. Used by
-// tests and for the seeds of fuzz targets.
+// Writes depth photos byte by byte, as defined in the public specifications of the formats. Tests
+// use these photos, and fuzz targets use them as seeds.
 #ifndef STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
 #define STARFOCUS_TESTS_SUPPORT_PHOTO_FILES_H_
 
@@ -78,7 +78,7 @@ inline std::string Chunk(const std::string& type, const std::string& content) {
          Big(Crc(type + content), 4);
 }
 
-// Sample format of a PNG file, and its chunks before the samples.
+// Sample format of a PNG file, and additional chunks before the samples.
 struct PngKind {
   int depth = 8, colour = 0;
   std::string more = {};
@@ -107,7 +107,7 @@ inline std::string Png(uint32_t width, uint32_t height, const PngKind& kind,
          Chunk("IEND", "");
 }
 
-// Returns a grey PNG file of 16 bits.
+// Returns a grey PNG file with 16 bits per sample.
 inline std::string Png16(int width, int height, const std::vector<uint16_t>& levels) {
   std::string samples;
   for (const uint16_t level : levels) samples += Big(level, 2);
@@ -142,7 +142,7 @@ inline std::string XmpSegment(const std::string& packet) {
 
 constexpr char kGuid[] = "0123456789ABCDEF0123456789ABCDEF";
 
-// Returns extended XMP in segments of `part` bytes of text.
+// Returns extended XMP, divided into JPEG segments of `part` bytes of text.
 inline std::vector<std::string> ExtensionSegments(const std::string& text, size_t part) {
   std::vector<std::string> segments;
   for (size_t at = 0; at < text.size(); at += part) {
@@ -176,7 +176,7 @@ inline std::string Gdepth(const std::string& jpeg, const std::string& attributes
   return Insert(jpeg, XmpSegment(main) + Joined(ExtensionSegments(text, part)));
 }
 
-// Returns EXIF with an orientation and a focal length, big endian (EXIF 2.32, 4.6).
+// Returns a segment of big-endian EXIF with an orientation and a focal length (EXIF 2.32, 4.6).
 inline std::string ExifSegment(int orientation, int focal_35mm) {
   const auto entry = [](int tag, int type, uint32_t value) {
     return Big(static_cast<uint32_t>(tag), 2) + Big(static_cast<uint32_t>(type), 2) + Big(1, 4) +
@@ -189,8 +189,9 @@ inline std::string ExifSegment(int orientation, int focal_35mm) {
   return Segment(0xe1, std::string("Exif\0\0MM\0\x2a\0\0\0\x08", 14) + first + second);
 }
 
-// Returns EXIF with an orientation and a subject of two to four numbers, little endian (EXIF 2.32,
-// 4.6). The EXIF also has the size of the picture that the subject refers to, unless the size is 0.
+// Returns a segment of little-endian EXIF with an orientation and a subject of two to four numbers
+// (EXIF 2.32, 4.6). If `width` is not 0, the EXIF includes the size of the picture that the subject
+// refers to.
 inline std::string SubjectSegment(int orientation, int tag, const std::vector<int>& subject,
                                   int width = 0, int height = 0) {
   const auto little = [](int value, int bytes) {
@@ -209,8 +210,8 @@ inline std::string SubjectSegment(int orientation, int tag, const std::vector<in
       entry(tag, 3, static_cast<int>(subject.size()), inside ? numbers : little(behind, 4));
   const std::string sizes =
       sized ? entry(0xa002, 4, 1, little(width, 4)) + entry(0xa003, 4, 1, little(height, 4)) : "";
-  // Tags must be in ascending order: SubjectArea precedes the sizes, and SubjectLocation follows
-  // the sizes.
+  // EXIF tags must be in ascending order: SubjectArea precedes the picture size, and
+  // SubjectLocation follows the picture size.
   std::string text = std::string("Exif\0\0II\x2a\0\x08\0\0\0", 14) + little(2, 2) +
                      entry(0x0112, 3, 1, little(orientation, 4)) +
                      entry(0x8769, 4, 1, little(exif, 4)) + little(0, 4);
@@ -218,15 +219,16 @@ inline std::string SubjectSegment(int orientation, int tag, const std::vector<in
   return Segment(0xe1, inside ? text : text + numbers);
 }
 
-// Options of the index of a multi-picture file, which may be valid or invalid.
+// Options for the index of a multi-picture file; options may make the index invalid.
 struct IndexOptions {
-  bool little = false;        // byte order
-  uint32_t entry_bytes = 32;  // size of the entries that the index declares
-  uint32_t moved = 0;         // error of the second picture's position
+  bool little = false;        // true for little-endian numbers
+  uint32_t entry_bytes = 32;  // declared size of all index entries
+  uint32_t moved = 0;         // error added to the position of the second picture
   uint32_t type = 0;          // type of the second picture
 };
 
-// Returns a file of two pictures. The index is in the first one's APP2 segment (CIPA DC-007, 5.2).
+// Returns a multi-picture file of two pictures. The index is in an APP2 segment of the first
+// picture (CIPA DC-007, 5.2).
 inline std::string MultiPicture(const std::string& first, const std::string& second,
                                 const IndexOptions& options = {}) {
   const auto number = [&](uint32_t value, int bytes) {
@@ -245,13 +247,14 @@ inline std::string MultiPicture(const std::string& first, const std::string& sec
     return Segment(0xe2, std::string("MPF\0", 4) + (options.little ? "II" : "MM") + number(42, 2) +
                              number(8, 4) + directory + entries);
   };
-  // The TIFF header is 4 + 4 bytes after the start of the segment, which is 2 bytes after the start
-  // of the file.
+  // Offsets count from the TIFF header, at byte 10: 2 bytes before the segment, 4 of its header and
+  // 4 of "MPF".
   const auto size = static_cast<uint32_t>(Insert(first, index(0, 0)).size());
   return Insert(first, index(size, size - 10 + options.moved)) + second;
 }
 
-// Returns the segments of an ICC profile in several parts, in order (ICC.1, annex B.4).
+// Returns the JPEG segments of an ICC profile that is divided into `parts` parts (ICC.1, annex
+// B.4).
 inline std::vector<std::string> ProfileSegments(const std::string& icc, size_t parts) {
   std::vector<std::string> segments;
   const size_t size = (icc.size() + parts - 1) / parts;
@@ -262,7 +265,7 @@ inline std::vector<std::string> ProfileSegments(const std::string& icc, size_t p
   return segments;
 }
 
-// Returns a profile without tags for RGB or other colours (ICC.1, 7.2).
+// Returns an ICC profile without tags, for RGB or another colour space (ICC.1, 7.2).
 inline std::string Profile(size_t size, const std::string& space = "RGB ") {
   std::string icc(size, '\0');
   icc.replace(0, 4, Big(static_cast<uint32_t>(size), 4));
@@ -274,7 +277,7 @@ inline std::string Profile(size_t size, const std::string& space = "RGB ") {
   return icc;
 }
 
-// Returns a Photoshop segment with a resource to skip, and IPTC records.
+// Returns a Photoshop segment with a resource that readers must skip, followed by IPTC records.
 inline std::string IptcSegment(const std::string& records) {
   const std::string even = records.size() % 2 == 0 ? records : records + '\0';
   return Segment(0xed, std::string("Photoshop 3.0\0", 14) + "8BIM" + Big(0x03ed, 2) +
@@ -298,7 +301,7 @@ inline std::string ContainerItem(const std::string& mime, size_t length, const s
 }
 
 // Returns a Dynamic Depth 1.0 file: a picture, another item, and the map. `wrong` is added to the
-// length of the other item.
+// declared length of the other item.
 inline std::string DynamicDepth(const std::string& jpeg, const std::string& map,
                                 const std::string& attributes, size_t wrong = 0) {
   const std::string other = "a confidence map would stand here";

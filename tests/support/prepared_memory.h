@@ -25,7 +25,7 @@ class PreparedMemory {
     return memory_.data() +
            (STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT) % STARFOCUS_ALIGNMENT;
   }
-  // Prepares a light field in this memory.
+  // Prepares a light field in the memory of this object.
   starfocus_prepared* Prepare(starfocus_engine* engine, const starfocus_light_field& field) {
     starfocus_prepared* prepared = nullptr;
     REQUIRE(starfocus_prepare(engine, &field, get(), bytes, &prepared) == STARFOCUS_OK);

@@ -9,7 +9,7 @@
 
 namespace test {
 
-// Returns the PSNR of two pictures in dB, or 99 if they are equal.
+// Returns the PSNR of two pictures in dB, or 99 if the pictures are equal.
 inline double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses scenes, and returns the pictures and reports.
+// Functions that refocus a scene and return the picture and the report.
 #ifndef STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
 #define STARFOCUS_TESTS_SUPPORT_REFOCUSED_H_
 

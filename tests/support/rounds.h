@@ -5,13 +5,13 @@
 
 namespace test {
 
-// Returns the number of rounds of a test. Emulators take twenty times as long and therefore execute
-// a quarter of the rounds. A quarter suffices, since the bytes must equal the bytes of native
-// builds, which execute all rounds.
+// Returns the number of rounds that a test executes on this machine. Emulators are twenty times
+// slower, so tests execute a quarter of their rounds on emulators. A quarter of the rounds
+// suffices: native builds, whose bytes must be equal, execute all rounds.
 constexpr int Rounds(int all) { return STARFOCUS_EMULATED ? (all + 3) / 4 : all; }
 
-// True if this build is much slower than a native build, because it is emulated or checks every
-// range.
+// True if this build is much slower than a native build, because the build is emulated or checks
+// every range.
 #ifdef STARFOCUS_CHECK_RANGES
 inline constexpr bool kSlow = true;
 #else

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Openings of lenses for tests: random ones, and one of each kind.
+// Openings of lenses for tests: random openings, and one opening of each kind.
 #ifndef STARFOCUS_TESTS_SUPPORT_SHAPES_H_
 #define STARFOCUS_TESTS_SUPPORT_SHAPES_H_
 
@@ -11,8 +11,8 @@
 
 namespace test {
 
-// Sets a random shape, with or without a cat's eye. In half of all cases, a parameter is at an end
-// of its range.
+// Sets a random shape, with or without a cat's eye. With a probability of one half, a parameter is
+// at an end of its range.
 inline void RandomShape(starfocus_lens* lens, Random* random) {
   const auto often_an_end = [&](double low, double high) {
     const int end = random->Int(0, 3);
@@ -26,7 +26,8 @@ inline void RandomShape(starfocus_lens* lens, Random* random) {
   if (random->Int(0, 2) == 0) lens->cats_eye = often_an_end(0, 1);
 }
 
-// Sets STARFOCUS_FEATURE_SHAPES if the lens requires this feature, and clears the bit otherwise.
+// Sets STARFOCUS_FEATURE_SHAPES if the lens requires this feature, and clears this feature
+// otherwise.
 inline void ReserveFor(const starfocus_lens& lens, starfocus_config* config) {
   const bool needed = lens.shape == STARFOCUS_SHAPE_POLYGON || lens.cats_eye > 0;
   SetFeature(STARFOCUS_FEATURE_SHAPES, needed, &config->features);

@@ -12,8 +12,8 @@
 
 namespace test {
 
-// Returns target(0), target(1), ... up to the first null. Throws if there are no targets, since a
-// test without targets must not pass.
+// Returns the tables target(0), target(1) and so on, up to the first null pointer. Throws if the
+// list is empty, since a test of no SIMD target must not pass.
 template <class Table>
 std::vector<const Table*> ListTargets(const Table* (*target)(size_t index)) {
   std::vector<const Table*> all;
@@ -22,7 +22,7 @@ std::vector<const Table*> ListTargets(const Table* (*target)(size_t index)) {
   return all;
 }
 
-// Returns the kernels of all targets, the best target first.
+// Returns the kernel tables of all SIMD targets, the best target first.
 inline std::vector<const starfocus::simd::Kernels*> SimdTargets() {
   return ListTargets(starfocus::simd::KernelsOfTarget);
 }

@@ -17,7 +17,7 @@ inline void SetViews(const starfocus_config& config, starfocus::Window* window) 
   window->occlusion_views = starfocus::ChooseOcclusionViews(views);
 }
 
-// Makes a window read planes of codes. `planes` must outlive the window.
+// Makes `window` read the views from planes of codes. `planes` must outlive the window.
 inline void ReadPlanes(starfocus::PlaneViews* planes, starfocus::Window* window) {
   planes->kernels = &starfocus::simd::BestKernels();
   planes->transfer = window->transfer;
@@ -25,14 +25,14 @@ inline void ReadPlanes(starfocus::PlaneViews* planes, starfocus::Window* window)
   window->centre = planes->view[0];
 }
 
-// Sets the star of 1, 5, 9 or 17 views.
+// Sets the views of `window` to the star of 1, 5, 9 or 17 views.
 inline void SetStar(int views, starfocus::Window* window) {
   starfocus_config config = {};
   config.views = views;
   SetViews(config, window);
 }
 
-// Sets the centre view and views at these positions.
+// Sets the views of `window` to the centre view and side views at the positions `sides`.
 inline void SetPositions(const std::vector<starfocus_position>& sides, starfocus::Window* window) {
   starfocus_config config = {};
   config.views = 1;

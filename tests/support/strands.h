@@ -7,13 +7,14 @@
 
 namespace test {
 
-// A periodic profile across strands. Coverage and depth range from 0 (the far surface) to 255.
+// Strands of hair, described by a periodic profile of coverage. Coverage and depth range from 0
+// (the far surface) to 255.
 struct Strands {
   static constexpr int kMostPeriod = 12;
 
-  uint8_t profile[kMostPeriod] = {};  // coverage
+  uint8_t profile[kMostPeriod] = {};  // coverage of each sample, 0 to 255
   int period = 0;                     // number of samples in the profile; 0: no strands
-  // Step in the profile per pixel to the right, and per pixel down.
+  // Number of profile samples per pixel to the right, and per pixel down.
   int right = 1, down = 0;
   bool ramps = false;  // true if outlines in the map are ramps, as in maps of neural networks
 

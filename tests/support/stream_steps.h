@@ -32,7 +32,7 @@ struct StreamSteps {
     return status;
   }
 
-  Engine* engine;  // an engine whose stream has been started
+  Engine* engine;  // an engine whose stream has begun
   const Scene& scene;
   Output* out;
   int pushed = 0, pulled = 0;

@@ -12,12 +12,12 @@
 
 namespace test {
 
-// A symmetry, which transposes first and then mirrors.
+// A symmetry of the square: an optional transposition, followed by optional mirroring.
 struct Symmetry {
   bool transpose, mirror_x, mirror_y;
 };
 
-// Returns the new position of pixel (x, y) of a width x height picture.
+// Returns the position to which a symmetry moves pixel (x, y) of a width x height picture.
 inline std::pair<int, int> Move(const Symmetry& s, int width, int height, int x, int y) {
   if (s.transpose) {
     std::swap(x, y);
@@ -58,7 +58,7 @@ inline Scene Move(const Symmetry& s, const Scene& scene) {
   return moved;
 }
 
-// Difference between a width x height picture and the same picture after a symmetry, both packed
+// Difference between the picture `plain`, moved by a symmetry, and the picture `moved`, both packed
 // RGB.
 struct Distance {
   int samples = 0;  // number of samples that differ

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder for one test. The folder is removed with its contents at the end of the test.
+// A temporary folder for one test. The folder is removed with its contents at the end of the test.
 #ifndef STARFOCUS_TESTS_SUPPORT_TEMP_FOLDER_H_
 #define STARFOCUS_TESTS_SUPPORT_TEMP_FOLDER_H_
 
@@ -30,7 +30,7 @@ class TempFolder {
   std::string path() const { return path_.string(); }
   std::string file(const std::string& name) const { return (path_ / name).string(); }
 
-  int count() const {  // number of files and folders directly inside the folder
+  int count() const {  // number of files and folders in the folder, without subfolders' contents
     int entries = 0;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) {
       (void)entry;

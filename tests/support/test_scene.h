@@ -19,7 +19,7 @@
 
 namespace test {
 
-// Captures several values, as CAPTURE does for one.
+// Captures several values, as CAPTURE captures a single value.
 #define CAPTURES(...) INFO(#__VA_ARGS__ " := ", test::Listed(__VA_ARGS__))
 
 template <class... Values>
@@ -63,7 +63,8 @@ class Random {
   uint8_t Byte() { return static_cast<uint8_t>(Next() >> 24); }
 
  private:
-  // Returns a number from two bytes, which suffice for the ranges of the tests.
+  // Returns a number made from two of the fuzzer's bytes, which suffice for the ranges of the
+  // tests.
   uint32_t NextGiven() {
     uint32_t value = *bytes_++;
     if (--left_ > 0) {
@@ -96,7 +97,7 @@ struct Scene {
   size_t disparity_width = 0;  // floats
   std::vector<std::vector<uint8_t>> pictures;
   std::vector<float> disparity;
-  std::vector<uint8_t> coverage;  // packed rows; empty: no coverage
+  std::vector<uint8_t> coverage;  // rows without padding; empty: no coverage
   std::vector<starfocus_position>
       positions;  // positions of the views; empty: starfocus_view_position
 
@@ -120,7 +121,7 @@ struct Scene {
   }
   float Disparity(int x, int y) const { return const_cast<Scene*>(this)->Disparity(x, y); }
 
-  // Returns the light field from `row` on.
+  // Returns the part of the light field that starts at `row`.
   starfocus_light_field Field(int row = 0) const {
     starfocus_light_field field = {};
     for (size_t i = 0; i < pictures.size(); ++i) {
@@ -137,8 +138,8 @@ struct Scene {
   }
 };
 
-// Makes a scene of the given size. Adds `padding` bytes to each picture row and `padding` floats to
-// each disparity row.
+// Makes an empty scene of the given size. Adds `padding` bytes to each picture row and `padding`
+// floats to each disparity row.
 inline Scene EmptyScene(int width, int height, int views, float low, float high, int padding = 0) {
   Scene scene;
   scene.width = width;
@@ -153,7 +154,7 @@ inline Scene EmptyScene(int width, int height, int views, float low, float high,
   return scene;
 }
 
-// Sets piecewise disparities within the scene's range: a slanted background and random rectangles.
+// Sets random disparities within the scene's range: a slanted background and rectangles.
 inline void RandomDisparity(Scene* scene, Random* random) {
   const double low = scene->disparity_min, high = scene->disparity_max;
   const auto put = [&](int x0, int y0, int x1, int y1) {
@@ -209,8 +210,8 @@ inline Scene RandomScene(int width, int height, int views, float low, float high
   return scene;
 }
 
-// Makes a comb of surfaces so near that hidden parts are read from side views about a hundred
-// pixels away. Tests focus this scene at kNearFocus with an aperture of 0.2.
+// Makes a chequerboard of surfaces so near that hidden parts are read about a hundred pixels away
+// in side views. Tests focus this scene at kNearFocus with an aperture of 0.2.
 constexpr double kNearFocus = 100;
 inline Scene NearScene(int width, int height, int views, uint64_t seed) {
   Scene scene = RandomScene(width, height, views, 85, 115, seed);
@@ -235,8 +236,8 @@ inline starfocus_config ConfigFor(const Scene& scene, double max_blur = 32) {
   return config;
 }
 
-// Keeps some of a scene's views and moves them to random positions: along an axis, in an L or
-// anywhere.
+// Keeps some views of a scene, and moves these views to random positions: along an axis, in one
+// quadrant or anywhere.
 inline void RandomViews(Scene* scene, starfocus_config* config, Random* random) {
   if (scene->views() > 1 && random->Int(0, 1) == 0) {
     scene->pictures.resize(static_cast<size_t>(random->Int(2, 4)));
@@ -318,7 +319,7 @@ struct Output {
   const uint8_t* Pixel(int x, int y) const {
     return bytes.data() + static_cast<size_t>(y) * stride + 3 * static_cast<size_t>(x);
   }
-  // Returns the pixels without row padding.
+  // Returns the pixels of the picture without row padding.
   std::vector<uint8_t> Tight() const {
     std::vector<uint8_t> tight;
     for (int y = 0; y < height; ++y) {
@@ -344,7 +345,7 @@ inline bool IsPartOf(const Output& part, const Output& whole, const starfocus_re
   return true;
 }
 
-// Runs jobs on two threads.
+// Runner that runs the jobs of a set on two threads.
 inline int RunOnTwo(void*, starfocus_job job, void* data, int32_t count) {
   std::thread other([=] {
     for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
@@ -354,8 +355,8 @@ inline int RunOnTwo(void*, starfocus_job job, void* data, int32_t count) {
   return 0;
 }
 
-// RunBy returns callbacks with only a runner, and ToldTo returns callbacks with only a progress
-// function.
+// RunBy returns callbacks that consist of a runner, and ToldTo returns callbacks that consist of a
+// progress function.
 inline starfocus_callbacks RunBy(starfocus_runner runner, void* data = nullptr) {
   starfocus_callbacks callbacks = {};
   callbacks.runner = runner;
@@ -368,7 +369,7 @@ inline starfocus_callbacks ToldTo(starfocus_progress progress, void* data = null
   callbacks.progress_data = data;
   return callbacks;
 }
-// Returns callbacks with only a block visitor.
+// Returns callbacks that consist of a block visitor.
 inline starfocus_callbacks VisitedBy(starfocus_block_visitor visitor, void* data = nullptr) {
   starfocus_callbacks callbacks = {};
   callbacks.on_block = visitor;
@@ -376,7 +377,7 @@ inline starfocus_callbacks VisitedBy(starfocus_block_visitor visitor, void* data
   return callbacks;
 }
 
-// Refocuses a scene. AnyEngine has get(), as Engine has.
+// Refocuses a scene. AnyEngine is a type with a function get(), such as Engine.
 template <class AnyEngine>
 starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
                          Output* out, const starfocus_callbacks& callbacks,
@@ -394,7 +395,7 @@ starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, cons
   return Refocus(engine, params, scene, out, RunBy(runner, runner_data), report);
 }
 
-// Streams a scene with at most `push_rows` and `pull_rows` rows per call. Returns
+// Streams a scene with at most `push_rows` rows per push and `pull_rows` rows per pull. Returns
 // STARFOCUS_ERROR_STATE if the engine neither consumes nor returns rows.
 template <class AnyEngine>
 starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
@@ -432,7 +433,7 @@ starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const
 }
 
 #ifdef STARFOCUS_DATA_DIR
-// Returns the folder of the data set `name`. If this machine does not have the data set, prints a
+// Returns the folder of the data set `name`. If the data set is not on this machine, prints a
 // message and returns an empty string.
 inline std::string DataSet(const std::string& name) {
   const std::string folder = std::string(STARFOCUS_DATA_DIR) + "/" + name;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A library that valgrind.sh preloads under valgrind. The library replaces a measurement of time
-// that libhwy makes at startup. The measurement uses an instruction that valgrind rejects on
-// processors that do not announce this instruction. The engine does not use the result of the
-// measurement.
+// that libhwy makes at startup. For this measurement, libhwy executes an instruction that valgrind
+// rejects on some processors. The engine does not use the result of the measurement.
 #include <cstdint>
 
 namespace hwy::platform {

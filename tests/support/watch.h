@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A progress function that checks its calls, and cancels at a given call.
+// A progress callback that checks its calls, and cancels the operation at a given call.
 #ifndef STARFOCUS_TESTS_SUPPORT_WATCH_H_
 #define STARFOCUS_TESTS_SUPPORT_WATCH_H_
 
@@ -16,8 +16,8 @@ struct Watch {
   int stop;       // index of the call that cancels, or kNever
   int calls = 0;  // number of calls so far; simultaneous calls are counted in `clashes`
   int32_t done = 0, rows = 0;
-  int full = 0;      // calls with all rows
-  int back = 0;      // calls with fewer rows than before, or with more rows than the total
+  int full = 0;      // calls that report all rows as done
+  int back = 0;      // calls with a wrong number of rows
   int too_late = 0;  // calls after the cancellation
   std::atomic<int> inside{0}, clashes{0};
 
@@ -35,7 +35,7 @@ struct Watch {
     return cancels ? 1 : 0;
   }
 
-  // Returns true if all calls so far were valid.
+  // Returns true if all calls of Progress so far were valid.
   bool Good() const { return back == 0 && too_late == 0 && clashes == 0; }
   bool Ended() const { return Good() && done == rows && full == 1; }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the results of different calls that must return the same picture.
+// Compares the pictures of different calls that must return equal pictures.
 #ifndef STARFOCUS_TESTS_SUPPORT_WAYS_H_
 #define STARFOCUS_TESTS_SUPPORT_WAYS_H_
 
@@ -38,7 +38,7 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
     if (at + 2 >= width || at >= height) continue;
     regions.push_back({at, at, 1, 1});
     regions.push_back({at - 1, at - 3, 1, 1});
-    // The next stripe finishes the last row of this region.
+    // Deblocking of the next stripe changes the last row of this region.
     regions.push_back({0, at - 8, width, 5});
     regions.push_back({at + 2, at - 1, width - at - 2, 1});
   }
@@ -54,9 +54,9 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
   return regions;
 }
 
-// Checks that all ways to refocus give the bytes of the whole picture. The ways are streams,
-// prepared light fields, the next frame of a video, views with gaps between pixels, and regions.
-// Returns the whole picture.
+// Checks that all ways to refocus a scene return the bytes of the whole picture. The ways are
+// streams, prepared light fields, the next frame of a video, views with gaps between pixels, and
+// regions. Returns the whole picture.
 inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_params params,
                         bool many_regions = false) {
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
@@ -76,7 +76,7 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
   REQUIRE(RefocusPreparedRgb(engine.get(), &params, prepared, again.bytes.data(), again.stride,
                              &other_report) == STARFOCUS_OK);
   CHECK((again.bytes == whole.bytes));
-  CHECK(other_report.unknown_pixels == 0);  // starfocus_prepare has filled the disparities
+  CHECK(other_report.unknown_pixels == 0);  // starfocus_prepare fills unknown disparities
   other_report.unknown_pixels = report.unknown_pixels;
   CHECK(std::memcmp(&report, &other_report, sizeof report) == 0);
 
@@ -126,7 +126,8 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
   return whole;
 }
 
-// Checks that streams with portions of any size give the bytes and the report of the whole picture.
+// Checks that streams, pushed and pulled in portions of any size, return the bytes and the report
+// of the whole picture.
 inline void CheckStreamed(const Scene& scene, starfocus_config config,
                           const starfocus_params& params) {
   Engine whole_engine(config);
