@@ -20,8 +20,8 @@ class RayTracer {
   RayTracer(const Scene& scene, int width, int height, starfocus_transfer transfer,
             ThreadRunner* runner);
 
-  // Weights of rows in the progress. A row of a view counts once, a row of ground truth kTruthCost
-  // times, and a row of coverage kCoverageCost times. `progress` may be null.
+  // Weights of rows in the reported progress. A row of a view counts once, a row of ground truth
+  // kTruthCost times, and a row of coverage kCoverageCost times. `progress` may be null.
   static constexpr int kTruthCost = 16, kCoverageCost = 2;
 
   // Renders the view of a pinhole at (u, v). Every pixel is the mean of the light over the area of

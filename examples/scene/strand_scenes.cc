@@ -45,7 +45,7 @@ Strand Hair(Dice dice) {
   const double radius = dice.Between(0.25, 0.75), start = 0.96 * kHeadRadius;
   const Point root = {kHead.x + start * out.x, kHead.y + start * out.y};
   const double half = 0.5 * length;
-  // Concentrates strands near the middle of the range from 8 to 12.
+  // Concentrates the disparities of strands near the middle of the range from 8 to 12.
   const double d = 8 + 4.0 / 3 * (dice.Between(0, 1) + dice.Between(0, 1) + dice.Between(0, 1));
   return {
       root,

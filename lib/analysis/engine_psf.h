@@ -9,7 +9,7 @@
 
 namespace starfocus::analysis {
 
-// Parameters of a measurement, with u_t = 1.
+// Parameters of a PSF measurement at aperture radius u_t = 1.
 struct EngineProbe {
   // d - d_t of the surface in pixels, |r| <= 60. If r is negative, the surface is behind the focus.
   double r;

@@ -40,7 +40,8 @@ starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step);
 
 // Largest value of EngineStep::apart that rounding explains, by layer. Slices have 7 fractional
 // bits of a grey level, weights of views about 10 bits, and samples of layers 6 fractional bits.
-// After a pixel has been spread, its light amounts to only a few grey levels.
+// The blur spreads the light of a pixel so widely that only a few grey levels reach each pixel of
+// the result.
 inline constexpr double kExplained[] = {1.1e-5, 2e-5, 2e-5};  // by layer
 
 // Returns an explanation why step.engine exceeds kThreshold, or an empty string if step.engine does

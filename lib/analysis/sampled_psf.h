@@ -26,7 +26,7 @@ class Taps {
   std::vector<double> taps_;
 };
 
-// Taps b[n, m] of a 2D PSF for |n|, |m| <= radius. Taps outside this square are zero.
+// Taps b[n, m] of a 2D PSF for |n|, |m| <= radius. Taps with |n| or |m| > radius are zero.
 class SampledPsf {
  public:
   explicit SampledPsf(int radius)

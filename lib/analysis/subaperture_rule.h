@@ -23,7 +23,7 @@ int FewestSubapertures(double r, double theta);
 
 // Returns the largest SSE (8) of the PSF of a lens that is `lens` / kSubapertureUnits subapertures
 // wide. The maximum is taken over radii from 5/8 of a pixel to r_max; for smaller radii, only the
-// centre view is rendered. The values of LensInSubapertures keep this error small.
+// centre view is rendered. The values of LensInSubapertures keep the largest SSE small.
 double WorstOfLens(int lens, double r_max, double theta);
 
 // Errors of the PSF of subapertures at each multiple of a step of r. The lab program uses these

@@ -10,9 +10,10 @@ namespace starfocus {
 // Returns true if a disparity is known, that is, neither NaN nor infinite.
 inline bool IsFinite(float value) { return value - value == 0.0f; }
 
-// Fills the elements between the known elements `left` and `right`. -1 and `length` mean that there
-// is no known element on that side. A gap between two surfaces gets the farther disparity, because
-// unknown values at an edge mostly belong to the surface that the edge hides.
+// Fills the elements between the known elements `left` and `right`. If `left` is -1 or `right` is
+// `length`, the line has no known element on that side of the gap. A gap between two surfaces gets
+// the farther disparity, because unknown values at an edge mostly belong to the surface that the
+// edge hides.
 template <class Line>
 void FillGap(const Line& line, int32_t length, int32_t left, int32_t right) {
   if (left < 0 && right >= length) return;

@@ -18,7 +18,7 @@ struct Allowed {
   const char* words;
   double low = kNoNumber, high = kNoNumber;
 
-  // The comparison is written so that NaN fails.
+  // Returns false for NaN, because every comparison with NaN is false.
   bool Has(double value) const { return value >= low && value <= high; }
 };
 
@@ -38,12 +38,12 @@ struct FieldValue {
   int32_t index = 0;
 };
 
-// Fills *problem, unless it is null. Returns `status`.
+// Fills *problem, unless `problem` is null. Returns `status`.
 starfocus_status Refuse(starfocus_status status, const FieldValue& field, const Allowed& allowed,
                         starfocus_problem* problem);
 
-// Fills *problem if no check has filled it before. Used for errors of the runner, the progress
-// function or memory. Returns `status`.
+// Fills *problem if no check has filled it before. Callers use this function for errors of the
+// runner, the progress function or memory. Returns `status`.
 starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem);
 
 // Checks a sequence of values. *problem describes the first rejected value.
@@ -77,7 +77,8 @@ struct Pointer {
   const void* pointer;
 };
 
-// Starts a call: clears *problem, unless it is null, and checks that all arguments are not null.
+// Starts a call: clears *problem, unless `problem` is null, and checks that all arguments are not
+// null.
 starfocus_status CheckPointers(std::initializer_list<Pointer> pointers, starfocus_problem* problem);
 
 }  // namespace starfocus

@@ -41,14 +41,14 @@ int32_t ViewsOfBenchmark(double r_max);
 // Return the layer, 0 to 2, for the smallest blur radius of a block in pixels. LayerByPaper
 // implements (12). LayerBySubaperture is the more careful rule that complements ViewsBySubaperture;
 // `depth_edges` is true if depth edges may splat into the block. For openings without fall-off,
-// subsampling has a larger error. For these openings, layers begin at the radii where the error
-// (10) is as small as at the first radius of openings with fall-off.
+// subsampling has a larger error. Without fall-off, layers begin at the radii where the error (10)
+// is as small as at the first radius of openings with fall-off.
 int32_t LayerByPaper(double r_min, Demand demand = Demand::kFallOff);
 int32_t LayerBySubaperture(double r_min, bool depth_edges, Demand demand = Demand::kFallOff);
 
 // Largest blur radius in pixels that is gathered instead of rendered from views. The number of
-// filter taps grows with the square of the radius. Smaller limits are slower and less exact
-// (docs/constants.md).
+// filter taps grows with the square of the radius. With a smaller limit, rendering is slower and
+// less exact (docs/constants.md).
 inline constexpr int32_t kMaxGather = 12;
 
 // Returns the largest blur radius that is gathered, if all blur radii are at most r_max.

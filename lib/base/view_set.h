@@ -68,9 +68,9 @@ bool SameViews(const starfocus_config& a, const starfocus_config& b);
 
 // Chooses the views that see behind edges on each side: the views whose direction is closer to this
 // side than to any other side. The farthest views near the axis of the side come first, because the
-// area that they see behind an edge is the largest. A side without such a view uses other views, up
-// to 83 degrees from its axis, which see behind thin or slanted edges. Views at larger angles would
-// see next to nothing (docs/constants.md).
+// area that they see behind an edge is the largest. A side without views in its direction uses
+// other views, up to 83 degrees from its axis, which see behind thin or slanted edges. Views at
+// larger angles would see next to nothing (docs/constants.md).
 OcclusionViews ChooseOcclusionViews(const ViewSet& views);
 
 // Returns a distance between pixels of the centre view, scaled to a view at `position` (kViewBits)

@@ -41,11 +41,11 @@ struct ViewWeights {
 };
 
 // Radius of the lens in subapertures, times kSubapertureUnits, for the N of ViewsBySubaperture. The
-// values are computed, not tuned. At blur radii of N = 4, the radius 123 has at most twice the
-// worst error of any other radius with as many views. At N = 5 the smallest error is at the radius
-// 32 * 5 - 11. At N = 3 the radius 94 has the smallest error among the radii that meet the
-// threshold at every blur radius. See WorstOfLens in lib/analysis/subaperture_rule.h, and the
-// tables in docs/constants.md.
+// radii are computed, not tuned. At blur radii of N = 4, the radius 123 has at most twice the worst
+// error of any other radius with as many views. At N = 5 the smallest error is at the radius 32 * 5
+// - 11. At N = 3 the radius 94 has the smallest error among the radii that meet the threshold at
+// every blur radius. See WorstOfLens in lib/analysis/subaperture_rule.h, and the tables in
+// docs/constants.md.
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
   return n == 1 ? kSubapertureUnits : n == 3 ? 94 : n == 4 ? 123 : kSubapertureUnits * n - 11;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loop over the stripes of a picture. Every entry point of the engine except streams runs this loop
-// with a source of input rows and a sink of output rows. Streams refocus one stripe at a time
-// instead.
+// with a source of input rows and a sink of output rows. Streams do not use the loop and refocus
+// one stripe at a time.
 #ifndef STARFOCUS_LIB_ENGINE_DRIVER_H_
 #define STARFOCUS_LIB_ENGINE_DRIVER_H_
 
@@ -15,8 +15,8 @@
 
 namespace starfocus {
 
-// Input light field in any format. Each row is loaded once, in order. A source that wraps another
-// source may replace the depth map.
+// Input light field in any format. The engine loads each row once, in order. A source that wraps
+// another source may replace the depth map.
 struct RowSource {
   ViewReader views;  // if the reader's functions are null, the engine reads the views in place
   bool converts_centre = false;  // true if the engine copies rows of the centre view to its ring
@@ -24,8 +24,8 @@ struct RowSource {
   // kNoSurface. Returns simd::DepthFlags. A null function means that the disparity map is in
   // memory.
   uint32_t (*map)(const void* self, int32_t y, int16_t* out) = nullptr;
-  // Writes row y of the coverage to `out`. Used only by streams. A null function means that the
-  // light field has no coverage.
+  // Writes row y of the coverage to `out`. Only streams call this function. A null function means
+  // that the light field has no coverage.
   void (*coverage)(const void* self, int32_t y, uint8_t* out) = nullptr;
   // Writes row y of the centre view's alpha to `out`. A null function means that alpha is 255
   // everywhere.
@@ -41,13 +41,13 @@ struct RowSink {
   const void* self;
 };
 
-// Checks all values of rows [rows.first, rows.last) of the map. Returns STARFOCUS_OK,
-// STARFOCUS_ERROR_NOT_FINITE or STARFOCUS_ERROR_DISPARITY. If rows contain both errors, the
-// function returns STARFOCUS_ERROR_NOT_FINITE.
+// Checks all values of rows [rows.first, rows.last) of the disparity map. Returns STARFOCUS_OK,
+// STARFOCUS_ERROR_NOT_FINITE or STARFOCUS_ERROR_DISPARITY. If the rows contain both kinds of
+// errors, the function returns STARFOCUS_ERROR_NOT_FINITE.
 starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine);
 
-// Loads rows of the map into `disparity`. If the source converts the centre view, loads rows of the
-// centre view into their ring. CheckRows must have accepted the rows.
+// Loads rows of the disparity map into `disparity`. If the source converts the centre view, loads
+// rows of the centre view into their ring. CheckRows must have accepted the rows.
 starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
                           const Plane<int16_t>& disparity, EngineState* engine);
 
@@ -65,7 +65,7 @@ RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts);
 
 // Refocuses the stripes that affect the region of the lens, and stores the rows of the region.
 // Checks all input rows before it stores the first output row. Returns STARFOCUS_OK,
-// STARFOCUS_ERROR_CANCELLED, STARFOCUS_ERROR_RUNNER or an error of the map.
+// STARFOCUS_ERROR_CANCELLED, STARFOCUS_ERROR_RUNNER or an error of the disparity map.
 starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine);
 
 }  // namespace starfocus

@@ -16,7 +16,7 @@ namespace starfocus {
 // affects the region. The flags of a stripe and its neighbours are complete when all rows that
 // affect these stripes have been compared.
 struct FrameDiff {
-  bool active = false;  // true: `before` is valid
+  bool active = false;  // true if `before` points to the previous light field
   const starfocus_light_field *before, *now;
   int32_t views;                // number of views to compare
   int32_t width, height, side;  // size of the picture, and side of a superblock, in pixels
@@ -24,7 +24,7 @@ struct FrameDiff {
   // Number of pixels around a block, in the centre view and in side views, on which the block may
   // depend.
   int32_t centre_reach, side_reach;
-  bool fills;     // true: unknown disparities are filled along their row
+  bool fills;     // true if unknown disparities are filled along their row
   int32_t rows;   // number of rows compared so far
   int32_t known;  // number of stripes whose flags are initialised
   // Ring of stripes with one flag per column: 1 if the superblock changed.

@@ -24,7 +24,7 @@ void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch*
 }
 
 // Rendering and partitioning use the same memory, because a worker runs these steps in turn and
-// keeps only the sums.
+// keeps only the sums of the rendered pixels.
 Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.superblock);
   const Borders borders = LargestBorders(config);
@@ -129,8 +129,8 @@ void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engin
   FrameDiff& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
   // For videos, the engine compares input rows up to one border below the next stripe. The compared
-  // rows flag stripes up to one more border below. The ring of flags also keeps the previous
-  // stripe.
+  // rows flag stripes up to one more border below. The ring of flags also keeps the flags of the
+  // previous stripe.
   changes.stripes = 2 * borders.views / side + 5;
   changes.flags = arena->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;

@@ -123,8 +123,8 @@ class ExcessWindow {
   Window window_;
 };
 
-// Renders the light of highlights beyond white and adds it to the block. Returns the number of
-// samples of a view.
+// Renders the light of highlights beyond white and adds this light to the block. Returns the number
+// of samples of a view.
 uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>& out,
                       Scratch* scratch) {
   const ExcessWindow excess(in, scratch);
@@ -142,7 +142,7 @@ uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>
 Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
                 const Plane<uint8_t>& out, Scratch* scratch) {
   uint64_t samples = RenderSums(in, job, scratch);
-  if (!scratch->cancel.Spend(0)) return {0, 0};  // cancelled: the sums are incomplete
+  if (!scratch->cancel.Spend(0)) return {0, 0};  // after cancellation, the sums are incomplete
   if (block.layer == 0) {
     FinishPicture(in, job.rect, SumBits(in, job), out, *scratch);
   } else {

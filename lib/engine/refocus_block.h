@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses one block: renders it at its layer and upsamples the result to the picture.
+// Refocuses one block: renders the block at its layer and upsamples the result to the picture.
 #ifndef STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 #define STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 
@@ -21,10 +21,10 @@ struct BlockInputs {
   const simd::Kernels* kernels;
   const Tables* tables;
   const Lens* lens;
-  const Window* windows;  // one window per layer
+  const Window* windows;  // one window onto the pictures for each layer
   const CellGrid* cells;
   const GatherMap* gathered;
-  starfocus_clock clock;  // null: the time of blocks is not measured
+  starfocus_clock clock;  // a null clock disables measuring the time of blocks
 };
 
 // Writes the rectangle of the block to `out` and adds the block to scratch->counts.

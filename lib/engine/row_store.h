@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a call: views, layers and converted disparities, and windows onto them.
+// Pictures that a call reads: views, layers and converted disparities, and the windows onto these
+// pictures.
 #ifndef STARFOCUS_LIB_ENGINE_ROW_STORE_H_
 #define STARFOCUS_LIB_ENGINE_ROW_STORE_H_
 
@@ -18,7 +19,7 @@ namespace starfocus {
 enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
 
 struct RowStore {
-  PlaneViews planes;  // used as the source of the windows if all views are rows of codes in memory
+  PlaneViews planes;  // source of the windows if all views are rows of codes in memory
   Window windows[STARFOCUS_LAYERS];
   LayerPlane layers[STARFOCUS_LAYERS];  // layers 1 and 2 around a stripe
   // ColumnNeed for each column of superblocks, for layers 1 and 2.

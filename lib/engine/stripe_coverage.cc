@@ -60,7 +60,7 @@ starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
     const int32_t ahead = TilesAhead(engine->config, pass);
     int32_t& done = state.done[pass];
-    // For the first stripe, the pass also processes `ahead` rows of tiles above `top`.
+    // For the first stripe, each pass also processes `ahead` rows of tiles above `top`.
     const RowRange rows = {done >= 0 ? done : Max(0, top - ahead),
                            Min(state.map.Rows(), end + ahead)};
     if (rows.first < rows.last) {

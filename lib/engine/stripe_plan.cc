@@ -44,8 +44,8 @@ int32_t LargestSide(const PlanJob& job) {
 }
 
 // Returns true if blocks in `rect` may show light of highlights beyond white: some view has a
-// highlight within the reach of blur and disparity. Returns false if the whole area within reach is
-// one highlight larger than a lamp.
+// highlight within the reach of blur and disparity. Returns false if a single highlight larger than
+// a lamp covers the whole area within reach.
 bool HasHighlights(const PlanJob& job, const Rect& rect) {
   const starfocus_config& config = *job.config;
   if (!(config.highlights > 1)) return false;
@@ -139,7 +139,7 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
 }
 
 // Returns true if pixels of `rect` affect pixels that are not copied from the previous picture.
-// Deblocking changes pixels within reach of a changed pixel, and reads pixels within the same reach
+// Deblocking changes pixels within its reach of a changed pixel, and reads pixels within its reach
 // of every pixel that it changes. The test therefore extends `rect` by twice the reach of
 // deblocking.
 bool IsNew(const EngineState& engine, const Rect& rect) {

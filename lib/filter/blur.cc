@@ -67,9 +67,9 @@ Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interva
 
 // Returns the relative integral over pixel (n, m) of (3), or of an evenly bright opening. r is the
 // radius of the disc in pixels. The midpoint rule is applied along `lines` lines that end at the
-// edge of the opening. Counting the points of a square grid instead would cause errors of up to 1.6
-// grey levels at sharp edges. Arithmetic and square root follow IEEE, so all machines compute the
-// same result.
+// edge of the opening. An integral by counting the points of a square grid would cause errors of up
+// to 1.6 grey levels at sharp edges. Arithmetic and square root follow IEEE, so all machines
+// compute the same result.
 template <starfocus_shape kShape>
 double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const ApertureShape& opening) {
   const double square = r * r, fall_off = opening.fall_off / 65536.0;
@@ -111,8 +111,8 @@ double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& 
 }
 
 // Calls visit(n, m, points, integral) for the stored weights of a PSF. `points` is the number of
-// pixels that share the weight, and `integral` the integral of (4). Returns false after
-// cancellation.
+// pixels that share the weight, and `integral` is the integral of (4) over one pixel. Returns false
+// after cancellation.
 template <class Visit>
 bool ForEachWeight(int32_t radius, const ApertureShape& opening, CancelToken* cancel,
                    const Visit& visit) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth-dependent blur of the centre view alone (references [13] and [14] of the paper), for
 // comparison with rendered views. Each output pixel is the mean of its neighbours, weighted by the
-// ideal PSF (4) of its blur radius. Gathering uses the same PSFs.
+// ideal PSF (4) of its blur radius. Gathering (lib/filter/gather.h) uses the PSFs of this module.
 #ifndef STARFOCUS_LIB_FILTER_BLUR_H_
 #define STARFOCUS_LIB_FILTER_BLUR_H_
 
@@ -18,8 +18,8 @@
 
 namespace starfocus {
 
-// PSFs exist for radii in steps of 1/8 pixel up to 4 pixels, and for 32 radii per octave beyond.
-// Radii have kDisparityBits fractional bits.
+// PSFs exist for radii in steps of 1/8 pixel up to 4 pixels, and for 32 radii per octave beyond 4
+// pixels. Radii have kDisparityBits fractional bits.
 int32_t BlurStep(int32_t radius);  // radius: kDisparityBits
 int32_t BlurStepCount(double max_blur);
 int32_t RadiusOfStep(int32_t step);  // result: kDisparityBits
@@ -65,9 +65,9 @@ struct BlurJob {
   const Psf* psfs_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
-  int32_t border;       // largest Psf::size in the picture, in pixels
-  ExcessSum excess;     // if factor > 0, the excess of the window is added to `out`
-  CancelToken* cancel;  // after cancellation `out` is incomplete
+  int32_t border;    // largest Psf::size in the picture, in pixels
+  ExcessSum excess;  // if excess.factor > 0, BlurRectangle adds the excess of the window to `out`
+  CancelToken* cancel;  // cancels the call; `out` is incomplete after cancellation
 };
 
 struct BlurScratch {

@@ -137,8 +137,8 @@ class Gather {
   }
 
   // Filters adjacent cells on a slope with the same two PSFs, starting at (x, y). Mixes the results
-  // of the smaller and the larger PSF pixel by pixel. Then moves the mixture to its position in the
-  // mean of all views. Returns the end of the cells, or x after cancellation.
+  // of the smaller and the larger PSF pixel by pixel. Finally, moves the mixture to its position in
+  // the mean of all views. Returns the end of the cells, or x after cancellation.
   int32_t FilterSlopes(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);
@@ -252,7 +252,7 @@ class Gather {
   static simd::Disc DiscOf(const Psf& psf) { return {psf.size, psf.sum_bits, psf.weights}; }
 
   const GatherJob& job_;
-  const Rect& block_;  // block in pixels of the picture
+  const Rect& block_;  // the block, in pixels of the picture
   const Rect frame_;   // LayerFrame of the block, in pixels of the layer
   Rect loaded_ = {};   // pixels of the layer that cells are gathered from
   BlockPixels* field_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers 8x8 cells of a single surface: each pixel is the mean of its neighbours in the centre
-// view, weighted by the ideal PSF (4) of its blur. If disparity varies little within reach of the
-// blur, this mean equals the mean of all views of the aperture.
+// Gathers 8x8 cells of a single surface. Each gathered pixel is the mean of its neighbours in the
+// centre view, weighted by the ideal PSF (4) of its blur. If disparity varies little within reach
+// of the blur, this weighted mean equals the mean of all views of the aperture.
 #ifndef STARFOCUS_LIB_FILTER_GATHER_H_
 #define STARFOCUS_LIB_FILTER_GATHER_H_
 
@@ -34,7 +34,7 @@ struct GatherJob {
   BlurScale scale;
   GatherPsfs blur;
   const simd::Kernels* kernels;
-  CancelToken* cancel;  // after cancellation the output is incomplete
+  CancelToken* cancel;  // cancels the call; the output is incomplete after cancellation
 };
 
 // Output, starting at the first pixel of the block's LayerFrame: codes at layer 0, samples with

@@ -43,8 +43,8 @@ struct SampleRow {
   int16_t Sample(int32_t n) const { return samples[n]; }
 };
 
-// Splits a row of `width` pixels into even and odd pixels. Positions outside the row repeat the
-// edge pixels of the row.
+// Splits a row of `width` pixels into even and odd pixels. Pixels outside the row repeat the first
+// or last pixel of the row.
 template <class Row>
 void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairRange& pairs,
               const ResampleScratch& phases) {

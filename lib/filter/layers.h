@@ -30,8 +30,8 @@ constexpr int32_t LayerSize(int32_t size, int32_t layer) {
 struct LayerPlane {
   int32_t width = 0, height = 0;  // size of the whole layer
   RowRange rows = {0, 0};         // stored rows
-  // In the columns that the previous stripe read, the rows before `known` have already been
-  // computed.
+  // The rows before `known` have already been computed in the columns that the previous stripe
+  // read.
   int32_t known = 0;
   Plane<int16_t> samples;  // simd::kLayerBits, clamped to the range of samples
 };

@@ -20,7 +20,7 @@ void MeanOfWhole(const uint32_t* sums, int32_t blocks, int16_t* light) {
   }
 }
 
-// Computes the mean of a block that is partly outside the picture.
+// Computes the mean light of a block of pixels that is partly outside the picture.
 void MeanOfPart(const uint32_t* sums, int32_t columns, int32_t rows, int16_t* light) {
   const uint32_t count = static_cast<uint32_t>(columns) * static_cast<uint32_t>(rows);
   for (int c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blur across a gathered cell on a slope, derived from the cells around it. This module computes
+// Blur across a gathered cell on a slope, derived from the surrounding cells. This module computes
 // the radius of each pixel, and the displacement of the blurred image of a slanted surface
 // (docs/method.md, Gathering).
 #ifndef STARFOCUS_LIB_FILTER_SLOPE_H_
@@ -25,9 +25,9 @@ struct RadiusRange {
 class Slope {
  public:
   // Describes the cell at (column, row) of the grid, at a layer. The grid must store the cells
-  // around this cell. The radius at a corner is the mean radius of the four adjacent cells, with
-  // opposite signs in front of and behind the focus. Radii between the corners are interpolated
-  // bilinearly.
+  // around the described cell. The radius at a corner is the mean radius of the four adjacent
+  // cells, with opposite signs in front of and behind the focus. Radii between the corners are
+  // interpolated bilinearly.
   Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row, int32_t layer);
 
   // Returns the range of radii of pixels of the layer, which may lie outside the cell.

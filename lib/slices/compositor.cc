@@ -11,7 +11,7 @@ namespace starfocus {
 namespace {
 
 // The rectangle that is being refocused, the slices of its current tile, and the output. All parts
-// of the tile share one Rectangle.
+// of a tile share one Rectangle.
 struct Rectangle {
   const RenderJob* job;
   const SliceStack* stack;
@@ -27,7 +27,7 @@ int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
   return reinterpret_cast<int16_t*>(accumulators) + 3 * static_cast<size_t>(width);
 }
 
-// A part of a tile whose slices are in memory.
+// A part of a tile, so small that all slices of the part are in memory at once.
 class TilePart {
  public:
   TilePart(const Rectangle& all, const Rect& rect)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compositor of the slice renderer. The compositor refocuses one rectangle of the picture, tile
-// by tile. Each tile is a stack of slices. To render a view of the aperture, the compositor shifts
-// each slice according to the slice's disparity, and composites the slices front to back.
+// by tile. The compositor represents each tile by a stack of slices. To render a view, the
+// compositor shifts each slice according to the slice's disparity, and composites the slices front
+// to back.
 #ifndef STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 #define STARFOCUS_LIB_SLICES_COMPOSITOR_H_
 

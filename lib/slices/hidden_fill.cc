@@ -129,8 +129,8 @@ class HiddenFiller {
   }
 
   // Smooths a row. Smoothing reads the colours that neighbours had before the current pass. The old
-  // colours of a row are therefore saved until the row `step` rows below has been smoothed. Rows at
-  // the upper or lower end of the surfaces replace the missing neighbouring row by themselves.
+  // colours of a row are therefore saved until the row `step` rows below has been smoothed. At the
+  // upper and lower end of the surfaces, the row itself replaces the missing neighbouring row.
   void SmoothRow(int32_t y, int32_t step) {
     const int32_t above = y >= step ? y - step : y, below = y + step;
     const int32_t next = below < surfaces_.height ? below : y;

@@ -25,9 +25,9 @@ struct FillScratch {
   uint8_t* farthest;
 };
 
-// Largest step of the fill, in pixels of the layer. Views hardly show pixels farther behind an
-// edge. A gap of kFillStep pixels without a surface separates the rows, because a vector of
-// kSliceLanes samples reads past the end of a row.
+// Largest step of the fill, in pixels of the layer. Views hardly show pixels that are more than
+// kFillStep pixels behind an edge. A gap of kFillStep pixels without a surface separates the rows,
+// because a vector of kSliceLanes samples reads past the end of a row.
 inline constexpr int32_t kFillStep = 16;
 static_assert(kFillStep == static_cast<int32_t>(simd::kSliceLanes), "the gap between rows");
 
@@ -35,17 +35,17 @@ constexpr size_t FillStride(size_t width) {
   return simd::SliceSamples(width) + static_cast<size_t>(kFillStep);
 }
 
-// Replaces the colours of the farthest surfaces that FindLayeredDepth repeated. First, each
+// Replaces the colours that FindLayeredDepth repeated on the farthest surfaces. First, each
 // repeated pixel takes the far colour of its source pixel. FindMatte may have separated the
 // source's colour into a near and a far colour.
 //
 // The colours are then smoothed in five passes, with steps of 16, 8, 4, 2 and 1 pixels. A pass
 // changes the pixels whose source is at least half a step away. The new colour is half of the
-// pixel's colour plus an eighth of each neighbour's colour. The neighbours are one step to the
-// left, right, top and bottom. If the farthest surface of a neighbour differs by more than one
-// pixel of disparity, the pixel's own colour replaces the neighbour's colour. After all passes,
-// pixels near the edge have the colours next to the edge, and pixels far behind have the mean of
-// these colours. The page docs/constants.md lists measurements of this continuation.
+// pixel's colour plus an eighth of the colour of each of four neighbours. The four neighbours are
+// one step to the left, right, top and bottom. If the farthest surface of a neighbour differs by
+// more than one pixel of disparity, the pixel's own colour replaces the neighbour's colour. After
+// all passes, pixels near the edge have the colours next to the edge, and pixels far behind have
+// the mean of these colours. The page docs/constants.md lists measurements of this continuation.
 void InpaintHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
                    LayeredDepth* surfaces);
 

@@ -176,8 +176,8 @@ class SurfaceFinder {
   uint8_t* Edges(int side, int32_t y) const { return surfaces_.edges[side] + surfaces_.At(0, y); }
   const int16_t* Row(int32_t y) const { return surfaces_.disparity[0] + surfaces_.At(0, y); }
 
-  // Finds the edges along a row, as the SIMD kernel FindEdges does along columns. The kernel visits
-  // every pixel; this function visits only the pixels at an edge, because there are few edges.
+  // Finds the edges along a row, as the SIMD kernel FindEdges does along columns. FindEdges visits
+  // every pixel; FindEdgesOfRow visits only the pixels at an edge, because edges are rare.
   void FindEdgesOfRow(int32_t y) {
     const auto stride = static_cast<size_t>(surfaces_.stride);
     std::memset(Edges(0, y), 0, stride);
@@ -269,8 +269,8 @@ class SurfaceFinder {
   }
 
   // Closes surfaces at steps where two slices may move apart. Behind each pixel on the near side of
-  // the step, the function inserts a copy of the pixel with the far side's disparity. The surface
-  // then stays closed regardless of the movement of its slices.
+  // the step, the function inserts a copy of the pixel with the far side's disparity. With these
+  // copies, the surface stays closed, however its slices move.
   void CloseRow(int32_t y) {
     const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << window_.layer),
                                      static_cast<int16_t>(kMostCopy << window_.layer)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layered depth image of a field. Surface 0 is the surface that the centre view sees. Up to
 // two hidden surfaces lie behind depth edges; captured views that see these surfaces provide the
-// colours. The compositor divides these surfaces into slices.
+// colours. The compositor divides the surfaces into slices.
 #ifndef STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
 #define STARFOCUS_LIB_SLICES_LAYERED_DEPTH_H_
 
@@ -21,8 +21,8 @@ using simd::kNoSurface;
 inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
 
 // Smallest and largest step of disparity between neighbouring pixels of layer 0 at which a surface
-// is closed. The slices on both sides of such a step move apart, so the farther slice is continued
-// behind the nearer slice. Without the continuation, background would show in the gap
+// is closed. The slices on both sides of a step in this range move apart, so the farther slice is
+// continued behind the nearer slice. Without the continuation, background would show in the gap
 // (docs/constants.md).
 inline constexpr int16_t kLeastCopy = 2, kMostCopy = 1 << (kDisparityBits - 1);
 
@@ -79,8 +79,8 @@ struct SurfaceBands {
 // The colours of a hidden surface are read from a captured view that looks behind the edge
 // (OcclusionViews) and in which nothing covers the surface. If no view sees the surface, the colour
 // of the background beyond the edge is repeated. If several sides provide a surface of the same
-// disparity at the same distance, their colours are averaged. At steps within a surface, pixels
-// hide copies of themselves (kLeastCopy).
+// disparity at the same distance, their colours are averaged. At steps within a surface, each pixel
+// hides a copy of itself (kLeastCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                       LayeredDepth* surfaces);
 

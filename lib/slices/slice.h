@@ -48,7 +48,7 @@ constexpr int32_t LargestTile(int32_t side) {
 inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);
 inline constexpr int32_t kLeastRows = 8;
 
-// A slice contains the disparities [low, high] (kDisparityBits); all of its pixels move like
+// A slice contains the disparities [low, high] (kDisparityBits); all pixels of the slice move like
 // `disparity`. Slightly nearer disparities, up to `overlap`, belong to two slices: to this slice
 // and to the next nearer slice. The overlap prevents gaps between the two slices.
 struct Slice {

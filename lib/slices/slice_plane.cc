@@ -33,7 +33,7 @@ simd::SliceTaps TapsOf(int32_t subaperture) {
 // adjacent subapertures would then weight some pixels too much and others too little. Lengths are
 // in half units of kShiftBits, so that mirrored shifts give mirrored shares in spite of truncation.
 SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
-  // Positions are relative to the left end of the first pixel.
+  // All positions are relative to the left end of the first pixel.
   constexpr int32_t kHalves = 2 * kShiftOne;
   const int32_t start = 2 * shift - subaperture + kShiftOne, whole = start >> (kShiftBits + 1);
   const int32_t left = kHalves - (start & (kHalves - 1)), rest = 2 * subaperture - left;
@@ -115,7 +115,7 @@ simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Re
 // Extends the covers of rows by the `reach` pixels that the filter spreads.
 void SpreadCover(int32_t reach, const SlicePlane& placed) {
   constexpr int32_t kMost = simd::kMaxSpread;
-  simd::SliceCover before[kMost] = {};  // original covers of the rows above
+  simd::SliceCover before[kMost] = {};  // unextended covers of the rows above the current row
   for (int32_t row = 0; row < placed.rows; ++row) {
     const simd::SliceCover here = placed.cover[row];
     uint64_t some = here.some;
@@ -206,8 +206,8 @@ void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, Shift
                   rows * simd::kSliceLanes * sizeof(*shifted->samples));
     }
   };
-  // ShiftSlice does not write the empty rows, but the compositor reads them and kRowsAhead rows
-  // after the last row.
+  // ShiftSlice does not write the empty rows, but the compositor reads the empty rows and
+  // kRowsAhead rows after the last row.
   clear(top, first);
   clear(end, last_row + static_cast<int32_t>(simd::kRowsAhead));
 }

@@ -42,8 +42,9 @@ inline constexpr int32_t kWidestSubaperture = 8 * kShiftOne;
 
 // Returns the largest SliceReach for lenses with blur radii up to `max_blur` pixels, any N and the
 // widest subapertures. The margin kRounding covers the error of rounding the focus and a disparity
-// to kDisparityBits. The margin also covers the distance from the middle of a slice to its pixels,
-// which is up to two units of disparity if a bin holds several disparities (kSliceBins).
+// to kDisparityBits. The margin kRounding also covers the distance from the middle of a slice to
+// its pixels. This distance is up to two units of disparity if a bin holds several disparities
+// (kSliceBins).
 constexpr int32_t LargestSliceReach(double max_blur) {
   constexpr double kRounding = 4.0 / (1 << kDisparityBits);
   const double rim = (max_blur + kRounding) * LargestSubapertureExtent() * kShiftOne;
@@ -143,7 +144,7 @@ struct ShiftedSlice {
 };
 
 // Returns the strips of a slice's row that some view shows in the strip at column `x` of the
-// rectangle. Bit k of the result stands for strip k, as in SliceCover.
+// rectangle. Bit k of the result stands for strip k of the row, as in SliceCover.
 constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
   constexpr auto kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
   const int32_t first = x / kStripColumns,

@@ -46,7 +46,7 @@ struct ScaledWeights {
   uint32_t Shares(int32_t i, int32_t first, int32_t last) const;
 
   // Returns the largest j <= last for which all weights of views (i, first) to (i, j) have the same
-  // magnitude. The magnitude is counted in powers of sixteen below the largest weight. In steep
+  // magnitude. Magnitudes are counted in powers of sixteen below the largest weight. In steep
   // openings, outer views weigh much less than the middle view. If the compositor summed outer
   // views together with the middle view, the products of outer weights with faint light would round
   // to zero.

@@ -10,13 +10,13 @@
 namespace starfocus {
 
 // Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
-// these disparities, hidden surfaces end at the boundary of the thin structure. Must be called
-// before FindLayeredDepth.
+// these disparities, hidden surfaces end at the boundary of the thin structure. The caller must
+// call this function before FindLayeredDepth.
 void TakeThinDisparities(const Window& window, BlockPixels* field);
 
-// Gives each pixel of thin tiles the two surfaces that the coverage map contains for the pixel.
-// These surfaces replace the surfaces found by FindLayeredDepth and FindMatte. Must be called
-// before InpaintHidden.
+// Gives each pixel of thin tiles the two surfaces that the coverage map contains for the pixel. The
+// surfaces of the coverage map replace the surfaces that FindLayeredDepth and FindMatte found. The
+// caller must call this function before InpaintHidden.
 void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces);
 
 }  // namespace starfocus

@@ -49,8 +49,8 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
 }
 
 // Returns the smallest blur radius, a multiple of 0.5, at which the renderer uses the layer. The
-// line scan uses layers by (12). The slice renderer uses layers by LayerBySubaperture without depth
-// edges.
+// layers of the line scan follow the paper's rule (12). The layers of the slice renderer follow
+// LayerBySubaperture, without depth edges.
 double LeastRadius(starfocus_renderer renderer, int layer) {
   const auto layer_at = [&](double r) {
     return renderer == STARFOCUS_RENDERER_LINE_SCAN ? LayerByPaper(r)
@@ -61,7 +61,8 @@ double LeastRadius(starfocus_renderer renderer, int layer) {
   return least;
 }
 
-// Measures one series with r of the given sign, starting at the smallest r of the series' layer.
+// Measures one series of values of r with the given sign, starting at the smallest |r| of the
+// series' layer.
 Error Measure(const Series& series, int sign, Table* table, Table* layers) {
   const double least = LeastRadius(series.renderer, series.layer);
   if (least > series.largest) return {};

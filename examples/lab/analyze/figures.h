@@ -11,11 +11,11 @@
 
 namespace starfocus {
 
-// Functions named Analyse print a part of the summary to stdout.
+// Functions whose names start with Analyse print a part of the summary to stdout.
 Figure AnalyseTableOne();
 Figure AnalyseViewNumber();  // Fig. 6 and the thresholds of (9)
 
-// Functions named Draw do not print to stdout.
+// Functions whose names start with Draw do not print to stdout.
 Figure DrawViewPsfs();         // Fig. 4
 Figure DrawViewResponses();    // Fig. 5
 Figure DrawSubsampledBlurs();  // Fig. 8

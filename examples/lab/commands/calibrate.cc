@@ -53,7 +53,7 @@ Result<LightField> Load(const std::string& folder) {
 
 using Scenes = std::vector<std::unique_ptr<SceneTimes>>;
 
-// Opens the scene to fit, followed by the scenes to check.
+// Opens the scene to which the model is fitted, and then the scenes that check the model.
 Result<Scenes> OpenScenes(const CalibrateOptions& options) {
   Scenes scenes;
   const auto add = [&](const std::string& folder, const std::string& name) -> Error {
