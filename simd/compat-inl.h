@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hides differences between Highway versions and targets. This file is included once per target.
+// Hides differences between Highway versions and targets. This file is included once per SIMD
+// target.
 #if defined(STARFOCUS_SIMD_COMPAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_COMPAT_INL_H_
 #undef STARFOCUS_SIMD_COMPAT_INL_H_

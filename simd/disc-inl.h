@@ -128,8 +128,8 @@ struct DiscScale {
   int bits, whole;
 };
 
-// Output buffer for the light of a disc, and the scale of the light. Vectors write past the last
-// sample.
+// Output buffer for the light of a disc, and the scale of the light. The buffer needs spare room,
+// because vectors write past the last sample.
 struct DiscTarget {
   DiscScale scale;
   int16_t* light;

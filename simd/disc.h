@@ -16,10 +16,10 @@ namespace starfocus::simd {
 // filter. The weight of the pixel m columns and n rows away, 0 <= m <= n <= size, is weights[n (n +
 // 1) / 2 + m]. The weights of the whole disc sum to at most 2^bits. The weights of four pixels that
 // mirror each other about both axes sum to at most 32767. The weights of two mirrored pixels on an
-// axis also sum to at most 32767.
+// axis sum to at most 32767 as well.
 struct Disc {
-  int32_t size;  // [0, kMaxDisc]
-  int bits;      // [1, 17]
+  int32_t size;  // radius of the disc in pixels, [0, kMaxDisc]
+  int bits;      // fractional bits of the weights, [1, 17]
   const uint16_t* weights;
 };
 inline constexpr int32_t kMaxDisc = 12;

@@ -80,7 +80,7 @@ HWY_INLINE void CopyMissing(const int16_t* centre, int bits, uint32_t* out) {
   }
 }
 
-// Finishes a vector of pixels.
+// Converts the sums of a vector of pixels to accumulators.
 HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const int16_t* centre,
                             const CompositeFinish& finish, Inverses& inverses, uint32_t* out) {
   const CompositeTag d32;

@@ -47,11 +47,11 @@ int32_t TakeFarthest(const SourcedRow& row, size_t count, const FarRow& far);
 
 // Smooths the colours of those pixels n < count of a row whose colours are repeated over a distance
 // of at least step / 2. Other pixels are not changed. Whole groups of kSliceLanes are processed.
-// `step` is at most kSliceLanes. The new colour of a pixel is the mean of two values: its old
-// colour, and the mean of its four neighbours at a distance of `step` pixels. If the disparity of a
-// neighbour differs by more than `unit`, the pixel itself replaces the neighbour. The mean of the
-// neighbours is the mean of two means: the mean of left and right, and the mean of above and below.
-// Each mean is rounded half up.
+// `step` is at most kSliceLanes. The new colour of a pixel is the mean of its old colour and the
+// mean of its four neighbours at a distance of `step` pixels. If the disparity of a neighbour
+// differs by more than `unit`, the pixel itself replaces the neighbour. The mean of the neighbours
+// is the mean of two means: the mean of left and right, and the mean of above and below. Each mean
+// is rounded half up.
 void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t count, int16_t* rgb);
 
 // Copies the repeated colours of a row to a surface, at all pixels at which this surface is the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines vectors of at most kSliceLanes samples, and converts their masks to bits. Included once
-// per target.
+// Defines vectors of at most kSliceLanes samples, and converts their masks to bits. This file is
+// included once per SIMD target.
 #if defined(STARFOCUS_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STARFOCUS_SIMD_LANES_INL_H_
 #undef STARFOCUS_SIMD_LANES_INL_H_

@@ -70,7 +70,7 @@ inline constexpr int kEdges = 8;
 // compile time.
 struct StripSides {
   uint32_t some;
-  int16_t unit;  // disparity that moves a pixel of the layer by one pixel
+  int16_t unit;  // difference of disparity that moves a pixel of the layer by one pixel
   int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], second[kEdges][kSliceLanes];
 };
 
@@ -172,8 +172,9 @@ HWY_INLINE ptrdiff_t LowestLane(uint32_t lanes) {
 }
 
 // Finds the second edge of each pixel in `lanes`, which is the edge behind which the far side of
-// the first edge hides a surface. Writes the distances to that surface; other distances are not
-// changed. Returns the lanes that have a second edge. Most pixels have no second edge.
+// the first edge hides a surface. Writes the distances to the surface behind the second edge; other
+// distances are not changed. Returns the lanes that have a second edge. Most pixels have no second
+// edge.
 HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uint32_t lanes,
                                 uint8_t* HWY_RESTRICT distances) {
   const ptrdiff_t step = StepOf(row, side);

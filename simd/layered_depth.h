@@ -32,16 +32,16 @@ struct EdgeLimits {
 
 // Returns the largest distance, in units of disparity, from a pixel to the pixel before an edge.
 // The far side of the edge is one pixel farther away, and distances in pixels must fit in a byte. A
-// larger value means that there is no edge. The result is less than INT16_MAX, so that a saturated
-// distance means that there is no edge.
+// distance above this maximum means that there is no edge. The result is less than INT16_MAX, so
+// that a saturated distance means that there is no edge.
 constexpr int16_t FarthestEdge(int unit_bits) {
   const int32_t units = int32_t{254} << unit_bits;
   return static_cast<int16_t>(units < INT16_MAX ? units : INT16_MAX - 1);
 }
 
 // A step of at most 2^-kSmallStepBits of the depth that the pixel already hides is not an edge.
-// Disparity maps by networks are uneven, and the background behind an outline must extend behind
-// the whole surface.
+// Disparity maps computed by neural networks are uneven, and the background behind an outline must
+// extend behind the whole surface.
 inline constexpr int kSmallStepBits = 3;
 
 // Rows that one call of FindEdges reads and writes.
@@ -51,8 +51,8 @@ struct EdgeRows {
   uint8_t* distance;
 };
 
-// Range of the steps of disparity that may open a gap within a surface. The slices on both sides of
-// such a step move apart.
+// Range of the steps of disparity that may open a gap within a surface, because the slices on both
+// sides of a step move apart.
 struct CopyLimits {
   int16_t least, most;  // > 0
 };
@@ -66,8 +66,8 @@ struct StepBits {
 
 // A captured view that looks behind edges. The pixels that may occlude a hidden pixel in this view
 // lie on a line that starts at the hidden pixel. Pixel m of the line is m pixels away towards
-// `side`. Across, the pixel is m slant 2^-kSlantBits pixels, rounded half up, to the right or to
-// the bottom.
+// `side`. At right angles to this direction, pixel m is shifted by m slant 2^-kSlantBits pixels,
+// rounded half up, to the right or to the bottom.
 struct ViewLook {
   int16_t unit;   // disparity that moves a pixel of the view by one pixel; 0 if there is no view
   int8_t side;    // right, left, bottom, top
@@ -130,12 +130,13 @@ void Split(const int16_t* rgb, size_t count, size_t plane, int16_t* out);
 
 // Follows depth edges by one row, from rows.far to rows.near. The caller decides which of two
 // adjacent rows is `near`. For each pixel, moved[n] is the distance to the next edge in units of
-// disparity, and behind[n] is the disparity beyond that edge. On entry, both describe row `far`; on
-// return, both describe row `near`. Before the first call, the caller sets moved[n] to INT16_MAX.
+// disparity, and behind[n] is the disparity beyond that edge. On entry, moved[n] and behind[n]
+// describe row `far`; on return, they describe row `near`. Before the first call, the caller sets
+// moved[n] to INT16_MAX.
 //
 // If the near pixel hides the far side of the edge from some view, distance[n] is the distance in
-// pixels to the far side. If nothing is hidden, distance[n] is 0. Whole groups of kSliceLanes are
-// read and written.
+// pixels to the far side. If the near pixel hides nothing, distance[n] is 0. Whole groups of
+// kSliceLanes are read and written.
 void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t count);
 
 // Finds the pixels n < count of a row that differ from pixel n + 1 by more than `step`. Writes one
@@ -169,8 +170,8 @@ uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const Co
 //
 // A view shows a hidden surface behind a pixel if no pixel on the line of the ViewLook covers the
 // hidden surface. A pixel of the line covers the surface if two conditions hold. First, the pixel
-// is nearer than the surface by more than half of the view's unit. Second, in the view, the
-// distance between the pixel and the hidden pixel is less than 3/4 of a pixel.
+// is nearer than the surface by more than half of the view's unit. Second, the view shows the pixel
+// less than 3/4 of a pixel away from the hidden pixel.
 //
 // In the result, bit c is set if group c of kSliceLanes pixels has hidden surfaces. In all other
 // groups, `source` and `found` are unspecified.

@@ -10,7 +10,7 @@ namespace {
 
 // The surface beyond one edge of a pixel.
 struct HiddenSide {
-  int rank;  // rank of the edge (kUnseen describes ranks)
+  int rank;  // rank of the edge, as defined at kUnseen
   int16_t disparity;
   bool second;  // true if only the side's second view shows the surface
 };

@@ -43,9 +43,9 @@ inline void Decode(const uint8_t* HWY_RESTRICT codes, size_t count, const Encodi
 // kEncodeSpare samples after the last sample of a chunk.
 inline constexpr size_t kEncodeChunk = 64, kEncodeSpare = kPadding / sizeof(int16_t);
 
-// Encodes at most kEncodeChunk samples. Entries are looked up one sample at a time, long before a
-// vector loads the entries. A processor cannot forward several small stores to the load of a whole
-// vector.
+// Encodes at most kEncodeChunk samples. Entries of the table are looked up one sample at a time,
+// long before a vector loads the entries. A processor cannot forward several small stores to the
+// load of a whole vector.
 inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const Encoding& encoding,
                         uint8_t* HWY_RESTRICT codes) {
   // At most 8 lanes, because a cell of layer 1 is 12 samples wide.

@@ -15,7 +15,7 @@ namespace starfocus::simd {
 // Upper limit of the difference between two pixels, which is the sum over R, G and B in grey
 // levels. Larger differences are clamped, because such pixels do not match in any case.
 inline constexpr int kMostDifference = 60;
-// Difference that is assumed if no view shows the pixel. The value corresponds to a poor match.
+// Difference that is assumed if no view shows a pixel; the value corresponds to a poor match.
 inline constexpr int kUnknownDifference = 48;
 // Upper limits of the difference of a view that is known not to see the pixel. The limit is
 // kHiddenDifference if another view sees the pixel, and kUnseenDifference if no view sees the
@@ -36,8 +36,9 @@ void MatchView(const uint8_t* centre, const uint8_t* view, size_t plane, size_t 
 
 // Replaces a view that does not see a pixel with the opposite view. View a sees pixel n if
 // hidden_a[n] <= label, and the opposite view b sees pixel n if hidden_b[n] <= label. If only one
-// view sees pixel n, the difference of the other view is set to the difference of the seeing view.
-// If neither view sees pixel n, both differences are set to kUnknownDifference.
+// of views a and b sees pixel n, the difference of the other view is set to the difference of the
+// view that sees the pixel. If neither view sees pixel n, both differences are set to
+// kUnknownDifference.
 void StandIn(const uint8_t* hidden_a, const uint8_t* hidden_b, uint8_t label, size_t count,
              uint8_t* a, uint8_t* b);
 
@@ -48,7 +49,7 @@ void LimitHidden(const uint8_t* const* hidden, uint8_t label, size_t views, size
                  uint8_t* const* differences);
 
 // Computes the cost from the views on the side with the smallest differences. If a surface hides a
-// pixel from some views, the views on the other side of the surface's edge see the pixel.
+// pixel from the views on one side, the views on the opposite side see the pixel.
 //
 // `differences` contains the differences of rings * arms views: for each ring, the arms in the
 // order of their angles. There are 4 or 8 arms, and 1 or 2 rings. A side consists of two adjacent

@@ -14,7 +14,7 @@ namespace starfocus::simd {
 
 inline constexpr int16_t kCellPixels = 8;
 
-// Properties of a cell. Each property has one plane of values. Distances are in pixels.
+// Properties of a cell. Each property has one plane of values. All distances are in pixels.
 enum CellPlane {
   kReachLeft,  // largest distance beyond each side to which the cell's pixels are splatted
   kReachRight,
@@ -63,7 +63,8 @@ namespace reference {
 
 // Finds the pixels that reach the block whose first cell is planes.cells. Cells up to `around`
 // cells away are examined. The margin of a layer in pixels is margins[layer]; margins[0] is 0, and
-// margins increase with the layer. If a cell reaches only a margin, all pixels of the cell count.
+// margins increase with the layer. In the borders of layers 1 and 2, all pixels of each cell that
+// reaches the margin count.
 void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
                 BlockReach* reach);
 
@@ -72,11 +73,11 @@ void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[
 // cell.
 //
 // Let d <= around be the distance of a cell from the middle cell, which is the larger of the
-// distances in columns and rows. The cell counts if the kReachPlane of the middle cell exceeds (d -
-// 1) kCellPixels. A cell with a larger kHighPlane than the middle cell counts as well if its own
-// kNearPlane exceeds (d - 1) kCellPixels. Farther surfaces stay hidden, regardless of their reach.
-// Values of kNearPlane are at most the values of kReachPlane. Whole groups of kSliceLanes are read
-// and written.
+// distances in columns and rows. The cell belongs to the surroundings if the kReachPlane of the
+// middle cell exceeds (d - 1) kCellPixels. A cell with a larger kHighPlane than the middle cell
+// belongs to the surroundings as well if its own kNearPlane exceeds (d - 1) kCellPixels. Farther
+// surfaces stay hidden, regardless of their reach. Values of kNearPlane are at most the values of
+// kReachPlane. Whole groups of kSliceLanes are read and written.
 void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
                    const CellRanges& ranges);
 

@@ -24,7 +24,7 @@ inline constexpr int16_t kNoLabel = INT16_MAX;
 inline constexpr int kChoiceBits = 6;
 
 // Parameters of the cost of a jump to any other label. Between pixels of equal colour, a jump costs
-// kLargestJump. The cost decreases with the inverse of the colour difference, to no less than
+// kLargestJump. The cost of a jump decreases with the inverse of the colour difference, down to
 // kLeastJump.
 inline constexpr int kLargestJump = 400, kLeastJump = 128, kSimilarColours = 16;
 

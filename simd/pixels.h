@@ -9,7 +9,7 @@
 
 namespace starfocus::simd {
 
-// Layout of pixels. Pixels are `step` bytes apart, 3 or 4, and begin with R, G, B, or with B, G, R
+// Layout of pixels. Pixels are `step` (3 or 4) bytes apart, and begin with R, G, B, or with B, G, R
 // if `blue_first` is true.
 struct PixelOrder {
   size_t step;

@@ -13,8 +13,8 @@
 namespace starfocus::simd {
 
 // Costs of the prior. A step to an adjacent pixel costs kBesideCost, and a step to a diagonally
-// adjacent pixel kDiagonalCost. If no trusted pixel within 8 pixels has a label, the prior of the
-// label is kMostPrior.
+// adjacent pixel kDiagonalCost. If a label differs from the labels of all trusted pixels within 8
+// pixels, the prior of the label is kMostPrior.
 inline constexpr uint8_t kBesideCost = 3, kDiagonalCost = 4, kMostPrior = 24;
 
 // A row of `count` pixels. Each pixel has `places` elements, one per label; `places` is a multiple

@@ -16,7 +16,8 @@ inline constexpr int kLayerBits = kLightBits - 1;
 inline constexpr int16_t kLayerWhite = 255 << kLayerBits;
 
 // Taps of a symmetric half-band filter with kTapBits fractional bits. The seven taps are far, 0,
-// near, centre, near, 0, far. |tap| <= 2^kTapBits, and no sum of products exceeds 32 bits.
+// near, centre, near, 0, far. Taps lie in [-2^kTapBits, 2^kTapBits], and sums of products fit in 32
+// bits.
 inline constexpr int kTapBits = 14;
 struct HalfBand {
   int32_t centre, near, far;

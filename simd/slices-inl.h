@@ -19,7 +19,8 @@ namespace HWY_NAMESPACE {
 struct GroupCover {
   bool some = false, all = true;
 
-  // Adds a vector of pixels; the first pixel is n. Pixels at or after `count` are ignored.
+  // Adds a vector of pixels to the coverage; `n` is the index of the first pixel. Pixels at or
+  // after `count` are ignored.
   HWY_INLINE void Add(hn::Mask<LanesTag> covered, hn::Mask<LanesTag> whole, size_t n,
                       size_t count) {
     const LanesTag d16;

@@ -50,7 +50,7 @@ struct SliceCover {
 // `inner` applies at the distances 1 .. reach - 1, and `outer` at the distance `reach`. `inner` and
 // `outer` are twice the taps, because each weights the mean of the two samples on both sides.
 struct SliceTaps {
-  int32_t reach;                 // [1, kMaxSpread]
+  int32_t reach;                 // distance in samples of the outermost taps, [1, kMaxSpread]
   int16_t centre, inner, outer;  // >= 0
 };
 inline constexpr int32_t kMaxSpread = 3;
@@ -67,9 +67,9 @@ SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t co
                        int16_t* out);
 
 // Filters samples that are `step` apart. Output out[n] is the saturated sum of the taps times in[n
-// + k step], |k| <= reach. The two samples at each distance are averaged before the multiplication.
-// Each mean and each product is rounded half up. Whole groups of kSliceLanes are read and written.
-// Samples must not be negative.
+// + k step], |k| <= reach. The two samples at an equal distance on both sides are averaged before
+// the multiplication. Each mean and each product is rounded half up. Whole groups of kSliceLanes
+// are read and written. Samples must not be negative.
 void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
                  int16_t* out);
 

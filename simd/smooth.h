@@ -12,8 +12,8 @@ namespace starfocus::simd {
 
 // Largest number of rows over which a pixel is averaged.
 inline constexpr size_t kMostSmoothRows = 7;
-// Weight of a neighbour of equal colour. The weight decreases with the difference of the colours,
-// to no less than 1.
+// Weight of a neighbour of equal colour. The weight of a neighbour decreases with the difference of
+// the colours, down to 1.
 inline constexpr int32_t kMostSmoothWeight = 64;
 
 // A row of pixels (`own`) and the rows over which its pixels are averaged. Each pointer points to
@@ -34,7 +34,7 @@ struct SmoothSums {
   // Sum of weighted disparities, below 2^27, and sum of weights, below 2^13.
   int32_t disparity, weights;
 
-  // Returns the mean disparity. Rounds half away from zero.
+  // Returns the mean disparity. Halves are rounded away from zero.
   int16_t Mean() const {
     const int32_t half = disparity < 0 ? -weights : weights;
     return static_cast<int16_t>((2 * disparity + half) / (2 * weights));

@@ -18,8 +18,9 @@ namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
 // Adds value(n, keep) to the accumulators of a span, one vector at a time. In the last vector,
-// `keep` zeroes the samples beyond the span before the weighting. These samples may be
-// uninitialised, and valgrind treats two lanes that are multiplied and added in pairs as one value.
+// `keep` zeroes the samples beyond the span before the weighting. The samples beyond the span may
+// be uninitialised, and valgrind treats two lanes that are multiplied and added in pairs as one
+// value.
 template <class D32, class Value>
 HWY_INLINE void AddSpan(D32 d32, uint32_t samples, uint32_t* HWY_RESTRICT target,
                         const Value& value) {
@@ -77,8 +78,8 @@ HWY_INLINE void BlendSpan(const Span& span, int16_t* HWY_RESTRICT line) {
   const bool done = ForVectors(span.samples, hn::Lanes(d16),
                                [&](size_t n) HWY_ATTR { hn::StoreU(blended(n), d16, target + n); });
   if (done) return;
-  // Processes a span that is shorter than a vector, as most spans of line scans are. For short
-  // spans, the reference would be slower.
+  // Processes a span that is shorter than a vector, as most spans of line scans are. For spans
+  // shorter than a vector, the reference would be slower than vector code.
   int16_t whole[HWY_MAX_BYTES / sizeof(int16_t)];
   hn::StoreU(blended(0), d16, whole);
   std::memcpy(target, whole, span.samples * sizeof(*target));

@@ -15,10 +15,11 @@ namespace starfocus::simd {
 struct Span {
   const int16_t* source;      // light of the source surface (light.h)
   uint32_t target;            // index of the first sample in the target line
-  uint32_t samples;           // > 0
-  uint16_t weight;            // [0, 32767]
-  uint16_t neighbour_weight;  // [0, 32767]; 0 if the neighbour is not used
-  int32_t neighbour_offset;   // in samples; a multiple of 3, mostly +3 or -3
+  uint32_t samples;           // number of samples, > 0
+  uint16_t weight;            // weight of the sample itself, [0, 32767]
+  uint16_t neighbour_weight;  // weight of the neighbour, [0, 32767]; 0 if the neighbour is not used
+  // Distance in samples to the neighbour; a multiple of 3, mostly +3 or -3.
+  int32_t neighbour_offset;
 };
 
 // Fractional bits of the weights of Blend.

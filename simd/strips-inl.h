@@ -28,13 +28,13 @@ using StripTag = LanesTag;
 #endif
 
 // True if Composite has a separate path for fully covered rows. With vectors narrower than 32
-// bytes, the tests for this path cost more instructions than the path saves.
+// bytes, the tests for fully covered rows cost more instructions than the separate path saves.
 constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 
 // True if Composite skips work by testing each vector for coverage and for slices in front. The
-// branches of these tests are unpredictable. On x86, mispredictions cost up to 12 % of the time, so
-// Composite uses only the marks of rows. On ARM, using only the marks of rows takes 3 to 5 % more
-// instructions than testing each vector.
+// branches that test each vector are unpredictable. On x86, mispredictions cost up to 12 % of the
+// time, so Composite uses only the marks of rows. On ARM, using only the marks of rows takes 3 to 5
+// % more instructions than testing each vector.
 constexpr bool kLooksFirst = !HWY_ARCH_X86;
 
 // Returns the number of rows of a strip in a vector, or 1 if a vector holds only a part of a row.
@@ -236,7 +236,7 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
     return hn::Add(value, hn::MulFixedPoint15(last, fourth));
   };
   auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
-  // Colours of pixels without coverage are at most rounding errors. Products of such colours and
+  // Colours of pixels without coverage are at most rounding errors. Products of rounding errors and
   // weights below one half are 0.
   if (kLooksFirst && !kCovered && hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
   const auto excess =

@@ -82,7 +82,8 @@ namespace reference {
 //
 // near[row] is the mark of a row; kRowsAhead more marks precede near[0]. Before the call, all marks
 // must be at least kNothingNear. The kernel sets the marks of rows in which the slice covers a
-// pixel, and the marks of the kRowsAhead rows before such a row. Other marks are not changed.
+// pixel, and the marks of the kRowsAhead rows before such a row. The marks of all other rows are
+// not changed.
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, int8_t* near);
 

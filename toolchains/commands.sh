@@ -69,7 +69,7 @@ build_counter() {
     cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/board/count_instructions.c
 }
 
-# instructions PRESET CASE KERNELS: prints the instructions of one refocusing on the emulated board.
+# instructions PRESET CASE KERNELS: prints the number of instructions of one refocusing on the emulated board.
 instructions() {
   local runs preset=$1 name=$2 kernels=$3
   for runs in 1 2; do

@@ -73,7 +73,8 @@ bool NothingMoves(const RenderJob& job) {
   // Disparities that differ from the focus by at most `limit` form no depth edge, so no pixel is
   // mixed.
   const auto limit = static_cast<int32_t>(still < kSurfaceStep / 2 ? still : kSurfaceStep / 2);
-  // The ranges are clamped so that at least one row and one column lie inside the picture.
+  // The ranges of rows and columns are clamped so that at least one row and one column lie inside
+  // the picture.
   const Rect rect = Extended(job.rect, job.border);
   const int32_t left = Clamp(rect.x, 0, window.width - 1);
   const int32_t right = Clamp(rect.x + rect.width, 1, window.width);

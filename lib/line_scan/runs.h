@@ -22,7 +22,8 @@ struct Run {
 };
 
 // Scan order of a line. Views to the right of the centre or below the centre are scanned from the
-// right end, because nearer surfaces move in from that end. Views on the other side are mirrored.
+// right end, because nearer surfaces move in from that end. Views to the left of the centre or
+// above the centre are mirrored.
 enum class Direction { kRightToLeft, kLeftToRight };
 
 // Adjacent lines: position q of line k is disparity[q * step + k].
@@ -49,7 +50,7 @@ constexpr size_t RunMiddles(size_t length, size_t lines) { return length * RunMa
 void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBundle& bundle,
               Direction direction, simd::RunMarks* marks);
 
-// Reads the runs of line k in scan order, from high positions to low ones. With kLeftToRight,
+// Reads the runs of line k in scan order, from high positions to low positions. With kLeftToRight,
 // positions are mirrored: position q is pixel length - 1 - q. `subaperture_move` is
 // ViewGrid::Move(1). Writes at most `length` runs and returns the number of runs.
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,

@@ -21,8 +21,8 @@ struct SpanTarget {
 };
 
 // Sink of LineScan. The sink calls holes.Fill(begin, end, disparity, colour, out) to write the
-// colours of the rendered pixels [begin, end). These pixels show a surface of `disparity`, whose
-// visible part has `colour`.
+// colours of the rendered pixels [begin, end). The pixels of a hole show a surface of disparity
+// `disparity`, whose visible part has the colour `colour`.
 template <class Holes>
 class SpanSink {
  public:
