@@ -35,8 +35,8 @@ uint32_t Crc(const uint8_t* bytes, size_t size) {
   return ~crc;
 }
 
-// Checks the lengths and checksums of PNG chunks. stb_image allocates the declared size of a chunk
-// before it checks that the data exists, and never verifies checksums.
+// Checks the lengths and checksums of PNG chunks. The library stb_image allocates the declared size
+// of a chunk before it checks that the data exists, and never verifies checksums.
 Container CheckPng(const Bytes& bytes, bool checksums) {
   for (size_t at = sizeof(kPngSignature); at + 12 <= bytes.size();) {
     const uint8_t* chunk = &bytes[at];
@@ -51,9 +51,9 @@ Container CheckPng(const Bytes& bytes, bool checksums) {
   return Container::kTruncated;
 }
 
-// Checks the Huffman tables in [at, end). Each table has a byte for its class, 16 counts of codes,
-// and the values of the codes. stb_image 2.27 writes out of bounds if a table has more than 256
-// codes.
+// Checks the Huffman tables in [at, end). Each Huffman table has a byte for its class, 16 counts of
+// codes, and the values of the codes. Version 2.27 of stb_image writes out of bounds if a table has
+// more than 256 codes.
 Container CheckHuffmanTables(const Bytes& bytes, size_t at, size_t end) {
   while (at < end) {
     if (at + 17 > bytes.size()) return Container::kTruncated;

@@ -217,12 +217,12 @@ Result<std::vector<GpioEdge>> GpioInputs::Wait(int timeout) {
     const timespec hour = {3600, 0};
     result = gpiod_line_event_wait_bulk(&lines_->bulk, timeout < 0 ? &hour : &limit, &ready);
   } while (result == 0 && timeout < 0);
-  if (result < 0) return Failure(lines_->name, "readable events of its lines");
+  if (result < 0) return Failure(lines_->name, "readable edge events on the lines");
   for (unsigned i = 0; result > 0 && i < gpiod_line_bulk_num_lines(&ready); ++i) {
     gpiod_line* line = gpiod_line_bulk_get_line(&ready, i);
     gpiod_line_event events[kEdgesAtOnce];
     const int count = gpiod_line_event_read_multiple(line, events, kEdgesAtOnce);
-    if (count < 0) return Failure(lines_->name, "readable events of its lines");
+    if (count < 0) return Failure(lines_->name, "readable edge events on the lines");
     for (int k = 0; k < count; ++k) {
       edges.push_back({static_cast<int>(gpiod_line_offset(line)),
                        events[k].event_type == GPIOD_LINE_EVENT_RISING_EDGE,
@@ -313,12 +313,12 @@ Result<std::vector<GpioEdge>> GpioInputs::Wait(int timeout) {
   std::vector<GpioEdge> edges;
   const int64_t limit = timeout < 0 ? -1 : int64_t{timeout} * 1000000;
   const int result = gpiod_line_request_wait_edge_events(lines_->request.get(), limit);
-  if (result < 0) return Failure(lines_->name, "readable events of its lines");
+  if (result < 0) return Failure(lines_->name, "readable edge events on the lines");
   if (result == 0) return edges;
   const int count = gpiod_line_request_read_edge_events(
       lines_->request.get(), lines_->buffer.get(),
       gpiod_edge_event_buffer_get_capacity(lines_->buffer.get()));
-  if (count < 0) return Failure(lines_->name, "readable events of its lines");
+  if (count < 0) return Failure(lines_->name, "readable edge events on the lines");
   for (int i = 0; i < count; ++i) {
     gpiod_edge_event* event =
         gpiod_edge_event_buffer_get_event(lines_->buffer.get(), static_cast<unsigned long>(i));

@@ -8,9 +8,8 @@
 
 namespace starfocus {
 
-// Returns true if `icc` is a complete profile for RGB (ICC.1:2022, 7.2 and 7.3). The size of `icc`
-// must equal the size in the profile header, the data colour space must be RGB, and all tagged
-// elements must lie within `icc`.
+// Returns true if `icc` is a complete profile for RGB (ICC.1:2022, 7.2 and 7.3). A complete profile
+// has the size that its header states, the data colour space RGB, and all tagged elements.
 bool IsRgbProfile(const Bytes& icc);
 
 }  // namespace starfocus

@@ -15,9 +15,9 @@
 namespace starfocus {
 namespace {
 
-// A pixel is coloured if its channels differ by more than a tenth of white; JPEG compression
-// changes the channels of grey pixels by less than a tenth. A picture counts as a colour picture if
-// at least one pixel in a hundred is coloured.
+// A pixel counts as coloured if its channels differ by more than a tenth of white. JPEG compression
+// changes the channels of grey pixels by less than a tenth of white. A picture counts as a colour
+// picture if at least one pixel in a hundred is coloured.
 constexpr int kColourPart = 10;
 constexpr size_t kColouredPart = 100;
 

@@ -46,8 +46,8 @@ bool IsViewFile(const std::string& name);
 // Finds all files of captured views in a folder. The view files are sorted: first the centre view,
 // then the positions of starfocus_view_position in order, then all other positions by u and v. If
 // files differ only in the extension, the first of .png, .ppm and .jpg is used. Returns an error if
-// the folder or the centre view is missing, there are more than STARFOCUS_MAX_VIEWS views, a
-// coordinate is outside [-1, 1], or two files have the same position.
+// the folder or the centre view is missing, or there are more than STARFOCUS_MAX_VIEWS views.
+// Returns an error if a coordinate is outside [-1, 1], or two view files have the same position.
 Result<std::vector<ViewFile>> FindViewFiles(const std::string& folder);
 
 // Returns the view files at the positions `wanted`, in the order of `wanted`, or all files if

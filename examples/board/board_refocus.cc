@@ -58,7 +58,7 @@ Result<PanelLines> PlanLines(const Options& options) {
   std::sort(all.begin(), all.end());
   const auto twice = std::adjacent_find(all.begin(), all.end());
   if (twice == all.end()) return lines;
-  return Error::Usage("lines", "a different line for each control",
+  return Error::Usage("lines", "a different GPIO line for each control",
                       "line " + std::to_string(*twice) + " twice");
 }
 
@@ -218,16 +218,16 @@ void AddLineOptions(Options* options, Command* command) {
           {"--aperture-button", "LINE",
            "Line of the button that changes the aperture, 0 to 100000; default: no button",
            Whole(0, kLastLine, &options->aperture)},
-          {"--shutter", "LINE",
-           "Line of the button that takes a picture, 0 to 100000; must be given",
+          {"--shutter", "LINE", "Line of the button that takes a picture, 0 to 100000; required",
            Whole(0, kLastLine, &options->shutter)},
           {"--busy", "LINE",
            "Output line that is high exactly while the engine runs, 0 to 100000; default: "
            "none",
            Whole(0, kLastLine, &options->busy)},
-          {"--debounce", "MS", "Time in milliseconds that a button may bounce, 0 to 1000",
+          {"--debounce", "MS",
+           "Duration of contact bounce of the buttons in milliseconds, 0 to 1000",
            Whole(0, 1000, &options->debounce), Use::kDefault},
-          {"--active", "low|high", "Level of a pressed button",
+          {"--active", "low|high", "Level of a button line while the button is pressed",
            Choice<bool>({{"low", false}, {"high", true}}, &options->active_high), Use::kDefault},
           {"--bias", "pull-up|pull-down|none", "Bias of the input lines",
            Choice<GpioBias>({{"pull-up", GpioBias::kPullUp},

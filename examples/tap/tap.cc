@@ -147,7 +147,7 @@ class Session {
   // Compares the last preview with the last full picture. The preview and the full picture must
   // have the same focus.
   void SayNearness() const {
-    std::printf("%8.1f dB  PSNR of the preview against the full picture reduced\n",
+    std::printf("%8.1f dB  PSNR of the preview relative to the reduced full picture\n",
                 PreviewPsnr(preview_, full_, options_.shift));
   }
 
@@ -161,7 +161,7 @@ class Session {
       if (Error error = Preview(from + share * (to - from), what)) return error;
     }
     if (options_.out.empty()) {
-      std::printf("%8.1f pictures a second in the focus pull\n",
+      std::printf("%8.1f pictures per second in the focus pull\n",
                   options_.frames / std::max(Seconds() - start, 1e-9));
     }
     return {};

@@ -10,8 +10,8 @@ namespace {
 
 // A file with a performance number of a core. A core is big if its performance number is at least
 // numerator / denominator of the largest number. Small cores have about 1/3 of the capacity of big
-// cores, but 2/3 of the clock frequency, so the files cpu_capacity and cpuinfo_max_freq have
-// different limits.
+// cores, but 2/3 of the clock frequency, so cpu_capacity and cpuinfo_max_freq require different
+// limits.
 struct Measure {
   const char* file;
   int64_t numerator, denominator;

@@ -77,9 +77,9 @@ struct starfocus_pool {
   std::atomic<int32_t> stop{0};    // 1: the threads must end
 
   // A thread that is about to sleep first sets `idle` or `waiting` and then checks `left`, `undone`
-  // and `stop` again. starfocus_pool_run sets `left` before it checks `idle`, and Work decrements
-  // `undone` before it checks `waiting`. This order of writes and checks ensures that no wake-up is
-  // lost.
+  // and `stop` again. The function starfocus_pool_run sets `left` before it checks `idle`, and Work
+  // decrements `undone` before it checks `waiting`. This order of writes and checks ensures that no
+  // wake-up is lost.
   std::atomic<int32_t> idle{0};                       // number of threads that wait for `wake`
   std::atomic<int32_t> waiting{0};                    // 1: the caller waits for `finished`
   pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // mutex of `wake` and `finished`

@@ -50,7 +50,7 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
   if (!from || !to || *from < 0 || *to <= *from) {
     if (from && to) {
       photo->notes.push_back("the range of the depth map is ignored (from " + *low + " to " +
-                             *high + "): its levels only give an order");
+                             *high + "): levels of the map define only an order of depth");
     }
     TellMap(std::string(disparity ? "disparities" : "depths") + " without a range", photo);
     ToOrder(disparity ? Near::kWhite : Near::kBlack, photo);
@@ -63,7 +63,7 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
   photo->meaning = absolute ? MapMeaning::kInverseMetres : MapMeaning::kInverse;
   TellMap(std::string(disparity ? "disparities" : "depths") + " from " + *low + " to " + *high +
               (disparity ? " per metre, " : " metres, ") +
-              (absolute ? "absolute" : "right up to a factor"),
+              (absolute ? "absolute" : "correct up to a factor"),
           photo);
 }
 

@@ -42,7 +42,7 @@ void IgnoreRange(const RangeProperties& range, Near near, DepthPhoto* photo) {
   const bool black = near != Near::kWhite;
   photo->notes.push_back("the range of the depth map is ignored (Format " + Quoted(range.format) +
                          ", Near " + Quoted(range.near) + ", Far " + Quoted(range.far) +
-                         "): its levels only give an order, in which " +
+                         "): levels of the map define only an order of depth, in which " +
                          (black ? "black is near (--near white overrides this)" : "white is near"));
   TellMap("relative depth without distances", photo);
   ToOrder(black ? Near::kBlack : Near::kWhite, photo);

@@ -40,7 +40,8 @@ Error ReadMap(const XmpNode& xmp, Near near, DepthPhoto* photo) {
   if (unit > 0 && distance > 0.0) photo->focus_value = 1 / (*distance * unit);
   const std::string* measure = FindProperty(xmp, kDepth + "MeasureType");
   if (unit > 0 && measure != nullptr && *measure == "OpticRay") {
-    photo->facts.emplace_back("distances", "along rays, used as distances along the axis");
+    photo->facts.emplace_back("distances",
+                              "measured along rays, but used as distances along the axis");
   }
   return {};
 }

@@ -92,8 +92,8 @@ Result<Image> DecodePicture(const std::string& where, const heif_image_handle* h
   return image;
 }
 
-// Returns the levels of a depth map, 0 to 1. libheif stores samples of 8 bits as bytes, and samples
-// of up to 16 bits in the byte order of the machine.
+// Returns the levels of a depth map, 0 to 1. For more than 8 bits per sample, libheif stores 16-bit
+// integers in the byte order of the machine.
 Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* handle) {
   const Result<Decoded> decoded =
       Decode(where, handle, heif_colorspace_undefined, heif_chroma_undefined);
@@ -204,14 +204,15 @@ Error UnderstandInformation(const std::string& where, const Information& informa
                             DepthPhoto* photo) {
   const auto type = information.depth_representation_type;
   if (type == heif_depth_representation_type_nonuniform_disparity) {
-    return Expected(where, "a depth map with uniform steps", "nonuniform disparities");
+    return Expected(where, "a depth map with uniform steps between levels",
+                    "nonuniform disparities");
   }
   photo->meaning = MapMeaning::kInverse;
   if (type == heif_depth_representation_type_uniform_disparity && information.has_d_min &&
       information.has_d_max && information.d_max > information.d_min) {
     ToRange(information.d_min, information.d_max, &photo->map);
     TellMap("disparities from " + std::to_string(information.d_min) + " to " +
-                std::to_string(information.d_max) + ", right up to a factor",
+                std::to_string(information.d_max) + ", correct up to a factor",
             photo);
     return {};
   }
@@ -223,7 +224,7 @@ Error UnderstandInformation(const std::string& where, const Information& informa
     if (range.inverse) ToRange(1, 0, &photo->map);
     ToInverse(range, &photo->map);
     TellMap("distances from " + std::to_string(range.near) + " to " + std::to_string(range.far) +
-                ", right up to a factor",
+                ", correct up to a factor",
             photo);
     return {};
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parses the boxes of HEIF files (ISO/IEC 14496-12 and 23008-12) that declare the sizes and
-// components of pictures. heif_limits.h checks the declared sizes and components before libheif
-// allocates memory for the pictures.
+// components of pictures. The module heif_limits.h checks the declared sizes and components before
+// libheif allocates memory for the pictures.
 #ifndef STARFOCUS_PLATFORM_READERS_HEIF_BOXES_H_
 #define STARFOCUS_PLATFORM_READERS_HEIF_BOXES_H_
 

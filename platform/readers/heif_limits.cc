@@ -9,7 +9,7 @@ namespace starfocus {
 namespace {
 
 // Largest width and height of a HEIF picture. A square picture of this size has 2^28 pixels.
-// libheif may allocate memory for any declared size up to kMostSide.
+// The library libheif may allocate memory for any declared size up to kMostSide.
 constexpr int64_t kMostSide = 16384;
 // Limits of the number of pixels: per byte of the file, and for any file. An AVIF picture of one
 // colour has 31 000 pixels per byte.
@@ -24,8 +24,8 @@ bool IsMadeOfOthers(const HeifItem& item) {
   return item.type == "grid" || item.type == "iovl" || item.type == "iden";
 }
 
-// Returns true if the item is a coded picture, which libheif can decode. libheif 1.15 aborts the
-// program if a derived picture contains any other kind of item.
+// Returns true if the item is a coded picture, which libheif can decode. Version 1.15 of libheif
+// aborts the program if a derived picture contains an item that is not a coded picture.
 bool IsCoded(const HeifItem& item) { return item.type == "hvc1" || item.type == "av01"; }
 
 uint32_t WholeOf(const Bytes& bytes, size_t at, size_t size) {

@@ -25,8 +25,8 @@ std::optional<Capture> FindGreyMapPair(const std::string& folder,
                                        const std::vector<std::string>& names);
 
 // Loads the grey map of a stereo pair whose views are already loaded. The ratio of grey levels to
-// disparities follows from the size of the pictures, unless the left and right pictures agree
-// clearly better with another ratio.
+// disparities follows from the picture size, unless both pictures agree clearly better with another
+// ratio.
 Error LoadGreyMap(Capture* capture);
 
 }  // namespace starfocus

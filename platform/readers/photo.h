@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photograph with a depth map, which the readers of all formats return: a picture, a map of any
-// size, and the meaning of the map's values.
+// Defines the result of all readers of depth photographs: a picture, a depth map of any size, and
+// the meaning of the values of the map.
 #ifndef STARFOCUS_PLATFORM_READERS_PHOTO_H_
 #define STARFOCUS_PLATFORM_READERS_PHOTO_H_
 

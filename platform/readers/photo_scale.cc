@@ -45,8 +45,8 @@ std::string Rounded(double value) {
 }
 
 // Returns the disparity that an inverse distance of 1 / m corresponds to. The result is the blur
-// radius of an infinitely distant point, in pixels, for a lens of f/1 with the focal length
-// `focal_35mm`, focused at 1 m.
+// radius in pixels of an infinitely distant point, for an f/1 lens of focal length `focal_35mm`,
+// focused at 1 m.
 double DisparityPerDiopter(double focal_35mm, double diagonal_pixels) {
   return focal_35mm / kDiagonal * diagonal_pixels * focal_35mm / 1000 / 2;
 }
@@ -78,7 +78,7 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
   Scale(extent > 0 ? nearest / extent : 0, zero, std::min(nearest, STARFOCUS_MAX_DISPARITY), photo);
   photo->facts.emplace_back("scale",
                             std::string("unknown: the nearest surface is assumed to be 1.5 m ") +
-                                (order ? "and the farthest one infinitely far " : "") +
+                                (order ? "and the farthest surface infinitely far " : "") +
                                 "in front of a 50 mm lens on full frame");
 }
 

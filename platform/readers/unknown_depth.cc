@@ -27,8 +27,8 @@ struct Ends {
 
 // Decides whether 0 and 65535 are depths in a 16-bit map. The values 0 and 65535 are depths if the
 // map was stretched to the whole range. A map counts as stretched if values other than 0 and 65535
-// come close to 0 or 65535. A map with both 0 and 65535 also counts as stretched if other values
-// lie in the upper half of the range, or if there are no other values.
+// come close to 0 or 65535. A map with both 0 and 65535 counts as stretched if another value lies
+// in the upper half of the range, or if all values are 0 or 65535.
 Ends JudgeEnds(const FloatMap& map) {
   Ends ends;
   std::vector<float> others;
@@ -67,11 +67,12 @@ struct Gap {
 };
 
 // Calls `visit` for each unknown pixel of a line, with the gap that contains the pixel. The line
-// has `count` values, `step` elements apart. If the values at the two ends of a gap differ by at
-// most `alike`, both values belong to one surface, and the pixel's value is interpolated.
-// If the two values differ by more than `alike`, the pixel receives the smaller value, which is the
-// background. A gap at the border of the map has a known value at one end only. The length of a gap
-// at the border counts twice, because no second value confirms the value at the known end.
+// has `count` values, `step` elements apart. If the values at the ends of a gap differ by at most
+// `alike`, both values belong to one surface, and values in the gap are interpolated. If the values
+// at the ends of a gap differ by more than `alike`, pixels in the gap receive the smaller value,
+// which is the background. A gap at the border of the map has a known value at one end only. The
+// length of a gap at the border counts twice, because no second value confirms the value at the
+// known end.
 template <class Visit>
 void FindGaps(const float* line, size_t step, int count, float alike, const Visit& visit) {
   const auto at = [&](int k) { return line[size_t(k) * step]; };

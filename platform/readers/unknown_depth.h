@@ -9,17 +9,17 @@
 namespace starfocus {
 
 // Sets unknown values of photo->map to NaN. The map must contain the values that the file stores.
-// Values that are not finite and values in options.unknown are always unknown. If options.unknown
-// is empty, 0 and 65535 may mean unknown depth in maps of more than 8 bits; the other values of the
-// map decide, and a note reports the decision. `largest` is the sample value of white, or 0 for PFM
-// files.
+// Values that are not finite and values in options.unknown are always unknown. If
+// options.has_unknown is false, 0 and 65535 may mean unknown depth in maps of more than 8 bits. The
+// other values of the map decide, and a note reports the decision. `largest` is the sample value of
+// white, or 0 for PFM files.
 void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo);
 
 // Replaces NaN by the background in a map in which larger values are nearer. For each unknown
 // pixel, uses the gap along its row or its column, whichever is shorter. The new value is the
 // smaller of the two values at the ends of the gap. If the values at the ends of the gap differ by
-// at most 5 % of the value range, the new value is interpolated between them. At least one value of
-// the map must be known. Returns the number of filled pixels.
+// at most 5 % of the value range, the new value is interpolated. At least one value of the map must
+// be known. Returns the number of filled pixels.
 size_t FillBehind(FloatMap* map);
 
 }  // namespace starfocus

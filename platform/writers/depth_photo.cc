@@ -103,7 +103,7 @@ Result<Bytes> EncodeDepthPhoto(const std::string& path, const Image& picture,
   // Omit the rdf:Descriptions of `metadata` if they do not fit into the XMP packet of the map.
   if (!AppendExtendedXmp(kNamespaces, attributes, extended, metadata.xmp, &segments) &&
       !AppendExtendedXmp(kNamespaces, attributes, extended, "", &segments)) {
-    return Expected(path, "less than 4 GiB of data besides the picture", "more");
+    return Expected(path, "a depth map and a sharp picture of less than 4 GiB", "more");
   }
   Metadata others = metadata;
   others.xmp.clear();  // a JPEG file may have only one XMP packet

@@ -82,8 +82,8 @@ struct Pixels {
 };
 
 // Applies the filter "Up" (PNG specification, 9.2) to every row: each byte is replaced by its
-// difference from the byte above. Compared with choosing filters by their sums of differences,
-// files of photographs are 1 to 3 % smaller, and filtering takes a tenth of the time.
+// difference from the byte above. Compared with choosing a filter per row by sums of differences,
+// photographs take 1 to 3 % fewer bytes and a tenth of the filtering time.
 void FilterRows(const Rows& rows, size_t row_bytes, uint8_t* filtered) {
   constexpr uint8_t kNone = 0, kUp = 2;
   for (int y = 0; y < rows.height; ++y) {

@@ -12,7 +12,8 @@ extern "C" JNIEXPORT jobject JNICALL Java_dev_starfocus_android_LockedBitmap_loc
   AndroidBitmapInfo info = {};
   if (bitmap == nullptr || AndroidBitmap_getInfo(env, bitmap, &info) < 0 ||
       info.format != ANDROID_BITMAP_FORMAT_RGBA_8888) {
-    ThrowArgument(env, "LockedBitmap: expected a bitmap of ARGB_8888, found the format %d",
+    ThrowArgument(env,
+                  "LockedBitmap: expected a bitmap of the format ARGB_8888, found the format %d",
                   static_cast<int>(info.format));
     return nullptr;
   }

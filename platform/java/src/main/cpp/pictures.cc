@@ -140,7 +140,7 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
 bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map) {
   *map = {};
   if (object == nullptr) {
-    ThrowArgument(env, "depth: expected a map, found null");
+    ThrowArgument(env, "depth: expected a depth map, found null");
     return false;
   }
   if (!ReadFields(env, object, kDepthFields, std::size(kDepthFields), map)) return false;

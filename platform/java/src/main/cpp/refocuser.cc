@@ -39,8 +39,8 @@ void End(Session* session) {
 
 Session* From(jlong handle) { return reinterpret_cast<Session*>(handle); }
 
-// Progress callback. Stores the number of finished rows for rowsDone() and does not call Java,
-// because the threads of the pool are not attached to the Java virtual machine.
+// Progress callback. Stores the number of finished rows for rowsDone(). The callback must not call
+// Java, because threads of the pool are not attached to the Java virtual machine.
 int Tell(void* data, int32_t rows_done, int32_t) {
   auto* const session = static_cast<Session*>(data);
   session->rows_done.store(rows_done, std::memory_order_relaxed);
@@ -104,8 +104,8 @@ bool ReadPositions(JNIEnv* env, jobject configuration, starfocus_config* config)
   return true;
 }
 
-// Returns the number of pixels of a picture at 1 / 2^shift of the full size that contain a part of
-// the range [first, first + count) of full-size pixels. `count` must be at least 1.
+// Returns the number of pixels at 1 / 2^shift of the size that overlap the pixels [first, first +
+// count) of the full size. `count` must be at least 1.
 int32_t Reduced(int32_t first, int32_t count, int32_t shift) {
   return static_cast<int32_t>(((int64_t{first} + count - 1) >> shift) - (first >> shift) + 1);
 }

@@ -20,8 +20,9 @@ public final class DepthMap {
   /** Type of the values, and width and height of the map in values. */
   public final int type, width, height;
   /**
-   * Conversion of a value z to a disparity. {@link #LINEAR}, the default: the disparity is scale *
-   * z + offset. {@link #RECIPROCAL}: z is a distance, and the disparity is scale / z + offset.
+   * Conversion of a value z to a disparity. With {@link #LINEAR}, the default, the disparity is
+   * scale * z + offset. With {@link #RECIPROCAL}, z is a distance, and the disparity is scale / z +
+   * offset.
    */
   public int meaning = LINEAR;
   /**

@@ -66,8 +66,9 @@ public final class Image {
    */
   public Image(int format, ByteBuffer[] planes, int[] strides) {
     if (planes.length != strides.length) {
-      throw new IllegalArgumentException("Image: expected as many strides as planes, found "
-          + strides.length + " and " + planes.length);
+      throw new IllegalArgumentException(
+          "Image: expected equal numbers of strides and planes, found " + strides.length + " and "
+          + planes.length);
     }
     this.format = format;
     this.planes = new ByteBuffer[planes.length];

@@ -9,10 +9,10 @@ import java.util.Objects;
  * threads may use a Refocuser, but calls run one after the other. {@link #cancel} and {@link
  * #rowsDone} do not wait for a running call, so that other threads can use them during a call.
  *
- * <p>Calls throw {@link StarfocusException} for errors that the library reports, for example
- * values out of range or disparities outside the configured range; IllegalArgumentException for
- * buffers that are not direct, too small, or read-only if they are outputs; NullPointerException
- * for null arguments; OutOfMemoryError; and IllegalStateException after {@link #close}.
+ * <p>Calls throw {@link StarfocusException} for errors that the library reports, such as values out
+ * of range. Calls throw IllegalArgumentException for buffers that are not direct or are too small,
+ * and for read-only outputs. Calls throw NullPointerException for null arguments, OutOfMemoryError
+ * if memory is insufficient, and IllegalStateException after {@link #close}.
  *
  * <p>The bytes of pictures depend neither on the machine nor on the number of workers.
  */
