@@ -32,8 +32,8 @@ std::string WithoutDashes(const std::string& name) {
   return name.substr(std::min(name.find_first_not_of('-'), name.size()));
 }
 
-// Separator and number of the parts of a type. "X,Y" has two parts, and "D0:D1:N" has three. The
-// separator is 0 if values have no parts.
+// Separator and number of the parts of an option's type. The type "X,Y" has two parts, and
+// "D0:D1:N" has three. The separator is 0 if values of the type are not divided into parts.
 struct Parts {
   char separator = 0;
   size_t count = 1;
@@ -43,7 +43,8 @@ bool IsPartName(char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'
 
 Parts PartsOf(const std::string& type) {
   Parts parts;
-  const std::string text = type.substr(0, type.find(' '));  // "D,U ..." may be repeated
+  // Values of a type such as "D,U ..." may be repeated.
+  const std::string text = type.substr(0, type.find(' '));
   for (size_t i = 0; i < text.size(); ++i) {
     if (IsPartName(text[i])) continue;
     const bool inside = i > 0 && i + 1 < text.size() && IsPartName(text[i + 1]);
@@ -112,7 +113,7 @@ std::string NearestName(const std::string& typed, const std::vector<std::string>
   std::string nearest;
   for (const std::string& name : names) {
     const std::string its = WithoutDashes(name);
-    // Also accept a name if the user has typed only its start.
+    // Accept a name even if the user has typed only the start of the name.
     const bool beginning = wanted.size() >= 3 && its.compare(0, wanted.size(), wanted) == 0;
     const size_t distance = beginning ? 1 : Distance(wanted, its);
     if (distance >= least || distance >= its.size()) continue;

@@ -15,8 +15,8 @@ namespace starfocus {
 // Returns the name that is most similar to `typed`, or an empty string if no name is similar.
 std::string NearestName(const std::string& typed, const std::vector<std::string>& names);
 
-// Rejects "--focus-at 160 120" if the option's type is X,Y. Values whose parts are separated by
-// ',', ':' or 'x' must be one argument.
+// Rejects values without separators, for example "--focus-at 160 120" if the option's type is X,Y.
+// Values whose parts are separated by ',', ':' or 'x' must be one argument.
 Error CheckSeparators(const std::vector<std::string>& arguments,
                       const std::vector<Option>& options);
 

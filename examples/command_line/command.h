@@ -65,8 +65,8 @@ struct Command {
 };
 
 struct Program {
-  Command main;                                // options without a subcommand
-  std::vector<Command> commands;               // the user must choose one, unless the list is empty
+  Command main;                   // options of the program without a subcommand
+  std::vector<Command> commands;  // subcommands, one of which the user must choose; may be empty
   std::vector<std::string> lab_commands = {};  // names of subcommands of starfocus-lab
 };
 

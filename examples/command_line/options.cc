@@ -35,7 +35,7 @@ std::optional<double> ReadNumber(const std::string& text) {
   return ParseNumber(text);
 }
 
-// Parses integers up to the largest picture size. Returns no numbers if any part is invalid.
+// Parses integers up to the largest picture size. Returns an empty list if any part is invalid.
 std::vector<int> ReadSizes(const std::string& text, char separator) {
   std::vector<int> sizes;
   for (const std::string& part : Split(text, separator)) {

@@ -15,40 +15,40 @@
 
 namespace starfocus {
 
-// An integer in [low, high].
+// Targets for an integer in [low, high].
 Target Whole(int low, int high, int* value);
 Target Whole(int low, int high, std::optional<int>* value);
 Target Threads(int* value);  // 1 to 64
 
-// A finite number. `expected` describes the range [low, high].
+// Targets for a finite number. `expected` describes the range [low, high] in error messages.
 Target Number(double* value);
 Target Number(std::optional<double>* value);
 Target Number(double low, double high, const std::string& expected, double* value);
 Target Number(double low, double high, const std::string& expected, std::optional<double>* value);
 
-// One of several words, each with its value.
+// Target for one of several words, each of which stands for a value.
 template <class T>
 using Words = std::vector<std::pair<const char*, T>>;
 template <class T>
 Target Choice(const Words<T>& words, T* value);
 Target Transfer(starfocus_transfer* value);
 
-// Two integers from 0 to 65535.
+// Pixel coordinates, which are two integers from 0 to 65535.
 struct Pixel {
   int x = 0, y = 0;
 };
 Target Pair(char separator, Pixel* value);
 Target Pair(char separator, std::optional<Pixel>* value);
 
-// X,Y,W,H: a rectangle of integers with W and H above 0.
+// Target for X,Y,W,H, a rectangle of integers with W and H above 0.
 Target Region(starfocus_region* value);
 
-// 17, 9, 5 or 1 views of the star, or U,V:U,V... for views at these positions. The first position
-// must be 0,0, and coordinates must be within +-1. Coordinates are rounded to four decimals, as in
-// file names.
+// Target for views: 17, 9, 5 or 1 for views of the star, or U,V:U,V... for views at these
+// positions. The first position must be 0,0, and coordinates must be within +-1. Coordinates are
+// rounded to four decimals, as in file names.
 Target Views(Positions* positions);
 
-// Parses finite numbers separated by `separator`. Returns no numbers if any part is invalid.
+// Parses finite numbers separated by `separator`. Returns an empty list if any part is invalid.
 std::vector<double> ReadNumbers(const std::string& text, char separator);
 
 // Formats `value` with %g.

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns a unique name for a file, whether or not it exists.
+// Returns a unique name for a file, whether or not the file exists.
 fs::path NameOf(const fs::path& path) {
   std::error_code ignored;
   const fs::path name = fs::weakly_canonical(fs::absolute(path), ignored);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks all output files of a command before it starts to work.
+// Checks all output files of a command before the command starts to work.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OUTPUTS_H_
 
@@ -22,11 +22,11 @@ struct Inputs {
 };
 
 // Returns an error if two outputs are the same file, or if an output is the same file as an input.
-// Different names and links of a file are recognized.
+// Different names of one file, including links, are recognized.
 Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
 
-// Returns an error if the output folder is one of the input folders, under any name or link. Output
-// files would mix with the views.
+// Returns an error if the output folder is one of the input folders, under any name or link. In an
+// input folder, output files would mix with the views.
 Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders);
 
 // Returns an error unless the folder can be created, or exists and is writable.

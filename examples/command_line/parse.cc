@@ -15,7 +15,7 @@
 namespace starfocus {
 namespace {
 
-// Returns a callback that parses the value of an option and sets `wrong` if it is invalid.
+// Returns a callback that parses the value of an option and sets `wrong` if the value is invalid.
 CLI::callback_t ReaderOf(const Option& option, Error* wrong) {
   return [read = option.target.read, name = NamesOf(option).back(),
           wrong](const CLI::results_t& texts) {
@@ -134,8 +134,8 @@ Error Unexpected(CLI::App* app, const std::string& argument) {
   return Error::Usage("command line", "no more arguments for " + name, "'" + argument + "'");
 }
 
-// Returns the error for an unknown, missing or extra argument. Returns `value` if `value` is the
-// error of an invalid value.
+// Returns the error for an unknown, missing or extra argument. If `value` is an error, which an
+// invalid value caused, returns `value`.
 Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value) {
   const std::vector<std::string> others = app->remaining(true);
   const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };
@@ -165,7 +165,8 @@ Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value)
                       text);
 }
 
-// Returns the subcommand with that name, or the program's own command.
+// Returns the subcommand called `name`, or the program's own command if no subcommand has this
+// name.
 const Command& CommandOf(const Program& program, const std::string& name) {
   for (const Command& command : program.commands) {
     if (command.name == name) return command;

@@ -11,8 +11,8 @@
 
 namespace starfocus {
 
-// Sets the variables of the given options and runs the chosen subcommand, or the command of the
-// program itself. Prints help or the version if requested.
+// Sets the variables of the given options and runs the chosen subcommand or, without a subcommand,
+// the program's own command. Prints help or the version if requested.
 Error RunCommandLine(const Program& program, int argc, char** argv);
 
 // Returns the help of a program, or of one of its subcommands.

@@ -51,7 +51,7 @@ int RunProgram(const char* name, const std::function<Error()>& run) {
     if (!error) error = CheckPrinted();
     return Report(name, error);
   } catch (const std::bad_alloc&) {
-    // Do not allocate memory here.
+    // This handler must not allocate memory, because memory has run out.
     std::fprintf(stderr, "%s: out of memory\n", name);
     return kFailed;
   } catch (const std::exception& exception) {

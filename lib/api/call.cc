@@ -36,9 +36,9 @@ starfocus_status CheckCall(const starfocus_config& config, const starfocus_param
   if (status != STARFOCUS_OK) return status;
   Checker check(config.problem);
   check.Need(prepared == nullptr || Fits(*prepared, config), STARFOCUS_ERROR_PREPARED, {"prepared"},
-             {"the same size, views, disparity range, max_layer and transfer"});
+             {"prepared with the engine's size, views, disparity range, max_layer and transfer"});
   check.Need(prepared == nullptr || params.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"},
-             {"null for a prepared light field"});
+             {"null if the light field is prepared"});
   return check.status();
 }
 

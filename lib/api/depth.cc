@@ -22,7 +22,7 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
   const bool one = config.views == 1 && repairs;
   check.Need(one || config.views == 5 || config.views == 9 || config.views == 17,
              STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
-             {"5, 9 or 17, or 1 for a repair"});
+             {"5, 9 or 17 views, or 1 view for a repair"});
   return check.status();
 }
 

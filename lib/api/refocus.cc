@@ -29,7 +29,7 @@ starfocus_status CheckPrevious(const starfocus_config& config, const Request& re
   Checker check(config.problem);
   check.Need(IsInPlace(request.out) && IsInPlace(previous->out), STARFOCUS_ERROR_FEATURE,
              {"previous.out.format", double(previous->out.format)},
-             {"STARFOCUS_FORMAT_RGB without gaps, as that of out"});
+             {"STARFOCUS_FORMAT_RGB without gaps, for out and previous.out"});
   starfocus_status status = check.status();
   if (status == STARFOCUS_OK) status = CheckLightField(config, previous->light_field);
   for (const starfocus_light_field* field : {&request.light_field, &previous->light_field}) {

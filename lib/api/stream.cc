@@ -37,8 +37,8 @@ starfocus_status RefocusNext(EngineState* engine) {
 starfocus_status CheckCount(const EngineState& engine, int32_t rows, int32_t most) {
   Checker check(engine.config.problem);
   check.Need(engine.stream.active, STARFOCUS_ERROR_STATE, {"stream"},
-             {"a call of starfocus_stream_begin before"});
-  check.In({"rows", double(rows)}, {"at most the remaining rows", 0, double(most)});
+             {"an earlier call of starfocus_stream_begin"});
+  check.In({"rows", double(rows)}, {"at most the number of remaining rows", 0, double(most)});
   return check.status();
 }
 

@@ -135,7 +135,7 @@ starfocus_status CheckMemory(const Memory& memory, size_t needed, starfocus_prob
              {memory.name, double(address % STARFOCUS_ALIGNMENT)},
              {"a multiple of STARFOCUS_ALIGNMENT"});
   check.Need(memory.bytes >= needed, STARFOCUS_ERROR_WORKSPACE, {"bytes", double(memory.bytes)},
-             {"at least the result of the size function", double(needed)});
+             {"at least the number of bytes that the size function returns", double(needed)});
   return check.status();
 }
 

@@ -9,7 +9,8 @@
 namespace starfocus {
 namespace {
 
-static_assert(simd::kBlendStep == kSurfaceStep, "one surface is one surface");
+static_assert(simd::kBlendStep == kSurfaceStep,
+              "kernels and library use the same largest step within a surface");
 
 // Largest numbers of map values and of pixels that are converted at once, in arrays on the stack.
 // No map is larger than the picture, so interpolating n pixels reads at most n + 1 values.

@@ -9,7 +9,8 @@ namespace {
 constexpr int32_t kReach = 2 * simd::kColourReach;
 // Mask of the low bits of a disparity, which are the offset of the disparity within its group.
 constexpr int32_t kLow = (1 << kDisparityBits) - 1;
-static_assert(simd::kColourKeyBits == kDisparityBits, "keys hold a disparity within a group");
+static_assert(simd::kColourKeyBits == kDisparityBits,
+              "a colour key stores the low bits of a disparity");
 constexpr simd::ColourSample kOutside = {0, 0, 0, simd::kNoColourKey, 0};
 
 int32_t GroupOf(int32_t disparity) { return (disparity >> kDisparityBits) + kGroups / 2; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Address ranges that a call reads or writes, to detect overlaps.
+// Collects the address ranges that an API call reads or writes, to detect overlaps.
 #ifndef STARFOCUS_LIB_SOURCE_EXTENTS_H_
 #define STARFOCUS_LIB_SOURCE_EXTENTS_H_
 
@@ -33,11 +33,13 @@ inline bool Overlaps(const Extent& a, const Extents& b) {
   return false;
 }
 
-// Checks that an output does not overlap the inputs. `name` is the name of the output argument.
+// Checks that an output does not overlap the address ranges in `read`. `name` is the name of the
+// output argument.
 inline starfocus_status CheckApart(const Extent& out, const Extents& read, const char* name,
                                    starfocus_problem* problem) {
   if (!Overlaps(out, read)) return STARFOCUS_OK;
-  return Refuse(STARFOCUS_ERROR_OVERLAP, {name}, {"apart from inputs and workspace"}, problem);
+  return Refuse(STARFOCUS_ERROR_OVERLAP, {name},
+                {"memory that overlaps neither the inputs nor the workspace"}, problem);
 }
 
 }  // namespace starfocus

@@ -17,7 +17,8 @@ const uint8_t* ReadView(const void* self, int view, int32_t x, int32_t y, int32_
   return room;
 }
 
-// Reads codes for the windows. Rows of the centre view come from the ring of converted rows.
+// Reads codes of a view for the engine's windows. Codes of the centre view are read from the ring
+// buffer of converted rows.
 const uint8_t* WindowCodes(const void* self, int view, int32_t x, int32_t y, int32_t count,
                            uint8_t* room) {
   if (view > 0) return ReadView(self, view, x, y, count, room);
@@ -81,7 +82,7 @@ void MakeLightField(const starfocus_light_field& given, int32_t first, EngineSta
     FillColumns(engine->config.width, memory.map_width, memory.columns);
   }
   field->depth = MakeDepthSource(engine->config, given.depth, memory.columns);
-  // Maps of a smaller height always contain all rows, so their first row is 0.
+  // A map of smaller height than the picture always contains all rows, so its first row is 0.
   if (given.depth.height == engine->config.height) field->depth.first = first;
   field->coverage = {given.coverage, given.coverage_stride, 0, first};
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light field of the caller during a call. Disparities are converted when they are loaded. Views
-// are read in place if all views are packed RGB. Otherwise the engine converts rows of the centre
-// view to its ring, and converts pixels of side views when it reads them.
+// Describes the caller's light field during an API call. Disparities are converted when they are
+// loaded. Views are read in place if all views are packed RGB. If a view has another format, the
+// engine converts rows of the centre view into a ring buffer, and converts pixels of side views
+// when the pixels are read.
 #ifndef STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 #define STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 
@@ -16,11 +17,12 @@ namespace starfocus {
 struct LightField {
   const simd::ImageKernels* kernels;
   ImageSource views[kMaxViews];
-  int32_t first;  // row of the picture where the views start
-  bool in_place;  // true: all views are packed RGB
+  int32_t first;  // row of the picture at which the rows of the views start
+  bool in_place;  // true if all views are packed RGB
   DepthSource depth;
   Plane<const uint8_t> coverage;  // null: no coverage
-  // All views if in place; otherwise only view 0, in the engine's ring.
+  // Planes of all views if in_place is true; otherwise only the plane of view 0, in the engine's
+  // ring buffer.
   PlaneViews planes;
 };
 
@@ -29,11 +31,11 @@ struct LightField {
 void MakeLightField(const starfocus_light_field& given, int32_t first, EngineState* engine,
                     LightField* field);
 
-// Returns a source of the rows of the field, which must outlive the source.
+// Returns a source of the rows of a light field. The light field must outlive the source.
 RowSource SourceOf(const LightField& field);
 
-// Sets the field as the source of the engine's windows. The field must remain valid unless it is in
-// place.
+// Makes the engine's windows read from `field`. If field.in_place is false, `field` must remain
+// valid.
 void UseLightField(const LightField& field, EngineState* engine);
 
 }  // namespace starfocus

@@ -15,7 +15,7 @@ struct PairsJob {
   const PictureOutput* out;
   Plane<uint8_t> from;
   const uint8_t* odd_row;  // upper row of a pair that an earlier call started
-  RowRange rows;           // rows of the image
+  RowRange rows;           // rows of the image to write
   int32_t jobs;
 };
 
@@ -47,7 +47,7 @@ void WritePairs(const PairsJob& job, int32_t index, Scratch* scratch) {
   }
 }
 
-// Copies columns [first, last) of row y.
+// Copies columns [first, last) of row y to the output image.
 void CopyColumns(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y, int32_t first,
                  int32_t last) {
   if (first >= last) return;
@@ -55,8 +55,8 @@ void CopyColumns(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y
               from.Row(y) + 3 * static_cast<size_t>(first), 3 * static_cast<size_t>(last - first));
 }
 
-// Copies row y. If a previous picture exists, copies the row of the previous picture and overwrites
-// the changed columns.
+// Copies row y to the output image. If a previous picture exists, copies the row of the previous
+// picture and overwrites the changed columns.
 void StoreRow(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y,
               const EngineState& engine) {
   const Rect& rect = out.rect;

@@ -13,13 +13,14 @@ struct PictureOutput {
   const simd::ImageKernels* kernels;
   ImageTarget image;
   Rect rect;
-  AlphaSource alpha;  // alpha of the whole picture; null rows: alpha is 255
-  // Source of unchanged pixels, or null. If `previous` is not null, both pictures are packed RGB.
+  AlphaSource alpha;  // alpha of the whole picture; if its rows are null, alpha is 255
+  // Source of unchanged pixels, or null. If `previous` is not null, `image` and `previous` are
+  // packed RGB.
   const starfocus_image* previous = nullptr;
 };
 
-// Returns a sink that writes to `out`, which must outlive the sink. If the last row shares its
-// chroma with the next row, the chroma is written together with the next row.
+// Returns a sink that writes to `out`, which must outlive the sink. If the last stored row shares
+// chroma samples with the next row, the chroma samples are written together with the next row.
 RowSink SinkOf(const PictureOutput& out);
 
 }  // namespace starfocus

@@ -53,7 +53,7 @@ starfocus_status MakeLayers(const Prepared& prepared, const RowSource& source,
 size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared) {
   Arena arena(base);
   *prepared = arena.Take<Prepared>(1);
-  Prepared counted;  // replaces **prepared while the layout only counts
+  Prepared counted;  // used instead of **prepared if `base` is null
   Prepared& p = *prepared == nullptr ? counted : **prepared;
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
   p.disparity.stride = width;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prepared light field: data that does not depend on the lens, in its own memory. The data are
-// checked and converted disparities, the layers of the centre view, and reduced light fields.
+// Prepared light field, which stores data that do not depend on the lens. The data are checked and
+// converted disparities, the layers of the centre view, and reduced light fields.
 #ifndef STARFOCUS_LIB_SOURCE_PREPARED_H_
 #define STARFOCUS_LIB_SOURCE_PREPARED_H_
 
@@ -16,7 +16,7 @@ namespace starfocus {
 struct Prepared {
   starfocus_config config;  // configuration of the engine that prepared the light field
   starfocus_light_field light_field;
-  bool covers = false;       // true: the light field has coverage
+  bool covers = false;       // true if the light field has coverage
   Plane<int16_t> disparity;  // disparities of all rows
   // Samples of all rows of layers 1 to config.tuning.max_layer.
   Plane<int16_t> layers[STARFOCUS_LAYERS];
@@ -27,16 +27,16 @@ struct Prepared {
 // counts the bytes and sets *prepared to null. Returns the number of bytes, or kTooLarge.
 size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared);
 
-// Memory for a prepared light field, from a call with any format.
+// Memory that the caller passes for a prepared light field.
 struct PrepareCall {
   void* memory;
   size_t bytes;
 };
 
 // Prepares the light field that consists of the engine's views and the map of `source`. Checks and
-// converts the map, and computes the layers and reduced light fields stripe by stripe. Uses the
-// engine's planes except the pixels. On error *prepared is null. If a row of the map is invalid,
-// the memory is not changed.
+// converts the map, and computes the layers and reduced light fields stripe by stripe. The engine's
+// planes, except for the pixels, serve as scratch memory. On error *prepared is null. If a row of
+// the map is invalid, the memory is not changed.
 starfocus_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
                          Prepared** prepared);
 
@@ -46,8 +46,8 @@ bool Fits(const Prepared& prepared, const starfocus_config& config);
 // Returns the address range of the prepared light field.
 Extent PreparedMemory(const Prepared& prepared);
 
-// Sets `prepared` as the source of the engine's disparities and layers. The engine's views and lens
-// must be set before.
+// Sets `prepared` as the source of the engine's disparities and layers. Before UsePrepared, the
+// caller must set the engine's views and lens.
 void UsePrepared(const Prepared& prepared, EngineState* engine);
 
 }  // namespace starfocus

@@ -7,7 +7,7 @@
 namespace starfocus {
 namespace {
 
-// Reduces rows of one column of superblocks.
+// Arguments of jobs that reduce rows. Each job reduces the rows of one column of superblocks.
 struct ReduceJob {
   const EngineState* engine;
   Plane<int16_t> disparity;
@@ -29,7 +29,7 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
   }
 }
 
-// Returns false after cancellation.
+// Reduces the columns `part` of a view by all shifts. Returns false after cancellation.
 bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch* scratch) {
   const EngineState& engine = *job.engine;
   const Window& window = engine.row_store.windows[0];
@@ -54,17 +54,18 @@ bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch*
   return true;
 }
 
-// Converts a limit of the range of disparities to kDisparityBits.
+// Converts an end of the disparity range to fixed point (kDisparityBits).
 int16_t ConvertedEnd(const EngineState& engine, float end) {
   int16_t converted = 0;
   engine.kernels->ConvertDisparity(&end, 1, end, end, &converted);
   return converted;
 }
 
-// Returns false after cancellation.
+// Reduces the columns `part` of the map by `shift`. Returns false after cancellation.
 bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const starfocus_config reduced = ReducedConfig(job.engine->config, shift);
-  // Disparities are rounded a second time here, which may exceed the range by one step.
+  // Rounding a reduced disparity may exceed the disparity range by one step, so the result is
+  // clamped.
   const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
   const int16_t high = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_max));
   const int32_t side = 1 << shift;
@@ -85,7 +86,7 @@ bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch*
   return true;
 }
 
-// Returns false after cancellation.
+// Reduces the columns `part` of the coverage by `shift`. Returns false after cancellation.
 bool ReduceCoverage(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const Plane<const uint8_t>& given = job.engine->row_store.windows[0].given_coverage;
   const Plane<uint8_t>& coverage = job.fields[shift].coverage;

@@ -10,15 +10,16 @@
 
 namespace starfocus {
 
-static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction, "every preview is a reduction");
+static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction,
+              "each size of previews is a size of reductions");
 
 struct ReducedField {
   Plane<uint8_t> views[kMaxViews];  // codes of all rows
-  Plane<int16_t> disparity;         // kDisparityBits, in pixels of the reduced picture
-  Plane<uint8_t> coverage;          // null: the configuration has no coverage
+  Plane<int16_t> disparity;  // in fixed point (kDisparityBits), in pixels of the reduced picture
+  Plane<uint8_t> coverage;   // null: the configuration has no coverage
 };
 
-// Returns the configuration of an engine for the light field of `config`, reduced by `shift`.
+// Returns the configuration of an engine for a light field of `config` at 1/2^shift of its size.
 starfocus_config ReducedConfig(const starfocus_config& config, int shift);
 
 void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field);

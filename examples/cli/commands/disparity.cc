@@ -44,7 +44,7 @@ std::string ReadRange(const std::string& text, std::optional<DisparityRange>* ra
   return "";
 }
 
-// Checks everything that can be checked before a file is read.
+// Checks all options that can be checked before a file is read.
 Result<Plan> MakePlan(const DisparityOptions& options) {
   if (!options.views.empty() && StarWithin(options.views) == 1 && !options.repair) {
     return Error::Usage("--views", "a star of 17, 9 or 5 views",
@@ -82,7 +82,8 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   return plan;
 }
 
-// Estimates the map of a folder. Searches the range of the command line, or finds a range first.
+// Estimates the map of a light-field folder. Searches the disparity range of the command line if
+// given, otherwise finds a range first.
 Result<DisparityEstimate> EstimateFolder(const DisparityOptions& options,
                                          const LightField& light_field) {
   if (Error error = CheckStar(options.folder, light_field)) return error;
@@ -92,7 +93,7 @@ Result<DisparityEstimate> EstimateFolder(const DisparityOptions& options,
   return EstimateDisparity(options.folder, light_field, *range, options.threads);
 }
 
-// Repairs the map of a folder.
+// Repairs the map of a light-field folder.
 Result<DisparityEstimate> RepairFolder(const DisparityOptions& options,
                                        const LightField& light_field) {
   Result<DisparityEstimate> estimate =

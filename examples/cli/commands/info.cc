@@ -92,7 +92,7 @@ void PrintJson(const Capture& capture, const starfocus_disparity_stats& stats,
   std::printf("%s\n", json.Text().c_str());
 }
 
-// Returns true if there is a map, or a star of views from which a map can be estimated. Stereo
+// Returns true if the input has a map, or a star of views from which a map can be estimated. Stereo
 // pairs and single rows of views are not stars.
 bool HasMap(const Capture& capture) {
   Positions positions;

@@ -23,14 +23,15 @@
 namespace starfocus {
 namespace {
 
-constexpr int kMostPictures = 1000;  // limit of a sweep, because file names have three digits
+// Largest number of pictures of a sweep, because file names have three digits.
+constexpr int kMostPictures = 1000;
 
 struct RefocusOptions {
   std::vector<std::string> inputs;
   InputOptions input;  // the input that is being refocused
   std::string report, map;
   starfocus_region region = {};  // all 0: the whole picture
-  std::vector<double> sweep;     // foci; empty: no sweep
+  std::vector<double> sweep;     // foci of a sweep; empty: no sweep
   int jobs = 1;
   OutputOptions output;
   LensOptions lens;
@@ -92,7 +93,7 @@ Error PlanSweep(const RefocusOptions& options, LensPlan* plan) {
   return {};
 }
 
-// Checks everything that can be checked before a file is read.
+// Checks all options that can be checked before a file is read.
 Result<LensPlan> MakePlan(const RefocusOptions& options) {
   const bool region = options.region.width > 0, sweep = !options.sweep.empty();
   if (Error error = PlanOutput(options.output, sweep, region)) return error;
@@ -127,8 +128,8 @@ Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
   return capture;
 }
 
-// Checks everything that does not depend on the final map. Called early, because resizing or
-// repairing the map takes long.
+// Checks all options that do not depend on the final map. These checks run early, because resizing
+// or repairing the map takes a long time.
 Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
   if (Error error = CheckRenderer(capture.path, *plan, light_field.positions)) return error;

@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostFrames = 10000;  // file names have four digits
+// Largest number of frames, because file names have four digits.
+constexpr size_t kMostFrames = 10000;
 
 struct VideoOptions {
   std::vector<std::string> folders;
@@ -33,7 +34,7 @@ struct VideoOptions {
   bool fill_invalid = false;
 };
 
-// Frames and their common properties.
+// Frames of a video and their common properties.
 struct Video {
   std::vector<std::string> folders;
   int width = 0, height = 0;

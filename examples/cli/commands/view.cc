@@ -36,7 +36,7 @@ struct ViewOptions {
 
 // Contents of the page, in the order of their computation.
 struct Contents {
-  std::vector<LensAt> lenses;  // lenses of the strip, then of the ground truths
+  std::vector<LensAt> lenses;  // lenses of the strip, followed by lenses of the ground truths
   std::vector<TruthFile> truths;
   std::vector<PageFigure> strip, blocks, errors;
 };
@@ -76,7 +76,8 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<starfocu
                              "Focus " + focus + (index == 0 ? ", far" : "") +
                                  (index > 0 && index + 1 == foci ? ", near" : ""),
                              Shrink(picture, kSmall)});
-  if (index + 1 != foci) return {};  // only the last picture, which has the largest blur
+  // Show the blocks of the last picture only, because the last picture has the largest blur.
+  if (index + 1 != foci) return {};
   contents->blocks.push_back(
       {"The blocks of the picture focused at disparity " + focus + ", coloured by resolution",
        "Blocks at focus " + focus + ": red at full resolution, green at half, blue at a quarter",
@@ -114,7 +115,8 @@ Error WritePage(const ViewOptions& options, const Capture& capture,
   return error ? error : WriteText(out, page.Html());
 }
 
-// Chooses the lenses of the strip, and of the ground truths within the blur limit.
+// Chooses the lenses of the strip of pictures, and the lenses of all ground truths within the blur
+// limit.
 Error ChooseLenses(const Capture& capture, const starfocus_disparity_stats& stats,
                    ApertureChoice* aperture, Contents* contents) {
   const std::vector<double> foci = StripFoci(capture.light_field.disparity, kFoci);
@@ -135,7 +137,7 @@ Error ChooseLenses(const Capture& capture, const starfocus_disparity_stats& stat
   return {};
 }
 
-// Checks the aperture before the map is resized and processed, which takes long.
+// Checks the aperture before the map is resized and processed, which takes a long time.
 Error ForeseeAperture(const Capture& capture, ApertureChoice* aperture) {
   LensPlan plan;
   plan.foci = StripFoci(capture.light_field.disparity, kFoci);

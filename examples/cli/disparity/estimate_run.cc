@@ -16,9 +16,9 @@
 namespace starfocus {
 namespace {
 
-constexpr int kSmallWidth = 256;      // width limit of pictures for finding the range
-constexpr int kLeastConfidence = 48;  // excludes outliers at edges and on flat walls
-constexpr double kStrays = 0.0005;    // fraction of outliers at each end
+constexpr int kSmallWidth = 256;      // largest width of pictures for finding the disparity range
+constexpr int kLeastConfidence = 48;  // limit that excludes outliers at edges and on flat walls
+constexpr double kStrays = 0.0005;    // fraction of values discarded at each end of the range
 
 using Images = std::vector<Image>;
 
@@ -27,7 +27,7 @@ Images StarOf(const LightField& light_field) {
   return {light_field.views.begin(), light_field.views.begin() + StarWithin(light_field.positions)};
 }
 
-// Resources for computing a map, with a progress line.
+// Threads and progress line for computing a map.
 struct Maker {
   Maker(int threads, const char* what) : pool(threads), progress(what, 1) {}
 
@@ -43,7 +43,7 @@ struct FreeAligned {
   }
 };
 
-// Inputs and requested outputs of a map.
+// Inputs and requested outputs of the computation of a map.
 struct MapTask {
   const Images& views;
   const FloatMap* given;  // map to repair; null: estimate the map
@@ -53,7 +53,7 @@ struct MapTask {
 
 struct MadeMap {
   FloatMap map;
-  Bytes confidence, coverage;  // empty: not requested; coverage may be missing
+  Bytes confidence, coverage;  // empty if not requested; coverage is also empty if not found
 };
 
 Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* maker) {
@@ -107,11 +107,12 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
     if (out.has_coverage == 0) made.coverage.clear();
   }
   if (status == STARFOCUS_OK) return made;
-  return Error::Internal(where, "views whose disparities it can make",
+  return Error::Internal(where, "views from which a map can be computed",
                          Describe(status, &problem).text);
 }
 
-// Reduces a picture by a whole factor. Each pixel is the mean of factor * factor pixels.
+// Reduces a picture by an integer factor in each direction. Each pixel is the mean of factor *
+// factor pixels.
 Image Shrink(const Image& picture, int factor) {
   Image small(std::max(1, picture.width / factor), std::max(1, picture.height / factor));
   for (int y = 0; y < small.height; ++y) {
@@ -172,7 +173,7 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
   for (size_t i = 0; i < made->confidence.size(); ++i) {
     if (made->confidence[i] >= kLeastConfidence) sure.push_back(made->map.values[i]);
   }
-  if (sure.empty()) sure.push_back(0);  // no disparity of a uniform picture is certain
+  if (sure.empty()) sure.push_back(0);  // in a uniform picture, all disparities are uncertain
   std::sort(sure.begin(), sure.end());
   const auto strays = static_cast<size_t>(kStrays * static_cast<double>(sure.size()));
   // Extend the range by one pixel of the reduced pictures at each end, to include surfaces close to

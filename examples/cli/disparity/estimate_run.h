@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes disparity maps from captured views through the C API: default range, workspace and
-// progress.
+// Computes disparity maps from captured views through the C API, and provides the default range,
+// the workspace and the progress line.
 #ifndef STARFOCUS_EXAMPLES_CLI_DISPARITY_ESTIMATE_RUN_H_
 #define STARFOCUS_EXAMPLES_CLI_DISPARITY_ESTIMATE_RUN_H_
 
@@ -23,9 +23,10 @@ struct DisparityRange {
 
 struct DisparityEstimate {
   FloatMap map;
-  DisparityRange range;           // searched range; after a repair, the range of the map
-  Image confidence;               // grey: 0 unknown, 255 certain (starfocus_estimate_disparity)
-  std::vector<uint8_t> coverage;  // from a repair; empty: not requested or not found
+  DisparityRange range;  // searched range; after a repair, the range of the map
+  Image confidence;  // grey levels: 0 is uncertain, 255 is certain (starfocus_estimate_disparity)
+  // Coverage of hair from a repair; empty if not requested or not found.
+  std::vector<uint8_t> coverage;
 };
 
 struct RepairOptions {
@@ -33,15 +34,15 @@ struct RepairOptions {
   bool coverage = false, confidence = false;  // additional outputs
 };
 
-// Converts one level per pixel to a grey picture of the size of `centre`. Used for confidence and
-// coverage.
+// Converts grey levels, one for each pixel, to a picture of the size of `centre`. The levels are
+// confidence or coverage.
 Image DrawLevels(const std::vector<uint8_t>& levels, const Image& centre);
 
 // Returns the number of views of the largest star that the first positions form. Maps are computed
-// from the views of this star only.
+// only from the views of this largest star.
 int StarWithin(const Positions& positions);
 
-// Returns an error unless the first 5 or more views form a star. Errors start with `where`.
+// Returns an error unless the first 5 or more views form a star. Error messages start with `where`.
 Error CheckStar(const std::string& where, const LightField& light_field);
 
 // Finds the range of disparities of 5, 9 or 17 views, up to an eighth of the picture's width. The
@@ -49,12 +50,12 @@ Error CheckStar(const std::string& where, const LightField& light_field);
 Result<DisparityRange> FindRange(const std::string& where, const LightField& light_field,
                                  int threads);
 
-// Estimates the map and shows progress. Errors start with `where`.
+// Estimates the map and shows progress. Error messages start with `where`.
 Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
                                             const DisparityRange& range, int threads);
 
-// Repairs the map of a light field with the star among its views, which may be only the centre
-// view. Shows progress. Errors start with `where`.
+// Repairs the map of a light field with the largest star among its views. The star may consist of
+// only the centre view. Shows progress. Error messages start with `where`.
 Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightField& light_field,
                                           const RepairOptions& options);
 

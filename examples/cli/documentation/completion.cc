@@ -36,7 +36,7 @@ std::string Values(const std::string& type) {
   return "COMPREPLY=($(compgen -W '" + words + "' -- \"$word\"))";
 }
 
-// Returns a branch for each option of the command that takes a value.
+// Returns a branch of a shell `case` statement for each option of the command that takes a value.
 std::string ValueBranches(const Command& command) {
   std::string text;
   for (const Option& option : command.options) {

@@ -19,11 +19,12 @@ namespace starfocus {
 
 struct EngineTask {
   const LightField* light_field = nullptr;
-  starfocus_config config;  // complete, including sizes, views, disparity range and max_blur
+  // Complete configuration, including sizes, views, disparity range and max_blur.
+  starfocus_config config;
   Params params;
-  starfocus_callbacks callbacks = {};  // EngineRun sets all except clock and on_block
+  starfocus_callbacks callbacks = {};  // EngineRun sets all callbacks except clock and on_block
   int threads = 1;
-  bool stream = false;  // push and pull rows instead of whole pictures
+  bool stream = false;  // true to push and pull rows instead of whole pictures
 };
 
 struct EngineResult {
@@ -34,7 +35,7 @@ struct EngineResult {
   size_t prepared_bytes = 0;
 };
 
-// Refocuses pictures with a common configuration, and shows progress. Errors start with the
+// Refocuses pictures with a common configuration, and shows progress. Error messages start with the
 // argument `where` of the call.
 class EngineRun {
  public:
@@ -57,7 +58,8 @@ class EngineRun {
   ThreadRunner* runner() { return &runner_; }
 
  private:
-  // Sets the callbacks of the task, the threads and, for a picture, the progress line.
+  // Sets the engine's callbacks: the callbacks of the task, the runner of the threads and, for a
+  // picture, the progress line.
   starfocus_status SetCallbacks(const EngineTask& task, bool is_picture);
   starfocus_status RunStream(const EngineTask& task, EngineResult* result);
   Result<EngineResult> Run(const std::string& where, const EngineTask& task,
@@ -66,7 +68,7 @@ class EngineRun {
   ThreadRunner runner_;
   PictureProgress progress_;
   Engine engine_;
-  size_t prepared_bytes_ = 0;  // 0: nothing is prepared
+  size_t prepared_bytes_ = 0;  // size of the prepared light field; 0 if no light field is prepared
 };
 
 }  // namespace starfocus

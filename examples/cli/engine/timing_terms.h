@@ -13,7 +13,7 @@ namespace starfocus {
 struct TimingTerm {
   const char* name;
   uint32_t starfocus_timing::*coefficient;
-  uint64_t BlockWork::*work;  // null: one per block
+  uint64_t BlockWork::*work;  // amount of work in a block; null if each block is one unit
   const char* unit;           // unit of work to which the coefficient refers
 };
 

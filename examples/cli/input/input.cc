@@ -33,7 +33,8 @@ Error CheckNear(const DepthOptions& options) {
                       disparity ? "black" : "white");
 }
 
-// Returns the first option about a depth picture that is set, in the order of the help, or null.
+// Returns the name of the first depth-picture option that is set, in the order of the help. Returns
+// null if all of these options are unset.
 const char* DepthOption(const InputOptions& options) {
   if (!options.depth.empty()) return "--depth";
   if (options.map.near != Near::kUnknown) return "--near";
@@ -164,7 +165,7 @@ Result<Capture> OpenInput(const InputOptions& options) {
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {
   for (const starfocus_position& view : views) {
-    // If a view is missing, report an error of the option.
+    // If a view is missing, report an error of the option --views.
     if (SelectViewFiles(capture->path, capture->files, {view})) continue;
     return Error::Usage(
         "--views",
@@ -184,7 +185,7 @@ bool WillRepair(const MapOptions& options, const Capture& capture) {
 Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   if (capture->map_path.empty()) return {};
   if (WillRepair(options, *capture)) {
-    // Keep coverage that the input provides.
+    // If the input provides coverage, keep this coverage instead of searching for coverage.
     LightField& light_field = capture->light_field;
     const bool covers = light_field.coverage.empty();
     Result<DisparityEstimate> repaired =

@@ -29,8 +29,8 @@ void AddInputOptions(Command* command, InputOptions* options,
                      std::vector<std::string>* several = nullptr);
 void AddMapOptions(Command* command, MapOptions* options);
 
-// Opens the input (OpenCapture) and prints its notes to stderr. The map of a photo keeps its own
-// size until LoadInput.
+// Opens the input (OpenCapture) and prints its notes to stderr. The map of a photo is not resized
+// before LoadInput.
 Result<Capture> OpenInput(const InputOptions& options);
 
 // Reads the map, and the views at the positions `views`, or all views if `views` is empty. A
@@ -44,14 +44,14 @@ bool WillRepair(const MapOptions& options, const Capture& capture);
 // change an estimated map.
 Error CareForMap(const MapOptions& options, int threads, Capture* capture);
 
-// Replaces unknown values of a map by the nearest known values. Errors start with `where`.
+// Replaces unknown values of a map by the nearest known values. Error messages start with `where`.
 Error FillHoles(const std::string& where, FloatMap* map);
 
 // Returns the folder of the input if the names of its views are not starfocus names. In such a
 // folder, every picture is treated as a view.
 std::vector<std::string> GridsOf(const InputOptions& options, const Capture& capture);
 
-// Returns the name of the map for errors.
+// Returns the name of the map for error messages.
 std::string MapName(const Capture& capture);
 
 }  // namespace starfocus

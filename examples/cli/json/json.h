@@ -15,7 +15,7 @@ namespace starfocus {
 
 class Json {
  public:
-  Json();  // null; Set makes it an object, Add an array
+  Json();  // null; Set turns the value into an object, and Add turns the value into an array
   // NOLINTBEGIN: members and elements are written as plain values
   Json(std::nullptr_t);
   Json(double value);
@@ -52,17 +52,17 @@ class Json {
 struct JsonMember {
   std::string name;
   std::string text;       // the value as JSON in ASCII
-  bool is_whole = false;  // the value is an integer >= 0
+  bool is_whole = false;  // true if the value is an integer >= 0
   uint64_t whole = 0;
 };
 
 struct JsonObject {
-  bool is_json = false;   // the text is valid JSON
-  bool is_there = false;  // the text contains the object
+  bool is_json = false;   // true if the text is valid JSON
+  bool is_there = false;  // true if the text contains the object
   std::vector<JsonMember> members;
 };
 
-// Reads the member `name`, an object, of the object in a JSON text.
+// Reads the object that is the member `name` of the top-level object of a JSON text.
 JsonObject ReadJsonObject(const std::vector<uint8_t>& text, const std::string& name);
 
 }  // namespace starfocus

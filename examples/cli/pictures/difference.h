@@ -8,16 +8,16 @@
 namespace starfocus {
 
 struct Difference {
-  double psnr = 0;  // in dB, over all samples; infinite if the pictures are equal
+  double psnr = 0;  // peak signal-to-noise ratio in dB; infinite if the pictures are equal
   int largest = 0;  // largest difference of any sample
 };
 
-// Measures the difference between two pictures. Both functions of this header require pictures of
-// equal size.
+// Measures the difference between two pictures. MeasureDifference and DrawDifference require
+// pictures of equal size.
 Difference MeasureDifference(const Image& a, const Image& b);
 
-// Draws the largest difference of each pixel's samples. Colours run from black (no difference) over
-// red and yellow to white (`white` or more). `white` must be above 0.
+// Draws, for each pixel, the largest difference of any of its samples. Colours run from black (no
+// difference) over red and yellow to white (`white` or more). `white` must be above 0.
 Image DrawDifference(const Image& a, const Image& b, int white);
 
 }  // namespace starfocus

@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// Reduces a picture that is wider than `width` to that width. Every pixel is the mean of the area
-// that the pixel covers in the source.
+// If a picture is wider than `width`, reduces the picture to this width. Every pixel is the mean of
+// the area that the pixel covers in the source.
 Image Shrink(const Image& source, int width);
 
 }  // namespace starfocus

@@ -65,7 +65,8 @@ double LargestPercentage(double range, const ApertureChoice& aperture) {
   });
 }
 
-// Describes the largest value that the user may type instead.
+// Describes the largest aperture within the blur limit, as a value of the option that set the
+// aperture.
 std::string WhatFits(double range, const ApertureChoice& aperture) {
   if (aperture.option == "--f-stop") {
     return "f/" + ThreeDigits(WidestFStop(range, aperture)) + " or narrower";

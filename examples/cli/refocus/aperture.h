@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses the aperture from the options and from the lens of the input, within the limit of
-// STARFOCUS_MAX_BLUR pixels of blur. Used by refocus, video and view.
+// STARFOCUS_MAX_BLUR pixels of blur. The commands refocus, video and view use this header.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_APERTURE_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_APERTURE_H_
 
@@ -14,7 +14,7 @@
 
 namespace starfocus {
 
-// Options of the command line.
+// Options of the command line that set the aperture.
 struct ApertureOptions {
   std::optional<double> aperture, f_stop, widest, strength;
 };
@@ -25,10 +25,11 @@ struct ApertureChoice {
   double strength = 1;    // 0 to 1; `radius` already includes this factor
   std::string option;     // option that set the radius; empty: the default
   std::string value;      // value of `option` as typed
-  bool narrowed = false;  // the default exceeded the blur limit and was reduced
+  bool narrowed = false;  // true if the default exceeded the blur limit and was reduced
 };
 
-// Evaluates the options. The default is the f-stop of the input if it is known, otherwise radius 1.
+// Evaluates the options. The default aperture is the f-stop of the input if known, otherwise radius
+// 1.
 Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Capture& capture);
 
 // Returns the largest difference between a disparity of the map and any of the foci.
@@ -39,7 +40,7 @@ double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vect
 // for an aperture that the user chose.
 Error FitAperture(double range, ApertureChoice* aperture);
 
-// Prints the f-stop that replaces the default to stderr, if the default was reduced.
+// If the default aperture was reduced, prints the f-stop that replaces the default to stderr.
 void TellAperture(const std::string& path, const ApertureChoice& aperture);
 
 }  // namespace starfocus

@@ -41,7 +41,8 @@ bool IsPhoto(const fs::path& path) {
          extension == ".heif" || extension == ".avif";
 }
 
-// Returns the inputs in a folder that is not a light field, or the input itself.
+// If `input` is a folder but not a light field, returns the inputs in the folder. Otherwise returns
+// only `input`.
 std::vector<std::string> Expand(const std::string& input) {
   std::error_code ignored;
   if (!fs::is_directory(input, ignored) || IsLightField(input)) return {input};
@@ -153,7 +154,7 @@ Error RunBatch(const std::vector<BatchItem>& items, int jobs,
   try {
     for (int i = 1; i < jobs; ++i) threads.emplace_back([&work] { work.Go(); });
   } catch (const std::system_error&) {
-    // The threads that were created process all items.
+    // If a thread cannot be created, the existing threads process all items.
   }
   work.Go();
   for (std::thread& thread : threads) thread.join();

@@ -19,11 +19,11 @@ struct BatchItem {
 // inputs, or if the output is an existing folder or ends with "/".
 bool IsBatch(const std::vector<std::string>& inputs, const std::string& out);
 
-// Chooses the output file of each input. An output has the name of the input. Inputs of the formats
-// .jpg, .png, .ppm and .webp keep their format. The output of other files is .jpg, and the output
-// of light fields is .png. A folder that is not a light field is replaced by the photographs and
-// light fields in it. Returns an error if outputs coincide with each other or with inputs.
-// Otherwise, creates the output folder.
+// Chooses the output file of each input. An output file has the name of its input. Inputs of the
+// formats .jpg, .png, .ppm and .webp keep their format. The output of other files is .jpg, and the
+// output of light fields is .png. A folder that is not a light field is replaced by the photographs
+// and light fields in it. Returns an error if outputs coincide with each other or with inputs. If
+// all outputs are valid, creates the output folder.
 Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,
                                          const std::string& folder);
 

@@ -10,10 +10,12 @@
 namespace starfocus {
 namespace {
 
-// Samples per axis, over the middle half of the picture.
+// Number of samples along each axis, over the middle half of the picture.
 constexpr int kSamples = 64;
-constexpr double kShare = 0.1, kAlike = 0.06;  // fractions of the samples and of the range
-// Pixels; starfocus_focus_at treats smaller differences as one surface.
+// kShare is a fraction of the samples, and kAlike is a fraction of the disparity range.
+constexpr double kShare = 0.1, kAlike = 0.06;
+// In pixels of disparity. starfocus_focus_at treats disparities with a smaller difference as one
+// surface.
 constexpr double kLeastAlike = 0.75;
 
 struct Sample {
@@ -21,7 +23,7 @@ struct Sample {
   float disparity;
 };
 
-// A regular grid over the middle half of width and height.
+// A regular grid of samples over the middle half of a map's width and height.
 struct Grid {
   const FloatMap& map;
 
@@ -34,7 +36,7 @@ struct Grid {
   }
 };
 
-// A surface: disparities from `low` to `high`.
+// A surface, which consists of all samples with disparities from `low` to `high`.
 struct Surface {
   float low, high;
 
@@ -54,7 +56,7 @@ Surface FindNearest(const std::vector<float>& sorted, size_t count) {
   return {median - alike / 2, median + alike / 2};
 }
 
-// Returns how many of the sample and its neighbours in the grid belong to the surface.
+// Returns the number of samples on the surface, among a sample and its neighbours in the grid.
 int CountAround(const Grid& grid, const Surface& surface, int column, int row) {
   int count = 0;
   for (int r = std::max(0, row - 1); r <= std::min(kSamples - 1, row + 1); ++r) {
@@ -88,7 +90,8 @@ Sample ChooseSample(const Grid& grid, const Surface& surface) {
 
 DefaultFocus AtPixel(int x, int y, const std::string& source) { return {true, x, y, 0, source}; }
 
-// Converts a coordinate to another size. The result contains the centre of the original pixel.
+// Converts a pixel coordinate from a picture of size `from` to a picture of size `to`. The result
+// contains the centre of the original pixel.
 int Scaled(int at, int from, int to) {
   return static_cast<int>((2 * int64_t{at} + 1) * to / (2 * int64_t{from}));
 }

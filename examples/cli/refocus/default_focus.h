@@ -13,17 +13,17 @@ struct DefaultFocus {
   bool at_pixel = true;
   int x = 0, y = 0;      // pixel in focus
   double disparity = 0;  // focus if at_pixel is false
-  std::string source;    // description of the origin, for users
+  std::string source;    // description of the origin of the focus, for users
 };
 
-// Returns the subject in EXIF, otherwise the focus of the file, otherwise the result of
-// FindSurface, in pixels of the picture. The map must be loaded. The map may contain unknown values
-// and may differ in size from the picture.
+// Returns, in this order of preference, the subject in EXIF, the focus stored in the file, or the
+// result of FindSurface. Coordinates are pixels of the picture. The map must be loaded. The map may
+// contain unknown values and may differ in size from the picture.
 DefaultFocus FindDefaultFocus(const Capture& capture);
 
 // Returns a pixel of the nearest large surface near the centre. A large surface has similar
-// disparities on at least a tenth of the middle half of width and height. Returns the centre if no
-// disparity is known there. Coordinates are pixels of the map.
+// disparities on at least a tenth of the middle half of width and height. Returns the centre of the
+// map if all disparities in the middle half are unknown. Coordinates are pixels of the map.
 DefaultFocus FindSurface(const FloatMap& map);
 
 // Prints the focus and its origin to stderr.

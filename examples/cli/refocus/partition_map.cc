@@ -6,15 +6,16 @@
 namespace starfocus {
 namespace {
 
-// Colours follow the paper's Fig. 14: red for L = 0, blue for L = 2.
+// Colours of the layers follow the paper's Fig. 14: red for L = 0, blue for L = 2.
 constexpr uint8_t kLayerColors[STARFOCUS_LAYERS][3] = {
     {230, 60, 50}, {60, 180, 75}, {50, 110, 235}};
 constexpr int kTintPercent = 40;
 
 int Grey(const uint8_t* rgb) { return (77 * rgb[0] + 150 * rgb[1] + 29 * rgb[2] + 128) >> 8; }
 
-// Draws the outline along the first row and column of a block. The neighbouring blocks draw the
-// outline of the other two sides. The first pixel of the map is pixel (left, top) of the picture.
+// Tints a block, and draws an outline along the first row and column of the block. The neighbouring
+// blocks draw the outline of the other two sides. The first pixel of `map` is pixel (left, top) of
+// the picture.
 void DrawBlock(const starfocus_block& block, int left, int top, Image* map) {
   const uint8_t* color = kLayerColors[block.layer];
   const int begin = std::max(block.x, left);

@@ -17,7 +17,7 @@
 
 namespace starfocus {
 
-// Options of the command line.
+// Options of the command line for the output.
 struct OutputOptions {
   std::string out, all_in_focus, focus_index;
   int quality = 95;
@@ -38,9 +38,9 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,
                      const EngineTask& task, const Image& picture);
 
-// Writes the requested files of a pair that replaces a sweep. The first file is the centre view,
-// which is sharp everywhere. The second file contains the index of the nearest focus for each pixel
-// of the centre view.
+// Writes the files that the options all_in_focus and focus_index request in place of a sweep. The
+// first file is the centre view, which is sharp everywhere. The second file contains the index of
+// the nearest focus for each pixel of the centre view.
 Error WritePair(const OutputOptions& options, const PictureOptions& how,
                 const LightField& light_field, const std::vector<double>& foci);
 
@@ -50,8 +50,8 @@ class StackWriter {
  public:
   StackWriter(const OutputOptions& options, const PictureOptions& how, ThreadRunner* runner);
 
-  // Adds a picture. Returns the name of the picture's file. The file may be written by a later
-  // call.
+  // Adds a picture. Returns the name of the picture's file. A later call of Add or Finish may write
+  // the file.
   Result<std::string> Add(Image picture);
   Error Finish();
 

@@ -232,7 +232,7 @@ Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (!plan->foci.empty()) return {};
   double focus = 0;
   if (Error error = CheckPixel(map.width, map.height, *plan)) return error;
-  // Cannot fail, because PrepareDisparity has checked the map.
+  // starfocus_focus_at cannot fail, because PrepareDisparity has checked the map.
   starfocus_focus_at(map.values.data(), map.stride(), map.width, map.height, plan->x, plan->y,
                      &focus);
   plan->foci = {focus};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses the options of a lens and an engine, and applies these options to a light field. Shared by
-// `refocus` and `video`.
+// Parses the options of a lens and an engine, and applies these options to a light field. The
+// commands `refocus` and `video` share this header.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_PLAN_H_
 
@@ -26,9 +26,9 @@ struct LensOptions {
   ApertureOptions aperture;
   starfocus_mode mode = STARFOCUS_MODE_BLOCK;
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
-  Positions views;  // empty: all available views
+  Positions views;  // positions of the views to use; empty: all available views
   int threads = 1;
-  int superblock = 0;  // 0: chosen by the library
+  int superblock = 0;  // side of the superblocks; 0: chosen by the library
   int max_layer = 2, deblocking = 35;
   double n_scale = 1, highlights = 1;
   starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;
@@ -43,32 +43,32 @@ void AddApertureOptions(Command* command, ApertureOptions* options);
 struct LensPlan {
   LensOptions options;
   std::string focus_option;  // option that set the foci; empty: not set
-  // One focus, or the foci of a sweep; empty until a chosen pixel sets it.
+  // One focus, or the foci of a sweep; empty until ChooseFocus sets the focus from a chosen pixel.
   std::vector<double> foci;
   int x = 0, y = 0;  // pixel that determines the focus
   ApertureChoice aperture;
   starfocus_region region = {};  // all 0: the whole picture
-  Config config;                 // features for the shape, timing, and defaults
-  starfocus_lens lens = {};      // shape of the aperture, and defaults
+  Config config;                 // timing and features for the shape; other fields have defaults
+  starfocus_lens lens = {};      // shape of the aperture; other fields have defaults
 };
 
-// Checks the options before a light field is read, except for the aperture: --focus or --focus-at,
-// the shape and the timing.
+// Checks --focus, --focus-at, the shape and the timing before a light field is read. The aperture
+// is not checked.
 Result<LensPlan> PlanLens(const LensOptions& options);
 void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 
-// Checks that the renderer supports these views. Line scans require a star.
+// Checks that the renderer supports views at these positions. Line scans require a star.
 Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views);
 
-// Measures a map, which must not have unknown values. Errors start with `where`.
+// Measures a map, which must not have unknown values. Error messages start with `where`.
 Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, const FloatMap& map);
 
 // Sets the focus to the disparity at the chosen pixel, if the focus depends on a pixel.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
 
-// Fits the aperture to the expected blur. Called before processing of the map, which may take long.
-// `repaired` is true if the map will be repaired. The map may contain unknown values and may differ
-// in size from the picture.
+// Fits the aperture to the expected blur. ForeseeBlur is called before the map is processed,
+// because processing may take a long time. `repaired` is true if the map will be repaired. The map
+// may contain unknown values and may differ in size from the picture.
 Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan);
 
 // Fits the aperture to the blur of the final map. Returns the largest blur radius over all foci,

@@ -17,9 +17,9 @@ constexpr int kQuality = 88;
 // Width of a bar and height of the histogram, in units of the viewBox.
 constexpr int kBarWidth = 20, kBarsHeight = 200;
 
-// Start of the page. The content security policy blocks all loading, even if a file name contains
-// HTML. Pictures and style are part of the page. Text has a contrast of at least 7 : 1 on light and
-// on dark backgrounds.
+// Start of the HTML page. The content security policy blocks all loading, even if a file name
+// contains HTML. Pictures and style are embedded in the page. Text has a contrast of at least 7 : 1
+// on light and on dark backgrounds.
 constexpr char kHead[] =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
     "style-src 'unsafe-inline'\">\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generates a self-contained HTML page: pictures are data URIs, and the page loads nothing.
+// Generates a self-contained HTML page: pictures are data URIs, and the page loads no other files.
 #ifndef STARFOCUS_EXAMPLES_CLI_VIEW_PAGE_H_
 #define STARFOCUS_EXAMPLES_CLI_VIEW_PAGE_H_
 
@@ -21,7 +21,7 @@ struct PageFigure {
   Image picture;
 };
 
-// Builds the page. All texts are plain text, in which this class escapes HTML characters.
+// Builds the page. Callers pass plain text, and this class escapes HTML characters.
 class Page {
  public:
   // `icc` is the colour profile of all pictures; empty for sRGB.
@@ -30,7 +30,7 @@ class Page {
   void AddTable(const std::vector<std::pair<std::string, std::string>>& rows);
 
   // Adds figures under a heading, side by side if they fit. Pictures are reduced to at most `width`
-  // pixels. Errors start with `path`, the file of the page.
+  // pixels. Error messages start with `path`, which is the file of the page.
   Error AddFigures(const std::string& path, const std::string& heading,
                    const std::vector<PageFigure>& figures, int width);
 
@@ -38,7 +38,7 @@ class Page {
   void AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,
                     const starfocus_disparity_stats& stats);
 
-  // Returns the complete file.
+  // Returns the complete HTML file.
   std::string Html() const;
 
  private:

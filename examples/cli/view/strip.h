@@ -23,7 +23,8 @@ struct LensAt {
 double BlurOf(const LensAt& lens, const starfocus_disparity_stats& stats);
 
 // Returns `count` foci at equal steps of disparity, from far to near. The foci cover the known
-// values of the map without the outermost hundredths. Returns one focus if all values are equal.
+// values of the map except for the lowest and the highest hundredth of these values. Returns one
+// focus if all values are equal.
 std::vector<double> StripFoci(const FloatMap& map, int count);
 
 // A ground-truth picture of the folder's scene through a real lens: truth_dt<D>_ut<U>.png, as

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
- * Functions of the caller that an engine calls. Part of starfocus.h.
+ * Callbacks, which are functions of the caller that an engine calls. Part of starfocus.h.
  *
  * No exception and no longjmp may leave a callback.
  */
@@ -13,18 +13,19 @@
 extern "C" {
 #endif
 
-/** A set of jobs of the engine. The runner calls this function once with every index in [0, count).
- *  An invalid call of this function has no effect except that the engine's call returns
- *  STARFOCUS_ERROR_RUNNER.
+/** Function of the engine that runs one job of a set. The runner calls this function once with
+ *  every index in [0, count). An invalid call of this function does nothing, and the API call that
+ *  started the jobs returns STARFOCUS_ERROR_RUNNER.
  *  @param job_data pointer that the runner received
  *  @param index index of the job
  *  @param worker worker in [0, max_workers). Jobs that run at the same time must use different
  *         workers */
 typedef void (*starfocus_job)(void* job_data, int32_t index, int32_t worker);
 
-/** Runs a set of jobs in any order and returns when all jobs are done. Jobs with a small index take
- *  longest. If the runner returns early, the engine waits for the jobs that still run and rejects
- *  jobs that start later. The engine's call then returns STARFOCUS_ERROR_RUNNER.
+/** Runs a set of jobs in any order and returns when all jobs are done. Jobs with small indices take
+ *  the longest time. If the runner returns before all jobs are done, the engine waits for running
+ *  jobs and rejects jobs that start later. In this case, the engine's call returns
+ *  STARFOCUS_ERROR_RUNNER.
  *  @param runner_data starfocus_callbacks.runner_data
  *  @param job function to call
  *  @param job_data first argument of `job`
@@ -35,8 +36,8 @@ typedef int (*starfocus_runner)(void* runner_data, starfocus_job job, void* job_
 
 /** Receives the progress of a call and may cancel the call. The engine calls this callback at every
  *  job and about every 500,000 samples, which take a fraction of a millisecond on a desktop. With a
- *  runner, any thread that runs a job may make the call, but only one thread at a time does. The
- *  callback must not use the engine or the engine's memory.
+ *  runner, any thread that runs a job may call the callback, but only one thread at a time does so.
+ *  The callback must not use the engine or the engine's memory.
  *
  *  After cancellation the callback is not called again, and the engine's call returns
  *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output is then unspecified,
@@ -51,14 +52,14 @@ typedef int (*starfocus_progress)(void* data, int32_t rows_done, int32_t rows);
  *  this function. */
 typedef uint64_t (*starfocus_clock)(void);
 
-/** A block of a refocusing. */
+/** A block of a picture, which is refocused with its own layer and number of views. */
 typedef struct starfocus_block {
   int32_t x;      /**< left column in the picture */
   int32_t y;      /**< top row in the picture */
-  int32_t width;  /**< columns; fewer than rows at the right edge of the picture */
-  int32_t height; /**< rows; fewer than columns at the bottom edge of the picture */
+  int32_t width;  /**< number of columns; may be less than `height` at the right edge */
+  int32_t height; /**< number of rows; may be less than `width` at the bottom edge */
   int32_t layer;  /**< layer L: the block is rendered at 1 / 2^L of its size */
-  int32_t n;      /**< N, the number of views along the radius; 0: the centre view only */
+  int32_t n; /**< N, the number of views along the aperture's radius; 0: only the centre view */
 } starfocus_block;
 
 /** Receives each block before the block is refocused. The engine calls this function on the thread
@@ -73,8 +74,8 @@ typedef struct starfocus_callbacks {
   void* runner_data;           /**< passed to `runner` */
   starfocus_progress progress; /**< receives finished rows of the picture, region or preview */
   void* progress_data;         /**< passed to `progress` */
-  starfocus_clock clock; /**< measures the times of starfocus_report; null: these times are 0 */
-  starfocus_block_visitor on_block; /**< receives the blocks of a refocusing */
+  starfocus_clock clock; /**< clock for the times in starfocus_report; if null, the times are 0 */
+  starfocus_block_visitor on_block; /**< receives each block before the block is refocused */
   void* on_block_data;              /**< passed to `on_block` */
 } starfocus_callbacks;
 

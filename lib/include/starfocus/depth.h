@@ -43,7 +43,8 @@
 extern "C" {
 #endif
 
-/** Configuration of a disparity map. Call starfocus_depth_config_init first. */
+/** Configuration for estimating or repairing a disparity map. Call starfocus_depth_config_init
+ *  first. */
 typedef struct starfocus_depth_config {
   uint32_t size;  /**< size of the structure in bytes; set by starfocus_depth_config_init */
   int32_t width;  /**< width of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
@@ -51,9 +52,10 @@ typedef struct starfocus_depth_config {
   int32_t views;  /**< number of views in the order of starfocus_view_position: 5, 9 or 17, or 1 for
                      starfocus_repair_disparity; default 5 */
   double disparity_min; /**< smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0 */
-  /** Largest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. The range is searched in steps
-   *  of half a pixel. If the range is wider than 64 pixels, the steps are one pixel or more, so
-   *  that there are at most 128 steps. Disparities between two steps are interpolated. */
+  /** Largest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. The disparity range is
+   *  searched in steps of half a pixel. If the disparity range is wider than 64 pixels, the steps
+   *  are one pixel or more, so that the number of steps is at most 128. Disparities between two
+   *  steps are interpolated. */
   double disparity_max;
   int32_t max_workers;     /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
   starfocus_runner runner; /**< runs jobs; default null: the calling thread runs them */
@@ -62,11 +64,11 @@ typedef struct starfocus_depth_config {
    * After STARFOCUS_ERROR_CANCELLED the outputs and the workspace are unspecified. */
   starfocus_progress progress;
   void* progress_data;        /**< passed to `progress` */
-  starfocus_problem* problem; /**< receives the problem of a call; default null */
+  starfocus_problem* problem; /**< receives the cause of an error of a call; default null */
 } starfocus_depth_config;
 
-/** Output of a disparity map. The planes must not overlap the views, the given map, the workspace
- * or each other. */
+/** Output planes of an estimate or repair of a disparity map. The planes must not overlap the
+ *  views, the given map, the workspace or each other. */
 typedef struct starfocus_disparity_output {
   float* disparity;         /**< disparities, aligned to 4 bytes */
   size_t disparity_stride;  /**< bytes from row to row, >= 4 * width, a multiple of 4 */
@@ -79,10 +81,10 @@ typedef struct starfocus_disparity_output {
                            map; 0 if `coverage` is unspecified */
 } starfocus_disparity_output;
 
-/** Sets the first `size` bytes of a configuration to the defaults. For bindings; programs in C and
- *  C++ call starfocus_depth_config_init.
+/** Sets the first `size` bytes of a configuration to the defaults. This function is for bindings;
+ *  programs in C and C++ call starfocus_depth_config_init.
  *  @param config configuration; no-op if null
- *  @param size size in bytes of the structure that the caller knows */
+ *  @param size size of the caller's structure in bytes */
 STARFOCUS_API void starfocus_depth_config_init_sized(starfocus_depth_config* config, uint32_t size);
 
 /** Sets a configuration to the defaults.
@@ -101,8 +103,8 @@ STARFOCUS_API starfocus_status
 starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* bytes);
 
 /** Estimates the disparity of each pixel of the centre view. The result is the disparity at which
- *  the views that see the pixel agree best, smoothed between neighbours, and lies in the configured
- *  range.
+ *  the views that see the pixel agree best, smoothed between neighbouring pixels. All disparities
+ *  lie in the configured range.
  *
  *  The confidence is the cost of the best other disparity, at least two steps away, minus the cost
  *  of the result. Costs are in quarters of a code, summed over R, G and B. The confidence is 0 if
@@ -119,7 +121,7 @@ STARFOCUS_API starfocus_status starfocus_estimate_disparity(
     starfocus_disparity_output* map, void* workspace, size_t bytes);
 
 /** Computes the workspace size of starfocus_repair_disparity: 12 bytes per pixel of the picture,
- *  plus about as much for each worker as starfocus_estimate_disparity takes.
+ *  plus about as much memory for each worker as starfocus_estimate_disparity uses.
  *  @param config configuration
  *  @param bytes receives the size in bytes
  *  @return STARFOCUS_OK, or an error of the configuration */
@@ -132,21 +134,23 @@ STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_d
  *  With side views, the function estimates disparities with a cost that grows with the distance
  *  from the given disparities. With one view, the function compares colours: outlines in the map
  *  become as smooth as outlines in the picture, and foreground surfaces grow where the picture's
- *  edges are soft. Values that the pictures do not contradict keep their bits, except in noisy maps
- *  of one view.
+ *  edges are soft. Values that the views do not contradict are not changed, except in noisy maps of
+ *  one view.
  *
  *  The confidence is defined as for starfocus_estimate_disparity. The confidence is 0 where the
- *  pictures contradict a value too weakly to change the value. Where nothing contradicts a value
- *  and no edge is near, the confidence is the difference between the centre view and the same view
- *  moved by one pixel.
+ *  views contradict a value too weakly to change the value. At uncontradicted values far from
+ *  edges, the confidence is the difference between the centre view and the centre view moved by one
+ *  pixel.
  *
- *  Maps of monocular networks show hair as one closed outline. If `map->coverage` is not null and
- *  the only view shows such hair, the coverage of the hair is found by colour. Disparities of hair
- *  then keep their bits, and the confidence of these disparities is 255 minus the change of
- *  coverage. Outside hair, coverage is 0 or 255, as the map alone implies.
+ *  Maps of monocular networks show hair as a solid shape with one closed outline. If a single view
+ *  and its map show hair in this way and `map->coverage` is not null, the coverage of the hair is
+ *  found by colour. In this case, the disparities of the hair are not changed, and their confidence
+ *  is 255 minus the change of coverage. Outside hair, coverage is 0 or 255, as the map alone
+ *  implies.
  *  @param config configuration
- *  @param light_field views, and in `depth` the map to repair, as from starfocus_depth_float. The
- *         finite values of the map must lie in the configured range, which may be wider
+ *  @param light_field views, and in `depth` the map to repair, as starfocus_depth_float describes
+ *         it. The finite values of the map must lie in the configured range, which may be wider
+ *         than the range of the map
  *  @param map output planes
  *  @param workspace memory aligned to STARFOCUS_ALIGNMENT
  *  @param bytes size of the workspace, at least starfocus_repair_workspace_size

@@ -5,8 +5,8 @@
  * Every engine reads and writes packed STARFOCUS_FORMAT_RGB, and reads float disparities as
  * starfocus_depth_float describes them. All other formats require STARFOCUS_FEATURE_IMAGES.
  *
- * The engine converts each row when it reads or writes that row, and copies no whole picture. The
- * output bytes are the same as after three separate steps: convert all inputs to packed RGB and
+ * The engine converts each row when the row is read or written, and never copies a whole picture.
+ * The output bytes are the same as after three separate steps: convert all inputs to packed RGB and
  * float disparities by the formulas below, refocus, and convert the result.
  */
 #ifndef STARFOCUS_IMAGE_H_
@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-/** Largest pixel_stride of RGB formats. */
+/** Largest value of starfocus_image.pixel_stride for RGB formats. */
 #define STARFOCUS_MAX_PIXEL_STRIDE 256
 
 /** Layout of a picture; samples have 8 bits. RGB formats are named by the order of bytes in memory,
@@ -52,13 +52,13 @@ typedef enum starfocus_range {
   STARFOCUS_RANGE_FULL = 1     /**< Y = Y'; U, V = 128 + U', V', as in JPEG and Android's cameras */
 } starfocus_range;
 
-/** A picture. Calls only read the pictures of a light field, and write only the pixels of an
- * output. A structure of zeros with planes[0] and strides[0] describes packed RGB.
+/** A picture. API calls never write to the pictures of a light field, and write only the pixels of
+ *  an output picture. A structure of zeros with planes[0] and strides[0] describes packed RGB.
  *
- *  Conversion uses integers and is the same on every machine. Let P(a, c) = (a c + 2^14) >> 15,
- *  where >> rounds down, and let [x] be x rounded to the nearest integer, with halves rounded away
- *  from 0. For limited range, y0 = 16, p = 255 / 219, q = 255 / 224; for full range, y0 = 0,
- *  p = q = 1.
+ *  Conversion between RGB and YUV uses integers and gives the same result on every machine. Let
+ *  P(a, c) = (a c + 2^14) >> 15, where >> rounds down, and let [x] be x rounded to the nearest
+ *  integer, with halves rounded away from 0. For limited range, y0 = 16, p = 255 / 219,
+ *  q = 255 / 224; for full range, y0 = 0, p = q = 1.
  *
  *  To RGB, with the chroma sample of the pixel:
  *    L = P(128 (Y - y0), [2^14 p]), u = 256 (U - 128), v = 256 (V - 128),
@@ -79,10 +79,10 @@ typedef struct starfocus_image {
   int32_t range;  /**< starfocus_range; ignored for RGB formats */
   /** Bytes from pixel to pixel of an RGB format: at least 3, or 4 with alpha, and at most
    *  STARFOCUS_MAX_PIXEL_STRIDE. For YUV_420_888, bytes from chroma sample to chroma sample, 1 or
-   *  2. The value 0 selects the smallest value that the format allows. Other YUV formats accept
-   *  only this value. */
+   *  2. The value 0 selects the smallest value that the format allows. YUV formats other than
+   *  YUV_420_888 accept only their smallest value. */
   int32_t pixel_stride;
-  void* planes[3];   /**< first byte of each plane; planes that the format lacks are ignored */
+  void* planes[3]; /**< first byte of each plane; planes that the format does not use are ignored */
   size_t strides[3]; /**< bytes from row to row of each plane, at least one row */
 } starfocus_image;
 
@@ -114,10 +114,11 @@ typedef enum starfocus_depth_meaning {
  *  The engine interpolates a smaller map within surfaces, but not across depth edges. For a picture
  *  W pixels wide and a map w values wide, column x of the picture lies at
  *  p = floor(128 (2x + 1) w / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]. For
- *  rows, the formula applies with heights in place of widths. Values are interpolated between two
- *  rows first, then between two columns. At a distance of s / 256 from D0 to D1, in 1/64 pixel, the
- *  result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 - D0| <= 96 (1.5 pixels). Otherwise the result
- *  is D0 for s < 128 and D1 for s >= 128. An unknown value is never interpolated. */
+ *  rows, the formula applies with y and heights in place of x and widths. Values are interpolated
+ *  between two rows first, then between two columns. At a distance of s / 256 from D0 to D1, in
+ *  1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 - D0| <= 96 (1.5 pixels). If
+ * |D1 - D0| > 96, the result is D0 for s < 128 and D1 for s >= 128. An unknown value is never
+ * interpolated. */
 typedef struct starfocus_depth_map {
   const void* data; /**< first value, aligned to its type */
   size_t stride;    /**< bytes from row to row, at least one row, a multiple of the type's size */

@@ -3,13 +3,13 @@
  * Refocusing of sparse light fields: the C API of starfocus.
  *
  * The engine takes a light field: 1 to 17 rectified views with 8 bits per sample, and the disparity
- * map of the centre view. It computes the picture that a lens would have taken with another focus
- * and another aperture. The views are the star of the paper, or lie at any positions, for example
- * the positions of a stereo pair. The paper is Huang et al., "Fast Physically-Correct Refocusing
- * for Sparse Light Fields Using Block-Based Multi-Rate View Interpolation"; numbers in parentheses,
- * such as (9), are its equations.
+ * map of the centre view. The engine computes the picture that a lens would have taken with another
+ * focus and another aperture. The views are the star of the paper, or lie at any positions, for
+ * example the positions of a stereo pair. The paper is Huang et al., "Fast Physically-Correct
+ * Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View Interpolation"; numbers in
+ * parentheses, such as (9), are equations of the paper.
  *
- * A complete function that focuses a picture at disparity 3.5:
+ * The following function focuses a picture at disparity 3.5:
  *
  * @code
  * #include <starfocus/starfocus.h>
@@ -49,14 +49,15 @@
  * and may be larger than a row.
  *
  * **Structures.** Structures with an init function have a field `size`; the init function sets
- * `size` and the defaults. Set all other structures to zero, for example with `= {0}`, before you
- * set fields. If `size` is smaller than the library's structure, the missing fields get defaults.
- * If `size` is larger, the call returns STARFOCUS_ERROR_STRUCTURE.
+ * `size` and the defaults. Set structures without an init function to zero, for example with
+ * `= {0}`, before you set fields. If `size` is smaller than the library's structure, the missing
+ * fields get defaults. If `size` is larger than the library's structure, the call returns
+ * STARFOCUS_ERROR_STRUCTURE.
  *
  * **Memory.** The engine lives in one block of memory, its workspace, and allocates no other
  * memory. Either starfocus_create allocates the workspace and starfocus_destroy frees it, or the
- * caller allocates starfocus_workspace_size bytes and calls starfocus_init. An engine of
- * starfocus_init requires no destructor.
+ * caller allocates starfocus_workspace_size bytes and calls starfocus_init. An engine that
+ * starfocus_init creates requires no destructor.
  *
  * **Threads.** One call at a time may use an engine, from any thread. Different engines are
  * independent. The engine starts no threads; it passes jobs to the runner of
@@ -66,7 +67,7 @@
  *
  * **Errors.** Functions that can fail return a starfocus_status. A function checks all its
  * arguments before it writes any output. The status is the kind of error; a starfocus_problem names
- * the field or argument, its value, and the allowed range. After a call with an engine,
+ * the wrong field or argument, its value, and the allowed range. After a call with an engine,
  * starfocus_engine_problem returns the problem. Calls that take a configuration write the problem
  * to starfocus_config.problem, if that pointer is not null.
  *
@@ -106,7 +107,8 @@ extern "C" {
 #define STARFOCUS_MAX_DISPARITY 500.0
 /** Largest blur radius in pixels. */
 #define STARFOCUS_MAX_BLUR 128.0
-/** Number of layers L: the picture itself (L = 0) and two subsampled copies of it. */
+/** Number of layers L, which are the picture at full size (L = 0) and two subsampled copies of the
+ *  picture. */
 #define STARFOCUS_LAYERS 3
 /** Largest number of workers. */
 #define STARFOCUS_MAX_WORKERS 64
@@ -117,22 +119,24 @@ extern "C" {
 
 /** Bits of starfocus_config.features. The workspace reserves memory for the enabled features.
  *  @{ */
-/** The paper's renderer, STARFOCUS_RENDERER_LINE_SCAN. */
+/** Enables the paper's renderer, STARFOCUS_RENDERER_LINE_SCAN. */
 #define STARFOCUS_FEATURE_LINE_SCAN 1u
 /** Separates hair and thin structures from the background. */
 #define STARFOCUS_FEATURE_COVERAGE 2u
 /** Enables the functions starfocus_stream_* and reserves ring buffers of rows. */
 #define STARFOCUS_FEATURE_STREAMING 4u
-/** Image formats other than packed RGB, and depth maps of other types or sizes. */
+/** Enables image formats other than packed RGB, and depth maps of other types than float or of
+ *  smaller sizes than the picture. */
 #define STARFOCUS_FEATURE_IMAGES 8u
 /** Fills unknown values of disparity maps (NaN, infinite, or the map's invalid value). An unknown
- *  value gets the nearest known value of its row, or between two known values the smaller value. A
- *  row without a known value gets disparity_min. Without this feature, calls reject unknown values
- *  with STARFOCUS_ERROR_NOT_FINITE. Alternatives are starfocus_repair_disparity, which finds the
- *  values from the views, and starfocus_fill_disparity, which fills a whole map. */
+ *  value between two known values of its row gets the smaller value. At the ends of a row, an
+ *  unknown value gets the nearest known value. A row without a known value gets disparity_min.
+ *  Without this feature, calls reject unknown values with STARFOCUS_ERROR_NOT_FINITE. Alternatives
+ *  are starfocus_repair_disparity, which finds the values from the views, and
+ *  starfocus_fill_disparity, which fills a whole map. */
 #define STARFOCUS_FEATURE_FILL_UNKNOWN 16u
 /** Enables polygons and cat's eyes, and reserves larger tables. Without this feature, calls reject
- *  lenses with these shapes with STARFOCUS_ERROR_FEATURE. */
+ *  polygons and cat's eyes with STARFOCUS_ERROR_FEATURE. */
 #define STARFOCUS_FEATURE_SHAPES 32u
 /** @} */
 
@@ -153,17 +157,18 @@ STARFOCUS_API size_t starfocus_struct_size(const char* name);
 
 /** Position of a captured view in units of u. */
 typedef struct starfocus_position {
-  double u; /**< to the right, [-1, 1] */
-  double v; /**< downwards, [-1, 1] */
+  double u; /**< distance to the right of the centre view, [-1, 1] */
+  double v; /**< distance below the centre view, [-1, 1] */
 } starfocus_position;
 
 /** Relation between the codes 0 to 255 of a picture and light. A lens adds light, so the engine
- *  decodes codes before it averages them. A picture of one colour keeps its codes. */
+ *  converts codes to light before it averages pixels. Refocusing a picture of one colour does not
+ *  change the codes. */
 typedef enum starfocus_transfer {
-  /** The sRGB curve (IEC 61966-2-1), as in pictures of cameras. Light has 15 bits; docs/library.md
+  /** The sRGB curve (IEC 61966-2-1), as in most photographs. Light has 15 bits; docs/library.md
    *  states when dark pixels may differ by one code. */
   STARFOCUS_TRANSFER_SRGB = 0,
-  /** Light is the code itself. The paper averages codes. */
+  /** Codes are averaged without conversion to light, as in the paper. */
   STARFOCUS_TRANSFER_NONE = 1
 } starfocus_transfer;
 
@@ -172,7 +177,7 @@ typedef struct starfocus_config {
   uint32_t size;  /**< size of the structure in bytes; set by starfocus_config_init */
   int32_t width;  /**< width of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
   int32_t height; /**< height of the views in pixels, [1, STARFOCUS_MAX_SIZE]; the size of the
-                       workspace does not depend on it */
+                       workspace does not depend on the height */
   /** Number of captured views. Without `positions`: 1, 5, 9 or 17, in the order of
    *  starfocus_view_position. With `positions`: 1 to STARFOCUS_MAX_VIEWS. Default 5. */
   int32_t views;
@@ -186,24 +191,26 @@ typedef struct starfocus_config {
    *  default 32. The limit affects the size of the workspace, but not the pictures. */
   double max_blur;
   /** Side of the superblocks, from which blocks are split, in pixels: 32, 64, 128, 256, or 0. The
-   *  default 0 selects 128 for pictures at least 1536 pixels wide, and 64 for others. In wide
-   *  pictures 128 is up to an eighth faster. The memory of a worker grows with the area of a
-   *  superblock, from 1.15 MiB at 64. starfocus_report.superblock reports the selected side. */
+   *  default 0 selects 128 for pictures at least 1536 pixels wide, and 64 for narrower pictures. In
+   *  wide pictures, superblocks of 128 pixels are up to an eighth faster than superblocks of 64
+   *  pixels. The memory of a worker grows with the area of a superblock, and is 1.15 MiB with
+   *  superblocks of 64 pixels. starfocus_report.superblock reports the selected side. */
   int32_t superblock;
   int32_t max_workers; /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
   /** Bits STARFOCUS_FEATURE_*; default LINE_SCAN and COVERAGE. Without LINE_SCAN,
    *  STARFOCUS_RENDERER_AUTO always selects slices, and calls reject STARFOCUS_RENDERER_LINE_SCAN
    *  with STARFOCUS_ERROR_FEATURE. */
   uint32_t features;
-  /** Largest starfocus_params.preview_shift, [0, STARFOCUS_MAX_PREVIEW]; default 0. A value s > 0
-   *  makes starfocus_prepare store reduced light fields as well, down to 1 / 2^s of the size.
+  /** Largest starfocus_params.preview_shift, [0, STARFOCUS_MAX_PREVIEW]; default 0. With a value s
+   *  > 0, starfocus_prepare additionally stores reduced light fields, down to 1 / 2^s of the size.
    *  Previews do not enlarge the workspace. */
   int32_t previews;
   int32_t transfer; /**< starfocus_transfer; default STARFOCUS_TRANSFER_SRGB */
   /** Brightness of clipped lamps relative to white, [1, STARFOCUS_MAX_HIGHLIGHTS]; default 1. A
    *  pixel is part of a lamp if at least two of its codes are 251 or more. White areas that are
-   *  wider and higher than 1/32 of the picture's width (16 to 128 pixels) are brightened less.
-   *  Areas of at least twice that size are not brightened, so that walls do not glow. */
+   *  wider and higher than a limit of 1/32 of the picture's width (16 to 128 pixels) are brightened
+   *  less. White areas of at least twice this limit are not brightened, so that walls do not
+   *  glow. */
   double highlights;
   /** Positions of the views, rounded to 1/16384. The first position must be (0, 0), and all
    *  positions must differ. Default all 0, which selects the positions of starfocus_view_position.
@@ -211,13 +218,13 @@ typedef struct starfocus_config {
    *  starfocus_view_position. */
   starfocus_position positions[STARFOCUS_MAX_VIEWS];
   starfocus_tuning tuning; /**< trade-offs between time and error */
-  /** Receives the problem of calls that take this configuration; default null. For calls with an
-   *  engine, starfocus_engine_problem returns the problem instead. */
+  /** Receives the cause of an error of calls that take this configuration; default null. For calls
+   *  with an engine, starfocus_engine_problem returns the cause instead. */
   starfocus_problem* problem;
 } starfocus_config;
 
-/** Sets the first `size` bytes of a configuration to the defaults. For bindings; programs in C and
- *  C++ call starfocus_config_init.
+/** Sets the first `size` bytes of a configuration to the defaults. This function is for bindings;
+ *  programs in C and C++ call starfocus_config_init.
  *  @param config configuration; no-op if null
  *  @param size size in bytes of the structure that the caller knows */
 STARFOCUS_API void starfocus_config_init_sized(starfocus_config* config, uint32_t size);
@@ -246,7 +253,8 @@ STARFOCUS_API starfocus_status starfocus_workspace_size(const starfocus_config* 
 /** An engine, which lives in its workspace. */
 typedef struct starfocus_engine starfocus_engine;
 
-/** Creates an engine in memory of the caller. An engine in such memory requires no destructor.
+/** Creates an engine in memory of the caller. An engine in memory of the caller requires no
+ *  destructor.
  *  @param config configuration; the engine keeps a copy
  *  @param workspace memory aligned to STARFOCUS_ALIGNMENT, which must outlive the engine
  *  @param bytes size of the workspace, at least starfocus_workspace_size
@@ -255,8 +263,8 @@ typedef struct starfocus_engine starfocus_engine;
 STARFOCUS_API starfocus_status starfocus_init(const starfocus_config* config, void* workspace,
                                               size_t bytes, starfocus_engine** engine);
 
-/** Returns the problem of the engine's last call. The problem lies in the workspace, and the next
- *  call with the engine overwrites it.
+/** Returns the problem that the engine's last call reported. The problem is stored in the
+ *  workspace, and the next call with the engine overwrites this problem.
  *  @param engine engine
  *  @return the problem, with status STARFOCUS_OK if the call succeeded; null if `engine` is null */
 STARFOCUS_API const starfocus_problem* starfocus_engine_problem(const starfocus_engine* engine);
@@ -271,10 +279,11 @@ STARFOCUS_API starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
 
 /** Allocator of starfocus_create. */
 typedef struct starfocus_allocator {
-  void* data; /**< passed to both functions */
+  void* data; /**< passed to `allocate` and `release` */
   /** Returns `bytes` bytes aligned to `alignment` (STARFOCUS_ALIGNMENT), or null on failure. */
   void* (*allocate)(void* data, size_t bytes, size_t alignment);
-  /** Frees memory of `allocate`. `memory` is not null, and `bytes` is the size that was requested.
+  /** Frees memory that `allocate` returned. `memory` is not null, and `bytes` is the size that was
+   *  requested from `allocate`.
    */
   void (*release)(void* data, void* memory, size_t bytes);
 } starfocus_allocator;
@@ -289,24 +298,26 @@ STARFOCUS_API starfocus_status starfocus_create(const starfocus_config* config,
                                                 const starfocus_allocator* allocator,
                                                 starfocus_engine** engine);
 
-/** Frees an engine of starfocus_create. No call with the engine may be running.
- *  @param engine engine; no-op for a null pointer and for engines of starfocus_init */
+/** Frees an engine that starfocus_create created. No call with the engine may be running.
+ *  @param engine engine; no-op for a null pointer and for engines that starfocus_init created */
 STARFOCUS_API void starfocus_destroy(starfocus_engine* engine);
 
-/** Division of the picture, and number of rendered views. */
+/** Mode of refocusing, which determines the division of the picture into blocks and the number of
+ *  rendered views. */
 typedef enum starfocus_mode {
-  /** One N for the whole picture, by (9). */
+  /** One number of views N for the whole picture, by (9). */
   STARFOCUS_MODE_FRAME = 0,
-  /** N = 2 ceil(r_max) for the whole picture: the paper's benchmark of quality. The slice renderer
-   *  also uses thinner slices in this mode. */
+  /** N = 2 ceil(r_max) for the whole picture: the paper's benchmark of quality. In this mode, the
+   *  slice renderer uses thinner slices than in other modes. */
   STARFOCUS_MODE_BENCHMARK = 1,
   /** Blocks of different sizes, each with its own N and layer (section V). The half-band filters of
-   *  layers 1 and 2 overshoot: a pixel may exceed the range of the light around it. The overshoot
-   *  is up to 4 % of that range with slices and 13 % with line scans, or 4 % and 40 % with shapes
-   *  other than the default. With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
+   *  layers 1 and 2 overshoot: the light of a pixel may lie outside the range of the surrounding
+   *  light. The overshoot is up to 4 % of this range with slices, and up to 13 % with line scans.
+   *  With shapes other than the default, the overshoot is up to 4 % with slices, and up to 40 %
+   *  with line scans. With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
   STARFOCUS_MODE_BLOCK = 2,
-  /** The centre view, blurred by (4) without other views. This mode takes up to ten times as long
-   *  as STARFOCUS_MODE_BLOCK. */
+  /** The centre view, blurred by the point-spread function (4) without other views. This mode takes
+   *  up to ten times as long as STARFOCUS_MODE_BLOCK. */
   STARFOCUS_MODE_BLUR = 3
 } starfocus_mode;
 
@@ -321,7 +332,8 @@ typedef enum starfocus_renderer {
   STARFOCUS_RENDERER_SLICES = 2
 } starfocus_renderer;
 
-/** A rectangle inside the picture, in pixels. All 0: the whole picture. */
+/** A rectangle inside the picture, in pixels. If all fields are 0, the region is the whole
+ *  picture. */
 typedef struct starfocus_region {
   int32_t x;      /**< left column, >= 0 */
   int32_t y;      /**< top row, >= 0 */
@@ -336,41 +348,43 @@ typedef struct starfocus_light_field {
   starfocus_image views[STARFOCUS_MAX_VIEWS];
   starfocus_depth_map depth; /**< depth map of the centre view */
   /** Optional alpha of the foreground, as matting networks compute it: for each pixel of the centre
-   *  view, the part that the nearer of two surfaces covers (255: all). Within 32 pixels of depth
-   *  edges of more than 5 pixels, the alpha takes precedence over the map. Null: the light field
-   *  has no alpha. Engines without STARFOCUS_FEATURE_COVERAGE ignore the alpha. */
+   *  view, the part that the nearer of two surfaces covers (255 if this surface covers the whole
+   *  pixel). Within 32 pixels of depth edges of more than 5 pixels, the alpha takes precedence over
+   *  the map. If null, the light field has no alpha. Engines without STARFOCUS_FEATURE_COVERAGE
+   *  ignore the alpha. */
   const uint8_t* coverage;
   size_t coverage_stride; /**< bytes from row to row of `coverage`, >= width */
 } starfocus_light_field;
 
 /** The previous frame of a video: its light field and its picture. The light field and the picture
  *  must belong to the current configuration and to the current starfocus_params, except for the
- *  field `previous`. The engine does not check this condition: where the light field did not
- *  change, it copies pixels of the given picture. */
+ *  field `previous`. The engine does not check this condition. Where the light field did not
+ *  change, the engine copies pixels of the previous picture. */
 typedef struct starfocus_previous {
-  starfocus_light_field light_field; /**< compared with the current light field */
+  starfocus_light_field light_field; /**< light field of the previous frame */
   starfocus_image out; /**< picture or region that starfocus_refocus wrote for `light_field` */
 } starfocus_previous;
 
 /** Parameters of one refocusing. Call starfocus_params_init first. */
 typedef struct starfocus_params {
-  uint32_t size;           /**< size of the structure in bytes; set by starfocus_params_init */
-  int32_t mode;            /**< starfocus_mode; default STARFOCUS_MODE_BLOCK */
-  int32_t renderer;        /**< starfocus_renderer; default STARFOCUS_RENDERER_AUTO. Ignored by
-                                STARFOCUS_MODE_BLUR */
-  starfocus_region region; /**< part to compute; default all 0, which streams require */
-  starfocus_lens lens;     /**< the lens; see starfocus_lens for its defaults */
+  uint32_t size;    /**< size of the structure in bytes; set by starfocus_params_init */
+  int32_t mode;     /**< starfocus_mode; default STARFOCUS_MODE_BLOCK */
+  int32_t renderer; /**< starfocus_renderer; default STARFOCUS_RENDERER_AUTO. Ignored by
+                         STARFOCUS_MODE_BLUR */
+  /** Part of the picture to compute. All fields are 0 by default, which streams require. */
+  starfocus_region region;
+  starfocus_lens lens; /**< the lens; see starfocus_lens for its defaults */
   /** For starfocus_refocus_prepared: the picture has 1 / 2^preview_shift of the full size. Range
    *  [0, starfocus_config.previews]; default 0. */
   int32_t preview_shift;
   /** For starfocus_refocus: the previous frame, from which unchanged superblocks are copied. The
-   *  output bytes do not depend on this field. Both light fields and both pictures must have the
+   *  output bytes do not depend on this field. Both light fields and both pictures must have
    *  formats that do not require STARFOCUS_FEATURE_IMAGES. Default null. */
   const starfocus_previous* previous;
 } starfocus_params;
 
-/** Sets the first `size` bytes of parameters to the defaults. For bindings; programs in C and C++
- *  call starfocus_params_init.
+/** Sets the first `size` bytes of parameters to the defaults. This function is for bindings;
+ *  programs in C and C++ call starfocus_params_init.
  *  @param params parameters; no-op if null
  *  @param size size in bytes of the structure that the caller knows */
 STARFOCUS_API void starfocus_params_init_sized(starfocus_params* params, uint32_t size);
@@ -384,7 +398,7 @@ static inline void starfocus_params_init(starfocus_params* params) {
 /** Statistics of the blocks of one layer. */
 typedef struct starfocus_layer_report {
   uint64_t blocks; /**< number of blocks */
-  uint64_t pixels; /**< pixels of the picture that the blocks cover */
+  uint64_t pixels; /**< number of pixels of the picture that the blocks cover */
   uint64_t views;  /**< number of rendered views, summed over the blocks; a block that is copied or
                       gathered as a whole counts as 1 */
   uint64_t rendered_samples; /**< R, G and B samples rendered in all views and slices */
@@ -398,10 +412,11 @@ typedef struct starfocus_report {
   double r_max; /**< largest blur radius that the disparity range allows, pixels */
   int32_t n;    /**< N, the number of views along the radius of the aperture; the largest N of all
                    blocks */
-  int32_t rendered_views;    /**< number of rendered views for `n` */
+  int32_t rendered_views;    /**< number of rendered views in the aperture if N is `n` */
   int32_t superblock;        /**< side of the superblocks, pixels */
   uint64_t rendered_samples; /**< R, G and B samples rendered in all views and layers */
-  starfocus_layer_report layers[STARFOCUS_LAYERS]; /**< per layer; frame modes use layer 0 only */
+  /** Statistics of each layer. Frame modes use only layer 0. */
+  starfocus_layer_report layers[STARFOCUS_LAYERS];
   uint64_t copied_pixels;   /**< pixels copied from the centre view because no view moves them */
   uint64_t gathered_pixels; /**< pixels blurred without views (starfocus_tuning.gather) */
   uint64_t reused_blocks;   /**< superblocks copied from starfocus_params.previous */
@@ -409,9 +424,9 @@ typedef struct starfocus_report {
                                the rows that were read; 0 for prepared light fields */
 } starfocus_report;
 
-/** Refocuses a light field. A region has the same bytes as that part of the whole picture. The
- *  engine computes only the blocks on which the region depends, and checks only the disparities
- *  that these blocks read.
+/** Refocuses a light field. A refocused region is equal, byte for byte, to the corresponding part
+ *  of the whole refocused picture. The engine computes only the blocks on which the region depends,
+ *  and checks only the disparities that these blocks read.
  *  @param engine engine
  *  @param params lens and region
  *  @param light_field light field, which is read only during the call
@@ -431,9 +446,9 @@ STARFOCUS_API starfocus_status starfocus_refocus(starfocus_engine* engine,
 /** A light field that was converted for refocusing with any lens, in memory of the caller. */
 typedef struct starfocus_prepared starfocus_prepared;
 
-/** Computes the size of a prepared light field: 2 bytes per pixel for disparities, about 1.9 bytes
- *  per pixel for layers 1 and 2 (less with a smaller starfocus_tuning.max_layer), and for each
- *  preview 3 bytes per pixel of each reduced view plus 3 bytes per pixel for disparity and
+/** Computes the size of a prepared light field. Disparities take 2 bytes per pixel, and layers 1
+ *  and 2 take about 1.9 bytes per pixel (less with a smaller starfocus_tuning.max_layer). Each
+ *  preview takes 3 bytes per pixel of each reduced view, plus 3 bytes per pixel for disparity and
  *  coverage.
  *  @param config configuration
  *  @param bytes receives the size in bytes
@@ -441,9 +456,10 @@ typedef struct starfocus_prepared starfocus_prepared;
 STARFOCUS_API starfocus_status starfocus_prepared_size(const starfocus_config* config,
                                                        size_t* bytes);
 
-/** Converts and checks the disparities of a light field and subsamples its centre view, once for
- *  many refocusings. Later calls read the views again, so the pixels of the views must stay
- *  unchanged until the last refocusing. The structure `light_field` may change.
+/** Converts and checks the disparities of a light field and subsamples its centre view, so that
+ *  many refocusings can share the results. Later calls read the views again, so the pixels of the
+ *  views must stay unchanged until the last refocusing. The structure `light_field` may be changed
+ *  after this call.
  *  @param engine engine
  *  @param light_field light field
  *  @param memory memory aligned to STARFOCUS_ALIGNMENT, which must not overlap the light field or
@@ -460,17 +476,18 @@ STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
 /** Refocuses a prepared light field. The output bytes are the same as with starfocus_refocus.
  *
  *  With a preview_shift s, the picture has 1 / S of the size, where S = 2^s, and takes about
- *  1 / S^2 of the time. All parameters are still in pixels of the full size. The output contains
- * the columns from floor(x / S) to floor((x + width - 1) / S) of the reduced picture, where x and
- *  width describe the region. Rows follow this rule as well. The alpha of the output is 255.
- *  Previews do not read the views again.
+ *  1 / S^2 of the time. Even for a preview, all parameters are in pixels of the full size. The
+ * output contains the columns from floor(x / S) to floor((x + width - 1) / S) of the reduced
+ * picture, where x and width describe the region. The rows of the output follow from y and height
+ * by the same formula. The alpha of a preview is 255. Previews read only the prepared light field,
+ * and not the views.
  *
  *  A preview is the picture of a reduced light field, byte for byte. In the reduced light field a
  *  pixel of a view is the mean light of S x S pixels (fewer at the right and bottom edges), in
- *  steps of 1/128 code. A disparity is the median of S x S disparities (the larger of the two
- *  middle values) divided by S, rounded half up to 1/64. The engine for this reduced light field
- *  would have the reduced size, and the disparity range, max_blur and focus divided by S. Callbacks
- *  and the report count pixels of the preview.
+ *  steps of 1/128 code. In the reduced light field a disparity is the median of S x S disparities
+ *  (the larger of the two middle values) divided by S, rounded half up to 1/64. A preview
+ *  corresponds to a picture of an engine with the reduced size, and with the disparity range,
+ *  max_blur and focus divided by S. Callbacks and the report count pixels of the preview.
  *  @param engine engine with the size, views, positions, disparity range, max_layer and transfer of
  *         the engine that prepared the light field. Several engines may use one prepared light
  * field at the same time
@@ -503,12 +520,12 @@ STARFOCUS_API starfocus_status starfocus_stream_begin(starfocus_engine* engine,
  *         `depth.data` points to the first new row as well. A map of smaller height is passed whole
  *         in every call. Coverage must be present for all rows of a stream or for none
  *  @param rows number of rows, at most the number of rows left. If a view has chroma samples of 2 x
- *         2 pixels, the number must be even, except at the end of the picture
+ *         2 pixels, `rows` must be even, except at the end of the picture
  *  @param consumed receives the number of copied rows, at most `rows`. If fewer rows were copied,
  *         pull rows before you push the rest
  *  @return STARFOCUS_OK, or an error of the arguments. After STARFOCUS_ERROR_DISPARITY and
- *         STARFOCUS_ERROR_NOT_FINITE, the rows before the bad row are consumed. The result is
- *         STARFOCUS_ERROR_STATE if no stream was begun */
+ *         STARFOCUS_ERROR_NOT_FINITE, the rows before the invalid row are consumed. The result is
+ *         STARFOCUS_ERROR_STATE if starfocus_stream_begin was not called */
 STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
                                                      const starfocus_light_field* light_field,
                                                      int32_t rows, int32_t* consumed);
@@ -524,7 +541,7 @@ STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
  *  @param out image of the rows to write, whose planes point to the first of these rows. The image
  *         must not overlap the workspace
  *  @param rows largest number of rows to write; may exceed the number of rows left. If two rows
- *         share chroma samples, the number must be even, except at the end of the picture
+ *         share chroma samples, `rows` must be even, except at the end of the picture
  *  @param written receives the number of written rows; 0 if more rows must be pushed first
  *  @param report receives statistics, which are complete after the last row. May be null
  *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_CANCELLED or
@@ -550,10 +567,10 @@ STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparit
                                                            int32_t width, int32_t height,
                                                            starfocus_disparity_stats* stats);
 
-/** Fills the values of a disparity map that are NaN or infinite, in place. A value gets the nearest
- *  finite value to the left or right. A value between two finite values gets the smaller of the
- *  two, which belongs to the farther surface. Rows without a finite value are filled from the rows
- *  above and below by the same rule.
+/** Fills the values of a disparity map that are NaN or infinite, in place. Between two finite
+ *  values of a row, all values are set to the smaller finite value, which belongs to the farther
+ *  surface. At the ends of a row, values are set to the nearest finite value. Rows without a finite
+ *  value are filled from the rows above and below by the same rule.
  *  @param disparity map, aligned to 4 bytes
  *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
  *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
@@ -562,10 +579,11 @@ STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparit
 STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t stride,
                                                         int32_t width, int32_t height);
 
-/** Finds the focus for a pixel, for example where a user tapped. The focus is the median of the
- *  disparities up to 3 pixels away that differ from the pixel's disparity by at most 0.75. If no
- *  disparity of the 8 neighbours is that close, the pixel is an outlier, and the surface of most of
- *  the 7 x 7 pixels is used instead. The function reads only these 7 x 7 pixels.
+/** Finds the focus for a pixel, for example for a pixel that a user tapped. The focus is the median
+ *  of the disparities up to 3 pixels away that differ from the pixel's disparity by at most 0.75.
+ *  If the disparities of all 8 neighbours differ by more than 0.75, the pixel is an outlier. For an
+ *  outlier, the function uses the surface to which most of the surrounding 7 x 7 pixels belong. The
+ *  function reads only the 7 x 7 pixels around the pixel.
  *  @param disparity map, aligned to 4 bytes
  *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
  *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]

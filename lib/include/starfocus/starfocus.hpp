@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** @file
- * C++17 wrapper of starfocus.h, header-only. The wrapper owns the memory of an engine and adds
- * nothing else. It throws no exceptions: calls return a starfocus_status, as in C. */
+ * C++17 wrapper of starfocus.h, header-only. The wrapper owns the memory of an engine and adds no
+ * other features. The wrapper throws no exceptions: calls return a starfocus_status, as in C. */
 #ifndef STARFOCUS_STARFOCUS_HPP_
 #define STARFOCUS_STARFOCUS_HPP_
 
@@ -45,7 +45,7 @@ class Engine {
     engine_ = std::move(fresh);
     prepared_ = Owned<starfocus_prepared>();
     config_ = config;
-    config_.problem = nullptr;  // may not outlive the call
+    config_.problem = nullptr;  // the caller's structure may not outlive this call
     return STARFOCUS_OK;
   }
 
@@ -62,7 +62,8 @@ class Engine {
     return starfocus_refocus(get(), &params, &light_field, &out, report);
   }
 
-  /** Returns the problem of the last call except Init, which reports its problem in config.problem.
+  /** Returns the problem that the last call reported. Only Init reports problems in config.problem
+   *  instead.
    *  @return the problem; null before Init */
   const starfocus_problem* problem() const { return starfocus_engine_problem(engine_.handle); }
 
@@ -118,7 +119,7 @@ class Engine {
     }
   };
 
-  // A handle and the memory that contains its object. Moving from this object leaves it empty.
+  // A handle and the memory that contains its object. A moved-from object is empty.
   template <class Handle>
   struct Owned {
     Owned() = default;

@@ -17,22 +17,22 @@ extern "C" {
 #define STARFOCUS_API
 #endif
 
-/** Result of a call. */
+/** Status that an API call returns. */
 typedef enum starfocus_status {
-  STARFOCUS_OK = 0,              /**< success */
-  STARFOCUS_ERROR_NULL = 1,      /**< a required pointer is null */
-  STARFOCUS_ERROR_STRUCTURE = 2, /**< a structure was not initialized by its init function */
-  STARFOCUS_ERROR_RANGE = 3,     /**< a field or an argument is out of range */
-  STARFOCUS_ERROR_FEATURE = 4,   /**< the engine lacks a required feature or view */
-  STARFOCUS_ERROR_STATE = 5,     /**< no stream was begun, or only some of its rows have coverage */
-  STARFOCUS_ERROR_WORKSPACE = 6, /**< the given memory is too small or not aligned */
-  STARFOCUS_ERROR_TOO_LARGE = 7, /**< the configuration requires more memory than is addressable */
-  STARFOCUS_ERROR_MEMORY = 8,    /**< memory could not be allocated */
-  STARFOCUS_ERROR_STRIDE = 9,    /**< a stride is smaller than a row, or not aligned */
-  STARFOCUS_ERROR_OVERLAP = 10,  /**< an output overlaps an input or the workspace */
-  STARFOCUS_ERROR_BLUR = 11,     /**< aperture * |d - focus| exceeds max_blur for disparity_min or
-                                      disparity_max */
-  STARFOCUS_ERROR_DISPARITY = 12,   /**< a disparity is outside the configured range */
+  STARFOCUS_OK = 0,               /**< success */
+  STARFOCUS_ERROR_NULL = 1,       /**< a required pointer is null */
+  STARFOCUS_ERROR_STRUCTURE = 2,  /**< a structure was not initialized by its init function */
+  STARFOCUS_ERROR_RANGE = 3,      /**< a field or an argument is out of range */
+  STARFOCUS_ERROR_FEATURE = 4,    /**< the engine lacks a required feature or view */
+  STARFOCUS_ERROR_STATE = 5,      /**< no stream was begun, or coverage is missing in some rows */
+  STARFOCUS_ERROR_WORKSPACE = 6,  /**< the given memory is too small or not aligned */
+  STARFOCUS_ERROR_TOO_LARGE = 7,  /**< the configuration requires more memory than is addressable */
+  STARFOCUS_ERROR_MEMORY = 8,     /**< memory could not be allocated */
+  STARFOCUS_ERROR_STRIDE = 9,     /**< a stride is smaller than a row, or not aligned */
+  STARFOCUS_ERROR_OVERLAP = 10,   /**< an output overlaps an input or the workspace */
+  STARFOCUS_ERROR_BLUR = 11,      /**< aperture * |d - focus| exceeds max_blur for disparity_min or
+                                       disparity_max */
+  STARFOCUS_ERROR_DISPARITY = 12, /**< a disparity is outside the configured range */
   STARFOCUS_ERROR_NOT_FINITE = 13,  /**< a disparity is NaN or infinite */
   STARFOCUS_ERROR_ALL_INVALID = 14, /**< the disparity map has no finite value */
   STARFOCUS_ERROR_PREPARED = 15,    /**< the prepared light field has another configuration */
@@ -42,7 +42,8 @@ typedef enum starfocus_status {
                                          incomplete */
 } starfocus_status;
 
-/** The cause of an error. The texts are in static storage and never null. */
+/** The cause of an error. The strings `field` and `expected` are in static storage and never
+ *  null. */
 typedef struct starfocus_problem {
   int32_t status;    /**< starfocus_status that the call returned */
   int32_t index;     /**< index of the array element, if `field` contains []; otherwise 0 */

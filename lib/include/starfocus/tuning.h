@@ -17,8 +17,8 @@
  *  work around the line scan. Coefficients are in picoseconds; only their ratios matter. The model
  *  determines how STARFOCUS_MODE_BLOCK splits superblocks, and therefore affects the output bytes.
  *  starfocus_config_init sets the same coefficients on every machine, so that all machines compute
- *  the same picture. Coefficients fitted to boards saved at most 0.4 % of the instructions
- *  (docs/boards.md). */
+ *  the same picture. Coefficients that were fitted to single boards saved at most 0.4 % of the
+ *  instructions (docs/boards.md). */
 typedef struct starfocus_timing {
   uint32_t block; /**< picoseconds per block */
   uint32_t field; /**< picoseconds per pixel of the block with its border, at the layer of the
@@ -31,16 +31,17 @@ typedef struct starfocus_timing {
   uint32_t span; /**< picoseconds per run of equal disparity in a rendered line; a line counts as at
                     least one run */
   uint32_t hole; /**< picoseconds per pixel that depth edges uncover in the outermost view, at most
-                    8 for each edge */
+                    8 pixels for each edge */
 } starfocus_timing;
 
 /** Trade-offs between time and error. starfocus_config_init sets the defaults. */
 typedef struct starfocus_tuning {
   int32_t max_layer;  /**< largest layer L of STARFOCUS_MODE_BLOCK, [0, 2]; default 2 */
-  int32_t deblocking; /**< beta of (16) and (17) in codes, [0, 255]; 0: off; default 35 */
-  /** 1: STARFOCUS_MODE_BLOCK with slices gathers pixels of smooth surfaces, that is, blurs the
-   *  centre view there by the point-spread function (4). 0: the mode renders views everywhere.
-   *  Default 1. */
+  int32_t deblocking; /**< limit beta of deblocking, (16) and (17), in codes, [0, 255]; 0: off;
+                         default 35 */
+  /** If 1, STARFOCUS_MODE_BLOCK with slices gathers the pixels of smooth surfaces, which means that
+   *  the centre view is blurred by the point-spread function (4). If 0, STARFOCUS_MODE_BLOCK
+   *  renders views for all pixels. Default 1. */
   int32_t gather;
   /** Factor of N in STARFOCUS_MODE_BLOCK and STARFOCUS_MODE_FRAME; N is rounded up. The number of
    *  views grows with the square of the factor. Range [STARFOCUS_MIN_N_SCALE,

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
- * Version that a program is compiled with. starfocus_version() returns the version of the library
- * that it runs with. The build reads the three numbers from this file. */
+ * Version of starfocus with which a program is compiled. starfocus_version() returns the version
+ * of the library with which the program runs. The build reads the three numbers of the version
+ * from this file. */
 #ifndef STARFOCUS_VERSION_H_
 #define STARFOCUS_VERSION_H_
 
