@@ -216,8 +216,7 @@ TEST_CASE("constants: the PSF of the running engine equals the prediction of the
   }
 }
 
-TEST_CASE(
-    "constants: the engine's subapertures meet the error threshold at every radius of their N") {
+TEST_CASE("constants: for each N, subapertures meet the error threshold at every radius") {
   for (const double r_max : {5.5, 11.0, 25.0, 34.0, 40.0}) {
     const int n = ViewsBySubaperture(r_max);
     double worst = 0, worst_r = 0;
@@ -278,8 +277,7 @@ TEST_CASE("constants: the widths of the lens for N = 4, 5 and above meet their e
     CHECK_MESSAGE(worst(lens, 11) > worst(LensInSubapertures(4), 11) / 2,
                   "N = 4: a lens of " << lens << " / 32 subapertures has at most half the error");
   }
-  // LensInSubapertures has one formula for N = 2 and N >= 5. With this formula, the largest error
-  // is below a quarter of the threshold.
+  // Tests N = 4 to 7, each at the largest r_max for which the rule selects this N.
   for (const double r_max : {11.0, 25.0, 34.0, 49.0}) {
     const int n = ViewsBySubaperture(r_max);
     CAPTURE(n);
@@ -331,7 +329,8 @@ TEST_CASE("constants: PredictGather counts at least as many taps as the PSF has"
   constexpr int32_t kOne = 1 << kDisparityBits;
   // PredictGather must not count fewer taps than a PSF has. Except for the smallest PSFs,
   // PredictGather may count at most 50 % too many taps. PredictGather adds the time of 16 taps to
-  // each pixel. With timing.upsample = 64, the unit of its result is the time of one tap.
+  // each pixel. With timing.upsample = 64, the unit of PredictGather's result is the time of one
+  // tap.
   starfocus_timing timing = {};
   timing.upsample = 64;
   const GatherPsfs made;

@@ -49,8 +49,7 @@ TEST_CASE("openings: with any opening, layer 1 has at most the error of a fall-o
   }
 }
 
-TEST_CASE(
-    "openings: errors are below the threshold, and below a quarter of it where N is increased") {
+TEST_CASE("openings: errors meet the threshold, or a quarter of the threshold if N is increased") {
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);
     double worst = 0, beyond = 0;

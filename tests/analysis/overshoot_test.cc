@@ -67,9 +67,8 @@ double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_tr
   return (light(kLow) - light(darkest)) / (light(kHigh) - light(kLow));
 }
 
-// Returns the largest overshoot at the given radii. For each radius, measures the sum of the PSF's
-// negative taps. Also measures the worst pictures for every position of a pixel on the grid of its
-// layer.
+// Returns the largest overshoot at the given radii. For each radius, measures the PSF's negative
+// taps, and refocuses the worst picture for each position on the layer's grid.
 double Worst(starfocus_renderer renderer, const std::vector<double>& radii) {
   double worst = 0;
   for (const double r : radii) {

@@ -65,7 +65,7 @@ TEST_CASE("opening: light passes where the shape is open") {
   }
 }
 
-TEST_CASE("opening: all weights sum to a power of two, and none exceeds its type") {
+TEST_CASE("opening: weights sum to a power of two, and each weight fits its type") {
   test::Random random(6);
   for (int trial = 0; trial < 150; ++trial) {
     const starfocus_lens lens = RandomLens(&random);

@@ -21,7 +21,7 @@ struct Caller {
   }
 };
 
-TEST_CASE("cancel: progress is called about every half a million samples, for any size of a step") {
+TEST_CASE("cancel: progress is called every half a million samples, for steps of any size") {
   for (const int64_t at_once : {1, 1000, 1 << 19, 1 << 25}) {
     CAPTURE(at_once);
     Caller caller;

@@ -58,8 +58,7 @@ TEST_CASE("views: occlusion views of the star are on its axes, the farther views
   CHECK(LooksOf(Star(17)) == Sides{{1, 9}, {2, 10}, {3, 11}, {4, 12}});
 }
 
-TEST_CASE(
-    "views: a pair has a view for one side, an L for two sides, and a row of 5 two per side") {
+TEST_CASE("views: a pair sees behind edges on one side, an L on two, a row on left and right") {
   CHECK(LooksOf(Config({{0, 0}, {1, 0}})) == Sides{{1}, {}, {}, {}});
   CHECK(LooksOf(Config({{0, 0}, {0, -0.3}})) == Sides{{}, {}, {}, {1}});
   CHECK(LooksOf(Config({{0, 0}, {0, 1}, {-1, 0}})) == Sides{{}, {2}, {1}, {}});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: starfocus-bench-count MODE [FOLDER VIEWS]
-// Refocuses one light field once, so that callgrind can count the instructions of
-// starfocus_refocus. The light field is a small synthetic one, or the first VIEWS views of FOLDER,
-// focused at the smallest disparity. Prints the number of pixels and the SIMD target.
+// usage: starfocus-bench-count MODE [FOLDER VIEWS] Refocuses one light field once, so that
+// callgrind can count the instructions of starfocus_refocus. The light field is synthetic, or has
+// the first VIEWS views of FOLDER. The focus is the smallest disparity. Prints the number of pixels
+// and the SIMD target.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +21,8 @@ using starfocus::bench::Field;
 
 constexpr int kWidth = 256, kHeight = 192, kViews = 5;
 
-// Returns a sample of the texture. Integer arithmetic makes the texture equal on every machine.
+// Returns the texture at (x, y), from 96 to 222. Integer arithmetic makes the texture equal on
+// every machine.
 uint8_t Texture(int x, int y, int channel) {
   const uint32_t mixed = uint32_t(x / 3 * 73 + y / 2 * 151 + channel * 57) * 2654435761u;
   return uint8_t(96 + (mixed >> 26) + ((x + 2 * y) & 63));

@@ -24,7 +24,7 @@ struct Truth {
 struct Field {
   std::string name;
   LightField data;
-  float low = 0, high = 0;  // range of the disparity map
+  float low = 0, high = 0;  // smallest and largest disparity of the map
   std::vector<Truth> truths;
   // Transfer function of the ray-traced pictures.
   starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;

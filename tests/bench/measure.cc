@@ -84,8 +84,8 @@ const Run* FindMode(const std::vector<Run>& runs, const char* mode, int views) {
   return found;
 }
 
-// Measures the quality against the benchmark picture (unless null), and against the truth if the
-// folder has one.
+// Measures the quality against the benchmark picture (unless null), and against the ray-traced
+// picture if the folder has this picture.
 void Judge(const Group& group, const Image& picture, const Image* benchmark, Row* row) {
   const Image* truth = group.field->FindTruth(group.focus, group.aperture);
   const auto judge = [&](const Image& reference, Quality* quality) {

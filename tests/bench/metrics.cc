@@ -123,7 +123,7 @@ double WorstBlockPsnr(const Image& a, const Image& b) {
 
 double Ssim(const Image& a, const Image& b) {
   if (a.width < kTaps || a.height < kTaps) return 1;
-  const double c1 = 6.5025, c2 = 58.5225;  // (0.01 * 255)^2, (0.03 * 255)^2
+  const double c1 = 6.5025, c2 = 58.5225;  // constants of SSIM: (0.01 * 255)^2, (0.03 * 255)^2
   const Plane p = Luma(a), q = Luma(b);
   const auto mean = [&](const Plane& plane) { return Means(plane, a.width, a.height); };
   const Plane mp = mean(p), mq = mean(q);

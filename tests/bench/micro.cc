@@ -2,7 +2,7 @@
 // starfocus-bench-micro measures the speed of every kernel on every SIMD target, and the speed of
 // each reference. The program also measures parts of the engine that call kernels, and memcpy of
 // similar sizes. Speeds are in bytes read and written per second. kernels_bytes_test checks the
-// same calls of kernels.
+// results of the same kernel calls.
 #include "tests/bench/micro.h"
 
 #include <benchmark/benchmark.h>

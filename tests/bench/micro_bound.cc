@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kWidth = 384, kHeight = 256, kViews = 5;
 constexpr int kBlur = 16;           // largest blur radius, pixels
-constexpr double kHighlights = 16;  // starfocus_config.highlights
+constexpr double kHighlights = 16;  // value of starfocus_config.highlights
 
 struct Picture {
   const char* name;

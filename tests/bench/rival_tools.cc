@@ -170,7 +170,7 @@ Error Tune(const Job& job, const Image& truth, double* scale, ToolResult* result
     Result<Image> picture = ReadImage(job.files.out);
     if (!picture) return picture.error();
     if (picture->pixels.size() != truth.pixels.size()) {
-      return Expected(job.known->tool.name, "a picture of the size of the view", "another");
+      return Expected(job.known->tool.name, "a picture as large as the view", "another");
     }
     const double psnr = Psnr(*picture, truth);
     if (psnr <= best) continue;
@@ -231,7 +231,7 @@ Error RunTool(const Tool& tool, const Field& field, double focus, const Image& t
   if (error) return error;
   result->seconds = Median(result->each);
   if (result->seconds > 0) return {};
-  return Expected(tool.name, "a picture's cost above the noise of its start", "none");
+  return Expected(tool.name, "a time per picture above the noise of the start-up time", "none");
 }
 
 }  // namespace starfocus::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rivals are other methods of refocusing that the bench compares with the engine. This file
+// Rivals are other methods of refocusing that the bench compares with the engine. rivals.cc
 // implements shift-and-add of the captured views. The other rivals are installed programs that blur
 // the centre view by a map of blur radii. Used by bench.cc and measure.cc.
 #ifndef STARFOCUS_TESTS_BENCH_RIVALS_H_
@@ -38,7 +38,7 @@ struct Tool {
   const char* name;     // name of the program in the bench's tables
   const char* program;  // name of the program, which must be in PATH
 };
-// Returns all known tools.
+// Returns all tools that the bench can measure.
 const std::vector<Tool>& Tools();
 // Returns true if the program of the tool is in PATH.
 bool IsInstalled(const Tool& tool);
@@ -52,8 +52,8 @@ struct ToolResult {
 };
 
 // Blurs the centre view of `field`, focused at `focus` with aperture 1. Tries several ratios of the
-// tool's unit to the blur radius, and keeps the picture with the highest PSNR against `truth`.
-// Temporary files are written to `folder`.
+// tool's unit of blur to a blur radius of one pixel, and keeps the picture with the highest PSNR
+// against `truth`. Temporary files are written to `folder`.
 Error RunTool(const Tool& tool, const Field& field, double focus, const Image& truth,
               const std::string& folder, int repetitions, ToolResult* result);
 

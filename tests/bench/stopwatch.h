@@ -9,8 +9,8 @@
 
 namespace starfocus::bench {
 
-// Returns the processor time of this process in seconds. Other processes affect this time only
-// through shared caches and memory.
+// Returns the processor time of this process in seconds. Other processes affect the processor time
+// only through shared caches and memory.
 inline double CpuSeconds() {
   timespec now = {};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -110,7 +110,7 @@ Error MeasureField(const Field& field, const Choice& choice, const Settings& set
   for (const double aperture : choice.apertures) {
     for (const double quantile : choice.quantiles) {
       Group group = {&field, aperture, field.FocusAt(quantile), quantile, {}};
-      // The focus does not depend on the aperture. Options are measured with aperture 1 only.
+      // The foci do not depend on the aperture, so options are measured with aperture 1 only.
       AddModes(field, choice, &group);
       if (aperture == 1) AddOptions(field, choice, &group);
       const bool middle = quantile == choice.quantiles[choice.quantiles.size() / 2];

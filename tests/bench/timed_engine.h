@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An engine with its memory that refocuses the same picture repeatedly. Used by the bench programs.
+// Creates an engine and its memory for refocusing one light field repeatedly. Used by the bench
+// programs.
 #ifndef STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
 #define STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
 

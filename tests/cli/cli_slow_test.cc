@@ -50,7 +50,8 @@ TEST_CASE("cli: a region equals the same part of the whole picture") {
   CHECK(Contains(Text(folder.file("part.json")), "\"region\": ["));
 }
 
-TEST_CASE("cli: the frames of a video equal single pictures, but reuse blocks") {
+TEST_CASE(
+    "cli: the frames of a video equal pictures refocused singly, although blocks are reused") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 200x100 --views 5 --name wires");
   REQUIRE(fs::create_directory(folder.file("in")));

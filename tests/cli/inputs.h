@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inputs that several tests of the programs use.
+// Makes inputs that several tests of the programs use.
 #ifndef STARFOCUS_TESTS_CLI_INPUTS_H_
 #define STARFOCUS_TESTS_CLI_INPUTS_H_
 

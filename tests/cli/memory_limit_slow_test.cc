@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the programs with too little memory, under limits that increase in small steps. A program
-// must either succeed, or report that it is out of memory and leave no files.
+// must either succeed, or report "out of memory" and leave no files.
 #include <doctest/doctest.h>
 
 #include <filesystem>

@@ -35,7 +35,7 @@ TEST_CASE("program: exit codes distinguish errors of the user, the input and the
   CHECK(RunProgram("test", []() -> Error { throw std::logic_error("a test"); }) == 70);
 }
 
-TEST_CASE("program: a signal leaves no temporary file") {
+TEST_CASE("program: a program that a signal ends leaves no temporary file") {
   TempFolder folder;
   const int status = EndBySignal(SIGTERM, [&](const auto& begun) {
     RunProgram("test", [&] {
@@ -165,7 +165,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   CHECK(complete("help vid") == "video\n");
 }
 
-TEST_CASE("program: output that cannot be written is an error") {
+TEST_CASE("program: the program fails if it cannot write its output") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 20x15 --views 1");
   const std::string view = "lf/view_+0.0_+0.0.png ";

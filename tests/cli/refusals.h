@@ -54,8 +54,8 @@ inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
 }
 
 // Writes malformed files and the light field `lf`, which has 40x30 pixels and 5 views. `bare` is a
-// copy of `lf` without map, and `grid` is a copy with other names of views. `link` is a link to
-// `lf`.
+// copy of `lf` without map, and `grid` is a copy of `lf` with other names of views. `link` is a
+// link to `lf`.
 inline void Prepare(const TempFolder& folder) {
   namespace fs = std::filesystem;
   Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");

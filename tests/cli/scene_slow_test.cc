@@ -16,7 +16,7 @@
 namespace starfocus::scene_slow_test {
 namespace {
 
-// Size of most pictures. Larger pictures would take too long.
+// Width and height of most rendered pictures.
 constexpr int kWidth = 256, kHeight = kWidth * 3 / 4;
 const char* const kNames[] = {"portrait", "wires", "ramp", "hair", "grass"};
 const char* const kStrandNames[] = {"hair", "grass"};
@@ -147,7 +147,7 @@ TEST_CASE("scene: the surface in focus is sharp, and other surfaces are blurred"
   CHECK(test::Psnr(band(centre, 2).pixels, band(truth, 2).pixels) < 28);
 }
 
-TEST_CASE("scene: pictures do not depend on the number of threads, but on the seed") {
+TEST_CASE("scene: pictures depend on the seed, and not on the number of threads") {
   ThreadRunner one(1), three(3);
   constexpr int kOdd = 61;
   for (const char* name : kNames) {
@@ -357,7 +357,7 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
 
 TEST_CASE("strand scenes: the coverage of a pixel is the share that a half plane covers") {
   Scene scene;
-  // A bar with its left edge at x = 0.3. One canvas unit is one pixel in this test.
+  // A bar with its left edge at x = 0.3. With the size 1024 x 768, one canvas unit is one pixel.
   scene.surfaces.push_back(Piece(Outline::kBox, {100.3, 0, 5}, {100, 1000}, {}));
   scene.surfaces.back().foreground = true;
   ThreadRunner runner(1);

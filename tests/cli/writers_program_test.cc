@@ -26,7 +26,9 @@ void MakeScene(const TempFolder& folder, const std::string& name, const std::str
   Succeed(folder, "scene " + name + " --size 48x36 --views 5 --threads 1 " + more);
 }
 
-TEST_CASE("programs: the sessions of the table succeed") { RunSessions("cli/sessions.txt"); }
+TEST_CASE("programs: every session of cli/sessions.txt succeeds") {
+  RunSessions("cli/sessions.txt");
+}
 
 TEST_CASE("writers: a sweep writes an animation, or a sharp picture with the focus of each pixel") {
   TempFolder folder;
@@ -145,7 +147,7 @@ double Psnr(const TempFolder& folder, const std::string& names) {
   return std::atof(outcome.out.c_str() + 5);
 }
 
-TEST_CASE("views: a captured view on each additional side brings the picture closer to the truth") {
+TEST_CASE("views: each further side with a captured view raises the PSNR against ray tracing") {
   TempFolder folder;
   Succeed(folder, "scene lf --size 256x192 --views 5 --transfer none --truth=-2.4,1");
   const auto error = [&](const std::string& views) {

@@ -112,7 +112,7 @@ source_tree() {
     -DSTARFOCUS_STATIC_DISPATCH=ON
 }
 
-# Linux can be built without support for 32-bit programs. On such a system, QEMU runs the programs.
+# Linux can be built without support for 32-bit programs. If Linux lacks this support, QEMU runs the programs.
 m32() {
   library m32 -DCMAKE_C_FLAGS=-m32 -DCMAKE_CXX_FLAGS=-m32
   emulator=

@@ -182,7 +182,8 @@ TEST_CASE("colour repair: noise of the map is averaged within each surface") {
   CHECK(after < before / 20);
 }
 
-TEST_CASE("colour repair: unknown pixels get the disparity of the surface with their colour") {
+TEST_CASE(
+    "colour repair: an unknown pixel gets the disparity of the surface with the same colour") {
   const Photo truth = MakeDisc(0);
   Photo photo = truth;
   for (int y = 20; y < 40; ++y) {

@@ -61,7 +61,7 @@ double Difference(const Area& area, const std::vector<uint8_t>& a, const std::ve
   return double(sum) / double(count);
 }
 
-TEST_CASE("hair coverage: coverage is found where the map has closed the outline of hair") {
+TEST_CASE("hair coverage: a repair finds coverage where the map has closed the outline of hair") {
   const Portrait portrait = MakeClosedHair();
   const Found found = Repair(portrait);
   REQUIRE(found.status == STARFOCUS_OK);

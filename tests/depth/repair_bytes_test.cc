@@ -16,7 +16,7 @@ using namespace test;
 
 constexpr float kLow = -6, kHigh = 8;
 
-TEST_CASE("repair: displaced edges move to the edges of the picture") {
+TEST_CASE("repair: displaced edges of the map move to the edges of the picture") {
   for (const int views : {5, 9, 17}) {
     PlaneScene scene;
     scene.views = views;
@@ -78,8 +78,8 @@ TEST_CASE("repair: a correct map changes in less than 0.5 % of the pixels, and a
   CHECK(MakeMap(RenderPlanes(scene), ConfigOf(field, kLow, kHigh), plane).disparity == plane);
 }
 
-// Two sets of strands in front of a wall. Strands are approximately 1.25 pixels wide, and the sets
-// cross each other.
+// The scene has two sets of strands in front of a wall. Strands are approximately 1.25 pixels wide,
+// and the sets cross each other.
 struct StrandScene {
   static constexpr int kWidth = 96, kHeight = 80;
   static constexpr double kNear = 7, kFar = -5;

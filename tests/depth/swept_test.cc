@@ -16,7 +16,7 @@ namespace {
 using namespace starfocus;
 using test::PlaneScene;
 
-// Returns a mask of the pixels of a scene that are swept if its map is `given`.
+// Returns a mask of the pixels that a repair of the map `given` sweeps.
 std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& given) {
   const test::PlaneField field = RenderPlanes(scene);
   EstimatePlan plan = starfocus::MakePlan(ConfigOf(field, -6, 8));

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# do_test.sh SOURCES: checks the messages and exit codes of ./do build on machines without some tools. Fake programs
-# replace the tools of such machines. The programs dpkg and apt-get are absent.
+# do_test.sh SOURCES: checks the messages and exit codes of ./do build on machines without some tools. The test replaces
+# tools by fake programs. The programs dpkg and apt-get are absent.
 set -eu
 sources=$(cd "$1" && pwd)
 work=$(mktemp -d)

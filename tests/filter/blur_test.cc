@@ -24,8 +24,8 @@ namespace {
 using reference::kOne;
 static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 
-// Returns the unrounded blurred picture. PSFs of pixels behind the focus are rotated by 180
-// degrees.
+// Returns the reference of a blurred picture, with samples that are not rounded. PSFs of pixels
+// behind the focus are rotated by 180 degrees.
 std::vector<double> Reference(const test::Scene& scene, const starfocus_params& params,
                               const reference::ApertureShape& opening, int transfer) {
   double light[256];
@@ -212,8 +212,7 @@ TEST_CASE("blur: PSFs sum to exactly one, fit their types and decrease from the 
   }
 }
 
-TEST_CASE(
-    "blur: the available radii increase, and other radii are rounded to the nearest of them") {
+TEST_CASE("blur: BlurStep rounds each radius to the nearest radius that has a PSF") {
   int last = -1;
   for (int radius = 0; radius <= int(STARFOCUS_MAX_BLUR) * kOne; ++radius) {
     const int step = starfocus::BlurStep(radius);

@@ -61,8 +61,8 @@ inline void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, in
     last = 1;
   }
   for (int c = 0; c < 3; ++c) {
-    // Rounds to the engine's grid of light, since the conditions of later lines depend on the
-    // result.
+    // Rounds samples to the engine's grid of light, since the conditions of later lines depend on
+    // the result.
     const auto light = [&](int code) { return std::floor(128 * LightOf(code, transfer) + 0.5); };
     const double from = light(p0[c]), to = last > 0 ? light(q(last)[c]) : 0;
     for (int k = 0; k < last; ++k) {

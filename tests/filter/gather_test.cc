@@ -138,7 +138,8 @@ TEST_CASE("gather: for a flat surface, block mode gives the same picture as blur
           RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLUR));
       CAPTURE(radius);
       CHECK(gathered.rgb == blurred.rgb);
-      // With sRGB, light is not an integer code, so rounding may differ by a level.
+      // With sRGB, light is not an integer code, so both pictures may differ by a level after
+      // rounding.
       starfocus_config light = config;
       light.transfer = STARFOCUS_TRANSFER_SRGB;
       CHECK(LargestDifference(

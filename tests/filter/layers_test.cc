@@ -67,7 +67,7 @@ double UpTap(int k) {
   return taps[std::abs(k)];
 }
 
-// Limits a value to the range of a picture.
+// Clamps a sample to the range from 0 to 255.
 double Clamped(double value) { return std::clamp(value, 0.0, 255.0); }
 
 Image Down(Image from) {
@@ -88,7 +88,7 @@ Image Down(Image from) {
   return to;
 }
 
-// Inserts zeros between the samples and filters the result.
+// Upsamples an image: inserts zeros between the samples, and filters the result.
 Image Up(Image from, int width, int height) {
   Image to(width, height);
   for (int y = 0; y < height; ++y) {
@@ -108,7 +108,7 @@ Image Up(Image from, int width, int height) {
   return to;
 }
 
-// A layer in memory of exactly its size.
+// Owns a layer in memory of exactly the required size.
 struct Layer {
   Layer(int picture_width, int picture_height, int layer) {
     plane.width = LayerSize(picture_width, layer);
@@ -336,7 +336,7 @@ TEST_CASE("layers: samples do not depend on the size of superblocks or the SIMD 
   }
 }
 
-TEST_CASE("layers: rows that are computed alone equal the rows of the whole layer") {
+TEST_CASE("layers: a computed range of rows equals the same rows of the whole layer") {
   test::Random random(16);
   const int width = 37, height = 90;
   const std::vector<uint8_t> picture = RandomPicture(width, height, kRandom, &random);

@@ -49,8 +49,8 @@ void SetDepths(Input* input, starfocus_config* config) {
 }
 
 // Makes a configuration and the shape of the lens. With `strands`, the picture is large enough for
-// strands; otherwise it has any size. Most configurations are valid; a few have arbitrary bytes in
-// one field.
+// strands; otherwise, the picture has any size. Most configurations are valid; a few have arbitrary
+// bytes in one field.
 starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   starfocus_config config;
   starfocus_config_init(&config);
@@ -145,7 +145,7 @@ size_t Needed(size_t stride, int rows, size_t row) {
   return stride * static_cast<size_t>(rows - 1) + row;
 }
 
-// Samples of a plane, from 0 to 255.
+// Samples of coverage or of a similar plane, from 0 to 255.
 struct Levels {
   size_t stride, count;
   std::unique_ptr<uint8_t[]> samples;
@@ -266,8 +266,8 @@ void Stream(starfocus_engine* engine, const starfocus_config& config,
   }
 }
 
-// Refocuses a whole picture by one of several calls. The previous frame may be equal to the current
-// frame or different.
+// Refocuses a whole picture with one of several API functions. The previous frame may be equal to
+// the current frame or different.
 void Refocus(starfocus_engine* engine, const starfocus_config& config,
              const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
              Input* input) {

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace starfocus::fuzz {
 
-// The bytes of an input, followed by zeros.
+// Reads the bytes of an input, and zeros after the end of the input.
 class Input {
  public:
   Input(const uint8_t* data, size_t size) : data_(data), size_(size) {}

@@ -213,12 +213,12 @@ TEST_CASE("picture edge: with a pair, pixels beyond one edge are read from the s
 TEST_CASE("picture edge: pixels beyond an edge that a nearer surface covers are not read") {
   Row scene(5);
   scene.Fill(0, kWidth, -6);
-  // This surface is nearer by 7. In view (1, 0), the surface covers pixels 1 to 3 beyond the edge.
+  // In view (1, 0), a surface that is nearer by 7 covers pixels 1 to 3 beyond the edge.
   scene.Fill(4, 7, 1);
   std::vector<int> row = scene.Load();
   for (int k = 0; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 0);
   scene.Fill(3, 7, -6);
-  scene.Fill(2, 4, 1);  // this surface covers pixels 4 and 5 beyond the edge
+  scene.Fill(2, 4, 1);  // the near surface covers pixels 4 and 5 beyond the edge
   row = scene.Load();
   CHECK(row[kBorder] == 0);
   for (int k = 1; k <= kBorder; ++k) CHECK(row[size_t(kBorder - k)] == 101);

@@ -238,7 +238,7 @@ public final class RefocuserTest {
     final ByteBuffer v = chroma.duplicate();
     v.position(1);
     // Android's layout: samples of U and V are two bytes apart. Each chroma buffer is one byte
-    // shorter than half of the plane.
+    // shorter than the chroma plane.
     final Image camera = new Image(
         Image.YUV_420_888, new ByteBuffer[] {luma, chroma, v}, new int[] {WIDTH, WIDTH, WIDTH});
     camera.pixelStride = 2;

@@ -100,8 +100,8 @@ const Line kLines[] = {
       Plain(6, 9),
       {Kind::kSurface, 7, 8, 10, 11, 96}}},
 
-    // The following cases test the ends of near surfaces. Here, pixels 10 to 14 move by 4 3/4
-    // pixels, and then cover the range from 5 1/4 to 10 1/4.
+    // The following cases test the ends of near surfaces. Pixels 10 to 14 of the line move by 4 3/4
+    // pixels, to the range from 5 1/4 to 10 1/4 of the view.
     {"the background shows through the last pixel of a nearer surface",
      {{10, 0}, {5, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Moved(6, 10, 5), Rim(10, 15, 14, 64), Hole(11, 15, 15),

@@ -96,8 +96,8 @@ TEST_CASE("unmix: the near part of a sharp pixel next to a defocused surface is 
 TEST_CASE("unmix: the far colour is read from the view that sees behind the edge") {
   for (const int views : {5, 9, 17}) {
     for (const bool mirrored : {false, true}) {
-      // Only the view that sees behind the edge is grey. If another view were read, the pixel would
-      // not count as mixed.
+      // Only the view that sees behind the edge is grey. If UnmixEdges read another view, the pixel
+      // would not count as mixed.
       Scene scene(2, 6, {40, 240, 140}, views, mirrored);
       std::vector<uint8_t> other(scene.side.size(), 240);
       const int right = views == 17 ? 9 : 1, left = right + 1, behind = mirrored ? right : left;

@@ -302,7 +302,8 @@ void CheckMap(Map map, int superblock, Tallies* tallies) {
   }
 }
 
-TEST_CASE("cells: no pixel beyond a border reaches its block, on random disparity maps") {
+TEST_CASE(
+    "cells: on random disparity maps, no pixel beyond the border of a block reaches the block") {
   test::Random random(11);
   Tallies tallies;
   constexpr int kWidths[] = {1, 7, 8, 9, 15, 16, 17, 23, 40, 64, 71, 90};
@@ -370,7 +371,7 @@ TEST_CASE("cells: the border of a pixel with a large blur is measured from the p
   CHECK(reach(starfocus::kRight) == all);
 }
 
-TEST_CASE("cells: one pixel out of focus widens only the borders of the blocks that it reaches") {
+TEST_CASE("cells: a pixel out of focus widens only the borders of blocks that the pixel reaches") {
   // Pixel (24 + k, 40) has radius 5 and is next to the block of 16 at (32, 32).
   for (int k = 0; k < 8; ++k) {
     Map map = EmptyMap(96, 96, 0, 1);

@@ -52,7 +52,7 @@ TEST_CASE("encoder: steps of both directions are counted from any level at rest"
   }
 }
 
-TEST_CASE("encoder: a step is counted at the last of its four edges") {
+TEST_CASE("encoder: a step is counted at the last of the four edges of a detent") {
   QuadratureDecoder decoder;
   CHECK(decoder.EdgeOfA(false) == 0);
   CHECK(decoder.EdgeOfB(false) == 0);
@@ -260,8 +260,8 @@ TEST_CASE(
   screen.red = {11, 5};
   screen.green = {5, 6};
   screen.blue = {0, 5};
-  // The screen has room for one of two pixels. Cropping half a pixel on the left rounds to 0, so
-  // the left pixel is visible.
+  // The screen shows one pixel of a picture of two pixels. Cropping half a pixel on the left rounds
+  // to 0, so the left pixel is visible.
   Draw(picture, screen);
   const uint32_t pixel = (255u >> 3 << 11) | (128u >> 2 << 5) | (8u >> 3);
   CHECK(memory[0] == (pixel & 255));

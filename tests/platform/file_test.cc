@@ -46,7 +46,7 @@ TEST_CASE("file: writing through a link keeps the link") {
   CHECK(Read(folder.file("real")) == "new");
 }
 
-TEST_CASE("file: errors are one line") {
+TEST_CASE("file: the message of an error is one line") {
   CHECK(Expected("a\nb", "c", "d\te") == "a b: expected c, found d e");
   CHECK(Cannot("read", "a\nb", "c") == "cannot read a b: c");
 }

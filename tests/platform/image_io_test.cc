@@ -160,7 +160,7 @@ TEST_CASE("image_io: a JPEG table that is too short for its number of codes is r
   REQUIRE(bytes.end() - table > 4 + 17);
   std::fill_n(table + 4 + 1, 16, uint8_t{17});
   const auto names_table = [](const Bytes& broken) {
-    const Result<Image> read = ReadBytes(broken);  // fails in libjpeg-turbo or stb_image
+    const Result<Image> read = ReadBytes(broken);  // the error is from libjpeg-turbo or stb_image
     return Contains(read, "Huffman table") || Contains(read, "code table");
   };
   CHECK(names_table(bytes));

@@ -95,7 +95,7 @@ TEST_CASE("light_field: views at any positions are read back, with the centre fi
   LightField back = ValueOf(LoadLightField(folder.path(), {}));
   REQUIRE(back.views.size() == 4);
   CHECK_FALSE(AreStar(back.positions));
-  // Views of the star come first. All other views follow in the order of u.
+  // The loader returns views of the star first. All other views follow the star in the order of u.
   const int order[] = {0, 3, 2, 1};
   for (size_t i = 0; i < 4; ++i) {
     CHECK(back.views[i].pixels[0] == 10 * order[i] + 3);

@@ -326,7 +326,7 @@ std::string Turned(std::string file) {
   const size_t chunk = file.find("eXIf");
   if (chunk == std::string::npos) return file;
   const size_t size = static_cast<uint8_t>(file[chunk - 2]) * 256u +
-                      static_cast<uint8_t>(file[chunk - 1]) + 4;  // data and name of the chunk
+                      static_cast<uint8_t>(file[chunk - 1]) + 4;  // with the name of the chunk
   return file.replace(chunk + size, 4, Big(Crc(file.substr(chunk, size)), 4));
 }
 
@@ -435,7 +435,7 @@ TEST_CASE("HEIF: a picture that refers to itself or declares a wrong size is rej
                  "32768 pixels for each byte"));
   CHECK(Contains(error(Changed(depth, "ispe", 4, std::string("\0\0\x10\0\0\0\x10\0", 8))),
                  "not much larger"));
-  // The product exceeds 64 bits. Sanitizers would detect an overflow.
+  // The product of width and height exceeds 64 bits. Sanitizers would detect an overflow.
   CHECK(Contains(error(Changed(depth, "ispe", 4, std::string("\xff\xff\xff\xff\xff\0\0\0", 8))),
                  "16384 pixels wide and high"));
   CHECK(Contains(error(Changed(depth, "dimg", 4, std::string("\0\x09", 2))), "a missing picture"));

@@ -305,8 +305,9 @@ TEST_CASE("photos: an auxiliary depth picture of HEIC is read") {
 #endif
 }
 
-TEST_CASE("photos: starfocus reads GDepth files of exiftool, and exiftool reads those of the test" *
-          doctest::test_suite("exiftool")) {
+TEST_CASE(
+    "photos: GDepth files that exiftool writes are read, and exiftool reads the test's files" *
+    doctest::test_suite("exiftool")) {
   if (!CanReadXmp() || std::system("command -v exiftool >/dev/null 2>&1") != 0) {
     std::printf("SKIPPED: exiftool is not there\n");
     return;
@@ -335,7 +336,7 @@ TEST_CASE("photos: starfocus reads GDepth files of exiftool, and exiftool reads 
   CHECK(double(disparity.at(5, 3)) == doctest::Approx(per_diopter / 3));
 }
 
-TEST_CASE("parts of the data sets: photographs of phones are refocused near and far" *
+TEST_CASE("photos: the phone photographs of the data sets are refocused near and far" *
           doctest::test_suite("data_sets")) {
   const std::string photos = STARFOCUS_DATA_DIR "/photos/";
   if (!fs::exists(photos)) {
@@ -353,7 +354,7 @@ TEST_CASE("parts of the data sets: photographs of phones are refocused near and 
   Succeed(folder, "refocus " + shelf + " -o far.png --focus 0");
   CHECK(std::atof(Call(folder, "compare near.png far.png").out.c_str() + 5) < 40);
 #ifdef STARFOCUS_HAS_HEIF
-  // The expected values come from another reader of the same file.
+  // The expected values come from a separate program that reads the same file.
   Capture capture = ValueOf(OpenCapture(photos + "pug.heic", {}));
   CHECK(capture.light_field.width() == 4032);
   CHECK(!capture.metadata.exif.empty());

@@ -99,7 +99,7 @@ TEST_CASE("Stanford: the star of the grid is read, in the order of the positions
   CHECK(capture.light_field.views.size() == 17);
   CHECK(LevelAt(capture, 0, 0) == 23);
   CHECK(LevelAt(capture, 1, 0) == 25);
-  CHECK(LevelAt(capture, 0, 1) == 3);  // the largest Y is in row 0
+  CHECK(LevelAt(capture, 0, 1) == 3);  // row 0 has the largest Y
   CHECK(LevelAt(capture, 0.5, -0.5) == 34);
   CHECK(capture.widest == 0);
   WriteStanford(turned, [](int row, int column) {

@@ -19,8 +19,8 @@ namespace {
 
 using namespace photos;
 
-// Checks that a GDepth photo with these attributes opens with a note. The levels of such a photo
-// define only an order, in which black is near by default.
+// Checks that a GDepth photo with the given attributes opens with a note. The levels of such a
+// photo define only an order, in which black is near by default.
 void CheckOrder(const std::string& attributes) {
   CAPTURE(attributes);
   Capture capture;
@@ -117,7 +117,7 @@ TEST_CASE("extended XMP that no packet names is used if there is no other map") 
   }
 }
 
-TEST_CASE("XMP: a second packet is read, even if the other packet is malformed") {
+TEST_CASE("XMP: the packet with the depth map is read, even if another packet is malformed") {
   if (!CanReadXmp()) return;
   const std::string rights = "xmlns:dc=\"http://purl.org/dc/elements/1.1/\" dc:format=\"x\"";
   const std::string depth = XmpSegment(Packet(kGoogle, kInverse + Data(RampPng())));
@@ -152,7 +152,7 @@ TEST_CASE("Apple's JPEG: the map is found if its index is wrong, moved or lost")
     check(MultiPicture(Photo(), map, {little, 32, 1000}), wrong);
     check(MultiPicture(Photo(), map, {little, 32, 0x80000000}), wrong);
     // An editor inserts a segment before the index. The offsets in the index are relative to the
-    // index, so they remain valid.
+    // index and therefore remain valid.
     check(Insert(MultiPicture(Photo(), map, {little}), ExifSegment(1, 50)), "");
   }
   check(Photo() + map, "the file has no multi-picture index");
@@ -195,11 +195,11 @@ TEST_CASE("a stereo pair in one file has two views and no map") {
     }
   }
   CHECK(open("a.mpo", Photo() + second));
-  // An entry at a wrong offset has a type that does not exist.
+  // This index has an entry whose offset is wrong and whose type does not exist.
   CHECK(open("a.mpo", MultiPicture(Photo(), second, {false, 32, 5, 0x123456})));
   CHECK(open("a.jpg", MultiPicture(Photo(), second)));
-  // These files are not pairs: a file without any sign of a pair, pictures of different sizes, a
-  // large preview, and a gain map.
+  // The following files are not pairs: a file without any sign of a pair, pictures of different
+  // sizes, a large preview, and a gain map.
   CHECK(!open("a.jpg", Photo() + second));
   CHECK(!open("a.mpo", MultiPicture(Photo(), Encode(Ramp(kWidth / 2, kHeight / 2), ".jpg"))));
   CHECK(!open("a.mpo", MultiPicture(Photo(), second, {false, 32, 0, 0x010002})));

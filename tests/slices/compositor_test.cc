@@ -162,7 +162,7 @@ TEST_CASE("stack: slices that are computed in several parts give the same pictur
 
 int ranges_found = 0;
 
-// Cancels as soon as the first slices have been found.
+// Cancels the call as soon as the first slices have been found.
 int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
 
 TEST_CASE("stack: no more tiles are computed after cancellation") {

@@ -28,12 +28,13 @@ TEST_CASE("surfaces: captured views show the background behind a near square") {
     scene.Find();
     CAPTURE(views);
     // A view at distance 1 sees the far surface up to four pixels behind the edge. The engine finds
-    // one more pixel.
+    // the far surface up to five pixels behind the edge.
     for (int x = 12; x < 28; ++x) {
       const int distance = std::min(x - 11, 28 - x);
       CHECK(scene.Behind(x, 20) == (distance <= 5 ? 1 : -1000));
     }
-    // The left view shows the far point one pixel farther to the right.
+    // The left view shows the point of the far surface one pixel farther to the right than the
+    // centre view.
     CHECK(scene.Colour(13, 20, 2) == 2);
     CHECK(scene.Colour(13, 20, 0) == 14);
     CHECK(scene.Colour(13, 20, 1) == 20);

@@ -84,15 +84,16 @@ TEST_CASE("matte: a defocused background contains no light of a sharp surface") 
   for (const int views : {1, 5}) {
     const std::vector<int> row = MiddleRow(Mixed(0, -6, views), 0);
     CAPTURE(views);
-    CHECK(std::abs(row[kEdge - 1] - 90) <= 1);  // the quarter of the sharp surface remains
+    // The mixed pixel still shows a quarter of the sharp surface.
+    CHECK(std::abs(row[kEdge - 1] - 90) <= 1);
     for (int x = 4; x < kEdge - 1; ++x) CHECK(row[size_t(x)] == kFar);
     for (int x = kEdge; x < kWidth - 4; ++x) CHECK(row[size_t(x)] == kNear);
   }
 }
 
 TEST_CASE("matte: a pixel is split only if its surfaces move apart by more than a pixel") {
-  // With three views along the radius, the outermost view is at 96/94 of the radius. With this
-  // aperture, the outermost view is at 1.
+  // With three views along the radius, the outermost view is at 96/94 of the radius. With the
+  // aperture 94/96, the outermost view is therefore at 1.
   constexpr double kAperture = 94.0 / 96, kLeast = 1.0 / 64;
   const std::vector<int> whole = MiddleRow(Mixed(0, -1, 5), 0, false, kAperture);
   CHECK(whole[kEdge - 2] > kFar);

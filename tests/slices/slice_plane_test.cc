@@ -33,7 +33,7 @@ int ReachOf(const Views& views, double focus, double aperture, int disparity) {
   return placed.reach;
 }
 
-TEST_CASE("slice planes: no slice of any N reaches farther than its memory allows") {
+TEST_CASE("slice planes: for any N, the reach of a slice is at most LargestSliceReach") {
   test::Random random(7);
   std::vector<Views> all;
   for (int n = 1; n <= 26; ++n) all.emplace_back(n);

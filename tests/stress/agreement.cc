@@ -15,7 +15,8 @@ namespace {
 
 // The following limits apply if the focus or the aperture of a flat scene changes by a small step.
 // Each limit is the largest change of a pixel, in 255ths of white. The limit kSmoothJump applies if
-// neither the layer nor N by (9) changes. The weights of the views then change gradually.
+// neither the layer nor N by (9) changes. With constant layer and N, the weights of the views
+// change gradually.
 constexpr int kSmoothJump = 12;
 // Limit for steps of the lens that change N by (9) or N of the benchmark. At r = 1, five views
 // become thirteen, and the two PSFs differ by 1e-2 (Fig. 6 below N = 4). The difference is larger
@@ -81,9 +82,9 @@ Outcome Mirrors(test::Random* random) {
   setup.config.width = setup.scene.width;
   setup.config.height = setup.scene.height;
   setup.config.superblock = 32;
-  // layers keep every second pixel, starting at the left and the top
+  // subsampling starts at the left and the top, so layers are not symmetric
   setup.config.tuning.max_layer = 0;
-  // Among equally near pixels, coverage uses the first one in row order, which is not symmetric.
+  // Among equally near pixels, coverage uses the first pixel in row order, which is not symmetric.
   // With the disparity range of strands, such pixels are frequent.
   if (setup.strands) setup.config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   // Polygons and cat's eyes are not symmetric.
@@ -127,7 +128,8 @@ Outcome SideViews(test::Random* random) {
   return {0, ""};
 }
 
-// Changes the focus or the aperture by a small step. The error is the largest change of a pixel.
+// Changes the focus or the aperture by a small step. Outcome::error is the largest change of a
+// pixel.
 Outcome Continuity(test::Random* random) {
   Setup setup = FlatSetup(random->Int(8, 40), random->Int(8, 30), RandomRadius(8, random), random);
   SetColours(random->Int(0, 1) == 0 ? Colours::kSmooth : Colours::kNoise, &setup.scene, random);

@@ -32,7 +32,7 @@ starfocus_status Retried(Rig* rig, test::Random* random,
 std::string Verdict(const Rig& rig, starfocus_status status, const std::vector<uint8_t>& expected,
                     const test::Output& out);
 
-// Calls that are defined in separate files. Each function returns a description of the failure, or
+// Declares calls that separate files define. Each function returns a description of the failure, or
 // an empty string.
 std::string Streamed(const Asked& asked, test::Random* random);
 std::string After(const Asked& asked, test::Random* random);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The families of stress cases.
+// Declares the families of stress cases.
 #ifndef STARFOCUS_TESTS_STRESS_FAMILIES_H_
 #define STARFOCUS_TESTS_STRESS_FAMILIES_H_
 

@@ -12,7 +12,7 @@
 namespace starfocus::stress {
 namespace {
 
-// Largest change of the mean brightness, in grey levels.
+// Largest allowed change of the mean brightness, in grey levels.
 constexpr double kMostEnergy = 0.05;
 // Inverting a picture inverts the result, except for the rounding of halves. Rounding occurs once
 // per pixel at layer 0, and a few times more at other layers.
@@ -79,7 +79,8 @@ Outcome CheckInversion(Setup setup, test::Random* random) {
   for (size_t i = 0; i < plain.size(); ++i) {
     outcome.error = std::max<double>(outcome.error, std::abs(plain[i] + other[i] - 255));
   }
-  // Deblocking compares rounded differences with a threshold, so its decisions may differ.
+  // Deblocking compares rounded differences with a threshold, so a picture and its inverse may be
+  // deblocked differently.
   const bool deblocked = MayResample(setup) && setup.config.tuning.deblocking > 0;
   const double most = deblocked ? setup.config.tuning.deblocking + kMostInversion : kMostInversion;
   if (outcome.error > most)
@@ -148,7 +149,8 @@ Outcome Squares(test::Random* random) {
 }
 
 Outcome Limits(test::Random* random) {
-  // The largest benchmark has 205,000 views, so this case is rare and has one or two pixels.
+  // In benchmark mode, the number of views grows with the square of the radius. Cases in this mode
+  // are therefore rare and have one pixel.
   const int kind = random->Int(0, 63);
   Setup setup;
   constexpr int kViews[] = {1, 5, 9, 17};

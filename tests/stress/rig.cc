@@ -51,7 +51,8 @@ Memory::Memory(size_t bytes, int poison, test::Random* random)
   auto* to = static_cast<uint8_t*>(memory_.get());
   if (poison >= 0 && poison <= 255) std::memset(to, poison, bytes);
   if (poison <= 255) return;
-  // The period of random bytes is not a multiple of the element sizes of tables.
+  // The random bytes repeat with a period of 1021 bytes, which is not a multiple of the element
+  // sizes of tables.
   const size_t drawn = std::min<size_t>(bytes, 1021);
   for (size_t i = 0; i < drawn; ++i) to[i] = random->Byte();
   for (size_t i = drawn; i < bytes; i += drawn) std::memcpy(to + i, to, std::min(drawn, bytes - i));
