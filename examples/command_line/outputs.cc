@@ -26,7 +26,7 @@ fs::path NameOf(const fs::path& path) {
   return name.has_filename() ? name : name.parent_path();  // "folder/"
 }
 
-// Returns true if both names refer to the same file, including through hard links.
+// Returns true if `a` and `b` are names of the same file, for example hard links.
 bool AreOneFile(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return fs::equivalent(a, b, ignored);

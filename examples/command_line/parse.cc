@@ -46,7 +46,7 @@ void AddCommandOptions(const Command& command, Error* wrong, CLI::App* app) {
   for (const Option& option : command.options) AddOption(option, wrong, app);
 }
 
-// Returns the text below the options: notes, then examples.
+// Returns the text that the help shows below the options: notes, followed by examples.
 std::string FooterOf(const Command& command) {
   std::string text = command.footer;
   if (command.examples.empty()) return text;

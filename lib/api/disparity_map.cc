@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// C API: measures disparity maps and fills their gaps. These functions require no engine.
+// C API: measures disparity maps and fills their gaps. The functions for disparity maps require no
+// engine.
 #include "lib/api/validate.h"
 #include "lib/base/gaps.h"
 #include "starfocus/starfocus.h"

@@ -17,8 +17,8 @@ constexpr int32_t kFlat = kPixel / 2;
 // the corner of a surface, at least 8 of the 25 pixels are flat; on a ramp, at most 5 are.
 constexpr int32_t kLeastFlat = 8;
 constexpr int32_t kFlatRadius = 2;
-// Width and height in pixels of the cells that are tested for flatness as a whole. Most of these
-// cells are flat.
+// Width and height in pixels of the cells that are tested for flatness as a whole. Most cells are
+// flat, so testing whole cells saves time.
 constexpr int32_t kFlatCell = 4;
 // Largest standard deviation of noise that is invisible in a refocused picture, in fixed point
 // (kDisparityBits).

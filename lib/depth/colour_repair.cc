@@ -174,9 +174,9 @@ void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
       differs && !changes ? uint8_t{0} : job.memory->certainty[at];
 }
 
-// Writes `disparity` to the output if it differs from the pixel's disparity in the job's map. The
-// confidence of a changed pixel is set to 0, because the colour of the pixel alone does not support
-// the change.
+// Writes `disparity` to the output if `disparity` differs from the pixel's disparity in the job's
+// map. The confidence of a changed pixel is set to 0, because the colour of the pixel alone does
+// not support the change.
 void Change(const ColourJob& job, int32_t x, int32_t y, int16_t disparity) {
   if (disparity == job.map.disparity[job.map.At(x, y)]) return;
   const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
@@ -337,7 +337,8 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   auto* counts = arena.Take<TileCount>(tiles);
   auto* soft = arena.Take<SoftCount>(tiles);
   const ThinCells thin = TakeThinCells(GridOf(plan), &arena);
-  // The search for coverage runs first, so its memory may overlap the memory of all later phases.
+  // The search for coverage runs first, so the memory of the search may overlap the memory of all
+  // later phases.
   arena.Reuse(mark);
   const HairMemory hair = TakeHairMemory(plan, &arena);
   arena.GoOn();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repairs the disparity map of a single view using the colours of the view. The paper uses a
-// bilateral weighted median for this purpose (VII-A). First, disparities are averaged within
-// surfaces to reduce noise. Near steps and on ramps of the map, each pixel is then assigned to the
-// surrounding surface that matches its hue, saturation and brightness best. Finally, nearer
-// surfaces are widened if edges of the picture are soft, and outlines are smoothed.
+// Repairs the disparity map of a single view using the colours of the view. The paper repairs maps
+// with a bilateral weighted median (VII-A). First, disparities are averaged within surfaces to
+// reduce noise. Near steps and on ramps of the map, each pixel is assigned to the surrounding
+// surface that best matches the pixel's hue, saturation and brightness. Finally, nearer surfaces
+// are widened if edges of the picture are soft, and outlines are smoothed.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 
@@ -61,13 +61,13 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // Repairs light_field.depth using the colours of the centre view, and writes the result to
 // `output`. At least one pixel of light_field.depth must be finite.
 //
-// A pixel keeps its disparity exactly if the colours do not contradict the map at the pixel. There
-// are two exceptions: noisy maps are smoothed, and a pixel may change if most neighbours of similar
-// colour belong to another surface. Unknown pixels (NaN or infinite) get a disparity.
+// A pixel keeps its disparity exactly if the colours do not contradict the map at the pixel. Even
+// without contradiction, noisy maps are smoothed, and a pixel may change if most neighbours of
+// similar colour belong to another surface. Unknown pixels (NaN or infinite) get a disparity.
 //
 // The confidence is 255 at pixels without doubt. The confidence is 0 if the colours contradict the
-// map, but too weakly for a change. The confidence is also 0 at pixels changed by the widening or
-// smoothing of outlines.
+// map, but too weakly for a change. At pixels changed by the widening or smoothing of outlines, the
+// confidence is 0.
 //
 // If output.coverage is not null and the map shows hair as a solid shape, the function writes the
 // coverage of the hair and sets memory->has_coverage. Disparities of hair are not changed

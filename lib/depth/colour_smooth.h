@@ -28,7 +28,7 @@ struct SmoothMemory {
   int32_t rows[kRows][4 * kPlane];
 };
 
-// Smooths the pixels of `tile` and writes them to the map `smooth`.
+// Smooths the pixels of `tile` and writes the smoothed disparities to the map `smooth`.
 void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
                 const simd::DepthKernels& kernels, SmoothMemory* memory, int16_t* smooth);
 

@@ -59,7 +59,7 @@ struct TileMemory {
 struct EstimateMemory {
   JobSet jobs;
   // Disparities of the whole picture after the first sweep, which ignores occlusion, in fixed point
-  // (kDisparityBits). A repair later stores the result of EvenOut here.
+  // (kDisparityBits). After the sweeps, a repair stores the result of EvenOut in `first`.
   int16_t* first;
   int16_t* second;     // disparities after the second sweep, which omits hidden views
   uint8_t* certainty;  // certainty of the second sweep

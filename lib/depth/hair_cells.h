@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stores, for cells of 4 x 4 pixels, the two surfaces that meet at large depth edges: foreground
-// (near) and background (far). The search for hair coverage classifies pixels as near or far with
-// the help of these cells.
+// (near) and background (far). The search for hair coverage uses the two surfaces of a cell to
+// classify pixels as near or far.
 #ifndef STARFOCUS_LIB_DEPTH_HAIR_CELLS_H_
 #define STARFOCUS_LIB_DEPTH_HAIR_CELLS_H_
 
@@ -45,7 +45,7 @@ struct HairCells {
 };
 HairCells TakeHairCells(int32_t width, int32_t height, Arena* arena);
 
-// Returns true if a cell with these marks may have near pixels.
+// Returns true if a cell whose marks are `marks` may have near pixels.
 inline bool MayHaveNear(uint8_t marks) { return marks != 0 && (marks & HairCells::kIsFar) == 0; }
 
 // Measures `low`, `high`, `farthest` and `nearest` of a cell.

@@ -9,7 +9,7 @@
 namespace starfocus {
 
 // Count the near pixels that look like background. CountInside processes only the cells with
-// kIsInside, and CountCells all cells.
+// kIsInside, and CountCells processes all cells.
 void CountInside(const void* data, int32_t index, int32_t worker);
 void CountCells(const void* data, int32_t index, int32_t worker);
 

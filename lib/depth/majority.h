@@ -16,9 +16,9 @@ inline constexpr int32_t kMajorityReach = 2, kMajorityStep = 2 * kSurfaceStep;
 // Largest length in pixels of a row for TakeMajority.
 inline constexpr int32_t kMostMajority = 32;
 
-// Writes the disparities of a row of pixels. A pixel keeps its disparity unless the other surface
-// has a larger weight among the surrounding pixels of similar colour. A pixel that changes gets the
-// weighted mean disparity of the other surface's pixels.
+// Writes the disparities of a row of pixels. A pixel keeps its disparity unless another surface has
+// a larger weight among the surrounding pixels of similar colour. A pixel that changes gets the
+// weighted mean disparity of the pixels on its new surface.
 void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity);
 
 }  // namespace starfocus

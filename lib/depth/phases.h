@@ -11,8 +11,8 @@ namespace starfocus {
 
 class Phases {
  public:
-  // `count` is the number of phases of the whole API call. The progress function reports progress
-  // as a share of these phases.
+  // `count` is the number of phases of the whole API call. Progress is reported as a share of all
+  // phases of the API call.
   Phases(const EstimatePlan& plan, int32_t count, JobSet* jobs)
       : tiles_(plan.columns * plan.rows), count_(count), jobs_(jobs) {}
 

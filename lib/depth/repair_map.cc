@@ -28,8 +28,8 @@ constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
 // distance spans a ramp of 12 pixels and the untrusted pixels at the ends of the ramp.
 constexpr int32_t kNearReach = 16;
 // Largest cost of a pixel that the views show clearly. The cost corresponds to 11 grey levels. In
-// images of hair in front of a wall, half of the pixels of the wall and a twentieth of the mixed
-// pixels have a smaller cost.
+// images of hair in front of a wall, half of the wall pixels and a twentieth of the mixed pixels
+// have a smaller cost.
 constexpr int32_t kClearCost = 44;
 
 size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
@@ -69,8 +69,8 @@ struct Mean {
   int32_t Value() const { return (2 * sum + (sum < 0 ? -count : count)) / (2 * count); }
 };
 
-// Returns the mean disparity, around pixel (x, y), of the surface at disparity `own`. Trusted
-// disparities are preferred.
+// Returns the mean disparity, around pixel (x, y), of the surface at disparity `own`. If trusted
+// disparities of this surface exist, only trusted disparities are averaged.
 int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
                       int32_t own) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);

@@ -11,7 +11,7 @@
 namespace starfocus {
 
 // Converts the given disparities of a tile to fixed point (kDisparityBits). Disparities that are
-// not finite become kNoSurface. Initialises the maps of both sweeps with the result.
+// not finite become kNoSurface. Initialises the maps of both sweeps with the converted disparities.
 void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_field, const Rect& tile,
                EstimateMemory* memory);
 

@@ -37,7 +37,8 @@ int32_t SoftnessOf(const SoftCount* counts, int32_t tiles);
 
 // Returns the disparity of the nearest surface that is much nearer than pixel (x, y) and that the
 // pixel shows in part. The surface is searched along the row and the column of the pixel, within
-// `softness` pixels. Returns the pixel's own disparity if there is no such surface.
+// `softness` pixels. If the pixel shows no part of a nearer surface, returns the pixel's own
+// disparity.
 int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y);
 
 }  // namespace starfocus

@@ -33,7 +33,7 @@ struct ThinCells {
   uint16_t* beside;  // number of pixels that are next to much nearer pixels
   // True if many pixels of the cell and of its neighbours are next to much nearer pixels.
   uint8_t* dense;
-  uint8_t* thin;  // true if a cell nearby is dense
+  uint8_t* thin;  // true if the cell is near a dense cell
 };
 ThinCells TakeThinCells(const ThinGrid& grid, Arena* arena);
 

@@ -66,7 +66,7 @@ Rect PartInside(const EstimatePlan& plan, const TileViews& views) {
 }
 
 // A surface hides a pixel of a view if the surface is nearer by more than kSurfaceDepth
-// (kDisparityBits). Estimates of one surface differ by less.
+// (kDisparityBits). Estimated disparities of one surface differ by less than kSurfaceDepth.
 constexpr int32_t kSurfaceDepth = 1 << kDisparityBits;
 
 // Returns the number of labels that a pixel at disparity d hides. The hidden labels are always the

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Describes the caller's light field during an API call. Disparities are converted when they are
 // loaded. Views are read in place if all views are packed RGB. If a view has another format, the
-// engine converts rows of the centre view into a ring buffer, and converts pixels of side views
-// when the pixels are read.
+// engine converts rows of the centre view into a ring buffer. Pixels of side views are then
+// converted when the pixels are read.
 #ifndef STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 #define STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 

@@ -25,9 +25,9 @@ starfocus_config ReducedConfig(const starfocus_config& config, int shift);
 void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field);
 
 // Reduces rows [rows.first, rows.last) of the light field in the engine's windows by all shifts
-// from 1 to `previews`. The results are written to fields[shift]; disparities are read from
-// `disparity`. rows.first and rows.last must be multiples of the superblock size; rows.last may
-// also be the height of the picture.
+// from 1 to `previews`. Writes the results to fields[shift]. Reads disparities from `disparity`.
+// rows.first and rows.last must be multiples of the superblock size; rows.last may also be the
+// height of the picture.
 starfocus_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
                             const ReducedField* fields, EngineState* engine);
 

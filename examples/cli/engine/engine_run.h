@@ -54,7 +54,8 @@ class EngineRun {
   Result<EngineResult> RefocusAfter(const std::string& where, const EngineTask& task,
                                     const LightField& before, const Image& picture);
 
-  // Returns the engine's threads, for other work between its pictures.
+  // Returns the runner of the engine's threads, which can do other work while no picture is
+  // refocused.
   ThreadRunner* runner() { return &runner_; }
 
  private:

@@ -15,8 +15,8 @@ namespace starfocus {
 // Returns the member "timing" of a timing file.
 Json TimingJson(const starfocus_timing& timing);
 
-// Reads the member "timing", which must contain all coefficients and nothing else. Other members of
-// the file are ignored as comments.
+// Reads the member "timing", which must contain all coefficients and nothing else. Members other
+// than "timing" are ignored as comments.
 Result<starfocus_timing> ReadTiming(const std::string& path);
 
 }  // namespace starfocus

@@ -29,8 +29,8 @@ void AddInputOptions(Command* command, InputOptions* options,
                      std::vector<std::string>* several = nullptr);
 void AddMapOptions(Command* command, MapOptions* options);
 
-// Opens the input (OpenCapture) and prints its notes to stderr. The map of a photo is not resized
-// before LoadInput.
+// Opens the input (OpenCapture) and prints notes about the input to stderr. The map of a photo is
+// not resized before LoadInput.
 Result<Capture> OpenInput(const InputOptions& options);
 
 // Reads the map, and the views at the positions `views`, or all views if `views` is empty. A

@@ -108,7 +108,7 @@ bool IsBatch(const std::vector<std::string>& inputs, const std::string& out) {
   std::error_code ignored;
   if (inputs.size() > 1 || fs::is_directory(out, ignored)) return true;
   if (out.empty() || out.back() == '/') return !out.empty();
-  // A folder of photographs also counts as several inputs.
+  // A folder of photographs counts as several inputs.
   return inputs.size() == 1 && fs::is_directory(inputs[0], ignored) &&
          FormatExtension(out).empty() && !IsLightField(inputs[0]);
 }

@@ -15,15 +15,15 @@ struct BatchItem {
   std::string input, output;
 };
 
-// Returns true if the command writes pictures to a folder. A folder is used if there are several
-// inputs, or if the output is an existing folder or ends with "/".
+// Returns true if the command writes pictures to a folder. The output is a folder if there are
+// several inputs, or if `out` is an existing folder or ends with "/".
 bool IsBatch(const std::vector<std::string>& inputs, const std::string& out);
 
 // Chooses the output file of each input. An output file has the name of its input. Inputs of the
-// formats .jpg, .png, .ppm and .webp keep their format. The output of other files is .jpg, and the
-// output of light fields is .png. A folder that is not a light field is replaced by the photographs
-// and light fields in it. Returns an error if outputs coincide with each other or with inputs. If
-// all outputs are valid, creates the output folder.
+// formats .jpg, .png, .ppm and .webp keep their format. Inputs of other file formats get the output
+// format .jpg, and light fields get the output format .png. A folder that is not a light field is
+// replaced by the photographs and light fields in it. Returns an error if outputs coincide with
+// each other or with inputs. If all outputs are valid, creates the output folder.
 Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,
                                          const std::string& folder);
 

@@ -13,9 +13,9 @@ constexpr int kTintPercent = 40;
 
 int Grey(const uint8_t* rgb) { return (77 * rgb[0] + 150 * rgb[1] + 29 * rgb[2] + 128) >> 8; }
 
-// Tints a block, and draws an outline along the first row and column of the block. The neighbouring
-// blocks draw the outline of the other two sides. The first pixel of `map` is pixel (left, top) of
-// the picture.
+// Tints a block, and draws an outline along the first row and column of the block. The outline
+// along the last row and column belongs to the neighbouring blocks. The first pixel of `map` is
+// pixel (left, top) of the picture.
 void DrawBlock(const starfocus_block& block, int left, int top, Image* map) {
   const uint8_t* color = kLayerColors[block.layer];
   const int begin = std::max(block.x, left);

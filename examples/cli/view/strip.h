@@ -19,7 +19,7 @@ struct LensAt {
   double focus = 0, aperture = 1;
 };
 
-// Returns the largest blur radius of a picture with this lens.
+// Returns the largest blur radius of a picture that is refocused with `lens`.
 double BlurOf(const LensAt& lens, const starfocus_disparity_stats& stats);
 
 // Returns `count` foci at equal steps of disparity, from far to near. The foci cover the known

@@ -40,8 +40,8 @@ typedef int (*starfocus_runner)(void* runner_data, starfocus_job job, void* job_
  *  The callback must not use the engine or the engine's memory.
  *
  *  After cancellation the callback is not called again, and the engine's call returns
- *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output is then unspecified,
- *  and the engine can be used again. For streams, see starfocus_stream_pull.
+ *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output of a cancelled call is
+ *  unspecified, and the engine can be used again. For streams, see starfocus_stream_pull.
  *  @param data starfocus_callbacks.progress_data
  *  @param rows_done number of finished rows, which never decreases within a call and ends at `rows`
  *  @param rows number of all rows

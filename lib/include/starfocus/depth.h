@@ -53,9 +53,9 @@ typedef struct starfocus_depth_config {
                      starfocus_repair_disparity; default 5 */
   double disparity_min; /**< smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0 */
   /** Largest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. The disparity range is
-   *  searched in steps of half a pixel. If the disparity range is wider than 64 pixels, the steps
-   *  are one pixel or more, so that the number of steps is at most 128. Disparities between two
-   *  steps are interpolated. */
+   *  searched in steps of half a pixel. In a disparity range wider than 64 pixels, the steps are
+   *  one pixel or more. The number of steps is at most 128. Disparities between two steps are
+   *  interpolated. */
   double disparity_max;
   int32_t max_workers;     /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
   starfocus_runner runner; /**< runs jobs; default null: the calling thread runs them */
@@ -94,8 +94,8 @@ static inline void starfocus_depth_config_init(starfocus_depth_config* config) {
 }
 
 /** Computes the workspace size of starfocus_estimate_disparity: 5 bytes per pixel of the picture,
- *  plus memory for each worker. Each worker takes up to 1.2 MB per pixel of the disparity range,
- *  plus about 10, 20 or 45 MB with 5, 9 or 17 views.
+ *  plus memory for each worker. Each worker takes up to 1.2 MB per pixel of the disparity range. In
+ *  addition, each worker takes about 10, 20 or 45 MB with 5, 9 or 17 views.
  *  @param config configuration
  *  @param bytes receives the size in bytes
  *  @return STARFOCUS_OK, or an error of the configuration */
@@ -129,10 +129,11 @@ STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_d
                                                                size_t* bytes);
 
 /** Repairs the disparity map of a light field: removes noise, fills unknown values, and corrects
- *  edges that are blurred, too coarse, or not at the edges of the picture.
+ *  edges. Corrected edges are edges that are blurred, too coarse, or displaced from the edges of
+ *  the picture.
  *
  *  With side views, the function estimates disparities with a cost that grows with the distance
- *  from the given disparities. With one view, the function compares colours: outlines in the map
+ *  from the given disparities. With one view, the function compares colours. Outlines in the map
  *  become as smooth as outlines in the picture, and foreground surfaces grow where the picture's
  *  edges are soft. Values that the views do not contradict are not changed, except in noisy maps of
  *  one view.
@@ -142,11 +143,10 @@ STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_d
  *  edges, the confidence is the difference between the centre view and the centre view moved by one
  *  pixel.
  *
- *  Maps of monocular networks show hair as a solid shape with one closed outline. If a single view
- *  and its map show hair in this way and `map->coverage` is not null, the coverage of the hair is
- *  found by colour. In this case, the disparities of the hair are not changed, and their confidence
- *  is 255 minus the change of coverage. Outside hair, coverage is 0 or 255, as the map alone
- *  implies.
+ *  Maps of monocular networks show hair as a solid shape with one closed outline. If the only view
+ *  has such a map and `map->coverage` is not null, the coverage of the hair is found by colour. In
+ *  this case, the disparities of the hair are not changed, and their confidence is 255 minus the
+ *  change of coverage. Outside hair, coverage is 0 or 255, as the map alone implies.
  *  @param config configuration
  *  @param light_field views, and in `depth` the map to repair, as starfocus_depth_float describes
  *         it. The finite values of the map must lie in the configured range, which may be wider

@@ -24,8 +24,8 @@ extern "C" {
 
 /** Layout of a picture; samples have 8 bits. RGB formats are named by the order of bytes in memory,
  *  YUV formats as in libyuv. Chroma planes have half the width and height of the picture, rounded
- *  up: a chroma sample belongs to 2 x 2 pixels, or to fewer at the right and bottom edges of odd
- *  sizes. */
+ *  up. A chroma sample belongs to 2 x 2 pixels, or to fewer pixels at the right and bottom edges of
+ *  pictures of odd size. */
 typedef enum starfocus_format {
   STARFOCUS_FORMAT_RGB = 0,        /**< planes[0]: R, G, B */
   STARFOCUS_FORMAT_BGR = 1,        /**< planes[0]: B, G, R */

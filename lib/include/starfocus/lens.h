@@ -54,8 +54,8 @@ typedef struct starfocus_lens {
   /** Cat's eye: distance of a second rim from the axis, in radii of the lens, as seen from a corner
    *  of the picture, [0, 1]. Light passes only where both rims are open. The distance of the second
    *  rim falls to 0 towards the middle of the picture. The cut by the second rim does not darken
-   *  the picture. Values above 0 require STARFOCUS_FEATURE_SHAPES. STARFOCUS_MODE_BLUR ignores this
-   *  field. Default 0. */
+   *  the picture. Values above 0 require STARFOCUS_FEATURE_SHAPES. STARFOCUS_MODE_BLUR ignores
+   *  cats_eye. Default 0. */
   double cats_eye;
 } starfocus_lens;
 

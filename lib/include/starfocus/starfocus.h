@@ -6,7 +6,7 @@
  * map of the centre view. The engine computes the picture that a lens would have taken with another
  * focus and another aperture. The views are the star of the paper, or lie at any positions, for
  * example the positions of a stereo pair. The paper is Huang et al., "Fast Physically-Correct
- * Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View Interpolation"; numbers in
+ * Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View Interpolation". Numbers in
  * parentheses, such as (9), are equations of the paper.
  *
  * The following function focuses a picture at disparity 3.5:
@@ -182,7 +182,7 @@ typedef struct starfocus_config {
    *  starfocus_view_position. With `positions`: 1 to STARFOCUS_MAX_VIEWS. Default 5. */
   int32_t views;
   /** Smallest disparity that a map may contain; default 0. A range wider than the range of the maps
-   *  may change pictures: a wider range raises N in the frame modes, and makes slices thicker above
+   *  may change pictures. A wider range raises N in the frame modes, and makes slices thicker above
    *  32 pixels of blur. */
   double disparity_min;
   double
@@ -316,8 +316,8 @@ typedef enum starfocus_mode {
    *  With shapes other than the default, the overshoot is up to 4 % with slices, and up to 40 %
    *  with line scans. With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
   STARFOCUS_MODE_BLOCK = 2,
-  /** The centre view, blurred by the point-spread function (4) without other views. This mode takes
-   *  up to ten times as long as STARFOCUS_MODE_BLOCK. */
+  /** The centre view, blurred by the point-spread function (4) without other views.
+   *  STARFOCUS_MODE_BLUR takes up to ten times as long as STARFOCUS_MODE_BLOCK. */
   STARFOCUS_MODE_BLUR = 3
 } starfocus_mode;
 
@@ -347,11 +347,10 @@ typedef struct starfocus_light_field {
    *  starfocus_config.positions. */
   starfocus_image views[STARFOCUS_MAX_VIEWS];
   starfocus_depth_map depth; /**< depth map of the centre view */
-  /** Optional alpha of the foreground, as matting networks compute it: for each pixel of the centre
-   *  view, the part that the nearer of two surfaces covers (255 if this surface covers the whole
-   *  pixel). Within 32 pixels of depth edges of more than 5 pixels, the alpha takes precedence over
-   *  the map. If null, the light field has no alpha. Engines without STARFOCUS_FEATURE_COVERAGE
-   *  ignore the alpha. */
+  /** Optional alpha of the foreground, as matting networks compute alpha. The alpha of a pixel of
+   *  the centre view is the part that the nearer of two surfaces covers, 0 to 255. Within 32 pixels
+   *  of depth edges of more than 5 pixels, the alpha takes precedence over the map. If null, the
+   *  light field has no alpha. Engines without STARFOCUS_FEATURE_COVERAGE ignore the alpha. */
   const uint8_t* coverage;
   size_t coverage_stride; /**< bytes from row to row of `coverage`, >= width */
 } starfocus_light_field;
@@ -378,7 +377,7 @@ typedef struct starfocus_params {
    *  [0, starfocus_config.previews]; default 0. */
   int32_t preview_shift;
   /** For starfocus_refocus: the previous frame, from which unchanged superblocks are copied. The
-   *  output bytes do not depend on this field. Both light fields and both pictures must have
+   *  output bytes do not depend on `previous`. Both light fields and both pictures must have
    *  formats that do not require STARFOCUS_FEATURE_IMAGES. Default null. */
   const starfocus_previous* previous;
 } starfocus_params;
@@ -483,11 +482,12 @@ STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
  * and not the views.
  *
  *  A preview is the picture of a reduced light field, byte for byte. In the reduced light field a
- *  pixel of a view is the mean light of S x S pixels (fewer at the right and bottom edges), in
- *  steps of 1/128 code. In the reduced light field a disparity is the median of S x S disparities
- *  (the larger of the two middle values) divided by S, rounded half up to 1/64. A preview
- *  corresponds to a picture of an engine with the reduced size, and with the disparity range,
- *  max_blur and focus divided by S. Callbacks and the report count pixels of the preview.
+ *  pixel of a view is the mean light of S x S pixels, in steps of 1/128 code. At the right and
+ *  bottom edges, fewer pixels are averaged. In the reduced light field a disparity is the median of
+ *  S x S disparities divided by S, rounded half up to 1/64. The median is the larger of the two
+ *  middle values. A preview corresponds to a picture of an engine with the reduced size, and with
+ *  the disparity range, max_blur and focus divided by S. Callbacks and the report count pixels of
+ *  the preview.
  *  @param engine engine with the size, views, positions, disparity range, max_layer and transfer of
  *         the engine that prepared the light field. Several engines may use one prepared light
  * field at the same time
@@ -570,7 +570,8 @@ STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparit
 /** Fills the values of a disparity map that are NaN or infinite, in place. Between two finite
  *  values of a row, all values are set to the smaller finite value, which belongs to the farther
  *  surface. At the ends of a row, values are set to the nearest finite value. Rows without a finite
- *  value are filled from the rows above and below by the same rule.
+ *  value are filled from the rows above and below, by the rule that is used for the values of a
+ *  row.
  *  @param disparity map, aligned to 4 bytes
  *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
  *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
