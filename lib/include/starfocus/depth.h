@@ -128,9 +128,9 @@ STARFOCUS_API starfocus_status starfocus_estimate_disparity(
 STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_depth_config* config,
                                                                size_t* bytes);
 
-/** Repairs the disparity map of a light field: removes noise, fills unknown values, and corrects
- *  edges. Corrected edges are edges that are blurred, too coarse, or displaced from the edges of
- *  the picture.
+/** Repairs the disparity map of a light field: removes noise, fills unknown values and corrects
+ *  edges. Edges of the map are corrected if they are blurred, too coarse, or displaced from the
+ *  edges of the picture.
  *
  *  With side views, the function estimates disparities with a cost that grows with the distance
  *  from the given disparities. With one view, the function compares colours. Outlines in the map

@@ -347,10 +347,11 @@ typedef struct starfocus_light_field {
    *  starfocus_config.positions. */
   starfocus_image views[STARFOCUS_MAX_VIEWS];
   starfocus_depth_map depth; /**< depth map of the centre view */
-  /** Optional alpha of the foreground, as matting networks compute alpha. The alpha of a pixel of
-   *  the centre view is the part that the nearer of two surfaces covers, 0 to 255. Within 32 pixels
-   *  of depth edges of more than 5 pixels, the alpha takes precedence over the map. If null, the
-   *  light field has no alpha. Engines without STARFOCUS_FEATURE_COVERAGE ignore the alpha. */
+  /** Optional alpha of the foreground, in the form that matting networks compute. For each pixel of
+   *  the centre view, the alpha is the part of the pixel that the nearer of two surfaces covers, 0
+   *  to 255. Within 32 pixels of depth edges of more than 5 pixels, the alpha takes precedence over
+   *  the map. If null, the light field has no alpha. Engines without STARFOCUS_FEATURE_COVERAGE
+   *  ignore the alpha. */
   const uint8_t* coverage;
   size_t coverage_stride; /**< bytes from row to row of `coverage`, >= width */
 } starfocus_light_field;
