@@ -14,10 +14,10 @@
 namespace starfocus {
 
 enum class Container {
-  kUnknown,    // file that is neither PNG nor JPEG
-  kWhole,      // complete file, including its end marker
-  kTruncated,  // file that ends before one of its parts, or without an end marker
-  kBroken,     // a PNG chunk has a wrong checksum, or a JPEG table has more codes than bytes
+  kUnknown,    // File that is neither PNG nor JPEG.
+  kWhole,      // Complete file, including its end marker.
+  kTruncated,  // File that ends before one of its parts, or without an end marker.
+  kBroken,     // A PNG chunk has a wrong checksum, or a JPEG table has more codes than bytes.
 };
 
 Container CheckContainer(const Bytes& bytes);
@@ -43,7 +43,7 @@ struct JpegSegment {
   uint8_t marker;
   size_t begin, end;
 };
-constexpr uint8_t kJpegEndOfImage = 0xd9;  // JPEG marker that no length field follows
+constexpr uint8_t kJpegEndOfImage = 0xd9;  // JPEG marker that no length field follows.
 
 // Returns the first segment at or after byte `at`, or nullopt if the file ends within that segment.
 // Skips coded data between segments. In coded data, 0xff is followed by a zero byte or is part of a

@@ -30,8 +30,8 @@ class QuadratureDecoder {
   int Edge(bool a, bool b);
 
   bool a_, b_;
-  int rest_;      // index of the levels at a detent in the cycle of four states
-  int quarters_;  // quarters of a step since the last detent
+  int rest_;      // Index of the levels at a detent in the cycle of four states.
+  int quarters_;  // Quarters of a step since the last detent.
 };
 
 // A push button. The first edge of a press counts immediately. Edges that arrive within `quiet`
@@ -56,9 +56,9 @@ class Debouncer {
 
  private:
   int64_t quiet_;
-  int64_t changed_ = INT64_MIN / 2;  // time of the last accepted change
-  bool pressed_ = false;             // true if the accepted level is a press
-  bool last_ = false;  // true if the line was at the level of a press after the last edge
+  int64_t changed_ = INT64_MIN / 2;  // Time of the last accepted change.
+  bool pressed_ = false;             // True if the accepted level is a press.
+  bool last_ = false;  // True if the line was at the level of a press after the last edge.
 };
 
 }  // namespace starfocus

@@ -20,9 +20,9 @@ struct PixelField {
 // The memory of a screen, mapped into this process, and its pixel format.
 struct Screen {
   uint8_t* memory = nullptr;
-  int width = 0, height = 0;  // size of the screen in pixels
-  size_t stride = 0;          // bytes from one row to the next row
-  int bytes_per_pixel = 0;    // 2, 3 or 4; pixels are little-endian
+  int width = 0, height = 0;  // Size of the screen in pixels.
+  size_t stride = 0;          // Bytes from one row to the next row.
+  int bytes_per_pixel = 0;    // Size of a little-endian pixel: 2, 3 or 4 bytes.
   PixelField red = {0, 0}, green = {0, 0}, blue = {0, 0};
 };
 

@@ -24,8 +24,8 @@ constexpr size_t kColouredPart = 100;
 // Treatment of the alpha channel of a depth picture.
 enum class Alpha {
   kIgnored,
-  kTransparent,  // pixels that are less than half opaque become NaN
-  kTaken         // the alpha channel replaces the grey levels
+  kTransparent,  // Pixels that are less than half opaque become NaN.
+  kTaken         // The alpha channel replaces the grey levels.
 };
 
 // Converts interleaved samples of 1 (grey) to 4 (RGB and alpha) channels to grey levels. The caller
@@ -59,9 +59,9 @@ Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int chan
 // Decodes a PNG file that DecodeImage has read without an error.
 Result<Samples> DecodePngSamples(const std::string& where, const Bytes& bytes, Alpha alpha) {
   const PngHeader header = *ReadPngHeader(bytes);
-  constexpr int kHasAlpha = 4;  // bit of the PNG colour type: alpha channel
+  constexpr int kHasAlpha = 4;  // Bit of the PNG colour type: alpha channel.
   if (alpha == Alpha::kTaken && (header.colour & kHasAlpha) == 0) alpha = Alpha::kIgnored;
-  constexpr int kColour = 2;  // bit of the PNG colour type: RGB or a palette of RGB
+  constexpr int kColour = 2;  // Bit of the PNG colour type: RGB or a palette of RGB.
   const int channels = (header.colour & kColour) != 0 ? 4 : 2;
   const auto size = static_cast<int>(bytes.size());
   const StbMemory memory;
@@ -96,7 +96,7 @@ Result<Samples> Decode(const std::string& where, Alpha alpha, const Bytes& bytes
   if (!IsPng(bytes)) {
     return TakeGrey(where, image.pixels.data(), 3, alpha, {{image.width, image.height, {}}, 255});
   }
-  image = {};  // frees memory
+  image = {};  // Frees memory.
   return DecodePngSamples(where, bytes, alpha);
 }
 

@@ -14,8 +14,8 @@
 namespace starfocus {
 
 struct Samples {
-  FloatMap map;     // sample values, 0 to `largest`; NaN for transparent pixels
-  int largest = 0;  // sample value of white
+  FloatMap map;     // Sample values, 0 to `largest`; NaN for transparent pixels.
+  int largest = 0;  // Sample value of white.
 };
 
 // Decodes the samples. `where` is used only in errors. If `use_alpha` is true, pixels that are less

@@ -13,9 +13,9 @@
 namespace starfocus {
 
 struct Metadata {
-  Bytes exif;       // TIFF structure of EXIF, starting with "II" or "MM"; empty: no EXIF
-  Bytes icc;        // complete ICC profile; empty: no profile, which means sRGB
-  Bytes iptc = {};  // IPTC-IIM records such as title and caption; empty: no records
+  Bytes exif;       // TIFF structure of EXIF, starting with "II" or "MM"; empty: no EXIF.
+  Bytes icc;        // Complete ICC profile; empty: no profile, which means sRGB.
+  Bytes iptc = {};  // IPTC-IIM records such as title and caption; empty: no records.
   // Elements rdf:Description of an XMP packet, without the surrounding elements; empty: no XMP. The
   // descriptions contain title, caption, rating, copyright and so on, but no properties of the file
   // (kept_metadata.h).

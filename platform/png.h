@@ -13,8 +13,8 @@ namespace starfocus {
 // The header chunk of a PNG file.
 struct PngHeader {
   uint32_t width, height;
-  int depth;   // bits per sample
-  int colour;  // colour type as defined by the PNG format
+  int depth;   // Bits per sample.
+  int colour;  // Colour type as defined by the PNG format.
 };
 
 // Reads the header of a complete PNG file. Returns nullopt if the first chunk is not a header.

@@ -12,9 +12,9 @@
 namespace starfocus {
 namespace {
 
-constexpr double kInterval =
-    0.1;  // seconds between updates of the line, and before the first update
-constexpr double kLeastTime = 1;  // seconds before the remaining time is estimated
+// Seconds between updates of the progress line, and before the first update.
+constexpr double kInterval = 0.1;
+constexpr double kLeastTime = 1;  // Seconds before the remaining time is estimated.
 
 std::atomic<bool> line_taken{false};
 
@@ -69,7 +69,7 @@ int PictureProgress::Tell(void* data, int32_t rows_done, int32_t rows) {
   PictureProgress& self = *static_cast<PictureProgress*>(data);
   const auto steps = static_cast<int32_t>(int64_t{kSteps} * rows_done / rows);
   self.progress_.Step(steps - self.steps_);
-  self.steps_ = rows_done < rows ? steps : 0;  // rows_done == rows ends a picture
+  self.steps_ = rows_done < rows ? steps : 0;  // rows_done == rows ends a picture.
   return 0;
 }
 

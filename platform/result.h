@@ -11,9 +11,9 @@ namespace starfocus {
 
 enum class ErrorKind {
   kNone,
-  kInput,     // an unsuitable file or device, or insufficient memory
-  kUsage,     // invalid command line
-  kInternal,  // defect of starfocus
+  kInput,     // An unsuitable file or device, or insufficient memory.
+  kUsage,     // Invalid command line.
+  kInternal,  // Defect of starfocus.
 };
 
 // A one-line error message that names the file or option and the cause. An Error converts to true
@@ -21,7 +21,7 @@ enum class ErrorKind {
 //   if (Error error = WriteFile(path, bytes)) return error;
 class [[nodiscard]] Error {
  public:
-  Error() = default;  // means success
+  Error() = default;  // Creates an error that means success.
   // Replaces control characters such as line breaks in `line` by spaces. Messages may contain
   // control characters because they quote names and contents of files.
   Error(ErrorKind kind, std::string line);

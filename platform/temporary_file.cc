@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<bool> taken{false};  // spin lock of the list of temporary files
-TemporaryFile* first = nullptr;  // head of the list of temporary files
+std::atomic<bool> taken{false};  // Spin lock of the list of temporary files.
+TemporaryFile* first = nullptr;  // Head of the list of temporary files.
 
 void Take() {
   while (taken.exchange(true)) sched_yield();

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr int kStarSets[] = {1, 5, 9, 17};
 constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
-constexpr const char* kPair[] = {"im0.png", "im1.png"};  // views at (0, 0) and (1, 0)
-constexpr double kDecimals = 1e4;                        // file names have four decimals
+constexpr const char* kPair[] = {"im0.png", "im1.png"};  // Views at (0, 0) and (1, 0).
+constexpr double kDecimals = 1e4;                        // File names have four decimals.
 constexpr double kAlike = 0.5 / kDecimals;
 
 // Formats a coordinate, for example "+0.5". Whole numbers are formatted with one decimal.
@@ -44,7 +44,7 @@ std::optional<double> ReadCoordinate(const std::string& text, size_t at, size_t 
 // Parts of a view's file name.
 struct NameParts {
   starfocus_position position;
-  size_t extension;  // index into kExtensions
+  size_t extension;  // Index into kExtensions.
 };
 
 // Parses the file name of a view. Returns nullopt if `name` is not the file name of a view.

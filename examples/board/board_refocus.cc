@@ -26,8 +26,8 @@ using namespace starfocus;
 struct Options {
   std::string folder, chip = "gpiochip0", out, framebuffer;
   std::optional<Pixel> encoder;
-  std::optional<int> aperture, shutter, busy;  // lines
-  int debounce = 10;                           // milliseconds
+  std::optional<int> aperture, shutter, busy;  // GPIO lines of the controls.
+  int debounce = 10;                           // Duration of contact bounce in milliseconds.
   bool active_high = false;
   GpioBias bias = GpioBias::kPullUp;
   std::optional<double> focus, step;

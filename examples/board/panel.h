@@ -23,9 +23,9 @@ struct PanelLines {
 };
 
 struct PanelActions {
-  int focus_steps = 0;  // number of encoder steps; positive is clockwise
-  int apertures = 0;    // number of presses of the aperture button
-  int shutters = 0;     // number of presses of the shutter button
+  int focus_steps = 0;  // Number of encoder steps; positive is clockwise.
+  int apertures = 0;    // Number of presses of the aperture button.
+  int shutters = 0;     // Number of presses of the shutter button.
 
   bool any() const { return focus_steps != 0 || apertures != 0 || shutters != 0; }
 };

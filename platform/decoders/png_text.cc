@@ -66,7 +66,7 @@ Bytes ParseDigits(const std::string& text) {
 
 void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* exif) {
   const uint8_t* const last = data + size;
-  const uint8_t* end = std::find(data, last, uint8_t{0});  // position after the keyword
+  const uint8_t* end = std::find(data, last, uint8_t{0});  // Position after the keyword.
   const std::string keyword(data, end);
   if (keyword != "Raw profile type exif" && keyword != "Raw profile type APP1") return;
   // A zero byte follows the keyword, and a byte for the compression method follows in zTXt chunks.
@@ -78,8 +78,8 @@ void ReadRawProfile(bool compressed, const uint8_t* data, size_t size, Bytes* ex
 }
 
 void ReadXmpText(const uint8_t* data, size_t size, std::string* xmp) {
-  constexpr char kKeyword[] = "XML:com.adobe.xmp";  // keyword of the chunk, including its zero byte
-  constexpr size_t kFlags = 2;  // bytes of the compression flag and the compression method
+  constexpr char kKeyword[] = "XML:com.adobe.xmp";  // Keyword with its zero byte.
+  constexpr size_t kFlags = 2;  // Bytes of the compression flag and the compression method.
   const uint8_t* const last = data + size;
   if (!xmp->empty() || size < sizeof(kKeyword) + kFlags ||
       !std::equal(kKeyword, kKeyword + sizeof(kKeyword), data)) {
@@ -87,7 +87,7 @@ void ReadXmpText(const uint8_t* data, size_t size, std::string* xmp) {
   }
   const bool compressed = data[sizeof(kKeyword)] != 0;
   const uint8_t* text = data + sizeof(kKeyword) + kFlags;
-  for (int part = 0; part < 2; ++part) {  // skips the language tag and the translated keyword
+  for (int part = 0; part < 2; ++part) {  // Skips the language tag and the translated keyword.
     text = std::find(text, last, uint8_t{0});
     if (text == last) return;
     ++text;

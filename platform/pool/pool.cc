@@ -64,25 +64,25 @@ struct Thread {
 // thread. A thread without work therefore polls for kPatience and yields to other threads before it
 // sleeps.
 struct starfocus_pool {
-  int32_t threads = 0;  // number of started threads
+  int32_t threads = 0;  // Number of started threads.
   Thread started[STARFOCUS_MAX_WORKERS - 1];
-  starfocus::CoreSet cores;  // cores that the threads run on; empty: any core
+  starfocus::CoreSet cores;  // Cores that the threads run on; empty: any core.
 
-  pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // mutex that a caller holds during its batch
+  pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;  // Mutex that a caller holds during its batch.
   Batch batch = {nullptr, nullptr, 0};
   // Number of jobs of the batch that no thread has taken. A thread that has taken a job may read
   // `batch` until the thread decrements `undone`.
   std::atomic<int32_t> left{0};
-  std::atomic<int32_t> undone{0};  // number of jobs of the batch that are not done
-  std::atomic<int32_t> stop{0};    // 1: the threads must end
+  std::atomic<int32_t> undone{0};  // Number of jobs of the batch that are not done.
+  std::atomic<int32_t> stop{0};    // Set to 1 when the threads must end.
 
   // A thread that is about to sleep first sets `idle` or `waiting` and then checks `left`, `undone`
   // and `stop` again. The function starfocus_pool_run sets `left` before it checks `idle`, and Work
   // decrements `undone` before it checks `waiting`. This order of writes and checks ensures that no
   // wake-up is lost.
-  std::atomic<int32_t> idle{0};                       // number of threads that wait for `wake`
-  std::atomic<int32_t> waiting{0};                    // 1: the caller waits for `finished`
-  pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // mutex of `wake` and `finished`
+  std::atomic<int32_t> idle{0};     // Number of threads that wait for `wake`.
+  std::atomic<int32_t> waiting{0};  // Set to 1 while the caller waits for `finished`.
+  pthread_mutex_t sleep = PTHREAD_MUTEX_INITIALIZER;  // Mutex of `wake` and `finished`.
   pthread_cond_t wake = PTHREAD_COND_INITIALIZER;
   pthread_cond_t finished = PTHREAD_COND_INITIALIZER;
 

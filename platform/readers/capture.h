@@ -17,30 +17,30 @@ namespace starfocus {
 enum class MapCare { kNone, kFill, kRepair };
 
 struct CaptureOptions {
-  std::string depth;       // path of the depth picture; empty: in the photo's file or next to it
-  DepthOptions map;        // interpretation of the depth picture
-  bool small_map = false;  // true: LoadCapture, not OpenCapture, resizes the map of a photo
+  std::string depth;       // Path of the depth picture; empty: in the photo's file or next to it.
+  DepthOptions map;        // Interpretation of the depth picture.
+  bool small_map = false;  // True: LoadCapture, not OpenCapture, resizes the map of a photo.
 };
 
 struct Capture {
   std::string path, format;
-  bool photo = false;           // true if the input is one file with one view
-  std::vector<ViewFile> files;  // files of the views, the centre first
-  std::string map_path;         // file of the map, for reading and for errors; empty: no map
-  std::string coverage_path;    // file of the coverage; empty: no coverage
-  double map_scale = 1;         // factor that converts values in the file of the map to disparities
+  bool photo = false;           // True if the input is one file with one view.
+  std::vector<ViewFile> files;  // Files of the views, the centre first.
+  std::string map_path;         // File of the map, for reading and for errors; empty: no map.
+  std::string coverage_path;    // File of the coverage; empty: no coverage.
+  double map_scale = 1;  // Factor that converts values in the file of the map to disparities.
   MapCare care = MapCare::kNone;
-  double widest = 0;  // f-stop of an aperture of radius 1; 0: unknown
-  double f_stop = 0;  // default f-stop; 0: the widest f-stop
+  double widest = 0;  // The f-stop of an aperture of radius 1; 0: unknown.
+  double f_stop = 0;  // Default f-stop; 0: the widest f-stop.
   bool has_focus = false;
-  int focus_x = 0, focus_y = 0;  // pixel in focus as stated by the file
+  int focus_x = 0, focus_y = 0;  // Pixel in focus as stated by the file.
   bool has_subject = false;
-  int subject_x = 0, subject_y = 0;  // pixel of the subject as stated by EXIF
-  double focus = NAN;                // disparity in focus; NaN: unknown
+  int subject_x = 0, subject_y = 0;  // Pixel of the subject as stated by EXIF.
+  double focus = NAN;                // Disparity in focus; NaN: unknown.
   Metadata metadata;
   Facts facts;
   std::vector<std::string> notes;
-  LightField light_field;  // filled by OpenCapture for one-file inputs, otherwise by LoadCapture
+  LightField light_field;  // Filled by OpenCapture for one-file inputs, otherwise by LoadCapture.
 };
 
 // Opens `path`. The path "-" means a photograph on standard input. OpenCapture reads a photograph

@@ -64,8 +64,8 @@ void ReadParameterSet(Span unit, CodedSize* most) {
   const Bytes bytes = Unescape(unit);
   Bits bits({bytes.data(), bytes.size()});
   bits.Skip(16 + 4);
-  const uint32_t layers = bits.Read(3);  // number of temporal sub-layers minus 1
-  bits.Skip(1 + 88 + 8);                 // skips flags, profile and level
+  const uint32_t layers = bits.Read(3);  // Number of temporal sub-layers minus 1.
+  bits.Skip(1 + 88 + 8);                 // Skips flags, profile and level.
   size_t more = 0;
   for (uint32_t k = 0; k < layers; ++k) {
     if (bits.Read(1) != 0) more += 88;
@@ -73,8 +73,8 @@ void ReadParameterSet(Span unit, CodedSize* most) {
   }
   if (layers > 0) bits.Skip(2 * (8 - layers));
   bits.Skip(more);
-  bits.ReadGolomb();                         // skips the identifier of the parameter set
-  if (bits.ReadGolomb() == 3) bits.Skip(1);  // skips the flag for separate colour planes
+  bits.ReadGolomb();                         // Skips the identifier of the parameter set.
+  if (bits.ReadGolomb() == 3) bits.Skip(1);  // Skips the flag for separate colour planes.
   const uint32_t own_width = bits.ReadGolomb(), own_height = bits.ReadGolomb();
   if (bits.good()) Widen(own_width, own_height, most);
 }
@@ -84,11 +84,11 @@ void ReadSequenceHeader(Span header, CodedSize* most) {
   Bits bits(header);
   bits.Skip(3 + 1);
   if (bits.Read(1) != 0) {
-    bits.Skip(5);  // skips the level of a still picture
+    bits.Skip(5);  // Skips the level of a still picture.
   } else {
     bool model = false;
     uint32_t delay_bits = 0;
-    if (bits.Read(1) != 0) {  // timing
+    if (bits.Read(1) != 0) {  // Timing.
       bits.Skip(64);
       if (bits.Read(1) != 0) bits.ReadGolomb();
       model = bits.Read(1) != 0;
@@ -130,7 +130,7 @@ void ReadUnits(Span units, CodedSize* most) {
       }
     }
     if (at > units.size) return;
-    const size_t held = std::min(size, units.size - at);  // `units` may end within the last unit
+    const size_t held = std::min(size, units.size - at);  // `units` may end within the last unit.
     if ((first >> 3 & 15) == kSequenceHeader) {
       ReadSequenceHeader({units.data + at, held}, most);
     }
@@ -159,7 +159,7 @@ CodedSize HevcSize(Span configuration, const Bytes& head) {
       at += size;
     }
   }
-  for (size_t from = 0; from + 4 < head.size();) {  // a 4-byte size precedes each NAL unit
+  for (size_t from = 0; from + 4 < head.size();) {  // A 4-byte size precedes each NAL unit.
     const size_t size = ReadBigEndian32(&head[from]);
     from += 4;
     const size_t held = std::min(size, head.size() - from);

@@ -12,17 +12,17 @@ enum class Near { kUnknown, kWhite, kBlack };
 
 // Unit of the values of a depth picture.
 enum class DepthUnit {
-  kNone,         // values without a unit, which define only an order of depth
-  kMetres,       // distances in metres
-  kMillimetres,  // distances in millimetres
-  kDisparity,    // disparities in pixels of the photo, for an aperture of radius 1
+  kNone,         // Values without a unit, which define only an order of depth.
+  kMetres,       // Distances in metres.
+  kMillimetres,  // Distances in millimetres.
+  kDisparity,    // Disparities in pixels of the photo, for an aperture of radius 1.
 };
 
 // Orientation of a depth picture in its file, relative to the photo.
 enum class DepthOrientation {
-  kUnknown,  // proportions and edges of photo and map decide
-  kPhoto,    // oriented like the stored photo: EXIF's orientation applies to photo and map
-  kUpright,  // upright: EXIF's orientation applies only to the photo
+  kUnknown,  // Proportions and edges of photo and map decide.
+  kPhoto,    // Oriented like the stored photo: EXIF's orientation applies to photo and map.
+  kUpright,  // Upright: EXIF's orientation applies only to the photo.
 };
 
 struct DepthOptions {
@@ -33,7 +33,7 @@ struct DepthOptions {
   // whether 0 and 65535 are depths in 16-bit maps.
   bool has_unknown = false;
   std::vector<double> unknown;
-  bool use_alpha = true;  // true: transparent pixels have unknown depth
+  bool use_alpha = true;  // True: transparent pixels have unknown depth.
 };
 
 }  // namespace starfocus

@@ -17,14 +17,14 @@ namespace starfocus {
 
 // An item of a HEIF file, such as a picture.
 struct HeifItem {
-  std::string type;                // four-character code of the item type
-  uint32_t width = 0, height = 0;  // size in the property ispe; 0: no property ispe
-  std::vector<uint32_t> inputs;    // identifiers of the items that form a derived picture
-  Span configuration;              // content of the property hvcC or av1C
-  Bytes head;                      // first bytes of the item's data
+  std::string type;                // Type of the item, a four-character code.
+  uint32_t width = 0, height = 0;  // Size in the property ispe; 0: no property ispe.
+  std::vector<uint32_t> inputs;    // Identifiers of the items that form a derived picture.
+  Span configuration;              // Content of the property hvcC or av1C.
+  Bytes head;                      // First bytes of the item's data.
 };
 
-using HeifItems = std::map<uint32_t, HeifItem>;  // items by their identifiers
+using HeifItems = std::map<uint32_t, HeifItem>;  // Items by their identifiers.
 
 // Reads the items of a HEIF file. Returns nullopt if a box is malformed or the file has more than
 // 4096 items.

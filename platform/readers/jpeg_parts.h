@@ -30,12 +30,12 @@ struct XmpExtension {
 };
 
 struct JpegParts {
-  Metadata metadata;      // EXIF, ICC profile and IPTC
-  std::string ignored;    // reason for ignoring an ICC profile; empty: no profile was ignored
-  std::vector<Span> xmp;  // XMP packets; some files have several, against the specification
+  Metadata metadata;      // EXIF, ICC profile and IPTC.
+  std::string ignored;    // Reason for ignoring an ICC profile; empty: no profile was ignored.
+  std::vector<Span> xmp;  // XMP packets; some files have several, against the specification.
   std::vector<XmpExtension> extensions;
-  Span multi_picture;  // index of CIPA DC-007, from its TIFF header to the end of the segment
-  size_t end = 0;      // end of the first picture; other pictures may follow
+  Span multi_picture;  // Index of CIPA DC-007, from its TIFF header to the end of the segment.
+  size_t end = 0;      // End of the first picture; other pictures may follow.
 };
 
 // Returns true if the bytes start with the signature of JPEG files.

@@ -13,15 +13,15 @@
 namespace starfocus {
 
 struct MultiPicture {
-  Span file;             // JPEG file of this picture
-  JpegParts parts;       // segments of the JPEG file
-  bool indexed = false;  // true if the index contains the position of this picture
-  uint32_t type = 0;     // type in the index: 0x020002 is a view of a stereo pair, 0 is unknown
+  Span file;             // JPEG file of this picture.
+  JpegParts parts;       // Segments of the JPEG file.
+  bool indexed = false;  // True if the index contains the position of this picture.
+  uint32_t type = 0;     // Type in the index: 0x020002 is a view of a stereo pair, 0 is unknown.
 };
 
 struct MultiPictures {
   std::vector<MultiPicture> pictures;
-  bool missing = false;  // true if a picture that the index lists is truncated or missing
+  bool missing = false;  // True if a picture that the index lists is truncated or missing.
 };
 
 // Lists the complete pictures that follow the first picture of a JPEG file, at most 64.

@@ -21,32 +21,34 @@ namespace starfocus {
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
 enum class MapMeaning {
-  kInverseMetres,  // 1 / distance in metres
-  kInverse,        // 1 / distance, up to an unknown factor
-  kOrder,          // an order without distances: larger is nearer
-  kDisparity       // disparities in pixels of the upright photo
+  kInverseMetres,  // Inverse distances in 1 / metre.
+  kInverse,        // Inverse distances, up to an unknown factor.
+  kOrder,          // An order without distances: larger is nearer.
+  kDisparity       // Disparities in pixels of the upright photo.
 };
 
 struct DepthPhoto {
   std::string format;
   Image picture;
-  FloatMap map;             // depth map; NaN: unknown depth; empty: no readable map
-  std::string map_problem;  // reason why the map in the file cannot be read; may be empty
-  std::string depth_path;   // path of the depth picture; empty: the map is in the file
-  Image right;              // right picture of a stereo pair; empty: no stereo pair
+  FloatMap map;             // Depth map; NaN: unknown depth; empty: no readable map.
+  std::string map_problem;  // Reason why the map in the file cannot be read; may be empty.
+  std::string depth_path;   // Path of the depth picture; empty: the map is in the file.
+  Image right;              // Right picture of a stereo pair; empty: no stereo pair.
   MapMeaning meaning = MapMeaning::kOrder;
-  int orientation = 1;    // EXIF orientation that has not been applied yet
-  double focal_35mm = 0;  // 35 mm equivalent focal length in millimetres; 0: unknown
+  int orientation = 1;    // EXIF orientation that has not been applied yet.
+  double focal_35mm = 0;  // Focal length on full frame in millimetres; 0: unknown.
   bool has_focus = false;
-  double focus_x = 0, focus_y = 0;  // focus point, as fractions of width and height before rotation
+  // Focus point, as fractions of the width and height before rotation.
+  double focus_x = 0, focus_y = 0;
   bool has_subject = false;
-  double subject_x = 0, subject_y = 0;  // subject position in EXIF, in units of focus_x and focus_y
+  // Position of the subject in EXIF, in the units of focus_x and focus_y.
+  double subject_x = 0, subject_y = 0;
   // True if the map requires no repair, because starfocus wrote the file.
   bool is_ready = false;
-  double focus_value = NAN;  // value of `map` that is in focus; NaN: unknown
+  double focus_value = NAN;  // Value of `map` that is in focus; NaN: unknown.
   Metadata metadata;
   Facts facts;
-  std::vector<std::string> notes;  // assumptions that the user may correct
+  std::vector<std::string> notes;  // Assumptions that the user may correct.
 };
 
 }  // namespace starfocus

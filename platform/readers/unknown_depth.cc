@@ -12,7 +12,7 @@ namespace starfocus {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr float kTop = 65535;  // largest 16-bit value
+constexpr float kTop = 65535;  // Largest 16-bit value.
 // The value 0 or 65535 is a depth if its distance to the other values is less than this fraction of
 // their range. Sensors leave a larger gap at 0, because the nearest distance that a sensor measures
 // is at least 5 % of the range.
@@ -45,7 +45,7 @@ Ends JudgeEnds(const FloatMap& map) {
   if (ends.zeros > 0 && ends.tops > 0) {
     ends.are_depths = !range.known || range.high >= kTop / 2;
   } else if (!range.known) {
-    ends.are_depths = true;  // all values are 0 or all are 65535
+    ends.are_depths = true;  // All values are 0 or all are 65535.
   }
   const float beside = kBesidePart * (range.high - range.low);
   if (range.known && range.high > range.low) {
@@ -63,7 +63,7 @@ void Forget(float unknown, FloatMap* map) {
 // of the gap.
 struct Gap {
   float value = kUnknown;
-  int length = std::numeric_limits<int>::max();  // length of the gap around the pixel
+  int length = std::numeric_limits<int>::max();  // Length of the gap around the pixel.
 };
 
 // Calls `visit` for each unknown pixel of a line, with the gap that contains the pixel. The line
@@ -134,7 +134,7 @@ void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo) {
   for (const double value : options.unknown) Forget(static_cast<float>(value), map);
   const bool distances =
       options.unit == DepthUnit::kMetres || options.unit == DepthUnit::kMillimetres;
-  if (distances) Forget(0, map);  // sensors store the distance 0 for pixels without a measurement
+  if (distances) Forget(0, map);  // Sensors store the distance 0 for pixels without a measurement.
   if (options.has_unknown || largest <= 255) return;
   const Ends ends = JudgeEnds(*map);
   if (ends.zeros + ends.tops == 0) return;
@@ -156,7 +156,7 @@ size_t FillBehind(FloatMap* map) {
   const auto unknown = std::count_if(map->values.begin(), map->values.end(),
                                      [](float value) { return std::isnan(value); });
   if (unknown == 0) return 0;
-  constexpr float kAlikePart = 0.05F;  // fraction of the value range
+  constexpr float kAlikePart = 0.05F;  // Fraction of the value range.
   const RobustRange range = RobustRangeOf(map->values);
   const float alike = kAlikePart * (range.high - range.low);
   // The first pass completes every row and column that contains a known pixel, so the second pass

@@ -25,9 +25,9 @@ constexpr char kBetween = '|';  // separates a namespace from a name
 // callback of expat.
 struct Builder {
   XML_Parser parser = nullptr;
-  std::vector<XmpNode> open;    // open elements, from the unnamed root to the innermost element
-  size_t parts = 0;             // number of elements and attributes so far
-  std::string expected, found;  // reason why parsing was stopped
+  std::vector<XmpNode> open;    // Open elements, from the unnamed root to the innermost element.
+  size_t parts = 0;             // Number of elements and attributes so far.
+  std::string expected, found;  // Reason why parsing was stopped.
   bool out_of_memory = false;
 
   void Stop(const std::string& what_expected, const std::string& what_found) {

@@ -26,11 +26,11 @@ constexpr char kNearDisparity[] = "NearDisparity", kFarDisparity[] = "FarDispari
 
 // Contents of a depth photo apart from its picture: the sharp original, its map, and the lens.
 struct SharpOriginal {
-  const Image* before;        // sharp original, of the size of the refocused picture
-  const FloatMap* disparity;  // disparity map of `before`, with finite values
-  double focus = 0;           // disparity in focus
-  double aperture = 1;  // radius of the aperture: the blur radius is |D - focus| * aperture pixels
-  double widest = 1;    // f-stop of an aperture of radius 1
+  const Image* before;        // Sharp original, of the size of the refocused picture.
+  const FloatMap* disparity;  // Disparity map of `before`, with finite values.
+  double focus = 0;           // Disparity in focus.
+  double aperture = 1;  // Radius of the aperture: the blur radius is |D - focus| * aperture pixels.
+  double widest = 1;    // The f-stop of an aperture of radius 1.
 };
 
 // Encodes the refocused picture as JPEG, with the sharp original and its map in XMP. The map is
