@@ -70,7 +70,7 @@ TEST_CASE("analysis: the ideal PSF follows equation (4)") {
   }
 }
 
-TEST_CASE("analysis: the PSFs of view interpolation approach their limits") {
+TEST_CASE("analysis: with many views, the PSF of interpolated views approaches the ideal PSF") {
   // With N = 40 and N = 80, the subapertures fill the aperture almost exactly, so the error of the
   // PSF is small.
   CHECK(SubapertureError(6, 40, kTheta) < 2e-6);

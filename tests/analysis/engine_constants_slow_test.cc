@@ -120,8 +120,8 @@ TEST_CASE("constants: the layer filters have beta_D of Table I at r = 3 and the 
                   "tap 1 differs from the exact value of " << moves);
     CHECK_MESSAGE(std::fabs(taps.far - one * exact(3)) < 1,
                   "tap 3 differs from the exact value of " << moves);
-    // The gain of both phases must be 1. The middle tap therefore differs from the exact value by
-    // G(-1), which is not exactly 0.
+    // Both phases of the filter must have a gain of 1. For this reason, the middle tap differs from
+    // the exact value by G(-1), which is not exactly 0.
     CHECK_MESSAGE(std::fabs(taps.centre - one * exact(0)) < 1 + one * std::fabs(GainAtPi(exact)),
                   "tap 0 differs from the exact value of " << moves);
   };
@@ -157,7 +157,7 @@ TEST_CASE("constants: by the rule for subapertures, layers begin at radii 7 and 
                 "LayerBySubaperture: layer 2 begins above r = 24");
 }
 
-TEST_CASE("constants: filters subsample as in equation (10) and upsample as in equation (11)") {
+TEST_CASE("constants: layers have the error of equation (10) and the aliasing of equation (11)") {
   for (const double r : {3.0, 4.5, 7.0}) {
     const SampledPsf half = IdealPsf(r / 2, kDefaultTheta);
     const Filters filters = {kBetaDown, kDefaultTheta};
@@ -170,8 +170,8 @@ TEST_CASE("constants: filters subsample as in equation (10) and upsample as in e
   CHECK(std::fabs(LayerAliasing(IdealPsf(2, kDefaultTheta), 0, kBetaDown)) < 1e-15);
 }
 
-// Checks positive and negative radii. `least` is the smallest radius at which the rule selects the
-// layer.
+// Compares the engine with the analysis at positive and negative radii. `least` is the smallest
+// radius at which the rule selects the layer.
 void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
   for (int k = 8 * least; k <= 8 * most; k = k < 64 ? k + 1 : k + 13) {
     for (const int sign : {1, -1}) {
@@ -286,8 +286,8 @@ TEST_CASE("constants: the widths of the lens for N = 4, 5 and above meet their e
   }
 }
 
-// PSFs of equation (4) that gathering uses. The blur mode uses the same PSFs up to the radius
-// kMaxGather.
+// PSFs of equation (4) that gathering uses. The blur mode uses the PSFs of gathering up to the
+// radius kMaxGather.
 struct GatherPsfs {
   std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(false, kMaxGather));
   std::vector<Psf> psfs = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));

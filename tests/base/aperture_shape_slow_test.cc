@@ -42,7 +42,7 @@ int64_t Total(int n, const Weight& weight) {
   return sum;
 }
 
-TEST_CASE("opening: light passes where the shape is open") {
+TEST_CASE("opening: points inside the shape pass light, and points outside the shape do not") {
   constexpr int kRadius = 1000;
   test::Random random(5);
   for (int trial = 0; trial < 200; ++trial) {

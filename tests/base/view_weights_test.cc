@@ -65,7 +65,7 @@ TEST_CASE("aperture: cot^2 theta has 16 fractional bits") {
   }
 }
 
-TEST_CASE("aperture: the number of views in the disc matches the table") {
+TEST_CASE("aperture: the number of views in the disc equals a table for each N") {
   constexpr int kViews[][2] = {{0, 1},    {1, 5},    {2, 13},    {3, 29},    {4, 49},
                                {5, 81},   {7, 149},  {8, 197},   {10, 317},  {13, 529},
                                {16, 797}, {17, 901}, {19, 1129}, {22, 1517}, {26, 2121}};

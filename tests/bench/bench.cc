@@ -115,7 +115,7 @@ void AddOptions(CLI::App* app, Options* options) {
 }  // namespace starfocus::bench
 
 int main(int argc, char** argv) {
-  CLI::App app("Times starfocus and measures its error.", "starfocus-bench");
+  CLI::App app("Measures the run time and the error of starfocus.", "starfocus-bench");
   starfocus::bench::Options options;
   starfocus::bench::AddOptions(&app, &options);
   CLI11_PARSE(app, argc, argv);

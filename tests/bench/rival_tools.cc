@@ -160,8 +160,8 @@ struct Job {
   }
 };
 
-// Tries several ratios of the tool's unit to the blur radius, and keeps the ratio and the picture
-// with the highest PSNR.
+// Tries several ratios of the tool's unit of blur to a blur radius of one pixel, and keeps the
+// ratio and the picture with the highest PSNR.
 Error Tune(const Job& job, const Image& truth, double* scale, ToolResult* result) {
   double best = -1;
   for (const double tried : {0.35, 0.5, 0.7, 1.0}) {

@@ -13,12 +13,12 @@ namespace starfocus::bench {
 
 // Mode and options with which a picture is computed.
 struct Task {
-  std::string mode = "block";  // block, frame, benchmark, blur, or the name of a rival
+  std::string mode = "block";  // block, frame, benchmark or blur, or the name of a rival
   int views = 0;
   int max_layer = STARFOCUS_LAYERS - 1;
-  int superblock = 0;                      // 0: default of the library
-  int renderer = STARFOCUS_RENDERER_AUTO;  // starfocus_renderer
-  double n_scale = 1;                      // starfocus_tuning.n_scale
+  int superblock = 0;                      // side of superblocks, pixels; 0: default of the library
+  int renderer = STARFOCUS_RENDERER_AUTO;  // value of starfocus_renderer
+  double n_scale = 1;                      // value of starfocus_tuning.n_scale
   std::string target;                      // SIMD target; empty: the best target of the machine
   int workers = 1;
   bool timed = true;  // true if the time of each block is measured, which costs instructions

@@ -89,7 +89,7 @@ starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
-    config.problem = nullptr;  // pointers of the caller are always valid
+    config.problem = nullptr;  // the caller passes only valid pointers
   }
   return config;
 }
@@ -115,7 +115,7 @@ void SetParams(const starfocus_config& config, Input* input, starfocus_params* g
   if (input->Rarely()) {
     uint8_t* bytes = reinterpret_cast<uint8_t*>(&params);
     input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(params) / 4) - 1) * 4, 4);
-    params.previous = nullptr;  // pointers of the caller are always valid
+    params.previous = nullptr;  // the caller passes only valid pointers
   }
 }
 

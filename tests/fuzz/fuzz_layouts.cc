@@ -39,7 +39,7 @@ void CheckArray(const std::string& text) {
   }
 }
 
-// Also reads the segments and indices of a JPEG file, without decoding a picture.
+// Reads the segments and indices of a JPEG file without decoding a picture.
 void CheckParts(const uint8_t* data, size_t size) {
   const auto read = starfocus::ReadJpegParts("photo", {data, size});
   if (!read) return;

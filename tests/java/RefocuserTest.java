@@ -237,8 +237,8 @@ public final class RefocuserTest {
     for (int i = 0; i < chroma.capacity(); ++i) chroma.put(i, (byte) (i % 2 == 0 ? 120 : 135));
     final ByteBuffer v = chroma.duplicate();
     v.position(1);
-    // Android's layout: samples of U and V are two bytes apart. Each chroma buffer is one byte
-    // shorter than the chroma plane.
+    // In Android's layout, samples of U and V are two bytes apart, and the buffer of V starts one
+    // byte after the buffer of U.
     final Image camera = new Image(
         Image.YUV_420_888, new ByteBuffer[] {luma, chroma, v}, new int[] {WIDTH, WIDTH, WIDTH});
     camera.pixelStride = 2;

@@ -421,7 +421,7 @@ TEST_CASE("cells: the blur of a silhouette also widens the border of the cell be
   }
 }
 
-TEST_CASE("cells: the engine's borders are as wide as the analysis needs, and no cell wider") {
+TEST_CASE("cells: borders of BordersOf are as wide as the block analysis requires, and not wider") {
   test::Random random(12);
   int short_sighted = 0;  // number of blocks that require all cells of the border
   for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {

@@ -46,7 +46,7 @@ Scene BeforeStripes(int views) {
   return scene;
 }
 
-TEST_CASE("hidden fill: a wall of one colour continues exactly") {
+TEST_CASE("hidden fill: hidden pixels of a wall of one colour get exactly this colour") {
   Scene scene(1);
   scene.Fill(0, kSize, 0, kSize, -2, 137);
   scene.Fill(11, 31, 9, 29, 6, 20);

@@ -166,7 +166,7 @@ test::Scene Disc(int views, double near, double far, int bright, int dark) {
 }
 
 // Returns the largest difference from the wall's colour among pixels that light of the disc cannot
-// reach. Such pixels are beyond the blur and the mixed pixels of the disc.
+// reach. Light of the disc reaches only the blur of the disc and the mixed pixels around the disc.
 int GlowOf(const test::Scene& scene, const starfocus_config& config, double focus, double near,
            int wall) {
   const test::Refocused picture =

@@ -37,8 +37,8 @@ int LayerOf(const starfocus_report& report) {
   return report.layers[2].pixels > 0 ? 2 : report.layers[1].pixels > 0 ? 1 : 0;
 }
 
-// Returns true if each rendered view stands for a wide subaperture. Not valid for the blur mode,
-// which has no views.
+// Returns true if each rendered view stands for a wide subaperture. The result is not valid for the
+// blur mode, which has no views.
 bool UsesSubapertures(const Setup& setup) {
   const starfocus_params& params = setup.params;
   if (params.mode != STARFOCUS_MODE_FRAME || setup.config.views == 1)

@@ -20,7 +20,7 @@ struct Asked {
 
 starfocus_region RandomRegion(const test::Scene& scene, test::Random* random);
 
-// Returns a region of the picture.
+// Returns the pixels of a region of asked.picture.
 std::vector<uint8_t> Crop(const Asked& asked, const starfocus_region& region);
 
 // Calls `call` and returns the status. In some cases, `call` is first called with a failing runner.

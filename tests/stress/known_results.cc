@@ -149,8 +149,8 @@ Outcome Squares(test::Random* random) {
 }
 
 Outcome Limits(test::Random* random) {
-  // In benchmark mode, the number of views grows with the square of the radius. Cases in this mode
-  // are therefore rare and have one pixel.
+  // In benchmark mode, the number of views grows with the square of the radius. Cases in benchmark
+  // mode are therefore rare and have one pixel.
   const int kind = random->Int(0, 63);
   Setup setup;
   constexpr int kViews[] = {1, 5, 9, 17};
