@@ -39,12 +39,12 @@ class QuadratureDecoder {
 // lost, the next press still counts.
 class Debouncer {
  public:
-  // @param quiet duration of contact bounce in nanoseconds. All times of this class are in
+  // @param quiet duration of contact bounce in nanoseconds. All times of class Debouncer are in
   //     nanoseconds, from any monotonic clock
   explicit Debouncer(int64_t quiet) : quiet_(quiet) {}
 
-  // Processes an edge of the line. Returns true if this edge presses the button, or if contact
-  // bounce of an earlier press ended before this edge.
+  // Processes an edge of the line. Returns true if the edge is a press of the button, or if an
+  // earlier press is accepted because its contact bounce has ended.
   bool Edge(bool pressed, int64_t time);
 
   // Accepts the current level of the line when contact bounce has ended. Call Settle if no edge has

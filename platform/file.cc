@@ -56,8 +56,8 @@ bool IsProtected(const fs::path& target) {
 
 Error ReadOnly(const std::string& path) { return Cannot("write", path, "the file is read-only"); }
 
-// Gives the new file the owner and permissions of the file that it will replace. Returns false and
-// sets errno on failure.
+// Gives the new file `file` the owner and permissions of the file `target`, which the new file will
+// replace. Returns false and sets errno on failure.
 bool TakeStatus(const fs::path& target, std::FILE* file) {
   struct stat old, own;
   if (stat(target.c_str(), &old) != 0) return true;
@@ -88,7 +88,7 @@ Error Replace(const std::string& path, const fs::path& target, const Bytes& byte
 }
 
 // Limit of an input file in bytes. A PPM file of the largest supported picture, 2^28 pixels with 16
-// bits per sample, is smaller than this limit. A limit is required because a pipe has no known size
+// bits per sample, is smaller than kMostBytes. A limit is required because a pipe has no known size
 // and may be endless.
 constexpr uint64_t kMostBytes = uint64_t{1} << 31;
 

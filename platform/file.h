@@ -27,9 +27,10 @@ Result<Bytes> ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes&
 constexpr size_t kMostSmallBytes = size_t{1} << 20;
 Result<Bytes> ReadSmallFile(const std::string& path);
 
-// Writes a temporary file in the same folder and renames it, so that `path` contains either its old
-// content or all of `bytes`. Keeps the owner and permissions of an existing file, and rejects a
-// read-only file. Devices, pipes and standard output (standard_stream.h) are written directly.
+// Writes a temporary file in the folder of `path` and renames the temporary file, so that `path`
+// contains either its old content or all of `bytes`. Keeps the owner and permissions of an existing
+// file, and rejects a read-only file. Devices, pipes and standard output (standard_stream.h) are
+// written directly.
 Error WriteFile(const std::string& path, const Bytes& bytes);
 
 // Writes the output of an encoder to `path`. If the encoder failed, returns the error of the
@@ -38,9 +39,9 @@ Error WriteFile(const std::string& path, const Result<Bytes>& encoded);
 
 Error WriteText(const std::string& path, const std::string& text);
 
-// Returns an error if a later call of WriteFile with this path would probably fail. The folder of
-// `path` must be writable, the file system must accept the file name, and `path` must not be a
-// folder or a read-only file.
+// Returns an error if a later call of WriteFile with the path `path` would probably fail. The
+// folder of `path` must be writable, the file system must accept the file name, and `path` must not
+// be a folder or a read-only file.
 Error CheckOutputPath(const std::string& path);
 
 // Returns an error if `path` is a device or pipe, on which a reader could wait forever.

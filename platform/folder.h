@@ -10,7 +10,8 @@
 
 namespace starfocus {
 
-// Returns the sorted names of all entries of a folder. At most 100 000 entries are allowed.
+// Returns the sorted names of all entries of a folder. Returns an error if the folder has more than
+// 100 000 entries.
 Result<std::vector<std::string>> ListFolder(const std::string& folder);
 
 // Creates a folder and its parents unless they exist.

@@ -26,8 +26,8 @@ struct Screen {
   PixelField red = {0, 0}, green = {0, 0}, blue = {0, 0};
 };
 
-// Draws the picture at the centre of the screen, cropped to the screen, and fills the rest with
-// black.
+// Draws the picture at the centre of the screen, cropped to the screen, and fills the rest of the
+// screen with black.
 void Draw(const Image& picture, const Screen& screen);
 
 // Draws the picture on the framebuffer device `path`.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Accesses GPIO lines of Linux boards through libgpiod (1.5 or newer, or 2.x). This module is built
-// only if libgpiod is available. A chip is named "gpiochip0", "/dev/gpiochip0" or "0". A line is
-// identified by its offset on the chip.
+// only if libgpiod is available. Functions accept the GPIO chip names "gpiochip0", "/dev/gpiochip0"
+// and "0". A line is identified by its offset on the chip.
 #ifndef STARFOCUS_PLATFORM_GPIO_H_
 #define STARFOCUS_PLATFORM_GPIO_H_
 
@@ -24,15 +24,15 @@ Result<std::vector<GpioChip>> ListGpioChips();
 
 enum class GpioBias { kAsIs, kPullUp, kPullDown };
 
-// A signal edge of a line. `high` is true if the level of the line is high after the edge.
+// A signal edge on a GPIO line. `high` is true if the level of the line is high after the edge.
 struct GpioEdge {
   int line;
   bool high;
   int64_t nanoseconds;  // monotonic time
 };
 
-// Input lines with detection of both edges. Other programs cannot use the lines until the
-// destructor of GpioInputs runs.
+// GPIO input lines with detection of rising and falling edges. Other programs cannot use the lines
+// until the destructor of GpioInputs runs.
 class GpioInputs {
  public:
   GpioInputs();
@@ -50,14 +50,15 @@ class GpioInputs {
   std::unique_ptr<Lines> lines_;
 };
 
-// An output line, initially low.
+// A GPIO output line, whose initial level is low.
 class GpioOutput {
  public:
   GpioOutput();
   ~GpioOutput();
   Error Open(const std::string& chip, int line);
   Error Set(bool high);
-  // Returns true if the output line is high. Requires a chip that can read back its outputs.
+  // Returns true if the output line is high. Requires a GPIO chip that can read the levels of its
+  // outputs.
   Result<bool> Read();
 
  private:

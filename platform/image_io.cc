@@ -22,8 +22,8 @@ namespace {
 constexpr char kFormats[] = "a PNG, PPM, JPEG or WebP picture";
 
 // Returns true if a PNG file can contain the pixels that its header declares. Deflate expands a
-// byte to at most 1032 bytes. Without this check, stb_image would allocate memory for any declared
-// size.
+// byte to at most 1032 bytes. The check is required because stb_image would allocate memory for any
+// declared size.
 bool CanHold(const Bytes& png, const PngHeader& header) {
   constexpr uint64_t kMostExpansion = 1032, kSamples[] = {1, 1, 3, 1, 2, 1, 4, 1};
   const uint64_t bits = kSamples[header.colour & 7] * uint64_t(header.depth) * header.width;

@@ -18,9 +18,9 @@ namespace starfocus {
 // this header support pictures of up to 2^28 pixels.
 Result<Image> ReadImage(const std::string& path);
 
-// Decodes a picture in memory; `where` is used only in errors. For PNG and WebP, the metadata
-// contains the profile, EXIF and the complete XMP packet. readers/jpeg_parts.h reads the metadata
-// of JPEG files.
+// Decodes a picture in memory; `where` appears only in error messages. For PNG and WebP, the
+// metadata contains the profile, EXIF and the complete XMP packet. readers/jpeg_parts.h reads the
+// metadata of JPEG files.
 Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes);
 
 // Writes a picture in the format of the extension (writers/picture.h).

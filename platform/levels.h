@@ -18,8 +18,8 @@ struct Samples {
   int largest = 0;  // Sample value of white.
 };
 
-// Decodes the samples. `where` is used only in errors. If `use_alpha` is true, pixels that are less
-// than half opaque (alpha channel or tRNS) are NaN.
+// Decodes the samples. `where` appears only in error messages. If `use_alpha` is true, pixels that
+// are less than half opaque (alpha channel or tRNS) are NaN.
 Result<Samples> DecodeSamples(const std::string& where, bool use_alpha, const Bytes& bytes);
 
 // Decodes coverage: the alpha channel of a PNG file, or the grey levels of a picture without alpha.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes light-field folders. A folder contains captured views (view_files.h) and the
 // disparity map of the centre view. The map is disparity.pfm, or disp0.pfm or disp0GT.pfm of a
-// stereo pair. A folder may also contain the coverage of the map, coverage.png.
+// stereo pair. A light-field folder may contain the coverage of the map as coverage.png.
 #ifndef STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 #define STARFOCUS_PLATFORM_LIGHT_FIELD_H_
 
@@ -52,9 +52,10 @@ Result<FloatMap> ReadDisparity(const std::string& folder);
 // Returns true if the folder has a disparity map, which may be invalid.
 bool HasDisparity(const std::string& folder);
 
-// Loads the views at the positions `wanted`, or all views of the folder if `wanted` is empty. Does
-// not load the map. All views must have the same size. In all functions of this header, `runner`
-// decodes several views at a time; if `runner` is null, the calling thread decodes all views.
+// Loads the views at the positions `wanted`, or all views of the folder if `wanted` is empty.
+// LoadCaptured does not load the disparity map. All views must have the same size. In all functions
+// of this header, `runner` decodes several views at a time; if `runner` is null, the calling thread
+// decodes all views.
 Result<LightField> LoadCaptured(const std::string& folder, const Positions& wanted,
                                 ThreadRunner* runner = nullptr);
 
@@ -67,7 +68,7 @@ Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files,
 Error LoadMap(const std::string& path, LightField* light_field);
 
 // Adds a disparity map to a light field whose views are loaded. The map must have the size of the
-// views. `path` is used only in errors.
+// views. `path` appears only in error messages.
 Error TakeMap(const std::string& path, FloatMap map, LightField* light_field);
 
 // Returns the path of the coverage file in the folder, or an empty string if the file does not
@@ -84,8 +85,8 @@ Error LoadCoverage(const std::string& path, LightField* light_field);
 Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
                                   ThreadRunner* runner = nullptr);
 
-// Creates the folder if necessary. Writes the views as PNG, several at a time on `runner`. Writes
-// the coverage and the disparity map unless they are empty.
+// Creates the folder of a light field if necessary. Writes the views as PNG, several at a time on
+// `runner`. Writes the coverage and the disparity map of the light field unless they are empty.
 Error SaveLightField(const std::string& folder, const LightField& light_field,
                      ThreadRunner* runner);
 

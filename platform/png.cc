@@ -34,7 +34,7 @@ Bytes TakePalette(Bytes* png) {
   (*png)[kFirstChunk + 17] = kGrey;
   for (size_t at = kFirstChunk; at + 12 <= png->size();) {
     uint8_t* chunk = &(*png)[at];
-    if (IsChunk(chunk, "IEND")) break;  // bytes after the last chunk may be any data
+    if (IsChunk(chunk, "IEND")) break;  // any data may follow the last chunk
     const size_t length = ReadBigEndian32(chunk);
     if (IsChunk(chunk, "PLTE")) palette.assign(chunk + 8, chunk + 8 + length);
     // Rename the chunk tRNS so that decoders skip it: opacities of a palette do not apply to grey

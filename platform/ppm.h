@@ -15,7 +15,7 @@
 namespace starfocus {
 
 // Decodes a P6 file, or converts a P5 file from grey to RGB. The maximum value may be up to 65535,
-// and samples are scaled to 8 bits. `path` is used only in errors.
+// and samples are scaled to 8 bits. `path` appears only in error messages.
 Result<Image> DecodePpm(const std::string& path, const Bytes& bytes);
 
 // Samples of a P6 or P5 file, 0 to `largest`.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows a progress line with the remaining time on stderr, if stderr is a terminal. Only one
-// Progress object at a time shows a line. Objects that are created while another object shows a
-// line show nothing, because they measure parts of the same work.
+// Progress object at a time shows a progress line. A Progress object that is created while another
+// object shows a line shows nothing, because it measures a part of the same work.
 #ifndef STARFOCUS_PLATFORM_PROGRESS_H_
 #define STARFOCUS_PLATFORM_PROGRESS_H_
 
@@ -14,7 +14,7 @@ namespace starfocus {
 
 class Progress {
  public:
-  // @param total number of steps that correspond to 100 %
+  // @param total number of steps that correspond to a progress of 100 %
   Progress(std::string what, int64_t total);
   ~Progress();  // erases the progress line
   Progress(const Progress&) = delete;

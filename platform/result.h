@@ -17,7 +17,7 @@ enum class ErrorKind {
 };
 
 // A one-line error message that names the file or option and the cause. An Error converts to true
-// unless it means success:
+// if the error is not success:
 //   if (Error error = WriteFile(path, bytes)) return error;
 class [[nodiscard]] Error {
  public:

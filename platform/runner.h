@@ -21,8 +21,8 @@ class ThreadRunner {
   int workers() const { return starfocus_pool_workers(pool_.get()); }
 
   // A function of type starfocus_runner, whose `runner_data` must point to a ThreadRunner. If a job
-  // throws an exception, Run skips all jobs that have not started. When no job is running any more,
-  // Run rethrows the first exception.
+  // throws an exception, Run skips all jobs that have not started. After all running jobs have
+  // ended, Run rethrows the first exception.
   static int Run(void* runner_data, starfocus_job job, void* job_data, int32_t count);
 
  private:

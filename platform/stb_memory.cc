@@ -9,7 +9,7 @@
 namespace starfocus {
 namespace {
 
-// Header of every allocation, with pointers to the neighbours in the list of allocations of this
+// Header of every allocation, with pointers to the neighbours in the list of all allocations of the
 // thread.
 struct alignas(std::max_align_t) Piece {
   Piece *next, *previous;

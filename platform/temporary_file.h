@@ -11,8 +11,9 @@ namespace starfocus {
 // A new file, which the destructor removes unless MoveTo has succeeded.
 class TemporaryFile {
  public:
-  // Creates the file in `folder`. On failure, file() is null and errno is set. The temporary name
-  // is short, so that file systems that accept the final name also accept the temporary name.
+  // Creates the temporary file in the folder `folder`. On failure, file() is null and errno is set.
+  // The temporary name is short, so that file systems that accept the final name also accept the
+  // temporary name.
   explicit TemporaryFile(const std::string& folder);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
@@ -20,11 +21,11 @@ class TemporaryFile {
 
   std::FILE* file() const { return file_; }
 
-  // Closes the file and renames it to `target`. Returns false and sets errno on failure.
+  // Closes the temporary file and renames it to `target`. Returns false and sets errno on failure.
   bool MoveTo(const std::string& target);
 
   // Installs handlers for SIGINT, SIGTERM and SIGHUP, which remove the temporary files of all
-  // threads and end the program. Ignored signals remain ignored.
+  // threads and end the program. Signals that the process ignores remain ignored.
   static void RemoveOnSignals();
 
  private:

@@ -15,9 +15,9 @@ class TextHeader {
  public:
   explicit TextHeader(const Bytes& bytes) : bytes_(bytes) {}
 
-  // Returns the next token and skips the white-space character after it. The token has at most 32
-  // characters, and is empty at the end of the file. Replaces non-printable characters of the token
-  // by '?'.
+  // Returns the next token of the header and skips the white-space character after the token. The
+  // token has at most 32 characters, and is empty at the end of the file. Replaces non-printable
+  // characters of the token by '?'.
   std::string Token();
 
   const uint8_t* data() const { return bytes_.data() + position_; }
@@ -30,8 +30,8 @@ class TextHeader {
   size_t position_ = 0;
 };
 
-// Parses a decimal integer from 1 to kMaxPictureSize. Returns 0 if the token is not such an
-// integer.
+// Parses a decimal integer from 1 to kMaxPictureSize. Returns 0 if the token is not an integer in
+// this range.
 int ParseSize(const std::string& token);
 
 }  // namespace starfocus

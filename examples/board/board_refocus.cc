@@ -135,7 +135,8 @@ class Board {
     return {};
   }
 
-  // Sets the busy line and reads its level back. Returns false if the options name no busy line.
+  // Sets the level of the busy line, and returns the level that the line reports. Returns false if
+  // the options name no busy line.
   Result<bool> SetBusy(bool high) {
     if (!options_.busy) return false;
     if (Error error = busy_.Set(high)) return error;

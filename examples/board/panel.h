@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interprets the camera's controls: a rotary encoder for the focus, a button for the aperture, and
-// a button for the shutter. The input consists of the signal edges on the lines of these controls.
-// The module performs no I/O.
+// a button for the shutter. The input consists of the signal edges on the GPIO lines of the
+// controls. The module performs no I/O.
 #ifndef STARFOCUS_EXAMPLES_BOARD_PANEL_H_
 #define STARFOCUS_EXAMPLES_BOARD_PANEL_H_
 

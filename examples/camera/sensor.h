@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Simulates five cameras that look at a ball in front of a wall, and a depth sensor with fewer
- * pixels. Rows are computed on request. Used by camera.c. */
+ * pixels. The simulation computes rows of pixels on request. Used by camera.c. */
 #ifndef STARFOCUS_EXAMPLES_CAMERA_SENSOR_H_
 #define STARFOCUS_EXAMPLES_CAMERA_SENSOR_H_
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Minimal program: refocuses a chequered picture whose disparity rises from left to right. Writes
- * minimal.ppm and prints the status. */
+ * the picture minimal.ppm and prints the status of the refocusing. */
 #include <starfocus/starfocus.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -73,7 +73,7 @@ Error CheckTap(const std::string& option, const Pixel& point, const LightField& 
                       "'" + std::to_string(point.x) + "," + std::to_string(point.y) + "'");
 }
 
-// An engine with the prepared light field, and the pictures that it computes.
+// An engine with the prepared light field, and the pictures that the engine computes.
 class Session {
  public:
   Session(const LightField& field, const Options& options, ThreadRunner* runner)

@@ -7,9 +7,9 @@
 
 namespace starfocus {
 
-// Removes the header "Exif\0\0" from `exif`. JPEG files require this header, and some programs also
-// write the header to PNG and WebP files. Clears `exif` if the bytes after the header are not a
-// TIFF structure.
+// Removes the header "Exif\0\0" from `exif`. JPEG files require the header "Exif\0\0", and some
+// programs write the header to PNG and WebP files. Clears `exif` if the bytes after the header are
+// not a TIFF structure.
 void TrimExif(Bytes* exif);
 
 }  // namespace starfocus

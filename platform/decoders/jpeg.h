@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Decodes to RGB. Grey and CMYK pictures are converted to RGB without a colour profile. Uses
-// libjpeg-turbo if available, otherwise stb_image, which does not support arithmetic coding. A
-// truncated file is an error. `where` is used only in errors.
+// Decodes a JPEG file to RGB. Grey and CMYK pictures are converted to RGB without a colour profile.
+// Uses libjpeg-turbo if available, otherwise stb_image, which does not support arithmetic coding. A
+// truncated file is an error. `where` appears only in error messages.
 Result<Image> DecodeJpeg(const std::string& where, const Bytes& jpeg);
 
 }  // namespace starfocus

@@ -23,7 +23,7 @@ constexpr int kMostScans = 500;
 
 // State of libjpeg and the cause of an error. The destructor frees libjpeg's memory.
 struct Decoder {
-  jpeg_error_mgr manager;  // must be the first member: Fail casts a pointer to it
+  jpeg_error_mgr manager;  // must be the first member, because Fail casts a pointer to it
   std::jmp_buf back;
   jpeg_decompress_struct info;
   jpeg_progress_mgr progress;
@@ -72,8 +72,8 @@ void CountScans(j_common_ptr info) {
 
 bool IsCmyk(const jpeg_decompress_struct& info) { return info.out_color_space == JCS_CMYK; }
 
-// Functions that call setjmp return false and set the reason in the decoder on failure. Local
-// objects of these functions must not have destructors, because longjmp on a libjpeg error skips
+// On failure, functions that call setjmp return false and set decoder->reason. Local objects of
+// functions that call setjmp must not have destructors, because longjmp on a libjpeg error skips
 // destructors.
 bool ReadHeader(const Bytes& jpeg, Decoder* decoder) {
   jpeg_decompress_struct& info = decoder->info;
@@ -91,8 +91,9 @@ bool ReadHeader(const Bytes& jpeg, Decoder* decoder) {
   return true;
 }
 
-// Converts a row of CMYK. In CMYK files, Adobe's programs store 255 minus the amount of ink. Like
-// libjpeg-turbo's own program, ToRgb assumes inverted ink even if a file lacks Adobe's marker.
+// Converts a row of CMYK pixels to RGB. In CMYK files, Adobe's programs store 255 minus the amount
+// of ink. Like libjpeg-turbo's own program, ToRgb assumes inverted ink even if a file lacks Adobe's
+// marker.
 void ToRgb(const uint8_t* cmyk, int width, uint8_t* rgb) {
   for (int x = 0; x < width; ++x, cmyk += 4, rgb += 3) {
     for (int c = 0; c < 3; ++c) rgb[c] = static_cast<uint8_t>((cmyk[c] * cmyk[3] + 127) / 255);

@@ -65,8 +65,8 @@ struct Reader {
   Reader& operator=(const Reader&) = delete;
 };
 
-// Functions that call setjmp return false and set the reason in the call on failure. Local objects
-// of these functions must not have destructors, because longjmp on a libpng error skips
+// On failure, functions that call setjmp return false and set call->reason. Local objects of
+// functions that call setjmp must not have destructors, because longjmp on a libpng error skips
 // destructors.
 bool ReadHeader(Call* call, Reader* reader) {
   PngCall* const base = call;

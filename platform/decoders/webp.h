@@ -14,7 +14,8 @@ namespace starfocus {
 // Returns true if the bytes start with the signature of WebP files.
 bool IsWebp(const Bytes& bytes);
 
-// Decodes a still picture to RGB without alpha. Requires libwebp. `where` is used only in errors.
+// Decodes a still picture to RGB without alpha. Requires libwebp. `where` appears only in error
+// messages.
 Result<DecodedPicture> DecodeWebp(const std::string& where, const Bytes& webp);
 
 }  // namespace starfocus

@@ -31,7 +31,7 @@ CoreSet FindBigCores(const char* folder, const CoreSet& allowed);
 CoreSet BigCores();
 
 // Restricts the calling thread to `cores`. If the system rejects the restriction, the thread may
-// still run on any core that it could use before.
+// still run on any core that was available before.
 void RunOn(const CoreSet& cores);
 
 }  // namespace starfocus

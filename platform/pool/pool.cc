@@ -101,8 +101,8 @@ void Work(starfocus_pool* pool, int32_t worker) {
     pool->batch.job(pool->batch.data, pool->batch.count - left, worker);
     if (--pool->undone == 0 && pool->waiting != 0) {
       // The caller of starfocus_pool_run either sleeps, or holds the mutex and checks `undone`
-      // before it sleeps. Locking the mutex waits for this check, so the caller cannot miss the
-      // signal.
+      // before it sleeps. Locking the mutex waits until the caller has checked `undone`, so the
+      // caller cannot miss the signal.
       { const Lock lock(&pool->sleep); }
       pthread_cond_signal(&pool->finished);
     }

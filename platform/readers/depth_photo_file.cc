@@ -137,7 +137,7 @@ void KeepCaptions(DepthPhoto* photo) {
   photo->metadata.xmp = KeptXmp(*root);
 }
 
-// Adds a note that explains why the map in the file is not used, unless `photo` already has this
+// Adds a note that explains why the map in the file is not used, unless `photo` already has such a
 // note.
 void NoteProblem(DepthPhoto* photo) {
   const std::string& problem = photo->map_problem;

@@ -24,7 +24,7 @@ double MetresOf(const std::string& units) {
   return units == "mm" || units == "millimeters" ? 0.001 : 0;
 }
 
-// Parses a number, which may be infinite. Returns NaN for any other text.
+// Parses a number, which may be infinite. Returns NaN if the text is not a number.
 double NumberOf(const std::string* text) {
   if (text == nullptr || text->empty()) return NAN;
   char* end = nullptr;

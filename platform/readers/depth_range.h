@@ -18,8 +18,8 @@ struct RangeProperties {
 // Replaces the levels of photo->map, 0 to 1, by inverse distances. A valid depth range has the
 // format RangeInverse or RangeLinear, and 0 < near < far. `far` may be infinite if the format is
 // RangeInverse. Level 0 means the distance `near`. ApplyRange ignores an invalid depth range and
-// adds a note. In this case, the map receives the meaning kOrder, and black is near unless `near`
-// is kWhite.
+// adds a note. With an invalid range, the map receives the meaning kOrder, and black is near unless
+// `near` is kWhite.
 //
 // @return metres per unit of distance; 1 if the unit is unknown, 0 if the meaning of the map is
 //     kOrder

@@ -90,7 +90,7 @@ Span FindByLengths(Span file, const JpegParts& parts, const std::vector<Item>& i
 
 // Finds item `index` of the directory without using the lengths in the directory. A PNG item is the
 // first PNG file after the primary picture. A JPEG item is found by its position among the JPEG
-// items of the directory. Returns an empty span if no such picture is found.
+// items of the directory. Returns an empty span if no picture with the type of the item is found.
 Span FindByBeginning(Span file, const JpegParts& parts, const std::vector<Item>& items,
                      size_t index) {
   if (items[index].mime == "image/png") {

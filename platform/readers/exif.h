@@ -10,7 +10,8 @@ namespace starfocus {
 // Reads photo->metadata.exif, if any, into `orientation`, `focal_35mm` and the subject
 // (SubjectArea, otherwise SubjectLocation), and adds a fact. Ignores damaged EXIF, since the
 // picture is usable without EXIF. `width` and `height` are the size of the picture before its
-// orientation is applied. The subject's coordinates refer to this size if EXIF states no size.
+// orientation is applied. The coordinates of the subject refer to `width` and `height` if EXIF
+// states no size.
 void ReadExif(int width, int height, DepthPhoto* photo);
 
 // Reads EXIF with the size of photo->picture. The caller must not have applied the EXIF orientation

@@ -92,8 +92,8 @@ Result<Image> DecodePicture(const std::string& where, const heif_image_handle* h
   return image;
 }
 
-// Returns the levels of a depth map, 0 to 1. For more than 8 bits per sample, libheif stores 16-bit
-// integers in the byte order of the machine.
+// Returns the levels of a depth map, 0 to 1. If samples have more than 8 bits, libheif stores
+// 16-bit integers in the byte order of the machine.
 Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* handle) {
   const Result<Decoded> decoded =
       Decode(where, handle, heif_colorspace_undefined, heif_chroma_undefined);
@@ -155,8 +155,8 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
     }
   }
   // libheif has already rotated the pictures by the transformations of the file. In most HEIF
-  // files, EXIF's orientation equals these transformations and therefore applies to the subject. If
-  // the size of the picture contradicts EXIF's orientation, the subject is ignored.
+  // files, EXIF's orientation equals the transformations of the file and therefore applies to the
+  // subject. If the size of the picture contradicts EXIF's orientation, the subject is ignored.
   const int stored_width = heif_image_handle_get_ispe_width(handle);
   const int stored_height = heif_image_handle_get_ispe_height(handle);
   ReadExif(stored_width, stored_height, photo);

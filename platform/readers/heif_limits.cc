@@ -8,8 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Largest width and height of a HEIF picture. A square picture of this size has 2^28 pixels.
-// The library libheif may allocate memory for any declared size up to kMostSide.
+// Largest width and height of a HEIF picture. A square picture of 16384 x 16384 pixels has 2^28
+// pixels. The library libheif may allocate memory for any declared size up to kMostSide.
 constexpr int64_t kMostSide = 16384;
 // Limits of the number of pixels: per byte of the file, and for any file. An AVIF picture of one
 // colour has 31 000 pixels per byte.

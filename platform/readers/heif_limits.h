@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks the limits of HEIF files before libheif decodes them. Without checks, libheif would decode
-// a picture that contains itself until threads or memory run out. libheif also allocates any size
-// that a file declares.
+// a picture that contains itself until threads or memory run out. Without checks, libheif would
+// allocate memory for any size that a file declares.
 #ifndef STARFOCUS_PLATFORM_READERS_HEIF_LIMITS_H_
 #define STARFOCUS_PLATFORM_READERS_HEIF_LIMITS_H_
 
@@ -12,7 +12,8 @@
 
 namespace starfocus {
 
-// Returns an error if a picture of this size is too large for a file of `file` bytes.
+// Returns an error if a picture of `width` x `height` pixels is too large for a file of `file`
+// bytes.
 Error CheckHeifSize(const std::string& where, int64_t width, int64_t height, size_t file);
 
 // Returns an error if the items of a file are malformed, too large or inconsistent. A derived

@@ -24,7 +24,7 @@ struct Span {
 // A segment of extended XMP (XMP specification part 3, 1.1.3.1).
 struct XmpExtension {
   std::string guid;
-  // length of the whole extended XMP in bytes, and offset of this segment in the extended XMP
+  // Length of the whole extended XMP in bytes, and offset of the segment in the extended XMP.
   uint32_t total = 0, offset = 0;
   Span text;
 };

@@ -88,8 +88,8 @@ Uprightness JudgeByEdges(const DepthPhoto& photo) {
   return {sure && upright > turned, sure};
 }
 
-// Decides by the edges of picture and map whether the map is upright. Called if the proportions fit
-// both orientations. Adds a note.
+// Decides by the edges of picture and map whether the map is upright. Used if the proportions of
+// the map fit both the upright and the stored orientation. Adds a note.
 bool ChooseByEdges(DepthPhoto* photo) {
   const auto [upright, sure] = JudgeByEdges(*photo);
   photo->notes.push_back(std::string("the depth picture is taken to be ") +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides whether the orientation in EXIF applies to a depth picture or only to its photo. Compares
-// the proportions of a depth picture with those of its photo.
+// the proportions of a depth picture with the proportions of its photo.
 #ifndef STARFOCUS_PLATFORM_READERS_MAP_ORIENTATION_H_
 #define STARFOCUS_PLATFORM_READERS_MAP_ORIENTATION_H_
 

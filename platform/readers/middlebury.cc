@@ -14,8 +14,9 @@
 namespace starfocus {
 namespace {
 
-// A published size of a scene. `multiple` is the ratio of grey levels to disparities in maps of
-// this size. The published sizes of a pair are sorted from large to small.
+// A size in which Middlebury publishes a scene. `multiple` is the ratio of grey levels to
+// disparities in maps of the published size. The published sizes of a pair are sorted from large to
+// small.
 struct Size {
   int least_height, multiple;
 };
@@ -74,8 +75,8 @@ double Difference(const LightField& field, const FloatMap& levels, int multiple)
 }
 
 int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const FloatMap& levels) {
-  // A multiple is clearly better if its difference is below kClearly times the difference of the
-  // default, minus kLevel for rounding errors.
+  // Another multiple is used if its picture difference is below kClearly times the difference of
+  // the default multiple, minus kLevel for rounding errors.
   constexpr double kClearly = 0.7, kLevel = 1;
   const Size* own =
       std::find_if(std::begin(pair.sizes), std::end(pair.sizes),

@@ -17,7 +17,7 @@ bool IsDepthPictureName(const std::string& name);
 // Finds the depth picture next to a photograph NAME.jpg or NAME-image.jpg. The depth picture is
 // named NAME-depth, NAME_depth or NAME.depth, with .png, .pgm, .pfm, .jpg or .jpeg, in upper or
 // lower case. Returns "" if no depth picture is found. If the folder has several depth pictures of
-// the photograph, a note states which one is used.
+// the photograph, a note names the depth picture that is used.
 Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo);
 
 // Reads the depth picture (PNG, PGM, PPM, JPEG or PFM). photo->picture must already be set. By

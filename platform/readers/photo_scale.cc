@@ -82,7 +82,8 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
                                 "in front of a 50 mm lens on full frame");
 }
 
-// Returns an error if a disparity of the map is out of range. Does not change the map.
+// Returns an error if a disparity of the map is out of range. CheckDisparities does not change the
+// map.
 Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
   const auto [low, high] = std::minmax_element(photo->map.values.begin(), photo->map.values.end());
   if (double(*low) >= -STARFOCUS_MAX_DISPARITY && double(*high) <= STARFOCUS_MAX_DISPARITY) {

@@ -13,9 +13,9 @@ namespace starfocus {
 FloatMap Resize(const FloatMap& map, int width, int height);
 
 // Applies the EXIF orientation of the photo, and converts the map to disparities in pixels of the
-// picture. With these disparities, an aperture of radius 1 is a lens of f/1 on full frame
+// picture. With the resulting disparities, an aperture of radius 1 is a lens of f/1 on full frame
 // (docs/formats.md). Moves the picture and the map to the light field. The map keeps its size.
-// photo->focus_value is also converted to a disparity.
+// Converts photo->focus_value to a disparity as well.
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo);
 
 // Resizes the disparity map of a one-view light field to the size of the view.

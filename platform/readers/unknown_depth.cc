@@ -13,9 +13,9 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float kTop = 65535;  // Largest 16-bit value.
-// The value 0 or 65535 is a depth if its distance to the other values is less than this fraction of
-// their range. Sensors leave a larger gap at 0, because the nearest distance that a sensor measures
-// is at least 5 % of the range.
+// The value 0 or 65535 is a depth if its distance to the other values is less than kBesidePart
+// times their range. Sensors leave a larger gap at 0, because the nearest distance that a sensor
+// measures is at least 5 % of the range.
 constexpr float kBesidePart = 0.02F;
 
 // Number of pixels with the values 0 and 65535 in a 16-bit map, and whether these values are
@@ -160,7 +160,7 @@ size_t FillBehind(FloatMap* map) {
   const RobustRange range = RobustRangeOf(map->values);
   const float alike = kAlikePart * (range.high - range.low);
   // The first pass completes every row and column that contains a known pixel, so the second pass
-  // fills the rest.
+  // fills all remaining pixels.
   for (auto left = static_cast<size_t>(unknown); left > 0;) left -= FillOnce(alike, map);
   return static_cast<size_t>(unknown);
 }

@@ -16,10 +16,10 @@ namespace starfocus {
 void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo);
 
 // Replaces NaN by the background in a map in which larger values are nearer. For each unknown
-// pixel, uses the gap along its row or its column, whichever is shorter. The new value is the
-// smaller of the two values at the ends of the gap. If the values at the ends of the gap differ by
-// at most 5 % of the value range, the new value is interpolated. At least one value of the map must
-// be known. Returns the number of filled pixels.
+// pixel, uses the gap along its row or its column, whichever is shorter. The new value of an
+// unknown pixel is the smaller of the values at the ends of the gap. If the values at the ends of
+// the gap differ by at most 5 % of the value range, the new value is interpolated. At least one
+// value of the map must be known. Returns the number of filled pixels.
 size_t FillBehind(FloatMap* map);
 
 }  // namespace starfocus

@@ -58,8 +58,8 @@ std::string Count(int rows, int columns) {
 // is even, the last view is ignored.
 int HalfOf(int count) { return (count - 1) / 2; }
 
-// Returns the reach of a star: the distance of its outermost views from the centre, in views. Odd
-// distances above 4 are reduced by one to an even distance.
+// Returns the reach of a star: the distance of its outermost views from the centre, in views. An
+// odd reach above 4 is reduced by one to an even reach.
 int ReachOf(int half) { return half % 2 == 1 && half > 4 ? half - 1 : half; }
 
 struct Chooser {

@@ -35,8 +35,8 @@ Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts*
 
 // Finds pictures whose names differ in two numbers (row and column) or in a single number, for
 // example NAME_00_01.png. If file names differ in more than two numbers, only the first two numbers
-// count, which excludes the camera positions in Stanford's names. The array is empty if the names
-// do not differ in such numbers.
+// count, which excludes the camera positions in Stanford's names. The array is empty if the file
+// names do not have the form of view names.
 Result<ViewArray> FindArray(const std::string& folder, const std::vector<std::string>& names);
 
 }  // namespace starfocus

@@ -81,8 +81,8 @@ struct Builder {
     });
   }
 
-  // Rejects document type declarations, because they can declare entities, which expand a few bytes
-  // to millions.
+  // Rejects document type declarations, because declared entities may expand a few bytes to
+  // millions of bytes.
   static void Doctype(void* data, const char*, const char*, const char*, int) {
     Builder* self = static_cast<Builder*>(data);
     self->Guard([&] { self->Stop("XMP without a document type", "a document type"); });

@@ -36,7 +36,7 @@ struct SharpOriginal {
 // Encodes the refocused picture as JPEG, with the sharp original and its map in XMP. The map is
 // stored as an 8-bit PNG picture whose levels are linear in disparity (RangeInverse).
 // GFocus:BlurAtInfinity is the blur radius at infinity, divided by the longer side of the picture.
-// `path` is used only in errors.
+// `path` appears only in error messages.
 Result<Bytes> EncodeDepthPhoto(const std::string& path, const Image& picture,
                                const SharpOriginal& photo, int quality, const Metadata& metadata);
 

@@ -39,8 +39,8 @@ class Tiff {
       bytes_[at + (little_ ? i : size - 1 - i)] = static_cast<uint8_t>(value >> (8 * i));
     }
   }
-  // Removes an entry from an IFD (a list of EXIF tags) with `count` entries. Moves the following
-  // entries up.
+  // Removes an entry from an IFD (a list of EXIF tags) with `count` entries. Moves the entries that
+  // follow the removed entry up.
   void Remove(size_t folder, size_t entry, size_t count) {
     const size_t end = folder + 2 + count * kEntry + 4;
     std::copy(bytes_.begin() + static_cast<ptrdiff_t>(entry + kEntry),

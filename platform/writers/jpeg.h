@@ -13,7 +13,7 @@ namespace starfocus {
 
 // Encodes the pixels without metadata. `quality` is 1 to 100. If the quality is 90 or more, chroma
 // is stored at full resolution. Uses libjpeg-turbo if available, otherwise stb_image_write. In all
-// functions of this header, `path` is used only in errors.
+// functions of this header, `path` appears only in error messages.
 Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality);
 
 // Encodes a JPEG file with `segments` (jpeg_segments.h) and `metadata`, whose EXIF is edited to

@@ -26,7 +26,7 @@ enum class PngSize { kQuick, kSmall };
 // Encodes a picture with 8 bits per sample. In builds with libpng and libdeflate, writes metadata
 // with EXIF edited to match the picture (exif.h). Builds without libpng or libdeflate use
 // stb_image_write, which writes no metadata and ignores `size`. In all functions of this header,
-// `path` is used only in errors.
+// `path` appears only in error messages.
 Result<Bytes> EncodePng(const std::string& path, const Image& image, const Metadata& metadata,
                         PngSize size);
 

@@ -16,7 +16,7 @@ namespace starfocus {
 // each picture lasts a tenth of a second. Only the encoded pictures are kept in memory.
 class WebpWriter {
  public:
-  // `path` is used only in errors; `quality` is 1 to 100.
+  // `path` appears only in error messages; `quality` is 1 to 100.
   WebpWriter(std::string path, int quality);
   ~WebpWriter();
   WebpWriter(const WebpWriter&) = delete;

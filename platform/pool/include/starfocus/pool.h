@@ -35,7 +35,7 @@ typedef struct starfocus_pool starfocus_pool;
 STARFOCUS_API int32_t starfocus_pool_cores(void);
 
 /** Creates a pool. On systems with big and small cores, the threads run only on the big cores if
- *  there are enough big cores. Free the pool with starfocus_pool_destroy.
+ * the system has a big core for each worker. Free the pool with starfocus_pool_destroy.
  *  @param workers number of workers, at most STARFOCUS_MAX_WORKERS; 0 or less:
  *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of the workers, so the
  *         pool starts one thread less than it has workers. The pool has fewer workers if the system
@@ -48,10 +48,10 @@ STARFOCUS_API starfocus_pool* starfocus_pool_create(int32_t workers);
  *  @return number of workers of the pool; 0 for a null pool */
 STARFOCUS_API int32_t starfocus_pool_workers(const starfocus_pool* pool);
 
-/** Runs jobs on the threads of a pool. The function is a starfocus_runner. The calling thread is
- *  worker 0. Calls from several threads with the same pool run one after the other. A job must not
- *  call this function with the same pool. An idle thread polls for new jobs for a tenth of a
- *  millisecond and then sleeps.
+/** Runs jobs on the threads of a pool. starfocus_pool_run has the type starfocus_runner. The
+ *  calling thread is worker 0. If several threads call starfocus_pool_run with one pool, the calls
+ *  take turns. A job must not call starfocus_pool_run with its own pool. An idle thread polls for
+ *  new jobs for a tenth of a millisecond and then sleeps.
  *  @param pool the pool, as starfocus_callbacks.runner_data
  *  @param job called with every index in [0, count)
  *  @param job_data first argument of `job`

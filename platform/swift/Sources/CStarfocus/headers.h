@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Headers of the Swift module CStarfocus. The header of the thread pool is not included, because a
+/* Headers of the Swift module CStarfocus. The module does not include the thread pool, because a
  * starfocus_runner in Swift can use DispatchQueue.concurrentPerform. */
 #include <starfocus/depth.h>
 #include <starfocus/starfocus.h>

@@ -116,8 +116,8 @@ struct JavaTask {
   jobject parameters, out;
 };
 
-// Converts the arguments of a task. Returns false, with an exception pending, if the arguments are
-// invalid.
+// Converts the Java arguments of a refocusing to C structures. Returns false, with an exception
+// pending, if the arguments are invalid.
 bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_params* params,
               starfocus_image* image) {
   const int32_t shift = task.shift;
@@ -127,8 +127,8 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_par
   params->preview_shift = shift;
   const starfocus_region& region = params->region;
   const bool whole = region.width == 0 && region.height == 0;
-  // The engine checks the region and the shift later. Until then, valid values replace invalid
-  // values, so that the size of the buffer can be checked.
+  // The engine checks the region and the shift later. Replace invalid values of the region and the
+  // shift by valid values, so that the size of the buffer can be checked.
   const int32_t width = whole ? session->config.width : region.width < 1 ? 1 : region.width;
   const int32_t height = whole ? session->config.height : region.height < 1 ? 1 : region.height;
   const int32_t known = shift < 0 || shift > STARFOCUS_MAX_PREVIEW ? 0 : shift;
@@ -136,7 +136,8 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_par
                    Reduced(region.y, height, known), image);
 }
 
-// Creates the pool and the engine of a session. The session's configuration must be set.
+// Creates the pool and the engine of a session. The caller must have set the configuration of the
+// session.
 starfocus_status Start(Session* session) {
   starfocus_config* const config = &session->config;
   config->features |= STARFOCUS_FEATURE_IMAGES;

@@ -8,8 +8,8 @@ package dev.starfocus;
  */
 public final class Configuration {
   /**
-   * Values of {@link #transfer}. SRGB: samples encode light by the sRGB curve. NONE: samples are
-   * proportional to light.
+   * Values of {@link #transfer}. SRGB means that samples encode light by the sRGB curve. NONE means
+   * that samples are proportional to light.
    */
   public static final int TRANSFER_SRGB = 0, TRANSFER_NONE = 1;
 

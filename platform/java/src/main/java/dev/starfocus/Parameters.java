@@ -8,21 +8,22 @@ package dev.starfocus;
  */
 public final class Parameters {
   /**
-   * Values of {@link #mode}. FRAME: one number of views for the whole picture. BENCHMARK: one
-   * number of views for the whole picture, larger than with FRAME. BLOCK: blocks of different
-   * sizes, each with its own number of views. BLUR: the blurred centre view, without other views.
+   * Values of {@link #mode}. FRAME uses one number of views for the whole picture. BENCHMARK uses
+   * one number of views for the whole picture, which is larger than with FRAME. BLOCK uses blocks
+   * of different sizes, each with its own number of views. BLUR blurs the centre view and uses no
+   * other views.
    */
   public static final int MODE_FRAME = 0, MODE_BENCHMARK = 1, MODE_BLOCK = 2, MODE_BLUR = 3;
   /**
-   * Values of {@link #shape}. FALL_OFF: a disc that is darker towards its rim. DISC: a disc of
-   * constant brightness. POLYGON: a polygon, like the opening of a diaphragm with blades. RING: a
-   * disc with a round hole in its middle.
+   * Values of {@link #shape}. FALL_OFF is a disc that is darker towards its rim. DISC is a disc of
+   * constant brightness. POLYGON is a polygon, like the opening of a diaphragm with blades. RING is
+   * a disc with a round hole in its middle.
    */
   public static final int SHAPE_FALL_OFF = 0, SHAPE_DISC = 1, SHAPE_POLYGON = 2, SHAPE_RING = 3;
   /**
-   * Values of {@link #renderer}. AUTO: LINE_SCAN for MODE_FRAME with a star of 5 or more views,
-   * otherwise SLICES. LINE_SCAN: the paper's line scan, which requires the views of {@link
-   * Refocuser#viewPosition}. SLICES: compositing of depth slices, which requires fewer views than
+   * Values of {@link #renderer}. AUTO means LINE_SCAN for MODE_FRAME with a star of 5 or more
+   * views, otherwise SLICES. LINE_SCAN is the paper's line scan, which requires the views of {@link
+   * Refocuser#viewPosition}. SLICES composites depth slices, which requires fewer views than
    * LINE_SCAN.
    */
   public static final int RENDERER_AUTO = 0, RENDERER_LINE_SCAN = 1, RENDERER_SLICES = 2;
@@ -60,7 +61,7 @@ public final class Parameters {
    */
   public double theta, rotation, curvature, ringInner, catsEye;
   /**
-   * Part of the picture to compute, in pixels. The output has the same bytes as this part of the
+   * Part of the picture to compute, in pixels. The output has the same bytes as the region of the
    * whole picture. If all four fields are 0, the default, the region is the whole picture.
    */
   public int regionX, regionY, regionWidth, regionHeight;

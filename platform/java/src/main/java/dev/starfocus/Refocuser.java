@@ -4,9 +4,9 @@ package dev.starfocus;
 import java.util.Objects;
 
 /**
- * An engine for light fields of one configuration. A Refocuser allocates native memory when it is
- * created and when the first light field is prepared. {@link #close} frees this memory. Several
- * threads may use a Refocuser, but calls run one after the other. {@link #cancel} and {@link
+ * An engine for light fields of one configuration. A Refocuser allocates native memory in its
+ * constructor and in the first call of {@link #prepare}. {@link #close} frees this memory. Several
+ * threads may use a Refocuser, but only one call runs at a time. {@link #cancel} and {@link
  * #rowsDone} do not wait for a running call, so that other threads can use them during a call.
  *
  * <p>Calls throw {@link StarfocusException} for errors that the library reports, such as values out
@@ -66,8 +66,8 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Refocuses the prepared light field. The picture has the same bytes as a picture that {@link
-   * #refocus} computes from this light field.
+   * Refocuses the prepared light field. The output has the same bytes as the output of {@link
+   * #refocus} for the prepared light field.
    *
    * @param parameters lens and region
    * @param out receives the picture, as for {@link #refocus}
@@ -135,7 +135,7 @@ public final class Refocuser implements AutoCloseable {
 
   /**
    * Returns the focus for the surface at a pixel, for example at the pixel that a user tapped. The
-   * focus is the median of the disparities of this surface, up to 3 pixels away from the pixel.
+   * focus is the median of the disparities of the surface within 3 pixels of the given pixel.
    *
    * @param disparity map of type FLOAT and meaning LINEAR, with scale 1, offset 0 and no invalid
    *     value
