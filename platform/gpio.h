@@ -41,8 +41,8 @@ class GpioInputs {
   // Returns true if the current level of the line is high.
   Result<bool> Read(int line);
   // Waits for edges and returns them sorted by time. Returns an empty list after `timeout`
-  // milliseconds without an edge (-1: no limit). The kernel drops edges if more than 16 per line
-  // are pending.
+  // milliseconds without an edge (-1: no limit). The kernel drops edges of a line if more than 16
+  // edges of the line are pending.
   Result<std::vector<GpioEdge>> Wait(int timeout);
 
  private:

@@ -21,7 +21,7 @@ constexpr bool FitsMemory(int width, int height, size_t bytes_per_pixel) {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<uint8_t> pixels;  // interleaved R, G, B; rows without padding
+  std::vector<uint8_t> pixels;  // samples R, G and B of each pixel, in rows without padding
 
   Image() = default;
   Image(int w, int h) : width(w), height(h), pixels(size_t(3) * size_t(w) * size_t(h)) {}

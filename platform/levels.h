@@ -18,14 +18,14 @@ struct Samples {
   int largest = 0;  // Sample value of white.
 };
 
-// Decodes the samples. `where` appears only in error messages. If `use_alpha` is true, pixels that
-// are less than half opaque (alpha channel or tRNS) are NaN.
+// Decodes the samples of a depth picture. `where` appears only in error messages. If `use_alpha` is
+// true, pixels that are less than half opaque (alpha channel or tRNS) are NaN.
 Result<Samples> DecodeSamples(const std::string& where, bool use_alpha, const Bytes& bytes);
 
 // Decodes coverage: the alpha channel of a PNG file, or the grey levels of a picture without alpha.
 Result<Samples> DecodeCoverage(const std::string& where, const Bytes& bytes);
 
-// Decodes the levels, 0 to 1; transparent pixels are NaN.
+// Decodes the grey levels of a depth picture, scaled to 0 to 1; transparent pixels are NaN.
 Result<FloatMap> DecodeLevels(const std::string& where, const Bytes& bytes);
 
 }  // namespace starfocus

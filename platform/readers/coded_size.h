@@ -10,7 +10,7 @@
 namespace starfocus {
 
 struct CodedSize {
-  int64_t width = 0, height = 0;  // 0: no size was found
+  int64_t width = 0, height = 0;  // size in pixels; 0 if no size was found
 };
 
 // Returns the largest picture size in HEVC sequence parameter sets. Searches the decoder

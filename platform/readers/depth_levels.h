@@ -35,7 +35,7 @@ void ToOrder(Near near, DepthPhoto* photo);
 // Adds a fact that describes how the file stores the map.
 void TellMap(const std::string& text, DepthPhoto* photo);
 
-// Decodes the picture of a JPEG file. The result receives EXIF and the ICC profile from `parts`.
+// Decodes the picture of a JPEG file. Copies EXIF and the ICC profile from `parts` to the result.
 Result<DepthPhoto> ReadJpegPicture(const std::string& where, Span file, const JpegParts& parts);
 
 }  // namespace starfocus

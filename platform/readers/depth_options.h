@@ -29,8 +29,8 @@ struct DepthOptions {
   Near near = Near::kUnknown;
   DepthUnit unit = DepthUnit::kNone;
   DepthOrientation orientation = DepthOrientation::kUnknown;
-  // True if `unknown` lists the values that mean an unknown depth. If false, MarkUnknown decides
-  // whether 0 and 65535 are depths in 16-bit maps.
+  // True if `unknown` lists the values that mean an unknown depth. If has_unknown is false,
+  // MarkUnknown decides whether 0 and 65535 are depths in 16-bit maps.
   bool has_unknown = false;
   std::vector<double> unknown;
   bool use_alpha = true;  // True: transparent pixels have unknown depth.

@@ -13,8 +13,8 @@ namespace starfocus {
 
 bool HasDynamicDepth(const XmpNode& xmp);
 
-// Reads the depth map of a Dynamic Depth file. photo->picture must already be set. `near` applies
-// only if the file does not state which end of the grey range is near.
+// Reads the depth map of a Dynamic Depth file. The caller must have set photo->picture. `near`
+// applies only if the file does not state which end of the grey range is near.
 Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
                        DepthPhoto* photo);
 

@@ -13,8 +13,8 @@ namespace starfocus {
 
 bool HasGdepth(const XmpNode& xmp);
 
-// Reads the depth map and, if present, the sharp picture and the focus. photo->picture must already
-// be set. `xmp` must contain all XMP packets of the file, including extended XMP.
+// Reads the depth map and, if present, the sharp picture and the focus. The caller must have set
+// photo->picture. `xmp` must contain all XMP packets of the file, including extended XMP.
 Error ReadGdepth(const XmpNode& xmp, Near near, DepthPhoto* photo);
 
 }  // namespace starfocus

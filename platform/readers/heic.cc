@@ -320,7 +320,7 @@ Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near) {
     return photo;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& failure) {  // libheif's C functions let C++ exceptions through
+  } catch (const std::exception& failure) {  // C functions of libheif may throw C++ exceptions
     return Expected(where, "a HEIF file that libheif can read", failure.what());
   }
 }

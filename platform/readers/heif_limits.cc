@@ -14,8 +14,7 @@ constexpr int64_t kMostSide = 16384;
 // Limits of the number of pixels: per byte of the file, and for any file. An AVIF picture of one
 // colour has 31 000 pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 32768, kAnyFilesPixels = int64_t{1} << 20;
-// Limit of the total area of all tiles, per pixel of the picture that the tiles form, in addition
-// to kAnyFilesPixels.
+// The tiles of a picture may have kMostOverlap times the area of the picture, plus kAnyFilesPixels.
 constexpr int64_t kMostOverlap = 4;
 
 int64_t AreaOf(const HeifItem& item) { return int64_t{item.width} * int64_t{item.height}; }

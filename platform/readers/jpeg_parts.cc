@@ -12,7 +12,7 @@
 namespace starfocus {
 namespace {
 
-constexpr size_t kMostSegments = 4096;  // at most 256 MiB of segments
+constexpr size_t kMostSegments = 4096;  // limit of the number of segments, 256 MiB in total
 constexpr size_t kGuidSize = 32;
 
 constexpr uint8_t kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;
@@ -57,8 +57,8 @@ void TakeApp2(Span segment, std::vector<Span>* profile, JpegParts* parts) {
   if (Strip("ICC_PROFILE", &segment) && segment.size >= 2) profile->push_back(segment);
 }
 
-// Joins the parts of an ICC profile (ICC.1 annex B.4). Each part starts with its own number,
-// counted from 1, and the total number of parts.
+// Joins the parts of an ICC profile (ICC.1 annex B.4). Each part of the profile starts with its own
+// number, counted from 1, and the total number of parts.
 void JoinProfile(std::vector<Span> profile, JpegParts* result) {
   if (profile.empty()) return;
   std::stable_sort(profile.begin(), profile.end(),

@@ -13,7 +13,7 @@
 namespace starfocus {
 
 struct MultiPicture {
-  Span file;             // JPEG file of this picture.
+  Span file;             // JPEG file that contains the picture.
   JpegParts parts;       // Segments of the JPEG file.
   bool indexed = false;  // True if the index contains the position of this picture.
   uint32_t type = 0;     // Type in the index: 0x020002 is a view of a stereo pair, 0 is unknown.

@@ -20,7 +20,7 @@ bool IsDepthPictureName(const std::string& name);
 // the photograph, a note names the depth picture that is used.
 Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo);
 
-// Reads the depth picture (PNG, PGM, PPM, JPEG or PFM). photo->picture must already be set. By
+// Reads the depth picture (PNG, PGM, PPM, JPEG or PFM). The caller must have set photo->picture. By
 // default, larger values are nearer in PFM files, and the near end of other formats is guessed.
 Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo);
 

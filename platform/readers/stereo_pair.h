@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Reads the right picture of a stereo pair into photo->right. photo->picture must already contain
-// the left picture. A stereo pair has a multi-picture index or the extension .mpo, and its second
-// picture has the size of the first picture. Returns false if the file is not a stereo pair.
+// Reads the right picture of a stereo pair into photo->right. The caller must have stored the left
+// picture in photo->picture. A stereo pair has a multi-picture index or the extension .mpo, and its
+// second picture has the size of the first picture. Returns false if the file is not a stereo pair.
 bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo);
 
 }  // namespace starfocus

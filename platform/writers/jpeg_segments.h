@@ -9,9 +9,9 @@
 
 namespace starfocus {
 
-// Each function Append... appends segments to `segments`, or nothing if the metadata is empty. Such
-// a function returns false if the metadata exceeds the limits of the format: one segment for EXIF,
-// 255 segments for a profile.
+// Each function Append... appends segments to `segments`, or nothing if the metadata is empty. An
+// Append function returns false if the metadata exceeds the limits of the format: one segment for
+// EXIF, 255 segments for a profile.
 bool AppendExif(const Bytes& tiff, Bytes* segments);
 bool AppendProfile(const Bytes& icc, Bytes* segments);
 

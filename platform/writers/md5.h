@@ -8,7 +8,7 @@
 
 namespace starfocus {
 
-// Returns 32 hexadecimal digits in capitals.
+// Returns the MD5 digest of a text as 32 upper-case hexadecimal digits.
 std::string Md5(const std::string& text);
 
 }  // namespace starfocus

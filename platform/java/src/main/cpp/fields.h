@@ -21,8 +21,8 @@ struct Field {
 };
 
 // ReadFields copies the fields of a table with `count` entries from the object to the structure.
-// WriteFields copies the fields from the structure to the object. Returns false, with an exception
-// pending, if the object lacks a field.
+// WriteFields copies the fields from the structure to the object. Both functions return false, with
+// an exception pending, if the object lacks a field.
 bool ReadFields(JNIEnv* env, jobject object, const Field* fields, size_t count, void* structure);
 bool WriteFields(JNIEnv* env, const void* structure, const Field* fields, size_t count,
                  jobject object);

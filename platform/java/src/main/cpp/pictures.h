@@ -11,9 +11,9 @@
 
 namespace starfocus {
 
-// Each function returns false, with an exception pending, if an object is null, a buffer is not
-// direct, or a buffer is too small. The C library checks all other values, such as formats and
-// strides.
+// Each function of this header returns false, with an exception pending, if an object is null, a
+// buffer is not direct, or a buffer is too small. The C library checks all other values, such as
+// formats and strides.
 
 // Converts an Image with a size of `width` x `height` pixels. `what` is the name of the image in
 // error messages.

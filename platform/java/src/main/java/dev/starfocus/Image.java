@@ -10,14 +10,14 @@ import java.nio.ByteBuffer;
  * the {@link Configuration}, or the size of the region.
  */
 public final class Image {
-  /** Formats with one plane, named by the order of bytes in memory. The byte X contains alpha. */
+  /** Formats with one plane, named by the order of bytes in memory. The letter X means alpha. */
   public static final int RGB = 0, BGR = 1, RGBX = 2, BGRX = 3;
   /**
    * Formats with a plane of luma (Y) and one or two planes of chroma (U, V). Chroma planes have
-   * half the width and height of the picture, rounded up. NV12 has two planes: Y, and U and V
-   * interleaved. NV21 has two planes: Y, and V and U interleaved. I420 has three planes: Y, U and
-   * V. YUV_420_888 has three planes, with chroma samples 1 or 2 bytes apart, as Android's cameras
-   * store them.
+   * half the width and height of the picture, rounded up. NV12 has a plane of Y, and a plane with U
+   * and V interleaved. NV21 has a plane of Y, and a plane with V and U interleaved. I420 has three
+   * planes: Y, U and V. YUV_420_888 has three planes, with chroma samples 1 or 2 bytes apart, as
+   * Android's cameras store them.
    */
   public static final int NV12 = 4, NV21 = 5, I420 = 6, YUV_420_888 = 7;
   /** Values of {@link #matrix}: the YUV matrices of ITU-R BT.601 and BT.709. */
@@ -25,7 +25,7 @@ public final class Image {
   /** Values of {@link #range}. LIMITED: luma codes from 16 to 235. FULL: codes from 0 to 255. */
   public static final int LIMITED = 0, FULL = 1;
 
-  /** Layout of the picture: one of the constants RGB to YUV_420_888. */
+  /** Format of the picture: a constant from {@link #RGB} to {@link #YUV_420_888}. */
   public final int format;
   /** YUV matrix: {@link #BT601}, the default, or {@link #BT709}. Ignored for RGB formats. */
   public int matrix = BT601;

@@ -29,8 +29,8 @@ public final class Parameters {
   public static final int RENDERER_AUTO = 0, RENDERER_LINE_SCAN = 1, RENDERER_SLICES = 2;
 
   /**
-   * How the picture is divided ({@link #MODE_BLOCK}, the default) and how views are rendered
-   * ({@link #RENDERER_AUTO}, the default).
+   * Mode of rendering, by default {@link #MODE_BLOCK}, and renderer of views, by default {@link
+   * #RENDERER_AUTO}.
    */
   public int mode, renderer;
   /** Disparity in focus, in pixels per unit of u, within +-1000000. Default 0. */
