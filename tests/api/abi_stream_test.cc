@@ -60,7 +60,7 @@ TEST_CASE("stream: push accepts at most as many rows as the picture has") {
   REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int32_t count = -1;
   CHECK(f.Push(engine.get(), f.scene.Field(), kHeight + 1, &count) == STARFOCUS_ERROR_RANGE);
-  // The rejected push has consumed no row, so the whole picture can still be pushed.
+  // A rejected push consumes no row, so the whole picture can still be pushed.
   CHECK(f.Push(engine.get(), f.scene.Field(), 0, &count) == STARFOCUS_OK);
   CHECK(count == 0);
   CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_OK);
@@ -88,7 +88,7 @@ TEST_CASE("stream: a row with a bad disparity is rejected, and the preceding row
       int32_t consumed = -1;
       CHECK(f.Push(engine.get(), f.scene.Field(), 5, &consumed) == bad.status);
       CHECK(consumed == row);
-      // The caller may correct the row and continue.
+      // After a rejected row, the caller may correct the disparities of this row and continue.
       f.scene = good;
       test::Output out(kWidth, kHeight, 4);
       test::StreamSteps steps = {&engine, f.scene, &out, consumed};
@@ -103,7 +103,7 @@ TEST_CASE("stream: begin restarts a stream that was stopped halfway") {
   test::Engine engine(f.config);
   test::Output whole(kWidth, kHeight, 4);
   REQUIRE(test::Refocus(&engine, f.params, f.scene, &whole) == STARFOCUS_OK);
-  // Stops the stream halfway and starts it again.
+  // The test stops the stream halfway and then begins a new stream.
   REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
   int32_t count = 0;
   REQUIRE(f.Push(engine.get(), f.scene.Field(), 40, &count) == STARFOCUS_OK);

@@ -172,8 +172,8 @@ TEST_CASE(
 }
 
 TEST_CASE("previous frame: if the layer of a block changes, its boundaries are deblocked again") {
-  // With this timing model, the engine splits no superblock. A single pixel in focus keeps a block
-  // at layer 0.
+  // With this timing model, the engine splits no superblock. A single pixel in focus is enough to
+  // keep a block at layer 0.
   test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests how long the functions given to starfocus_set_callbacks stay in use.
+// Tests how long the engine uses the functions that starfocus_set_callbacks sets.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -33,7 +33,7 @@ struct Calls {
   starfocus_callbacks All() {
     return {Run, this, Tell, this, [] { return uint64_t{0}; }, Visit, this};
   }
-  // Returns true if all functions were called, and resets the counts.
+  // Returns true if all callbacks were called, and resets the numbers of calls.
   bool Take() {
     const bool all = runner > 0 && progress > 0 && blocks > 0;
     *this = Calls();
@@ -61,7 +61,7 @@ struct Fixture {
   }
 };
 
-TEST_CASE("callbacks: functions remain in use until other functions are set") {
+TEST_CASE("callbacks: the engine calls the set functions until other functions are set") {
   Fixture f;
   test::Engine engine(f.Config());
   starfocus_callbacks callbacks = f.calls.All();

@@ -15,11 +15,11 @@
 namespace create_test {
 namespace {
 
-// Counts calls, returns memory with arbitrary contents, and checks released memory.
+// Allocator that counts calls, returns memory with arbitrary contents, and checks released memory.
 struct Counter {
   int allocations = 0, releases = 0, wrong = 0;
   bool empty = false;
-  size_t offset = 0;  // distance of the returned memory from an aligned address, bytes
+  size_t offset = 0;  // misalignment of the returned memory, bytes
   std::vector<uint8_t> memory;
   void* given = nullptr;
   size_t bytes = 0;
@@ -105,7 +105,7 @@ TEST_CASE("create: the only allocation has the size of the workspace and is rele
   REQUIRE(starfocus_workspace_size(&f.config, &bytes) == STARFOCUS_OK);
   starfocus_engine* engine = nullptr;
   {
-    // The allocator is copied, so the structure may become invalid.
+    // The engine copies the allocator, so the structure may become invalid after starfocus_create.
     const starfocus_allocator allocator = counter.Allocator();
     REQUIRE(starfocus_create(&f.config, &allocator, &engine) == STARFOCUS_OK);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the measuring and filling of disparity maps with bad input, and compares the filled values
-// with a simple search.
+// Tests starfocus_measure_disparity and starfocus_fill_disparity: bad input is rejected, and filled
+// values match a simple search.
 #include <doctest/doctest.h>
 
 #include <algorithm>

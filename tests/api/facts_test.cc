@@ -20,7 +20,7 @@ TEST_CASE("the version of the library is the version of the headers") {
   CHECK(starfocus_version() == std::string(STARFOCUS_VERSION_STRING));
 }
 
-// Returns the structures that a header defines.
+// Returns the names of the structures that a header defines.
 std::vector<std::string> StructuresOf(const std::string& header) {
   std::ifstream file(std::string(STARFOCUS_SOURCE_DIR) + "/lib/include/starfocus/" + header);
   std::vector<std::string> names;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests starfocus_config.features. An engine without the renderer line-scan must render unchanged
-// pictures with slices, reject requests for line-scan, and require less memory.
+// Tests starfocus_config.features. Without STARFOCUS_FEATURE_LINE_SCAN, an engine must return
+// unchanged pictures with slices, reject the renderer line-scan, and require less memory.
 #include <doctest/doctest.h>
 
 #include <cstdint>

@@ -22,7 +22,8 @@ namespace {
 
 constexpr int kSize = 12;
 
-// A light field of one view. Every refocused picture is constant.
+// A light field of one view. The view has a single colour, so every refocused picture is equal to
+// the view.
 struct Field {
   std::vector<uint8_t> picture = std::vector<uint8_t>(3 * kSize * kSize, 50);
   std::vector<float> disparity = std::vector<float>(kSize * kSize, 0.5f);

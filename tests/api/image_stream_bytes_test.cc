@@ -75,7 +75,7 @@ TEST_CASE("image streams: rows of R, G, B may be pushed and pulled") {
   }
 }
 
-TEST_CASE("image streams: alpha is kept even if its rows are pulled late") {
+TEST_CASE("image streams: alpha is copied to the output even if the rows are pulled late") {
   test::Random random(48);
   test::Scene scene = test::LayeredScene(20, 900, 1, 1, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_RGBX, false, &random);

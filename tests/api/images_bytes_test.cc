@@ -107,7 +107,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("images: regions may have odd positions and sizes") {
+TEST_CASE(
+    "images: regions with odd positions and sizes equal regions of pictures converted to R, G, B") {
   test::Random random(25);
   const test::Scene scene = test::LayeredScene(141, 163, 5, 7, 9);
   for (int round = 0; round < 2 * kFormats; ++round) {

@@ -27,7 +27,7 @@ starfocus_lens LensOf(const test::NamedShape& shape, double theta = 0.8) {
   return lens;
 }
 
-// Returns shapes of every kind. Some consecutive shapes differ in only one field.
+// Returns lenses with openings of every shape. Some consecutive lenses differ in only one field.
 std::vector<starfocus_lens> Lenses() {
   std::vector<starfocus_lens> lenses = {LensOf(kPlain)};
   for (const test::NamedShape& shape : test::kShapes) lenses.push_back(LensOf(shape));
@@ -199,7 +199,9 @@ TEST_CASE("lens: without STARFOCUS_FEATURE_SHAPES, only polygons and cat's eyes 
   }
 }
 
-TEST_CASE("lens: memory for polygons and cat's eyes is reserved on demand") {
+TEST_CASE(
+    "lens: only with STARFOCUS_FEATURE_SHAPES, the workspace has memory for polygons and cat's "
+    "eyes") {
   for (const int block : {32, 64, 128}) {
     for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
       starfocus_config config;

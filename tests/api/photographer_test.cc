@@ -99,7 +99,7 @@ TEST_CASE(
       Map spoilt = map;
       spoilt.At(x, 10) = wrong;
       // For x <= 4, most pixels within 3 pixels of the wrong pixel belong to the object. For x >=
-      // 7, most of these pixels are behind the object.
+      // 7, most pixels within 3 pixels of the wrong pixel are behind the object.
       CHECK(spoilt.Focus(x, 10) == (x < 6 ? 5 : 1));
       CHECK(spoilt.Focus(x, 9) == (x < 6 ? 5 : 1));  // next to it
     }
@@ -122,7 +122,7 @@ TEST_CASE("focus at: a slanted surface is in focus at the given pixel") {
   }
 }
 
-TEST_CASE("focus at: noise is averaged out") {
+TEST_CASE("focus at: the focus is a mean, which reduces noise") {
   test::Random random(5);
   Map map(60, 60, 0);
   for (float& value : map.values) {
@@ -178,7 +178,7 @@ TEST_CASE("focus at: for random maps, the focus equals the focus computed by the
   test::Random random(6);
   for (int round = 0; round < 300; ++round) {
     Map map(random.Int(1, 12), random.Int(1, 12), 0, random.Int(0, 3));
-    // Disparities in steps of 1/8, so that ties and values at the limit occur.
+    // The disparities are multiples of 1/8, so that ties and values at the limit occur.
     const int steps = random.Int(1, 40);
     for (float& value : map.values) value = float(random.Int(0, steps)) / 8;
     for (int y = 0; y < map.height; ++y) {

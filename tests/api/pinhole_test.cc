@@ -15,7 +15,7 @@
 namespace pinhole_test {
 namespace {
 
-// Returns random pictures with a map of flat areas and edges, or of noise.
+// Returns a scene of random pictures; its map consists of flat areas and edges, or of noise.
 test::Scene AnyScene(int width, int height, uint64_t seed) {
   const int views = test::kStars[seed % 4];
   if (seed % 3 == 0) return test::LayeredScene(width, height, views, 7, seed);
@@ -35,7 +35,7 @@ starfocus_config AnyConfig(const test::Scene& scene, test::Random* random) {
   return config;
 }
 
-TEST_CASE("pinhole: every mode, rule and way to refocus returns the centre view to the byte") {
+TEST_CASE("pinhole: every mode, renderer and way to refocus returns the centre view to the byte") {
   constexpr int kSizes[][2] = {{1, 1}, {3, 70}, {41, 31}, {64, 64}, {130, 67}, {97, 140}};
   test::Random random(51);
   uint64_t seed = 0;

@@ -88,8 +88,8 @@ starfocus_config ReducedConfig(const starfocus_config& config, int shift, int32_
   return reduced;
 }
 
-// Returns the rectangle of reduced pixels that overlap the region. All fields are 0 for the whole
-// picture.
+// Returns the rectangle of reduced pixels that overlap the region. If the region is the whole
+// picture, all fields of the result are 0.
 starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
   if (region.width == 0) return region;
   const int x = region.x >> shift, y = region.y >> shift;
@@ -137,7 +137,8 @@ class Prepared {
   starfocus_prepared* field_ = nullptr;
 };
 
-// Returns the PSNR between a preview and the reduced full picture.
+// Returns the PSNR in dB between a preview and the full picture, reduced to the size of the
+// preview.
 double Psnr(const test::Output& got, const test::Output& full, int shift, int32_t transfer) {
   double sum = 0;
   for (int y = 0; y < got.height; ++y) {
@@ -166,8 +167,7 @@ bool IsOfReduced(Prepared* prepared, starfocus_params params, int shift,
   return got.bytes == expected.bytes;
 }
 
-TEST_CASE(
-    "preview: the picture equals that of a light field reduced as the documentation defines") {
+TEST_CASE("preview: a preview equals the picture of a light field that is reduced as documented") {
   test::Random random(231);
   constexpr int kSizes[][2] = {{1, 1},    {1, 70},   {90, 1},    {31, 33},   {65, 63},
                                {100, 37}, {67, 190}, {129, 128}, {150, 141}, {203, 90}};
@@ -294,7 +294,7 @@ test::Scene SmoothScene(int width, int height) {
   return scene;
 }
 
-TEST_CASE("preview: the preview is close to the reduced full picture") {
+TEST_CASE("preview: the preview is close to the full picture, reduced to the size of the preview") {
   const test::Scene scene = SmoothScene(512, 384);
   starfocus_config config = test::ConfigFor(scene, 24);
   config.previews = 3;

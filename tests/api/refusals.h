@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls with illegal arguments, one for each function that takes parameters, light fields or
-// pictures. A call must return the status in the table, name the field in the table, and write
-// nothing.
+// pictures. A call must return the expected status, name the illegal field, and write nothing.
 #ifndef STARFOCUS_TESTS_API_REFUSALS_H_
 #define STARFOCUS_TESTS_API_REFUSALS_H_
 

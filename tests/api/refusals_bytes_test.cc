@@ -93,7 +93,7 @@ const Row kPictures[] = {
     {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = 3; }},
     {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = 32; }},
 
-    // Rejections by an engine without STARFOCUS_FEATURE_IMAGES.
+    // Arguments that only an engine without STARFOCUS_FEATURE_IMAGES rejects.
     {kTakesField, "views[].format", kFeature,
      [](Call* c) {
        c->engine = c->f.plain.get();
@@ -110,7 +110,7 @@ const Row kPictures[] = {
        c->out.format = STARFOCUS_FORMAT_BGR;
      }},
 
-    // Pictures must be exactly as large as the region.
+    // Output pictures must be exactly as large as the region.
     {kBegin, "region", kRange,
      [](Call* c) {
        c->params.region = {0, 0, 20, kHeight};
@@ -133,8 +133,8 @@ const Row kPictures[] = {
      }},
 };
 
-// Images of 21x12 pixels. View 0 is R, G, B. Views 1 and 4 are NV12. View 2 and the output are
-// I420.
+// All views and the output are images of 21x12 pixels. View 0 is R, G, B. Views 1 and 4 are NV12.
+// View 2 and the output are I420.
 constexpr unsigned kViews = kRefocus | kPrepare | kPush, kOuts = kRefocus | kPrepared | kPull;
 const Row kImages[] = {
     {kAll & ~kAfter, "", kOk, [](Call*) {}},
@@ -219,7 +219,7 @@ const std::pair<const char*, starfocus_region> kBadRegions[] = {
     {"region.x", {kLeast, kLeast, kMost, kMost}},
 };
 
-TEST_CASE("calls: illegal arguments are rejected") {
+TEST_CASE("calls: illegal pictures, memory and other pointer arguments are rejected") {
   Fixture pictures(false), images(true);
   for (const Row& row : kPictures)
     Check(&pictures, row.functions, row.spoil, row.status, row.field);

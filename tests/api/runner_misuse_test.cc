@@ -125,14 +125,14 @@ struct {
   bool nested;
 } running;
 
-TEST_CASE("runner: a busy worker is not given a second job") {
+TEST_CASE("runner: a job for a worker that is busy is rejected with STARFOCUS_ERROR_RUNNER") {
   Fixture f;
   test::Engine engine(f.config);
   test::Output out(kWidth, kHeight);
   running.nested = false;
   starfocus_callbacks callbacks = {};
   callbacks.clock = []() -> uint64_t {
-    // Simulates another thread that uses the same worker at the same time.
+    // The nested call simulates another thread that uses worker 0 at the same time.
     if (!running.nested) running.job(running.data, 2, 0);
     running.nested = true;
     return 0;
@@ -162,7 +162,7 @@ TEST_CASE("runner: a job called after its runner has returned does nothing") {
     for (const int index : {-1, 0, 1, 1000}) running.job(running.data, index, worker);
   }
   CHECK(out.bytes == f.expected.bytes);
-  // Jobs that ran too late must not affect the next call.
+  // Jobs that a runner starts too late must not affect the next refocusing.
   CHECK(test::Refocus(&engine, f.params, f.scene, &out, keeps) == STARFOCUS_OK);
   CHECK(out.bytes == f.expected.bytes);
 }

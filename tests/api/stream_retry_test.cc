@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that a stream continues after a failed runner. A repeated pull must return the bytes of an
-// undisturbed stream.
+// Tests that a stream continues after a failed runner. A repeated pull must return the bytes of a
+// stream whose runner never fails.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kWidth = 150, kHeight = 170;
 
-// Runner that runs only half of the jobs and fails for `times` sets of jobs. The first failing set
-// has the index `fails_at`.
+// Runner that fails for `times` sets of jobs, and runs only half of the jobs of these sets. The
+// first failing set has the index `fails_at`.
 struct Failing {
   int fails_at, times;
   int sets = 0;
@@ -104,7 +104,9 @@ void CheckRetries(const test::Scene& scene, const starfocus_params& params, int 
   CHECK(failed >= tried);
 }
 
-TEST_CASE("stream: after a failed runner, a repeated pull returns the same rows and report") {
+TEST_CASE(
+    "stream: after a failed runner, a repeated pull returns the rows and report of an undisturbed "
+    "stream") {
   const test::Scene scene = MixedScene();
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {

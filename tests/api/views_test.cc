@@ -52,7 +52,9 @@ TEST_CASE(
 
 // The line scan would draw a halo as wide as the blur around silhouettes in a light field of one
 // view.
-TEST_CASE("views: one view uses subapertures in every mode unless the paper's rule is requested") {
+TEST_CASE(
+    "views: with one view, the renderer slices is used in every mode unless line-scan is "
+    "requested") {
   const test::Scene scene = test::RandomScene(70, 50, 1, -4, 6, 5);
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
@@ -77,7 +79,9 @@ TEST_CASE("views: the second view of a pair and its position affect the picture"
   CHECK(Picture(pair) != Picture(other));
 }
 
-TEST_CASE("views: a mirrored scene with the view on the other side gives the mirrored picture") {
+TEST_CASE(
+    "views: a mirrored scene, with the side view at the mirrored position, gives the mirrored "
+    "picture") {
   const test::Scene scene = Scene({{0, 0}, {0.7, 0}});
   test::Scene mirrored = scene;
   for (int y = 0; y < scene.height; ++y) {
@@ -101,11 +105,11 @@ TEST_CASE("views: a mirrored scene with the view on the other side gives the mir
   };
   const double other_side = mean();
   mirrored.positions[1].u = -0.7;
-  CHECK(mean() < 0.5);  // with noise, the slices may differ
+  CHECK(mean() < 0.5);  // the slices of noisy scenes may differ
   CHECK(other_side > 1);
 }
 
-TEST_CASE("views: the paper's rule needs the star, and other rules do not") {
+TEST_CASE("views: the renderer line-scan requires a star set, and the renderer slices does not") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}, {0, 1}});
   starfocus_config config = test::ConfigFor(scene);
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -124,11 +128,11 @@ TEST_CASE("views: the paper's rule needs the star, and other rules do not") {
     CHECK(out.Tight() == by_default);
   }
   starfocus_params blur = test::Params(kFocus, 0.5, STARFOCUS_MODE_BLUR);
-  blur.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // blur mode ignores the rule
+  blur.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // blur mode ignores the renderer
   CHECK(test::Refocus(&engine, blur, scene, &out) == STARFOCUS_OK);
 }
 
-TEST_CASE("views: bad positions are rejected before anything is made") {
+TEST_CASE("views: starfocus_workspace_size rejects bad positions") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}});
   const auto status = [&](const std::vector<starfocus_position>& positions) {
     starfocus_config config = test::ConfigFor(scene);

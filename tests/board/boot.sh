@@ -5,8 +5,8 @@
 # program starfocus for the host, which makes the small light field for the board. QEMU's power
 # button presses the shutter on line 3 of the board's PL061 GPIO chip. The picture that the board
 # writes to a file and to the screen must equal the picture that STARFOCUS computes on the host. The
-# busy signal, which the board sets on line 5, must read back as set. FOLDER keeps the kernel for
-# later runs.
+# busy signal, which the board sets on line 5, must read back as set. The downloaded kernel stays in
+# FOLDER for later runs.
 set -u
 [ $# = 3 ] || { echo "usage: $0 STARFOCUS BOARD_REFOCUS FOLDER" >&2; exit 2; }
 starfocus=$(realpath "$1") program=$(realpath "$2") folder=$(realpath -m "$3")
@@ -46,8 +46,8 @@ needed_modules() {
   echo "$file"
 }
 
-# The screen requires modules that a later kernel may package differently. If a module is missing,
-# the screen is not tested.
+# The screen requires kernel modules that later kernel packages may name or divide differently. If a
+# module is missing, the screen is not tested.
 make_initramfs() {
   local root=$run/root module
   mkdir -p "$root/bin" "$root/dev" "$root/proc" "$root/sys" "$root/tmp" "$root/etc" "$root/modules"
@@ -128,7 +128,7 @@ expect "the program's good end" 'ended-file 0'
 expect "the busy line's levels" 'log picture 1: .*, busy line read back 1, then 0'
 expect "the checksum of this machine's picture" "sum $sum  /tmp/picture-1.ppm"
 
-# The middle of the screen must show the picture.
+# The middle of the board's screen must show the refocused picture.
 if [ -s "$run/screen.ppm" ]; then
   expect "the program's good end" 'ended-screen 0'
   read -r across down < <(sed -n 2p "$run/screen.ppm")

@@ -24,7 +24,7 @@ void Check(bool good, const char* what) {
   std::exit(1);
 }
 
-// Calls of the engine, which run on a separate stack.
+// Calls of the engine that are executed on a separate stack.
 struct Calls {
   starfocus_config config;
   starfocus_params params;

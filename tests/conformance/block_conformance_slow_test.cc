@@ -183,7 +183,7 @@ TEST_CASE(
   };
   // The first two lenses blur surfaces on both sides of the focus. The first lens requires more
   // slices than the limit, and the second requires more slices than fit into the memory. The third
-  // lens has subapertures that are almost as wide as the widest supported one.
+  // lens has subapertures that are almost as wide as the widest supported subaperture.
   constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
   test::Random random(53);
   Distance all;
@@ -204,7 +204,7 @@ TEST_CASE(
 }
 
 // The block has three tiles across and two tiles down; the last column of tiles is 72 pixels wide.
-// The first range of disparities results in few slices, and the second in many.
+// The first range of disparities requires few slices, and the second range requires many slices.
 TEST_CASE("block conformance: each tile of a large block has its own slices") {
   test::Random random(55);
   Distance all;

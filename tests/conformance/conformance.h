@@ -28,11 +28,11 @@ inline constexpr double kMeanLimit = 0.3;
 inline constexpr size_t kEnoughSamples = 300;
 
 struct Distance {
-  int largest = 0;       // largest difference of bytes
+  int largest = 0;       // largest difference between bytes of the engine and the reference
   double unrounded = 0;  // largest difference of an engine's byte from the unrounded reference
-  double sum = 0;        // sum of the differences of bytes
+  double sum = 0;        // sum of all differences between bytes
   double samples = 0;
-  // Largest mean difference of a picture with at least kEnoughSamples samples.
+  // Largest allowed mean difference of a picture with at least kEnoughSamples samples.
   double worst_mean = 0;
 
   double mean() const { return samples == 0 ? 0 : sum / samples; }
@@ -128,7 +128,7 @@ inline std::string TextOf(const test::Scene& scene, const starfocus_params& para
 }
 
 #ifdef STARFOCUS_PROGRAM
-// Returns the rectangle at (x0, y0) of a data set.
+// Returns the part of a data set's light field at (x0, y0).
 inline test::Scene Crop(const starfocus::LightField& field, int x0, int y0, int width, int height) {
   float low = field.disparity.at(x0, y0), high = low;
   test::Scene scene = test::EmptyScene(width, height, int(field.views.size()), low, high);

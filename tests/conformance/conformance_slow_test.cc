@@ -59,9 +59,9 @@ Distance Check(const test::Scene& scene, const starfocus_params& params, int blo
   return Check(scene, params, block, 0.26 * 3.14159265358979323846);
 }
 
-// Sizes of the scenes. The scenes are small, because the reference is slow.
+// Widths and heights of the random scenes. The scenes are small, because the reference is slow.
 constexpr int kSizes[][2] = {{1, 1}, {7, 5}, {40, 33}, {96, 64}};
-// Returns a lens whose largest blur radius is r_max.
+// Returns parameters with a random lens whose largest blur radius is r_max.
 starfocus_params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,
                             test::Random* random) {
   const double aperture = random->Int(0, 2) == 0 ? 1 : random->Real(0.3, 1);

@@ -45,7 +45,7 @@ double LightAt(double x, double y, int c, double u, double v) {
 }
 
 float DisparityAt(int x, int y, Map map) {
-  // Both surfaces have varying disparities.
+  // The disparities of the near and of the far surface vary.
   const double far = kFar + 0.4 * std::sin(x / 15.0), near = kNear - 0.01 * y;
   const auto is_near = [&](int column) { return CoverageAt(column, y) > 0.5 ? 1.0 : 0.0; };
   const double share =
@@ -70,8 +70,8 @@ test::Scene Strands(int views, Map map, bool given) {
   return scene;
 }
 
-// Makes random noisy strands in front of a surface. The views need not be consistent with each
-// other.
+// Makes random noisy strands in front of a surface. The side views of this scene do not show the
+// same scene as the centre view.
 test::Scene RandomStrands(bool given, uint64_t seed) {
   test::Random random(seed);
   constexpr int kViews[] = {1, 5, 9, 17};

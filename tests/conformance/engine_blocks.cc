@@ -40,8 +40,8 @@ std::vector<reference::GatheredCell> GatheredCells(const starfocus::GatherMap& m
   return cells;
 }
 
-// Block visitor that collects the blocks. The engine calls the visitor while the plan of the
-// block's stripe is in memory.
+// Block visitor that collects the engine's blocks for the reference. The engine calls the visitor
+// while the plan of the block's stripe is in memory.
 struct Visit {
   starfocus_engine* engine;
   std::vector<reference::Block>* blocks;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the engine, and returns the output and the partition that the engine chose. The reference
-// uses this partition.
+// then refocuses the blocks of this partition.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_ENGINE_BLOCKS_H_
 #define STARFOCUS_TESTS_CONFORMANCE_ENGINE_BLOCKS_H_
 
@@ -18,7 +18,7 @@ struct EngineResult {
   starfocus_status status = STARFOCUS_OK;
   starfocus_report report = {};
   std::vector<uint8_t> bytes;            // 3 * width * height
-  std::vector<reference::Block> blocks;  // blocks of all stripes
+  std::vector<reference::Block> blocks;  // partition: blocks of all stripes
 };
 
 // Refocuses the scene with the given kernels on an initialised engine.

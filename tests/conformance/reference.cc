@@ -82,7 +82,8 @@ Lens MakeLens(const starfocus_params& params, const ApertureShape& opening, int 
   lens.focus = RoundedTo64(params.lens.focus);
   double extent = 1;
   if (wide) {
-    // The outermost views lie up to 5/32 of a subaperture beyond the rim.
+    // The centres of the outermost subapertures are up to 5/32 of a subaperture beyond the rim of
+    // the lens.
     lens.subapertures = n == 1 ? 1 : n == 3 ? 3 - 2 / 32.0 : n == 4 ? 4 - 5 / 32.0 : n - 11 / 32.0;
     const double farthest = lens.subapertures + 5 / 32.0;
     lens.n = int(farthest);
@@ -175,7 +176,8 @@ struct Part {
   Picture picture;
 };
 
-// Upsamples `from` by two and returns width x height pixels at (x, y). `from` includes a margin.
+// Upsamples `from` by two and returns the result's width x height pixels that start at (x, y).
+// `from` includes a margin.
 Part Up(const Part& from, int x, int y, int width, int height) {
   const Taps taps(2.17);
   const double near = 0.5 * taps.near / (taps.near + taps.far), far = 0.5 - near;
@@ -260,7 +262,7 @@ int ViewsAlongRadius(double r_max, int mode) {
 
 namespace {
 
-// Refocuses blocks of one size by the paper's rule.
+// Refocuses all blocks by line scans; all blocks have the same size.
 void RefocusFrame(const LightField& field, const Lens& lens, int border, int block,
                   Result* result) {
   const Picture& centre = field.at({0, 0});
@@ -315,7 +317,8 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
 }
 
 // Adds the rendered views and the gathered cells of all blocks to the result. With `excess`, only
-// blocks that may show highlights are rendered. Such blocks are at layer 0 and gather no cells.
+// blocks that may show highlights are rendered. Blocks that may show highlights are at layer 0 and
+// gather no cells.
 void RefocusAll(const LightField& field, const starfocus_params& params,
                 const starfocus_config& config, const std::vector<Block>& blocks, bool excess,
                 Result* result) {

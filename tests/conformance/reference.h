@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference implementation of the method: whole pictures in double precision, written for
-// readability. The conformance tests compare the engine with this reference. Visibility is decided
-// on the engine's grid: disparity and focus in 1/64, shifts in 1/256 of a pixel. Colours are
-// unrounded doubles.
+// readability. The conformance tests compare the engine with this reference. To decide visibility,
+// disparities and focus are rounded to 1/64 pixel and shifts to 1/256 pixel, as in the engine.
+// Colours in the reference are unrounded doubles.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_H_
 
@@ -25,7 +25,7 @@ struct Result {
 };
 
 // Refocuses the scene with the transfer function of `config`. `block` is the side of the blocks in
-// pixels. The side affects the result, since runs of one shift start at the edge of a block's
+// pixels. The side of the blocks affects the result, since runs start at the edge of a block's
 // extended rectangle.
 Result Refocus(const test::Scene& scene, const starfocus_params& params,
                const starfocus_config& config, int block);

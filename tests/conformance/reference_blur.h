@@ -32,8 +32,9 @@ inline double NearestRadius(int radius) {
   return std::floor(radius / unit + 0.5) * unit / kOne;
 }
 
-// Returns the number of lines, or of points along an axis, for a part of the unit disc. With the
-// returned number, dark pixels next to white pixels are exact to one code of sRGB.
+// Returns the number of lines, or of points along an axis, for integrating over a square of the
+// unit disc. With the returned number, dark pixels next to white pixels are exact to one code of
+// sRGB.
 inline int FinenessOf(double side) { return std::clamp(int(600 * side), 40, 600); }
 
 // Integrates (3) over [x0, x1] x [y0, y1] in the plane of the unit disc. The sum over lines of y
@@ -59,17 +60,17 @@ inline double Integral(double x0, double x1, double y0, double y1, double cot_sq
   return sum * (y1 - y0) / lines;
 }
 
-// PSF (4) with a sum of 1.
+// Ideal PSF (4), scaled to a sum of 1.
 struct Psf {
   int size = 0;
-  std::vector<double> weights;  // (2 size + 1)^2
+  std::vector<double> weights;  // (2 * size + 1)^2 weights
   double At(int n, int m) const {
     return weights[size_t(m + size) * size_t(2 * size + 1) + size_t(n + size)];
   }
 };
 
-// Returns the light of the square [x0, x1] x [y0, y1] of the opening. Polygons are sampled at
-// points.
+// Returns the light that passes the square [x0, x1] x [y0, y1] of the opening. Polygons are sampled
+// at points.
 inline double LightOf(const ApertureShape& opening, double x0, double x1, double y0, double y1) {
   if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) return Integral(x0, x1, y0, y1, opening.cot2);
   if (opening.shape == STARFOCUS_SHAPE_POLYGON) {

@@ -22,8 +22,8 @@ class ThinMap {
   bool IsBesideNearer(int x, int y) const;
   // FindGiven and FindEdge find the disparities of the two surfaces of a pixel, and return false if
   // the pixel has only one surface. FindGiven, for given coverage, uses the nearest surfaces within
-  // 32 pixels, without ramps. FindEdge uses the nearest edge within 3 pixels. `square` receives the
-  // squared distance to the pixel beyond the edge.
+  // 32 pixels, without ramps. FindEdge uses the surfaces at the nearest edge within 3 pixels.
+  // `square` receives the squared distance to the pixel beyond the edge.
   bool FindGiven(int x, int y, int* low, int* high) const;
   bool FindEdge(int x, int y, int* low, int* high, int* square) const;
   // Returns the mean of the disparities within 2 pixels that are close to the disparity `near`.

@@ -19,8 +19,9 @@ double Farthest(const std::vector<FarLight>& cells) {
   return farthest;
 }
 
-// Returns the weighted mean of the light of the cells that show the surface at `disparity`. Each
-// cell has the weight part * known. The `known` of the result is the sum of the weights.
+// Returns the weighted mean of the light of the cells that show the surface at `disparity`. The
+// weight of a cell is the product of its part and `known`. The `known` of the result is the sum of
+// the weights.
 FarLight MeanOf(const std::vector<FarLight>& cells, const std::vector<double>& parts,
                 double disparity) {
   FarLight mean;

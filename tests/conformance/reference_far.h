@@ -16,7 +16,7 @@ inline constexpr int kTile = 16;
 
 struct FarLight {
   Colour light = {0, 0, 0};
-  double known = 0;      // confidence in the light, 0 to 1
+  double known = 0;      // certainty of `light`, 0 to 1
   double disparity = 0;  // in units of 1/64 pixel
 };
 

@@ -196,7 +196,7 @@ Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
 namespace {
 
 // Returns the number of pixels beyond the edge at (x, y) of the layer that a captured view shows.
-// The view is `distance` / kViewUnit away from the centre view, in the direction `out`. `disparity`
+// The view is `distance` / kViewUnit away from the centre view, on the axis of `out`. `disparity`
 // is the disparity of the pixel at the edge. The count ends before the first pixel that a nearer
 // surface covers.
 int SeenBeyond(const Picture& picture, int layer, int x, int y, const Direction& out, int distance,

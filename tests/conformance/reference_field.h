@@ -36,8 +36,8 @@ void ExtendEdges(const LightField& field, const Picture& picture, int layer, con
 // Mixture of a pixel (x, y) of the centre view next to a depth edge. At the edge, the disparity
 // increases by more than `step` (in 1/64 pixel) in the direction `side`. `share` is the part of the
 // pixel that shows the near surface, or 0 if the pixel is not a mixture. The far colour comes from
-// the captured view that sees behind the near surface. If no view sees behind the near surface, the
-// far colour is the colour of the opposite neighbour on the far surface.
+// the captured view that sees behind the near surface. If no view sees the far surface, the far
+// colour comes from the opposite neighbour, if this neighbour is on the far surface.
 struct Mixed {
   double share;
   Colour near, far;

@@ -139,7 +139,7 @@ class Gather {
     return to;
   }
 
-  // Returns a cell with `border` pixels of the layer around it.
+  // Returns the pixels of a cell and of a border of `border` pixels of the layer.
   Picture Around(const GatheredCell& cell, int border) const {
     const Rectangle rectangle = {cell.at_x, cell.at_y, cell.at_width, cell.at_height,
                                  border,    border,    border,        border};

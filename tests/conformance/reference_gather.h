@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gathering in the reference: flat cells of one surface are blurred from the centre view by the
-// ideal PSF (4). Cells on a slope are blurred by the PSF of each pixel.
+// ideal PSF (4). In cells on a slope, each pixel is blurred by the PSF of its own radius.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_GATHER_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_GATHER_H_
 

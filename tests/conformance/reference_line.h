@@ -117,7 +117,7 @@ struct Owner {
   int other = 0;
   double share = 0;
 
-  // Returns the line pixel whose disparity the rendered pixel has.
+  // Returns the line pixel from which the rendered pixel takes its disparity.
   int Main() const { return share > 0.5 ? other : source; }
 };
 
@@ -155,7 +155,7 @@ class LineScan {
     const int length = int(disparity_.size());
     const std::vector<LineRun> runs = Runs(disparity_, lens_.Spread());
     filled_ = std::max(length, length - Whole(runs[0]));
-    const LineRun* nearer = nullptr;  // the run that is visible at `filled_`
+    const LineRun* nearer = nullptr;  // run that is visible at the pixel `filled_`
     for (const LineRun& run : runs) {
       const int whole = Whole(run);
       if (run.begin - whole >= filled_) continue;  // hidden

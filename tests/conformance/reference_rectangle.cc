@@ -40,7 +40,7 @@ class Views {
     Unmix(field, lens, rect, &centre_);
   }
 
-  // Adds view (i, j) of the whole rectangle to `sum`.
+  // Renders view (i, j) of the rectangle and adds the weighted view to `sum`.
   void Add(int i, int j, double weight, Picture* sum) {
     if (i == 0 && j == 0) return AddInner(centre_, {0, 0, 0, 0}, weight, sum);
     if (std::abs(i) == std::abs(j)) return AddInner(Diagonal(i, j), {0, 0, 0, 0}, weight, sum);

@@ -14,7 +14,7 @@ namespace {
 
 struct Range {
   int low, high;
-  // The slice includes surfaces up to the disparity `overlap`, which is larger than `high`.
+  // The slice includes surfaces up to the disparity `overlap`, which is no less than `high`.
   int overlap;
 
   int Disparity() const { return low + (high - low) / 2; }  // disparity by which the slice moves
@@ -64,7 +64,7 @@ class RangeFinder {
     return std::abs(disparity - lens_.focus) >= std::min(kMost, least);
   }
 
-  // Returns the number of bins that a slice may span if `bin` is the nearest bin of the slice.
+  // Returns the largest number of bins of disparity in a slice whose nearest bin is `bin`.
   int64_t Span(int bin, int64_t coarser) const {
     constexpr int64_t kSharp = 4 * 256;  // blur of 4 px, in 1/256
     const auto range = int64_t(256 * slicing_.range);

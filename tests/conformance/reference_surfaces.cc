@@ -18,8 +18,8 @@ struct Background {
   int disparity;
   std::optional<Position> captured;  // view that sees the far side, if any
 
-  // Order of backgrounds: backgrounds that a captured view sees precede other backgrounds, and near
-  // backgrounds precede distant backgrounds.
+  // Order of backgrounds: backgrounds that a captured view sees precede other backgrounds, and
+  // shorter distances precede longer distances.
   bool SameRank(const Background& other) const {
     return captured.has_value() == other.captured.has_value() && distance == other.distance;
   }
@@ -100,7 +100,7 @@ class SurfaceFinder {
       near.colour[c] /= shares;
       far.colour[c] /= shares;
     }
-    // The copy of the pixel is removed, because it has the colour of the mixture.
+    // AddCopy's copy of the pixel is removed, because the copy has the colour of the mixture.
     if (surfaces->size() > 1 && !IsEdge(far.disparity, (*surfaces)[1].disparity)) {
       surfaces->erase(surfaces->begin() + 1);
     }
@@ -151,7 +151,7 @@ class SurfaceFinder {
     return result;
   }
 
-  // Adds the surfaces behind the visible surface.
+  // Adds the hidden surfaces behind the visible surface of a pixel.
   void AddHidden(int x, int y, std::vector<Surface>* hidden) const {
     std::vector<Surface>& surfaces = *hidden;
     std::vector<Background> backgrounds;
@@ -200,10 +200,10 @@ class SurfaceFinder {
     return IsEdge(here, far) && (distance - 1) * unit_ <= here - far;
   }
 
-  // Returns the distance to the far side of the nearest depth edge in the direction `towards`, or 0
-  // if the pixel does not hide this side. A step does not count as an edge if two conditions hold.
-  // The step must be at most an eighth of the depth that the previous edge hides. The near side of
-  // the step must hide the far side of the previous edge.
+  // Returns the distance to the far side of the nearest depth edge towards `towards`, or 0 if the
+  // pixel does not hide this side. A step does not count as an edge if two conditions hold. The
+  // step must be at most an eighth of the depth that the previous edge hides. The near side of the
+  // step must hide the far side of the previous edge.
   int NextEdge(int x, int y, const Direction& towards) const {
     int k = 0;
     while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;

@@ -76,7 +76,7 @@ test::Scene AnyScene(test::Random* random) {
   return scene;
 }
 
-// Returns a random radius. Small radii are more frequent than large ones.
+// Returns a random blur radius. Small radii are more frequent than large radii.
 double LargestRadius(bool wide, test::Random* random) {
   const double part = random->Unit();
   return (wide ? 40 : 6) * part * part;

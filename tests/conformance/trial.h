@@ -25,8 +25,9 @@ struct Trial {
 // slices have any number of views at any positions, instead of a star.
 Trial MakeTrial(uint64_t seed, bool anywhere);
 
-// Returns the largest allowed difference in grey levels. With highlights the limit is larger, since
-// codes are rounded before and after highlights are added.
+// Returns the largest allowed difference between the engine and the reference, in grey levels. With
+// highlights, the allowed difference is larger, since codes are rounded before and after highlights
+// are added.
 int MostLevels(const Trial& trial);
 
 // Returns the distance of the engine from the reference, which gets the engine's partition.

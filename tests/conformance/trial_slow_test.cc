@@ -44,7 +44,8 @@ TEST_CASE("trials: seeds of earlier failures match the reference") {
   }
 }
 
-// STARFOCUS_TRIALS=FIRST:COUNT selects other seeds, for longer runs.
+// For longer runs of this test, the environment variable STARFOCUS_TRIALS=FIRST:COUNT selects other
+// seeds.
 TEST_CASE("trials: random light fields and lenses match the reference") {
   // With sanitizers, a few trials suffice.
 #if defined(__SANITIZE_ADDRESS__)

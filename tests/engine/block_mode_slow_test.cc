@@ -139,7 +139,8 @@ TEST_CASE("block: refocusing changes no bit of constant pictures") {
   }
 }
 
-TEST_CASE("block: a scene in focus is a copy of the centre view in every configuration") {
+TEST_CASE(
+    "block: in every configuration, a scene in focus is refocused to a copy of the centre view") {
   for (const int block : kBlocks) {
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       for (const auto& size :
@@ -249,7 +250,7 @@ test::Scene SmoothScene(int width, int height, int views) {
     starfocus_view_position(view, &u, &v);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        // Solves px - u d(px) = x, where d is linear.
+        // px is the solution of px - u d(px) = x for the linear disparity d.
         const double px = (x - 6 * u) / (1 - 12 * u / (width - 1)), py = y + v * disparity(px);
         for (int c = 0; c < 3; ++c) {
           const double value = std::sin(0.15 * px + 0.1 * py + c) * std::cos(0.06 * px - 0.2 * py) +

@@ -24,7 +24,7 @@ namespace {
 using starfocus::Rect;
 using test::Borders;
 
-constexpr int kAll = 10000;  // a border that keeps the whole picture
+constexpr int kAll = 10000;  // border width that keeps the whole picture
 
 // Widths of the borders, in pixels, within which the centre view, the map and the side views are
 // kept. Parts of the light field beyond these borders are replaced by noise.
@@ -100,15 +100,14 @@ struct Way {
     config.tuning.gather = int16_t(gather);
     config.highlights = highlights;
     config.tuning.n_scale = n_scale;
-    // Deblocking is off, since it would read pixels of other superblocks.
+    // Deblocking is off, since deblocking would read pixels of other superblocks.
     config.tuning.deblocking = 0;
     return config;
   }
   static constexpr int kSuperblock = 32;
 };
 
-// One superblock of a light field, in the middle or at the edges of the picture, which is refocused
-// alone.
+// A superblock, in the middle or at the edges of a picture, that is refocused alone.
 class Superblock {
  public:
   Superblock(const Way& way, test::Random* random)
@@ -243,8 +242,7 @@ const Sum kSums[] = {
      &Kept::sides, 0, 8},
 };
 
-TEST_CASE(
-    "borders: if a border is one pixel narrower than declared, the bytes of superblocks change") {
+TEST_CASE("borders: if a border is one pixel too narrow, the bytes of superblocks change") {
   for (const Sum& sum : kSums) {
     test::Random random(5);
     bool beyond = false, within = false;

@@ -27,7 +27,7 @@ struct Trial {
   double max_blur = 64, n_scale = 1, theta = 0;  // theta 0: default fall-off
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
   int transfer = STARFOCUS_TRANSFER_SRGB;
-  uint64_t shape = 0;  // seed of a random shape; 0 is the default shape
+  uint64_t shape = 0;  // seed of a random opening; 0: default opening
   std::array<uint8_t, 3> color = {0, 0, 0};
   uint64_t seed = 1;
 };
@@ -170,8 +170,8 @@ TEST_CASE("constant: with wide subapertures, a constant picture is unchanged") {
 
 // If an opening is much brighter in the middle, most views have small weights, and dark codes are
 // few levels of light. The engine therefore scales the weights up and adds the products in several
-// parts. Slices that cover parts of a pixel still cause a rounding error. This rounding error
-// affects up to three pixels of a few pictures.
+// parts. Slices that cover parts of a pixel still cause a rounding error. The rounding of partial
+// coverage affects up to three pixels of a few pictures.
 TEST_CASE(
     "constant: openings with a steep fall-off hardly change constant pictures of dark codes") {
   Trial t = {64, 64, 5};
@@ -200,8 +200,8 @@ TEST_CASE(
 TEST_CASE("constant: for random configurations and lenses, a constant picture is unchanged") {
   test::Random random(2024);
   constexpr int kBlocks[] = {32, 64, 128, 256};
-  // Number of pictures with a changed pixel. Coverage is rounded to 15 bits, which may change a
-  // pixel.
+  // Number of pictures with a changed pixel. A pixel may change, since coverage is rounded to 15
+  // bits.
   int pictures = 0;
   for (int round = 0; round < 250; ++round) {
     Trial t;

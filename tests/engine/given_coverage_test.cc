@@ -59,7 +59,7 @@ starfocus_config CombConfig(const test::Scene& scene) {
   return config;
 }
 
-// Returns parameters for block mode with a disc.
+// Returns parameters for block mode with a disc as the opening.
 starfocus_params ThroughDisc(double focus) {
   starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
   params.lens.shape = STARFOCUS_SHAPE_DISC;
@@ -207,7 +207,7 @@ TEST_CASE(
   CHECK((out.bytes == scene.pictures[0]));
 }
 
-TEST_CASE("given coverage: highlights brighten only their surroundings") {
+TEST_CASE("given coverage: highlights brighten only pixels near lamps") {
   test::Scene scene = Comb();
   for (auto& sample : scene.pictures[0]) sample = std::min<uint8_t>(sample, 240);
   for (int y = 2; y < 6; ++y) std::fill_n(scene.Pixel(0, 2, y), 12, uint8_t{255});

@@ -21,7 +21,7 @@
 namespace golden_bytes_test {
 namespace {
 
-// Returns the FNV-1a checksum.
+// Returns the FNV-1a checksum of the bytes.
 uint64_t Hash(const std::vector<uint8_t>& bytes) {
   uint64_t hash = 0xCBF29CE484222325u;
   for (const uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001B3u;
@@ -79,9 +79,9 @@ std::vector<Case> Cases() {
       }
     }
   }
-  // In these cases, the area of all slices is slightly below or above MostSliceArea. Each picture
-  // would change if MostSliceArea were 1 % larger or smaller. In the last case, a block is cut into
-  // four tiles, and the picture differs from the picture of the uncut block.
+  // In the cases of kLevelCases, the area of all slices is slightly below or above MostSliceArea.
+  // Each picture would change if MostSliceArea were 1 % larger or smaller. In the last case, a
+  // block is cut into four tiles, and the picture differs from the picture of the uncut block.
   for (const LevelCase& level : kLevelCases) {
     Case one = {"",          level.block,         level.block,
                 1,           test::Depth::kNoise, {STARFOCUS_MODE_FRAME, 0, 1},

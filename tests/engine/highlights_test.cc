@@ -37,8 +37,7 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
                              starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB) {
   starfocus_config config = test::ConfigFor(scene, 20);
   config.superblock = 32;
-  // The engine disables layers and gathering near highlights; the pictures for comparison do the
-  // same.
+  // The test disables layers and gathering, which the engine does not use near highlights.
   config.tuning.max_layer = config.tuning.gather = 0;
   config.highlights = float(highlights);
   config.transfer = transfer;

@@ -17,7 +17,7 @@ namespace {
 using starfocus::Arena;
 using starfocus::kTooLarge;
 
-// Red zones would prevent pieces from sharing memory.
+// The test is skipped with red zones between pieces, since such pieces do not share memory.
 TEST_CASE("layout: each allocated piece is aligned, padded and counted" *
           doctest::skip(starfocus::kRedZone > 0)) {
   alignas(STARFOCUS_ALIGNMENT) static uint8_t memory[1 << 12];

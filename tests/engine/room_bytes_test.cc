@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that a refocused picture does not depend on the amount of reserved memory. Memory that a
-// configuration reserves for other lenses changes no byte.
+// configuration reserves for other lenses must not change a byte of the picture.
 #include <doctest/doctest.h>
 
 #include <cstdint>

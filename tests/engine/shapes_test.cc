@@ -66,8 +66,8 @@ struct Patch {
   double Light() const {
     return Sum([](int, int) { return 1.0; });
   }
-  // Returns the summed difference between the picture and image(x, y), as a fraction of the light
-  // of the picture.
+  // Returns the sum of differences between the picture and image(x, y), divided by the light of the
+  // picture.
   template <class Image>
   double Unlike(const Image& image) const {
     double sum = 0;

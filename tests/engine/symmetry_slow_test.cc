@@ -85,8 +85,8 @@ TEST_CASE("symmetry: transposed and rotated light fields give transposed and rot
       const test::Scene scene = test::RandomScene(size[0], size[1], views, -4, 4, 32);
       for (const Symmetry& s : kTurns) {
         for (starfocus_params params : {test::Params(0), test::Params(2.6, 0.9)}) {
-          // The line scan is used, since slices are moved along rows first and are not exactly
-          // symmetric.
+          // The test uses the line scan, since slices are moved along rows first and are not
+          // exactly symmetric.
           params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
           Check(s, scene, params);
         }

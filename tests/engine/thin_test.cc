@@ -73,7 +73,7 @@ starfocus_config ConfigFor(const test::Scene& scene, bool coverage) {
   return config;
 }
 
-// Returns parameters for block mode with a disc.
+// Returns parameters for block mode with a disc as the opening.
 starfocus_params ThroughDisc(double focus) {
   starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
   params.lens.shape = STARFOCUS_SHAPE_DISC;

@@ -16,7 +16,7 @@
 namespace workers_test {
 namespace {
 
-// Runs all jobs in turn, and records the number of jobs in each set.
+// Runner that runs all jobs in turn, and records the number of jobs in each set.
 struct NotingRunner {
   std::vector<int32_t> sets;
 
@@ -27,7 +27,7 @@ struct NotingRunner {
   }
 };
 
-TEST_CASE("workers: each block is a job, and jobs with the largest predicted time start first") {
+TEST_CASE("workers: each block is a job, and blocks with the largest predicted time come first") {
   // A flat, blurred area begins within the first superblock, so the engine splits this superblock.
   constexpr int kColumns = 3, kSide = 128;
   test::Scene scene = test::RandomScene(kColumns * kSide, kSide, 5, -9, 9, 31);

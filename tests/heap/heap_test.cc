@@ -25,7 +25,7 @@ void Count() {
   if (armed.load(std::memory_order_relaxed)) calls.fetch_add(1, std::memory_order_relaxed);
 }
 
-// Counts heap calls during its lifetime.
+// Counts the heap calls from construction to Stop or destruction.
 class HeapWatch {
  public:
   HeapWatch() {

@@ -33,14 +33,15 @@ using Bytes = std::vector<uint8_t>;
 // Conditions of an operation that must not affect the bytes of the result.
 struct Setup {
   int workers = 1;
-  bool used = false;  // true if the engine or the memory was used before
+  bool used = false;  // true if engine and memory were used before
   // A null pointer selects the best kernels of this machine.
   const starfocus::simd::Kernels* kernels = nullptr;
   const starfocus::simd::DepthKernels* depth_kernels = nullptr;
   test::Symmetry mirror = {false, false, false};  // applied to the input; undone in the result
 };
 
-// Runs a prepared operation. A Run may be called any number of times.
+// Function that executes an operation whose input and engine are set up. A Run may be called any
+// number of times.
 using Run = std::function<starfocus_status(const starfocus_callbacks& callbacks, Bytes* out)>;
 
 struct Operation {
@@ -50,7 +51,7 @@ struct Operation {
   std::function<Run(const Setup& setup)> set_up;
 };
 
-// Returns the bytes of an operation that must succeed.
+// Executes an operation, which must succeed, and returns the resulting bytes.
 inline Bytes Made(const Run& run, const starfocus_callbacks& callbacks = {}) {
   Bytes bytes;
   REQUIRE(run(callbacks, &bytes) == STARFOCUS_OK);

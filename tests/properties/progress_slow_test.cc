@@ -22,8 +22,8 @@ void SetCallbacks(test::Engine* engine, const starfocus_callbacks& callbacks) {
   REQUIRE(starfocus_set_callbacks(engine->get(), &callbacks) == STARFOCUS_OK);
 }
 
-// Pulls a whole stream. Each pull is cancelled after `every` calls of the progress function, and is
-// then repeated. Returns the number of cancelled pulls, rounded up to an even number.
+// Pulls all rows of a stream. Each pull is cancelled after `every` calls of the progress function,
+// and is then repeated. Returns the number of cancelled pulls, rounded up to an even number.
 int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* out) {
   test::Engine engine(f.config);
   Watch watch;
@@ -47,7 +47,9 @@ int PullOn(const Picture& f, int every, starfocus_report* report, test::Output* 
   return cancelled;
 }
 
-TEST_CASE("progress: a cancelled stream continues with its rows and returns the same report") {
+TEST_CASE(
+    "progress: after cancelled pulls, a stream returns the rows and report of an undisturbed "
+    "stream") {
   const Picture f(SceneOf(kBlocks), kBlocks, {});
   starfocus_report expected = {}, report = {};
   test::Output whole(kWidth, kHeight, 5), out(kWidth, kHeight, 5);

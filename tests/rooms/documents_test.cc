@@ -73,7 +73,7 @@ std::set<std::string> WordsOfCode() {
   return words;
 }
 
-TEST_CASE("documents: the README has 110 lines at most") {
+TEST_CASE("documents: README.md has at most 110 lines") {
   const std::string text = Read(kRoot / "README.md");
   CHECK(std::count(text.begin(), text.end(), '\n') <= 110);
   CHECK(text.size() > 1000);

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Source files may include headers of their own folder and headers of earlier folders in this list.
-// The last folder is lib/analysis, because it measures the engine.
+// The last folder is lib/analysis, because lib/analysis measures the whole engine.
 const std::vector<std::string> kRooms = {
     "simd",       "lib/base",   "lib/convert", "lib/input",     "lib/coverage",
     "lib/plan",   "lib/filter", "lib/slices",  "lib/line_scan", "lib/engine",

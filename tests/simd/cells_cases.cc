@@ -25,8 +25,8 @@ std::vector<int16_t> CellDisparities(size_t count, Draw* draw) {
   });
 }
 
-// Passes each field of a measure to `take`. The fields are compared separately, so that the padding
-// between fields is not compared.
+// Calls `take` for each field of a cell's measure. The fields are compared separately, so that the
+// padding between fields is not compared.
 template <class Take>
 void ForFields(const CellMeasure& m, const Take& take) {
   for (const auto* ends : {m.column_low, m.column_high, m.row_low, m.row_high}) take(ends, 8);

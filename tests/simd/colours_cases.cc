@@ -11,8 +11,8 @@ constexpr int kMostCost = 80;  // largest cost in a sample's key, without the co
 // colours are frequent.
 int Primary(int range, Draw* draw) { return draw->Int(0, range) * 255 / range; }
 
-// Returns a random sample. On average, one of `rarity` samples has a key and takes part in the
-// comparison.
+// Returns a random sample for CompareColours. On average, one of `rarity` samples has a key and
+// takes part in the comparison.
 ColourSample AnySample(int groups, int colours, int rarity, Draw* draw) {
   const int red = Primary(colours, draw), green = Primary(colours, draw);
   const int blue = Primary(colours, draw);

@@ -109,7 +109,7 @@ TEST_CASE("depth kernels: LeastSide and MeanCost return values computed by hand"
   for (int k = 0; k < 16; ++k) rows[k] = values + k;
   uint8_t cost[16];
   reference::LeastSide(rows, 8, 2, 1, cost);
-  CHECK(int(cost[0]) == 42 * 171 / 256);  // the lowest costs are in arms 4, 5 and 6
+  CHECK(int(cost[0]) == 42 * 171 / 256);  // sum of arms 4, 5 and 6 of both rings
   reference::LeastSide(rows + 4, 8, 1, 1, cost);
   CHECK(int(cost[0]) == 2 * 30 * 171 / 256);
   reference::LeastSide(rows + 3, 4, 1, 1, cost);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Usage: cmake -DSOURCE=… -DBUILD=… -DGENERATOR=… -DCXX=… -DCC=… -DMAKE=… -P highway_version_test.cmake
-# Checks that the build rejects a Highway older than 1.0.3, by its package and by its headers. The documents must state
-# the same version.
+# Checks that the build rejects a Highway older than 1.0.3, by its package and by its headers. The
+# documents must state this minimum version of Highway.
 cmake_minimum_required(VERSION 3.20)
 set(oldest 1.0.3)
 set(older 1.0.2)
@@ -28,7 +28,7 @@ if(result EQUAL 0 OR NOT error MATCHES "Highway ${oldest} or newer")
   message(SEND_ERROR "package of Highway ${older}: wrong result (expected an error, found '${error}')")
 endif()
 
-# compiles(VERSION RESULT) compiles simd/targets.h with headers of this version.
+# compiles(VERSION RESULT) compiles simd/targets.h with headers of Highway VERSION.
 function(compiles version found)
   string(REPLACE "." ";" numbers ${version})
   list(POP_FRONT numbers major minor patch)

@@ -68,7 +68,7 @@ bool AllRight(size_t count, const IsRight& is_right) {
 // Number of kernel calls or values for each situation that the random calls must produce.
 using Met = std::map<std::string, int64_t>;
 
-// The memory of a kernel call.
+// Memory that a kernel call reads and writes.
 class CallMemory {
  public:
   explicit CallMemory(Draw* draw) : random_(draw->Next()) {}
@@ -128,9 +128,9 @@ class CallMemory {
     Mark(first, count, Role::kFree);
   }
 
-  // Optional. Returns true if the results of the reference, which returned `returned`, follow the
-  // contract of the kernel. The function may call Free for output values that the contract does not
-  // define.
+  // Optional. Returns true if the output of the reference and its return value `returned` fulfil
+  // the contract of the kernel. The function may call Free for output values that the contract does
+  // not define.
   std::function<bool(uint64_t returned, Met*)> is_right;
 
   // Returns the number of bytes that a kernel call reads and writes, each counted once.

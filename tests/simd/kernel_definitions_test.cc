@@ -191,7 +191,7 @@ TEST_CASE("kernel definitions: WidenPhases and Halve return values computed by h
   const int16_t centre = 101;
   int16_t out = 0;
   ReferenceKernels().Halve(&centre, beside + 6, {8192, 4096, 2048}, 1, &out);
-  CHECK(out == 64);  // 101 / 2 + (10 + 30) / 4 + (8 + 16) / 8 = 63.5, rounded half up
+  CHECK(out == 64);  // 63.5 rounded half up: 101 / 2 + (10 + 30) / 4 + (8 + 16) / 8
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ namespace {
 constexpr int16_t kStep = 48;
 constexpr int kTimedFieldWidth = 192;
 
-// Returns rows of disparities. Each row is the previous row with some disparities changed, either
-// by any amount or by multiples of `step`.
+// Returns `rows` rows of disparities. Each row is the previous row with some disparities changed,
+// either by any amount or by multiples of `step`.
 std::vector<int16_t> MovedRows(size_t rows, size_t whole, int step, Draw* draw) {
   std::vector<int16_t> all = Disparities(whole, draw);
   for (size_t n = 0; n < (rows - 1) * whole; ++n) {
@@ -163,7 +163,7 @@ struct Patch {
 };
 
 // Returns the disparities of the field: rectangles of one disparity each. The first rectangle is
-// the background.
+// the background and covers the whole field.
 std::vector<int16_t> FieldSamples(DepthField* field, Draw* draw) {
   const int width = field->width, height = field->height;
   const int limit = draw->Rarely(4) ? 32000 : 12 << field->row.unit_bits;

@@ -7,7 +7,8 @@ namespace {
 
 constexpr int kMostPathLabels = 70, kTimedPathLabels = 55, kMostCost = 240, kMostJump = 1000;
 
-// Fills a path as the kernel does, and returns the smallest cost of the path.
+// Fills a path with random costs as AddPaths stores costs, and returns the smallest cost of the
+// path.
 int16_t FillPath(size_t labels, Draw* draw, int16_t* path) {
   const int least = draw->Int(0, 240);
   for (size_t l = 0; l < PathLabels(labels); ++l) {

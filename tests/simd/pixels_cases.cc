@@ -15,7 +15,8 @@ PixelOrder AnyOrder(Draw* draw) { return {size_t(draw->Int(3, 4)), draw->Int(0, 
 void PixelsToRgb(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestPixels, 1024);
   const PixelOrder order = AnyOrder(draw);
-  // The memory of `pixels` ends with the colours of the last pixel, without its fourth byte.
+  // The memory of `pixels` ends with the colours of the last pixel, even if pixels have a fourth
+  // byte.
   const uint8_t* pixels = call->Input("pixels", RandomBytes(order.step * (count - 1) + 3, draw));
   auto* rgb = call->Results<uint8_t>("rgb", 3 * count);
   call->Runs([=](const ImageKernels& kernels) { kernels.PixelsToRgb(pixels, count, order, rgb); });

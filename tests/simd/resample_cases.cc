@@ -31,7 +31,8 @@ struct Phases {
   int16_t *even, *odd;
 };
 
-// Makes a call of a kernel that filters lines. Consecutive taps are 3 or `count` + 1 samples apart.
+// Makes a call of a kernel that filters lines. The taps of the filter are 3 or `count` + 1 samples
+// apart.
 template <class Filter>
 void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, kLongestSamples, kTimedSamples);

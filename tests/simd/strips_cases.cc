@@ -19,9 +19,9 @@ SliceFraction Fraction(Draw* draw) {
   return {edge, edge, int16_t(-third), int16_t(taps == 4 ? 0 : -draw->Int(0, third))};
 }
 
-// Returns rows of samples; each row has four adjacent planes, three colours and the coverage. No
-// colour exceeds its coverage. `share` is the percentage of sequences of samples in a row that are
-// partly or fully covered. If `share` is kFull, all samples are fully covered.
+// Returns rows of samples; each row has four adjacent planes, three colours and the coverage. In
+// each sample, no colour exceeds the coverage. `share` is the percentage of sequences of samples in
+// a row that are partly or fully covered. If `share` is kFull, all samples are fully covered.
 constexpr int kFull = 101;
 std::vector<int16_t> Planes(size_t rows, size_t plane, int share, Draw* draw) {
   std::vector<int16_t> samples(4 * rows * plane);

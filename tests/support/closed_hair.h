@@ -18,7 +18,7 @@ struct Area {
   bool Has(int x, int y) const { return x >= left && x < right && y >= top && y < bottom; }
 };
 
-// A body in front of a wall, with hair on the left part of the body's top edge.
+// A portrait: a body in front of a wall, with hair on the left part of the body's top edge.
 struct ClosedHair {
   static constexpr float kNear = 9, kFar = -4;
   static constexpr int kWidth = 240, kHeight = 181;

@@ -40,7 +40,7 @@ bool Contains(const Result<T>& result, const std::string& part) {
   return Contains(result.error(), part);
 }
 
-// Returns the value that `result` holds. Throws a std::runtime_error if the result is an error.
+// Returns the value that `result` holds. If the result is an error, throws a std::runtime_error.
 template <class T>
 T ValueOf(Result<T> result) {
   if (!result) throw std::runtime_error(result.error().line());

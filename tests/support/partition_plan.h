@@ -148,7 +148,7 @@ struct Plan {
 
   std::vector<int16_t> disparity;
   std::vector<Cell> cells;
-  std::vector<uint8_t> flags;  // for each cell, 1 if the cell is gathered
+  std::vector<uint8_t> flags;  // for each cell, true if the cell is gathered
   starfocus::GatherMap gathered;
   CellGrid grid;
   int around = 0;

@@ -166,8 +166,8 @@ constexpr char kGoogle[] =
     "xmlns:GImage=\"http://ns.google.com/photos/1.0/image/\" "
     "xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\"";
 
-// Returns a photo with GDepth as defined in Google's depth map metadata: `attributes` are in the
-// packet, and the data are in extended XMP.
+// Returns a photo with Google's GDepth metadata: `attributes` are in the XMP packet, and the data
+// are in extended XMP.
 inline std::string Gdepth(const std::string& jpeg, const std::string& attributes,
                           const std::string& extended, size_t part = 60000) {
   const std::string main =

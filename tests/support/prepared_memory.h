@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Poisoned memory of exactly the size of a prepared light field.
+// Poisoned memory that has exactly the size of a prepared light field.
 #ifndef STARFOCUS_TESTS_SUPPORT_PREPARED_MEMORY_H_
 #define STARFOCUS_TESTS_SUPPORT_PREPARED_MEMORY_H_
 

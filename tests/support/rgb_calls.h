@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of the C ABI with rows of R, G, B as outputs.
+// Functions that call the C ABI and write rows of R, G, B.
 #ifndef STARFOCUS_TESTS_SUPPORT_RGB_CALLS_H_
 #define STARFOCUS_TESTS_SUPPORT_RGB_CALLS_H_
 

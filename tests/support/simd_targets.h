@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels of every SIMD target that this program includes and this machine supports.
+// Lists the kernel tables of all SIMD targets that the program includes and this machine supports.
 #ifndef STARFOCUS_TESTS_SUPPORT_SIMD_TARGETS_H_
 #define STARFOCUS_TESTS_SUPPORT_SIMD_TARGETS_H_
 

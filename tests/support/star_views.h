@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets of captured views for windows that a test makes.
+// Sets captured views in windows that tests make.
 #ifndef STARFOCUS_TESTS_SUPPORT_STAR_VIEWS_H_
 #define STARFOCUS_TESTS_SUPPORT_STAR_VIEWS_H_
 

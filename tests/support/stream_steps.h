@@ -15,7 +15,7 @@ namespace test {
 struct StreamSteps {
   bool Ended() const { return pulled == scene.height; }
   // Pushes all rows that the engine consumes, and pulls at most `most` rows. Returns the status of
-  // the pull.
+  // starfocus_stream_pull.
   starfocus_status Step(int most = STARFOCUS_MAX_SIZE, starfocus_report* report = nullptr) {
     int32_t consumed = 0, written = 0;
     if (pushed < scene.height) {

@@ -37,8 +37,8 @@ constexpr starfocus_mode kModes[] = {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHM
 constexpr starfocus_renderer kRenderers[] = {STARFOCUS_RENDERER_LINE_SCAN,
                                              STARFOCUS_RENDERER_SLICES};
 
-// Random number generator with the same sequence on every machine (xorshift64*). If a fuzzer
-// supplies bytes, the sequence starts with numbers from these bytes.
+// Random number generator whose sequence is equal on every machine (xorshift64*). If a fuzzer
+// supplies bytes, the first numbers of the sequence are made from these bytes.
 class Random {
  public:
   explicit Random(uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 0x1234567u) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves of starfocus_transfer in double precision, with light in 255ths of white.
+// Curves of all starfocus_transfer values in double precision; light is in 255ths of white.
 #ifndef STARFOCUS_TESTS_SUPPORT_TRANSFER_CURVE_H_
 #define STARFOCUS_TESTS_SUPPORT_TRANSFER_CURVE_H_
 

@@ -17,7 +17,7 @@ struct Watch {
   int calls = 0;  // number of calls so far; simultaneous calls are counted in `clashes`
   int32_t done = 0, rows = 0;
   int full = 0;      // calls that report all rows as done
-  int back = 0;      // calls with a wrong number of rows
+  int back = 0;      // calls with fewer rows than before, or a wrong total
   int too_late = 0;  // calls after the cancellation
   std::atomic<int> inside{0}, clashes{0};
 

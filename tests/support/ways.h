@@ -27,8 +27,8 @@ inline starfocus_region RandomRegion(int width, int height, Random* random) {
   return region;
 }
 
-// Returns various regions: the whole picture, corners, edges, the middle, both sides of the
-// boundaries of blocks, and random regions.
+// Returns regions of many kinds: the whole picture, corners, edges, the middle, both sides of block
+// boundaries, and random regions.
 inline std::vector<starfocus_region> RegionsOf(int width, int height) {
   std::vector<starfocus_region> regions = {
       {0, 0, width, height},         {0, 0, 1, 1},
@@ -38,7 +38,7 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
     if (at + 2 >= width || at >= height) continue;
     regions.push_back({at, at, 1, 1});
     regions.push_back({at - 1, at - 3, 1, 1});
-    // Deblocking of the next stripe changes the last row of this region.
+    // The engine finishes the last row of this region only with the next stripe.
     regions.push_back({0, at - 8, width, 5});
     regions.push_back({at + 2, at - 1, width - at - 2, 1});
   }
