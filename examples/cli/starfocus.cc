@@ -17,7 +17,7 @@ Error Run(int argc, char** argv) {
       nullptr};
   program.commands = {RefocusCommand(), DisparityCommand(), VideoCommand(),       ViewCommand(),
                       InfoCommand(),    ImportCommand(),    HelpCommand(&program)};
-  program.lab_commands = {"analyze", "calibrate", "compare", "scene", "sheet", "stress"};
+  program.lab_commands = {"analyze", "calibrate", "compare", "scene", "sheet", "steps", "stress"};
   return RunCommandLine(program, argc, argv);
 }
 

@@ -12,6 +12,7 @@ Command CompareCommand();
 Command SheetCommand();
 Command AnalyzeCommand();
 Command CalibrateCommand();
+Command StepsCommand();
 Command StressCommand();
 
 }  // namespace starfocus

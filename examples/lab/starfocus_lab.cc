@@ -16,8 +16,8 @@ Error Run(int argc, char** argv) {
                   "Render scenes, compare pictures, and measure and test the engine of starfocus.",
                   {},
                   nullptr};
-  program.commands = {SceneCommand(),     CompareCommand(), SheetCommand(),       AnalyzeCommand(),
-                      CalibrateCommand(), StressCommand(),  HelpCommand(&program)};
+  program.commands = {SceneCommand(),     CompareCommand(), SheetCommand(),  AnalyzeCommand(),
+                      CalibrateCommand(), StepsCommand(),   StressCommand(), HelpCommand(&program)};
   return RunCommandLine(program, argc, argv);
 }
 

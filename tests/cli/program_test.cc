@@ -67,7 +67,7 @@ TEST_CASE("program: every way to request help prints the same text") {
     CHECK(!Contains(one.out, " TEXT"));
   }
   for (const std::string command :
-       {"scene", "compare", "sheet", "analyze", "calibrate", "stress"}) {
+       {"scene", "compare", "sheet", "analyze", "calibrate", "steps", "stress"}) {
     CAPTURE(command);
     CHECK(!Contains(all.out, "\n  " + command + " "));
     const Outcome one = Call(folder, command + " --help");
@@ -107,7 +107,7 @@ TEST_CASE("program: the help of each command ends with two examples") {
   const Outcome manual = Call(folder, "help --man");
   for (const std::string command :
        {"refocus", "disparity", "video", "view", "info", "import", "help", "scene", "compare",
-        "sheet", "analyze", "calibrate", "stress"}) {
+        "sheet", "analyze", "calibrate", "steps", "stress"}) {
     CAPTURE(command);
     const std::string path = ProgramFor(command);
     const std::string name = path.substr(path.rfind('/') + 1);
@@ -189,7 +189,8 @@ TEST_CASE("program: the program fails if it cannot write its output") {
 TEST_CASE(
     "program: if starfocus gets a subcommand of starfocus-lab, the error names starfocus-lab") {
   TempFolder folder;
-  for (const std::string name : {"analyze", "calibrate", "compare", "scene", "sheet", "stress"}) {
+  for (const std::string name :
+       {"analyze", "calibrate", "compare", "scene", "sheet", "steps", "stress"}) {
     CAPTURE(name);
     CHECK(Call(folder, name + " --help").code == 0);  // Call selects starfocus-lab
     // With quotes around the subcommand, Call selects starfocus.
@@ -209,8 +210,9 @@ TEST_CASE("program: an error line names the cause of the error") {
   if (geteuid() == 0) return;  // root can write to any folder, so the calls would succeed
   fs::create_directory(folder.file("locked"));
   fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec);
-  for (const char* arguments : {"import lf locked/new", "scene locked/new", "analyze -o locked/new",
-                                "refocus lf tiny -o locked/new --focus 1"}) {
+  for (const char* arguments :
+       {"import lf locked/new", "scene locked/new", "analyze -o locked/new",
+        "steps lf -o locked/new --focus 1", "refocus lf tiny -o locked/new --focus 1"}) {
     CheckRefused(folder, arguments, "cannot create folder locked/new: permission denied");
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "examples/lab/lab_config.h"
 #include "lib/convert/depth_rows.h"
 #include "lib/engine/stripe.h"
 #include "platform/clock.h"
@@ -11,15 +12,8 @@
 namespace starfocus {
 namespace {
 
-starfocus_config MakeConfig(const LightField& light_field, const starfocus_disparity_stats& stats) {
-  starfocus_config config;
-  starfocus_config_init(&config);
-  config.width = light_field.width();
-  config.height = light_field.height();
-  ConfigureViews(light_field, &config);
-  config.disparity_min = stats.min;
-  config.disparity_max = stats.max;
-  config.max_blur = STARFOCUS_MAX_BLUR;
+starfocus_config MakeConfig(const LightField& light_field) {
+  starfocus_config config = ConfigOf(light_field);
   config.superblock = 256;                        // allocates scratch memory for blocks of any size
   config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // allows apertures for every sampled N
   return config;
@@ -32,7 +26,7 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
   const FloatMap& map = light_field.disparity;
   const starfocus_disparity_stats stats = MeasureDisparity(map);
   starfocus_status status = stats.invalid != 0 ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_OK;
-  if (status == STARFOCUS_OK) status = owner_.Init(MakeConfig(light_field, stats));
+  if (status == STARFOCUS_OK) status = owner_.Init(MakeConfig(light_field));
   if (status == STARFOCUS_OK) {
     engine_ = reinterpret_cast<EngineState*>(owner_.get());
     // Create apertures for blocks of any N. The opening has the default shape, which Focus also

@@ -10,6 +10,7 @@
 #include "examples/lab/commands.h"
 #include "examples/lab/sheet/label.h"
 #include "platform/image_io.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -18,9 +19,22 @@ constexpr int kGap = 8;
 
 struct SheetOptions {
   std::string out;
-  int width = 1600;
+  int width = 1600, zoom = 1;
+  starfocus_region crop = {};
   std::vector<std::string> pictures, labels;
 };
+
+// Returns the part `crop` of a picture, with each pixel enlarged to a square of side `zoom`.
+Image Cut(const Image& picture, const starfocus_region& crop, int zoom) {
+  Image part(crop.width * zoom, crop.height * zoom);
+  for (int y = 0; y < part.height; ++y) {
+    const uint8_t* const from = picture.row(crop.y + y / zoom);
+    for (int x = 0; x < part.width; ++x) {
+      std::copy_n(from + 3 * (crop.x + x / zoom), 3, part.row(y) + 3 * x);
+    }
+  }
+  return part;
+}
 
 Image Arrange(const std::vector<Image>& cells, const std::vector<std::string>& labels) {
   int width = kGap, height = 0;
@@ -60,7 +74,14 @@ Error Run(const SheetOptions& options) {
   for (const std::string& path : options.pictures) {
     const Result<Image> picture = ReadImage(path);
     if (!picture) return picture.error();
-    cells.push_back(Shrink(*picture, cell_width));
+    starfocus_region crop = options.crop;
+    if (crop.width == 0) crop = {0, 0, picture->width, picture->height};
+    if (crop.x + int64_t{crop.width} > picture->width ||
+        crop.y + int64_t{crop.height} > picture->height) {
+      return Error::Usage("--crop", "a rectangle within the picture " + path,
+                          "a picture of " + SizeText(picture->width, picture->height));
+    }
+    cells.push_back(Shrink(Cut(*picture, crop, options.zoom), cell_width));
   }
   return WriteImage(options.out, Arrange(cells, options.labels));
 }
@@ -77,6 +98,10 @@ Command SheetCommand() {
               {"IMG", "FILE", "Pictures, from left to right", &options->pictures, Use::kRequired},
               {"--labels", "A,B,...", "Text below each picture, separated by commas; default: none",
                &options->labels, Use::kCommaSeparated},
+              {"--crop", "X,Y,W,H", "Rectangle to show of each picture; default: the whole picture",
+               Region(&options->crop)},
+              {"--zoom", "N", "Width and height of a pixel of the pictures on the sheet, 1 to 16",
+               Whole(1, 16, &options->zoom), Use::kDefault},
               {"--width", "N", "Largest width of the sheet in pixels, 16 to 16384",
                Whole(16, 16384, &options->width), Use::kDefault},
           },

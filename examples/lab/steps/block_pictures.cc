@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/lab/steps/block_pictures.h"
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "lib/slices/compositor.h"
+
+namespace starfocus {
+namespace {
+
+// Colours of consecutive slices.
+constexpr uint8_t kSliceColours[][3] = {
+    {228, 40, 40},  {250, 140, 30}, {240, 225, 50}, {150, 210, 50}, {40, 150, 60},   {60, 210, 180},
+    {60, 170, 240}, {50, 80, 210},  {130, 60, 190}, {225, 80, 200}, {250, 170, 190}, {130, 90, 60}};
+constexpr uint8_t kNearer[3] = {255, 205, 40}, kFarther[3] = {40, 90, 255};
+constexpr uint8_t kBlack[3] = {0, 0, 0};
+
+// Returns the colour of a slice. Slices of one disparity have one colour in all blocks.
+const uint8_t (&ColourOf(const Slice& slice))[3] {
+  constexpr int kRange = 3 << kDisparityBits >> 3;
+  constexpr auto kCount = static_cast<int>(std::size(kSliceColours));
+  const int number = (slice.disparity - INT16_MIN) / kRange;
+  return kSliceColours[number % kCount];
+}
+
+uint8_t* PixelOf(Image* picture, int32_t x, int32_t y) { return picture->row(y) + 3 * x; }
+
+void TurnGrey(uint8_t* pixel) {
+  const int grey = (77 * pixel[0] + 150 * pixel[1] + 29 * pixel[2] + 128) >> 8;
+  std::fill_n(pixel, 3, static_cast<uint8_t>(grey));
+}
+
+// Weights with which only the rightmost view of the lens has light. N is the largest N that every
+// engine has memory for, so that the subaperture of the view is narrow.
+class RightmostView {
+ public:
+  explicit RightmostView(const ApertureShape& opening) {
+    const int32_t n = ViewsBySubaperture(STARFOCUS_MAX_BLUR, DemandOf(opening));
+    memory_.resize(FullApertureSize(n));
+    weights_ = MakeSubapertures(n, opening, memory_.data());
+    std::fill(memory_.begin(), memory_.end(), uint16_t{0});
+    weights_.full = true;
+    weights_.views = 1;
+    weights_.sum_bits = 15;
+    memory_[static_cast<size_t>((weights_.last + n) * (2 * n + 1) + n)] = 1 << 15;
+  }
+  const ViewWeights& weights() const { return weights_; }
+
+ private:
+  std::vector<uint16_t> memory_;
+  ViewWeights weights_;
+};
+
+// A row of light that SIMD kernels may read.
+using LightRow = std::vector<int16_t>;
+LightRow MakeRow(int32_t width) {
+  return LightRow(3 * static_cast<size_t>(width) + simd::kPadding);
+}
+
+// Draws one block from the data that rendering leaves in the scratch memory of a worker.
+class BlockArtist {
+ public:
+  BlockArtist(const PlannedBlock& planned, StepPictures* pictures)
+      : planned_(planned),
+        engine_(planned.engine),
+        rect_(planned.block.rect),
+        window_(engine_.row_store.windows[0]),
+        memory_(static_cast<CompositorScratch*>(
+            engine_.workers.scratch[0].renderers[kSliceRenderer.index])),
+        view_(engine_.tables.opening),
+        pictures_(*pictures) {
+    const starfocus_lens& lens = engine_.lens.params.lens;
+    const ViewWeights& weights = view_.weights();
+    grid_ = MakeViewGrid(weights, lens.focus, lens.aperture * weights.extent, 0, false);
+  }
+
+  void Draw() {
+    Render();
+    DrawSlices();
+    LightRow hidden = MakeRow(rect_.width), mean = hidden;
+    for (int32_t y = 0; y < rect_.height; ++y) {
+      ReadHidden(y, &hidden);
+      Encode(hidden, y, &pictures_.hidden);
+      ReadMean(y, &mean);
+      Encode(mean, y, &pictures_.mean);
+      for (int32_t x = 0; x < rect_.width; ++x) DrawPixel(x, y);
+    }
+  }
+
+ private:
+  void Render() {
+    uint32_t* const sums = engine_.workers.scratch[0].sums;
+    const RenderJob job = {&window_, &grid_,  engine_.kernels,    rect_, planned_.block.border,
+                           nullptr,  nullptr, engine_.lens.r_max, false};
+    kSliceRenderer.render(job, memory_, sums);
+    const size_t samples = 3 * static_cast<size_t>(rect_.width);
+    for (int32_t y = 0; y < rect_.height; ++y) {
+      engine_.kernels->Finish(sums + static_cast<size_t>(y) * samples, samples,
+                              kSliceRenderer.sum_bits(view_.weights()), window_.transfer->encoding,
+                              PixelOf(&pictures_.view, rect_.x, rect_.y + y));
+    }
+  }
+
+  // Returns the index in the surfaces of pixel (x, y) of the block.
+  size_t At(int32_t x, int32_t y) const {
+    const Border& border = planned_.block.border;
+    return memory_->surfaces.At(border.left + x, border.top + y);
+  }
+
+  // Returns the index of the first hidden surface behind the pixel, or 0 if there is none. Copies
+  // that close gaps within the visible surface do not count.
+  int FirstHidden(int32_t x, int32_t y) const {
+    const LayeredDepth& surfaces = memory_->surfaces;
+    const Border& border = planned_.block.border;
+    const int32_t strip = (border.left + x) / simd::kStripColumns;
+    if ((surfaces.hiding[border.top + y] >> strip & 1) == 0) return 0;
+    const size_t at = At(x, y);
+    for (int k = 1; k < simd::kSurfaces && surfaces.disparity[k][at] != kNoSurface; ++k) {
+      if (surfaces.disparity[0][at] - surfaces.disparity[k][at] > kMostCopy) return k;
+    }
+    return 0;
+  }
+
+  void ReadHidden(int32_t y, LightRow* row) const {
+    const LayeredDepth& surfaces = memory_->surfaces;
+    for (int32_t x = 0; x < rect_.width; ++x) {
+      const int16_t* const light = surfaces.rgb[FirstHidden(x, y)] + At(x, y);
+      for (size_t c = 0; c < 3; ++c) {
+        (*row)[3 * static_cast<size_t>(x) + c] = light[c * surfaces.plane];
+      }
+    }
+  }
+
+  // Reads the mean of the captured views. View (u, v) shows a point in focus at
+  // (x - u * focus, y - v * focus).
+  void ReadMean(int32_t y, LightRow* mean) const {
+    constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
+    ViewSet views;
+    FindViews(engine_.config, &views);
+    const int32_t count = views.count;
+    std::vector<int32_t> sums(mean->size());
+    LightRow row = MakeRow(rect_.width);
+    for (int32_t view = 0; view < count; ++view) {
+      const ViewPosition& at = views.at[view];
+      const CapturedLine line = {rect_.x * kShiftOne - ScaledByView(at.u, grid_.focus, kBits),
+                                 (rect_.y + y) * kShiftOne - ScaledByView(at.v, grid_.focus, kBits),
+                                 1, 0};
+      ReadCaptured(window_, view, line, rect_.width, row.data());
+      for (size_t k = 0; k < row.size(); ++k) sums[k] += row[k];
+    }
+    for (size_t k = 0; k < row.size(); ++k) {
+      (*mean)[k] = static_cast<int16_t>((sums[k] + count / 2) / count);
+    }
+  }
+
+  void Encode(const LightRow& row, int32_t y, Image* picture) const {
+    engine_.kernels->Encode(row.data(), 3 * static_cast<size_t>(rect_.width),
+                            window_.transfer->encoding, PixelOf(picture, rect_.x, rect_.y + y));
+  }
+
+  // Tints the pixels of each tile by the slices that the compositor makes for this tile.
+  void DrawSlices() {
+    Rect tile = {0, 0, 0, 0};
+    for (; tile.y < rect_.height; tile.y += tile.height) {
+      tile.height = SideOfTile(rect_.height - tile.y);
+      for (tile.x = 0; tile.x < rect_.width; tile.x += tile.width) {
+        tile.width = SideOfTile(rect_.width - tile.x);
+        DrawSlicesOf(tile);
+      }
+    }
+  }
+
+  void DrawSlicesOf(const Rect& tile) {
+    SliceRule rule = kSlices;
+    rule.area = MostSliceArea(engine_.lens.r_max);
+    const Border& border = planned_.block.border;
+    const SliceJob job = {engine_.kernels,
+                          &memory_->surfaces,
+                          &grid_,
+                          rule,
+                          {border.left + tile.x, border.top + tile.y, tile.width, tile.height},
+                          memory_->bins,
+                          memory_->least_blur};
+    Slice slices[kMaxSlices];
+    SurfaceBands bands;
+    const int32_t count = FindSlices(job, slices, &bands);
+    for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+      for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+        const int16_t disparity = memory_->surfaces.disparity[0][At(x, y)];
+        const auto slice = std::find_if(slices, slices + count,
+                                        [&](const Slice& one) { return one.low <= disparity; });
+        uint8_t* const pixel = PixelOf(&pictures_.slices, rect_.x + x, rect_.y + y);
+        TurnGrey(pixel);
+        Tint(ColourOf(*slice), 65, pixel);
+      }
+    }
+  }
+
+  void DrawPixel(int32_t x, int32_t y) {
+    const int32_t left = rect_.x + x, top = rect_.y + y;
+    if (FirstHidden(x, y) == 0) {
+      uint8_t* const hidden = PixelOf(&pictures_.hidden, left, top);
+      std::copy_n(planned_.light_field.views[0].row(top) + 3 * left, 3, hidden);
+      TurnGrey(hidden);
+    }
+    uint8_t* const matte = PixelOf(&pictures_.matte, left, top);
+    const int share = memory_->surfaces.share[At(x, y)];
+    if (share < simd::kSliceWhole) {
+      std::copy_n(kFarther, 3, matte);
+      Tint(kNearer, 100 * share / simd::kSliceWhole, matte);
+    } else {
+      TurnGrey(matte);
+      Tint(kBlack, 60, matte);
+    }
+    DrawCoverage(left, top);
+  }
+
+  void DrawCoverage(int32_t x, int32_t y) {
+    uint8_t* const pixel = PixelOf(&pictures_.coverage, x, y);
+    const CoverageMap& map = *window_.coverage;
+    const int alpha = map.alpha[map.At(x, y)];
+    if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 && alpha != kUnparted) {
+      std::fill_n(pixel, 3, static_cast<uint8_t>(alpha * 255 / kWhole));
+    } else {
+      Tint(kFarther, 40, pixel);
+      Tint(kBlack, 50, pixel);
+    }
+  }
+
+  const PlannedBlock& planned_;
+  const EngineState& engine_;
+  const Rect& rect_;
+  const Window& window_;
+  CompositorScratch* const memory_;
+  const RightmostView view_;
+  ViewGrid grid_;
+  StepPictures& pictures_;
+};
+
+}  // namespace
+
+void DrawRendered(const PlannedBlock& planned, StepPictures* pictures) {
+  BlockArtist(planned, pictures).Draw();
+}
+
+void MarkGathered(const PlannedBlock& planned, StepPictures* pictures) {
+  const Rect& rect = planned.block.rect;
+  const BlockCells cells = {&planned.engine.stripe.plan.gathered, rect, planned.block.layer};
+  if (!planned.block.gathers) return;
+  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
+    for (int32_t x = rect.x; x < rect.x + rect.width; ++x) {
+      if (cells.IsGathered(x, y)) std::fill_n(PixelOf(&pictures->gathered, x, y), 3, uint8_t{255});
+    }
+  }
+}
+
+void Tint(const uint8_t (&colour)[3], int percent, uint8_t* pixel) {
+  for (int c = 0; c < 3; ++c) {
+    pixel[c] = static_cast<uint8_t>((colour[c] * percent + pixel[c] * (100 - percent) + 50) / 100);
+  }
+}
+
+}  // namespace starfocus

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/lab/steps/step_pictures.h"
+
+#include <utility>
+#include <vector>
+
+#include "examples/lab/lab_config.h"
+#include "examples/lab/steps/block_pictures.h"
+#include "platform/file.h"
+#include "platform/problem.h"
+#include "starfocus/starfocus.hpp"
+
+namespace starfocus {
+namespace {
+
+constexpr uint8_t kGreen[3] = {40, 190, 70}, kMagenta[3] = {255, 0, 255};
+
+// Draws the block that the engine has just added to the plan of the current stripe.
+struct BlockVisit {
+  const EngineState* engine;
+  const LightField* light_field;
+  StepPictures* pictures;
+  void (*draw)(const PlannedBlock& planned, StepPictures* pictures);
+
+  static void Draw(void* data, const starfocus_block*) {
+    const auto& visit = *static_cast<BlockVisit*>(data);
+    const StripePlan& plan = visit.engine->stripe.plan;
+    visit.draw({*visit.engine, plan.blocks[plan.used - 1], *visit.light_field}, visit.pictures);
+  }
+};
+
+class StepRun {
+ public:
+  StepRun(const std::string& where, const LightField& light_field, const StepLens& lens)
+      : where_(where), light_field_(light_field), lens_(lens) {}
+
+  // Renders all blocks at layer 0, and draws all pictures except `gathered`.
+  Result<Image> DrawRenderedBlocks(StepPictures* pictures) const {
+    return Refocus(false, {nullptr, &light_field_, pictures, DrawRendered});
+  }
+
+  // Refocuses with the default tuning, and marks gathered cells.
+  Result<Image> MarkGatheredCells(StepPictures* pictures) const {
+    return Refocus(true, {nullptr, &light_field_, pictures, MarkGathered});
+  }
+
+ private:
+  Result<Image> Refocus(bool gathers, BlockVisit visit) const {
+    starfocus_config config = ConfigOf(light_field_);
+    if (!gathers) config.tuning.gather = config.tuning.max_layer = 0;
+    starfocus_problem problem = {};
+    config.problem = &problem;
+    Engine engine;
+    const starfocus_status status = engine.Init(config);
+    if (status != STARFOCUS_OK) return Refused(status, &problem);
+    visit.engine = reinterpret_cast<EngineState*>(engine.get());
+    return Run(&engine, &visit);
+  }
+
+  Result<Image> Run(Engine* engine, BlockVisit* visit) const {
+    starfocus_callbacks callbacks = {};
+    callbacks.on_block = BlockVisit::Draw;
+    callbacks.on_block_data = visit;
+    starfocus_status status = engine->SetCallbacks(callbacks);
+    starfocus_params params;
+    starfocus_params_init(&params);
+    params.lens.focus = lens_.focus;
+    params.lens.aperture = lens_.aperture;
+    Image out(light_field_.width(), light_field_.height());
+    if (status == STARFOCUS_OK) {
+      status = engine->Refocus(params, EngineRows(light_field_),
+                               starfocus_image_rgb(out.pixels.data(), out.stride()));
+    }
+    if (status != STARFOCUS_OK) return Refused(status, engine->problem());
+    return out;
+  }
+
+  Error Refused(starfocus_status status, const starfocus_problem* problem) const {
+    return Expected(where_, "a light field and a lens that the engine accepts",
+                    Describe(status, problem).text);
+  }
+
+  const std::string& where_;
+  const LightField& light_field_;
+  const StepLens& lens_;
+};
+
+// Tints the pixels of `picture` that are white in `mask`.
+void TintMarked(const Image& mask, Image* picture) {
+  for (size_t k = 0; k < mask.pixels.size(); k += 3) {
+    if (mask.pixels[k] == 255) Tint(kGreen, 45, &picture->pixels[k]);
+  }
+}
+
+}  // namespace
+
+Result<StepPictures> DrawSteps(const std::string& where, const LightField& light_field,
+                               const StepLens& lens) {
+  const Image& centre = light_field.views[0];
+  const Image black(centre.width, centre.height);
+  StepPictures pictures = {black, centre, centre, centre, centre, black, black, black};
+  const StepRun run(where, light_field, lens);
+  Result<Image> rendered = run.DrawRenderedBlocks(&pictures);
+  if (!rendered) return rendered.error();
+  Result<Image> refocused = run.MarkGatheredCells(&pictures);
+  if (!refocused) return refocused.error();
+  TintMarked(pictures.gathered, &*refocused);
+  pictures.gathered = std::move(*refocused);
+  LightField marked = light_field;
+  for (size_t view = 1; view < marked.views.size(); ++view) {
+    std::vector<uint8_t>& pixels = marked.views[view].pixels;
+    for (size_t k = 0; k < pixels.size(); ++k) pixels[k] = kMagenta[k % 3];
+  }
+  StepPictures others = pictures;
+  rendered = StepRun(where, marked, lens).DrawRenderedBlocks(&others);
+  if (!rendered) return rendered.error();
+  pictures.holes = std::move(others.view);
+  return pictures;
+}
+
+}  // namespace starfocus

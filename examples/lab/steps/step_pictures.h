@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws the intermediate data of the engine, for the figures of docs/method.md. The engine
+// refocuses a light field with the default renderer, and this module draws each block of the
+// engine's plan.
+#ifndef STARFOCUS_EXAMPLES_LAB_STEPS_STEP_PICTURES_H_
+#define STARFOCUS_EXAMPLES_LAB_STEPS_STEP_PICTURES_H_
+
+#include <string>
+
+#include "platform/image.h"
+#include "platform/light_field.h"
+#include "platform/result.h"
+
+namespace starfocus {
+
+// Focus d_t and aperture radius u_t in (0, 1] of the lens.
+struct StepLens {
+  double focus = 0, aperture = 1;
+};
+
+// Pictures of the size of the light field.
+struct StepPictures {
+  Image mean;      // mean of the captured views, shifted to the focus; independent of the aperture
+  Image slices;    // the centre view in grey, tinted by the slice of each pixel's nearest surface
+  Image hidden;    // the first hidden surface; elsewhere the centre view in grey
+  Image matte;     // share of the nearer surface in mixed pixels; elsewhere the dimmed centre view
+  Image coverage;  // coverage in thin structures, white: 1; elsewhere the dimmed centre view
+  Image view;      // the view from the rightmost point of the lens, shifted to the focus
+  Image holes;     // `view`, rendered from captured views whose pixels are all magenta
+  Image gathered;  // the refocused picture, with gathered cells tinted green
+};
+
+// Draws all pictures. Errors start with `where`, the name of the light field.
+Result<StepPictures> DrawSteps(const std::string& where, const LightField& light_field,
+                               const StepLens& lens);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_LAB_STEPS_STEP_PICTURES_H_
