@@ -11,15 +11,15 @@ struct CellLimits {
   int16_t focus;  // disparity from which CellMeasure::nearest is measured
   // Largest step that is not a depth edge; <= 4369, so that the sum of 15 steps fits in 16 bits.
   int16_t edge;
-  int16_t slope_limit;  // larger steps within a surface add only `slope_limit` to `slopes`
-  int16_t gap_limit;    // larger steps at depth edges add only `gap_limit` to `gaps`
+  int16_t slope_limit;  // Larger steps within a surface add only `slope_limit` to `slopes`.
+  int16_t gap_limit;    // Larger steps at depth edges add only `gap_limit` to `gaps`.
 };
 
 // Output of MeasureCell for 8x8 disparities and their neighbours.
 struct CellMeasure {
-  int16_t column_low[8], column_high[8];  // lowest and highest disparity of each column
-  int16_t row_low[8], row_high[8];        // lowest and highest disparity of each row
-  uint16_t nearest;                       // smallest |disparity - focus|
+  int16_t column_low[8], column_high[8];  // Lowest and highest disparity of each column.
+  int16_t row_low[8], row_high[8];        // Lowest and highest disparity of each row.
+  uint16_t nearest;                       // Smallest |disparity - focus|.
   // Lowest and highest disparity of the nearer sides of depth edges. The edges lie between two
   // pixels of the cell, or between a pixel of the cell and a neighbour outside. If edge_low >
   // edge_high, the cell has no depth edge.

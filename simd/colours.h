@@ -26,8 +26,8 @@ inline constexpr int kColourKeyBits = 6;
 inline constexpr uint16_t kNoColourKey = UINT16_MAX;
 
 struct ColourSample {
-  int16_t sum;                    // red + green + blue, [0, 765]
-  int16_t red_green, green_blue;  // red - green, green - blue, [-255, 255]
+  int16_t sum;                    // Red + green + blue, [0, 765].
+  int16_t red_green, green_blue;  // Red - green, green - blue, [-255, 255].
   // Key of the sample before the colour difference is added; samples with kNoColourKey are skipped.
   uint16_t key;
   uint16_t place;  // index in `least` of the results for the sample's group

@@ -17,8 +17,8 @@ struct CoverView {
   int16_t along;  // movement in the view per unit of disparity, 15 fractional bits
   // Movement that takes the near pixel onto the far pixel, in the scale of disparities.
   int16_t place;
-  int16_t within;  // largest deviation from `place` at which the near pixel covers the far pixel
-  int16_t least;   // a near pixel covers far pixels only if it is nearer by more than `least`
+  int16_t within;  // Largest deviation from `place` at which the near pixel covers the far pixel.
+  int16_t least;   // A near pixel covers far pixels only if it is nearer by more than `least`.
 };
 
 // Largest distance, in columns and rows, of the pixels that SumNear adds.

@@ -14,9 +14,9 @@ namespace starfocus::simd {
 // Conversion from a value z of a depth map to a disparity, and the allowed range of disparities.
 struct DepthRule {
   float scale, offset;
-  float invalid;    // value z of an unknown depth; NaN if there is no such value
-  bool reciprocal;  // true: the disparity is scale / z + offset; false: scale * z + offset
-  float low, high;  // allowed range of disparities, within [-511, 511]
+  float invalid;    // Value z of an unknown depth; NaN if there is no such value.
+  bool reciprocal;  // True: the disparity is scale / z + offset; false: scale * z + offset.
+  float low, high;  // Allowed range of disparities, within [-511, 511].
 };
 
 // Flags returned by DepthToDisparity.

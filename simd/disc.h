@@ -18,8 +18,8 @@ namespace starfocus::simd {
 // mirror each other about both axes sum to at most 32767. The weights of two mirrored pixels on an
 // axis sum to at most 32767 as well.
 struct Disc {
-  int32_t size;  // radius of the disc in pixels, [0, kMaxDisc]
-  int bits;      // fractional bits of the weights, [1, 17]
+  int32_t size;  // Radius of the disc in pixels, [0, kMaxDisc].
+  int bits;      // Fractional bits of the weights, [1, 17].
   const uint16_t* weights;
 };
 inline constexpr int32_t kMaxDisc = 12;

@@ -14,8 +14,8 @@ namespace starfocus::simd {
 // Parameters of FinishComposite. Pixels with a coverage below `least` get the colour of the centre
 // view. Accumulators have `bits` fractional bits.
 struct CompositeFinish {
-  uint32_t least;  // smallest coverage by which colours are divided, > 0
-  int bits;        // fractional bits of accumulators, [kLightBits, 24]
+  uint32_t least;  // Smallest coverage by which colours are divided, > 0.
+  int bits;        // Fractional bits of accumulators, [kLightBits, 24].
 };
 inline constexpr int kInverseBits = 48;
 

@@ -25,17 +25,17 @@ struct ViewMove {
 
 // A row of pixels, and the rules of the comparison.
 struct LabelRow {
-  const uint8_t* pixels;  // red sample of the first pixel in the centre view
-  size_t plane;           // distance in samples between the planes R, G and B, in all views
-  const ViewMove* moves;  // moves[l * arms * rings + k]: offsets of label l in side view k
+  const uint8_t* pixels;  // Red sample of the first pixel in the centre view.
+  size_t plane;           // Distance in samples between the planes R, G and B, in all views.
+  const ViewMove* moves;  // moves[l * arms * rings + k]: offsets of label l in side view k.
   // Number of hidden labels, or kViewEnds, at the first pixel in the first view's plane. Null if
   // all views see all pixels.
   const uint8_t* hidden;
-  size_t labels;       // [1, 254]
-  size_t arms, rings;  // numbers of arms and rings of the views, as in LeastSide
-  bool one_side;       // true to use the views on the best side of a pixel, false to use all views
-  bool ends;           // true if some values of `hidden` may be kViewEnds
-  bool limits;         // true to replace only views that end, and to limit the cost of hidden views
+  size_t labels;       // [1, 254].
+  size_t arms, rings;  // Numbers of arms and rings of the views, as in LeastSide.
+  bool one_side;       // True to use the views on the best side of a pixel, false to use all views.
+  bool ends;           // True if some values of `hidden` may be kViewEnds.
+  bool limits;  // True to replace only views that end, and to limit the cost of hidden views.
 };
 
 namespace reference {

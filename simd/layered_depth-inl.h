@@ -80,8 +80,8 @@ struct OcclusionQuery {
   const int16_t* at;
   ptrdiff_t step;
   int16_t unit;
-  int32_t sure;  // number of pixels of the line that lie in the field for all lanes
-  int32_t last;  // last pixel of the line that can cover the hidden pixel
+  int32_t sure;  // Number of pixels of the line that lie in the field for all lanes.
+  int32_t last;  // Last pixel of the line that can cover the hidden pixel.
 };
 
 // Returns a mask of the lanes in which the hidden pixel, at `disparity`, is covered. `room` is the

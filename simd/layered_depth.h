@@ -69,9 +69,9 @@ struct StepBits {
 // `side`. At right angles to this direction, pixel m is shifted by m slant 2^-kSlantBits pixels,
 // rounded half up, to the right or to the bottom.
 struct ViewLook {
-  int16_t unit;   // disparity that moves a pixel of the view by one pixel; 0 if there is no view
-  int8_t side;    // right, left, bottom, top
-  int16_t slant;  // in [-2^kSlantBits, 2^kSlantBits]; 0 for lines along rows or columns
+  int16_t unit;   // Disparity that moves a pixel of the view by one pixel; 0 if there is no view.
+  int8_t side;    // Right, left, bottom, top.
+  int16_t slant;  // In [-2^kSlantBits, 2^kSlantBits]; 0 for lines along rows or columns.
 };
 inline constexpr int kSlantBits = 14;
 // Largest value of ViewLook::unit. Views with a larger unit, which are nearer to the centre view,
@@ -85,10 +85,10 @@ inline constexpr int kViewLooks = 2;
 struct DepthRow {
   const int16_t* disparity;
   ptrdiff_t stride;
-  int32_t width;         // number of pixels of the row, at most 64 kSliceLanes
-  int32_t above, below;  // number of rows of the field above and below this row
-  int16_t high;          // upper bound of the disparities of the field
-  int unit_bits;         // EdgeLimits::unit_bits of the field
+  int32_t width;         // Number of pixels of the row, at most 64 kSliceLanes.
+  int32_t above, below;  // Number of rows of the field above and below this row.
+  int16_t high;          // Upper bound of the disparities of the field.
+  int unit_bits;         // EdgeLimits::unit_bits of the field.
   // Views that look behind the edges of each side, in the order of `edges`.
   ViewLook looks[4][kViewLooks];
   // Distances from each pixel to the far sides of edges to the right, left, bottom and top, as
@@ -100,10 +100,10 @@ struct DepthRow {
 // Output of LookBehind for a row: the hidden surfaces, the sources of their colours, and the pixels
 // that have hidden surfaces. Whole groups of kSliceLanes are written.
 struct HiddenRow {
-  int16_t* disparity[kSurfaces - 1];  // kNoSurface if there is no surface
-  uint16_t* source[kSurfaces - 1];    // sources of the colours; kSourceSecond describes the format
-  uint16_t* found[kSurfaces - 1];     // bit k of element c: pixel c kSliceLanes + k has the surface
-  uint8_t* share;                     // share of the first surface: kSliceWhole or kSliceEnd
+  int16_t* disparity[kSurfaces - 1];  // kNoSurface if there is no surface.
+  uint16_t* source[kSurfaces - 1];    // Sources of the colours; kSourceSecond describes the format.
+  uint16_t* found[kSurfaces - 1];  // Bit k of element c: pixel c kSliceLanes + k has the surface.
+  uint8_t* share;                  // Share of the first surface: kSliceWhole or kSliceEnd.
 };
 
 // Format of a source, which describes the origin of the colour of a hidden surface. A source is 0

@@ -23,8 +23,9 @@ inline constexpr size_t kEncodeEntries = kLightWhite / kEncodeStep + 1;
 
 // Conversion between codes and light by tables, or without tables if light is the code itself.
 struct Encoding {
-  const int16_t* light;     // light of each of the 256 codes; null if light is code << kLightBits
-  const uint16_t* entries;  // kEncodeEntries entries; null if the code is the light rounded half up
+  const int16_t* light;  // Light of each of the 256 codes; null if light is code << kLightBits.
+  const uint16_t*
+      entries;  // kEncodeEntries entries; null if the code is the light rounded half up.
 };
 
 namespace reference {

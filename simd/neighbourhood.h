@@ -26,11 +26,11 @@ enum CellPlane {
   kInsideRight,
   kInsideTop,
   kInsideBottom,
-  kReachPlane,   // largest reach of the cell's blur to any side
-  kNearPlane,    // reach of the blur of the cell's nearest pixels
-  kRadiusPlane,  // largest blur radius
-  kEdgePlane,    // largest blur radius at depth edges; 0 if the cell has no depth edges
-  kLowPlane,     // lowest and highest disparity of the cell
+  kReachPlane,   // Largest reach of the cell's blur to any side.
+  kNearPlane,    // Reach of the blur of the cell's nearest pixels.
+  kRadiusPlane,  // Largest blur radius.
+  kEdgePlane,    // Largest blur radius at depth edges; 0 if the cell has no depth edges.
+  kLowPlane,     // Lowest and highest disparity of the cell.
   kHighPlane,
   kCellPlanes
 };
@@ -54,9 +54,9 @@ struct BlockReach {
 
 // Properties of the surroundings of each cell of a row.
 struct CellRanges {
-  int16_t *low, *high;  // lowest and highest disparity of the surroundings
-  uint16_t* widest;     // largest range of disparities within any single surrounding cell
-  int16_t* edge;        // largest blur radius at depth edges in the surroundings
+  int16_t *low, *high;  // Lowest and highest disparity of the surroundings.
+  uint16_t* widest;     // Largest range of disparities within any single surrounding cell.
+  int16_t* edge;        // Largest blur radius at depth edges in the surroundings.
 };
 
 namespace reference {

@@ -37,12 +37,12 @@ struct PathRow {
   const uint8_t* cost;  // costs, [0, 255]; elements that are not labels are arbitrary
   // Paths of the previous pixels, [0, 1300]. May point into `path`, one pixel earlier.
   const int16_t* before;
-  const int16_t* before_least;  // smallest element of each path in `before`
-  const int16_t* jump;          // cost of a jump to any other label, [kSlopeCost, 1000]
-  int16_t* path;                // output: costs of the paths that end at each pixel, for all labels
-  int16_t* least;               // output: smallest element of each path
-  int16_t* sum;                 // in and out: sums of paths, [0, 32766]; kNoLabel if not a label
-  bool adds;  // true to add the paths to the sums, false to set the sums to the paths
+  const int16_t* before_least;  // Smallest element of each path in `before`.
+  const int16_t* jump;          // Cost of a jump to any other label, [kSlopeCost, 1000].
+  int16_t* path;   // Output: costs of the paths that end at each pixel, for all labels.
+  int16_t* least;  // Output: smallest element of each path.
+  int16_t* sum;    // In and out: sums of paths, [0, 32766]; kNoLabel if not a label.
+  bool adds;       // True to add the paths to the sums, false to set the sums to the paths.
 };
 
 namespace reference {

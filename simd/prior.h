@@ -20,8 +20,8 @@ inline constexpr uint8_t kBesideCost = 3, kDiagonalCost = 4, kMostPrior = 24;
 // A row of `count` pixels. Each pixel has `places` elements, one per label; `places` is a multiple
 // of kSliceLanes. Pixel k is k * step pixels after pixel 0; step is 1 or -1.
 struct PriorRow {
-  uint8_t* prior;         // in and out: priors, [0, kMostPrior]
-  const uint8_t* before;  // finished priors of the previous row; null if there is no previous row
+  uint8_t* prior;         // In and out: priors, [0, kMostPrior].
+  const uint8_t* before;  // Finished priors of the previous row; null if there is no previous row.
   size_t places;
   ptrdiff_t step;
   size_t count;

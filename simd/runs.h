@@ -12,8 +12,8 @@ namespace starfocus::simd {
 // Limits of the disparities in a run. All disparities must have the same scale; any scale is
 // permitted.
 struct RunLimits {
-  int16_t spread;  // largest difference between disparities in a run, [0, edge]
-  int16_t edge;    // largest step that is not a depth edge, < 32767
+  int16_t spread;  // Largest difference between disparities in a run, [0, edge].
+  int16_t edge;    // Largest step that is not a depth edge, < 32767.
 };
 
 inline constexpr size_t kRunLanes = 16;

@@ -23,8 +23,8 @@ inline constexpr int16_t kSliceOne = 32767;
 // Missing surfaces have a disparity below any slice.
 struct SurfaceRow {
   const int16_t* disparity[kSurfaces];
-  const int16_t* rgb[kSurfaces];  // light in three planes, `plane` samples apart
-  const uint8_t* share;           // part of the pixel that the first surface covers, kSliceBits
+  const int16_t* rgb[kSurfaces];  // Light in three planes, `plane` samples apart.
+  const uint8_t* share;           // Part of the pixel that the first surface covers, kSliceBits.
   size_t plane;
   // Bit c is set if group c of kSliceLanes pixels may have more than one surface. In all other
   // groups, the first surface covers each pixel completely, and no other surface is read.
@@ -50,8 +50,8 @@ struct SliceCover {
 // `inner` applies at the distances 1 .. reach - 1, and `outer` at the distance `reach`. `inner` and
 // `outer` are twice the taps, because each weights the mean of the two samples on both sides.
 struct SliceTaps {
-  int32_t reach;                 // distance in samples of the outermost taps, [1, kMaxSpread]
-  int16_t centre, inner, outer;  // >= 0
+  int32_t reach;                 // Distance in samples of the outermost taps, [1, kMaxSpread].
+  int16_t centre, inner, outer;  // >= 0.
 };
 inline constexpr int32_t kMaxSpread = 3;
 

@@ -25,8 +25,8 @@ struct SmoothRows {
   const int32_t* rows[kMostSmoothRows];
   size_t count;  // number of rows
   size_t plane;
-  int32_t radius, step;  // neighbours are in every `step`-th column within `radius`
-  int32_t tolerance;     // largest difference of disparities within a surface
+  int32_t radius, step;  // Neighbours are in every `step`-th column within `radius`.
+  int32_t tolerance;     // Largest difference of disparities within a surface.
 };
 
 // Weighted sums over the neighbours of a pixel.

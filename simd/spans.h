@@ -13,11 +13,12 @@ namespace starfocus::simd {
 // line. The value of sample n is weight * source[n] + neighbour_weight * source[n +
 // neighbour_offset].
 struct Span {
-  const int16_t* source;      // light of the source surface (light.h)
-  uint32_t target;            // index of the first sample in the target line
-  uint32_t samples;           // number of samples, > 0
-  uint16_t weight;            // weight of the sample itself, [0, 32767]
-  uint16_t neighbour_weight;  // weight of the neighbour, [0, 32767]; 0 if the neighbour is not used
+  const int16_t* source;  // Light of the source surface (light.h).
+  uint32_t target;        // Index of the first sample in the target line.
+  uint32_t samples;       // Number of samples, > 0.
+  uint16_t weight;        // Weight of the sample itself, [0, 32767].
+  uint16_t
+      neighbour_weight;  // Weight of the neighbour, [0, 32767]; 0 if the neighbour is not used.
   // Distance in samples to the neighbour; a multiple of 3, mostly +3 or -3.
   int32_t neighbour_offset;
 };

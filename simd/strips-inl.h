@@ -63,8 +63,8 @@ class RowMarks {
 
  private:
   static constexpr int kAhead = kRowsAhead;
-  bool shown_ = false;   // true if the slice covers a pixel of the last row
-  int all_covered_ = 0;  // number of consecutive fully covered rows that end with the last row
+  bool shown_ = false;   // True if the slice covers a pixel of the last row.
+  int all_covered_ = 0;  // Number of consecutive fully covered rows that end with the last row.
 };
 
 // Shifts rows one at a time, with vectors of at most one row. Wider vectors that combine the planes

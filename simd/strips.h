@@ -38,8 +38,8 @@ inline constexpr int8_t kCoveredNear = -1;
 
 // A slice in a strip. The four planes are `plane` samples apart. A row has kSliceLanes samples.
 struct StripSlice {
-  const int16_t* samples;  // first row of the slice that the centre view shows
-  const int8_t* near;      // marks of the rows, starting with the row of `samples`
+  const int16_t* samples;  // First row of the slice that the centre view shows.
+  const int8_t* near;      // Marks of the rows, starting with the row of `samples`.
   size_t plane;
 };
 
@@ -62,14 +62,14 @@ inline constexpr size_t kMaxSeen = 32;
 // The views that Composite adds. In each view, the slices are shifted along the columns of the
 // strip.
 struct SliceViews {
-  const int16_t* weights;      // weight of each view, in [0, 2^14); the sum is at most 58000
-  const SliceOffset* offsets;  // offsets[view * count + k]: position of slice k in a view
+  const int16_t* weights;      // Weight of each view, in [0, 2^14); the sum is at most 58000.
+  const SliceOffset* offsets;  // offsets[view * count + k]: position of slice k in a view.
   size_t views;
   const StripSlice* slices;
-  size_t count;          // number of slices
-  const uint8_t* shown;  // indices of the visible slices, from the nearest to the farthest
-  size_t shown_count;    // number of visible slices, at most kMaxSeen
-  size_t row;            // first row that is composited
+  size_t count;          // Number of slices.
+  const uint8_t* shown;  // Indices of the visible slices, from the nearest to the farthest.
+  size_t shown_count;    // Number of visible slices, at most kMaxSeen.
+  size_t row;            // First row that is composited.
   // The weights are scaled by 2^extra_bits, and the sums are divided by 2^extra_bits; [0, 4].
   int extra_bits;
 };

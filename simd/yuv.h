@@ -13,13 +13,13 @@ namespace starfocus::simd {
 
 // Coefficients of a YUV format, as computed by lib/convert/yuv_matrix.h.
 struct YuvMatrix {
-  int16_t black;           // luma of black: 16 or 0
-  int16_t y;               // coefficient from luma to R, G and B, 14 fractional bits
-  int16_t rv, gu, gv, bu;  // coefficients from chroma to R, G and B, 13 fractional bits
+  int16_t black;           // Luma of black: 16 or 0.
+  int16_t y;               // Coefficient from luma to R, G and B, 14 fractional bits.
+  int16_t rv, gu, gv, bu;  // Coefficients from chroma to R, G and B, 13 fractional bits.
   // Coefficients from R, G and B to luma, 15 fractional bits. The luma of white is at most 255.
   int16_t yr, yg, yb;
-  int16_t ur, ug, ub;  // R, G and B to U; the three coefficients sum to 0
-  int16_t vr, vg, vb;  // R, G and B to V; the three coefficients sum to 0
+  int16_t ur, ug, ub;  // R, G and B to U; the three coefficients sum to 0.
+  int16_t vr, vg, vb;  // R, G and B to V; the three coefficients sum to 0.
 };
 
 namespace reference {

@@ -43,13 +43,13 @@ enum class Use {
 };
 
 struct Option {
-  const char* names;  // "-o,--output"; a name without dashes is a positional argument
-  const char* type;   // type of the value in the help: "FILE"; null for a flag
+  const char* names;  // "-o,--output"; a name without dashes is a positional argument.
+  const char* type;   // Type of the value in the help: "FILE"; null for a flag.
   const char* help;
   Target target;
   Use use = Use::kOptional;
-  const char* excludes = nullptr;      // an earlier option that cannot be combined with this option
-  const char* default_text = nullptr;  // default in the help for kOptional
+  const char* excludes = nullptr;  // An earlier option that cannot be combined with this option.
+  const char* default_text = nullptr;  // Default in the help for kOptional.
 };
 
 inline const Option kHelpOption = {"-h,--help", nullptr, "Print this help and exit", {}};
@@ -60,14 +60,14 @@ struct Command {
   const char* help;
   std::vector<Option> options;
   std::function<Error()> run;
-  std::vector<std::string> examples = {};  // complete command lines, shown at the end of the help
-  const char* footer = "";                 // notes between the options and the examples
+  std::vector<std::string> examples = {};  // Complete command lines, shown at the end of the help.
+  const char* footer = "";                 // Notes between the options and the examples.
 };
 
 struct Program {
-  Command main;                   // options of the program without a subcommand
-  std::vector<Command> commands;  // subcommands, one of which the user must choose; may be empty
-  std::vector<std::string> lab_commands = {};  // names of subcommands of starfocus-lab
+  Command main;                   // Options of the program without a subcommand.
+  std::vector<Command> commands;  // Subcommands, one of which the user must choose; may be empty.
+  std::vector<std::string> lab_commands = {};  // Names of subcommands of starfocus-lab.
 };
 
 // Last lines of a program's help.

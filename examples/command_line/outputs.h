@@ -16,9 +16,9 @@ struct Output {
 
 // Inputs of a command, which its outputs must not overwrite.
 struct Inputs {
-  std::vector<std::string> folders = {};  // light-field folders
-  std::vector<std::string> files = {};    // other files; an empty name is ignored
-  std::vector<std::string> grids = {};    // folders in which every picture is treated as a view
+  std::vector<std::string> folders = {};  // Light-field folders.
+  std::vector<std::string> files = {};    // Other files; an empty name is ignored.
+  std::vector<std::string> grids = {};    // Folders in which every picture is treated as a view.
 };
 
 // Returns an error if two outputs are the same file, or if an output is the same file as an input.

@@ -16,10 +16,10 @@ struct LensPoint {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kViewGrid = 4;       // samples along each side of a pixel of a view
-constexpr int kFineGrid = 8;       // samples along each side of a pixel near strands
-constexpr int kCoverageGrid = 16;  // samples along each side of a pixel of the coverage
-constexpr int kLensSamples = 256;  // approximate number of samples per pixel of the ground truth
+constexpr int kViewGrid = 4;       // Samples along each side of a pixel of a view.
+constexpr int kFineGrid = 8;       // Samples along each side of a pixel near strands.
+constexpr int kCoverageGrid = 16;  // Samples along each side of a pixel of the coverage.
+constexpr int kLensSamples = 256;  // Approximate number of samples per pixel of the ground truth.
 // cos and sin of the golden angle and of 1/256 of a turn. Multiplying a direction by these
 // constants generates sequences of directions without library functions.
 constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;
@@ -77,10 +77,10 @@ void ProductRange(double a, double b, double c, double d, double* low, double* h
 }  // namespace
 
 struct RayTracer::Lens {
-  double u = 0, v = 0;                   // centre of the lens
-  double aperture = 0;                   // radius of the lens; 0 for a pinhole
-  double focus = 0;                      // disparity in focus, in canvas units
-  std::vector<LensPoint> points, turns;  // empty for a pinhole
+  double u = 0, v = 0;                   // Centre of the lens.
+  double aperture = 0;                   // Radius of the lens; 0 for a pinhole.
+  double focus = 0;                      // Disparity in focus, in canvas units.
+  std::vector<LensPoint> points, turns;  // Empty for a pinhole.
   const SceneOpening* opening = nullptr;
 };
 

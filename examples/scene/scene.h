@@ -36,11 +36,11 @@ struct Ray {
 
 // Intersection of a ray and a surface.
 struct Hit {
-  double x, y, d;  // position in the scene
-  double lx, ly;   // position relative to the surface's centre, along its axes; for strands, along
-                   // and across the strand
-  double nx, ny, nz;  // normal: right, down, towards the camera
-  size_t strand = 0;  // index of the strand in the surface's strands
+  double x, y, d;  // Position in the scene.
+  double lx, ly;   // Position relative to the surface's centre, along its axes; for strands, along
+                   // and across the strand.
+  double nx, ny, nz;  // Normal: right, down, towards the camera.
+  size_t strand = 0;  // Index of the strand in the surface's strands.
 };
 
 struct Surface;
@@ -55,11 +55,11 @@ enum class Outline { kNone, kBox, kEllipse, kRing, kLeaf };
 struct Surface {
   Shape shape = Shape::kPlane;
   Outline outline = Outline::kNone;
-  double cx = 0, cy = 0, cd = 0;    // centre
-  double ax = 1, ay = 0;            // unit vector of the local x axis
-  double rx = 0, ry = 0, rd = 0;    // radii along the local axes; rd is used for ellipsoids only
-  double slope_x = 0, slope_y = 0;  // change of a plane's disparity per unit of x and of y
-  double thickness = 0;             // width of a ring
+  double cx = 0, cy = 0, cd = 0;    // Centre.
+  double ax = 1, ay = 0;            // Unit vector of the local x axis.
+  double rx = 0, ry = 0, rd = 0;    // Radii along the local axes; rd is used for ellipsoids only.
+  double slope_x = 0, slope_y = 0;  // Change of a plane's disparity per unit of x and of y.
+  double thickness = 0;             // Width of a ring.
   std::shared_ptr<const Strands> strands;
   bool foreground = false;  // true if the surface counts in the coverage of the centre view
   Paint paint = nullptr;
@@ -85,8 +85,8 @@ struct Scene {
   std::string name;
   std::string description;
   std::vector<Surface> surfaces;
-  std::vector<NamedPoint> points;  // points to focus on: near, middle, far
-  bool seeded = false;             // true if the scene depends on the seed
+  std::vector<NamedPoint> points;  // Points to focus on: near, middle, far.
+  bool seeded = false;             // True if the scene depends on the seed.
 
   // Returns true if the scene has a foreground, and therefore a coverage map.
   bool HasForeground() const;

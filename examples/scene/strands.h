@@ -49,9 +49,10 @@ class Strands {
  private:
   // A straight part of a strand, with round ends.
   struct Segment {
-    Point start, direction;  // direction is a unit vector
-    double length, along;    // length of the segment, and distance of its start from the root
-    double radius, growth;  // half width at the start, and change of the half width per canvas unit
+    Point start, direction;  // Direction is a unit vector.
+    double length, along;    // Length of the segment, and distance of its start from the root.
+    double radius,
+        growth;  // Half width at the start, and change of the half width per canvas unit.
     double d;
     size_t strand;
 

@@ -16,18 +16,18 @@ struct EngineProbe {
   // Largest blur radius of the disparity range in pixels, at least |r|. Frame mode computes N from
   // r_max.
   double r_max;
-  starfocus_mode mode;          // STARFOCUS_MODE_FRAME or STARFOCUS_MODE_BLOCK
-  starfocus_renderer renderer;  // STARFOCUS_RENDERER_LINE_SCAN or STARFOCUS_RENDERER_SLICES
-  int layer;                    // largest L that block mode may use, in [0, 2]
+  starfocus_mode mode;          // STARFOCUS_MODE_FRAME or STARFOCUS_MODE_BLOCK.
+  starfocus_renderer renderer;  // STARFOCUS_RENDERER_LINE_SCAN or STARFOCUS_RENDERER_SLICES.
+  int layer;                    // Largest L that block mode may use, in [0, 2].
 };
 
 struct EnginePsf {
   // Mean PSF over all positions of the white pixel, normalised so that the taps sum to 1.
   SampledPsf psf;
-  double aliasing;  // mean squared variation of the PSF over the positions of the white pixel,
-                    // caused by layers
-  int n;            // N that the engine chose
-  int layer;        // L that the engine chose
+  double aliasing;  // Mean squared variation of the PSF over the positions of the white pixel,
+                    // caused by layers.
+  int n;            // N that the engine chose.
+  int layer;        // L that the engine chose.
 };
 
 // Measures the PSF. At layer 0, the function reads the 32-bit accumulators that starfocus_refocus

@@ -21,19 +21,19 @@ LayerTheory MakeLayerTheory(double r, int layer);
 // SSE (8) of several PSFs with respect to the ideal PSF (4) for one r. If L > 0, each PSF except
 // the ideal PSF includes the layers' filters.
 struct EngineStep {
-  double r;             // signed
-  int n;                // N that the engine chose
-  int layer;            // L that the engine chose
-  bool wide;            // true if subapertures may be wider than a pixel
-  double engine;        // SSE of the measured PSF
-  double star;          // SSE of StarPsf
-  double subapertures;  // SSE of SubaperturePsf
-  double paper;         // SSE of PaperPsf
+  double r;             // Signed.
+  int n;                // N that the engine chose.
+  int layer;            // L that the engine chose.
+  bool wide;            // True if subapertures may be wider than a pixel.
+  double engine;        // SSE of the measured PSF.
+  double star;          // SSE of StarPsf.
+  double subapertures;  // SSE of SubaperturePsf.
+  double paper;         // SSE of PaperPsf.
   // SSE of the PSF of subapertures that are at most a pixel wide, with every view spread along both
   // axes.
   double both_axes;
-  double apart;     // sum of squared differences between the measured PSF and StarPsf
-  double aliasing;  // measured aliasing
+  double apart;     // Sum of squared differences between the measured PSF and StarPsf.
+  double aliasing;  // Measured aliasing.
 };
 
 starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step);

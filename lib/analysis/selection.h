@@ -19,8 +19,8 @@ double SubapertureError(double r, int n, double theta);
 
 // One point of the curve in the paper's Fig. 6.
 struct RatioPoint {
-  double ratio;  // number of views along the radius, divided by the blur radius: N / r
-  double error;  // SSE (8) between the PSF of N views and the ideal PSF
+  double ratio;  // Number of views along the radius, divided by the blur radius: N / r.
+  double error;  // SSE (8) between the PSF of N views and the ideal PSF.
 };
 
 // Returns the over-sampling ratio (1 <= N / r <= 2) with the largest error, marked by 'o' in Fig.

@@ -26,8 +26,8 @@ struct ApertureShape {
   ApertureShape(uint32_t cot_square = 1 << 16) : fall_off(cot_square) {}  // NOLINT: converts
 
   starfocus_shape shape = STARFOCUS_SHAPE_FALL_OFF;
-  uint32_t fall_off;  // STARFOCUS_SHAPE_FALL_OFF: cot^2(theta), 16 fractional bits
-  int32_t inner = 0;  // STARFOCUS_SHAPE_RING: radius of the hole
+  uint32_t fall_off;  // STARFOCUS_SHAPE_FALL_OFF: cot^2(theta), 16 fractional bits.
+  int32_t inner = 0;  // STARFOCUS_SHAPE_RING: radius of the hole.
   // Displacement of the rim behind the lens as seen from a corner of the picture.
   int32_t cats_eye = 0;
   // A polygon consists of the points p with `bulge` |p|^2 + `slope` p * normal <= `limit` for the

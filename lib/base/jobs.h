@@ -37,8 +37,8 @@ struct JobSet {
   std::atomic<uint32_t>* progress = nullptr;
   // busy[k] is 1 while a job uses the memory of worker k.
   std::atomic<uint32_t> busy[STARFOCUS_MAX_WORKERS] = {};
-  std::atomic<uint32_t> open{0};     // 1 from the start of a set until its runner has returned
-  std::atomic<uint32_t> misused{0};  // 1 after the runner made an invalid call, which was rejected
+  std::atomic<uint32_t> open{0};     // 1 from the start of a set until its runner has returned.
+  std::atomic<uint32_t> misused{0};  // 1 after the runner made an invalid call, which was rejected.
   Runner runner = {};
   CallProgress call_progress;
 };

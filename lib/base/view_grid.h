@@ -12,11 +12,11 @@
 namespace starfocus {
 
 struct ViewGrid {
-  ViewWeights aperture;  // N views along the radius
-  int32_t focus = 0;     // d_t, kDisparityBits
-  int64_t step = 0;      // position of the view at the rim, in pixels of the layer per unit of
-                         // disparity: u_t / 2^layer, kStepBits
-  int layer = 0;         // layer L
+  ViewWeights aperture;  // N views along the radius.
+  int32_t focus = 0;     // d_t, kDisparityBits.
+  int64_t step = 0;      // Position of the view at the rim, in pixels of the layer per unit of
+                         // disparity: u_t / 2^layer, kStepBits.
+  int layer = 0;         // Layer L.
   // Views with |i| <= half_views fill holes from the captured views at half distance.
   int32_t half_views = 0;
   int32_t spread = 0;  // largest disparity range of a run, kDisparityBits

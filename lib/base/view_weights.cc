@@ -12,8 +12,8 @@ namespace {
 // square / n^2, with 20 fractional bits. The computation uses only integers, so every machine gets
 // the same weights.
 uint64_t Relative(uint64_t square, uint64_t n_square, uint64_t fall_off) {
-  const uint64_t denominator = (square << 16) + fall_off * n_square;   // < 2^40
-  const uint64_t ratio = ((fall_off * n_square) << 24) / denominator;  // 2^24 at the centre
+  const uint64_t denominator = (square << 16) + fall_off * n_square;   // < 2^40.
+  const uint64_t ratio = ((fall_off * n_square) << 24) / denominator;  // 2^24 at the centre.
   return (ratio * ratio) >> 28;
 }
 

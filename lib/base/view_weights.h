@@ -15,8 +15,8 @@ namespace starfocus {
 // Weights of the views (i, j) with i^2 + j^2 <= most. The weights sum to exactly 2^sum_bits, so
 // that a picture of one colour remains unchanged.
 struct ViewWeights {
-  int32_t n = 0;     // N, the number of views along the radius
-  int32_t last = 0;  // i of the outermost view (i, 0)
+  int32_t n = 0;     // N, the number of views along the radius.
+  int32_t last = 0;  // i of the outermost view (i, 0).
   int32_t most = 0;
   int sum_bits = 1;
   int most_bits = kMaxLightBits;  // largest allowed sum_bits

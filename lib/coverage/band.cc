@@ -45,9 +45,9 @@ constexpr Offsets kNearestFirst;
 
 // Position of a pixel relative to the nearest edge.
 struct BandPixel {
-  int32_t side;      // 1: on the near side, -1: on the far side, 0: no edge within kBandReach
-  int32_t other;     // disparity of the nearest pixel beyond the edge
-  int32_t distance;  // squared distance in pixels to the nearest pixel beyond the edge
+  int32_t side;      // 1: on the near side, -1: on the far side, 0: no edge within kBandReach.
+  int32_t other;     // Disparity of the nearest pixel beyond the edge.
+  int32_t distance;  // Squared distance in pixels to the nearest pixel beyond the edge.
 };
 
 BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {

@@ -34,9 +34,9 @@ inline constexpr int32_t kBandReach = 3;
 // Light of the far surface in a cell with a side of 2^level pixels, and the confidence of the
 // light.
 struct FarCell {
-  int16_t rgb[3];     // light of the far surface: R, G, B
-  int16_t weight;     // confidence of the light in `rgb`, 0 to kKnown
-  int16_t disparity;  // disparity of the far surface, kDisparityBits
+  int16_t rgb[3];     // Light of the far surface: R, G, B.
+  int16_t weight;     // Confidence of the light in `rgb`, 0 to kKnown.
+  int16_t disparity;  // Disparity of the far surface, kDisparityBits.
 };
 inline constexpr int32_t kFarKnownBits = 8;
 inline constexpr int32_t kKnown = 1 << kFarKnownBits;
@@ -77,14 +77,15 @@ struct CoverageMap {
   int32_t width = 0, height = 0;  // size of the picture
   // Number of columns of tiles; number of rows of tiles in memory.
   int32_t columns = 0, tile_rows = 0;
-  int16_t disparity_min = 0;  // starfocus_config.disparity_min, kDisparityBits
-  int bin_bits = 0;           // log2 of the number of disparity values in each bin of near_bins
-  int32_t around = 1;  // distance in tiles from a ragged tile within which the passes process tiles
+  int16_t disparity_min = 0;  // starfocus_config.disparity_min, kDisparityBits.
+  int bin_bits = 0;           // log2 of the number of disparity values in each bin of near_bins.
+  int32_t around =
+      1;  // Distance in tiles from a ragged tile within which the passes process tiles.
   CoverageTile* tiles = nullptr;
   // Planes of pixels, with kAside unused pixels before and after each row.
-  uint8_t* first = nullptr;  // coverage after the first pass
-  uint8_t* alpha = nullptr;  // coverage after the second pass, or kUnparted
-  int16_t* near = nullptr;   // disparity of the near surface; kNowhere beyond the picture
+  uint8_t* first = nullptr;  // Coverage after the first pass.
+  uint8_t* alpha = nullptr;  // Coverage after the second pass, or kUnparted.
+  int16_t* near = nullptr;   // Disparity of the near surface; kNowhere beyond the picture.
   FarCell* far[kFarLevels] = {};
 
   int32_t Rows() const { return (height + kCoverageTile - 1) / kCoverageTile; }

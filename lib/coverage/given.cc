@@ -63,8 +63,8 @@ struct Ramps {
 // Result of a search for the nearest pixel of a surface. Among equally distant pixels, the search
 // prefers the pixel on the smallest square around the start, and then the first in row order.
 struct Found {
-  int32_t disparity;  // disparity of the pixel found, or of the start if none is found
-  int32_t distance;   // squared distance in pixels; INT32_MAX if no pixel is found
+  int32_t disparity;  // Disparity of the pixel found, or of the start if none is found.
+  int32_t distance;   // Squared distance in pixels; INT32_MAX if no pixel is found.
 };
 
 // Within kGivenReach of `at`, finds the nearest pixel that is not on a ramp and has a disparity in

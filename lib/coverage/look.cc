@@ -24,8 +24,8 @@ constexpr int kEnoughBits = 1;
 // A side view from which far light is read.
 struct SideLook {
   OcclusionView look;
-  bool down;      // true if the search for occluders runs along columns, false if along rows
-  int32_t along;  // position of the view on the axis of the search, kViewBits
+  bool down;      // True if the search for occluders runs along columns, false if along rows.
+  int32_t along;  // Position of the view on the axis of the search, kViewBits.
   // Movement at right angles to the axis for each pixel of movement along the axis, kViewBits.
   int32_t slant;
 };

@@ -42,13 +42,13 @@ struct ColourMemory {
   // Cost of the best other surface minus the cost of the chosen surface, divided by the number of
   // paths.
   uint8_t* certainty;
-  TileCount* counts;   // one element for each tile
-  SoftCount* soft;     // one element for each tile of the repaired map
-  int32_t least_gain;  // smallest gain required for a change
-  ThinCells thin;      // thin structure of the map
+  TileCount* counts;   // One element for each tile.
+  SoftCount* soft;     // One element for each tile of the repaired map.
+  int32_t least_gain;  // Smallest gain required for a change.
+  ThinCells thin;      // Thin structure of the map.
   HairCells hair_cells;
-  HairMemory hair;    // shares the memory of maps[1], maps[2] and all later planes
-  bool has_coverage;  // output: true if the last call found coverage
+  HairMemory hair;    // Shares the memory of maps[1], maps[2] and all later planes.
+  bool has_coverage;  // Output: true if the last call found coverage.
   ColourTileMemory* workers;
 };
 

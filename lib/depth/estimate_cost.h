@@ -10,8 +10,8 @@ namespace starfocus {
 
 // Selects the views that are assumed to see a pixel.
 enum class Seeing {
-  kOneSide,  // the views on the side whose views fit the pixel best
-  kAll       // all views except views in which the pixel is known to be hidden
+  kOneSide,  // The views on the side whose views fit the pixel best.
+  kAll       // All views except views in which the pixel is known to be hidden.
 };
 
 // Fills tile->cost for the pixels of `region`. The caller must have loaded the views around

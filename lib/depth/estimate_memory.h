@@ -31,8 +31,8 @@ struct TileViews {
   // labels are always the lowest labels. For pixels outside the picture, the value is
   // simd::kViewEnds.
   uint8_t* hidden;
-  bool ends;      // true if a part of the planes lies outside the picture
-  bool all_seen;  // true if the planes lie inside the picture and no hidden labels are known
+  bool ends;      // True if a part of the planes lies outside the picture.
+  bool all_seen;  // True if the planes lie inside the picture and no hidden labels are known.
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y - top) * stride + static_cast<size_t>(x - left);
@@ -47,13 +47,13 @@ struct TileMemory {
   uint8_t* cost;  // cost of each label at each pixel; pixels are PathLabels apart
   // Cost added by the given map, in the layout of `cost`; null if no map is given.
   uint8_t* prior;
-  int16_t* sum;           // sums of path costs, in the layout of `cost`
-  int16_t* path[2];       // path costs of a row of pixels, plus one pixel on each side
-  int16_t* least[2];      // smallest path cost at each pixel of a row, plus one pixel on each side
-  int16_t* jump;          // costs of a jump between labels at each pixel of a row (FindJumps)
-  simd::ViewMove* moves;  // movement of each side view for each label
-  int16_t* choice;        // chosen label of each pixel of a row
-  const uint8_t* swept;   // equal to EstimateMemory::swept
+  int16_t* sum;           // Sums of path costs, in the layout of `cost`.
+  int16_t* path[2];       // Path costs of a row of pixels, plus one pixel on each side.
+  int16_t* least[2];      // Smallest path cost at each pixel of a row, plus one pixel on each side.
+  int16_t* jump;          // Costs of a jump between labels at each pixel of a row (FindJumps).
+  simd::ViewMove* moves;  // Movement of each side view for each label.
+  int16_t* choice;        // Chosen label of each pixel of a row.
+  const uint8_t* swept;   // Equal to EstimateMemory::swept.
 };
 
 struct EstimateMemory {
@@ -61,17 +61,17 @@ struct EstimateMemory {
   // Disparities of the whole picture after the first sweep, which ignores occlusion, in fixed point
   // (kDisparityBits). After the sweeps, a repair stores the result of EvenOut in `first`.
   int16_t* first;
-  int16_t* second;     // disparities after the second sweep, which omits hidden views
-  uint8_t* certainty;  // certainty of the second sweep
+  int16_t* second;     // Disparities after the second sweep, which omits hidden views.
+  uint8_t* certainty;  // Certainty of the second sweep.
   // `given` and all later arrays of this structure are for repairs, and null for estimates. Unknown
   // disparities are kNoSurface.
-  int16_t* given;    // given disparities
-  int16_t* trusted;  // given disparities at trusted pixels; kNoSurface at all other pixels
+  int16_t* given;    // Given disparities.
+  int16_t* trusted;  // Given disparities at trusted pixels; kNoSurface at all other pixels.
   // Marks of pixels in doubt (swept.h). `doubt` shares the memory of `certainty`; at most one of
   // the two is in use at a time.
   uint8_t* doubt;
-  uint8_t* swept;     // 1 for pixels that the sweeps process, else 0; null if all pixels are swept
-  TileCount* counts;  // one element for each tile
+  uint8_t* swept;     // 1 for pixels that the sweeps process, else 0; null if all pixels are swept.
+  TileCount* counts;  // One element for each tile.
   int32_t least_evidence;
   // Cost of each pixel's disparity in the given map and in the map of the second sweep. The two
   // costs are equal at pixels without a given disparity.

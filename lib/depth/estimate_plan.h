@@ -43,9 +43,9 @@ struct EstimatePlan {
   // Side views. Arms are in the order of their angles, and the outer ring comes first.
   int32_t arms, rings;
   SideView side[kMostSideViews];
-  int32_t directions;     // number of directions of paths: 4 or 8
-  bool repairs;           // true to repair a given map, false to estimate a new one
-  int32_t columns, rows;  // numbers of tiles; odd, so that mirrored pictures have mirrored tiles
+  int32_t directions;     // Number of directions of paths: 4 or 8.
+  bool repairs;           // True to repair a given map, false to estimate a new one.
+  int32_t columns, rows;  // Numbers of tiles; odd, so that mirrored pictures have mirrored tiles.
 
   int32_t side_views() const { return arms * rings; }
   // Returns the disparity of label l.

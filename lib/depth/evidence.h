@@ -10,8 +10,8 @@ namespace starfocus {
 
 // Counts of pixels in a tile of a given map.
 struct TileCount {
-  int32_t rough;    // pixels at edges
-  int32_t differs;  // pixels that the repair contradicts
+  int32_t rough;    // Pixels at edges.
+  int32_t differs;  // Pixels that the repair contradicts.
 };
 
 // Required evidence as a function of the percentage of edge pixels that the repair contradicts. Up

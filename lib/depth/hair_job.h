@@ -51,8 +51,8 @@ inline uint32_t FourthPower(uint32_t share) {
 
 // One pixel of a cell.
 struct CellPixel {
-  int32_t x, y;         // position in the picture
-  int32_t column, row;  // position in the cell
+  int32_t x, y;         // Position in the picture.
+  int32_t column, row;  // Position in the cell.
   bool is_near;
   uint16_t rgb[3];  // kMeanBits
 };

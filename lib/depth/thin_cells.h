@@ -18,10 +18,10 @@ inline constexpr int32_t kMostCellSide = 25;
 // Grid of cells over a map. Each tile is divided into cells of about 16 x 16 pixels. A mirrored
 // picture has mirrored cells.
 struct ThinGrid {
-  int32_t width, height;          // size of the picture
-  int32_t columns, rows;          // numbers of cells
-  int32_t tile_columns;           // number of tiles in a row
-  int32_t tile_width, tile_rows;  // size of a tile in cells
+  int32_t width, height;          // Size of the picture.
+  int32_t columns, rows;          // Numbers of cells.
+  int32_t tile_columns;           // Number of tiles in a row.
+  int32_t tile_width, tile_rows;  // Size of a tile in cells.
 
   int32_t Cells() const { return columns * rows; }
   Rect CellAt(int32_t column, int32_t row) const;

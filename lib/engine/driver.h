@@ -18,8 +18,8 @@ namespace starfocus {
 // Input light field in any format. The engine loads each row once, in order. A source that wraps
 // another source may replace the depth map.
 struct RowSource {
-  ViewReader views;  // if the reader's functions are null, the engine reads the views in place
-  bool converts_centre = false;  // true if the engine copies rows of the centre view to its ring
+  ViewReader views;  // If the reader's functions are null, the engine reads the views in place.
+  bool converts_centre = false;  // True if the engine copies rows of the centre view to its ring.
   // Writes row y of the disparity map to `out`, in kDisparityBits; unknown disparities are
   // kNoSurface. Returns simd::DepthFlags. A null function means that the disparity map is in
   // memory.

@@ -19,11 +19,11 @@ namespace starfocus {
 // Progress of a streamed refocusing, in rows.
 struct Stream {
   bool active = false;
-  bool covers = false;   // true: pushed rows include coverage
-  int32_t pushed = 0;    // number of pushed input rows
-  int32_t next = 0;      // first row of the next stripe
-  int32_t finished = 0;  // number of output rows that no later stripe changes
-  int32_t written = 0;   // number of output rows that the caller has pulled
+  bool covers = false;   // True: pushed rows include coverage.
+  int32_t pushed = 0;    // Number of pushed input rows.
+  int32_t next = 0;      // First row of the next stripe.
+  int32_t finished = 0;  // Number of output rows that no later stripe changes.
+  int32_t written = 0;   // Number of output rows that the caller has pulled.
 };
 
 // Memory for the input and output of images, in addition to the ring for the rows of the centre
@@ -33,23 +33,23 @@ struct ImageMemory {
   uint32_t* columns = nullptr;
   // Width of the depth map for which `columns` was set; 0 if `columns` is not set yet.
   int32_t map_width = 0;
-  uint8_t* odd_row = nullptr;  // output row whose chroma is written together with the next row
-  Plane<uint8_t> alpha;        // with streaming: ring of rows of the centre view's alpha
+  uint8_t* odd_row = nullptr;  // Output row whose chroma is written together with the next row.
+  Plane<uint8_t> alpha;        // With streaming: ring of rows of the centre view's alpha.
 };
 
 struct EngineState {
   // Valid for the life of the engine:
-  starfocus_config config;         // config.problem points to `problem` of this struct
-  starfocus_problem problem = {};  // problem of the last call
+  starfocus_config config;         // config.problem points to `problem` of this struct.
+  starfocus_problem problem = {};  // Problem of the last call.
   const simd::Kernels* kernels;
   Tables tables;
   // Frees the memory of the engine. If the allocator's functions are null, the caller owns the
   // memory.
   starfocus_allocator allocator = {};
-  size_t bytes = 0;                 // size of the memory from the allocator
-  Workers workers;                  // scratch memory of the workers, and their jobs
-  Plane<uint8_t> rings[kMaxViews];  // with streaming: pushed rows
-  ImageMemory images;               // used if images are enabled, together with rings[0]
+  size_t bytes = 0;                 // Size of the memory from the allocator.
+  Workers workers;                  // Scratch memory of the workers, and their jobs.
+  Plane<uint8_t> rings[kMaxViews];  // With streaming: pushed rows.
+  ImageMemory images;               // Used if images are enabled, together with rings[0].
 
   // Valid until the next call of starfocus_set_callbacks, like the runner and the progress function
   // in workers.jobs:

@@ -18,15 +18,15 @@ namespace starfocus {
 struct FrameDiff {
   bool active = false;  // true if `before` points to the previous light field
   const starfocus_light_field *before, *now;
-  int32_t views;                // number of views to compare
-  int32_t width, height, side;  // size of the picture, and side of a superblock, in pixels
-  int32_t columns;              // number of columns of superblocks
+  int32_t views;                // Number of views to compare.
+  int32_t width, height, side;  // Size of the picture, and side of a superblock, in pixels.
+  int32_t columns;              // Number of columns of superblocks.
   // Number of pixels around a block, in the centre view and in side views, on which the block may
   // depend.
   int32_t centre_reach, side_reach;
-  bool fills;     // true if unknown disparities are filled along their row
-  int32_t rows;   // number of rows compared so far
-  int32_t known;  // number of stripes whose flags are initialised
+  bool fills;     // True if unknown disparities are filled along their row.
+  int32_t rows;   // Number of rows compared so far.
+  int32_t known;  // Number of stripes whose flags are initialised.
   // Ring of stripes with one flag per column: 1 if the superblock changed.
   uint8_t* flags = nullptr;
   int32_t stripes = 0;  // number of stripes in the ring

@@ -20,10 +20,10 @@ struct Lens {
   starfocus_params params;
   Rect region;  // region of `params`, or the whole picture if no region is set
   const Renderer* renderer;
-  double r_max;                  // largest blur radius for the configured disparities, in pixels
-  const ViewWeights* apertures;  // apertures of the renderer, indexed by N
-  int32_t largest_n;             // largest N of `apertures`
-  ViewWeights aperture;          // in frame modes, the aperture for the only N of the picture
+  double r_max;                  // Largest blur radius for the configured disparities, in pixels.
+  const ViewWeights* apertures;  // Apertures of the renderer, indexed by N.
+  int32_t largest_n;             // Largest N of `apertures`.
+  ViewWeights aperture;          // In frame modes, the aperture for the only N of the picture.
   BlurScale scale;
   Borders borders;
 };

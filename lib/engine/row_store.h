@@ -24,8 +24,8 @@ struct RowStore {
   LayerPlane layers[STARFOCUS_LAYERS];  // layers 1 and 2 around a stripe
   // ColumnNeed for each column of superblocks, for layers 1 and 2.
   uint8_t* needed[STARFOCUS_LAYERS];
-  Plane<int16_t> disparity;  // ring of converted rows of the disparity map
-  bool prepared;  // true: disparities and layers of the windows come from a prepared light field
+  Plane<int16_t> disparity;  // Ring of converted rows of the disparity map.
+  bool prepared;  // True: disparities and layers of the windows come from a prepared light field.
 };
 
 // Sets `reader`, which must remain valid, as the source of the windows. `centre` holds the codes of

@@ -27,25 +27,25 @@ struct Counts {
 // Memory for the extended rectangle of a block in the centre view. E is the largest side of an
 // extended rectangle, in pixels.
 struct BlockPixelsMemory {
-  int16_t* rgb;        // light: E rows of RgbStride(E) samples
-  int16_t* disparity;  // E^2 samples
+  int16_t* rgb;        // Light: E rows of RgbStride(E) samples.
+  int16_t* disparity;  // E^2 samples.
 };
 
 // Scratch memory of one worker. Each renderer leaves the weighted sums of a block in `sums`. The
 // pointers except `sums` and the weights share memory, because a worker runs one step at a time
 // (layout.cc). R is the largest side of a rectangle to refocus, in pixels.
 struct Scratch {
-  void* renderers[kMaxRenderers];  // scratch memory of each renderer
-  uint32_t* sums;                  // 3 R^2 samples
-  uint16_t* aperture_weights;      // with cat's eyes: weights of a block, for the largest N
-  LampRuns* lamp_runs;             // cache of the runs of lamps, if highlights are enabled
-  BlockPixelsMemory field;         // pixels of a block that is gathered, or blurred by depth
-  SpanMemory spans;                // spans of a block that is blurred by depth
+  void* renderers[kMaxRenderers];  // Scratch memory of each renderer.
+  uint32_t* sums;                  // 3 R^2 samples.
+  uint16_t* aperture_weights;      // With cat's eyes: weights of a block, for the largest N.
+  LampRuns* lamp_runs;             // Cache of the runs of lamps, if highlights are enabled.
+  BlockPixelsMemory field;         // Pixels of a block that is gathered, or blurred by depth.
+  SpanMemory spans;                // Spans of a block that is blurred by depth.
   ResampleScratch resample;
   UpsampleScratch upsample;
-  int16_t* layer_samples;    // samples of the rendered rectangle
-  int16_t* middle_samples;   // result at layer 1 while upsampling from layer 2
-  int16_t* picture_samples;  // 3 R^2 samples: the block at layer 0
+  int16_t* layer_samples;    // Samples of the rendered rectangle.
+  int16_t* middle_samples;   // Result at layer 1 while upsampling from layer 2.
+  int16_t* picture_samples;  // 3 R^2 samples: the block at layer 0.
   PartitionScratch partition;
   Counts counts;
   CancelToken cancel;

@@ -13,8 +13,8 @@ namespace {
 struct PassJob {
   CoverageInput in;
   int pass;
-  RowRange rows;  // rows of tiles
-  int32_t tiles;  // number of tiles along the side of a superblock
+  RowRange rows;  // Rows of tiles.
+  int32_t tiles;  // Number of tiles along the side of a superblock.
 };
 
 void RunPassJob(const PassJob& job, int32_t index, Scratch* scratch) {

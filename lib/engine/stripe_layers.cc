@@ -10,9 +10,9 @@ namespace {
 struct LayerJob {
   const starfocus_config* config;
   const simd::Kernels* kernels;
-  const Window* picture;         // layer 0
-  const uint8_t* const* needed;  // ColumnNeed of the columns of each layer
-  const LayerPlane* layers;      // output: planes of the layers
+  const Window* picture;         // Layer 0.
+  const uint8_t* const* needed;  // ColumnNeed of the columns of each layer.
+  const LayerPlane* layers;      // Output: planes of the layers.
 };
 
 void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* scratch) {

@@ -14,8 +14,8 @@ struct MeasureJob {
   const simd::Kernels* kernels;
   const Window* window;  // layer 0
   BlurScale scale;
-  int32_t per_block;  // number of columns of cells in a superblock
-  int32_t first_row;  // first row of cells that no earlier stripe has measured
+  int32_t per_block;  // Number of columns of cells in a superblock.
+  int32_t first_row;  // First row of cells that no earlier stripe has measured.
   const uint8_t* measured;
   CellGrid cells;  // output: measured cells
 };

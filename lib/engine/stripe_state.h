@@ -22,15 +22,15 @@ struct Stripe {
 // Blocks of a stripe. Planning stores the blocks of each superblock in a separate part of `blocks`.
 // After planning, the blocks to refocus are moved to the start of `blocks`.
 struct StripePlan {
-  int32_t side;        // side of a superblock in pixels
-  int32_t columns;     // number of columns of superblocks
-  uint8_t* wanted;     // per superblock: 1 if the superblock is refocused
-  uint8_t* measured;   // per superblock: 1 if its cells are measured
-  bool all_measured;   // true: the previous stripe measured the cells of every column
-  Block* blocks;       // memory for MaxBlocks blocks per superblock
-  int32_t* counts;     // number of blocks of each superblock
-  int32_t used;        // number of blocks to refocus
-  GatherMap gathered;  // cells that are gathered, in block mode
+  int32_t side;        // Side of a superblock in pixels.
+  int32_t columns;     // Number of columns of superblocks.
+  uint8_t* wanted;     // Per superblock: 1 if the superblock is refocused.
+  uint8_t* measured;   // Per superblock: 1 if its cells are measured.
+  bool all_measured;   // True: the previous stripe measured the cells of every column.
+  Block* blocks;       // Memory for MaxBlocks blocks per superblock.
+  int32_t* counts;     // Number of blocks of each superblock.
+  int32_t used;        // Number of blocks to refocus.
+  GatherMap gathered;  // Cells that are gathered, in block mode.
 
   Block* BlocksOf(int32_t column) const {
     return blocks + static_cast<size_t>(column) * static_cast<size_t>(MaxBlocks(side));
@@ -46,11 +46,11 @@ struct CoverageState {
 };
 
 struct StripeState {
-  CellGrid cells;          // cells of the stripe and of the surroundings that splat into the stripe
-  CoverageState coverage;  // coverage of the stripe and of the rows around the stripe
+  CellGrid cells;  // Cells of the stripe and of the surroundings that splat into the stripe.
+  CoverageState coverage;  // Coverage of the stripe and of the rows around the stripe.
   StripePlan plan;
-  LayerMap map;       // layer of each smallest block, for deblocking
-  FrameDiff changes;  // superblocks that differ from the previous light field
+  LayerMap map;       // Layer of each smallest block, for deblocking.
+  FrameDiff changes;  // Superblocks that differ from the previous light field.
   // Output: the last kDeblockRows rows of the previous stripe, and the stripe, packed.
   uint8_t* out;
   // With streaming: the last kDeblockRows rows of the previous stripe, saved when that stripe was

@@ -32,8 +32,8 @@ int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Deman
 struct ApertureTable {
   ViewWeights* apertures;  // apertures of N up to LargestN for max_blur
   uint16_t* weights;
-  int32_t count = 0;  // number of apertures in the table
-  size_t used = 0;    // number of weights in use
+  int32_t count = 0;  // Number of apertures in the table.
+  size_t used = 0;    // Number of weights in use.
 };
 
 struct Tables {
@@ -44,8 +44,8 @@ struct Tables {
   uint16_t* benchmark_weights;  // weights of the single aperture of benchmark mode
   Psf* psfs;
   uint16_t* blur_weights;
-  int32_t blur_steps = 0;   // number of PSFs that have been made
-  int32_t mean_square = 0;  // MeanSquare of the opening; 0: no opening is set
+  int32_t blur_steps = 0;   // Number of PSFs that have been made.
+  int32_t mean_square = 0;  // MeanSquare of the opening; 0: no opening is set.
 };
 
 // Sets the opening. Discards all tables that were made for another opening.

@@ -10,9 +10,9 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kOne = 1 << kDisparityBits;
-constexpr int32_t kFineSteps = 8;     // number of PSF radii per pixel, up to kFineEnd
-constexpr int32_t kFineEnd = 4;       // end of the fine steps, in pixels
-constexpr int32_t kCoarseSteps = 32;  // number of PSF radii per octave beyond kFineEnd
+constexpr int32_t kFineSteps = 8;     // Number of PSF radii per pixel, up to kFineEnd.
+constexpr int32_t kFineEnd = 4;       // End of the fine steps, in pixels.
+constexpr int32_t kCoarseSteps = 32;  // Number of PSF radii per octave beyond kFineEnd.
 double Smaller(double a, double b) { return a < b ? a : b; }
 double Larger(double a, double b) { return a > b ? a : b; }
 

@@ -65,14 +65,14 @@ struct BlurJob {
   const Psf* psfs_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
-  int32_t border;    // largest Psf::size in the picture, in pixels
-  ExcessSum excess;  // if excess.factor > 0, BlurRectangle adds the excess of the window to `out`
-  CancelToken* cancel;  // cancels the call; `out` is incomplete after cancellation
+  int32_t border;    // Largest Psf::size in the picture, in pixels.
+  ExcessSum excess;  // If excess.factor > 0, BlurRectangle adds the excess of the window to `out`.
+  CancelToken* cancel;  // Cancels the call; `out` is incomplete after cancellation.
 };
 
 struct BlurScratch {
-  int16_t* rgb;            // light of the extended rectangle, rows packed
-  uint32_t* accumulators;  // 3 * rect.width sums
+  int16_t* rgb;            // Light of the extended rectangle, rows packed.
+  uint32_t* accumulators;  // 3 * rect.width sums.
   SpanMemory spans;
 };
 

@@ -24,8 +24,8 @@ inline constexpr uint8_t kNoLayer = 0xFF;
 // stripe.
 struct LayerMap {
   uint8_t* layers = nullptr;
-  int32_t columns = 0;  // number of smallest blocks per row
-  int32_t rows = 0;     // number of rows of smallest blocks in this stripe
+  int32_t columns = 0;  // Number of smallest blocks per row.
+  int32_t rows = 0;     // Number of rows of smallest blocks in this stripe.
 
   // Returns the layer of a smallest block; row -1 is the last row of the previous stripe.
   uint8_t& At(int32_t column, int32_t row) const {
@@ -36,10 +36,10 @@ struct LayerMap {
 
 struct DeblockJob {
   const LayerMap* map;
-  Plane<uint8_t> out;     // rows of the picture
-  int32_t width, height;  // size of the picture
-  int32_t y;              // first row of the stripe
-  int32_t beta;           // beta of (16) and (17), in codes
+  Plane<uint8_t> out;     // Rows of the picture.
+  int32_t width, height;  // Size of the picture.
+  int32_t y;              // First row of the stripe.
+  int32_t beta;           // Beta of (16) and (17), in codes.
   const Transfer* transfer;
   const simd::Kernels* kernels;
 };

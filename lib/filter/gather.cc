@@ -252,9 +252,9 @@ class Gather {
   static simd::Disc DiscOf(const Psf& psf) { return {psf.size, psf.sum_bits, psf.weights}; }
 
   const GatherJob& job_;
-  const Rect& block_;  // the block, in pixels of the picture
-  const Rect frame_;   // LayerFrame of the block, in pixels of the layer
-  Rect loaded_ = {};   // pixels of the layer that cells are gathered from
+  const Rect& block_;  // The block, in pixels of the picture.
+  const Rect frame_;   // LayerFrame of the block, in pixels of the layer.
+  Rect loaded_ = {};   // Pixels of the layer that cells are gathered from.
   BlockPixels* field_;
   const Gathered& out_;
   int32_t border_ = 0;  // border of the field: the largest PSF size

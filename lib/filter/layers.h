@@ -15,8 +15,8 @@ namespace starfocus {
 // Half-band filters sinc(n / 2) with a 7-tap Kaiser window and simd::kTapBits fractional bits. The
 // gain of each filter is exactly 1: the taps of the downsampling filter, and the taps of each
 // upsampling phase, sum to 2^14.
-inline constexpr simd::HalfBand kDownFilter = {8476, 5192, -1238};  // beta_D = 1.28
-inline constexpr simd::HalfBand kUpFilter = {16384, 9544, -1352};   // beta_U = 2.17
+inline constexpr simd::HalfBand kDownFilter = {8476, 5192, -1238};  // beta_D = 1.28.
+inline constexpr simd::HalfBand kUpFilter = {16384, 9544, -1352};   // beta_U = 2.17.
 static_assert(kDownFilter.centre + 2 * (kDownFilter.near + kDownFilter.far) == 1 << simd::kTapBits);
 static_assert(2 * (kUpFilter.near + kUpFilter.far) == 1 << simd::kTapBits);
 
@@ -28,8 +28,8 @@ constexpr int32_t LayerSize(int32_t size, int32_t layer) {
 
 // One layer of the centre view around a stripe.
 struct LayerPlane {
-  int32_t width = 0, height = 0;  // size of the whole layer
-  RowRange rows = {0, 0};         // stored rows
+  int32_t width = 0, height = 0;  // Size of the whole layer.
+  RowRange rows = {0, 0};         // Stored rows.
   // The rows before `known` have already been computed in the columns that the previous stripe
   // read.
   int32_t known = 0;
@@ -46,9 +46,9 @@ constexpr int32_t TapsOfLayer(int32_t pixels) { return 2 * pixels + 2 * kDownBor
 
 // Scratch memory of a worker for subsampling at most C columns and R rows of layer 1 at once.
 struct ResampleScratch {
-  int16_t *even, *odd;  // even and odd pixels of a line: 3 (C + 3) samples each
-  int16_t* half;        // subsampled along x only: 3 C TapsOfLayer(R) samples
-  int16_t* above;       // source of layer 2: 3 C R samples of layer 1
+  int16_t *even, *odd;  // Even and odd pixels of a line: 3 (C + 3) samples each.
+  int16_t* half;        // Subsampled along x only: 3 C TapsOfLayer(R) samples.
+  int16_t* above;       // Source of layer 2: 3 C R samples of layer 1.
 };
 
 // Columns [begin, end) of layer 1 or 2, in the rows of its plane.
@@ -64,15 +64,15 @@ void DownsamplePicture(const simd::Kernels& kernels, const Window& picture,
 
 // Samples of a rectangle of a layer.
 struct LayerRect {
-  int16_t* samples;       // packed rows of 3 * width samples
-  int32_t width, height;  // size in pixels
+  int16_t* samples;       // Packed rows of 3 * width samples.
+  int32_t width, height;  // Size in pixels.
 };
 
 // Scratch memory for UpsampleByTwo, whose input is `in`.
 struct UpsampleScratch {
-  int16_t* line;     // 3 * in.width samples
-  int16_t* between;  // 3 * in.width samples
-  int16_t* even;     // 3 * in.width samples
+  int16_t* line;     // 3 * in.width samples.
+  int16_t* between;  // 3 * in.width samples.
+  int16_t* even;     // 3 * in.width samples.
 };
 
 // Upsamples `in` to `out` and clamps the result to the range of samples. Pixel (0, 0) of `out` is

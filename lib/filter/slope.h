@@ -54,9 +54,9 @@ class Slope {
   int32_t At(int32_t x, int32_t y) const;
 
   int32_t layer_;
-  int32_t left_, top_;  // upper left corner of the cell, in half pixels of the picture
-  int32_t corners_[4];  // signed blur radii at the four corners, in pixels of the picture,
-                        // kSlopeBits, row by row
+  int32_t left_, top_;  // Upper left corner of the cell, in half pixels of the picture.
+  int32_t corners_[4];  // Signed blur radii at the four corners, in pixels of the picture,
+                        // kSlopeBits, row by row.
 };
 
 }  // namespace starfocus

@@ -27,11 +27,11 @@ void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t column
 // oriented: in a transposed field, x runs down the picture and y runs across.
 struct BlockPixels {
   bool transposed = false;
-  int32_t width = 0, height = 0;  // size of the extended rectangle
-  int32_t x = 0, y = 0;           // position of pixel (0, 0) in the picture
-  Rect inner = {0, 0, 0, 0};      // the rectangle without its border, in pixels of the field
-  int16_t* rgb = nullptr;         // light: rows of RgbStride(width) samples
-  int16_t* disparity = nullptr;   // rows of `width` samples, kDisparityBits
+  int32_t width = 0, height = 0;  // Size of the extended rectangle.
+  int32_t x = 0, y = 0;           // Position of pixel (0, 0) in the picture.
+  Rect inner = {0, 0, 0, 0};      // The rectangle without its border, in pixels of the field.
+  int16_t* rgb = nullptr;         // Light: rows of RgbStride(width) samples.
+  int16_t* disparity = nullptr;   // Rows of `width` samples, kDisparityBits.
 
   int16_t* Rgb(int32_t column, int32_t row) const {
     return rgb + static_cast<size_t>(row) * RgbStride(width) + 3 * static_cast<size_t>(column);

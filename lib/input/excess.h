@@ -35,8 +35,9 @@ struct LampRun {
 // Cache of runs of highlights, so that the pixels of a run do not count the run again. Each worker
 // uses one cache while it renders a block.
 struct LampRuns {
-  static constexpr int32_t kCount = 1024;  // number of entries, a power of two
-  static constexpr int kSpanBits = 6;  // log2 of the number of pixels of a line that share an entry
+  static constexpr int32_t kCount = 1024;  // Number of entries, a power of two.
+  static constexpr int kSpanBits =
+      6;  // log2 of the number of pixels of a line that share an entry.
 
   LampRun along[kCount], down[kCount];
 
@@ -49,8 +50,8 @@ struct LampRuns {
 // Captured views at layer 0. Highlights are lamps if they are at most `lamp` pixels across.
 struct ExcessViews {
   ViewReader views;
-  int32_t width, height, lamp;  // size of the picture, and LargestLamp of its width
-  LampRuns* runs;  // cache of the runs in `views`; must not be shared with other pictures
+  int32_t width, height, lamp;  // Size of the picture, and LargestLamp of its width.
+  LampRuns* runs;  // Cache of the runs in `views`; must not be shared with other pictures.
 };
 
 // Returns a reader of the excess light of highlights. `views` must outlive the reader. The excess

@@ -23,18 +23,18 @@ struct CoverageMap;
 struct Window {
   int32_t width = 0;  // width and height of the layer in pixels
   int32_t height = 0;
-  int layer = 0;                       // layer L
-  int32_t views = 0;                   // number of captured views, including the centre view
-  OcclusionViews occlusion_views;      // captured views that see behind depth edges
-  const Transfer* transfer = nullptr;  // transfer function of the pictures
-  Plane<const uint8_t> centre;         // codes of the centre view at layer 0
-  Plane<const int16_t> samples;        // centre view at layers 1 and 2, simd::kLayerBits
+  int layer = 0;                       // Layer L.
+  int32_t views = 0;                   // Number of captured views, including the centre view.
+  OcclusionViews occlusion_views;      // Captured views that see behind depth edges.
+  const Transfer* transfer = nullptr;  // Transfer function of the pictures.
+  Plane<const uint8_t> centre;         // Codes of the centre view at layer 0.
+  Plane<const int16_t> samples;        // Centre view at layers 1 and 2, simd::kLayerBits.
   int32_t picture_width = 0;
   int32_t picture_height = 0;
-  ViewReader reader;               // reads light of the views, or excess (excess.h)
-  bool is_excess = false;          // true: `reader` reads excess, at layer 0
-  ViewReader light;                // if is_excess, reads the light of the views
-  Plane<const int16_t> disparity;  // disparities at the size of the pictures, kDisparityBits
+  ViewReader reader;               // Reads light of the views, or excess (excess.h).
+  bool is_excess = false;          // True: `reader` reads excess, at layer 0.
+  ViewReader light;                // If is_excess, reads the light of the views.
+  Plane<const int16_t> disparity;  // Disparities at the size of the pictures, kDisparityBits.
   // Coverage that the light field provides, 255: fully covered; null: none.
   Plane<const uint8_t> given_coverage;
   // Coverage computed from `given_coverage` or for thin structures; null: no coverage.

@@ -64,8 +64,8 @@ inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
 // Surface whose end covers a part of the outermost pixel of a hole, on the side of the hole where
 // the scan continues.
 struct Rim {
-  int32_t pixel;    // pixel of the line that shows the surface; -1: no rim
-  int32_t covered;  // part of the hole's outermost pixel that the surface covers, kShiftBits
+  int32_t pixel;    // Pixel of the line that shows the surface; -1: no rim.
+  int32_t covered;  // Part of the hole's outermost pixel that the surface covers, kShiftBits.
 };
 
 // Scans the line of a task for several views. The scan calls the following functions of the sink,

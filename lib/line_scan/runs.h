@@ -17,8 +17,8 @@ struct Run {
   uint16_t begin;
   // End of the surface that the run belongs to: the next depth edge or the end of the line.
   uint16_t surface_end;
-  int16_t disparity;     // middle of the range of the run's disparities, kDisparityBits
-  uint16_t subaperture;  // width of the run's subaperture r / N, kShiftBits
+  int16_t disparity;     // Middle of the range of the run's disparities, kDisparityBits.
+  uint16_t subaperture;  // Width of the run's subaperture r / N, kShiftBits.
 };
 
 // Scan order of a line. Views to the right of the centre or below the centre are scanned from the

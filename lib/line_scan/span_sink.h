@@ -13,9 +13,9 @@ namespace starfocus {
 
 // Destination of the pixels of a rendered line.
 struct SpanTarget {
-  int32_t out_begin;  // first rendered pixel
-  uint32_t pixel;     // index of the target pixel that receives rendered pixel out_begin
-  uint32_t weight;    // weight of each rendered pixel; 2^simd::kBlendBits if the SpanList blends
+  int32_t out_begin;  // First rendered pixel.
+  uint32_t pixel;     // Index of the target pixel that receives rendered pixel out_begin.
+  uint32_t weight;    // Weight of each rendered pixel; 2^simd::kBlendBits if the SpanList blends.
   // Receives the disparities of the rendered view from out_begin on; may be null.
   int16_t* disparity;
 };

@@ -23,20 +23,20 @@ inline constexpr int32_t kStripRows = 16;
 struct LineScanScratch {
   // Light of the field and of the transposed field: E rows of RgbStride(E) each.
   int16_t* field_rgb[2];
-  int16_t* field_disparity[2];  // disparities of both fields: E^2 each
-  int16_t* diagonal_rgb;        // light of all diagonal lines: 3 E^2
-  int16_t* diagonal_disparity;  // disparities of all diagonal lines: E^2
-  uint32_t* diagonal_offsets;   // number of pixels before each diagonal line: 2 E
-  int64_t* moves;               // ViewGrid::Move of views 0 to N along an axis: N + 1
-  simd::RunMarks marks;         // marks of the runs of E lines with E positions each
-  Run* runs;                    // runs of all lines of a field: E^2
-  int32_t* run_counts;          // number of runs of each line: E
-  Run* line_runs;               // runs of one line: E
-  int16_t* strip_rgb;           // type A lines before they are transposed: 3 R kStripRows
-  int16_t* view_disparity;      // disparities of the type A view, one line per row: R E
-  int16_t* columns_rgb;   // light of the type A view, one line per column: R rows of RgbStride(E)
-  uint32_t* column_sums;  // sums of the pass over rows, in column order: 3 R^2
-  uint32_t* line_accumulators;  // accumulators of one line: 3 E
+  int16_t* field_disparity[2];  // Disparities of both fields: E^2 each.
+  int16_t* diagonal_rgb;        // Light of all diagonal lines: 3 E^2.
+  int16_t* diagonal_disparity;  // Disparities of all diagonal lines: E^2.
+  uint32_t* diagonal_offsets;   // Number of pixels before each diagonal line: 2 E.
+  int64_t* moves;               // ViewGrid::Move of views 0 to N along an axis: N + 1.
+  simd::RunMarks marks;         // Marks of the runs of E lines with E positions each.
+  Run* runs;                    // Runs of all lines of a field: E^2.
+  int32_t* run_counts;          // Number of runs of each line: E.
+  Run* line_runs;               // Runs of one line: E.
+  int16_t* strip_rgb;           // Type A lines before they are transposed: 3 R kStripRows.
+  int16_t* view_disparity;      // Disparities of the type A view, one line per row: R E.
+  int16_t* columns_rgb;   // Light of the type A view, one line per column: R rows of RgbStride(E).
+  uint32_t* column_sums;  // Sums of the pass over rows, in column order: 3 R^2.
+  uint32_t* line_accumulators;  // Accumulators of one line: 3 E.
   SpanMemory spans;
 };
 

@@ -34,8 +34,8 @@ struct Cell {
   // Smallest blur radius of all surfaces that the pixels show, rounded down. The nearer surface of
   // a depth edge is included, because the pixels next to the edge may show a part of this surface.
   uint16_t r_shown : 15;
-  uint16_t has_edge : 1;  // 1: a depth edge lies inside the cell or at one of its sides
-  int16_t low, high;      // range of disparities, kDisparityBits
+  uint16_t has_edge : 1;  // 1: a depth edge lies inside the cell or at one of its sides.
+  int16_t low, high;      // Range of disparities, kDisparityBits.
   // Number of pixels that the cell splats to the left, right, top and bottom, measured from the
   // opposite edge of the cell. `inside` is the depth of the pixels that splat beyond each side.
   uint8_t span[4];
@@ -52,8 +52,8 @@ enum Side { kLeft, kRight, kTop, kBottom };
 
 // Parameters of the lens that determine the blur radius.
 struct BlurScale {
-  int32_t focus;  // d_t, the disparity in focus, kDisparityBits
-  int64_t step;   // u_t, the relative aperture, kStepBits
+  int32_t focus;  // d_t, the disparity in focus, kDisparityBits.
+  int64_t step;   // u_t, the relative aperture, kStepBits.
 
   // Converts |d - d_t| (kDisparityBits) to a blur radius, rounded down.
   int32_t Radius(int32_t distance) const {
@@ -79,9 +79,9 @@ inline constexpr int32_t kRenderBorder = 1;
 // picture use the nearest cell, because the picture repeats its edge there.
 struct CellGrid {
   Cell* cells = nullptr;
-  int32_t columns = 0;    // number of columns of cells in the whole picture
-  int32_t rows = 0;       // number of rows of cells in the whole picture
-  int32_t first_row = 0;  // rows [first_row, last_row) of cells are in memory
+  int32_t columns = 0;    // Number of columns of cells in the whole picture.
+  int32_t rows = 0;       // Number of rows of cells in the whole picture.
+  int32_t first_row = 0;  // Rows [first_row, last_row) of cells are in memory.
   int32_t last_row = 0;
 
   Cell* At(int32_t column, int32_t row) const {

@@ -21,10 +21,10 @@ struct Block {
   // the part of LayerFrame whose cells are not gathered. The rectangle is empty if all cells are
   // gathered.
   Rect rendered;
-  Border border;  // border of `rendered`, in pixels of the layer
-  int32_t layer;  // layer L
-  int32_t n;      // N, the number of views along the radius
-  bool gathers;   // true: cells of the GatherMap are gathered
+  Border border;  // Border of `rendered`, in pixels of the layer.
+  int32_t layer;  // Layer L.
+  int32_t n;      // N, the number of views along the radius.
+  bool gathers;   // True: cells of the GatherMap are gathered.
   // true: views may show highlights, so the block is rendered for light and for excess separately.
   bool has_highlights;
   uint64_t cost;  // predicted time in picoseconds
@@ -39,8 +39,8 @@ struct PartitionRules {
   BlurScale scale;
   int32_t largest_side;  // largest allowed side of a block
   int32_t max_layer;
-  bool gathers;         // true: smooth cells are gathered
-  bool has_highlights;  // value of Block::has_highlights for all blocks
+  bool gathers;         // True: smooth cells are gathered.
+  bool has_highlights;  // Value of Block::has_highlights for all blocks.
 };
 
 // Node of the quadtree. `best` is the predicted time of one block or of its children, whichever is
@@ -49,8 +49,8 @@ struct PartitionCandidate {
   BlockStats stats;
   Block block;
   uint64_t best;
-  int32_t cells;                       // number of cells inside the picture
-  int32_t gathered[STARFOCUS_LAYERS];  // number of cells that can be gathered, for each layer
+  int32_t cells;                       // Number of cells inside the picture.
+  int32_t gathered[STARFOCUS_LAYERS];  // Number of cells that can be gathered, for each layer.
   // Predicted time of gathering all `gathered` cells, for each layer.
   uint64_t gather[STARFOCUS_LAYERS];
 };

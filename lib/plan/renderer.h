@@ -30,16 +30,16 @@ struct RenderJob {
   const simd::Kernels* kernels;
   Rect rect;
   Border border;
-  CancelToken* cancel;         // null: the job is never cancelled
-  const BlockCells* gathered;  // null: no cell is gathered
-  double r_max;                // largest blur radius of the lens in pixels
-  bool is_benchmark;           // true: benchmark mode, which renders finer slices
+  CancelToken* cancel;         // Null: the job is never cancelled.
+  const BlockCells* gathered;  // Null: no cell is gathered.
+  double r_max;                // Largest blur radius of the lens in pixels.
+  bool is_benchmark;           // True: benchmark mode, which renders finer slices.
 };
 
 struct Renderer {
-  int32_t index;           // index of the renderer's tables and scratch memory in an engine
-  bool gathers;            // true: block mode gathers smooth cells instead of rendering them
-  int32_t benchmark_side;  // side in pixels of the blocks that benchmark mode renders
+  int32_t index;           // Index of the renderer's tables and scratch memory in an engine.
+  bool gathers;            // True: block mode gathers smooth cells instead of rendering them.
+  int32_t benchmark_side;  // Side in pixels of the blocks that benchmark mode renders.
 
   // Returns the number of views N along the radius for a block whose largest blur radius is r_max
   // pixels.

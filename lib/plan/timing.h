@@ -13,11 +13,11 @@ namespace starfocus {
 // Work of refocusing one block at its layer. PredictTime multiplies the fields by the coefficients
 // of starfocus_timing.
 struct BlockWork {
-  uint64_t field;     // pixels of the extended rectangle
-  uint64_t a, b, c;   // rendered pixels P_A, P_B, P_C of (13)
-  uint64_t upsample;  // pixels of the picture to upsample, 0 at layer 0
-  uint64_t span;      // runs of equal disparity in all rendered lines
-  uint64_t hole;      // uncovered pixels, counted as if all views were at the rim of the aperture
+  uint64_t field;     // Pixels of the extended rectangle.
+  uint64_t a, b, c;   // Rendered pixels P_A, P_B, P_C of (13).
+  uint64_t upsample;  // Pixels of the picture to upsample, 0 at layer 0.
+  uint64_t span;      // Runs of equal disparity in all rendered lines.
+  uint64_t hole;      // Uncovered pixels, counted as if all views were at the rim of the aperture.
 };
 
 // Adds the spans and holes of `views` views that are scanned along `lines` lines of the layer in

@@ -24,19 +24,19 @@ namespace starfocus {
 // reuse the memory of the field, `fill`, `bins` and `least_blur`; each tile writes `bins` and
 // `least_blur` before its slices are made.
 struct CompositorScratch {
-  int16_t* field_rgb;          // colours of the field as light: E rows of RgbStride(E) samples
-  int16_t* field_disparity;    // disparities of the field: E^2
-  LayeredDepth surfaces;       // E^2 pixels per surface
-  FillScratch fill;            // used only after all reads of the field
-  uint8_t* bins;               // kSliceBins elements
-  int32_t* least_blur;         // E elements
-  simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1) elements
-  int16_t* weights;            // G elements
-  CellPair* pairs;             // cell pairs of a tile
-  uint32_t* sums;              // kPixelSums per pixel of a strip
-  uint8_t* pool;               // slices of a part of a tile, and the strips of these slices
-  size_t pool_bytes;  // size of the pool, at least LeastPool; a larger pool allows larger parts of
-                      // a tile
+  int16_t* field_rgb;          // Colours of the field as light: E rows of RgbStride(E) samples.
+  int16_t* field_disparity;    // Disparities of the field: E^2.
+  LayeredDepth surfaces;       // E^2 pixels per surface.
+  FillScratch fill;            // Used only after all reads of the field.
+  uint8_t* bins;               // kSliceBins elements.
+  int32_t* least_blur;         // E elements.
+  simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1) elements.
+  int16_t* weights;            // G elements.
+  CellPair* pairs;             // Cell pairs of a tile.
+  uint32_t* sums;              // kPixelSums per pixel of a strip.
+  uint8_t* pool;               // Slices of a part of a tile, and the strips of these slices.
+  size_t pool_bytes;  // Size of the pool, at least LeastPool; a larger pool allows larger parts of
+                      // a tile.
 };
 
 // Upper bound of the memory for a slice of the smallest tile part and for the slice's strip, in

@@ -195,9 +195,9 @@ class SliceFinder {
   const LayeredDepth& surfaces_;
   const ViewGrid& grid_;
   SurfaceBands& bands_;
-  int32_t range_;         // SliceRule::range, converted to a range of disparities
-  Rect around_;           // region to search, in pixels of the surfaces
-  int32_t bin_bits_ = 0;  // log2 of the number of disparities in a bin
+  int32_t range_;         // SliceRule::range, converted to a range of disparities.
+  Rect around_;           // Region to search, in pixels of the surfaces.
+  int32_t bin_bits_ = 0;  // log2 of the number of disparities in a bin.
   int32_t base_ = 0, bins_ = 0;
 };
 

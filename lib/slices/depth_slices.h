@@ -22,9 +22,9 @@ struct SliceJob {
   const LayeredDepth* surfaces;
   const ViewGrid* grid;
   SliceRule rule;
-  Rect tile;            // position of the tile, in pixels of the surfaces
-  uint8_t* bins;        // scratch memory of kSliceBins elements
-  int32_t* least_blur;  // scratch memory: one element per pixel of the surfaces' larger side
+  Rect tile;            // Position of the tile, in pixels of the surfaces.
+  uint8_t* bins;        // Scratch memory of kSliceBins elements.
+  int32_t* least_blur;  // Scratch memory: one element per pixel of the surfaces' larger side.
 };
 
 // Finds the slices of a tile, ordered from the nearest to the farthest. The slices hold all pixels

@@ -17,10 +17,10 @@ namespace starfocus {
 // also FillStride(width) samples apart. Each array starts kFillStep pixels before its first row.
 // Arrays of samples end kFillStep pixels after their last row.
 struct FillScratch {
-  int16_t* disparity;  // height rows
-  int16_t* rgb;        // height rows
-  int16_t* saved;      // kFillStep + 1 rows with the colours before the current smoothing pass
-  uint16_t* source;    // height rows, in the format of simd::FarRow
+  int16_t* disparity;  // Height rows.
+  int16_t* rgb;        // Height rows.
+  int16_t* saved;      // kFillStep + 1 rows with the colours before the current smoothing pass.
+  uint16_t* source;    // Height rows, in the format of simd::FarRow.
   // largest distance in pixels over which each row repeats colours; height elements
   uint8_t* farthest;
 };

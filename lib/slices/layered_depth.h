@@ -35,8 +35,8 @@ inline constexpr int32_t kMaxStrips = 64;
 struct LayeredDepth {
   int32_t width = 0, height = 0, stride = 0;
   size_t plane = 0;
-  int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits
-  int16_t* rgb[simd::kSurfaces] = {};        // light
+  int16_t* disparity[simd::kSurfaces] = {};  // kDisparityBits.
+  int16_t* rgb[simd::kSurfaces] = {};        // Light.
   // Share of each pixel that surface 0 covers, in kSliceBits, or kSliceEnd where surface 0 ends.
   uint8_t* share = nullptr;
   int16_t low = 0, high = 0;  // range of the disparities of the field
@@ -44,13 +44,13 @@ struct LayeredDepth {
   // and top. The pixel hides a surface that continues behind the edge. A distance of 0 means that
   // the pixel hides no surface on that side.
   uint8_t* edges[4] = {};
-  int16_t *moved = nullptr, *behind = nullptr;  // scratch memory of FindEdges: one row each
-  simd::StepBits* steps = nullptr;              // scratch memory of FindSteps: one row
+  int16_t *moved = nullptr, *behind = nullptr;  // Scratch memory of FindEdges: one row each.
+  simd::StepBits* steps = nullptr;              // Scratch memory of FindSteps: one row.
   // Source of the colour of each pixel of the hidden surfaces, in the format of LookBehind. The
   // sources are valid only in strips whose bit in `hiding` is set.
   uint16_t* sources[simd::kSurfaces - 1] = {};
-  bool repeats = false;        // true if the colour of any pixel is repeated
-  uint64_t* hiding = nullptr;  // one element per row: bit k is set if strip k has a hidden surface
+  bool repeats = false;        // True if the colour of any pixel is repeated.
+  uint64_t* hiding = nullptr;  // One element per row: bit k is set if strip k has a hidden surface.
 
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(stride) + static_cast<size_t>(x);

@@ -66,12 +66,12 @@ constexpr int32_t MostSliceArea(double blur) {
 }
 
 struct SlicePlane {
-  int32_t reach = 0;  // number of pixels that the slice extends beyond the rectangle on each side
-  int32_t rows = 0;   // number of rows of the rectangle, plus `reach` rows above and below
-  size_t plane = 0;   // distance between planes in samples; a row has four planes
-  int32_t subaperture = 0;            // width of a view's subaperture, kShiftBits
-  int16_t* samples = nullptr;         // samples of the first row
-  simd::SliceCover* cover = nullptr;  // cover of each row
+  int32_t reach = 0;  // Number of pixels that the slice extends beyond the rectangle on each side.
+  int32_t rows = 0;   // Number of rows of the rectangle, plus `reach` rows above and below.
+  size_t plane = 0;   // Distance between planes in samples; a row has four planes.
+  int32_t subaperture = 0;            // Width of a view's subaperture, kShiftBits.
+  int16_t* samples = nullptr;         // Samples of the first row.
+  simd::SliceCover* cover = nullptr;  // Cover of each row.
 };
 
 // Returns the distance in samples between the planes of a slice that extends `reach` pixels beyond

@@ -29,8 +29,8 @@ struct WeightShare {
 // shares.
 struct ScaledWeights {
   const ViewWeights* aperture;
-  uint64_t scale;    // factor of the aperture weights, times 2^16 (21 bits)
-  uint32_t largest;  // largest weight of the aperture
+  uint64_t scale;    // Factor of the aperture weights, times 2^16 (21 bits).
+  uint32_t largest;  // Largest weight of the aperture.
   // Smallest sum of coverage from which a colour is computed. With a smaller sum of coverage,
   // rounding errors of the colour would be visible.
   uint32_t least_covered;
@@ -77,8 +77,8 @@ struct SliceStack {
   Rect inner;  // rectangle to refocus, which contains the tile, in pixels of the surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  SurfaceBands bands;                // ranges of the surfaces' disparities in each band
-  const simd::SliceOffset* offsets;  // offsets of `count` slices for each of the views -N to N
+  SurfaceBands bands;                // Ranges of the surfaces' disparities in each band.
+  const simd::SliceOffset* offsets;  // Offsets of `count` slices for each of the views -N to N.
 
   // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in
   // all views (j, i).

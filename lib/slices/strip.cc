@@ -129,9 +129,9 @@ class Strip {
   int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
-  RowRange rows_[kMaxSlices];           // rows of the cell pairs that see each slice
-  ShiftedSlice shifted_[kMaxSlices];    // the slices shifted for the current column of views
-  simd::StripSlice shown_[kMaxSlices];  // `shifted_` in the format of the SIMD kernel
+  RowRange rows_[kMaxSlices];           // Rows of the cell pairs that see each slice.
+  ShiftedSlice shifted_[kMaxSlices];    // The slices shifted for the current column of views.
+  simd::StripSlice shown_[kMaxSlices];  // `shifted_` in the format of the SIMD kernel.
 };
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace starfocus {
 
 // Two adjacent cells in a part of a tile, with the slices that these cells see.
 struct CellPair {
-  int32_t x, y, rows;  // position and height in pixels of the part
-  int32_t count;       // number of slices that the pair sees
+  int32_t x, y, rows;  // Position and height in pixels of the part.
+  int32_t count;       // Number of slices that the pair sees.
   uint8_t shown[kMaxSlices];
 };
 
@@ -29,11 +29,11 @@ inline constexpr size_t kPixelSums = 4;
 struct StripJob {
   const simd::Kernels* kernels;
   const SliceStack* stack;
-  const SlicePlane* planes;  // one plane per slice, filled for the current part of the tile
-  int16_t* weights;          // weights of a group of views: G elements
-  int16_t* memory;           // scratch memory: StripBytes for each slice
-  uint32_t* sums;            // output: kPixelSums per pixel, in the order of rows
-  CancelToken* cancel;       // null: the job is never cancelled
+  const SlicePlane* planes;  // One plane per slice, filled for the current part of the tile.
+  int16_t* weights;          // Weights of a group of views: G elements.
+  int16_t* memory;           // Scratch memory: StripBytes for each slice.
+  uint32_t* sums;            // Output: kPixelSums per pixel, in the order of rows.
+  CancelToken* cancel;       // Null: the job is never cancelled.
 };
 
 // The cell pairs [first, end) of a part of a tile that lie at column x. The range contains at least

@@ -17,8 +17,8 @@ namespace starfocus {
 struct LightField {
   const simd::ImageKernels* kernels;
   ImageSource views[kMaxViews];
-  int32_t first;  // row of the picture at which the rows of the views start
-  bool in_place;  // true if all views are packed RGB
+  int32_t first;  // Row of the picture at which the rows of the views start.
+  bool in_place;  // True if all views are packed RGB.
   DepthSource depth;
   Plane<const uint8_t> coverage;  // null: no coverage
   // Planes of all views if in_place is true; otherwise only the plane of view 0, in the engine's

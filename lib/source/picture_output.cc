@@ -14,8 +14,8 @@ namespace {
 struct PairsJob {
   const PictureOutput* out;
   Plane<uint8_t> from;
-  const uint8_t* odd_row;  // upper row of a pair that an earlier call started
-  RowRange rows;           // rows of the image to write
+  const uint8_t* odd_row;  // Upper row of a pair that an earlier call started.
+  RowRange rows;           // Rows of the image to write.
   int32_t jobs;
 };
 

@@ -16,8 +16,8 @@ namespace starfocus {
 struct Prepared {
   starfocus_config config;  // configuration of the engine that prepared the light field
   starfocus_light_field light_field;
-  bool covers = false;       // true if the light field has coverage
-  Plane<int16_t> disparity;  // disparities of all rows
+  bool covers = false;       // True if the light field has coverage.
+  Plane<int16_t> disparity;  // Disparities of all rows.
   // Samples of all rows of layers 1 to config.tuning.max_layer.
   Plane<int16_t> layers[STARFOCUS_LAYERS];
   ReducedField reduced[STARFOCUS_MAX_PREVIEW + 1];  // indexed by shift, from 1 to config.previews

@@ -14,9 +14,9 @@ static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction,
               "each size of previews is a size of reductions");
 
 struct ReducedField {
-  Plane<uint8_t> views[kMaxViews];  // codes of all rows
-  Plane<int16_t> disparity;  // in fixed point (kDisparityBits), in pixels of the reduced picture
-  Plane<uint8_t> coverage;   // null: the configuration has no coverage
+  Plane<uint8_t> views[kMaxViews];  // Codes of all rows.
+  Plane<int16_t> disparity;  // In fixed point (kDisparityBits), in pixels of the reduced picture.
+  Plane<uint8_t> coverage;   // Null: the configuration has no coverage.
 };
 
 // Returns the configuration of an engine for a light field of `config` at 1/2^shift of its size.

@@ -78,8 +78,8 @@ TEST_CASE(
     "nearby") {
   Map map(24, 24, -4);
   for (int y = 0; y < 24; ++y) {
-    for (int x = 0; x < 9; ++x) map.At(x, y) = 3;  // an object
-    map.At(16, y) = 8;                             // a wire
+    for (int x = 0; x < 9; ++x) map.At(x, y) = 3;  // An object.
+    map.At(16, y) = 8;                             // A wire.
   }
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 24; ++x) CHECK(map.Focus(x, y) == (x < 9 ? 3 : x == 16 ? 8 : -4));

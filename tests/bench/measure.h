@@ -14,9 +14,9 @@ namespace starfocus::bench {
 
 struct Settings {
   int repetitions = 5;
-  double patience = 3;  // time limit per task in seconds; repetitions beyond the limit are omitted
-  std::string folder;   // folder for temporary files of the rivals (rivals.h)
-  bool rivals = true;   // true to measure the rivals
+  double patience = 3;  // Time limit per task in seconds; repetitions beyond the limit are omitted.
+  std::string folder;   // Folder for temporary files of the rivals (rivals.h).
+  bool rivals = true;   // True to measure the rivals.
 };
 
 struct Entry {

@@ -14,13 +14,13 @@ namespace starfocus::bench {
 namespace {
 
 constexpr int kWidth = 384, kHeight = 256, kViews = 5;
-constexpr int kBlur = 16;           // largest blur radius, pixels
-constexpr double kHighlights = 16;  // value of starfocus_config.highlights
+constexpr int kBlur = 16;           // Largest blur radius, pixels.
+constexpr double kHighlights = 16;  // Value of starfocus_config.highlights.
 
 struct Picture {
   const char* name;
-  bool noisy_depth;  // true if the disparity of each pixel is random, from -kBlur to kBlur
-  int white;         // white squares in 1000 squares of 4x4 pixels; -1: the ordinary picture
+  bool noisy_depth;  // True if the disparity of each pixel is random, from -kBlur to kBlur.
+  int white;         // White squares in 1000 squares of 4x4 pixels; -1: the ordinary picture.
   double highlights;
 };
 

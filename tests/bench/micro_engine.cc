@@ -18,9 +18,9 @@
 namespace starfocus::bench {
 namespace {
 
-constexpr int kPixels = 1024, kSurface = 32;  // pixels per line and per surface
-constexpr int kSide = 256;                    // width and height of the pictures, pixels
-constexpr int kViewNumber = 4;                // N of the aperture
+constexpr int kPixels = 1024, kSurface = 32;  // Pixels per line and per surface.
+constexpr int kSide = 256;                    // Width and height of the pictures, pixels.
+constexpr int kViewNumber = 4;                // N of the aperture.
 
 // A sink of the line scan that only counts pixels.
 struct Ignore {

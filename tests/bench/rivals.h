@@ -27,16 +27,16 @@ class ShiftAndAdd {
   const LightField& data_;
   const int views_;
   const double focus_;
-  int pad_ = 0;                // samples of padding on each side of a row
-  std::vector<uint8_t> row_;   // row that is interpolated between two rows of a view, with padding
-  std::vector<uint16_t> sum_;  // weighted sums of a row of the picture
+  int pad_ = 0;                // Samples of padding on each side of a row.
+  std::vector<uint8_t> row_;   // Row that is interpolated between two rows of a view, with padding.
+  std::vector<uint16_t> sum_;  // Weighted sums of a row of the picture.
   std::vector<uint16_t> weights_;
 };
 
 // A program that blurs the centre view by a map of blur radii.
 struct Tool {
-  const char* name;     // name of the program in the bench's tables
-  const char* program;  // name of the program, which must be in PATH
+  const char* name;     // Name of the program in the bench's tables.
+  const char* program;  // Name of the program, which must be in PATH.
 };
 // Returns all tools that the bench can measure.
 const std::vector<Tool>& Tools();

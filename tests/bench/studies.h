@@ -16,16 +16,16 @@ struct Choice {
   std::vector<std::string> modes = {"block", "frame", "benchmark", "blur"};
   std::vector<double> apertures = {1};
   std::vector<double> quantiles = {0.1, 0.3, 0.5, 0.7, 0.9};
-  std::vector<int> views;        // sizes of smaller star sets, measured in block mode
-  std::vector<int> max_layers;   // values of starfocus_tuning.max_layer, measured in block mode
-  std::vector<int> superblocks;  // values of starfocus_config.superblock, measured in block mode
-  std::vector<double> n_scales;  // values of starfocus_tuning.n_scale in block and frame mode
-  bool rules = false;            // true to measure both renderers in block and frame mode
+  std::vector<int> views;        // Sizes of smaller star sets, measured in block mode.
+  std::vector<int> max_layers;   // Values of starfocus_tuning.max_layer, measured in block mode.
+  std::vector<int> superblocks;  // Values of starfocus_config.superblock, measured in block mode.
+  std::vector<double> n_scales;  // Values of starfocus_tuning.n_scale in block and frame mode.
+  bool rules = false;            // True to measure both renderers in block and frame mode.
   // SIMD targets, measured at the middle quantile; "all": all targets
   std::vector<std::string> targets;
-  std::vector<int> workers;       // numbers of workers above 1, measured at the middle quantile
-  double largest_radius = 0;      // largest radius of the sweep of blur radii, pixels; 0: no sweep
-  double largest_megapixels = 0;  // largest picture of the sweep of sizes; 0: no sweep
+  std::vector<int> workers;       // Numbers of workers above 1, measured at the middle quantile.
+  double largest_radius = 0;      // Largest radius of the sweep of blur radii, pixels; 0: no sweep.
+  double largest_megapixels = 0;  // Largest picture of the sweep of sizes; 0: no sweep.
 };
 
 // Measures a light field with all chosen modes, options, apertures and foci. Measures rivals at the

@@ -21,8 +21,8 @@ namespace starfocus::steps_program_test {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 80;
-constexpr int kNear = 4, kFar = -4;                              // disparities
-constexpr int kLeft = 32, kRight = 64, kTop = 24, kBottom = 56;  // the square
+constexpr int kNear = 4, kFar = -4;                              // Disparities.
+constexpr int kLeft = 32, kRight = 64, kTop = 24, kBottom = 56;  // The square.
 constexpr int kCombLeft = 100, kCombRight = 132;
 
 // Returns the part of a pixel of the centre view that the near plane covers. The plane consists of

@@ -28,9 +28,9 @@ inline constexpr double kMeanLimit = 0.3;
 inline constexpr size_t kEnoughSamples = 300;
 
 struct Distance {
-  int largest = 0;       // largest difference between bytes of the engine and the reference
-  double unrounded = 0;  // largest difference of an engine's byte from the unrounded reference
-  double sum = 0;        // sum of all differences between bytes
+  int largest = 0;       // Largest difference between bytes of the engine and the reference.
+  double unrounded = 0;  // Largest difference of an engine's byte from the unrounded reference.
+  double sum = 0;        // Sum of all differences between bytes.
   double samples = 0;
   // Largest allowed mean difference of a picture with at least kEnoughSamples samples.
   double worst_mean = 0;

@@ -143,8 +143,8 @@ struct Distance {
   // Numbers of split pixels whose coverage differs by more than kCoverageLimit, and whose far light
   // differs by more than kLightLimit.
   int alphas = 0, lights = 0;
-  double alpha = 0, alpha_sum = 0;  // largest and summed difference of coverage
-  double light = 0, light_sum = 0;  // largest and summed difference of far light, in codes
+  double alpha = 0, alpha_sum = 0;  // Largest and summed difference of coverage.
+  double light = 0, light_sum = 0;  // Largest and summed difference of far light, in codes.
 
   void Add(const Distance& other) {
     parted += other.parted;

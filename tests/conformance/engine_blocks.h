@@ -17,8 +17,8 @@ namespace conformance {
 struct EngineResult {
   starfocus_status status = STARFOCUS_OK;
   starfocus_report report = {};
-  std::vector<uint8_t> bytes;            // 3 * width * height
-  std::vector<reference::Block> blocks;  // partition: blocks of all stripes
+  std::vector<uint8_t> bytes;            // 3 * width * height.
+  std::vector<reference::Block> blocks;  // Partition: blocks of all stripes.
 };
 
 // Refocuses the scene with the given kernels on an initialised engine.

@@ -19,9 +19,9 @@ namespace reference {
 int ViewsAlongRadius(double r_max, int mode);
 
 struct Result {
-  int n = 0;                // N, the number of views along the aperture radius
-  int views = 0;            // number of rendered views
-  std::vector<double> rgb;  // codes, unrounded, 3 * width * height
+  int n = 0;                // N, the number of views along the aperture radius.
+  int views = 0;            // Number of rendered views.
+  std::vector<double> rgb;  // Codes, unrounded, 3 * width * height.
 };
 
 // Refocuses the scene with the transfer function of `config`. `block` is the side of the blocks in
@@ -32,9 +32,9 @@ Result Refocus(const test::Scene& scene, const starfocus_params& params,
 
 // A cell of the picture that is gathered (reference_gather.h).
 struct GatheredCell {
-  int x, y, width, height;              // in the picture
-  bool on_slope;                        // true if each pixel is blurred by its own radius
-  int at_x, at_y, at_width, at_height;  // the cell in the block's layer
+  int x, y, width, height;              // In the picture.
+  bool on_slope;                        // True if each pixel is blurred by its own radius.
+  int at_x, at_y, at_width, at_height;  // The cell in the block's layer.
 };
 
 // A block of block mode, and the rectangle of the layer that the views of this block render.

@@ -24,9 +24,9 @@ Colour Less(const Colour& a, const Colour& b) { return {a[0] - b[0], a[1] - b[1]
 
 // Values of a pixel, computed in several passes.
 struct Pixel {
-  bool two = false;             // true if the pixel is near an edge and shows two surfaces
-  double near = 0, far = 0;     // disparities of the two surfaces
-  double guess = 1, first = 1;  // coverage according to the map, and after the first pass
+  bool two = false;             // True if the pixel is near an edge and shows two surfaces.
+  double near = 0, far = 0;     // Disparities of the two surfaces.
+  double guess = 1, first = 1;  // Coverage according to the map, and after the first pass.
 };
 
 class Parter {

@@ -14,9 +14,9 @@ namespace reference {
 
 struct PartedPixel {
   bool parted = false;
-  double alpha = 0;          // share of the pixel that the near surface covers
-  double near = 0, far = 0;  // disparities of both surfaces, in 1/64 pixel
-  Colour light = {0, 0, 0};  // light of the far surface
+  double alpha = 0;          // Share of the pixel that the near surface covers.
+  double near = 0, far = 0;  // Disparities of both surfaces, in 1/64 pixel.
+  Colour light = {0, 0, 0};  // Light of the far surface.
 };
 
 // Returns the pixels of the centre view, row by row. Pixels are split by the coverage of the scene

@@ -55,15 +55,15 @@ using LightField = std::map<std::pair<int, int>, Picture>;
 
 // The lens: N views along its radius, and the shifts of pixels in the views.
 struct Lens {
-  int n = 0;     // index of the outermost view
-  int most = 0;  // largest i^2 + j^2 of a view (i, j)
+  int n = 0;     // Index of the outermost view.
+  int most = 0;  // Largest i^2 + j^2 of a view (i, j).
   double subapertures =
-      0;              // radius in subapertures; 0: the paper's rule, where views stand for points
-  double radius = 0;  // u_t
+      0;              // Radius in subapertures; 0: the paper's rule, where views stand for points.
+  double radius = 0;  // u_t.
   ApertureShape opening = 0.0;
-  int focus = 0;     // d_t in 1/64 pixel
-  int64_t step = 0;  // u_t / 2^layer, in units of 2^-24
-  int layer = 0;     // L
+  int focus = 0;     // d_t in 1/64 pixel.
+  int64_t step = 0;  // u_t / 2^layer, in units of 2^-24.
+  int layer = 0;     // L.
 
   // Returns the position u of view k, in units of 2^-24.
   int64_t Move(int k) const { return (2 * k * step + n) / (2 * n); }

@@ -53,8 +53,8 @@ class RangeFinder {
   }
 
  private:
-  static constexpr int64_t kMost = 1 << 20;  // upper bound of disparities
-  static constexpr int kUnitBits = 24 + 6;   // fractional bits of disparity * step
+  static constexpr int64_t kMost = 1 << 20;  // Upper bound of disparities.
+  static constexpr int kUnitBits = 24 + 6;   // Fractional bits of disparity * step.
 
   // Returns true if a pixel of the extended rectangle is blurred into the rectangle.
   bool Reaches(int disparity, int x, int y) const {
@@ -103,8 +103,8 @@ class RangeFinder {
   const Lens& lens_;
   const Rectangle& rect_;
   const Slicing slicing_;
-  int low_ = 0;  // smallest disparity of bin 0, 1/64 pixel
-  int bin_ = 1;  // number of disparities in a bin
+  int low_ = 0;  // Smallest disparity of bin 0, 1/64 pixel.
+  int bin_ = 1;  // Number of disparities in a bin.
   std::set<int> occupied_;
 };
 

@@ -14,8 +14,8 @@ namespace reference {
 struct Surface {
   int disparity;  // in 1/64
   Colour colour;
-  double share = 1;   // share of the pixel that this surface covers; surfaces behind get the rest
-  bool ends = false;  // true if the surface ends at a depth edge next to the pixel
+  double share = 1;   // Share of the pixel that this surface covers; surfaces behind get the rest.
+  bool ends = false;  // True if the surface ends at a depth edge next to the pixel.
   // If no captured view sees behind the edge: the distance and the directions of the pixels whose
   // colours this surface repeats.
   int repeated = 0;

@@ -83,9 +83,9 @@ TEST_CASE("repaired edges: a pixel that shows a part of the nearer surface becom
   };
   for (const int y : {8, 31, 50}) {
     CHECK(widened(47, y) == kNear);
-    CHECK(widened(48, y) == kNear);  // the near surface covers 5/6 of the pixel
-    CHECK(widened(49, y) == kNear);  // the near surface covers half of the pixel
-    CHECK(widened(50, y) == kNear);  // the near surface covers 1/6 of the pixel
+    CHECK(widened(48, y) == kNear);  // The near surface covers 5/6 of the pixel.
+    CHECK(widened(49, y) == kNear);  // The near surface covers half of the pixel.
+    CHECK(widened(50, y) == kNear);  // The near surface covers 1/6 of the pixel.
     CHECK(widened(51, y) == kFar);
   }
   CHECK(starfocus::WidenedAt(scene.Map(), 1, 49, 31) == kFar);

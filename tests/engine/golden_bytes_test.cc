@@ -39,8 +39,8 @@ struct Case {
   test::Depth depth;
   Lens lens;
   int block;
-  int levels = 0, range = 0;                // fields of a LevelCase, or 0
-  const test::NamedShape* shape = nullptr;  // shape of the lens, or null for the default shape
+  int levels = 0, range = 0;                // Fields of a LevelCase, or 0.
+  const test::NamedShape* shape = nullptr;  // Shape of the lens, or null for the default shape.
 };
 
 // A scene with `levels` random disparities and blur radii up to `range`, which is cut into slices.

@@ -108,8 +108,8 @@ struct FrameDiff {
 void CheckPicture(const test::Scene& scene, const starfocus_params& params, int more,
                   FrameDiff* changes) {
   starfocus_config config = test::ConfigFor(scene, 40);
-  config.tuning.gather = 0;  // renders views in all cells
-  config.superblock = 128;   // one superblock, so that layers are complete
+  config.tuning.gather = 0;  // Renders views in all cells.
+  config.superblock = 128;   // One superblock, so that layers are complete.
   config.tuning.n_scale = more % 2 == 0 ? 1 : STARFOCUS_MIN_N_SCALE;
   test::Engine engine(config);
   const test::Output out = test::OutputOf(&engine, params, scene);

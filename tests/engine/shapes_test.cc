@@ -38,8 +38,8 @@ struct Patch {
     }
     starfocus_config config = test::ConfigFor(scene, std::abs(focus) + 1);
     config.superblock = 32;
-    config.tuning.max_layer = 0;                // layers 1 and 2 would smooth the picture
-    config.transfer = STARFOCUS_TRANSFER_NONE;  // levels are proportional to light
+    config.tuning.max_layer = 0;                // Layers 1 and 2 would smooth the picture.
+    config.transfer = STARFOCUS_TRANSFER_NONE;  // Levels are proportional to light.
     starfocus_params params = test::Params(focus, 1, mode, renderer);
     shape.Set(&params.lens);
     test::ReserveFor(params.lens, &config);

@@ -208,8 +208,8 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
   starfocus_config config = test::ConfigFor(scene, 28);
   config.superblock = 32;
   config.features |= STARFOCUS_FEATURE_STREAMING;
-  config.tuning.gather = 0;     // without gathering, blocks use all layers
-  test::Engine holder(config);  // only its memory is used
+  config.tuning.gather = 0;     // Without gathering, blocks use all layers.
+  test::Engine holder(config);  // Only its memory is used.
   REQUIRE(holder.status() == STARFOCUS_OK);
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   int told = 0;

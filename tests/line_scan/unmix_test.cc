@@ -118,16 +118,18 @@ TEST_CASE("unmix: the far colour is read from the view that sees behind the edge
 }
 
 TEST_CASE("unmix: pixels that are blurred, not mixed, or sharp in the near surface do not change") {
-  CHECK(Scene(-4, 0, {40, 240, 140}).Mixed() == 140);  // the near surface is in focus
-  CHECK(Scene(0, 1, {40, 240, 140}).Mixed() == 140);   // the step is too small for a depth edge
-  CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() == 140);  // the mixed pixel is blurred by three pixels
-  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);  // a slightly blurred pixel: in part
-  CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() == 90);  // the near surface is hardly more defocused
-  CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);    // the near surface covers most of the pixel
-  CHECK(Scene(0, 4, {40, 240, 20}).Mixed() == 20);  // the mixed colour lies beyond the far colour
-  CHECK(Scene(0, 4, {40, 44, 42}).Mixed() == 42);   // the surfaces differ by only 4 levels
-  CHECK(Scene(0, 4, {40, 240, 140}, 1).Mixed() == 140);  // no view sees behind the edge
-  CHECK(Scene(0, 4, {40, 240, 140}).Mixed(1) == 140);    // pixels of layer 1 are not unmixed
+  CHECK(Scene(-4, 0, {40, 240, 140}).Mixed() == 140);  // The near surface is in focus.
+  CHECK(Scene(0, 1, {40, 240, 140}).Mixed() == 140);   // The step is too small for a depth edge.
+  CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() ==
+        140);  // The mixed pixel is blurred by three pixels.
+  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);  // A slightly blurred pixel: in part.
+  CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() ==
+        90);                                          // The near surface is hardly more defocused.
+  CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);  // The near surface covers most of the pixel.
+  CHECK(Scene(0, 4, {40, 240, 20}).Mixed() == 20);  // The mixed colour lies beyond the far colour.
+  CHECK(Scene(0, 4, {40, 44, 42}).Mixed() == 42);   // The surfaces differ by only 4 levels.
+  CHECK(Scene(0, 4, {40, 240, 140}, 1).Mixed() == 140);  // No view sees behind the edge.
+  CHECK(Scene(0, 4, {40, 240, 140}).Mixed(1) == 140);    // Pixels of layer 1 are not unmixed.
   Scene colourful(0, 4, {40, 240, 140});
   for (int y = 0; y < kSize; ++y) colourful.centre[size_t(3 * (y * kSize + kEdge - 1))] = 255;
   CHECK(colourful.Mixed() == 255);

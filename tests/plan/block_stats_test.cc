@@ -162,11 +162,11 @@ bool Reaches(int x, int y, double radius, int x0, int y0, int x1, int y1) {
 // analysis.
 struct Exact {
   Border border[3] = {};
-  double inside_min = 1e9, inside_max = 0;  // radii of the block's pixels in the picture
-  double reaching_max = 0;                  // largest radius of all pixels that reach the block
-  double around_max = 0;         // largest radius of all pixels that the analysis may consider
-  bool has_edge = false;         // true if a depth edge concerns the block
-  bool has_edge_around = false;  // true if the analysis may consider any depth edge
+  double inside_min = 1e9, inside_max = 0;  // Radii of the block's pixels in the picture.
+  double reaching_max = 0;                  // Largest radius of all pixels that reach the block.
+  double around_max = 0;         // Largest radius of all pixels that the analysis may consider.
+  bool has_edge = false;         // True if a depth edge concerns the block.
+  bool has_edge_around = false;  // True if the analysis may consider any depth edge.
   // Smallest radius of pixels and edges in the block and in the kLayerMargin[1] pixels around the
   // block.
   double shown_min = 1e9;

@@ -234,9 +234,9 @@ TEST_CASE("image_io: a PNG has colours of its palette, and larger indices are re
       }
     }
   }
-  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, {}, Bytes(8))) != "");        // the palette is missing
-  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, Bytes(7), Bytes(8))) != "");  // one colour is incomplete
-  CHECK(ReadBytes(MakePng(4, 1, {16, 3}, palette, Bytes(8))) != "");  // indices have 16 bits
+  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, {}, Bytes(8))) != "");        // The palette is missing.
+  CHECK(ReadBytes(MakePng(8, 1, {8, 3}, Bytes(7), Bytes(8))) != "");  // One colour is incomplete.
+  CHECK(ReadBytes(MakePng(4, 1, {16, 3}, palette, Bytes(8))) != "");  // Indices have 16 bits.
   CHECK(ValueOf(ReadBytes(MakePng(8, 1, {8, 0}, {}, Bytes(8, 99)))).pixels == Bytes(24, 99));
 }
 

@@ -69,11 +69,11 @@ class TiffBuilder {
 // directory, and a thumbnail.
 Bytes CameraExif(bool little) {
   TiffBuilder tiff(little);
-  tiff.Put(3, 2);                            // at offset 8: three entries
-  tiff.Entry(0x010f, 2, 8, 8 + 2 + 36 + 4);  // Make
-  tiff.Entry(0x0112, 3, 1, 6);               // Orientation
-  tiff.Entry(0x8769, 4, 1, 58);              // directory of sizes
-  tiff.Put(58 + 2 + 24 + 4, 4);              // directory of the thumbnail
+  tiff.Put(3, 2);                            // At offset 8: three entries.
+  tiff.Entry(0x010f, 2, 8, 8 + 2 + 36 + 4);  // Make.
+  tiff.Entry(0x0112, 3, 1, 6);               // Orientation.
+  tiff.Entry(0x8769, 4, 1, 58);              // Directory of sizes.
+  tiff.Put(58 + 2 + 24 + 4, 4);              // Directory of the thumbnail.
   for (const char c : std::string("Holgaro")) tiff.bytes.push_back(static_cast<uint8_t>(c));
   tiff.bytes.push_back(0);
   tiff.Put(2, 2);  // at offset 58
@@ -353,9 +353,9 @@ TEST_CASE(
   const std::string file = "'" + folder.file("a.jpg") + "'";
   const std::string tags = Ask(folder, "exiftool -s -s -G1 -n " + file);
   CHECK(Contains(tags, "Far: 1\n"));
-  CHECK(Contains(tags, "Near: 0.11111"));             // 1 / (8 + 1)
-  CHECK(Contains(tags, "FocalDistance: 0.166666"));   // 1 / (2 + 3 + 1)
-  CHECK(Contains(tags, "BlurAtInfinity: 0.0075\n"));  // 0.5 * 6 / 400
+  CHECK(Contains(tags, "Near: 0.11111"));             // 1 / (8 + 1).
+  CHECK(Contains(tags, "FocalDistance: 0.166666"));   // 1 / (2 + 3 + 1).
+  CHECK(Contains(tags, "BlurAtInfinity: 0.0075\n"));  // 0.5 * 6 / 400.
   const std::string png = Ask(folder, "exiftool -b -XMP-GDepth:DepthImage " + file);
   const std::string sharp = Ask(folder, "exiftool -b -XMP-GImage:ImageData " + file);
   REQUIRE(WriteFile(folder.file("d.png"), FromText(png)) == "");

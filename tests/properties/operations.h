@@ -46,8 +46,8 @@ using Run = std::function<starfocus_status(const starfocus_callbacks& callbacks,
 
 struct Operation {
   std::string name;
-  int32_t rows;   // number of rows that the progress function reports
-  int questions;  // smallest number of progress calls
+  int32_t rows;   // Number of rows that the progress function reports.
+  int questions;  // Smallest number of progress calls.
   std::function<Run(const Setup& setup)> set_up;
 };
 

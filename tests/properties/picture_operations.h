@@ -30,8 +30,9 @@ struct Lens {
   double aperture;
   int views;
   float highlights = 1;
-  bool flat = false;  // true for a scene of one surface, whose blocks are gathered unless `layered`
-  bool layered = false;  // true if blocks of one surface render views at layers 1 and 2
+  bool flat =
+      false;  // True for a scene of one surface, whose blocks are gathered unless `layered`.
+  bool layered = false;  // True if blocks of one surface render views at layers 1 and 2.
 };
 
 constexpr Lens kBlocks = {"blocks", STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 1, 5};

@@ -103,8 +103,8 @@ TEST_CASE(
     CAPTURE(unknown);
     std::vector<uint16_t> levels = LevelsOf(kMillimetres);
     for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // the left border
-      for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // a gap next to the box
+      for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // The left border.
+      for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // A gap next to the box.
     }
     const Opened opened("map.png", GreyPng(levels), NearIs(Near::kBlack));
     CheckScene(opened);

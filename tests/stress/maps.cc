@@ -14,8 +14,8 @@ namespace starfocus::stress {
 namespace {
 
 constexpr int kViewCounts[] = {1, 5, 9, 17};
-constexpr float kMost = 6;     // largest absolute disparity
-constexpr int kPlaneMost = 4;  // largest absolute disparity of planes
+constexpr float kMost = 6;     // Largest absolute disparity.
+constexpr int kPlaneMost = 4;  // Largest absolute disparity of planes.
 
 struct Map {
   starfocus_status status = STARFOCUS_OK;

@@ -21,9 +21,9 @@ struct Variant {
   int workers = 1;
   bool stream = false;
   int push_rows = 1, pull_rows = 1;
-  uint64_t order = 0;  // seed of the order of jobs; 0: no runner
-  double room = 1;     // factor of starfocus_config.max_blur
-  int poison = -1;     // initial bytes of the workspace, see Memory
+  uint64_t order = 0;  // Seed of the order of jobs; 0: no runner.
+  double room = 1;     // Factor of starfocus_config.max_blur.
+  int poison = -1;     // Initial bytes of the workspace, see Memory.
 
   std::string Text() const;
 };

@@ -21,16 +21,16 @@ struct Setup {
   starfocus_params params;
   bool strands = false;  // true if SetStrands made the scene
 
-  double Radius() const;     // returns the largest blur radius of the configured disparities
-  std::string Text() const;  // returns a readable description of one line
+  double Radius() const;     // Returns the largest blur radius of the configured disparities.
+  std::string Text() const;  // Returns a readable description of one line.
 };
 
 // Bounds of a random setup.
 struct Bounds {
-  int size = 40;        // width and height are in [1, size]
-  double radius = 6;    // largest blur radius; most radii are much smaller
-  int modes = 4;        // the mode is in [0, modes - 1]
-  float disparity = 8;  // largest absolute disparity
+  int size = 40;        // Width and height are in [1, size].
+  double radius = 6;    // Largest blur radius; most radii are much smaller.
+  int modes = 4;        // The mode is in [0, modes - 1].
+  float disparity = 8;  // Largest absolute disparity.
 };
 
 // Returns a radius below, at or above a threshold of the rules, or a random radius.

@@ -14,14 +14,14 @@
 namespace starfocus::stress {
 
 struct Outcome {
-  double error = 0;     // value of the quantity that Family::measures names
-  std::string failure;  // description of the failure in one line; empty without a failure
+  double error = 0;     // Value of the quantity that Family::measures names.
+  std::string failure;  // Description of the failure in one line; empty without a failure.
 };
 
 struct Family {
   const char* name;
-  const char* measures;  // name of the quantity in Outcome::error
-  int share;             // number of cases per round
+  const char* measures;  // Name of the quantity in Outcome::error.
+  int share;             // Number of cases per round.
   Outcome (*run)(test::Random* random);
 };
 
@@ -30,8 +30,8 @@ const std::vector<Family>& Families();
 struct FamilyReport {
   const Family* family = nullptr;
   uint64_t cases = 0, failures = 0;
-  double largest = 0;         // largest error of all cases
-  uint64_t largest_case = 0;  // number of the case with the largest error
+  double largest = 0;         // Largest error of all cases.
+  uint64_t largest_case = 0;  // Number of the case with the largest error.
 };
 
 struct Report {
@@ -43,8 +43,8 @@ struct Report {
 struct Options {
   double seconds = 10;
   uint64_t seed = 1;
-  std::string family;                        // name of the family to run; empty: all families
-  std::function<void(double seconds)> done;  // receives the elapsed time in seconds; may be empty
+  std::string family;                        // Name of the family to run; empty: all families.
+  std::function<void(double seconds)> done;  // Receives the elapsed time in seconds; may be empty.
 };
 
 // Runs one case. If the case fails, Outcome::failure describes the failure.

@@ -23,8 +23,8 @@ struct ClosedHair {
   static constexpr float kNear = 9, kFar = -4;
   static constexpr int kWidth = 240, kHeight = 181;
   Area body = {40, 110, 240, 181}, hair = {40, 60, 180, 110};
-  Strands strands;     // strands of the hair; without strands, the hair is opaque
-  bool spots = false;  // true if the wall has spots, which contain a quarter of the near colour
+  Strands strands;     // Strands of the hair; without strands, the hair is opaque.
+  bool spots = false;  // True if the wall has spots, which contain a quarter of the near colour.
   std::vector<uint8_t> rgb, coverage;
   std::vector<float> map;
 

@@ -221,10 +221,10 @@ inline std::string SubjectSegment(int orientation, int tag, const std::vector<in
 
 // Options for the index of a multi-picture file; options may make the index invalid.
 struct IndexOptions {
-  bool little = false;        // true for little-endian numbers
-  uint32_t entry_bytes = 32;  // declared size of all index entries
-  uint32_t moved = 0;         // error added to the position of the second picture
-  uint32_t type = 0;          // type of the second picture
+  bool little = false;        // True for little-endian numbers.
+  uint32_t entry_bytes = 32;  // Declared size of all index entries.
+  uint32_t moved = 0;         // Error added to the position of the second picture.
+  uint32_t type = 0;          // Type of the second picture.
 };
 
 // Returns a multi-picture file of two pictures. The index is in an APP2 segment of the first

@@ -12,8 +12,8 @@ namespace test {
 struct Strands {
   static constexpr int kMostPeriod = 12;
 
-  uint8_t profile[kMostPeriod] = {};  // coverage of each sample, 0 to 255
-  int period = 0;                     // number of samples in the profile; 0: no strands
+  uint8_t profile[kMostPeriod] = {};  // Coverage of each sample, 0 to 255.
+  int period = 0;                     // Number of samples in the profile; 0: no strands.
   // Number of profile samples per pixel to the right, and per pixel down.
   int right = 1, down = 0;
   bool ramps = false;  // true if outlines in the map are ramps, as in maps of neural networks

@@ -93,8 +93,8 @@ struct Scene {
   int height = 0;
   float disparity_min = 0;
   float disparity_max = 0;
-  size_t stride = 0;           // bytes
-  size_t disparity_width = 0;  // floats
+  size_t stride = 0;           // Bytes.
+  size_t disparity_width = 0;  // Floats.
   std::vector<std::vector<uint8_t>> pictures;
   std::vector<float> disparity;
   std::vector<uint8_t> coverage;  // rows without padding; empty: no coverage

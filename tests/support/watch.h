@@ -13,12 +13,12 @@ struct Watch {
 
   explicit Watch(int cancel_at = kNever) : stop(cancel_at) {}
 
-  int stop;       // index of the call that cancels, or kNever
-  int calls = 0;  // number of calls so far; simultaneous calls are counted in `clashes`
+  int stop;       // Index of the call that cancels, or kNever.
+  int calls = 0;  // Number of calls so far; simultaneous calls are counted in `clashes`.
   int32_t done = 0, rows = 0;
-  int full = 0;      // calls that report all rows as done
-  int back = 0;      // calls with fewer rows than before, or a wrong total
-  int too_late = 0;  // calls after the cancellation
+  int full = 0;      // Calls that report all rows as done.
+  int back = 0;      // Calls with fewer rows than before, or a wrong total.
+  int too_late = 0;  // Calls after the cancellation.
   std::atomic<int> inside{0}, clashes{0};
 
   static int Progress(void* data, int32_t rows_done, int32_t rows) {

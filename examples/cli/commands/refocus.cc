@@ -30,8 +30,8 @@ struct RefocusOptions {
   std::vector<std::string> inputs;
   InputOptions input;  // the input that is being refocused
   std::string report, map;
-  starfocus_region region = {};  // all 0: the whole picture
-  std::vector<double> sweep;     // foci of a sweep; empty: no sweep
+  starfocus_region region = {};  // All 0: the whole picture.
+  std::vector<double> sweep;     // Foci of a sweep; empty: no sweep.
   int jobs = 1;
   OutputOptions output;
   LensOptions lens;

@@ -24,8 +24,8 @@ namespace starfocus {
 namespace {
 
 constexpr int kFoci = 6, kBins = 32;
-constexpr int kLarge = 1200, kSmall = 380;  // widths of pictures in pixels
-constexpr int kWhite = 32;                  // difference that an error map shows as white
+constexpr int kLarge = 1200, kSmall = 380;  // Widths of pictures in pixels.
+constexpr int kWhite = 32;                  // Difference that an error map shows as white.
 
 struct ViewOptions {
   InputOptions input;

@@ -16,9 +16,9 @@
 namespace starfocus {
 namespace {
 
-constexpr int kSmallWidth = 256;      // largest width of pictures for finding the disparity range
-constexpr int kLeastConfidence = 48;  // limit that excludes outliers at edges and on flat walls
-constexpr double kStrays = 0.0005;    // fraction of values discarded at each end of the range
+constexpr int kSmallWidth = 256;      // Largest width of pictures for finding the disparity range.
+constexpr int kLeastConfidence = 48;  // Limit that excludes outliers at edges and on flat walls.
+constexpr double kStrays = 0.0005;    // Fraction of values discarded at each end of the range.
 
 using Images = std::vector<Image>;
 

@@ -23,8 +23,8 @@ struct DisparityRange {
 
 struct DisparityEstimate {
   FloatMap map;
-  DisparityRange range;  // searched range; after a repair, the range of the map
-  Image confidence;  // grey levels: 0 is uncertain, 255 is certain (starfocus_estimate_disparity)
+  DisparityRange range;  // Searched range; after a repair, the range of the map.
+  Image confidence;  // Grey levels: 0 is uncertain, 255 is certain (starfocus_estimate_disparity).
   // Coverage of hair from a repair; empty if not requested or not found.
   std::vector<uint8_t> coverage;
 };

@@ -13,8 +13,8 @@ namespace starfocus {
 struct TimingTerm {
   const char* name;
   uint32_t starfocus_timing::*coefficient;
-  uint64_t BlockWork::*work;  // amount of work in a block; null if each block is one unit
-  const char* unit;           // unit of work to which the coefficient refers
+  uint64_t BlockWork::*work;  // Amount of work in a block; null if each block is one unit.
+  const char* unit;           // Unit of work to which the coefficient refers.
 };
 
 inline constexpr TimingTerm kTimingTerms[] = {

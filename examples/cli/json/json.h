@@ -51,14 +51,14 @@ class Json {
 // A member of an object that was read.
 struct JsonMember {
   std::string name;
-  std::string text;       // the value as JSON in ASCII
-  bool is_whole = false;  // true if the value is an integer >= 0
+  std::string text;       // The value as JSON in ASCII.
+  bool is_whole = false;  // True if the value is an integer >= 0.
   uint64_t whole = 0;
 };
 
 struct JsonObject {
-  bool is_json = false;   // true if the text is valid JSON
-  bool is_there = false;  // true if the text contains the object
+  bool is_json = false;   // True if the text is valid JSON.
+  bool is_there = false;  // True if the text contains the object.
   std::vector<JsonMember> members;
 };
 

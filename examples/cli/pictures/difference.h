@@ -8,8 +8,8 @@
 namespace starfocus {
 
 struct Difference {
-  double psnr = 0;  // peak signal-to-noise ratio in dB; infinite if the pictures are equal
-  int largest = 0;  // largest difference of any sample
+  double psnr = 0;  // Peak signal-to-noise ratio in dB; infinite if the pictures are equal.
+  int largest = 0;  // Largest difference of any sample.
 };
 
 // Measures the difference between two pictures. MeasureDifference and DrawDifference require

@@ -20,12 +20,12 @@ struct ApertureOptions {
 };
 
 struct ApertureChoice {
-  double radius = 1;      // radius at the requested strength
-  double widest = 1;      // f-stop of radius 1
-  double strength = 1;    // 0 to 1; `radius` already includes this factor
-  std::string option;     // option that set the radius; empty: the default
-  std::string value;      // value of `option` as typed
-  bool narrowed = false;  // true if the default exceeded the blur limit and was reduced
+  double radius = 1;      // Radius at the requested strength.
+  double widest = 1;      // f-stop of radius 1.
+  double strength = 1;    // 0 to 1; `radius` already includes this factor.
+  std::string option;     // Option that set the radius; empty: the default.
+  std::string value;      // Value of `option` as typed.
+  bool narrowed = false;  // True if the default exceeded the blur limit and was reduced.
 };
 
 // Evaluates the options. The default aperture is the f-stop of the input if known, otherwise radius

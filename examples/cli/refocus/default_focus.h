@@ -11,9 +11,9 @@ namespace starfocus {
 
 struct DefaultFocus {
   bool at_pixel = true;
-  int x = 0, y = 0;      // pixel in focus
-  double disparity = 0;  // focus if at_pixel is false
-  std::string source;    // description of the origin of the focus, for users
+  int x = 0, y = 0;      // Pixel in focus.
+  double disparity = 0;  // Focus if at_pixel is false.
+  std::string source;    // Description of the origin of the focus, for users.
 };
 
 // Returns, in this order of preference, the subject in EXIF, the focus stored in the file, or the

@@ -47,9 +47,9 @@ struct LensPlan {
   std::vector<double> foci;
   int x = 0, y = 0;  // pixel that determines the focus
   ApertureChoice aperture;
-  starfocus_region region = {};  // all 0: the whole picture
-  Config config;                 // timing and features for the shape; other fields have defaults
-  starfocus_lens lens = {};      // shape of the aperture; other fields have defaults
+  starfocus_region region = {};  // All 0: the whole picture.
+  Config config;                 // Timing and features for the shape; other fields have defaults.
+  starfocus_lens lens = {};      // Shape of the aperture; other fields have defaults.
 };
 
 // Checks --focus, --focus-at, the shape and the timing before a light field is read. The aperture

@@ -21,9 +21,9 @@ struct Series {
   starfocus_mode mode;
   starfocus_renderer renderer;
   int layer;
-  double r_max;      // r_max of the picture; 0 makes r_max equal to r
-  double increment;  // increment of r between measurements
-  int largest;       // largest r that is measured
+  double r_max;      // r_max of the picture; 0 makes r_max equal to r.
+  double increment;  // Increment of r between measurements.
+  int largest;       // Largest r that is measured.
 };
 
 const char* NameOf(starfocus_renderer renderer) {

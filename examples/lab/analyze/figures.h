@@ -16,9 +16,9 @@ Figure AnalyseTableOne();
 Figure AnalyseViewNumber();  // Fig. 6 and the thresholds of (9)
 
 // Functions whose names start with Draw do not print to stdout.
-Figure DrawViewPsfs();         // Fig. 4
-Figure DrawViewResponses();    // Fig. 5
-Figure DrawSubsampledBlurs();  // Fig. 8
+Figure DrawViewPsfs();         // Fig. 4.
+Figure DrawViewResponses();    // Fig. 5.
+Figure DrawSubsampledBlurs();  // Fig. 8.
 
 // Returns the table of N for subapertures, for blur radii up to `max_blur`.
 Figure AnalyseSubapertures(double max_blur);

@@ -14,8 +14,8 @@ namespace {
 
 starfocus_config MakeConfig(const LightField& light_field) {
   starfocus_config config = ConfigOf(light_field);
-  config.superblock = 256;                        // allocates scratch memory for blocks of any size
-  config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // allows apertures for every sampled N
+  config.superblock = 256;  // Allocates scratch memory for blocks of any size.
+  config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // Allows apertures for every sampled N.
   return config;
 }
 

@@ -16,9 +16,9 @@ namespace starfocus {
 
 // Common properties of the blocks in a group.
 struct BlockKind {
-  int side;   // size of the block in the picture, in pixels
-  int layer;  // layer L
-  int n;      // N; 0 at layers 1 and 2: any
+  int side;   // Size of the block in the picture, in pixels.
+  int layer;  // Layer L.
+  int n;      // N; 0 at layers 1 and 2: any.
 };
 
 struct BlockGroup {

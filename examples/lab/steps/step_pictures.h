@@ -20,14 +20,14 @@ struct StepLens {
 
 // Pictures of the size of the light field.
 struct StepPictures {
-  Image mean;      // mean of the captured views, shifted to the focus; independent of the aperture
-  Image slices;    // the centre view in grey, tinted by the slice of each pixel's nearest surface
-  Image hidden;    // the first hidden surface; elsewhere the centre view in grey
-  Image matte;     // share of the nearer surface in mixed pixels; elsewhere the dimmed centre view
-  Image coverage;  // coverage in thin structures, white: 1; elsewhere the dimmed centre view
-  Image view;      // the view from the rightmost point of the lens, shifted to the focus
-  Image holes;     // `view`, rendered from captured views whose pixels are all magenta
-  Image gathered;  // the refocused picture, with gathered cells tinted green
+  Image mean;      // Mean of the captured views, shifted to the focus; independent of the aperture.
+  Image slices;    // The centre view in grey, tinted by the slice of each pixel's nearest surface.
+  Image hidden;    // The first hidden surface; elsewhere the centre view in grey.
+  Image matte;     // Share of the nearer surface in mixed pixels; elsewhere the dimmed centre view.
+  Image coverage;  // Coverage in thin structures, white: 1; elsewhere the dimmed centre view.
+  Image view;      // The view from the rightmost point of the lens, shifted to the focus.
+  Image holes;     // `view`, rendered from captured views whose pixels are all magenta.
+  Image gathered;  // The refocused picture, with gathered cells tinted green.
 };
 
 // Draws all pictures. Errors start with `where`, the name of the light field.

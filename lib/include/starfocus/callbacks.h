@@ -54,12 +54,12 @@ typedef uint64_t (*starfocus_clock)(void);
 
 /** A block of a picture, which is refocused with its own layer and number of views. */
 typedef struct starfocus_block {
-  int32_t x;      /**< left column in the picture */
-  int32_t y;      /**< top row in the picture */
-  int32_t width;  /**< number of columns; may be less than `height` at the right edge */
-  int32_t height; /**< number of rows; may be less than `width` at the bottom edge */
-  int32_t layer;  /**< layer L: the block is rendered at 1 / 2^L of its size */
-  int32_t n; /**< N, the number of views along the aperture's radius; 0: only the centre view */
+  int32_t x;      /**< Left column in the picture. */
+  int32_t y;      /**< Top row in the picture. */
+  int32_t width;  /**< Number of columns; may be less than `height` at the right edge. */
+  int32_t height; /**< Number of rows; may be less than `width` at the bottom edge. */
+  int32_t layer;  /**< Layer L: the block is rendered at 1 / 2^L of its size. */
+  int32_t n; /**< N, the number of views along the aperture's radius; 0: only the centre view. */
 } starfocus_block;
 
 /** Receives each block before the block is refocused. The engine calls this function on the thread
@@ -70,13 +70,13 @@ typedef void (*starfocus_block_visitor)(void* data, const starfocus_block* block
 
 /** Callbacks of an engine. Each function may be null. */
 typedef struct starfocus_callbacks {
-  starfocus_runner runner;     /**< runs jobs; null: the calling thread runs them as worker 0 */
-  void* runner_data;           /**< passed to `runner` */
-  starfocus_progress progress; /**< receives finished rows of the picture, region or preview */
-  void* progress_data;         /**< passed to `progress` */
-  starfocus_clock clock; /**< clock for the times in starfocus_report; if null, the times are 0 */
-  starfocus_block_visitor on_block; /**< receives each block before the block is refocused */
-  void* on_block_data;              /**< passed to `on_block` */
+  starfocus_runner runner;     /**< Runs jobs; null: the calling thread runs them as worker 0. */
+  void* runner_data;           /**< Passed to `runner`. */
+  starfocus_progress progress; /**< Receives finished rows of the picture, region or preview. */
+  void* progress_data;         /**< Passed to `progress`. */
+  starfocus_clock clock; /**< Clock for the times in starfocus_report; if null, the times are 0. */
+  starfocus_block_visitor on_block; /**< Receives each block before the block is refocused. */
+  void* on_block_data;              /**< Passed to `on_block`. */
 } starfocus_callbacks;
 
 #ifdef __cplusplus

@@ -46,39 +46,39 @@ extern "C" {
 /** Configuration for estimating or repairing a disparity map. Call starfocus_depth_config_init
  *  first. */
 typedef struct starfocus_depth_config {
-  uint32_t size;  /**< size of the structure in bytes; set by starfocus_depth_config_init */
-  int32_t width;  /**< width of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
-  int32_t height; /**< height of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
-  int32_t views;  /**< number of views in the order of starfocus_view_position: 5, 9 or 17, or 1 for
-                     starfocus_repair_disparity; default 5 */
-  double disparity_min; /**< smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0 */
+  uint32_t size;  /**< Size of the structure in bytes; set by starfocus_depth_config_init. */
+  int32_t width;  /**< Width of the views in pixels, [1, STARFOCUS_MAX_SIZE]. */
+  int32_t height; /**< Height of the views in pixels, [1, STARFOCUS_MAX_SIZE]. */
+  int32_t views;  /**< Number of views in the order of starfocus_view_position: 5, 9 or 17, or 1 for
+                     starfocus_repair_disparity; default 5. */
+  double disparity_min; /**< Smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. */
   /** Largest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. The disparity range is
    *  searched in steps of half a pixel. In a disparity range wider than 64 pixels, the steps are
    *  one pixel or more. The number of steps is at most 128. Disparities between two steps are
    *  interpolated. */
   double disparity_max;
-  int32_t max_workers;     /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
-  starfocus_runner runner; /**< runs jobs; default null: the calling thread runs them */
-  void* runner_data;       /**< passed to `runner` */
+  int32_t max_workers;     /**< Number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1. */
+  starfocus_runner runner; /**< Runs jobs; default null: the calling thread runs them. */
+  void* runner_data;       /**< Passed to `runner`. */
   /** Receives finished rows of the map after each tile, which takes up to 50 ms; default null.
    * After STARFOCUS_ERROR_CANCELLED the outputs and the workspace are unspecified. */
   starfocus_progress progress;
-  void* progress_data;        /**< passed to `progress` */
-  starfocus_problem* problem; /**< receives the cause of an error of a call; default null */
+  void* progress_data;        /**< Passed to `progress`. */
+  starfocus_problem* problem; /**< Receives the cause of an error of a call; default null. */
 } starfocus_depth_config;
 
 /** Output planes of an estimate or repair of a disparity map. The planes must not overlap the
  *  views, the given map, the workspace or each other. */
 typedef struct starfocus_disparity_output {
-  float* disparity;         /**< disparities, aligned to 4 bytes */
-  size_t disparity_stride;  /**< bytes from row to row, >= 4 * width, a multiple of 4 */
-  uint8_t* confidence;      /**< confidence of each disparity; 0: no confidence; may be null */
-  size_t confidence_stride; /**< bytes from row to row, >= width */
+  float* disparity;         /**< Disparities, aligned to 4 bytes. */
+  size_t disparity_stride;  /**< Bytes from row to row, >= 4 * width, a multiple of 4. */
+  uint8_t* confidence;      /**< Confidence of each disparity; 0: no confidence; may be null. */
+  size_t confidence_stride; /**< Bytes from row to row, >= width. */
   uint8_t* coverage; /**< starfocus_repair_disparity of one view: receives the coverage of hair, for
-                        starfocus_light_field.coverage; may be null */
-  size_t coverage_stride; /**< bytes from row to row, >= width */
-  int32_t has_coverage; /**< set by the call: 1 if `coverage` contains coverage that belongs to the
-                           map; 0 if `coverage` is unspecified */
+                        starfocus_light_field.coverage; may be null. */
+  size_t coverage_stride; /**< Bytes from row to row, >= width. */
+  int32_t has_coverage; /**< Set by the call: 1 if `coverage` contains coverage that belongs to the
+                           map; 0 if `coverage` is unspecified. */
 } starfocus_disparity_output;
 
 /** Sets the first `size` bytes of a configuration to the defaults. This function is for bindings;

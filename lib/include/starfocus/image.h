@@ -27,29 +27,29 @@ extern "C" {
  *  up. A chroma sample belongs to 2 x 2 pixels, or to fewer pixels at the right and bottom edges of
  *  pictures of odd size. */
 typedef enum starfocus_format {
-  STARFOCUS_FORMAT_RGB = 0,        /**< planes[0]: R, G, B */
-  STARFOCUS_FORMAT_BGR = 1,        /**< planes[0]: B, G, R */
-  STARFOCUS_FORMAT_RGBX = 2,       /**< planes[0]: R, G, B, alpha; alpha is copied to the output */
-  STARFOCUS_FORMAT_BGRX = 3,       /**< planes[0]: B, G, R, alpha; alpha is copied to the output */
-  STARFOCUS_FORMAT_NV12 = 4,       /**< planes[0]: Y; planes[1]: U, V */
-  STARFOCUS_FORMAT_NV21 = 5,       /**< planes[0]: Y; planes[1]: V, U */
-  STARFOCUS_FORMAT_I420 = 6,       /**< planes[0]: Y; planes[1]: U; planes[2]: V */
-  STARFOCUS_FORMAT_YUV_420_888 = 7 /**< as I420, with chroma samples 1 or 2 bytes apart
-                                        (pixel_stride), as Android's cameras store them */
+  STARFOCUS_FORMAT_RGB = 0,        /**< planes[0]: R, G, B. */
+  STARFOCUS_FORMAT_BGR = 1,        /**< planes[0]: B, G, R. */
+  STARFOCUS_FORMAT_RGBX = 2,       /**< planes[0]: R, G, B, alpha; alpha is copied to the output. */
+  STARFOCUS_FORMAT_BGRX = 3,       /**< planes[0]: B, G, R, alpha; alpha is copied to the output. */
+  STARFOCUS_FORMAT_NV12 = 4,       /**< planes[0]: Y; planes[1]: U, V. */
+  STARFOCUS_FORMAT_NV21 = 5,       /**< planes[0]: Y; planes[1]: V, U. */
+  STARFOCUS_FORMAT_I420 = 6,       /**< planes[0]: Y; planes[1]: U; planes[2]: V. */
+  STARFOCUS_FORMAT_YUV_420_888 = 7 /**< As I420, with chroma samples 1 or 2 bytes apart
+                                        (pixel_stride), as Android's cameras store them. */
 } starfocus_format;
 
 /** Matrix of YUV formats. With Kr, Kb = 0.299, 0.114 (BT.601) or 0.2126, 0.0722 (BT.709), and
  *  Kg = 1 - Kr - Kb: Y' = Kr R + Kg G + Kb B, U' = (B - Y') / (2 - 2 Kb),
  *  V' = (R - Y') / (2 - 2 Kr). */
 typedef enum starfocus_matrix {
-  STARFOCUS_MATRIX_BT601 = 0, /**< ITU-R BT.601; libyuv's I420 (limited range) and J420 (full) */
-  STARFOCUS_MATRIX_BT709 = 1  /**< ITU-R BT.709; libyuv's H420 (limited range) and F420 (full) */
+  STARFOCUS_MATRIX_BT601 = 0, /**< ITU-R BT.601; libyuv's I420 (limited range) and J420 (full). */
+  STARFOCUS_MATRIX_BT709 = 1  /**< ITU-R BT.709; libyuv's H420 (limited range) and F420 (full). */
 } starfocus_matrix;
 
 /** Range of the codes of YUV formats. */
 typedef enum starfocus_range {
-  STARFOCUS_RANGE_LIMITED = 0, /**< Y = 16 + 219 / 255 Y'; U, V = 128 + 224 / 255 U', V' */
-  STARFOCUS_RANGE_FULL = 1     /**< Y = Y'; U, V = 128 + U', V', as in JPEG and Android's cameras */
+  STARFOCUS_RANGE_LIMITED = 0, /**< Y = 16 + 219 / 255 Y'; U, V = 128 + 224 / 255 U', V'. */
+  STARFOCUS_RANGE_FULL = 1 /**< Y = Y'; U, V = 128 + U', V', as in JPEG and Android's cameras. */
 } starfocus_range;
 
 /** A picture. API calls never write to the pictures of a light field, and write only the pixels of
@@ -74,24 +74,25 @@ typedef enum starfocus_range {
  *    u_b = [h], u_r = [-h Kr / (1 - Kb)], u_g = -u_r - u_b. V likewise with v_r = [h],
  *    v_b = [-h Kb / (1 - Kr)], v_g = -v_r - v_b. */
 typedef struct starfocus_image {
-  int32_t format; /**< starfocus_format */
-  int32_t matrix; /**< starfocus_matrix; ignored for RGB formats */
-  int32_t range;  /**< starfocus_range; ignored for RGB formats */
+  int32_t format; /**< starfocus_format. */
+  int32_t matrix; /**< starfocus_matrix; ignored for RGB formats. */
+  int32_t range;  /**< starfocus_range; ignored for RGB formats. */
   /** Bytes from pixel to pixel of an RGB format: at least 3, or 4 with alpha, and at most
    *  STARFOCUS_MAX_PIXEL_STRIDE. For YUV_420_888, bytes from chroma sample to chroma sample, 1 or
    *  2. The value 0 selects the smallest value that the format allows. YUV formats other than
    *  YUV_420_888 accept only their smallest value. */
   int32_t pixel_stride;
-  void* planes[3]; /**< first byte of each plane; planes that the format does not use are ignored */
-  size_t strides[3]; /**< bytes from row to row of each plane, at least one row */
+  void*
+      planes[3]; /**< First byte of each plane; planes that the format does not use are ignored. */
+  size_t strides[3]; /**< Bytes from row to row of each plane, at least one row. */
 } starfocus_image;
 
 /** Type of the values of a depth map. */
 typedef enum starfocus_depth_type {
-  STARFOCUS_DEPTH_FLOAT = 0, /**< 32-bit IEEE float */
-  STARFOCUS_DEPTH_U16 = 1,   /**< 16-bit unsigned integer */
-  STARFOCUS_DEPTH_U8 = 2,    /**< 8-bit unsigned integer */
-  STARFOCUS_DEPTH_HALF = 3   /**< 16-bit IEEE float */
+  STARFOCUS_DEPTH_FLOAT = 0, /**< 32-bit IEEE float. */
+  STARFOCUS_DEPTH_U16 = 1,   /**< 16-bit unsigned integer. */
+  STARFOCUS_DEPTH_U8 = 2,    /**< 8-bit unsigned integer. */
+  STARFOCUS_DEPTH_HALF = 3   /**< 16-bit IEEE float. */
 } starfocus_depth_type;
 
 /** Conversion of a value z of a depth map to a disparity. */
@@ -120,16 +121,16 @@ typedef enum starfocus_depth_meaning {
  * |D1 - D0| > 96, the result is D0 for s < 128 and D1 for s >= 128. An unknown value is never
  * interpolated. */
 typedef struct starfocus_depth_map {
-  const void* data; /**< first value, aligned to its type */
-  size_t stride;    /**< bytes from row to row, at least one row, a multiple of the type's size */
-  int32_t width;    /**< [1, width of the picture] */
-  int32_t height;   /**< [1, height of the picture] */
-  int32_t type;     /**< starfocus_depth_type */
-  int32_t meaning;  /**< starfocus_depth_meaning */
-  double scale;     /**< finite and not 0; rounded to float; 1 for disparities */
-  double offset;    /**< finite; rounded to float */
-  double invalid;   /**< value z of unknown depth, rounded to float; used if has_invalid is 1 */
-  int32_t has_invalid; /**< 1: values equal to `invalid` are unknown; 0: `invalid` is ignored */
+  const void* data; /**< First value, aligned to its type. */
+  size_t stride;    /**< Bytes from row to row, at least one row, a multiple of the type's size. */
+  int32_t width;    /**< [1, width of the picture]. */
+  int32_t height;   /**< [1, height of the picture]. */
+  int32_t type;     /**< starfocus_depth_type. */
+  int32_t meaning;  /**< starfocus_depth_meaning. */
+  double scale;     /**< Finite and not 0; rounded to float; 1 for disparities. */
+  double offset;    /**< finite; rounded to float. */
+  double invalid;   /**< Value z of unknown depth, rounded to float; used if has_invalid is 1. */
+  int32_t has_invalid; /**< 1: values equal to `invalid` are unknown; 0: `invalid` is ignored. */
 } starfocus_depth_map;
 
 /** Describes a packed RGB picture.

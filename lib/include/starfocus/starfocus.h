@@ -157,8 +157,8 @@ STARFOCUS_API size_t starfocus_struct_size(const char* name);
 
 /** Position of a captured view in units of u. */
 typedef struct starfocus_position {
-  double u; /**< distance to the right of the centre view, [-1, 1] */
-  double v; /**< distance below the centre view, [-1, 1] */
+  double u; /**< Distance to the right of the centre view, [-1, 1]. */
+  double v; /**< Distance below the centre view, [-1, 1]. */
 } starfocus_position;
 
 /** Relation between the codes 0 to 255 of a picture and light. A lens adds light, so the engine
@@ -174,10 +174,10 @@ typedef enum starfocus_transfer {
 
 /** Configuration of an engine. Call starfocus_config_init first. */
 typedef struct starfocus_config {
-  uint32_t size;  /**< size of the structure in bytes; set by starfocus_config_init */
-  int32_t width;  /**< width of the views in pixels, [1, STARFOCUS_MAX_SIZE] */
-  int32_t height; /**< height of the views in pixels, [1, STARFOCUS_MAX_SIZE]; the size of the
-                       workspace does not depend on the height */
+  uint32_t size;  /**< Size of the structure in bytes; set by starfocus_config_init. */
+  int32_t width;  /**< Width of the views in pixels, [1, STARFOCUS_MAX_SIZE]. */
+  int32_t height; /**< Height of the views in pixels, [1, STARFOCUS_MAX_SIZE]; the size of the
+                       workspace does not depend on the height. */
   /** Number of captured views. Without `positions`: 1, 5, 9 or 17, in the order of
    *  starfocus_view_position. With `positions`: 1 to STARFOCUS_MAX_VIEWS. Default 5. */
   int32_t views;
@@ -335,10 +335,10 @@ typedef enum starfocus_renderer {
 /** A rectangle inside the picture, in pixels. If all fields are 0, the region is the whole
  *  picture. */
 typedef struct starfocus_region {
-  int32_t x;      /**< left column, >= 0 */
-  int32_t y;      /**< top row, >= 0 */
-  int32_t width;  /**< number of columns, >= 1 */
-  int32_t height; /**< number of rows, >= 1 */
+  int32_t x;      /**< Left column, >= 0. */
+  int32_t y;      /**< Top row, >= 0. */
+  int32_t width;  /**< Number of columns, >= 1. */
+  int32_t height; /**< Number of rows, >= 1. */
 } starfocus_region;
 
 /** A light field. All views have the configured size, but their formats may differ. */
@@ -361,16 +361,16 @@ typedef struct starfocus_light_field {
  *  field `previous`. The engine does not check this condition. Where the light field did not
  *  change, the engine copies pixels of the previous picture. */
 typedef struct starfocus_previous {
-  starfocus_light_field light_field; /**< light field of the previous frame */
-  starfocus_image out; /**< picture or region that starfocus_refocus wrote for `light_field` */
+  starfocus_light_field light_field; /**< Light field of the previous frame. */
+  starfocus_image out; /**< Picture or region that starfocus_refocus wrote for `light_field`. */
 } starfocus_previous;
 
 /** Parameters of one refocusing. Call starfocus_params_init first. */
 typedef struct starfocus_params {
-  uint32_t size;    /**< size of the structure in bytes; set by starfocus_params_init */
-  int32_t mode;     /**< starfocus_mode; default STARFOCUS_MODE_BLOCK */
+  uint32_t size;    /**< Size of the structure in bytes; set by starfocus_params_init. */
+  int32_t mode;     /**< starfocus_mode; default STARFOCUS_MODE_BLOCK. */
   int32_t renderer; /**< starfocus_renderer; default STARFOCUS_RENDERER_AUTO. Ignored by
-                         STARFOCUS_MODE_BLUR */
+                         STARFOCUS_MODE_BLUR. */
   /** Part of the picture to compute. All fields are 0 by default, which streams require. */
   starfocus_region region;
   starfocus_lens lens; /**< the lens; see starfocus_lens for its defaults */
@@ -397,31 +397,31 @@ static inline void starfocus_params_init(starfocus_params* params) {
 
 /** Statistics of the blocks of one layer. */
 typedef struct starfocus_layer_report {
-  uint64_t blocks; /**< number of blocks */
-  uint64_t pixels; /**< number of pixels of the picture that the blocks cover */
-  uint64_t views;  /**< number of rendered views, summed over the blocks; a block that is copied or
-                      gathered as a whole counts as 1 */
-  uint64_t rendered_samples; /**< R, G and B samples rendered in all views and slices */
-  uint64_t predicted_ps;     /**< time predicted by starfocus_timing, picoseconds */
-  uint64_t measured_ns; /**< time measured by starfocus_callbacks.clock, summed over the workers,
-                             nanoseconds; 0 without a clock */
+  uint64_t blocks; /**< Number of blocks. */
+  uint64_t pixels; /**< Number of pixels of the picture that the blocks cover. */
+  uint64_t views;  /**< Number of rendered views, summed over the blocks; a block that is copied or
+                      gathered as a whole counts as 1. */
+  uint64_t rendered_samples; /**< R, G and B samples rendered in all views and slices. */
+  uint64_t predicted_ps;     /**< Time predicted by starfocus_timing, picoseconds. */
+  uint64_t measured_ns; /**< Time measured by starfocus_callbacks.clock, summed over the workers,
+                             nanoseconds; 0 without a clock. */
 } starfocus_layer_report;
 
 /** Statistics of a refocusing. */
 typedef struct starfocus_report {
-  double r_max; /**< largest blur radius that the disparity range allows, pixels */
+  double r_max; /**< Largest blur radius that the disparity range allows, pixels. */
   int32_t n;    /**< N, the number of views along the radius of the aperture; the largest N of all
-                   blocks */
-  int32_t rendered_views;    /**< number of rendered views in the aperture if N is `n` */
-  int32_t superblock;        /**< side of the superblocks, pixels */
-  uint64_t rendered_samples; /**< R, G and B samples rendered in all views and layers */
+                   blocks. */
+  int32_t rendered_views;    /**< Number of rendered views in the aperture if N is `n`. */
+  int32_t superblock;        /**< Side of the superblocks, pixels. */
+  uint64_t rendered_samples; /**< R, G and B samples rendered in all views and layers. */
   /** Statistics of each layer. Frame modes use only layer 0. */
   starfocus_layer_report layers[STARFOCUS_LAYERS];
-  uint64_t copied_pixels;   /**< pixels copied from the centre view because no view moves them */
-  uint64_t gathered_pixels; /**< pixels blurred without views (starfocus_tuning.gather) */
-  uint64_t reused_blocks;   /**< superblocks copied from starfocus_params.previous */
-  uint64_t unknown_pixels;  /**< number of disparities that STARFOCUS_FEATURE_FILL_UNKNOWN filled in
-                               the rows that were read; 0 for prepared light fields */
+  uint64_t copied_pixels;   /**< Pixels copied from the centre view because no view moves them. */
+  uint64_t gathered_pixels; /**< Pixels blurred without views (starfocus_tuning.gather). */
+  uint64_t reused_blocks;   /**< Superblocks copied from starfocus_params.previous. */
+  uint64_t unknown_pixels;  /**< Number of disparities that STARFOCUS_FEATURE_FILL_UNKNOWN filled in
+                               the rows that were read; 0 for prepared light fields. */
 } starfocus_report;
 
 /** Refocuses a light field. A refocused region is equal, byte for byte, to the corresponding part
@@ -553,9 +553,9 @@ STARFOCUS_API starfocus_status starfocus_stream_pull(starfocus_engine* engine,
 
 /** Range of a disparity map. */
 typedef struct starfocus_disparity_stats {
-  double min;      /**< smallest finite value; 0 if no value is finite */
-  double max;      /**< largest finite value; 0 if no value is finite */
-  int64_t invalid; /**< number of values that are NaN or infinite */
+  double min;      /**< Smallest finite value; 0 if no value is finite. */
+  double max;      /**< Largest finite value; 0 if no value is finite. */
+  int64_t invalid; /**< Number of values that are NaN or infinite. */
 } starfocus_disparity_stats;
 
 /** Measures the range of a disparity map.

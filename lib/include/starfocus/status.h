@@ -19,40 +19,40 @@ extern "C" {
 
 /** Status that an API call returns. */
 typedef enum starfocus_status {
-  STARFOCUS_OK = 0,               /**< success */
-  STARFOCUS_ERROR_NULL = 1,       /**< a required pointer is null */
-  STARFOCUS_ERROR_STRUCTURE = 2,  /**< a structure was not initialized by its init function */
-  STARFOCUS_ERROR_RANGE = 3,      /**< a field or an argument is out of range */
-  STARFOCUS_ERROR_FEATURE = 4,    /**< the engine lacks a required feature or view */
-  STARFOCUS_ERROR_STATE = 5,      /**< no stream was begun, or coverage is missing in some rows */
-  STARFOCUS_ERROR_WORKSPACE = 6,  /**< the given memory is too small or not aligned */
-  STARFOCUS_ERROR_TOO_LARGE = 7,  /**< the configuration requires more memory than is addressable */
-  STARFOCUS_ERROR_MEMORY = 8,     /**< memory could not be allocated */
-  STARFOCUS_ERROR_STRIDE = 9,     /**< a stride is smaller than a row, or not aligned */
-  STARFOCUS_ERROR_OVERLAP = 10,   /**< an output overlaps an input or the workspace */
-  STARFOCUS_ERROR_BLUR = 11,      /**< aperture * |d - focus| exceeds max_blur for disparity_min or
-                                       disparity_max */
-  STARFOCUS_ERROR_DISPARITY = 12, /**< a disparity is outside the configured range */
-  STARFOCUS_ERROR_NOT_FINITE = 13,  /**< a disparity is NaN or infinite */
-  STARFOCUS_ERROR_ALL_INVALID = 14, /**< the disparity map has no finite value */
-  STARFOCUS_ERROR_PREPARED = 15,    /**< the prepared light field has another configuration */
-  STARFOCUS_ERROR_RUNNER = 16,      /**< the runner failed or misused its jobs; the output is
-                                         incomplete */
-  STARFOCUS_ERROR_CANCELLED = 17    /**< the progress callback cancelled the call; the output is
-                                         incomplete */
+  STARFOCUS_OK = 0,              /**< Success. */
+  STARFOCUS_ERROR_NULL = 1,      /**< A required pointer is null. */
+  STARFOCUS_ERROR_STRUCTURE = 2, /**< A structure was not initialized by its init function. */
+  STARFOCUS_ERROR_RANGE = 3,     /**< A field or an argument is out of range. */
+  STARFOCUS_ERROR_FEATURE = 4,   /**< The engine lacks a required feature or view. */
+  STARFOCUS_ERROR_STATE = 5,     /**< No stream was begun, or coverage is missing in some rows. */
+  STARFOCUS_ERROR_WORKSPACE = 6, /**< The given memory is too small or not aligned. */
+  STARFOCUS_ERROR_TOO_LARGE = 7, /**< The configuration requires more memory than is addressable. */
+  STARFOCUS_ERROR_MEMORY = 8,    /**< Memory could not be allocated. */
+  STARFOCUS_ERROR_STRIDE = 9,    /**< A stride is smaller than a row, or not aligned. */
+  STARFOCUS_ERROR_OVERLAP = 10,  /**< An output overlaps an input or the workspace. */
+  STARFOCUS_ERROR_BLUR = 11,     /**< Aperture * |d - focus| exceeds max_blur for disparity_min or
+                                      disparity_max. */
+  STARFOCUS_ERROR_DISPARITY = 12,   /**< A disparity is outside the configured range. */
+  STARFOCUS_ERROR_NOT_FINITE = 13,  /**< A disparity is NaN or infinite. */
+  STARFOCUS_ERROR_ALL_INVALID = 14, /**< The disparity map has no finite value. */
+  STARFOCUS_ERROR_PREPARED = 15,    /**< The prepared light field has another configuration. */
+  STARFOCUS_ERROR_RUNNER = 16,      /**< The runner failed or misused its jobs; the output is
+                                         incomplete. */
+  STARFOCUS_ERROR_CANCELLED = 17    /**< The progress callback cancelled the call; the output is
+                                         incomplete. */
 } starfocus_status;
 
 /** The cause of an error. The strings `field` and `expected` are in static storage and never
  *  null. */
 typedef struct starfocus_problem {
-  int32_t status;    /**< starfocus_status that the call returned */
-  int32_t index;     /**< index of the array element, if `field` contains []; otherwise 0 */
-  const char* field; /**< wrong field or argument, for example "width" or "views[].strides"; "" if
-                        no single field is wrong */
-  const char* expected; /**< allowed values in words, for example "1 to 65535" */
-  double value;         /**< value that was given; NaN if unknown */
-  double low;           /**< smallest allowed value; NaN if there is no range */
-  double high;          /**< largest allowed value; NaN if there is no range */
+  int32_t status;    /**< starfocus_status that the call returned. */
+  int32_t index;     /**< Index of the array element, if `field` contains []; otherwise 0. */
+  const char* field; /**< Wrong field or argument, for example "width" or "views[].strides"; "" if
+                        no single field is wrong. */
+  const char* expected; /**< Allowed values in words, for example "1 to 65535". */
+  double value;         /**< Value that was given; NaN if unknown. */
+  double low;           /**< Smallest allowed value; NaN if there is no range. */
+  double high;          /**< Largest allowed value; NaN if there is no range. */
 } starfocus_problem;
 
 /** Describes a status.
