@@ -196,7 +196,7 @@ TEST_CASE("steps: only cells away from edges are marked as gathered in the refoc
   ForSquare([&](int x, int y) {
     if (Distance(At(gathered, x, y), At(plain, x, y)) == 0) return;
     ++marked;
-    CHECK(At(gathered, x, y)[1] > At(gathered, x, y)[0]);
+    CHECK(At(gathered, x, y)[2] > At(gathered, x, y)[1]);
     const bool beside = y >= kTop && y < kBottom;
     for (const int edge : {kLeft, kRight - 1}) CHECK((!beside || std::abs(x - edge) > 7));
   });

@@ -13,7 +13,7 @@
 namespace starfocus {
 namespace {
 
-constexpr uint8_t kGreen[3] = {40, 190, 70}, kMagenta[3] = {255, 0, 255};
+constexpr uint8_t kViolet[3] = {230, 40, 200}, kMagenta[3] = {255, 0, 255};
 
 // Draws the block that the engine has just added to the plan of the current stripe.
 struct BlockVisit {
@@ -88,7 +88,7 @@ class StepRun {
 // Tints the pixels of `picture` that are white in `mask`.
 void TintMarked(const Image& mask, Image* picture) {
   for (size_t k = 0; k < mask.pixels.size(); k += 3) {
-    if (mask.pixels[k] == 255) Tint(kGreen, 45, &picture->pixels[k]);
+    if (mask.pixels[k] == 255) Tint(kViolet, 45, &picture->pixels[k]);
   }
 }
 

@@ -27,7 +27,7 @@ struct StepPictures {
   Image coverage;  // Coverage in thin structures, white: 1; elsewhere the dimmed centre view.
   Image view;      // The view from the rightmost point of the lens, shifted to the focus.
   Image holes;     // `view`, rendered from captured views whose pixels are all magenta.
-  Image gathered;  // The refocused picture, with gathered cells tinted green.
+  Image gathered;  // The refocused picture, with gathered cells tinted violet.
 };
 
 // Draws all pictures. Errors start with `where`, the name of the light field.
