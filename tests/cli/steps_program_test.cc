@@ -145,6 +145,16 @@ TEST_CASE("steps: hidden surfaces show the far plane behind edges only") {
   }
 }
 
+TEST_CASE("steps: a slanted surface without edges hides no surface") {
+  TempFolder folder;
+  Succeed(folder, "scene lf --name ramp --size 96x72 --views 5");
+  Succeed(folder, "steps lf -o steps --focus 0");
+  const Image hidden = ValueOf(ReadImage(folder.file("steps/hidden.png")));
+  for (int y = 0; y < 72; ++y) {
+    for (int x = 0; x < 96; ++x) CHECK(IsGrey(At(hidden, x, y)));
+  }
+}
+
 TEST_CASE("steps: the matte shows the share of the nearer surface in mixed pixels") {
   const Steps steps;
   const Image matte = steps.Picture("matte");
