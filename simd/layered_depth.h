@@ -23,25 +23,26 @@ inline constexpr int16_t kSliceWhole = 1 << kSliceBits;
 inline constexpr uint8_t kSliceEnd = 255;
 
 // A step of disparity of more than `step` from one pixel to the next is a depth edge. A depth edge
-// hides a part of the background from the centre view. A side view sees one more pixel of the
-// hidden part for each 2^unit_bits of the step.
+// hides a part of the background from the centre view. For each 2^unit_bits of the disparity step,
+// a side view reveals one more pixel of the hidden background.
 struct EdgeLimits {
   int16_t step;
   int unit_bits;  // [6, 8]
 };
 
-// Returns the largest distance, in units of disparity, from a pixel to the pixel before an edge.
-// The far side of the edge is one pixel farther away, and distances in pixels must fit in a byte. A
-// distance above this maximum means that there is no edge. The result is less than INT16_MAX, so
-// that a saturated distance means that there is no edge.
+// Returns the largest supported distance, in units of disparity, between a pixel and the last pixel
+// before a depth edge. The far side of a depth edge is one pixel beyond the last pixel before the
+// edge, and distances in pixels must fit in a byte. A pixel whose distance to a depth edge exceeds
+// the returned value counts as a pixel without an edge. The returned value is less than INT16_MAX,
+// because a saturated distance must mean that there is no edge.
 constexpr int16_t FarthestEdge(int unit_bits) {
   const int32_t units = int32_t{254} << unit_bits;
   return static_cast<int16_t>(units < INT16_MAX ? units : INT16_MAX - 1);
 }
 
-// A step of at most 2^-kSmallStepBits of the depth that the pixel already hides is not an edge.
-// Disparity maps computed by neural networks are uneven, and the background behind an outline must
-// extend behind the whole surface.
+// A step in disparity is not a depth edge if it is at most 2^-kSmallStepBits of the depth range
+// already hidden by the pixel. Disparity maps computed by neural networks are uneven, and the
+// background behind an outline must extend behind the whole surface.
 inline constexpr int kSmallStepBits = 3;
 
 // Rows that one call of FindEdges reads and writes.
@@ -51,31 +52,33 @@ struct EdgeRows {
   uint8_t* distance;
 };
 
-// Range of the steps of disparity that may open a gap within a surface, because the slices on both
-// sides of a step move apart.
+// Range of the differences in disparity between adjacent pixels of one surface that may open a gap,
+// because adjacent slices move by different distances.
 struct CopyLimits {
   int16_t least, most;  // > 0
 };
 
 // Depth edges between each of kSliceLanes pixels of a row and the next pixel. Bit k of `falls` is
-// set if pixel k is nearer than the next pixel by more than the step. Bit k of `rises` is set if
-// the next pixel is nearer than pixel k by more than the step.
+// set if pixel k is nearer to the camera than pixel k + 1, and a depth edge lies between both
+// pixels. Bit k of `rises` is set if pixel k + 1 is nearer to the camera than pixel k, and a depth
+// edge lies between both pixels.
 struct StepBits {
   uint16_t falls, rises;
 };
 
-// A captured view that looks behind edges. The pixels that may occlude a hidden pixel in this view
-// lie on a line that starts at the hidden pixel. Pixel m of the line is m pixels away towards
-// `side`. At right angles to this direction, pixel m is shifted by m slant 2^-kSlantBits pixels,
-// rounded half up, to the right or to the bottom.
+// Direction of a captured view in which background pixels behind depth edges are visible. The
+// pixels that may occlude a hidden pixel in this view lie on a line that starts at the hidden
+// pixel. Pixel m of the line is m pixels away towards `side`. Perpendicular to `side`, pixel m is
+// shifted to the right or to the bottom by m slant 2^-kSlantBits pixels, rounded half up.
 struct ViewLook {
-  int16_t unit;   // Disparity that moves a pixel of the view by one pixel; 0 if there is no view.
-  int8_t side;    // Right, left, bottom, top.
-  int16_t slant;  // In [-2^kSlantBits, 2^kSlantBits]; 0 for lines along rows or columns.
+  int16_t unit;  // Disparity that moves a pixel of the view by one pixel; 0 if there is no view.
+  int8_t side;   // Side of the view, in the order right, left, bottom, top.
+  // Slope of the line, in [-2^kSlantBits, 2^kSlantBits]; 0 for lines along rows or columns.
+  int16_t slant;
 };
 inline constexpr int kSlantBits = 14;
-// Largest value of ViewLook::unit. Views with a larger unit, which are nearer to the centre view,
-// are not used.
+// Largest value of ViewLook::unit. Views whose ViewLook::unit exceeds this constant are too close
+// to the centre view and are not used.
 inline constexpr int16_t kMostUnit = 1 << 10;
 // Number of views per side. LookBehind tries the views of a side in order.
 inline constexpr int kViewLooks = 2;
@@ -150,11 +153,12 @@ void FindSteps(const int16_t* row, size_t count, int16_t step, StepBits* steps);
 void BesideSteps(const int16_t* row, ptrdiff_t stride, size_t count, int16_t step,
                  uint16_t* beside);
 
-// Finds the copies of pixels that continue a surface behind the pixels. The candidates for pixel n
-// < count are the disparities of its four neighbours that are lower than the pixel's disparity by
-// `least` to `most`. Element copies[n] is the lowest candidate, or kNoSurface if there is no
-// candidate. Rows are `stride` samples apart. Whole groups of kSliceLanes are written. In the
-// result, bit c is set if group c has copies. A row has at most 64 groups.
+// For each pixel, finds the disparity of a copy that continues the pixel's surface behind the
+// pixel. The candidates for pixel n < count are the disparities of its four neighbours that are
+// lower than the pixel's disparity by `least` to `most`. Element copies[n] is the lowest candidate,
+// or kNoSurface if there is no candidate. Rows are `stride` samples apart. Whole groups of
+// kSliceLanes are written. In the result, bit c is set if group c has copies. A row has at most 64
+// groups.
 uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const CopyLimits& limits,
                     int16_t* copies);
 
@@ -165,8 +169,8 @@ uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const Co
 // its depth behind the pixel.
 //
 // The first hidden surface is the candidate with the lowest rank. If two candidates have equal
-// rank, the nearer candidate is chosen. The second hidden surface is chosen by the rule of the
-// first, from the candidates that differ from the first hidden surface by more than 2^unit_bits.
+// rank, the nearer candidate is chosen. The second hidden surface is the lowest-ranked candidate
+// whose disparity differs from the first hidden surface by more than 2^unit_bits.
 //
 // A view shows a hidden surface behind a pixel if no pixel on the line of the ViewLook covers the
 // hidden surface. A pixel of the line covers the surface if two conditions hold. First, the pixel

@@ -48,7 +48,7 @@ inline constexpr size_t kEncodeChunk = 64, kEncodeSpare = kPadding / sizeof(int1
 // load of a whole vector.
 inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const Encoding& encoding,
                         uint8_t* HWY_RESTRICT codes) {
-  // At most 8 lanes, because a cell of layer 1 is 12 samples wide.
+  // Vectors have at most 8 lanes, because a cell of layer 1 is only 12 samples wide.
   const hn::CappedTag<int16_t, 8> d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;

@@ -21,8 +21,8 @@ inline constexpr int kUnknownDifference = 48;
 // kHiddenDifference if another view sees the pixel, and kUnseenDifference if no view sees the
 // pixel.
 inline constexpr int kHiddenDifference = 18, kUnseenDifference = 27;
-// Number of hidden labels outside a view. Inside a view, the hidden labels of a pixel are always
-// the lowest labels, so that only their number is stored.
+// Number of hidden labels that is stored for pixels outside a view. Inside a view, the hidden
+// labels of a pixel are always the lowest labels, so it is enough to store their number.
 inline constexpr uint8_t kViewEnds = 255;
 // Factor between differences and costs. Costs are in [0, 240].
 inline constexpr int kCostScale = 4;

@@ -49,7 +49,8 @@ void LeastSide(const uint8_t* const* differences, size_t arms, size_t rings, siz
       if (arms == 8) side += arm[(k + 2) % arms];
       least = side < least ? side : least;
     }
-    // Factor that scales the sum over a side to a sum over six views.
+    // Factor that converts the sum over the two or three views of a side to the equivalent sum over
+    // six views.
     const int scale = arms == 4 ? 3 : 2;
     cost[n] = static_cast<uint8_t>((least * (rings == 1 ? scale : 1) * 171) >> 8);
   }

@@ -23,8 +23,9 @@ using reference::SurroundCells;
 
 #else
 
-// Gaps in pixels between a block and columns of cells. Lane k stands for column first + k; column 0
-// is `around` cells before the block. Lanes after the last column do not reach the block.
+// Widths, in pixels, of the gaps between a block and the columns of cells around the block. Lane k
+// stands for column first + k; column 0 is `around` cells before the block. Lanes after the last
+// column do not reach the block.
 struct ColumnGaps {
   ColumnGaps(int32_t around, int32_t first) {
     const LanesTag d16;
@@ -47,7 +48,7 @@ struct ColumnGaps {
   LanesVec needed;
 };
 
-// Collects the reach of cells onto a block, for a vector of columns of cells.
+// Finds how far the blur of cells extends towards a block, for a vector of columns of cells.
 class ColumnReach {
  public:
   ColumnReach(const CellPlanes& planes, int32_t around, const int16_t* margins, int32_t first)
@@ -151,9 +152,8 @@ inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t m
   }
 }
 
-// Returns the largest distance, in cells, at which a cell of a vector of cells may reach another
-// cell or be reached by another cell. `at` points to the first cell of the vector in the plane of
-// reaches.
+// Returns the largest reach, in cells, of the cells of a vector and of all cells up to `around`
+// cells away; limited to `around`. `at` points to the reach of the first cell of the vector.
 HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t around) {
   const LanesTag d16;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));

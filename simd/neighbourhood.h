@@ -63,14 +63,14 @@ namespace reference {
 
 // Finds the pixels that reach the block whose first cell is planes.cells. Cells up to `around`
 // cells away are examined. The margin of a layer in pixels is margins[layer]; margins[0] is 0, and
-// margins increase with the layer. In the borders of layers 1 and 2, all pixels of each cell that
-// reaches the margin count.
+// margins increase with the layer. For layers 1 and 2, `border` includes all pixels of every cell
+// whose blur reaches the margin of the layer.
 void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
                 BlockReach* reach);
 
 // Examines the surroundings of each of `count` cells of a row; planes.cells is the first cell. The
-// surroundings of a middle cell are the cells that its blur may show or that may hide the middle
-// cell.
+// surroundings of a middle cell are the cells that the middle cell's blur may reach, and the cells
+// that may hide the middle cell.
 //
 // Let d <= around be the distance of a cell from the middle cell, which is the larger of the
 // distances in columns and rows. The cell belongs to the surroundings if the kReachPlane of the

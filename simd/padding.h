@@ -9,8 +9,8 @@
 namespace starfocus::simd {
 
 // Number of bytes past the end of a source that kernels may read. Kernels read past the end because
-// they process whole vectors. Kernels may also add zero to kPadding bytes past the end of
-// accumulators. The contents of the padding do not affect results.
+// they process whole vectors. Kernels may also add zeros to the first kPadding bytes after the end
+// of accumulators. The contents of the padding do not affect results.
 inline constexpr size_t kPadding = 64;
 
 // Number of samples in a group. Kernels for surfaces, slices and cells process whole groups. If a

@@ -34,8 +34,8 @@ inline constexpr int kLargestJump = 400, kLeastJump = 128, kSimilarColours = 16;
 // paths that are not labels must be kNoLabel, even before AddPaths writes the paths. The element
 // before the first element of a path must be kNoLabel as well.
 struct PathRow {
-  const uint8_t* cost;  // costs, [0, 255]; elements that are not labels are arbitrary
-  // Paths of the previous pixels, [0, 1300]. May point into `path`, one pixel earlier.
+  const uint8_t* cost;  // Costs, [0, 255]; elements that are not labels are arbitrary.
+  // Paths of the previous pixels, [0, 1300]. `before` may point to the previous pixel of `path`.
   const int16_t* before;
   const int16_t* before_least;  // Smallest element of each path in `before`.
   const int16_t* jump;          // Cost of a jump to any other label, [kSlopeCost, 1000].

@@ -21,8 +21,8 @@ HWY_INLINE hn::Vec<PriorTag> WayFrom(const uint8_t* from, uint8_t way) {
   return hn::SaturatedAdd(hn::LoadU(d8, from), hn::Set(d8, way));
 }
 
-// If a diagonal neighbour is missing, a source with a lower cost replaces it, so that the
-// replacement has no effect.
+// If a diagonal neighbour is missing, an adjacent neighbour with a lower step cost takes its place,
+// which does not change the result.
 template <bool kBefore>
 HWY_INLINE void SpreadPriorOf(const PriorRow& row) {
   const PriorTag d8;

@@ -12,9 +12,9 @@
 
 namespace starfocus::simd {
 
-// Costs of the prior. A step to an adjacent pixel costs kBesideCost, and a step to a diagonally
-// adjacent pixel kDiagonalCost. If a label differs from the labels of all trusted pixels within 8
-// pixels, the prior of the label is kMostPrior.
+// Costs of steps between pixels, and the largest value of a prior. A step to an adjacent pixel
+// costs kBesideCost, and a step to a diagonally adjacent pixel kDiagonalCost. If a label differs
+// from the labels of all trusted pixels within 8 pixels, the prior of the label is kMostPrior.
 inline constexpr uint8_t kBesideCost = 3, kDiagonalCost = 4, kMostPrior = 24;
 
 // A row of `count` pixels. Each pixel has `places` elements, one per label; `places` is a multiple
@@ -29,9 +29,10 @@ struct PriorRow {
 
 namespace reference {
 
-// Lowers the priors of each pixel, in order. The sources are the previous pixel and the three
-// adjacent pixels in the previous row. A prior is limited to the prior of each source plus the cost
-// of the step from the source.
+// Reduces the priors of each pixel, one pixel after the other. Priors propagate to a pixel from the
+// previous pixel of the row and from the three adjacent pixels of the previous row. A pixel's prior
+// is at most the prior of each adjacent source pixel, plus the cost of the step from the source
+// pixel.
 void SpreadPrior(const PriorRow& row);
 
 // Adds prior[n] to cost[n] for n < count. Sums are limited to 255. `count` is a multiple of

@@ -10,8 +10,8 @@
 
 namespace starfocus::simd {
 
-// Samples of layers have kLayerBits fractional bits. The valid range is [0, kLayerWhite]. Filters
-// exceed the valid range by less than a fifth of white on either side.
+// Samples of layers have kLayerBits fractional bits. The valid range is [0, kLayerWhite]. Filtered
+// samples may lie outside the valid range by less than a fifth of white on either side.
 inline constexpr int kLayerBits = kLightBits - 1;
 inline constexpr int16_t kLayerWhite = 255 << kLayerBits;
 

@@ -22,7 +22,7 @@ inline constexpr size_t kRunLanes = 16;
 // the arrays are `stride` elements apart. `stride` is a multiple of kRunLanes and at least the
 // number of lines.
 struct RunMarks {
-  uint16_t* starts;  // bit q % 16 of starts[q / 16 * stride + k] is set if a run starts at q
+  uint16_t* starts;  // Bit q % 16 of starts[q / 16 * stride + k] is set if a run starts at q.
   // In the format of `starts`: a bit is set if a depth edge lies before position q.
   uint16_t* edges;
   int16_t* middles;  // middles[q * stride + k]: middle of the run up to position q (FindRuns)

@@ -24,7 +24,7 @@ struct GroupCover {
   HWY_INLINE void Add(hn::Mask<LanesTag> covered, hn::Mask<LanesTag> whole, size_t n,
                       size_t count) {
     const LanesTag d16;
-    if (n + hn::Lanes(d16) > count) {  // rare: only in the last group of a row
+    if (n + hn::Lanes(d16) > count) {  // This condition is only true in the last group of a row.
       const auto counted = hn::FirstN(d16, n < count ? count - n : 0);
       covered = hn::And(covered, counted);
       whole = hn::Or(whole, hn::Not(counted));
@@ -90,7 +90,8 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
   const auto next = LiesIn(row.disparity[1] + n, low, overlap);
   const auto last = LiesIn(row.disparity[2] + n, low, overlap);
   int16_t* HWY_RESTRICT to = target.out + n;
-  if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {  // true for most vectors
+  // Most vectors contain no pixel of the slice.
+  if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {
     StoreNothing(plane, to);
     cover.all = cover.all && n >= count;
     return;
@@ -104,12 +105,13 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
   const auto together = hn::Add(front, behind);
   cover.Add(hn::Ne(together, hn::Zero(d16)), hn::Eq(together, pixel), n, count);
   const auto whole = hn::Eq(front, pixel), shows = hn::Ne(behind, hn::Zero(d16));
-  // The weight of a whole pixel exceeds 16 bits. Products of whole pixels are therefore not used.
+  // The weight of a whole pixel exceeds 16 bits. The products of a share and a colour are therefore
+  // not used for pixels that one surface covers completely.
   const auto parts = hn::ShiftLeft<15 - kSliceBits>(hn::IfThenZeroElse(whole, front));
   for (size_t c = 0; c < 3; ++c) {
     const size_t at = c * row.plane + n;
-    // Colours of missing surfaces are uninitialised. These colours are masked rather than
-    // multiplied by zero, because valgrind would report the multiplication.
+    // Uninitialised colours of missing surfaces are masked rather than multiplied by zero, because
+    // valgrind would report the multiplication.
     const auto deepest = hn::IfThenElseZero(last, hn::LoadU(d16, row.rgb[2] + at));
     const auto hidden =
         hn::IfThenElseZero(shows, hn::IfThenElse(next, hn::LoadU(d16, row.rgb[1] + at), deepest));
@@ -131,7 +133,7 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
   uint64_t bit = 1;
   for (size_t strip = 0; strip < count; strip += kSliceLanes, bit <<= 1) {
     GroupCover group;
-    if ((row.hiding & bit) == 0) {  // true for most groups
+    if ((row.hiding & bit) == 0) {  // Most groups have one surface per pixel.
       for (size_t n = strip; n < strip + kSliceLanes; n += lanes) {
         SelectFirst(row, range, n, target, group);
       }

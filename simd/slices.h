@@ -24,7 +24,8 @@ inline constexpr int16_t kSliceOne = 32767;
 struct SurfaceRow {
   const int16_t* disparity[kSurfaces];
   const int16_t* rgb[kSurfaces];  // Light in three planes, `plane` samples apart.
-  const uint8_t* share;           // Part of the pixel that the first surface covers, kSliceBits.
+  // Share of the pixel that the first surface covers, with kSliceBits fractional bits.
+  const uint8_t* share;
   size_t plane;
   // Bit c is set if group c of kSliceLanes pixels may have more than one surface. In all other
   // groups, the first surface covers each pixel completely, and no other surface is read.
@@ -33,8 +34,8 @@ struct SurfaceRow {
 
 // Range of the disparities of a slice. The slice contains the disparities in [low, high], and the
 // overlap, which is the disparities above `high` up to `overlap`. A first surface that ends at a
-// pixel, or that covers only a part of the pixel, is excluded from the overlap. In the overlap,
-// such a surface would be in two slices, and its coverage would count twice.
+// pixel, or that covers only a part of the pixel, is excluded from the overlap. Without this
+// exclusion, the surface would be in two slices, and its coverage would count twice.
 struct SliceRange {
   int16_t low, high, overlap;
 };
@@ -51,7 +52,7 @@ struct SliceCover {
 // `outer` are twice the taps, because each weights the mean of the two samples on both sides.
 struct SliceTaps {
   int32_t reach;                 // Distance in samples of the outermost taps, [1, kMaxSpread].
-  int16_t centre, inner, outer;  // >= 0.
+  int16_t centre, inner, outer;  // Filter coefficients, >= 0.
 };
 inline constexpr int32_t kMaxSpread = 3;
 
@@ -59,10 +60,10 @@ namespace reference {
 
 // Selects the surfaces in the range, for each pixel n < count. A first surface in the range
 // contributes its light times its share. The next surface in the range contributes its light times
-// the rest of the pixel. The fourth plane is the coverage of both surfaces. All outputs are zero if
-// no surface is in the range. If both surfaces share a pixel, the contribution of the first surface
-// is rounded half up. Whole groups of kSliceLanes are read and written; `count` is at most 64
-// groups. Returns the coverage of each group.
+// the rest of the pixel. The fourth output plane is the sum of the coverage of all selected
+// surfaces. All outputs are zero if no surface is in the range. If both surfaces share a pixel, the
+// contribution of the first surface is rounded half up. Whole groups of kSliceLanes are read and
+// written; `count` is at most 64 groups. Returns the coverage of each group.
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out);
 

@@ -32,9 +32,9 @@ using StripTag = LanesTag;
 constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 
 // True if Composite skips work by testing each vector for coverage and for slices in front. The
-// branches that test each vector are unpredictable. On x86, mispredictions cost up to 12 % of the
-// time, so Composite uses only the marks of rows. On ARM, using only the marks of rows takes 3 to 5
-// % more instructions than testing each vector.
+// branches that test each vector are unpredictable. On x86, branch mispredictions would cost up to
+// 12 % of the time, so Composite tests only the precomputed marks of whole rows. On ARM, using only
+// the marks of rows takes 3 to 5 % more instructions than testing each vector.
 constexpr bool kLooksFirst = !HWY_ARCH_X86;
 
 // Returns the number of rows of a strip in a vector, or 1 if a vector holds only a part of a row.
@@ -43,7 +43,8 @@ HWY_INLINE size_t RowsOf(D d) {
   return hn::Lanes(d) > kSliceLanes ? hn::Lanes(d) / kSliceLanes : 1;
 }
 
-// Writes the marks of rows. Rows must be added in order, starting with the first row.
+// Writes one mark per row, which states whether a slice covers the row and the next rows. Rows must
+// be added in order, starting with the first row.
 class RowMarks {
  public:
   // Adds a row. `most` and `least` are the largest and the smallest coverage over all vectors of
@@ -164,9 +165,9 @@ HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec exce
   return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
 }
 
-// Facts about a slice in a view that are known before compositing, from the marks of rows.
+// Visibility of a slice in a group of rows of a view, as far as it is known before compositing.
 enum class Known {
-  kLit,  // no slice in front covers any pixel of these rows
+  kLit,  // No slice in front covers any pixel of these rows.
   // The condition of kLit holds, and the slice covers all pixels of these rows completely, so that
   // it hides all slices behind it.
   kCovered,

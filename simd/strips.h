@@ -12,7 +12,8 @@
 
 namespace starfocus::simd {
 
-// Rows of a slice before the shift. The four planes of each row are `plane` samples apart.
+// Rows of a slice before the slice is shifted to its position in a view. The four planes of each
+// row are `plane` samples apart.
 struct SlicePlanes {
   const int16_t* samples;
   size_t plane;
@@ -30,16 +31,16 @@ struct SliceFraction {
 // Number of rows of a strip that Composite may read after the last row that it composites.
 inline constexpr size_t kRowsAhead = 6;
 
-// Special values of the mark of a row of a strip. The mark is the number of consecutive rows, from
-// this row on, in which the slice covers no pixel, limited to kNothingNear. The mark is
-// kCoveredNear if the slice fully covers all pixels of this row and of the next kRowsAhead rows.
+// Special values of a row's mark. The mark is the number of consecutive rows, from this row on, in
+// which the slice covers no pixel, limited to kNothingNear. The mark is kCoveredNear if the slice
+// fully covers all pixels of this row and of the next kRowsAhead rows.
 inline constexpr int8_t kNothingNear = kRowsAhead + 1;
 inline constexpr int8_t kCoveredNear = -1;
 
 // A slice in a strip. The four planes are `plane` samples apart. A row has kSliceLanes samples.
 struct StripSlice {
   const int16_t* samples;  // First row of the slice that the centre view shows.
-  const int8_t* near;      // Marks of the rows, starting with the row of `samples`.
+  const int8_t* near;  // Marks of the slice's rows; element 0 is the mark of the row at `samples`.
   size_t plane;
 };
 
@@ -70,7 +71,8 @@ struct SliceViews {
   const uint8_t* shown;  // Indices of the visible slices, from the nearest to the farthest.
   size_t shown_count;    // Number of visible slices, at most kMaxSeen.
   size_t row;            // First row that is composited.
-  // The weights are scaled by 2^extra_bits, and the sums are divided by 2^extra_bits; [0, 4].
+  // extra_bits is the number of additional fractional bits of the weights, [0, 4]; the sums are
+  // divided by 2^extra_bits.
   int extra_bits;
 };
 

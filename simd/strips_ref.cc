@@ -37,7 +37,8 @@ int16_t SliceShare(int16_t covered, int16_t light) {
 
 void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows, size_t plane,
                 int16_t* out, int8_t* near) {
-  size_t all_covered = 0;  // number of consecutive fully covered rows that end with this row
+  // Number of consecutive fully covered rows up to and including the current row.
+  size_t all_covered = 0;
   for (size_t row = 0; row < rows; ++row) {
     const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
     for (size_t c = 0; c < 4; ++c) {

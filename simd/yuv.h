@@ -18,8 +18,8 @@ struct YuvMatrix {
   int16_t rv, gu, gv, bu;  // Coefficients from chroma to R, G and B, 13 fractional bits.
   // Coefficients from R, G and B to luma, 15 fractional bits. The luma of white is at most 255.
   int16_t yr, yg, yb;
-  int16_t ur, ug, ub;  // R, G and B to U; the three coefficients sum to 0.
-  int16_t vr, vg, vb;  // R, G and B to V; the three coefficients sum to 0.
+  int16_t ur, ug, ub;  // Coefficients from R, G and B to U; their sum is 0.
+  int16_t vr, vg, vb;  // Coefficients from R, G and B to V; their sum is 0.
 };
 
 namespace reference {

@@ -29,7 +29,7 @@ std::string TwoDigits(double value) {
   return text;
 }
 
-// Returns one pixel of the PSF (4), computed by regular sampling.
+// Returns one pixel of the PSF by equation (4), computed by regular sampling.
 double SampledPixel(int n, int m, double r, double theta) {
   constexpr int kSide = 400;
   double sum = 0;

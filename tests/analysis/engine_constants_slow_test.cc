@@ -120,8 +120,8 @@ TEST_CASE("constants: the layer filters have beta_D of Table I at r = 3 and the 
                   "tap 1 differs from the exact value of " << moves);
     CHECK_MESSAGE(std::fabs(taps.far - one * exact(3)) < 1,
                   "tap 3 differs from the exact value of " << moves);
-    // Both phases of the filter must have a gain of 1. For this reason, the middle tap differs from
-    // the exact value by G(-1), which is not exactly 0.
+    // Both phases of the filter must have a gain of 1. The middle tap therefore differs from the
+    // exact value by G(-1), which is not exactly 0.
     CHECK_MESSAGE(std::fabs(taps.centre - one * exact(0)) < 1 + one * std::fabs(GainAtPi(exact)),
                   "tap 0 differs from the exact value of " << moves);
   };
@@ -198,8 +198,8 @@ void CheckEngine(starfocus_renderer renderer, int layer, int least, int most) {
         CHECK_MESSAGE(step.engine <= kThreshold,
                       "the error exceeds the threshold: " << Explain(step));
       } else {
-        // With N by (9), the error is largest at r = 1/2, in the adjacent pixels that the disc of
-        // the PSF half covers.
+        // If equation (9) selects N, the error is largest at r = 1/2, in the adjacent pixels that
+        // the PSF's disc covers by half.
         CHECK(step.engine < (k <= 8 ? 8e-2 : k <= 24 ? 6e-3 : k <= 64 ? 2e-3 : 1e-3));
       }
     }
@@ -286,8 +286,8 @@ TEST_CASE("constants: the widths of the lens for N = 4, 5 and above meet their e
   }
 }
 
-// PSFs of equation (4) that gathering uses. The blur mode uses the PSFs of gathering up to the
-// radius kMaxGather.
+// Weights of the PSFs of equation (4) that blur pixels of the centre view without rendering views.
+// Up to the blur radius kMaxGather, the blur mode uses the same weights as block mode.
 struct GatherPsfs {
   std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(false, kMaxGather));
   std::vector<Psf> psfs = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));

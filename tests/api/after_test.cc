@@ -172,8 +172,8 @@ TEST_CASE(
 }
 
 TEST_CASE("previous frame: if the layer of a block changes, its boundaries are deblocked again") {
-  // With this timing model, the engine splits no superblock. A single pixel in focus is enough to
-  // keep a block at layer 0.
+  // With the timing model of this test, the engine divides no superblock into smaller blocks. A
+  // single pixel in focus is enough to keep a block at layer 0.
   test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
@@ -192,7 +192,7 @@ TEST_CASE("previous frame: if the layer of a block changes, its boundaries are d
   REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
   const test::Output expected = test::OutputOf(&engine, params, scene);
   CHECK((second.bytes == expected.bytes));
-  CHECK(report.reused_blocks == 5);  // all 9 blocks except the upper left 4
+  CHECK(report.reused_blocks == 5);  // The engine reuses all 9 blocks except the upper left 4.
   // Deblocking must change pixels to the right of the changed block and below it.
   bool right = false, below = false;
   for (int k = 20; k < 200; ++k) {
@@ -207,7 +207,8 @@ TEST_CASE("previous frame: if the layer of a block changes, its boundaries are d
 TEST_CASE("previous frame: blocks far from a change are reused") {
   const test::Scene before = test::LayeredScene(640, 512, 5, 2, 6);
   starfocus_config config = test::ConfigFor(before, 4);
-  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // finding coverage reads farther pixels
+  // The search for coverage would read pixels farther away from the change.
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   test::Engine engine(config);
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   test::Output second(640, 512);

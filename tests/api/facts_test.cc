@@ -87,7 +87,7 @@ TEST_CASE("the defaults match the documentation in the headers") {
   CHECK(params.region.width == 0);
 }
 
-TEST_CASE("starfocus_view_position returns the positions of the star") {
+TEST_CASE("starfocus_view_position returns the documented positions for star sets of views") {
   const double kExpected[STARFOCUS_MAX_VIEWS][2] = {
       {0, 0},    {1, 0},     {-1, 0},     {0, 1},      {0, -1},     {1, 1},
       {-1, 1},   {1, -1},    {-1, -1},    {0.5, 0},    {-0.5, 0},   {0, 0.5},

@@ -63,7 +63,8 @@ starfocus_params ParamsOf(const starfocus_lens& lens, starfocus_mode mode,
   return params;
 }
 
-// Returns the picture of an engine that has memory for a single shape.
+// Refocuses a scene with an engine that has memory for a single aperture shape, and returns the
+// picture.
 std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus_params& params) {
   starfocus_config config = Config(scene);
   test::ReserveFor(params.lens, &config);
@@ -78,8 +79,8 @@ TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new e
   for (const starfocus_lens& lens : Lenses()) {
     CAPTURE(index);
     ++index;
-    // In the second round, the engine must use the tables that it made for this lens, and not the
-    // tables of another mode.
+    // In the second iteration, the engine must use the tables that it made for this lens in the
+    // same mode.
     for (const int round : {0, 1}) {
       for (const starfocus_mode mode : test::kModes) {
         for (const starfocus_renderer renderer : test::kRenderers) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests regions of the picture. A region must have the bytes of the whole picture, and only pixels
-// near the region may be rendered.
+// Tests regions of the picture. A refocused region must equal the same pixels of the whole picture,
+// and only pixels near the region may be rendered.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST_CASE("region: only the region and its surroundings are rendered") {
     CHECK(test::BlocksOf(part) == uint64_t(told));
     CHECK(test::BlocksOf(part) <= 4);
     CHECK(part.rendered_samples * 100 < report.rendered_samples);
-    params.region = {319, 319, 2, 2};  // where four superblocks meet
+    params.region = {319, 319, 2, 2};  // Four superblocks meet in this region.
     REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &part) == STARFOCUS_OK);
     CHECK(test::BlocksOf(part) == 4);
   }
@@ -94,7 +94,8 @@ TEST_CASE("region: each row with a bad disparity is either rejected before outpu
   test::Scene scene = test::LayeredScene(40, kHeight, 5, 3, 4);
   starfocus_config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
-  config.features &= ~STARFOCUS_FEATURE_COVERAGE;  // with coverage, rows farther away are read
+  // The search for coverage would read rows that are farther away from the region.
+  config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   test::Engine engine(config);
   constexpr starfocus_region kRegions[] = {
       {0, 0, 0, 0}, {3, 0, 30, 9}, {3, 70, 30, 9}, {0, 120, 40, 50}, {3, 231, 30, 9}};

@@ -117,8 +117,8 @@ TEST_CASE("runner: misuse of any set of jobs is an error and does not affect lat
   }
 }
 
-// The set of jobs that a runner has received. The clock callback below, which is called by jobs,
-// starts a job of this set.
+// The set of jobs that a runner has received. The clock callback, which jobs call, starts one of
+// the stored jobs while another job runs.
 struct {
   starfocus_job job;
   void* data;

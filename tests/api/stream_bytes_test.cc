@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that streamed rows have the bytes of the whole picture, and that the memory does not depend
-// on the height.
+// Tests that streamed rows equal the rows of a whole picture, and that the memory of a stream does
+// not depend on the picture's height.
 #include <doctest/doctest.h>
 
 #include <algorithm>

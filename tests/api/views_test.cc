@@ -30,7 +30,8 @@ std::vector<uint8_t> Picture(const test::Scene& scene, starfocus_mode mode = STA
 }
 
 TEST_CASE(
-    "views: views at the positions of a star equal the star, with subapertures in any order") {
+    "views: explicit views at star positions give the result of a star set, with subapertures in "
+    "any order") {
   for (const int views : {5, 9, 17}) {
     test::Scene scene = test::RandomScene(70, 50, views, -4, 6, 5);
     const std::vector<uint8_t> block = Picture(scene);

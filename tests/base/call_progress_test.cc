@@ -41,7 +41,9 @@ TEST_CASE("cancel: progress is called every half a million samples, for steps of
   }
 }
 
-TEST_CASE("cancel: cancellation stops every token of the current call, but not the next call") {
+TEST_CASE(
+    "cancel: cancellation stops all workers of the current call, but does not affect the next "
+    "call") {
   Caller caller;
   caller.answer = 1;
   CallProgress watch;
@@ -99,7 +101,8 @@ TEST_CASE("progress: while one thread runs the callback, Ask returns true in oth
   CHECK(nested.calls == 2);
 }
 
-TEST_CASE("progress: the reported rows grow in proportion to the finished jobs of each part") {
+TEST_CASE(
+    "progress: in each part of a call, the reported rows grow in proportion to the finished jobs") {
   Caller caller;
   CallProgress watch;
   watch.SetProgress(Caller::Progress, &caller);

@@ -52,7 +52,9 @@ Sides LooksOf(const starfocus_config& config) {
   return sides;
 }
 
-TEST_CASE("views: occlusion views of the star are on its axes, the farther views first") {
+TEST_CASE(
+    "views: in a star set, the views that see behind edges lie on the axes, and the farther views "
+    "come first") {
   CHECK(LooksOf(Star(1)) == Sides{{}, {}, {}, {}});
   for (const int views : {5, 9}) CHECK(LooksOf(Star(views)) == Sides{{1}, {2}, {3}, {4}});
   CHECK(LooksOf(Star(17)) == Sides{{1, 9}, {2, 10}, {3, 11}, {4, 12}});

@@ -137,7 +137,8 @@ def table_four(rows):
 
 
 def scale_table(rows):
-    # The row with n_scale = 1 shows the mode without options. Rows with another n_scale are relative to this row.
+    # The row with n_scale = 1 shows the mode without options. Rows with another n_scale are relative to the row with
+    # n_scale = 1.
     scales = sorted({1, *(row["n_scale"] for row in rows)})
     lines = []
     for field, mode, scale in itertools.product(fields_of(rows), ("block", "frame"), scales):
@@ -310,8 +311,8 @@ def plane(rows, field, against, quality):
 
 
 def plane_plots(rows):
-    # Rivals are measured only at the foci of the truths. The plot against the benchmark omits rivals, since means of
-    # rivals would cover other pictures than the means of the modes.
+    # Rivals are measured only at the foci for which a ray-traced picture exists. The plot against the benchmark omits
+    # rivals, since means of rivals would cover other pictures than the means of the modes.
     return "".join(plane(rows, field, "truth", lambda row: row["psnr_truth"])
                    + plane(rows, field, "the benchmark",
                            lambda row: row["psnr_benchmark"] if math.isfinite(row["quantile"]) else math.nan)

@@ -45,7 +45,8 @@ struct Row {
   int n = 0;             // Largest N of all blocks.
   int superblock = 0;    // Side of the superblocks that the engine used, pixels.
   double rendered_views = 0, rendered_samples = 0;
-  Quality benchmark, truth;      // Compared with benchmark mode and with ray tracing.
+  // Quality of the picture compared with benchmark mode and with ray tracing.
+  Quality benchmark, truth;
   double wall_ms = kNone;        // Median elapsed time, ms.
   double least_wall_ms = kNone;  // Smallest elapsed time, ms.
   double ms = 0, spread = 0;  // Median processor time in ms, and Spread (metrics.h) of the times.

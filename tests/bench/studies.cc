@@ -10,7 +10,7 @@
 namespace starfocus::bench {
 namespace {
 
-constexpr int kSweepViews = 5;      // Few views, so that large light fields fit into memory.
+constexpr int kSweepViews = 5;  // Sweeps use few views, so that large light fields fit into memory.
 constexpr double kSweepRadius = 8;  // Largest blur radius of the sweep of sizes, pixels.
 
 Entry MakeEntry(const char* study, const std::string& mode, int views) {

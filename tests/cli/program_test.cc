@@ -192,7 +192,7 @@ TEST_CASE(
   for (const std::string name :
        {"analyze", "calibrate", "compare", "scene", "sheet", "steps", "stress"}) {
     CAPTURE(name);
-    CHECK(Call(folder, name + " --help").code == 0);  // Call selects starfocus-lab
+    CHECK(Call(folder, name + " --help").code == 0);  // Call selects the program starfocus-lab.
     // With quotes around the subcommand, Call selects starfocus.
     CheckRefused(folder, "'" + name + "' lf",
                  "command line: expected `starfocus-lab " + name + "`, found '" + name + "'");
@@ -207,7 +207,7 @@ TEST_CASE("program: an error line names the cause of the error") {
   CHECK(LightFieldFiles(folder.file("lf")).size() == before);
   CHECK(!fs::exists(folder.file("lf/lf.png")));
   CHECK(!fs::exists(folder.file("bare/disparity.pfm")));
-  if (geteuid() == 0) return;  // root can write to any folder, so the calls would succeed
+  if (geteuid() == 0) return;  // Root can write to any folder, so the calls below would not fail.
   fs::create_directory(folder.file("locked"));
   fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec);
   for (const char* arguments :

@@ -206,7 +206,7 @@ TEST_CASE("scene: tiny pictures can be rendered, and every disparity is finite")
   CHECK_FALSE(MakeScene("other"));
 }
 
-TEST_CASE("scene: rays meet planes and ellipsoids at the places given by algebra") {
+TEST_CASE("scene: rays meet planes and ellipsoids at the analytically computed points") {
   Surface plane = Piece(Outline::kNone, {10, 20, 3}, {0, 0}, {});
   plane.slope_x = 0.1;
   plane.slope_y = -0.2;
@@ -267,7 +267,7 @@ TEST_CASE("noise: values are in range, continuous and not constant") {
   CHECK(Triangle(0.5, 1) == doctest::Approx(1));
 }
 
-TEST_CASE("strands: rays meet the nearest strand at the place given by algebra") {
+TEST_CASE("strands: rays meet the nearest strand at the analytically computed point") {
   // A strand along x, 2 units thick, and a nearer strand along y.
   const Strands strands(
       {{{-50, 0}, {0, 0}, {50, 0}, 1, 1, 3}, {{0, -50}, {0, 0}, {0, 50}, 0.5, 0.5, 5}});

@@ -105,7 +105,8 @@ TEST_CASE("steps: the mean is sharp in focus, and shows a copy of each view else
   for (int y = 0; y < kTop - 9; ++y) {
     for (int x = 8; x < kWidth - 8; ++x) CHECK(Distance(At(mean, x, y), At(centre, x, y)) <= 1);
   }
-  // Beside the square, one of the five views shows the square.
+  // Next to the square, where the centre view shows the background, one of the five views shows the
+  // square.
   const int red = At(mean, kRight + 4, 40)[0];
   CHECK(red > At(centre, kRight + 4, 40)[0] + 10);
   CHECK(red < NearCode(0) - 50);
@@ -161,7 +162,7 @@ TEST_CASE("steps: the matte shows the share of the nearer surface in mixed pixel
   ForSquare([&](int x, int y) {
     const bool mixed = x == kLeft - 1 && y > kTop && y < kBottom - 1;
     if (mixed) {
-      // Half of the nearer and half of the farther colour.
+      // A mixed pixel is half of the nearer and half of the farther colour.
       const uint8_t half[3] = {147, 147, 147};
       CHECK(Distance(At(matte, x, y), half) < 25);
     } else if (x != kLeft - 1) {
@@ -182,7 +183,8 @@ TEST_CASE("steps: coverage is measured in thin structures only") {
   }
 }
 
-TEST_CASE("steps: the view is seen from the right, and its holes are to the right of the square") {
+TEST_CASE(
+    "steps: `view` shows the scene from the right, and `holes` marks the square's right edge") {
   const Steps steps;
   const Image view = steps.Picture("view"), holes = steps.Picture("holes");
   const uint8_t magenta[3] = {255, 0, 255};
@@ -197,7 +199,7 @@ TEST_CASE("steps: the view is seen from the right, and its holes are to the righ
   });
 }
 
-TEST_CASE("steps: only cells away from edges are marked as gathered in the refocused picture") {
+TEST_CASE("steps: the picture `gathered` marks only cells away from depth edges") {
   const Steps steps;
   Succeed(steps.folder, "refocus lf --focus -4 -o plain.png");
   const Image gathered = steps.Picture("gathered");

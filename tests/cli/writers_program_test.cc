@@ -113,7 +113,8 @@ TEST_CASE("writers: the page of `starfocus view` is self-contained and describes
   const std::string page = Text(folder.file("page.html"));
   CHECK(Contains(page, "<title>a&lt;b&amp;&quot;c</title>"));
   CHECK(!Contains(page, "a<b"));
-  CHECK(Count(page, "<img ") == 13);  // photo, map, 6 foci, blocks, 2 ray-traced pictures, 2 errors
+  CHECK(Count(page, "<img ") == 13);  // The page shows 1 photo, 1 map, 6 foci, 1 picture of blocks,
+                                      // 2 ray-traced pictures and 2 errors.
   CHECK(Count(page, "src=\"data:image/jpeg;base64,/9j/") == 13);
   CHECK(Count(page, "src=") == 13);
   CHECK(Count(page, "http:") + Count(page, "https:") + Count(page, "<script") == 0);

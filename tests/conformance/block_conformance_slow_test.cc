@@ -28,8 +28,8 @@ using namespace conformance;
 
 constexpr starfocus_renderer kRules[] = {STARFOCUS_RENDERER_LINE_SCAN, STARFOCUS_RENDERER_SLICES};
 
-// Statistics of the blocks: pixels at each layer, gathered pixels, and the longest side of a
-// rectangle that was rendered from views.
+// Statistics of the blocks: pixels at each layer, pixels blurred without rendering views, and the
+// longest side of a rectangle rendered from views.
 struct Covered {
   int64_t pixels[STARFOCUS_LAYERS] = {};
   int64_t gathered = 0;

@@ -135,16 +135,18 @@ std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
 }
 
 struct Distance {
-  // Number of pixels that both the engine and the reference split, and that only one of them
-  // splits.
+  // Numbers of pixels that the engine and the reference both split into two surfaces, and that only
+  // one of them splits.
   int parted = 0, otherwise = 0;
-  // Number of pixels that both split into surfaces of different disparities.
+  // Number of pixels that the engine and the reference split into surfaces of different
+  // disparities.
   int disparities = 0;
-  // Numbers of split pixels whose coverage differs by more than kCoverageLimit, and whose far light
-  // differs by more than kLightLimit.
+  // Numbers of split pixels whose coverage differs by more than kCoverageLimit, and whose light of
+  // the farther surface differs by more than kLightLimit.
   int alphas = 0, lights = 0;
   double alpha = 0, alpha_sum = 0;  // Largest and summed difference of coverage.
-  double light = 0, light_sum = 0;  // Largest and summed difference of far light, in codes.
+  // Largest and summed difference of the light of the farther surface, in codes.
+  double light = 0, light_sum = 0;
 
   void Add(const Distance& other) {
     parted += other.parted;
@@ -160,11 +162,11 @@ struct Distance {
 };
 
 // The engine stores coverage in steps of 1/128, which causes an error of at most 1/256, and of
-// 1/512 on average. The engine compares colours in steps of 1/8 code. The certainty of the far
-// light has steps of 1/256, and computing the eighth power of coverage loses up to two steps. This
-// loss matters where the certainty is low, for example where a view sees between strands. At some
-// pixels, the engine and the reference may decide differently whether a pixel mixes two colours, or
-// whether a strand covers a point.
+// 1/512 on average. The engine compares colours in steps of 1/8 code. The certainty of the farther
+// surface's light has steps of 1/256, and computing the eighth power of coverage loses up to two
+// steps. A loss of two steps matters where the certainty is low, for example where a view sees
+// between strands. At some pixels, the engine and the reference may decide differently whether a
+// pixel mixes two colours, or whether a strand covers a point.
 constexpr double kCoverageLimit = 2.0 / 128, kCoverageMean = 1.0 / 256;
 constexpr double kLightLimit = 1, kLightMean = 0.25;
 

@@ -8,8 +8,9 @@
 namespace conformance {
 namespace {
 
-// Computes the rectangle that a gathered cell has at the layer of its block. At the sides of the
-// block, the rectangle includes the margin that upsampling reads.
+// Converts the rectangle of a cell, which is blurred without rendering views, to pixels at the
+// layer of the cell's block. At the sides of the block, the rectangle includes the margin that
+// upsampling reads.
 void AtLayer(const starfocus::Block& block, reference::GatheredCell* cell) {
   const int scale = 1 << block.layer, margin = block.layer == 0 ? 0 : block.layer + 1;
   const starfocus::Rect& rect = block.rect;

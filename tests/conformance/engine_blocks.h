@@ -17,7 +17,7 @@ namespace conformance {
 struct EngineResult {
   starfocus_status status = STARFOCUS_OK;
   starfocus_report report = {};
-  std::vector<uint8_t> bytes;            // 3 * width * height.
+  std::vector<uint8_t> bytes;            // Output samples, 3 * width * height.
   std::vector<reference::Block> blocks;  // Partition: blocks of all stripes.
 };
 

@@ -316,9 +316,9 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
   }
 }
 
-// Adds the rendered views and the gathered cells of all blocks to the result. With `excess`, only
-// blocks that may show highlights are rendered. Blocks that may show highlights are at layer 0 and
-// gather no cells.
+// For all blocks, adds the rendered views and the cells that are blurred without rendering views to
+// the result. With `excess`, only blocks that may show highlights are rendered. Blocks that may
+// show highlights are at layer 0 and are rendered completely from views.
 void RefocusAll(const LightField& field, const starfocus_params& params,
                 const starfocus_config& config, const std::vector<Block>& blocks, bool excess,
                 Result* result) {

@@ -30,11 +30,11 @@ struct Result {
 Result Refocus(const test::Scene& scene, const starfocus_params& params,
                const starfocus_config& config, int block);
 
-// A cell of the picture that is gathered (reference_gather.h).
+// A cell of the picture that is blurred by a filter, without rendering views (reference_gather.h).
 struct GatheredCell {
   int x, y, width, height;              // In the picture.
   bool on_slope;                        // True if each pixel is blurred by its own radius.
-  int at_x, at_y, at_width, at_height;  // The cell in the block's layer.
+  int at_x, at_y, at_width, at_height;  // Rectangle of the cell, in pixels of the block's layer.
 };
 
 // A block of block mode, and the rectangle of the layer that the views of this block render.
@@ -45,7 +45,7 @@ struct Block {
   int rendered_x, rendered_y, rendered_width, rendered_height;
   // Border around the rendered rectangle, in pixels of the layer.
   int left, right, top, bottom;
-  std::vector<GatheredCell> gathered;  // cells gathered instead of rendered by views
+  std::vector<GatheredCell> gathered;  // Cells blurred by a filter instead of rendered by views.
 };
 
 // Refocuses in block mode or in benchmark mode. `blocks` is the partition of the picture;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ideal PSF (4) of the reference, integrated over pixels. The reference uses this PSF for the blur
-// mode and for cells that block mode gathers.
+// mode, and for cells that block mode blurs without rendering views.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 
@@ -37,9 +37,9 @@ inline double NearestRadius(int radius) {
 // sRGB.
 inline int FinenessOf(double side) { return std::clamp(int(600 * side), 40, 600); }
 
-// Integrates (3) over [x0, x1] x [y0, y1] in the plane of the unit disc. The sum over lines of y
-// uses the midpoint rule along each line and ends exactly on the rim of the disc. A `cot_square` of
-// 0 selects a disc of constant brightness.
+// Integrates the aperture density of equation (3) over [x0, x1] x [y0, y1] in the plane of the unit
+// disc. The sum over lines of y uses the midpoint rule along each line and ends exactly on the rim
+// of the disc. A `cot_square` of 0 selects a disc of constant brightness.
 inline double Integral(double x0, double x1, double y0, double y1, double cot_square) {
   constexpr int kPoints = 24;
   y0 = std::max(y0, -1.0);

@@ -14,7 +14,8 @@ namespace {
 // Smallest number of pixels with a nearer neighbour in a tile of thin structure.
 constexpr int kLeastRagged = 36;
 
-// Rounds coverage and the certainty of far light as the engine rounds these values between passes.
+// Rounds coverage, and the certainty of the farther surface's light, as the engine rounds these
+// values between passes.
 double RoundedCoverage(double alpha) { return std::floor(alpha * 128 + 0.5) / 128; }
 double Kept(double known) { return std::floor(known * 256) / 256; }
 double EighthPower(double value) { return Kept(std::pow(value, 8)); }
@@ -25,7 +26,7 @@ Colour Less(const Colour& a, const Colour& b) { return {a[0] - b[0], a[1] - b[1]
 // Values of a pixel, computed in several passes.
 struct Pixel {
   bool two = false;             // True if the pixel is near an edge and shows two surfaces.
-  double near = 0, far = 0;     // Disparities of the two surfaces.
+  double near = 0, far = 0;     // Disparities of the nearer and the farther surface.
   double guess = 1, first = 1;  // Coverage according to the map, and after the first pass.
 };
 
@@ -206,8 +207,8 @@ class Parter {
   // --- Light of far surfaces, read from all views ---
 
   // Returns the largest coverage by nearer surfaces in a view, at the point where the view shows a
-  // pixel's far surface. Only nearer pixels that the view shows within 1.5 pixels of this point are
-  // counted.
+  // pixel's far surface. Only nearer pixels that the view shows within 1.5 pixels of the far
+  // surface's point are counted.
   double CoveredIn(const Position& view, int x, int y) const {
     const bool down = std::abs(view.second) > std::abs(view.first);
     const int along = down ? view.second : view.first, across = down ? view.first : view.second;

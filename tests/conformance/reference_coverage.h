@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference of the coverage of thin structures: splits pixels near large depth edges into a near
 // and a far surface. Disparities are multiples of 1/64 pixel, as in the engine. Between passes,
-// coverage is rounded to 1/128, and the certainty of far light is rounded down to 1/256, as in the
-// engine. All other values are unrounded doubles.
+// coverage is rounded to 1/128, and the certainty of the farther surface's light is rounded down to
+// 1/256, as in the engine. All other values are unrounded doubles.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_COVERAGE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_COVERAGE_H_
 
@@ -15,7 +15,7 @@ namespace reference {
 struct PartedPixel {
   bool parted = false;
   double alpha = 0;          // Share of the pixel that the near surface covers.
-  double near = 0, far = 0;  // Disparities of both surfaces, in 1/64 pixel.
+  double near = 0, far = 0;  // Disparities of the nearer and the farther surface, in 1/64 pixel.
   Colour light = {0, 0, 0};  // Light of the far surface.
 };
 

@@ -20,8 +20,8 @@ double Farthest(const std::vector<FarLight>& cells) {
 }
 
 // Returns the weighted mean of the light of the cells that show the surface at `disparity`. The
-// weight of a cell is the product of its part and `known`. The `known` of the result is the sum of
-// the weights.
+// weight of a cell is the product of its element of `parts` and FarLight::known. FarLight::known of
+// the result is the sum of the weights of all averaged cells.
 FarLight MeanOf(const std::vector<FarLight>& cells, const std::vector<double>& parts,
                 double disparity) {
   FarLight mean;

@@ -17,7 +17,7 @@ inline constexpr int kTile = 16;
 struct FarLight {
   Colour light = {0, 0, 0};
   double known = 0;      // Certainty of `light`, 0 to 1.
-  double disparity = 0;  // In units of 1/64 pixel.
+  double disparity = 0;  // Disparity of the farther surface, in units of 1/64 pixel.
 };
 
 // Planes of cells with sides of 1, 2, 4, 8 and 16 pixels. The planes extend beyond the picture by

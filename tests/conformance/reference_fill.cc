@@ -26,7 +26,7 @@ class Filler {
     }
   }
 
-  // All pixels are updated from the colours that precede this smoothing step.
+  // Each smoothing step computes all pixels from the colours before the step.
   void Smooth(int step) {
     std::vector<Colour> before;
     for (const Surface* far : far_) before.push_back(far->colour);

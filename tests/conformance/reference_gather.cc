@@ -10,7 +10,7 @@ namespace reference {
 namespace {
 
 constexpr int kCell = 8;
-constexpr double kLargestKernel = 12;  // largest gathered radius, pixels of the layer
+constexpr double kLargestKernel = 12;  // Largest blur radius of a cell, in pixels of the layer.
 
 struct Interval {
   double low, high;
@@ -166,7 +166,8 @@ class Gather {
     }
   }
 
-  // Returns the position of radius^2 between low^2 and high^2 of `between`, from 0 to 1.
+  // Returns the position of radius^2 in the range from between.low^2 to between.high^2, as a number
+  // from 0 to 1.
   static double ShareOf(double radius, const Interval& between) {
     const double range = between.high * between.high - between.low * between.low;
     if (range == 0) return 0;
@@ -237,7 +238,7 @@ class Gather {
   const Block& block_;
   const Lens& lens_;
   const int64_t step_;
-  const double largest_;  // largest radius of a PSF for gathering
+  const double largest_;  // Largest radius for which there is a PSF.
   const int frame_x_, frame_y_;
   Picture& frame_;
 };

@@ -9,9 +9,9 @@
 
 namespace reference {
 
-// Computes the gathered cells of a block from the centre view at the block's layer. Writes the
-// cells to `frame`, whose first pixel is (frame_x, frame_y) of the layer. `r_max` is the largest
-// blur radius for which there are PSFs.
+// Blurs cells of a block by a filter, without rendering views, from the centre view at the block's
+// layer. Writes the cells to `frame`, whose first pixel is (frame_x, frame_y) of the layer. `r_max`
+// is the largest blur radius for which there are PSFs.
 void GatherCells(const LightField& field, const Picture& of_layer, const Block& block,
                  const Lens& lens, double r_max, int frame_x, int frame_y, Picture* frame);
 

@@ -35,8 +35,9 @@ inline int RoundedTo64(double value) { return static_cast<int>(std::floor(value 
 // map.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<Colour> colours;  // light, or the excess of highlights beyond white
-  // light for finding mixtures if `colours` holds excess; otherwise empty
+  std::vector<Colour> colours;  // Light, or the excess of highlights beyond white.
+  // Light for finding mixtures of surfaces if `colours` holds the excess of highlights; otherwise
+  // empty.
   std::vector<Colour> light;
   std::vector<int> disparities;
 
@@ -55,11 +56,11 @@ using LightField = std::map<std::pair<int, int>, Picture>;
 
 // The lens: N views along its radius, and the shifts of pixels in the views.
 struct Lens {
-  int n = 0;     // Index of the outermost view.
-  int most = 0;  // Largest i^2 + j^2 of a view (i, j).
-  double subapertures =
-      0;              // Radius in subapertures; 0: the paper's rule, where views stand for points.
-  double radius = 0;  // u_t.
+  int n = 0;                // Index of the outermost view.
+  int most = 0;             // Largest i^2 + j^2 of a view (i, j).
+  double subapertures = 0;  // Radius of the lens in subapertures; 0: the paper's rule, by which
+                            // each view is a point of the lens.
+  double radius = 0;        // u_t.
   ApertureShape opening = 0.0;
   int focus = 0;     // d_t in 1/64 pixel.
   int64_t step = 0;  // u_t / 2^layer, in units of 2^-24.
@@ -88,8 +89,9 @@ struct Lens {
     // Subapertures of openings with sharp edges are sampled at 16x16 points, as in the engine.
     if (opening.shape != STARFOCUS_SHAPE_FALL_OFF)
       return passing * opening.Mean(i, j, Radius(), 16);
-    // The fall-off over a subaperture is sampled at 16x16 points, as for other shapes. The exact
-    // integral is 5.5 % larger for each of the four views on the rim of N = 4. This difference is
+    // The fall-off over a subaperture is sampled at 16x16 points, as for other shapes. On the rim
+    // of a lens with N = 4, the exact integral over each of the four subapertures is 5.5 % larger
+    // than the sampled value. The difference between the exact integral and the sampled value is
     // 0.02 % of all light. Next to lamps ten times as bright as white, the difference is three
     // codes in dark parts of the picture.
     if (subapertures > 0) return passing * opening.Mean(i, j, subapertures, 16);
@@ -192,7 +194,7 @@ class LineScan {
     const bool inside = filled_ + Whole(run) <= int(disparity_.size());
     if (step <= kSurfaceStep && gap <= kWidestStretch && inside) return;
     if (step <= kSurfaceStep) return SetHole(begin, step < 0 ? q : visible);
-    // The nearer surface ends between rendered pixels, inside a pixel of the hole.
+    // The nearer surface may cover a part of one rendered pixel at the edge of the hole.
     const double offset = Offset(run);
     const int rim = offset > 0 ? begin - 1 : begin;
     SetHole(rim, visible);
@@ -266,7 +268,8 @@ Picture RenderAlong(const Picture& from, int u, int v, const Lens& lens, int k, 
   Picture to(from.width, from.height);
   for (int y0 = 0; y0 < from.height; ++y0) {
     for (int x0 = 0; x0 < from.width; ++x0) {
-      if (from.Inside(x0 - u, y0 - v)) continue;  // (x0, y0) is not the first pixel of a line
+      // Pixels that are not the first pixel of a line are skipped.
+      if (from.Inside(x0 - u, y0 - v)) continue;
       std::vector<size_t> line;
       std::vector<int> disparity;
       for (int x = x0, y = y0; from.Inside(x, y); x += u, y += v) {

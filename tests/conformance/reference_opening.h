@@ -10,7 +10,8 @@
 
 namespace reference {
 
-// Returns (3) without its constant factor. `cot2` is the squared cotangent of theta.
+// Returns the aperture density of equation (3) without its constant factor. `cot2` is the squared
+// cotangent of theta.
 inline double ApertureDensity(double u, double v, double cot2) {
   const double denominator = u * u + v * v + cot2;
   return cot2 * cot2 / (denominator * denominator);

@@ -106,7 +106,7 @@ class Views {
   }
 
   // Returns the colour of a surface, read from the captured view in the direction of view (i, j).
-  // View (i, j) shows this surface at picture position (x, y).
+  // The pixel (x, y) of the picture shows the surface in view (i, j).
   Colour FromCaptured(int i, int j, int x, int y, int disparity, const Colour& behind) const {
     if (field_.size() == 1) return behind;
     const int u = Sign(i), v = Sign(j);

@@ -116,7 +116,8 @@ using Light = std::array<double, 4>;
 // Pixels of a rectangle and its surroundings. Pixel (0, 0) is the first pixel of the refocused
 // rectangle.
 struct Plane {
-  int left, top, width, height;  // left, top: pixels outside the rectangle
+  int left, top, width, height;  // `left` and `top` are the numbers of pixels to the left of the
+                                 // rectangle and above it.
   std::vector<Light> pixels;
 
   Plane(int l, int t, int w, int h)
@@ -157,7 +158,8 @@ Plane Spread(const Plane& from, double box, int dx, int dy) {
 
 Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
                 const Rectangle& rect) {
-  // The reach is larger than the movement of the slice in any view.
+  // The plane is larger than the rectangle on each side by more than the movement of the slice in
+  // any view.
   const int reach = std::abs(lens.Shift(lens.n, range.Disparity())) / 256 + 6;
   Plane plane(reach, reach, rect.width + 2 * reach, rect.height + 2 * reach);
   for (int y = -reach; y < rect.height + reach; ++y) {
@@ -183,7 +185,7 @@ Plane MakePlane(const SurfaceMap& map, const Range& range, const Lens& lens,
 struct Offset {
   int first;
   std::vector<double> parts;
-  double inside;  // replaces parts[1] if two pixels have equal coverage
+  double inside;  // Weight that replaces parts[1] if two pixels have equal coverage.
 
   template <class At>
   Light See(const At& at) const {
@@ -222,8 +224,8 @@ Offset OffsetOf(const Lens& lens, int k, int disparity) {
   return {int(whole), {1 - edge, edge}, inside};
 }
 
-// Returns the columns of the rectangle from a plane that is moved along x as in one column of
-// views.
+// Moves a plane of pixels along x by the shift of one column of views, and returns the columns of
+// the rectangle.
 Plane MovedAlongX(const Plane& from, const Offset& offset, int width) {
   Plane to(0, from.top, width, from.height);
   for (int y = -from.top; y < from.height - from.top; ++y) {

@@ -70,7 +70,8 @@ class SurfaceFinder {
 
   // Splits a pixel on the far side of a depth edge into the near and the far surface. The pixel is
   // split only if the two surfaces are more than one pixel apart in the outermost view. If several
-  // neighbours are nearer, both colours are means over these edges.
+  // neighbours are nearer than the pixel, the near and the far colour are means over the edges to
+  // these neighbours.
   void Part(int x, int y, std::vector<Surface>* surfaces) const {
     const bool outermost =
         x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1;
@@ -94,7 +95,8 @@ class SurfaceFinder {
       near.disparity = std::max(near.disparity, disparity);
       shares += mixed.share;
     }
-    near.share = std::floor(near.share * 128 + 0.5) / 128;  // rounded to 1/128 as in the engine
+    // The share is rounded to 1/128 as in the engine.
+    near.share = std::floor(near.share * 128 + 0.5) / 128;
     if (near.share == 0) return;
     for (size_t c = 0; c < 3; ++c) {
       near.colour[c] /= shares;
@@ -177,9 +179,9 @@ class SurfaceFinder {
     }
   }
 
-  // Adds a copy of the pixel behind the pixel, so that slices that move apart open no gap in the
-  // surface. The copy has the disparity of the farthest neighbour on the same surface, which is
-  // 2/64 to half a pixel farther.
+  // Adds a copy of a pixel behind the pixel, because slices that move apart would otherwise open a
+  // gap in the surface. The copy has the disparity of the farthest neighbour on the same surface,
+  // which is 2/64 to half a pixel farther.
   void AddCopy(int x, int y, std::vector<Surface>* surfaces) const {
     if (x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1) return;
     const int here = Disparity(x, y);
@@ -200,10 +202,10 @@ class SurfaceFinder {
     return IsEdge(here, far) && (distance - 1) * unit_ <= here - far;
   }
 
-  // Returns the distance to the far side of the nearest depth edge towards `towards`, or 0 if the
-  // pixel does not hide this side. A step does not count as an edge if two conditions hold. The
-  // step must be at most an eighth of the depth that the previous edge hides. The near side of the
-  // step must hide the far side of the previous edge.
+  // Returns the distance to the far side of the nearest depth edge in the direction `towards`, or 0
+  // if the pixel hides no such far side. A step does not count as an edge if two conditions hold.
+  // The step must be at most an eighth of the depth that the previous edge hides. The near side of
+  // the step must hide the far side of the previous edge.
   int NextEdge(int x, int y, const Direction& towards) const {
     int k = 0;
     while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;
@@ -289,7 +291,7 @@ class SurfaceFinder {
 
   Colour ColourOf(int x, int y, const Background& background) const {
     const auto& [dx, dy] = background.towards;
-    if (!background.captured) {  // The surface beyond the edge is repeated.
+    if (!background.captured) {  // No captured view shows the background.
       return extended_
           .colours[extended_.At(x + dx * background.distance, y + dy * background.distance)];
     }

@@ -21,7 +21,8 @@ TEST_CASE("estimate: the edges of a near plane have errors of at most one pixel"
     const PlaneField field = RenderPlanes(scene);
     const MadeMap found = MakeMap(field, ConfigOf(field, -6, 8));
     CAPTURE(views);
-    // Two edges with an error of one pixel each are 2 of 96 columns.
+    // Two edges of the near plane with an error of one pixel each give wrong disparities in 2 of 96
+    // columns.
     CHECK(ShareOff(scene, found.disparity, 0.28) < 0.022);
     CHECK(ShareOff(scene, found.disparity, 1) < 0.022);
   }

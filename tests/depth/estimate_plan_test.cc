@@ -44,7 +44,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("estimate plan: views of a ring lie opposite each other, at the positions of the star") {
+TEST_CASE(
+    "estimate plan: views of a ring lie opposite each other, at the positions of the star set") {
   for (const int views : {5, 9, 17}) {
     const EstimatePlan plan = PlanOf(10, 10, views, 0, 1);
     CHECK(plan.side_views() == views - 1);

@@ -83,7 +83,7 @@ TEST_CASE("hair coverage: confidence is high where map and coverage agree") {
   for (int y = 70; y < 100; ++y) {
     for (int x = 60; x < 160; ++x) {
       const size_t at = portrait.At(x, y);
-      // In this area, all pixels of the map are near.
+      // In the rows and columns of this loop, all pixels of the map are near.
       REQUIRE(found.confidence[at] == found.coverage[at]);
     }
   }
@@ -91,7 +91,8 @@ TEST_CASE("hair coverage: confidence is high where map and coverage agree") {
 
 TEST_CASE("hair coverage: outlines without hair are repaired even near hair, and stay opaque") {
   Portrait portrait = MakeClosedHair();
-  // In the changed map, the top edge of the body to the right of the hair is 2 pixels too low.
+  // The map is changed so that the top edge of the body to the right of the hair is 2 pixels too
+  // low.
   for (int y = 110; y < 112; ++y) {
     for (int x = 182; x < 240; ++x) portrait.map[portrait.At(x, y)] = kFar;
   }

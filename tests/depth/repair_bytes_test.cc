@@ -26,7 +26,8 @@ TEST_CASE("repair: displaced edges of the map move to the edges of the picture")
       CAPTURE(views);
       CAPTURE(grown);
       CHECK(ShareOff(scene, given, 0.5) > 0.06);
-      // Two edges with an error of one pixel each are 2 of 96 columns.
+      // Two edges of the near plane with an error of one pixel each give wrong disparities in 2 of
+      // 96 columns.
       const MadeMap repaired = MakeMap(field, ConfigOf(field, kLow, kHigh), given);
       CHECK(ShareOff(scene, repaired.disparity, 0.1) < 0.012);
     }
