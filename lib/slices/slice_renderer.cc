@@ -83,8 +83,8 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   const size_t field = arena->Mark();
   TakeField(extended, arena, &scratch);
   arena->Reuse(field);
-  // Large parts of a tile take less time than small parts: with parts of 64 pixels, the engine
-  // executes 1.7 % fewer instructions.
+  // Memory for parts of a tile of up to 64x64 pixels. With this size, the engine executes 1.7 %
+  // fewer instructions than with smaller parts.
   const auto tile = static_cast<size_t>(Min(config.superblock, kSliceTile));
   const size_t pool = Max(LeastPool(config.max_blur), 119 * tile * tile);
   scratch.pool_bytes = Max(pool, arena->Shared());
@@ -95,11 +95,12 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
 
 const Renderer kSliceRenderer = {
     0, true,
-    // Side of the superblocks of mode `benchmark`. Blocks of this size have so few fine slices that
-    // the fine slices fit into the memory for coarse slices.
+    // Side of the superblocks of mode `benchmark`. A superblock of 32 pixels has so few fine slices
+    // that these slices fit into the memory for coarse slices.
     32, ViewsBySubaperture, LayerOf, MakeSubapertures, MeasureWork, sizeof(CompositorScratch),
     TakeScratch,
-    // Renderer::nothing_moves is false, because the ends of slices always move a little
+    // The function nothing_moves returns false, because views always move the pixels at the ends of
+    // a slice's disparity range a little.
     [](const RenderJob&) { return false; }, CompositeRectangle,
     [](const ViewWeights&) { return kCompositeBits; }};
 

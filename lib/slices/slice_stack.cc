@@ -4,19 +4,21 @@
 namespace starfocus {
 namespace {
 
-// A pixel takes the colour of the centre view if slices cover less than 1 / kLeastShare of the
-// pixel's light in all views. With any reasonable limit, scenes have hardly any such pixels
-// (docs/constants.md).
+// If the coverage of a pixel, summed over all views, is less than 1 / kLeastShare of the largest
+// possible sum, the pixel takes the colour of the centre view. No test picture has a pixel with so
+// little coverage (docs/constants.md).
 constexpr uint32_t kLeastShare = 4;
 
-// Largest sum of the weights of a group of views. The headroom in 16 bits covers two errors:
-// rounding in each slice, and a share of the last light that is a ninth too large.
+// Largest sum of the weights of a group of views. The rest of the 16-bit range is for two errors:
+// the rounding in each slice, and a contribution that exceeds the weight of its view by up to a
+// ninth.
 constexpr uint32_t kGroupSum = 58000;
 
-// Limits for steep openings, in which the largest weight of a view is more than kSteep times the
-// mean (theta from 0.3 pi). The weights are scaled up until their mean is at least kLeastMean, but
-// not beyond kMostShares times the limit of a group. Each product of a weight with light is
-// rounded, so small weights would change dark codes.
+// Limits for apertures with a steep fall-off (theta of at least 0.3 pi), in which the largest
+// weight of a view is more than kSteep times the mean weight. ScaleWeights multiplies the weights
+// of these apertures until the mean weight is at least kLeastMean, but by a factor of at most
+// kMostShares. Each product of a weight and a light value is rounded, so smaller weights would
+// change the 8-bit codes of dark pixels.
 constexpr uint64_t kSteep = 3;
 constexpr uint64_t kLeastMean = 2 * kGroupSum / kGroupViews;
 constexpr uint64_t kMostShares = 32;

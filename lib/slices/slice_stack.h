@@ -15,8 +15,9 @@
 
 namespace starfocus {
 
-// Largest number of views of a column that are summed together in 16 bits. With more views, each
-// weight would be smaller, and the products of small weights with faint light would round to zero.
+// Largest number of views of a column that are summed together in 16 bits. If more views were
+// summed together, each weight would be smaller, and the products of small weights and faint light
+// would round to zero.
 inline constexpr int32_t kGroupViews = 16;
 
 // Selects share `index` of a weight that is divided into `count` equal shares.
@@ -31,8 +32,8 @@ struct ScaledWeights {
   const ViewWeights* aperture;
   uint64_t scale;    // Factor of the aperture weights, times 2^16 (21 bits).
   uint32_t largest;  // Largest weight of the aperture.
-  // Smallest sum of coverage from which a colour is computed. With a smaller sum of coverage,
-  // rounding errors of the colour would be visible.
+  // Smallest sum of coverage from which a colour is computed. If the sum of coverage is smaller
+  // than this limit, rounding errors of the colour would be visible.
   uint32_t least_covered;
 
   int16_t Weight(int32_t i, int32_t j, int extra_bits, const WeightShare& share) const {
@@ -46,15 +47,15 @@ struct ScaledWeights {
   uint32_t Shares(int32_t i, int32_t first, int32_t last) const;
 
   // Returns the largest j <= last for which all weights of views (i, first) to (i, j) have the same
-  // magnitude. Magnitudes are counted in powers of sixteen below the largest weight. In steep
-  // openings, outer views weigh much less than the middle view. If the compositor summed outer
-  // views together with the middle view, the products of outer weights with faint light would round
-  // to zero.
+  // magnitude. The magnitude of a weight is the number of times that the weight can be multiplied
+  // by sixteen without exceeding the largest weight. In apertures with a steep fall-off, outer
+  // views weigh much less than the middle view. If the compositor summed outer views together with
+  // the middle view, the products of outer weights with faint light would round to zero.
   int32_t LastAlike(int32_t i, int32_t first, int32_t last) const;
 
   // Returns the number of bits by which the scaled weights of views (i, first) to (i, last) are
-  // shifted left. If a whole column fits in one group, the result is 0 unless the weights have a
-  // smaller magnitude than the largest weight (LastAlike).
+  // shifted left. If a whole column fits in one group, the result is 0 unless the weight of view
+  // (i, first) is at most 1/16 of the largest weight of the aperture.
   int ExtraBits(int32_t i, int32_t first, int32_t last) const;
 
   // Returns the largest j for which the aperture has a view (i, j).
@@ -66,8 +67,8 @@ struct ScaledWeights {
 };
 
 // Scales the weights of an aperture so that each group's weights sum to at most kGroupSum and each
-// weight is at most kGroupSum / 4. For steep openings, both limits are multiplied by the number of
-// shares, up to kMostShares.
+// weight is at most kGroupSum / 4. For apertures with a steep fall-off, the limits kGroupSum and
+// kGroupSum / 4 are multiplied by the number of shares, which is at most kMostShares.
 ScaledWeights ScaleWeights(const ViewWeights& aperture);
 
 // A stack of slices, ordered from the nearest to the farthest.
@@ -77,8 +78,8 @@ struct SliceStack {
   Rect inner;  // rectangle to refocus, which contains the tile, in pixels of the surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  SurfaceBands bands;                // Ranges of the surfaces' disparities in each band.
-  const simd::SliceOffset* offsets;  // Offsets of `count` slices for each of the views -N to N.
+  SurfaceBands bands;  // Disparity range of all surfaces in each band of kBandRows rows.
+  const simd::SliceOffset* offsets;  // Offsets of `count` slices for each column -N to N of views.
 
   // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in
   // all views (j, i).

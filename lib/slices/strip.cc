@@ -24,7 +24,8 @@ class Strip {
   }
 
  private:
-  // Finds the slices that any cell pair sees and the rows of these slices. Clears the sums.
+  // Finds the slices that are visible in at least one cell pair, and the rows of these slices.
+  // Clears the sums.
   void FindRows() {
     for (int32_t k = 0; k < stack_.count; ++k) rows_[k] = {0, 0};
     for (const CellPair* pair = pairs_.first; pair < pairs_.end; ++pair) {
@@ -42,8 +43,8 @@ class Strip {
     }
   }
 
-  // Allocates memory in the strip for the slices that the cell pairs see. The marks of all slices
-  // follow the samples of all slices.
+  // Allocates memory of the strip for the slices that are visible in the cell pairs. The marks
+  // `near` of all slices are stored after the samples of all slices.
   void PlaceSlices() {
     size_t rows = 0;
     for (int32_t n = 0; n < seen_; ++n) {
@@ -129,7 +130,7 @@ class Strip {
   int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
-  RowRange rows_[kMaxSlices];           // Rows of the cell pairs that see each slice.
+  RowRange rows_[kMaxSlices];  // For each slice, the rows of the cell pairs that show the slice.
   ShiftedSlice shifted_[kMaxSlices];    // The slices shifted for the current column of views.
   simd::StripSlice shown_[kMaxSlices];  // `shifted_` in the format of the SIMD kernel.
 };

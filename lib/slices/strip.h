@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composites a strip, which is kSliceLanes columns of a part of a tile. All views of a strip are
-// composited while the slices of the strip are in the L1 cache.
+// Composites a strip, which consists of kSliceLanes adjacent pixel columns in a tile. All views of
+// a strip are composited while the slices of the strip are in the L1 cache.
 #ifndef STARFOCUS_LIB_SLICES_STRIP_H_
 #define STARFOCUS_LIB_SLICES_STRIP_H_
 
@@ -14,18 +14,19 @@
 
 namespace starfocus {
 
-// Two adjacent cells in a part of a tile, with the slices that these cells see.
+// Two adjacent cells (squares of up to 8x8 pixels), with the slices that are visible in these
+// cells.
 struct CellPair {
-  int32_t x, y, rows;  // Position and height in pixels of the part.
-  int32_t count;       // Number of slices that the pair sees.
+  int32_t x, y, rows;  // Position in the part of the tile, and height, both in pixels.
+  int32_t count;       // Number of slices that are visible in the two cells.
   uint8_t shown[kMaxSlices];
 };
 
 // Sums of a pixel: R, G, B and coverage.
 inline constexpr size_t kPixelSums = 4;
 
-// Input, scratch memory and output for the strips of a part of a tile. G is the smaller of 2 N + 1
-// and kGroupViews.
+// Input, scratch memory and output for the strips of a part of a tile. G is kGroupViews or the
+// number of views in the middle column of the aperture, whichever is smaller.
 struct StripJob {
   const simd::Kernels* kernels;
   const SliceStack* stack;

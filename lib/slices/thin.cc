@@ -10,8 +10,9 @@ namespace {
 // Pixels with a coverage above kMostPart belong to the near surface alone. Pixels with a coverage
 // of at most kLeastPart belong to the far surface alone.
 constexpr int32_t kMostPart = 115, kLeastPart = 2;
-// Hidden surfaces less than kSameStructure (kDisparityBits) behind the near surface are dropped,
-// because they are other strands and not opaque.
+// Smallest difference of disparity (kDisparityBits) between the near surface and a hidden surface.
+// Hidden surfaces with a smaller difference are dropped, because they are not opaque but other
+// strands of the thin structure.
 constexpr int32_t kSameStructure = 4 << kDisparityBits;
 
 class ThinParter {
@@ -49,14 +50,15 @@ class ThinParter {
       if (whole || is_excess_) continue;
       near = RestOf(mixed[c], beyond, kWhole - alpha);
       // RestOf may have clipped the near surface's light. The far surface's light compensates for
-      // the clipping, so that both surfaces still add up to the pixel.
+      // the clipping, so that the mixture of the near and far surfaces still equals the light of
+      // the pixel.
       beyond = RestOf(mixed[c], near, alpha);
     }
   }
 
  private:
-  // Returns the excess of the far surface, which is the excess of the mixture, or 0 if the near
-  // surface covers the whole pixel.
+  // Returns the far surface's excess (light beyond white): the excess of the whole pixel, or 0 if
+  // the near surface covers the whole pixel.
   static int16_t ExcessBehind(int16_t excess, bool whole) { return whole ? int16_t{0} : excess; }
 
   // Returns the light of the surface that covers the rest of a mixture, if `surface` covers `part`

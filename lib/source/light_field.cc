@@ -17,8 +17,8 @@ const uint8_t* ReadView(const void* self, int view, int32_t x, int32_t y, int32_
   return room;
 }
 
-// Reads codes of a view for the engine's windows. Codes of the centre view are read from the ring
-// buffer of converted rows.
+// Reads 8-bit samples (codes) of a row of a view, for the input windows of the engine. Codes of the
+// centre view are read from the ring buffer of converted rows.
 const uint8_t* WindowCodes(const void* self, int view, int32_t x, int32_t y, int32_t count,
                            uint8_t* room) {
   if (view > 0) return ReadView(self, view, x, y, count, room);
@@ -82,7 +82,8 @@ void MakeLightField(const starfocus_light_field& given, int32_t first, EngineSta
     FillColumns(engine->config.width, memory.map_width, memory.columns);
   }
   field->depth = MakeDepthSource(engine->config, given.depth, memory.columns);
-  // A map of smaller height than the picture always contains all rows, so its first row is 0.
+  // If the map has fewer rows than the picture, the caller always passes all rows of the map, so
+  // the first row is 0.
   if (given.depth.height == engine->config.height) field->depth.first = first;
   field->coverage = {given.coverage, given.coverage_stride, 0, first};
 }

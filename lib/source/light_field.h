@@ -26,8 +26,9 @@ struct LightField {
   PlaneViews planes;
 };
 
-// Initialises *field from a valid light field whose rows start with row `first` of the picture. The
-// column table for a smaller map is stored in the engine's memory.
+// Initialises *field from a valid light field whose rows start with row `first` of the picture. If
+// the depth map is smaller than the picture, the table of the map's columns is stored in the
+// engine's memory.
 void MakeLightField(const starfocus_light_field& given, int32_t first, EngineState* engine,
                     LightField* field);
 

@@ -9,8 +9,8 @@
 namespace starfocus {
 namespace {
 
-// Converts pairs of rows of the image. Job `index` converts part `index` of the pairs, as PartOf
-// divides them.
+// Converts pairs of rows of the image. PartOf divides the row pairs into one range for each job,
+// and job `index` converts range `index`.
 struct PairsJob {
   const PictureOutput* out;
   Plane<uint8_t> from;

@@ -29,7 +29,7 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
   }
 }
 
-// Reduces the columns `part` of a view by all shifts. Returns false after cancellation.
+// Reduces the columns `part` of a view to all sizes of previews. Returns false after cancellation.
 bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch* scratch) {
   const EngineState& engine = *job.engine;
   const Window& window = engine.row_store.windows[0];
@@ -61,10 +61,10 @@ int16_t ConvertedEnd(const EngineState& engine, float end) {
   return converted;
 }
 
-// Reduces the columns `part` of the map by `shift`. Returns false after cancellation.
+// Reduces the columns `part` of the map to 1/2^shift of its size. Returns false after cancellation.
 bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const starfocus_config reduced = ReducedConfig(job.engine->config, shift);
-  // Rounding a reduced disparity may exceed the disparity range by one step, so the result is
+  // A rounded disparity may exceed the disparity range by one unit of fixed point, so the result is
   // clamped.
   const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
   const int16_t high = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_max));
@@ -86,7 +86,8 @@ bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch*
   return true;
 }
 
-// Reduces the columns `part` of the coverage by `shift`. Returns false after cancellation.
+// Reduces the columns `part` of the coverage to 1/2^shift of its size. Returns false after
+// cancellation.
 bool ReduceCoverage(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
   const Plane<const uint8_t>& given = job.engine->row_store.windows[0].given_coverage;
   const Plane<uint8_t>& coverage = job.fields[shift].coverage;

@@ -11,10 +11,10 @@
 namespace starfocus {
 
 static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction,
-              "each size of previews is a size of reductions");
+              "each preview size must be a supported size of reduced light fields");
 
 struct ReducedField {
-  Plane<uint8_t> views[kMaxViews];  // Codes of all rows.
+  Plane<uint8_t> views[kMaxViews];  // 8-bit samples (codes) of all rows.
   Plane<int16_t> disparity;  // In fixed point (kDisparityBits), in pixels of the reduced picture.
   Plane<uint8_t> coverage;   // Null: the configuration has no coverage.
 };
@@ -24,10 +24,10 @@ starfocus_config ReducedConfig(const starfocus_config& config, int shift);
 
 void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field);
 
-// Reduces rows [rows.first, rows.last) of the light field in the engine's windows by all shifts
-// from 1 to `previews`. Writes the results to fields[shift]. Reads disparities from `disparity`.
-// rows.first and rows.last must be multiples of the superblock size; rows.last may also be the
-// height of the picture.
+// Reduces rows [rows.first, rows.last) of the light field in the engine's windows to 1/2^shift of
+// its size, for each shift from 1 to `previews`. Writes the results to fields[shift]. Reads
+// disparities from `disparity`. rows.first and rows.last must be multiples of the superblock size;
+// rows.last may also be the height of the picture.
 starfocus_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
                             const ReducedField* fields, EngineState* engine);
 
