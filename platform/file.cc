@@ -45,9 +45,9 @@ fs::path FollowLink(const fs::path& path) {
   return error ? path : real;
 }
 
-// Returns true if the file has no write permission at all, or if this process may not write to the
-// file. The check of the permission bits protects read-only files even from root, for whom access()
-// always succeeds.
+// Returns true if the file has no write permission at all, or if this process lacks the permission
+// to write to the file. The check of the permission bits protects read-only files even from root,
+// for whom access() always succeeds.
 bool IsProtected(const fs::path& target) {
   struct stat status;
   if (stat(target.c_str(), &status) != 0) return false;
@@ -87,9 +87,9 @@ Error Replace(const std::string& path, const fs::path& target, const Bytes& byte
   return whole ? Error() : Cannot("write", path, Reason(errno));
 }
 
-// Limit of an input file in bytes. A PPM file of the largest supported picture, 2^28 pixels with 16
-// bits per sample, is smaller than kMostBytes. A limit is required because a pipe has no known size
-// and may be endless.
+// Limit on the size of an input file in bytes. A PPM file of the largest supported picture, 2^28
+// pixels with 16 bits per sample, is smaller than kMostBytes. A limit is required because a pipe
+// has no known size and may be endless.
 constexpr uint64_t kMostBytes = uint64_t{1} << 31;
 
 Error TooLarge(const std::string& path, uint64_t most, const std::string& found) {

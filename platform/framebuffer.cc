@@ -16,8 +16,8 @@
 namespace starfocus {
 namespace {
 
-// Shifts the `field.length` highest bits of an 8-bit sample to the position of this colour in a
-// pixel.
+// Shifts the `field.length` highest bits of an 8-bit sample to the bits of a pixel that start at
+// bit `field.offset`.
 uint32_t Placed(uint8_t sample, PixelField field) {
   const uint32_t bits = field.length >= 8 ? uint32_t{sample} << (field.length - 8)
                                           : uint32_t{sample} >> (8 - field.length);

@@ -18,7 +18,7 @@ namespace starfocus {
 
 struct LightField {
   std::vector<Image> views;
-  Positions positions;  // positions of the views; empty: the star of starfocus_view_position
+  Positions positions;  // positions of the views; empty: positions of starfocus_view_position
   FloatMap disparity;
   // starfocus_light_field.coverage in rows without padding; empty: no coverage
   std::vector<uint8_t> coverage;

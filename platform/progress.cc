@@ -69,7 +69,7 @@ int PictureProgress::Tell(void* data, int32_t rows_done, int32_t rows) {
   PictureProgress& self = *static_cast<PictureProgress*>(data);
   const auto steps = static_cast<int32_t>(int64_t{kSteps} * rows_done / rows);
   self.progress_.Step(steps - self.steps_);
-  self.steps_ = rows_done < rows ? steps : 0;  // rows_done == rows ends a picture.
+  self.steps_ = rows_done < rows ? steps : 0;  // A picture is complete if rows_done equals rows.
   return 0;
 }
 

@@ -68,8 +68,8 @@ Error CheckFolder(const std::string& folder) {
   return Expected(folder, "a light-field folder", fs::exists(status) ? "a file" : "nothing");
 }
 
-// Returns the index of a position in the star, or the size of the star if the position is not part
-// of the star.
+// Returns the index of a position in the list of starfocus_view_position, or the size of the list
+// if the list does not contain the position.
 size_t StarIndex(const starfocus_position& position) {
   const Positions star = StarPositions(STARFOCUS_MAX_VIEWS);
   size_t index = 0;

@@ -24,7 +24,7 @@ struct ViewFile {
 // Returns the first `views` positions of starfocus_view_position.
 Positions StarPositions(int views);
 
-// Returns true if a star can have `views` views: 1, 5, 9 or 17.
+// Returns true if a star, the default arrangement of views, can have `views` views: 1, 5, 9 or 17.
 bool IsStarSet(int views);
 
 // Returns true if the positions equal the first positions of starfocus_view_position, in order.

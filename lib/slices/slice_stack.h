@@ -32,8 +32,8 @@ struct ScaledWeights {
   const ViewWeights* aperture;
   uint64_t scale;    // Factor of the aperture weights, times 2^16 (21 bits).
   uint32_t largest;  // Largest weight of the aperture.
-  // Smallest sum of coverage from which a colour is computed. If the sum of coverage is smaller
-  // than this limit, rounding errors of the colour would be visible.
+  // Smallest sum of coverage from which a colour is computed. If a colour were computed from a
+  // smaller sum of coverage, rounding errors of the colour would be visible.
   uint32_t least_covered;
 
   int16_t Weight(int32_t i, int32_t j, int extra_bits, const WeightShare& share) const {

@@ -17,13 +17,13 @@
 namespace starfocus {
 namespace {
 
-// Limit of the scans in progressive files. A scan of a few bytes takes the time of a pass over the
-// whole picture.
+// Limit on the number of scans in a progressive JPEG file. Decoding a scan, even of a few bytes,
+// takes as long as a pass over the whole picture.
 constexpr int kMostScans = 500;
 
 // State of libjpeg and the cause of an error. The destructor frees libjpeg's memory.
 struct Decoder {
-  jpeg_error_mgr manager;  // must be the first member, because Fail casts a pointer to it
+  jpeg_error_mgr manager;  // first member: functions cast the address of `manager` to Decoder*
   std::jmp_buf back;
   jpeg_decompress_struct info;
   jpeg_progress_mgr progress;
@@ -48,8 +48,8 @@ void Fail(j_common_ptr info) {
 
 void KeepSilent(j_common_ptr) {}
 
-// Returns true if the warning `code` means that pixels are missing or wrong. Ignores warnings about
-// bytes between the parts of a file and about unused numbers.
+// Returns true if the warning `code` means that pixels are missing or wrong. Ignores other
+// warnings, for example about extraneous bytes between the segments of a file.
 bool LosesPixels(int code) {
   return code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER || code == JWRN_HUFF_BAD_CODE ||
          code == JWRN_ARITH_BAD_CODE || code == JWRN_MUST_RESYNC || code == JWRN_NOT_SEQUENTIAL;

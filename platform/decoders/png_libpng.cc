@@ -52,7 +52,9 @@ int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   } catch (const std::bad_alloc&) {
     call->no_memory = true;
   }
-  return -1;  // libpng calls Fail after the handler, because longjmp must not leave the handler
+  // Return -1 instead of calling Fail, because longjmp must not leave an exception handler. libpng
+  // then calls Fail.
+  return -1;
 }
 
 // Owns libpng's structures.

@@ -12,8 +12,8 @@
 namespace starfocus {
 namespace {
 
-// Limit of a text in bytes. EXIF has at most 64 KiB, and its text has two digits per byte plus line
-// breaks.
+// Limit on the size of a text chunk in bytes. EXIF has at most 64 KiB, and its text has two digits
+// per byte plus line breaks.
 constexpr size_t kMostText = size_t{1} << 18;
 
 struct FreeDecompressor {

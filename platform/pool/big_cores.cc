@@ -81,7 +81,7 @@ void RunOn(const CoreSet& cores) {
   for (int core = 0; core < CPU_SETSIZE && core < kMaxCores; ++core) {
     if (cores.Has(core)) CPU_SET(core, &set);
   }
-  sched_setaffinity(0, sizeof set, &set);  // if the call fails, the thread still runs on any core
+  sched_setaffinity(0, sizeof set, &set);  // if the call fails, the thread may use any core
 }
 
 #else

@@ -17,8 +17,8 @@ namespace starfocus {
 void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
 // Reads the first map of disparities or depths among the pictures that follow the primary picture
-// of a JPEG file. The caller must have set photo->picture. Adds a fact to `photo` if the JPEG file
-// has a gain map.
+// of a JPEG file. The caller must have set photo->picture. Adds an entry to photo->facts if the
+// JPEG file has a gain map.
 Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
 
 }  // namespace starfocus

@@ -86,7 +86,8 @@ Result<Capture> OpenFolder(const std::string& folder) {
   return IsHci(*names) ? OpenHci(folder, *names) : OpenArray(folder, pictures);
 }
 
-// Moves the two views of a stereo pair to the capture. A stereo pair in one file has no map.
+// Moves the two views of a stereo pair from `photo` to `capture`. A stereo pair in one file has no
+// map.
 void TakePair(const std::string& path, DepthPhoto* photo, Capture* capture) {
   capture->files = {{{0, 0}, path}, {{1, 0}, path}};
   capture->light_field.positions = {{0, 0}, {1, 0}};

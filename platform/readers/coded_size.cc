@@ -8,8 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Reads integers with a given number of bits. Reads past the end of the data return zero bits, and
-// good() is then false.
+// Reads integers with a given number of bits. If a read extends past the end of the data, the
+// missing bits are zero and good() returns false.
 class Bits {
  public:
   explicit Bits(Span bytes) : bytes_(bytes) {}

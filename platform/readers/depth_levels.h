@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the levels of a depth picture, 0 to 1, to inverse distances or an order.
+// Converts the levels of a depth picture, 0 to 1, to inverse distances or to values that define
+// only an order of depth.
 #ifndef STARFOCUS_PLATFORM_READERS_DEPTH_LEVELS_H_
 #define STARFOCUS_PLATFORM_READERS_DEPTH_LEVELS_H_
 
@@ -32,7 +33,7 @@ void Invert(FloatMap* map);
 // note. The guess assumes that the bottom of a photograph is nearer than its top.
 void ToOrder(Near near, DepthPhoto* photo);
 
-// Adds a fact that describes how the file stores the map.
+// Adds an entry to photo->facts that describes how the file stores the map.
 void TellMap(const std::string& text, DepthPhoto* photo);
 
 // Decodes the picture of a JPEG file. Copies EXIF and the ICC profile from `parts` to the result.

@@ -20,7 +20,7 @@ enum class DepthUnit {
 
 // Orientation of a depth picture in its file, relative to the photo.
 enum class DepthOrientation {
-  kUnknown,  // Proportions and edges of photo and map decide.
+  kUnknown,  // Determined from the proportions and edges of photo and map.
   kPhoto,    // Oriented like the stored photo: EXIF's orientation applies to photo and map.
   kUpright,  // Upright: EXIF's orientation applies only to the photo.
 };

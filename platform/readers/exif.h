@@ -8,10 +8,10 @@
 namespace starfocus {
 
 // Reads photo->metadata.exif, if any, into `orientation`, `focal_35mm` and the subject
-// (SubjectArea, otherwise SubjectLocation), and adds a fact. Ignores damaged EXIF, since the
-// picture is usable without EXIF. `width` and `height` are the size of the picture before its
-// orientation is applied. The coordinates of the subject refer to `width` and `height` if EXIF
-// states no size.
+// (SubjectArea, otherwise SubjectLocation), and adds an entry to photo->facts. Ignores damaged
+// EXIF, since the picture is usable without EXIF. `width` and `height` are the size of the picture
+// before its orientation is applied. The coordinates of the subject refer to `width` and `height`
+// if EXIF states no size.
 void ReadExif(int width, int height, DepthPhoto* photo);
 
 // Reads EXIF with the size of photo->picture. The caller must not have applied the EXIF orientation

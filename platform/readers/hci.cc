@@ -34,7 +34,7 @@ Error ReadParameters(const std::string& path, int reach, Capture* capture) {
   KeyValues& values = *read;
   const auto baseline = NumberOf(values, "baseline_mm");
   const auto focal = NumberOf(values, "focal_length_mm");
-  if (!(baseline > 0.0 && focal > 0.0)) return {};  // a missing value is not above 0
+  if (!(baseline > 0.0 && focal > 0.0)) return {};  // a missing value (nullopt) is less than 0
   capture->widest = *focal / (2 * reach * *baseline);
   char f_stop[32];
   std::snprintf(f_stop, sizeof(f_stop), "%.3g", capture->widest);

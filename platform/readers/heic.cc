@@ -180,7 +180,8 @@ void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
   if (root) photo->metadata.xmp = KeptXmp(*root);
 }
 
-// Adds a fact if an auxiliary picture is a gain map. Refocusing does not use gain maps.
+// Adds an entry to photo->facts if an auxiliary picture is a gain map. Refocusing does not use gain
+// maps.
 void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
   heif_item_id ids[16];
   const int count = heif_image_handle_get_list_of_auxiliary_image_IDs(handle, 0, ids, 16);

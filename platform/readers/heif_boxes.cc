@@ -15,7 +15,8 @@ struct Box {
   Span body;
 };
 
-// Reads big-endian integers. Reads past the end of the data return 0, and good() is then false.
+// Reads big-endian integers. If a read extends past the end of the data, the result is 0 and good()
+// returns false.
 class Cursor {
  public:
   explicit Cursor(Span bytes) : rest_(bytes) {}

@@ -12,7 +12,7 @@
 namespace starfocus {
 namespace {
 
-constexpr size_t kMostSegments = 4096;  // limit of the number of segments, 256 MiB in total
+constexpr size_t kMostSegments = 4096;  // limit on the number of segments, 256 MiB in total
 constexpr size_t kGuidSize = 32;
 
 constexpr uint8_t kApp1 = 0xe1, kApp2 = 0xe2, kApp13 = 0xed;

@@ -34,7 +34,8 @@ struct JpegParts {
   std::string ignored;    // Reason for ignoring an ICC profile; empty: no profile was ignored.
   std::vector<Span> xmp;  // XMP packets; some files have several, against the specification.
   std::vector<XmpExtension> extensions;
-  Span multi_picture;  // Index of CIPA DC-007, from its TIFF header to the end of the segment.
+  Span multi_picture;  // Multi-picture index (CIPA DC-007), from its TIFF header to the end of the
+                       // segment.
   size_t end = 0;      // End of the first picture; other pictures may follow.
 };
 

@@ -12,12 +12,13 @@
 namespace starfocus {
 namespace {
 
-// Limit in pixels of the longer side of pictures whose edges are compared. Larger pictures are
-// reduced by a whole factor, because averaging over cells of different sizes would produce
+// Limit in pixels on the longer side of pictures whose edges are compared. Larger pictures are
+// reduced by an integer factor, because averages over different numbers of pixels would produce
 // artificial edges.
 constexpr int kSmall = 512;
 
-// Reduces a picture to width x height cells and returns the mean brightness of each cell.
+// Divides a picture into width x height rectangles and returns the mean brightness of each
+// rectangle.
 FloatMap ShrinkPicture(const Image& picture, int width, int height) {
   FloatMap small = {width, height, {}};
   small.values.reserve(size_t(width) * size_t(height));

@@ -52,8 +52,8 @@ std::string Find(const std::vector<std::string>& names, const std::string& name)
 }
 
 // Returns the mean difference of the left and right pictures at corresponding pixels, assuming that
-// grey levels are `multiple` times the disparity. Compares only pixels that correspond to a pixel
-// of the right picture for every multiple.
+// grey levels are `multiple` times the disparity. Compares only pixels that have a corresponding
+// pixel in the right picture, whatever the value of `multiple` is.
 double Difference(const LightField& field, const FloatMap& levels, int multiple) {
   // kCutOff limits the difference at occluded pixels, and kStep = 2 skips every other row.
   constexpr int kCutOff = 90, kStep = 2;
@@ -75,8 +75,8 @@ double Difference(const LightField& field, const FloatMap& levels, int multiple)
 }
 
 int ChooseMultiple(const GreyMapPair& pair, const LightField& field, const FloatMap& levels) {
-  // Another multiple is used if its picture difference is below kClearly times the difference of
-  // the default multiple, minus kLevel for rounding errors.
+  // Replaces the default multiple by another multiple whose result of Difference is less than
+  // kClearly times the result of the default multiple, minus kLevel for rounding errors.
   constexpr double kClearly = 0.7, kLevel = 1;
   const Size* own =
       std::find_if(std::begin(pair.sizes), std::end(pair.sizes),

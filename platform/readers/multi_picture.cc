@@ -9,13 +9,14 @@
 namespace starfocus {
 namespace {
 
-// Limit of the number of pictures, because a start code without a picture causes a scan of the rest
+// Limit on the number of pictures, because a start code without a picture causes a scan of the rest
 // of the file.
 constexpr size_t kMostPictures = 64;
 constexpr size_t kEntrySize = 16;
 constexpr uint32_t kEntryTag = 0xb002, kTypeBits = 0xffffff;
 
-// Reads integers of a TIFF header in either byte order. Reads after the end of the header return 0.
+// Reads integers of a TIFF header in either byte order. If a read extends past the end of the
+// header, the result is 0.
 struct Tiff {
   Span bytes;
   bool little = false;

@@ -7,7 +7,7 @@ namespace {
 // SwapsSides, FromRight and FromBelow decompose an EXIF orientation. An EXIF orientation states at
 // which sides of the scene row 0 and column 0 of the picture are (EXIF 2.32, tag 274).
 bool SwapsSides(int orientation) { return orientation >= 5; }
-bool FromRight(int orientation) {  // x runs to the left before SwapsSides is applied
+bool FromRight(int orientation) {  // true if the stored columns are in reverse order
   return orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8;
 }
 bool FromBelow(int orientation) {

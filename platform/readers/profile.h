@@ -7,8 +7,8 @@
 
 namespace starfocus {
 
-// Adds a fact about photo->metadata.icc unless the profile is empty. Clears photo->metadata.icc if
-// the profile is incomplete or not for RGB (icc_profile.h).
+// Adds an entry about photo->metadata.icc to photo->facts unless the profile is empty. Clears
+// photo->metadata.icc if the profile is incomplete or not for RGB (icc_profile.h).
 void CheckProfile(DepthPhoto* photo);
 
 }  // namespace starfocus

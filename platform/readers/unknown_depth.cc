@@ -156,7 +156,7 @@ size_t FillBehind(FloatMap* map) {
   const auto unknown = std::count_if(map->values.begin(), map->values.end(),
                                      [](float value) { return std::isnan(value); });
   if (unknown == 0) return 0;
-  constexpr float kAlikePart = 0.05F;  // Fraction of the value range.
+  constexpr float kAlikePart = 0.05F;  // Tolerance as a fraction of the value range.
   const RobustRange range = RobustRangeOf(map->values);
   const float alike = kAlikePart * (range.high - range.low);
   // The first pass completes every row and column that contains a known pixel, so the second pass

@@ -58,8 +58,8 @@ std::string Count(int rows, int columns) {
 // is even, the last view is ignored.
 int HalfOf(int count) { return (count - 1) / 2; }
 
-// Returns the reach of a star: the distance of its outermost views from the centre, in views. An
-// odd reach above 4 is reduced by one to an even reach.
+// Returns the distance from the centre view to the outermost chosen views, counted in views. If
+// `half` is odd and larger than 4, the distance is half - 1, which is even.
 int ReachOf(int half) { return half % 2 == 1 && half > 4 ? half - 1 : half; }
 
 struct Chooser {

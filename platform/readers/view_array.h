@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds arrays of views in rows and columns, as most light fields are published, and chooses a star
-// of views from an array.
+// Finds arrays of views in rows and columns, as most light fields are published, and chooses up to
+// 17 views from an array.
 #ifndef STARFOCUS_PLATFORM_READERS_VIEW_ARRAY_H_
 #define STARFOCUS_PLATFORM_READERS_VIEW_ARRAY_H_
 
@@ -27,10 +27,11 @@ struct Star {
   int reach = 0;
 };
 
-// Chooses the largest star in an array of at least 3 x 3 views. The star has 17 views if half its
-// reach is a whole number, otherwise 9. If the array is a single row or column, ChooseStar chooses
-// up to 17 views. If the number of rows or columns is even, the last row or column is ignored. Adds
-// a fact.
+// Chooses views at the positions of starfocus_view_position from an array of at least 3 x 3 views,
+// as far from the centre view as possible. The result has 17 views if the outermost views are an
+// even number of views away from the centre view, otherwise 9. If the array is a single row or
+// column, ChooseStar chooses up to 17 views. If the number of rows or columns is even, the last row
+// or column is ignored. Adds an entry to `facts`.
 Result<Star> ChooseStar(const std::string& where, const ViewArray& array, Facts* facts);
 
 // Finds pictures whose names differ in two numbers (row and column) or in a single number, for

@@ -31,8 +31,8 @@ std::string Attribute(const std::string& name, double value) {
   return Attribute(name, std::string(text));
 }
 
-// Range of the disparities of a map. Extends the range of a map with a single disparity, because
-// readers require near < far.
+// Range of the disparities of a map. If all disparities of the map are equal, extends the range,
+// because readers require near < far.
 struct Range {
   double low, high;
 
@@ -54,9 +54,9 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
   return grey;
 }
 
-// Returns the attributes NearDisparity and FarDisparity. Disparities for f/1 that exceed
-// STARFOCUS_MAX_DISPARITY are shifted into the valid range. A shift of all disparities has no
-// effect on the blur.
+// Returns the attributes NearDisparity and FarDisparity. Disparities that exceed
+// STARFOCUS_MAX_DISPARITY for a lens of f/1 are shifted into the valid range. A shift of all
+// disparities has no effect on the blur.
 Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& photo,
                                   const Range& range) {
   double near = photo.widest * range.high, far = photo.widest * range.low;

@@ -15,7 +15,7 @@ namespace starfocus {
 namespace {
 
 struct Failure {
-  jpeg_error_mgr manager;  // must be the first member, because Fail casts a pointer to it
+  jpeg_error_mgr manager;  // first member: Fail casts the address of `manager` to Failure*
   std::jmp_buf back;
   char reason[JMSG_LENGTH_MAX];
 };

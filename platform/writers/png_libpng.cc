@@ -82,8 +82,8 @@ struct Pixels {
 };
 
 // Applies the filter "Up" (PNG specification, 9.2) to every row: each byte is replaced by its
-// difference from the byte above. Compared with choosing a filter per row by sums of differences,
-// photographs take 1 to 3 % fewer bytes and a tenth of the filtering time.
+// difference from the byte above. For photographs, the filter "Up" makes files 1 to 3 % smaller
+// than a filter that sums of differences select for each row, and takes a tenth of the time.
 void FilterRows(const Rows& rows, size_t row_bytes, uint8_t* filtered) {
   constexpr uint8_t kNone = 0, kUp = 2;
   for (int y = 0; y < rows.height; ++y) {

@@ -84,7 +84,7 @@ class Refocuser:
         self._engine = engine.value
         weakref.finalize(self, library.starfocus_destroy, self._engine)
         self._lock = threading.Lock()
-        #: Fields of the starfocus_report of the last refocusing, by name.
+        #: Fields of the starfocus_report of the last refocus call, by name.
         self.report: Dict[str, Any] = {}
 
     @classmethod

@@ -37,8 +37,8 @@ STARFOCUS_API int32_t starfocus_pool_cores(void);
 /** Creates a pool. On systems with big and small cores, the threads run only on the big cores if
  * the system has a big core for each worker. Free the pool with starfocus_pool_destroy.
  *  @param workers number of workers, at most STARFOCUS_MAX_WORKERS; 0 or less:
- *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of the workers, so the
- *         pool starts one thread less than it has workers. The pool has fewer workers if the system
+ *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of the workers, so a
+ *         pool of n workers starts n - 1 threads. The pool has fewer workers if the system
  *         cannot start all threads
  *  @return the pool, or null if memory could not be allocated */
 STARFOCUS_API starfocus_pool* starfocus_pool_create(int32_t workers);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies fields between Java objects and C structures. Tables list the names of the fields. Used by
-// refocuser.cc and pictures.cc.
+// Copies fields between Java objects and C structures. Tables list the name, type and offset of
+// each field to copy. Used by refocuser.cc and pictures.cc.
 #ifndef STARFOCUS_PLATFORM_JAVA_FIELDS_H_
 #define STARFOCUS_PLATFORM_JAVA_FIELDS_H_
 

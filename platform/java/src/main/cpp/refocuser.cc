@@ -28,8 +28,8 @@ struct Session {
   std::atomic<int> cancelled{0}, rows_done{0};
 };
 
-// Frees a session. End calls free instead of delete, because libstarfocus_jni must not depend on
-// the C++ run time. A session has no destructor.
+// Frees a session. The function End calls free() instead of `delete`, because libstarfocus_jni must
+// not depend on the C++ run time. A session has no destructor.
 void End(Session* session) {
   std::free(session->prepared_memory);
   starfocus_destroy(session->engine);
@@ -92,7 +92,7 @@ bool ReadPositions(JNIEnv* env, jobject configuration, starfocus_config* config)
       static_cast<jdoubleArray>(ReadObject(env, configuration, "positions", "[D"));
   if (positions == nullptr) return !env->ExceptionCheck();
   if (config->views < 1 || config->views > STARFOCUS_MAX_VIEWS)
-    return true;  // starfocus_create rejects this number of views
+    return true;  // starfocus_create rejects invalid numbers of views
   const jsize found = env->GetArrayLength(positions), expected = 2 * config->views;
   if (found != expected) {
     ThrowArgument(env, "positions: expected %d numbers, found %d", int{expected}, int{found});
@@ -110,13 +110,13 @@ int32_t Reduced(int32_t first, int32_t count, int32_t shift) {
   return static_cast<int32_t>(((int64_t{first} + count - 1) >> shift) - (first >> shift) + 1);
 }
 
-// Arguments of a refocusing at 1 / 2^shift of the full size.
+// Arguments of a call that refocuses a picture at 1 / 2^shift of the full size.
 struct JavaTask {
   int32_t shift;
   jobject parameters, out;
 };
 
-// Converts the Java arguments of a refocusing to C structures. Returns false, with an exception
+// Converts the Java arguments of a refocus call to C structures. Returns false, with an exception
 // pending, if the arguments are invalid.
 bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_params* params,
               starfocus_image* image) {

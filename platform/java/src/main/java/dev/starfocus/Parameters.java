@@ -2,9 +2,9 @@
 package dev.starfocus;
 
 /**
- * Parameters of one refocusing: the fields of the C structures starfocus_params and
- * starfocus_lens. The parameters may be changed between calls. A call throws an exception for
- * values out of range, even in fields that the shape of the lens does not use.
+ * Parameters of a refocus call: the fields of the C structures starfocus_params and starfocus_lens.
+ * The parameters may be changed between calls. A call throws an exception for values out of range,
+ * even in fields that the shape of the lens does not use.
  */
 public final class Parameters {
   /**
@@ -21,8 +21,9 @@ public final class Parameters {
    */
   public static final int SHAPE_FALL_OFF = 0, SHAPE_DISC = 1, SHAPE_POLYGON = 2, SHAPE_RING = 3;
   /**
-   * Values of {@link #renderer}. AUTO means LINE_SCAN for MODE_FRAME with a star of 5 or more
-   * views, otherwise SLICES. LINE_SCAN is the paper's line scan, which requires the views of {@link
+   * Values of {@link #renderer}. AUTO means LINE_SCAN for MODE_FRAME with 5 or more views at the
+   * positions of {@link Refocuser#viewPosition}, otherwise SLICES. LINE_SCAN is the line-scan
+   * method of the paper that docs/method.md cites, and requires views at the positions of {@link
    * Refocuser#viewPosition}. SLICES composites depth slices, which requires fewer views than
    * LINE_SCAN.
    */

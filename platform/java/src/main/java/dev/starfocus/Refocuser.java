@@ -53,8 +53,8 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Prepares a light field: computes the data that do not depend on the lens, once for many
-   * refocusings. Discards the previously prepared light field, even if the call fails.
+   * Prepares a light field: computes the data that do not depend on the lens, for later calls of
+   * {@link #refocusPrepared}. Discards the previously prepared light field, even if the call fails.
    *
    * @param field light field. The contents of its buffers must not change until another light field
    *     is prepared or the Refocuser is closed
@@ -152,9 +152,9 @@ public final class Refocuser implements AutoCloseable {
   }
 
   /**
-   * Returns the position of a view of the star: 0 is the centre; 1 to 4 are (1, 0), (-1, 0), (0,
-   * 1), (0, -1); 5 to 8 are (1, 1), (-1, 1), (1, -1), (-1, -1); 9 to 16 are views 1 to 8 at half
-   * the distance. u grows to the right, and v downwards.
+   * Returns the position of a view in the star, the default arrangement of views: 0 is the centre;
+   * 1 to 4 are (1, 0), (-1, 0), (0, 1), (0, -1); 5 to 8 are (1, 1), (-1, 1), (1, -1), (-1, -1); 9
+   * to 16 are views 1 to 8 at half the distance. u grows to the right, and v downwards.
    *
    * @param index index of the view, 0 to 16
    * @return an array of u and v
