@@ -14,8 +14,8 @@ void CountInside(const void* data, int32_t index, int32_t worker);
 void CountCells(const void* data, int32_t index, int32_t worker);
 
 // Write the coverage of cells with hair. In the second pass, the background colour of a pixel is
-// mixed with the pixel's own colour. The lower the coverage of the first pass, the larger is the
-// share of the pixel's own colour.
+// mixed with the pixel's own colour. The share of the pixel's own colour increases as the coverage
+// from the first pass decreases.
 void UnmixFirst(const void* data, int32_t index, int32_t worker);
 void UnmixAgain(const void* data, int32_t index, int32_t worker);
 

@@ -6,12 +6,13 @@
 namespace starfocus {
 namespace {
 
-// Radius in pixels of the disc of pixels that are counted.
+// Radius in pixels of the disc that TakeMajority reads around each pixel.
 constexpr int32_t kRadius = 5;
 // Largest horizontal distance from the centre in each row of the disc, starting with the middle
 // row.
 constexpr int32_t kWidths[kRadius + 1] = {5, 4, 4, 4, 3, 0};
-// The weight of a pixel decreases with its squared distance and with its difference of colour.
+// The weight of a neighbouring pixel decreases with its squared distance from the pixel and with
+// the difference between both colours.
 constexpr int32_t kNearWeight = 36, kColourWeight = 64;
 
 // Range of the disparities around a pixel, or of the disparities in a column.

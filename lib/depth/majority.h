@@ -13,7 +13,7 @@ namespace starfocus {
 // TakeMajority may change a pixel if there is another surface within kMajorityReach pixels. Two
 // surfaces differ by more than kMajorityStep in disparity.
 inline constexpr int32_t kMajorityReach = 2, kMajorityStep = 2 * kSurfaceStep;
-// Largest length in pixels of a row for TakeMajority.
+// Largest number of pixels in the `row` argument of TakeMajority.
 inline constexpr int32_t kMostMajority = 32;
 
 // Writes the disparities of a row of pixels. A pixel keeps its disparity unless another surface has

@@ -11,8 +11,8 @@
 namespace starfocus {
 namespace {
 
-// Largest distance between a label and a trusted disparity at which the label has no prior cost, in
-// fixed point (kDisparityBits).
+// The given map adds no cost to a label whose disparity differs from a trusted disparity by at most
+// kOwnLabels (kDisparityBits).
 constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
 // Writes the initial prior of one pixel: 0 for the labels near the pixel's disparity, and the
@@ -39,15 +39,16 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
   const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
   const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
   const size_t row_places = width * places;
-  // Spreads the prior along row y in direction `step`. If `goes_on` is true, the prior is also
-  // spread from row y + from.
+  // Propagates the prior costs of row y along the row in direction `step`. If `goes_on` is true,
+  // prior costs are also propagated from row y + from to row y.
   const auto spread = [&](size_t y, bool goes_on, ptrdiff_t step, ptrdiff_t from) {
     uint8_t* prior = tile->prior + y * row_places;
     const ptrdiff_t before = from * static_cast<ptrdiff_t>(row_places);
     const uint8_t* swept = tile->swept + (region.y + static_cast<ptrdiff_t>(y) + from) * plan.width;
     ForRuns(plan, tile->swept, region.y + static_cast<int32_t>(y), region.x,
             region.x + region.width, [&](int32_t begin, int32_t end) {
-              // Pixels that are not swept do not contribute to the prior.
+              // Pixels for which no disparity is searched (swept[x] == 0) contribute no prior
+              // costs.
               for (int32_t x = begin; goes_on && x < end; ++x) {
                 if (swept[x] != 0) continue;
                 std::fill_n(prior + before + (x - region.x) * static_cast<ptrdiff_t>(places),

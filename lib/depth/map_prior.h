@@ -18,7 +18,8 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
                  const simd::DepthKernels& kernels, TileMemory* tile);
 
 // Fills memory->given_cost with the cost of the given disparity, and memory->found_cost with the
-// cost of memory->second, for the pixels of `tile_rect`. The costs do not include the prior.
+// cost of memory->second, for the pixels of `tile_rect`. The written costs exclude the prior costs
+// of AddMapPrior.
 void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& tile_rect,
                    const TileMemory& tile, EstimateMemory* memory);
 

@@ -62,7 +62,8 @@ void ValueTile(const void* data, int32_t index, int32_t) {
   CountBeside(grid, sweep.memory->first, tile, index, sweep.memory->found_cells);
 }
 
-// Determines the required evidence and the thin cells from the counts of all tiles.
+// Determines from the counts of all tiles how much evidence a change of the map requires, and which
+// cells contain thin structures such as hair.
 void JudgeMaps(const Sweep& sweep) {
   EstimateMemory& memory = *sweep.memory;
   const EstimatePlan& plan = sweep.plan;
@@ -82,8 +83,8 @@ void WritePixel(const RepairJob& job, int32_t x, int32_t y, int16_t disparity) {
         output.Clamped(static_cast<float>(disparity) * kPixel);
   }
   if (output.confidence != nullptr && disparity != memory.first[at] && Differs(memory, at)) {
-    // The confidence is 0 if the sweeps contradict the map at a pixel, but the result of the sweeps
-    // is not used.
+    // The confidence of a pixel is 0 if the estimate from the views contradicts the map, but the
+    // estimate is not used.
     output.confidence[row * output.confidence_stride + column] = 0;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repairs the disparity map of a light field using the side views. The repair runs the sweeps of an
-// estimate with an additional cost for labels that differ from the map. A last phase decides which
-// of the contradicted pixels are changed.
+// Repairs the disparity map of a light field using the side views. The repair searches over all
+// labels (candidate disparities) like an estimate, with an additional cost for labels that differ
+// from the map. A last phase decides which of the contradicted pixels are changed.
 #ifndef STARFOCUS_LIB_DEPTH_REPAIR_H_
 #define STARFOCUS_LIB_DEPTH_REPAIR_H_
 

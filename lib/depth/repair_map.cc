@@ -15,8 +15,8 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// Largest difference of disparity between neighbours on one surface. Steeper slopes are blurred
-// edges.
+// Largest difference of disparity between neighbours on one surface. Slopes steeper than kMostSlope
+// are blurred edges.
 constexpr int32_t kMostSlope = kPixel / 2;
 // Largest difference between disparities that are averaged as one surface, in fixed point
 // (kDisparityBits).
@@ -24,12 +24,13 @@ constexpr int32_t kSameSurface = 38;
 // Largest difference at which a disparity counts as equal to the given disparity.
 constexpr int32_t kSame = kPixel / 4;
 constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
-// Largest distance in pixels from a mixture to trusted disparities of the nearer surface. The
-// distance spans a ramp of 12 pixels and the untrusted pixels at the ends of the ramp.
+// Largest distance in pixels from a pixel that mixes two surfaces to trusted disparities of the
+// nearer surface. kNearReach spans a ramp of disparities that is 12 pixels long, and the untrusted
+// pixels at the ends of the ramp.
 constexpr int32_t kNearReach = 16;
-// Largest cost of a pixel that the views show clearly. The cost corresponds to 11 grey levels. In
+// Largest cost of a pixel that the views show clearly. kClearCost corresponds to 11 grey levels. In
 // images of hair in front of a wall, half of the wall pixels and a twentieth of the mixed pixels
-// have a smaller cost.
+// have a cost below kClearCost.
 constexpr int32_t kClearCost = 44;
 
 size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
@@ -65,7 +66,7 @@ struct Mean {
     sum += value;
     ++count;
   }
-  // Returns the mean, with halves rounded away from zero.
+  // Returns the mean of the added values, with halves rounded away from zero.
   int32_t Value() const { return (2 * sum + (sum < 0 ? -count : count)) / (2 * count); }
 };
 

@@ -37,11 +37,11 @@ bool Differs(const EstimateMemory& memory, size_t at);
 // Requires the result of EvenOut for the tile.
 TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory);
 
-// Smallest sum of evidence over the pixels around a change, in costs (simd::kCostScale per grey
-// level). In a wrong map, the required sum is 240, which corresponds to eight pixels that fit 7.5
-// grey levels worse. In a map that is right except at details of low contrast, the required sum is
-// 1600. If the required sum is 1600, pixels whose new disparity is on the same surface as the given
-// disparity are not changed.
+// Smallest total evidence that a change of the map requires, in units of cost (simd::kCostScale per
+// grey level). In a wrong map, a change requires a total of 240, which corresponds to eight pixels
+// that fit 7.5 grey levels worse. In a map that is right except at details of low contrast, a
+// change requires a total of 1600. If changes require a total of 1600, a pixel whose new disparity
+// is on the surface of the given disparity is not changed.
 inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
 
 // Returns the repaired disparity of pixel (x, y), which is the disparity in memory.first or the
@@ -58,9 +58,9 @@ void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& c
                  int16_t* nearest);
 
 // Returns the disparity of pixel `at` in thin structure that the given map lacks. The result is the
-// disparity of the nearer surface, unless the views clearly show a farther surface. Pixels that the
-// views do not show clearly are mostly mixtures. Colours separate mixtures better than a search
-// over disparities does.
+// disparity of the nearer surface, unless the views clearly show a farther surface. Most pixels
+// that the views do not show clearly mix the colours of two surfaces. A comparison of colours
+// separates mixed pixels better than a search over disparities does.
 int16_t PartedAt(const EstimateMemory& memory, size_t at, int16_t nearest);
 
 }  // namespace starfocus

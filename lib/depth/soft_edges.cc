@@ -8,16 +8,17 @@ namespace {
 
 // Pixels whose disparities differ by less than kSame belong to one surface.
 constexpr int32_t kSame = 2 << kDisparityBits;
-// A profile extends from the third pixel of the nearer surface to the seventh pixel of the farther
-// surface.
+// A colour profile across an edge extends from the third pixel of the nearer surface to the seventh
+// pixel of the farther surface.
 constexpr int32_t kInside = 3, kOutside = 6;
 // Smallest squared distance between the colours at both ends of a profile, in grey levels squared.
-// For profiles that measure the softness of the picture, the limit is kLeastContrast. For profiles
-// that decide about a single pixel, the limit is kLeastPixelContrast.
+// Profiles that measure the softness of the picture require at least kLeastContrast. Profiles that
+// decide about a single pixel require at least kLeastPixelContrast.
 constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;
 // Reciprocals of the smallest share of the nearer surface in a mixed pixel: kLeastShare for
 // measuring edges, and kLeastPixelShare for widening a surface. At half of all sharp ray-traced
-// edges, this share is less than 0.06. At edges of photographs, this share is 0.09 to 0.34.
+// edges, the nearer surface has a share of less than 0.06 in the mixed pixel. At edges of
+// photographs, the nearer surface has a share of 0.09 to 0.34.
 constexpr int32_t kLeastShare = 14, kLeastPixelShare = 8;
 
 // The first pixel (x, y) of the farther surface, and the direction (dx, dy) away from the nearer

@@ -15,7 +15,8 @@ namespace starfocus {
 // Largest number of pixels by which the nearer surface is widened.
 inline constexpr int32_t kMostSoft = 3;
 
-// A step of disparity of more than kSoftStep is an edge (kDisparityBits).
+// Neighbouring pixels whose disparities differ by more than kSoftStep (kDisparityBits) form an
+// edge.
 inline constexpr int32_t kSoftStep = 5 << kDisparityBits;
 
 // Counts of the edges of a tile. `edges` is the number of edges at which a colour profile was
@@ -30,9 +31,10 @@ struct SoftCount {
 // Adds the counts of the edges in a rectangle to *count.
 void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count);
 
-// Returns the number of pixels by which nearer surfaces should be widened, at most kMostSoft. Let n
-// be the number of consecutive pixels that show a part of the nearer surface in at least half of
-// the profiles. The result is n + 1, or 0 if n is 0.
+// Returns the number of pixels by which nearer surfaces should be widened, at most kMostSoft. The
+// result is one more than the number of consecutive pixels that show a part of the nearer surface
+// in at least half of the profiles. If no pixel shows the nearer surface in at least half of the
+// profiles, the result is 0.
 int32_t SoftnessOf(const SoftCount* counts, int32_t tiles);
 
 // Returns the disparity of the nearest surface that is much nearer than pixel (x, y) and that the

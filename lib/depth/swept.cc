@@ -12,15 +12,15 @@
 namespace starfocus {
 namespace {
 
-// Largest mean difference between a pixel and the views on one side, summed over R, G and B, at
-// which the pixel fits these views.
+// A pixel fits the views on one side if the mean difference from these views, summed over R, G and
+// B, is at most kMostMisfit.
 constexpr int32_t kMostMisfit = 20;
 // Every second pixel of every second row is tested. A pixel is contradicted if at least
 // kLeastMisfits of the 5x5 pixels around the pixel fit badly.
 constexpr int32_t kLeastMisfits = 2, kMisfitRadius = 2;
 constexpr uint8_t kMisfit = 1, kDoubt = 2;
-// Returns true if column or row `at` of `length` columns or rows is tested. In a mirrored picture,
-// the mirrored pixels are tested.
+// Returns true if position `at` is tested, in a row or column of `length` pixels. In a mirrored
+// picture, the mirrored pixels are tested.
 bool IsTested(int32_t at, int32_t length) { return (std::abs(2 * at - (length - 1)) & 2) == 0; }
 
 // Returns the difference between a pixel and the view at (x, y); coordinates are in 1/128 pixel.

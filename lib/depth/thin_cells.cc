@@ -15,7 +15,7 @@ constexpr int32_t kCellSide = 16;
 // Largest step of disparity between pixels of one surface, in fixed point (kDisparityBits).
 // lib/coverage uses an equal value.
 constexpr int32_t kStep = 5 << kDisparityBits;
-// Distance in cells from a dense cell within which all cells are thin, because the rim of a
+// All cells within kReach cells of a dense cell are marked as thin, because the rim of a thin
 // structure has fewer strands.
 constexpr int32_t kReach = 6;
 

@@ -42,10 +42,12 @@ ThinCells TakeThinCells(const ThinGrid& grid, Arena* arena);
 void CountBeside(const ThinGrid& grid, const int16_t* map, const Rect& tile, int32_t index,
                  const ThinCells& cells);
 
-// Percentage of pixels next to much nearer pixels, in a cell and its eight neighbours, from which
-// on the cell is dense. For given maps, the limit is kThinGiven. Crossing wires have a percentage
-// of 15, or of 20 if the rows of the map are displaced. A head of hair has a percentage of up to
-// 45. For maps of the sweeps, whose rows are not displaced, the limit is kThinFound.
+// Smallest percentage of pixels next to much nearer pixels, counted in a cell and its eight
+// neighbours, that makes the cell dense. The percentage kThinGiven applies to given maps. Near
+// crossing wires, 15 % of the pixels are next to much nearer pixels, or 20 % if the rows of the map
+// are displaced. In a head of hair, up to 45 % of the pixels are next to much nearer pixels. The
+// percentage kThinFound applies to maps that are estimated from the views, whose rows are not
+// displaced.
 inline constexpr int32_t kThinGiven = 24, kThinFound = 17;
 
 // Fills cells.dense and cells.thin. Call FindThin after CountBeside has been called for all tiles.

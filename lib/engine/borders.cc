@@ -30,8 +30,8 @@ int32_t LargestMove(const starfocus_config& config) {
 }
 
 // Returns the border of a block at `layer`. Rendering reads every cell that has a pixel within
-// reach of the block, plus the border of upsampling. Gathering reads the pixels within the blur
-// radius and the upsampling margin.
+// reach of the block, plus the border of upsampling. Blurring without views (gathering) reads the
+// pixels within the blur radius and the upsampling margin.
 int32_t BorderOfLayer(int32_t blur, int layer) {
   const int32_t reach = ReachOf(blur << kDisparityBits);
   const int32_t rendered = (ToWholeCells(reach + kLayerMargin[layer]) >> layer) + kRenderBorder;

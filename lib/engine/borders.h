@@ -16,13 +16,13 @@ namespace starfocus {
 struct Borders {
   int32_t joined = 0;                    // Finished pixels around a region, for deblocking.
   int32_t whole_block = 0;               // Pixels around a block that is planned without cells.
-  int32_t layer[STARFOCUS_LAYERS] = {};  // Pixels of each layer around a block, for any partition.
+  int32_t layer[STARFOCUS_LAYERS] = {};  // Pixels of each layer around any possible block.
   int32_t cells = 0;                     // Number of cells (not pixels) around a superblock.
   int32_t parted = 0;                    // Pixels of the coverage map.
   int32_t centre = 0;                    // Pixels of the centre view and the disparity map.
-  int32_t highlights = 0;  // Distance of highlights that affect the superblock; 0: no highlights.
+  int32_t highlights = 0;  // Pixels to the farthest highlight that matters; 0: no highlights.
   int32_t views = 0;       // Pixels of any view.
-  int32_t streamed = 0;    // Pushed rows; an even number if images are enabled.
+  int32_t streamed = 0;    // Rows around a stripe of a stream, rounded up to even for images.
 };
 
 // Adds the borders of all processing steps for blur radii up to `max_blur`. `joins` is true if

@@ -51,8 +51,8 @@ starfocus_status CheckRows(const RowSource& source, const RowRange& rows, Engine
 starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
                           const Plane<int16_t>& disparity, EngineState* engine);
 
-// Copies row y of the source to the rings of a streaming engine. Returns the status of the row of
-// the disparity map. If this row is invalid, the function copies no view.
+// Copies row y of the source to the rings of a streaming engine. Returns the result of checking row
+// y of the disparity map. If this row is invalid, the function copies no view.
 starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine);
 
 // Returns the rows of all stripes that affect the region of the lens. The first row is a multiple

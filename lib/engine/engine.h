@@ -38,9 +38,9 @@ struct ImageMemory {
 };
 
 struct EngineState {
-  // Valid for the life of the engine:
+  // The following members are valid for the life of the engine.
   starfocus_config config;         // config.problem points to `problem` of this struct.
-  starfocus_problem problem = {};  // Problem of the last call.
+  starfocus_problem problem = {};  // Problem that the last call reported.
   const simd::Kernels* kernels;
   Tables tables;
   // Frees the memory of the engine. If the allocator's functions are null, the caller owns the
@@ -49,21 +49,21 @@ struct EngineState {
   size_t bytes = 0;                 // Size of the memory from the allocator.
   Workers workers;                  // Scratch memory of the workers, and their jobs.
   Plane<uint8_t> rings[kMaxViews];  // With streaming: pushed rows.
-  ImageMemory images;               // Used if images are enabled, together with rings[0].
+  ImageMemory images;               // Used together with rings[0] for image formats.
 
-  // Valid until the next call of starfocus_set_callbacks, like the runner and the progress function
-  // in workers.jobs:
+  // The following members are valid until the next call of starfocus_set_callbacks, like the runner
+  // and the progress function in workers.jobs.
   starfocus_clock clock = nullptr;
   starfocus_block_visitor on_block = nullptr;
   void* on_block_data = nullptr;
 
-  // Valid for one refocusing:
+  // The following members are valid for one refocusing.
   Lens lens;
   RowStore row_store;
   Stream stream;
   starfocus_report report;
 
-  // Valid for one stripe:
+  // The following member is valid for one stripe.
   StripeState stripe;
 };
 

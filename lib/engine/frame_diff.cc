@@ -54,7 +54,8 @@ void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_
                 const Widen& widen) {
   const StripeRange stripes = StripesOf(changes, y, reach);
   if (AllFlagged(changes, stripes) || !rows.Differs(0, changes.width)) return;
-  // Last column of superblocks that row y has flagged; filled pixels may change beyond this column.
+  // Last column of superblocks that was flagged for row y. If unknown disparities are filled,
+  // pixels beyond the flagged columns may change.
   int32_t flagged = -1;
   for (int32_t x = 0; x < changes.width; x += kUnit) {
     int32_t left = x, right = Min(x + kUnit, changes.width);

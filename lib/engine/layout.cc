@@ -128,9 +128,9 @@ void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engin
   }
   FrameDiff& changes = engine->stripe.changes;
   changes.columns = static_cast<int32_t>(blocks);
-  // For videos, the engine compares input rows up to one border below the next stripe. The compared
-  // rows flag stripes up to one more border below. The ring of flags also keeps the flags of the
-  // previous stripe.
+  // For videos, the engine compares input rows up to borders.views rows below the next stripe. The
+  // compared rows flag stripes that start up to borders.views rows farther down. The ring of flags
+  // also keeps the flags of the previous stripe.
   changes.stripes = 2 * borders.views / side + 5;
   changes.flags = arena->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
   engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;

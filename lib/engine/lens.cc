@@ -20,8 +20,8 @@ const Renderer& RendererOf(const starfocus_config& config, const starfocus_param
   return is_paper && HasLineScan(config) ? kLineScanRenderer : kSliceRenderer;
 }
 
-// Returns the aperture of a mode that has a single N. The aperture of benchmark mode has its own
-// memory. STARFOCUS_MODE_BLUR reads only the centre view and uses N = 0.
+// Returns the aperture of a mode that uses one number of views for all blocks. The aperture of
+// benchmark mode has its own memory. STARFOCUS_MODE_BLUR reads only the centre view and uses N = 0.
 ViewWeights FrameWeights(const starfocus_config& config, const Tables& tables, const Lens& lens) {
   const Renderer& renderer = *lens.renderer;
   if (lens.params.mode == STARFOCUS_MODE_BLUR) return lens.apertures[0];

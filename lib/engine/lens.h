@@ -21,9 +21,9 @@ struct Lens {
   Rect region;  // region of `params`, or the whole picture if no region is set
   const Renderer* renderer;
   double r_max;                  // Largest blur radius for the configured disparities, in pixels.
-  const ViewWeights* apertures;  // Apertures of the renderer, indexed by N.
+  const ViewWeights* apertures;  // Indexed by N, the number of views along the radius.
   int32_t largest_n;             // Largest N of `apertures`.
-  ViewWeights aperture;          // In frame modes, the aperture for the only N of the picture.
+  ViewWeights aperture;          // In frame modes, the aperture for the whole picture.
   BlurScale scale;
   Borders borders;
 };
@@ -43,18 +43,18 @@ inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == STARFOCUS
 
 inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == STARFOCUS_MODE_BENCHMARK; }
 
-// Returns true if smooth cells are gathered with this lens. The gathering kernel supports only
-// openings that one octant describes.
+// Returns true if cells of smooth surfaces are blurred without views with this lens. Blurring
+// without views supports only openings whose eight octants mirror each other.
 inline bool Gathers(const starfocus_config& config, const Lens& lens) {
   const starfocus_lens& asked = lens.params.lens;
   const bool octant = asked.shape != STARFOCUS_SHAPE_POLYGON && asked.cats_eye == 0;
   return IsBlockMode(lens) && lens.renderer->gathers && config.tuning.gather != 0 && octant;
 }
 
-// Index of the largest PSF that gathering uses.
+// Index of the largest PSF that blurs cells without views.
 int32_t LastGatherStep(const Lens& lens);
 
-// Returns the weights of a block with N = n.
+// Returns the weights of the views of a block with n views along the radius.
 inline const ViewWeights& WeightsOf(const Lens& lens, int32_t n) {
   return IsBlockMode(lens) ? lens.apertures[n] : lens.aperture;
 }

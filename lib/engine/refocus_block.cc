@@ -154,7 +154,8 @@ Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
   return {views, views * samples};
 }
 
-// Gathers the cells of a block and writes the completed block to the picture.
+// Blurs the cells of a block that need no views (gathering), and writes the completed block to the
+// picture.
 void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  Scratch* scratch) {
   BlockPixels field;
@@ -191,8 +192,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                       Scratch* scratch) {
   const Lens& lens = *in.lens;
   const ViewWeights& aperture = WeightsOf(lens, block.n);
-  // With N = 0 a block shows the centre view alone. If the centre view must be rendered, the
-  // weights of N = 1 are used with a step of 0.
+  // With N = 0 a block shows the centre view alone. To render the centre view, the weights of N = 1
+  // are used, and grid.step = 0 moves all views to the centre.
   const bool pinhole = aperture.n == 0;
   const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
   const ApertureShape& opening = in.tables->opening;
@@ -211,8 +212,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const RenderJob job = {
       &in.windows[block.layer], &grid,    in.kernels, block.rendered,   block.border,
       &scratch->cancel,         gathered, lens.r_max, IsBenchmark(lens)};
-  // If a block at layer 1 or 2 is partly gathered, the rendered part is upsampled later, together
-  // with the gathered part.
+  // If some cells of a block at layer 1 or 2 are blurred without views, GatherBlock upsamples the
+  // whole block later.
   const bool in_part = block.layer > 0 && block.gathers;
   const bool copies =
       !block.has_highlights && !in_part && (pinhole || lens.renderer->nothing_moves(job));
@@ -238,7 +239,7 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
                   Scratch* scratch) {
   const starfocus_clock clock = in.clock;
   const uint64_t start = clock != nullptr ? clock() : 0;
-  Rendered rendered = {1, 0};  // a block whose cells are all gathered counts as one view
+  Rendered rendered = {1, 0};  // a block blurred entirely without views counts as one view
   if (IsPinhole(*in.lens)) {
     rendered = CopyBlock(in, block.rect, out, scratch);
   } else if (in.lens->params.mode == STARFOCUS_MODE_BLUR) {
@@ -248,7 +249,8 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
     if (block.rendered.width > 0) {
       rendered = RefocusViews(in, block, out, scratch);
     }
-    // Gathering runs after rendering, because rendered rectangles may contain gathered cells.
+    // Rendering runs first, because the rendered rectangle may contain cells that GatherBlock
+    // overwrites.
     if (block.gathers) GatherBlock(in, block, out, scratch);
   }
   starfocus_layer_report& report = scratch->counts.layers[block.layer];

@@ -92,8 +92,8 @@ void KeepStripe(EngineState* engine) {
   std::memcpy(map.layers, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
 }
 
-// Restores the state of the engine before a failed stripe. A retry computes the data again that the
-// stripe shares with the previous stripe.
+// Restores the state that the engine had before a stripe failed. A retry recomputes the data that
+// the failed stripe shares with the previous stripe.
 void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
   engine->report = report;
   DropCounts(engine);
@@ -136,7 +136,9 @@ starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
   const starfocus_report report = engine->report;
   if (!ChooseColumns(stripe, engine)) {
-    ForgetStripe(&engine->stripe);  // the next stripe has no refocused stripe above to deblock with
+    // No block of the current stripe is refocused, so the next stripe deblocks no boundary with the
+    // current stripe.
+    ForgetStripe(&engine->stripe);
     return STARFOCUS_OK;
   }
   const starfocus_status status = RefocusPhases(stripe, rows, engine);

@@ -26,8 +26,8 @@ void MarkLayerColumns(const starfocus_config& config, const Block& block, RowSto
 // `borders`. Rows of the layers that were computed for the previous stripe are kept.
 void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store);
 
-// Subsamples the marked columns into the layers after PlaceLayers. Returns STARFOCUS_OK,
-// STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
+// Computes the marked columns of the subsampled layers. PlaceLayers must be called first. Returns
+// STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
 starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels& kernels,
                             Workers* workers, RowStore* row_store);
 

@@ -103,8 +103,8 @@ void PlanBlocks(const PlanJob& job, int32_t column, Scratch* scratch) {
   const int32_t left = column * plan.side;
   const bool has_highlights = HasHighlights(
       job, {left, job.rows.y, Min(plan.side, job.config->width - left), job.rows.height});
-  // Blocks with highlights use layer 0 and are not gathered, because the excess is read only at
-  // layer 0.
+  // Blocks with highlights are rendered from views at layer 0, because light beyond white is read
+  // only at layer 0.
   const PartitionRules rules = {job.config,
                                 lens.renderer,
                                 lens.apertures,

@@ -30,7 +30,7 @@ struct StripePlan {
   Block* blocks;       // Memory for MaxBlocks blocks per superblock.
   int32_t* counts;     // Number of blocks of each superblock.
   int32_t used;        // Number of blocks to refocus.
-  GatherMap gathered;  // Cells that are gathered, in block mode.
+  GatherMap gathered;  // In block mode, the cells that are blurred without views.
 
   Block* BlocksOf(int32_t column) const {
     return blocks + static_cast<size_t>(column) * static_cast<size_t>(MaxBlocks(side));

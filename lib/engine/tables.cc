@@ -4,7 +4,7 @@
 namespace starfocus {
 namespace {
 
-// Largest number of points of the opening that are counted for one weight.
+// Upper bound of the number of points of the opening that are counted to compute one weight.
 constexpr int64_t kAperturePoints = 256;
 
 }  // namespace

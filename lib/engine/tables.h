@@ -24,13 +24,14 @@ inline bool HasLineScan(const starfocus_config& config) {
 inline int32_t RendererCount(const starfocus_config& config) { return HasLineScan(config) ? 2 : 1; }
 
 // Returns the largest N that the block and frame modes use for blur radii up to r_max pixels. The
-// modes round radii up before they choose N. Demand::kRing requires the largest N of all demands.
+// modes round radii up before they choose N. Of all shapes of the opening, rings (Demand::kRing)
+// require the largest N.
 int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Demand demand,
                  double r_max);
 
 // Apertures of one renderer, indexed by N.
 struct ApertureTable {
-  ViewWeights* apertures;  // apertures of N up to LargestN for max_blur
+  ViewWeights* apertures;  // one aperture per N, up to the largest N that max_blur requires
   uint16_t* weights;
   int32_t count = 0;  // Number of apertures in the table.
   size_t used = 0;    // Number of weights in use.
@@ -56,8 +57,8 @@ void SetOpening(const ApertureShape& opening, Tables* tables);
 starfocus_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
                                Tables* tables);
 
-// Makes the missing PSFs up to step `steps`. Returns STARFOCUS_OK or STARFOCUS_ERROR_CANCELLED;
-// finished PSFs are kept.
+// Makes the missing PSFs of all steps (BlurStep) below `steps`. Returns STARFOCUS_OK or
+// STARFOCUS_ERROR_CANCELLED; finished PSFs are kept.
 starfocus_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables);
 
 }  // namespace starfocus

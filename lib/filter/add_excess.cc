@@ -16,7 +16,7 @@ void AddExcess(const ExcessSum& excess, const uint32_t* sums, size_t count, int 
   for (size_t begin = 0; begin < count; begin += kAtOnce) {
     const size_t end = count - begin < kAtOnce ? count : begin + kAtOnce;
     for (size_t n = begin; n < end; ++n) {
-      // The product is at most 2^32 * 63 * 2^8.
+      // The product of the sum and the factor is at most 2^32 * 63 * 2^8.
       const uint64_t more =
           (uint64_t{sums[n]} * static_cast<uint64_t>(excess.factor) + half) >> bits;
       const uint64_t sum = static_cast<uint64_t>(excess.transfer->light[codes[n]]) + more;

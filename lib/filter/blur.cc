@@ -37,8 +37,8 @@ struct Interval {
 };
 
 // Returns the part of interval `x`, on the line at y, where light passes through a polygon of
-// radius r. The part lies between the zeros of a quadratic function for each curved edge, and on
-// one side of each straight edge.
+// radius r. A curved edge limits the interval to the range between the zeros of a quadratic
+// function. A straight edge limits one end of the interval.
 Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interval x) {
   constexpr double kUnit = 1.0 / kOpeningOne;
   const double square = opening.bulge * kUnit;

@@ -29,9 +29,9 @@ int32_t BlurStepBelow(int32_t radius);
 int32_t BlurStepAbove(int32_t radius);
 
 // Weights of a PSF: the octant 0 <= m <= n, or all weights if `full` is true. The weights of all
-// pixels sum to exactly 2^sum_bits. In an octant, the equal weights of four mirrored pixels, or of
-// two mirrored pixels on an axis, sum to at most 15 bits. Pixels farther than the focus use the PSF
-// rotated by half a turn.
+// pixels sum to exactly 2^sum_bits. In an octant, the sum of the equal weights of four mirrored
+// pixels, or of two mirrored pixels on an axis, fits in 15 bits. Pixels farther than the focus use
+// the PSF rotated by half a turn.
 struct Psf {
   int32_t size;  // distance in pixels, along an axis, from the centre to the outermost weights
   int sum_bits;

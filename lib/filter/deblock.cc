@@ -41,7 +41,8 @@ void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t avail
 }
 
 // A boundary along `count` pixels that are `along` bytes apart and start at `at`. Pixels across the
-// boundary are `across` bytes apart. On the side of `at`, `room` pixels are inside the picture.
+// boundary are `across` bytes apart. `room` is the number of pixels from `at`, perpendicular to the
+// boundary, that are inside the picture.
 struct BoundaryLine {
   uint8_t* at;
   int32_t count;

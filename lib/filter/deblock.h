@@ -39,7 +39,7 @@ struct DeblockJob {
   Plane<uint8_t> out;     // Rows of the picture.
   int32_t width, height;  // Size of the picture.
   int32_t y;              // First row of the stripe.
-  int32_t beta;           // Beta of (16) and (17), in codes.
+  int32_t beta;           // Limit beta of equations (16) and (17), in codes.
   const Transfer* transfer;
   const simd::Kernels* kernels;
 };

@@ -24,7 +24,7 @@ struct SlopeRows {
   static constexpr size_t kCell = simd::SliceSamples(3 * kCellSize) + simd::kSliceLanes;
   int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
   int16_t share[kCellSize * kCell] = {};
-  // Mixture of both PSFs, starting one row above the cell.
+  // Weighted mean of the results of two PSFs, starting one row above the cell.
   int16_t mixed[(kCellSize + 2) * kCell] = {};
   int16_t moved[kCellSize * kCell] = {};
 
@@ -74,8 +74,9 @@ class Gather {
   struct Steps {
     int8_t less, more;
   };
-  static_assert(kMaxGather <= 31, "a radius of 31.5 pixels has step 127");
-  static constexpr Steps kNone = {-1, -1};  // steps of cells that are not gathered
+  static_assert(kMaxGather <= 31,
+                "PSF steps must fit in int8_t: step 127 is a radius of 31.5 pixels");
+  static constexpr Steps kNone = {-1, -1};  // marks cells that are rendered from views
 
   // Filters the row of cells at y. Adjacent cells with the same PSFs are filtered together.
   void FilterRow(int32_t y) {
@@ -137,8 +138,9 @@ class Gather {
   }
 
   // Filters adjacent cells on a slope with the same two PSFs, starting at (x, y). Mixes the results
-  // of the smaller and the larger PSF pixel by pixel. Finally, moves the mixture to its position in
-  // the mean of all views. Returns the end of the cells, or x after cancellation.
+  // of the smaller and the larger PSF pixel by pixel. Finally, displaces the mixed pixels, because
+  // the mean of all views is displaced on a slope. Returns the end of the cells, or x after
+  // cancellation.
   int32_t FilterSlopes(int32_t x, int32_t y) {
     const Steps steps = At(x, y);
     const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);
@@ -159,8 +161,8 @@ class Gather {
     return end;
   }
 
-  // Mixes the results of both PSFs in the pixels of a cell. `first` is the index of the first
-  // sample of the cell in the filtered rows.
+  // Mixes the results of the smaller and the larger PSF in the pixels of a cell. `first` is the
+  // index of the first sample of the cell in the filtered rows.
   void Mix(const Slope& slope, const Steps& steps, const Rect& pixels, size_t first) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
     const RadiusRange between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more)
@@ -220,8 +222,8 @@ class Gather {
     return Slope(*job_.grid, job_.scale, x / kCellSize, y / kCellSize, job_.cells.layer);
   }
 
-  // Returns the PSFs of a gathered cell: one PSF for the middle of a flat cell, or two PSFs to mix
-  // on a slope.
+  // Returns the PSFs that blur a cell: one PSF for the middle of a flat cell, or two PSFs to mix on
+  // a slope.
   Steps StepsOf(int32_t x, int32_t y) const {
     if (job_.cells.IsFlat(x, y)) {
       const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
@@ -254,12 +256,12 @@ class Gather {
   const GatherJob& job_;
   const Rect& block_;  // The block, in pixels of the picture.
   const Rect frame_;   // LayerFrame of the block, in pixels of the layer.
-  Rect loaded_ = {};   // Pixels of the layer that cells are gathered from.
+  Rect loaded_ = {};   // Pixels of the layer that the filters read.
   BlockPixels* field_;
   const Gathered& out_;
   int32_t border_ = 0;  // border of the field: the largest PSF size
   uint64_t pixels_ = 0;
-  Steps steps_[kMaxRowCells * kMaxRowCells];  // steps of the cells of the block
+  Steps steps_[kMaxRowCells * kMaxRowCells];  // PSFs (BlurStep) of each cell of the block
   SlopeRows rows_;
 };
 

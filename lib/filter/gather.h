@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers 8x8 cells of a single surface. Each gathered pixel is the mean of its neighbours in the
-// centre view, weighted by the ideal PSF (4) of its blur. If disparity varies little within reach
-// of the blur, this weighted mean equals the mean of all views of the aperture.
+// Gathering: blurs 8x8 cells of a single surface without views. Each gathered pixel is the mean of
+// its neighbours in the centre view, weighted by the ideal PSF (4) of its blur. If disparity varies
+// little within reach of the blur, this weighted mean equals the mean of all views of the aperture.
 #ifndef STARFOCUS_LIB_FILTER_GATHER_H_
 #define STARFOCUS_LIB_FILTER_GATHER_H_
 
@@ -45,9 +45,9 @@ struct Gathered {
   size_t stride;  // distance between rows, in samples
 };
 
-// Gathers the cells of a block that GatherMap selects. `field` must have room for the LayerFrame of
-// the block and a border of kMaxGather pixels. Returns the number of gathered pixels of the
-// picture.
+// Blurs, without views, the cells of a block that GatherMap selects. `field` must have room for the
+// LayerFrame of the block and a border of kMaxGather pixels. Returns the number of pixels of the
+// picture that the blurred cells cover.
 uint64_t GatherCells(const GatherJob& job, BlockPixels* field, const Gathered& out);
 
 }  // namespace starfocus

@@ -65,7 +65,7 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 // accepts a colour as a mixture.
 int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
-// Calls visit(column, row) for each pixel of a field that has a neighbour (of four) whose disparity
+// Calls visit(column, row) for each pixel of a field if the disparity of one of its four neighbours
 // is larger by more than `step`. Pixels outside the picture and the outermost pixels of the field
 // are skipped.
 template <class Visit>

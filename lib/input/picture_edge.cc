@@ -68,8 +68,8 @@ class Beyond {
   void LookOver(const EdgePixel& edge) {
     if (edge.beyond == 0) return;
     const int32_t disparity = DisparityAt(rect_.x + edge.column, rect_.y + edge.row);
-    // Surfaces of positive disparity continue in views on the side of the edge, other surfaces in
-    // views on the opposite side.
+    // Views on the side of the picture's edge show how surfaces of positive disparity continue.
+    // Views on the opposite side show how other surfaces continue.
     const OcclusionView& look =
         window_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
     if (look.view == 0) return;

@@ -33,9 +33,10 @@ struct Window {
   int32_t picture_height = 0;
   ViewReader reader;               // Reads light of the views, or excess (excess.h).
   bool is_excess = false;          // True: `reader` reads excess, at layer 0.
-  ViewReader light;                // If is_excess, reads the light of the views.
+  ViewReader light;                // If is_excess is true, reads the light of the views.
   Plane<const int16_t> disparity;  // Disparities at the size of the pictures, kDisparityBits.
-  // Coverage that the light field provides, 255: fully covered; null: none.
+  // Coverage that the light field provides, from 0 to 255 (fully covered); null if the light field
+  // has no coverage.
   Plane<const uint8_t> given_coverage;
   // Coverage computed from `given_coverage` or for thin structures; null: no coverage.
   const CoverageMap* coverage = nullptr;
@@ -48,17 +49,18 @@ struct CapturedLine {
 };
 
 // Reads the light at the first `count` positions of a line in captured view `index`, in RGB order.
-// For positions outside the picture, the nearest pixel inside is read. At L = 0 the light is
-// interpolated linearly. At L > 0 the view is subsampled around the nearest pixel of the picture,
-// with a triangular filter of 2^(L+1) - 1 taps per axis. A triangular filter is sufficient, because
-// refocusing later blurs a hole of a defocused block by at least 3 pixels of the layer.
+// For positions outside the picture, the nearest pixel inside is read. At layer 0 (L = 0) the light
+// is interpolated linearly. At L > 0 the view is subsampled around the nearest pixel of the
+// picture, with a triangular filter of 2^(L+1) - 1 taps per axis. A triangular filter is
+// sufficient, because refocusing later blurs a hole of a defocused block by at least 3 pixels of
+// the layer.
 void ReadCaptured(const Window& window, int index, const CapturedLine& line, int32_t count,
                   int16_t* rgb);
 
 // Returns the number of pixels of the picture that ReadCaptured reads around a position.
 constexpr int32_t CapturedBorder(int layer) { return layer == 0 ? 1 : (1 << layer) - 1; }
 
-// Reads the light at one position of a view at L = 0 without rounding. The result has 2 *
+// Reads the light at one position of a view at layer 0 without rounding. The result has 2 *
 // kShiftBits more fractional bits than light.
 void InterpolateCaptured(const Window& window, int index, int32_t x, int32_t y, int32_t* rgb);
 

@@ -49,7 +49,8 @@ int64_t Difference(const int16_t* a, const int16_t* b) {
 // neighbour strongly, but change continuously with the colours. Transposing the picture transposes
 // the result.
 void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, int16_t* out) {
-  // Added to both weights, so that neighbours that both look like the background are mixed equally.
+  // kLeast is added to both weights, so that two neighbours that look like the background are mixed
+  // equally.
   constexpr int64_t kLeast = 1 << (2 * kLightBits);
   const int64_t weight_a = Difference(b, colour) + kLeast;
   const int64_t weight_b = Difference(a, colour) + kLeast, sum = weight_a + weight_b;

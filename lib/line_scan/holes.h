@@ -12,8 +12,9 @@
 namespace starfocus {
 
 // Position of a rendered view, and the captured view (u, v) that fills the holes of the rendered
-// view. The coordinates u and v are -1, 0 or 1, in units of the full distance of the star, or of
-// the half distance if `half`. All fields are in the orientation of the view's lines.
+// view. The coordinates u and v are -1, 0 or 1. Their unit is the distance of the outermost views
+// from the centre, or half of this distance if `half` is true. All fields are in the orientation of
+// the view's lines.
 struct HoleView {
   const Window* window;
   const ViewGrid* grid;
@@ -32,9 +33,9 @@ struct HoleLine {
 
 // Writes the colours (3 samples each) of the rendered pixels [part.begin, part.end) of a line. The
 // pixels show a background of disparity `disparity`. The captured view is read at the position that
-// the disparity implies (IV-A). In a star of 5 views, a diagonal view is interpolated from its
-// horizontal and its vertical neighbour. Each neighbour is weighted by its similarity to the
-// visible background `colour`. With only the centre view, the background colour is repeated.
+// the disparity implies (IV-A). If the light field has 5 views, a diagonal view is interpolated
+// from its horizontal and its vertical neighbour. Each neighbour is weighted by its similarity to
+// the visible background `colour`. With only the centre view, the background colour is repeated.
 void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
               const int16_t* colour, int16_t* out);
 

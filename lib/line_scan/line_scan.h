@@ -143,9 +143,9 @@ class LineScan {
   // rendered pixels, the run covers only a part of its last pixel.
   struct Edge {
     const Run* run;  // null: there is no such run
-    // Offset from a rendered pixel, kShiftBits. If the offset is negative, a part of that size is
-    // missing from the last pixel, which waits to be mixed. If the offset is positive, the edge
-    // covers a part of that size of the next pixel.
+    // Offset from a rendered pixel, kShiftBits. If the offset is negative, the run leaves the part
+    // -offset of its last pixel uncovered, and this pixel is mixed later. If the offset is
+    // positive, the run covers the part `offset` of the next pixel.
     int32_t offset;
     int32_t whole;
   };
@@ -155,7 +155,8 @@ class LineScan {
     return run + 1 != runs_end_ && run[1].surface_end == run->begin;
   }
 
-  // Returns true if the last required pixel still waits to be mixed with the surface behind.
+  // Returns true if the last required pixel has not yet been mixed with the surface behind the
+  // edge.
   bool AwaitsBehind() const {
     return filled_.from == begin_ && edge_.run != nullptr && edge_.offset < 0;
   }

@@ -29,7 +29,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
   return work;
 }
 
-// The sizes E and R that LineScanScratch names are `extended` and the side of a superblock.
+// In the comments of LineScanScratch, E is `extended`, and R is the side of a superblock.
 void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                  void* memory) {
   LineScanScratch counted;

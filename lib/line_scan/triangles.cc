@@ -42,8 +42,9 @@ struct LineHoles {
   }
 };
 
-// Renders the star for one rectangle. "Along" is the direction of the parallax of type A views, and
-// "across" is the additional direction of type C views (types of section IV-B of the paper).
+// Renders all views of the aperture for one rectangle. "Along" is the direction of the parallax of
+// type A views, and "across" is the additional direction of type C views (types of section IV-B of
+// the paper).
 class Star {
  public:
   Star(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums)

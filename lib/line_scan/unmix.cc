@@ -13,8 +13,8 @@ constexpr int32_t kShareOne = 1 << kShareBits;
 constexpr int32_t kSharp = 2 * kShiftOne;
 
 // Returns the part of the near surface (kShiftBits) that is removed from a mixed pixel; negative
-// values count as 0. The part is 1 if the near blur radius exceeds the far blur radius by at least
-// one pixel, and the far blur radius is at most kSharp.
+// values count as 0. The result is 1 if the far blur radius is at most kSharp and the near blur
+// radius is larger by at least one pixel.
 int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
   return Min(Min(near_radius - far_radius, kSharp + kShiftOne - far_radius), kShiftOne);
 }
@@ -51,10 +51,11 @@ class Unmixer {
  private:
   int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
 
-  // Returns the part of a pixel (kShareBits) that the far colour replaces. The part is 1 if the
-  // share of the nearer surface is at least one half. Pixels with a smaller share are replaced only
-  // in part. Most of the light removed from such pixels would be missing from the nearer surface
-  // beyond the edge. `strength` reduces the part where no outline would be visible.
+  // Returns the part of a pixel (kShareBits) that the far colour replaces. At full strength, the
+  // result is 1 if the share of the nearer surface is at least one half. Pixels with a smaller
+  // share are replaced only in part. Most of the light removed from such pixels would be missing
+  // from the nearer surface beyond the edge. A smaller `strength` reduces the result where no
+  // outline would be visible.
   static int32_t AmountOf(int32_t share, int32_t strength) {
     return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
   }

@@ -21,7 +21,8 @@ inline constexpr int32_t kCellSize = 8;
 // of disparity between neighbouring pixels contributes to the content.
 inline constexpr int32_t kContentOne = 16;
 struct Content {
-  // Runs started by steps within a surface; a fraction if several steps start one run.
+  // Number of runs of equal disparity that steps within a surface start. If several steps start one
+  // run, each step counts as a fraction of a run.
   uint32_t slopes;
   uint32_t edges;  // runs started by depth edges
   // Pixels that depth edges uncover in the outermost view, at most 8 for each edge.
@@ -37,7 +38,8 @@ struct Cell {
   uint16_t has_edge : 1;  // 1: a depth edge lies inside the cell or at one of its sides.
   int16_t low, high;      // Range of disparities, kDisparityBits.
   // Number of pixels that the cell splats to the left, right, top and bottom, measured from the
-  // opposite edge of the cell. `inside` is the depth of the pixels that splat beyond each side.
+  // opposite edge of the cell. `inside` is the distance from each side to the innermost pixel that
+  // splats beyond the side.
   uint8_t span[4];
   uint8_t inside[4];
   // Members of Content, counted along rows and along columns.

@@ -12,10 +12,10 @@
 
 namespace starfocus {
 
-// For each cell of a stripe, the lowest layer at which the cell can be gathered. Blocks at this
-// layer or at a higher layer gather the cell. Cells with kByViews are never gathered. Cells with
-// kSlopeMark are gathered with a radius per pixel (lib/filter/slope.h), other cells with the radius
-// of their middle.
+// For each cell of a stripe, the lowest layer at which the cell can be gathered. Blocks at the
+// stored layer or at a higher layer blur the cell without views. Cells with kByViews are always
+// rendered from views. Cells with kSlopeMark are blurred with a separate radius for each pixel
+// (lib/filter/slope.h). Other cells are blurred with the radius of their middle.
 inline constexpr uint8_t kByViews = 3;
 inline constexpr uint8_t kSlopeMark = 4;
 struct GatherMap {
@@ -35,24 +35,24 @@ struct GatherMap {
 // reads.
 Rect LayerFrame(const Rect& block, int32_t layer);
 
-// Cells of a block that gathers some of its cells at the layer of the block. Pixels in the margin
-// are treated like the nearest cell of the block, so that a block does not depend on its
-// neighbours.
+// Cells of a block in which some cells are blurred without views, at the layer of the block. Pixels
+// in the margin are treated like the nearest cell of the block, so that a block does not depend on
+// its neighbours.
 struct BlockCells {
   const GatherMap* map;
   Rect block;  // rectangle of the block in pixels of the picture
   int32_t layer;
 
-  // Returns true if the cell that contains pixel (x, y) of the picture is gathered.
+  // Returns true if the cell that contains pixel (x, y) of the picture is blurred without views.
   bool IsGathered(int32_t x, int32_t y) const { return map->FirstLayer(x, y) <= layer; }
-  // Returns true if the cell is gathered with a single PSF instead of a radius per pixel.
-  // IsFlat returns false for cells with kSlopeMark, because kSlopeMark is larger than any layer.
+  // Returns true if the cell is blurred with a single PSF instead of a radius per pixel. IsFlat
+  // returns false for cells with kSlopeMark, because kSlopeMark is larger than any layer.
   bool IsFlat(int32_t x, int32_t y) const { return map->At(x, y) <= layer; }
 
   // Returns the pixels of the layer that belong to the cell at pixel (x, y) of the picture.
   Rect PixelsOf(int32_t x, int32_t y) const;
 
-  // Returns true if all pixels of `part` belong to gathered cells.
+  // Returns true if all pixels of `part` belong to cells that are blurred without views.
   bool AreGathered(const Rect& part) const;
 };
 

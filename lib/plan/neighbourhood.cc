@@ -82,7 +82,8 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
     }
   }
   // Upsampling from layer 1 reads up to kLayerMargin[1] pixels around the block.
-  static_assert(kLayerMargin[1] <= kCellSize, "the margin must not exceed one cell");
+  static_assert(kLayerMargin[1] <= kCellSize,
+                "the upsampling margin of layer 1 must not exceed one cell");
   const int32_t top = Max(row - 1, grid.first_row), bottom = Min(row + 3, grid.last_row);
   for (int32_t y = top; y < bottom; ++y) {
     for (int32_t x = Max(column - 1, 0); x < Min(column + 3, grid.columns); ++x) {

@@ -39,11 +39,11 @@ constexpr size_t SurroundingSamples(int32_t side, int32_t around) {
 Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, const Rect& cells,
                               int32_t around, int16_t* samples);
 
-// A cell is smooth if it can be gathered (lib/filter/gather.h). All pixels within reach of the
-// cell, and nearer pixels that reach the cell, must belong to one surface without depth edges. Blur
-// radii have opposite signs in front of and behind the focus. In each cell within reach, signed
-// radii must not vary by more than kSlopeRange (kDisparityBits). Farther pixels that reach the cell
-// are ignored, because no view shows farther pixels in front of the surface.
+// A cell is called smooth if lib/filter/gather.h can blur the cell without views. All pixels within
+// reach of the cell, and nearer pixels that reach the cell, must belong to one surface without
+// depth edges. Blur radii have opposite signs in front of and behind the focus. In each cell within
+// reach, signed radii must not vary by more than kSlopeRange (kDisparityBits). Farther pixels that
+// reach the cell are ignored, because no view shows farther pixels in front of the surface.
 //
 // If more than two thirds of the variation of signed radii lie within one cell, the variation
 // counts as a step. A step must not exceed the larger of half the largest blur radius and

@@ -160,9 +160,9 @@ class Partition {
     candidate.best = best;
   }
 
-  // Plans to gather all smooth cells at the layer of the block's views. A block that can be
-  // gathered completely at layer 0 is gathered at layer 0. Gathering at layer 0 is closer to ground
-  // truth and takes little or no extra time (docs/constants.md).
+  // Plans to blur all smooth cells without views, at the layer chosen for the block's views. If all
+  // cells of a block can be blurred without views at layer 0, the block uses layer 0. Blurring at
+  // layer 0 is closer to ground truth and takes little or no extra time (docs/constants.md).
   void PlanGathering(const PartitionCandidate& candidate, Block* block) const {
     const auto cells = static_cast<uint64_t>(candidate.cells);
     const auto gathered = static_cast<uint64_t>(candidate.gathered[block->layer]);
@@ -218,7 +218,7 @@ class Partition {
     block->cost = PredictTime(config_.tuning.timing, work);
   }
 
-  // Limits the rendered rectangle to the cells that are not gathered.
+  // Limits the rendered rectangle to the cells that must be rendered from views.
   void Shrink(Block* block) const {
     const BlockCells cells = {&gathered_, block->rect, block->layer};
     const Rect& rect = block->rect;

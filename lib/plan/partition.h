@@ -18,13 +18,13 @@ inline constexpr int32_t kSmallestBlock = 16;
 struct Block {
   Rect rect;  // block in pixels of the picture, clipped to the picture
   // Rectangle that is rendered from views, in pixels of the layer. The rectangle is LayerFrame, or
-  // the part of LayerFrame whose cells are not gathered. The rectangle is empty if all cells are
-  // gathered.
+  // the part of LayerFrame whose cells require views. The rectangle is empty if no cell requires
+  // views.
   Rect rendered;
   Border border;  // Border of `rendered`, in pixels of the layer.
   int32_t layer;  // Layer L.
   int32_t n;      // N, the number of views along the radius.
-  bool gathers;   // True: cells of the GatherMap are gathered.
+  bool gathers;   // True: the cells that GatherMap selects are blurred without views.
   // true: views may show highlights, so the block is rendered for light and for excess separately.
   bool has_highlights;
   uint64_t cost;  // predicted time in picoseconds
@@ -39,7 +39,7 @@ struct PartitionRules {
   BlurScale scale;
   int32_t largest_side;  // largest allowed side of a block
   int32_t max_layer;
-  bool gathers;         // True: smooth cells are gathered.
+  bool gathers;         // True: smooth cells are blurred without views.
   bool has_highlights;  // Value of Block::has_highlights for all blocks.
 };
 
@@ -50,8 +50,8 @@ struct PartitionCandidate {
   Block block;
   uint64_t best;
   int32_t cells;                       // Number of cells inside the picture.
-  int32_t gathered[STARFOCUS_LAYERS];  // Number of cells that can be gathered, for each layer.
-  // Predicted time of gathering all `gathered` cells, for each layer.
+  int32_t gathered[STARFOCUS_LAYERS];  // Cells that can be blurred without views, per layer.
+  // Predicted time of blurring all `gathered` cells, for each layer.
   uint64_t gather[STARFOCUS_LAYERS];
 };
 

@@ -31,14 +31,14 @@ struct RenderJob {
   Rect rect;
   Border border;
   CancelToken* cancel;         // Null: the job is never cancelled.
-  const BlockCells* gathered;  // Null: no cell is gathered.
+  const BlockCells* gathered;  // Null: all cells are rendered from views.
   double r_max;                // Largest blur radius of the lens in pixels.
   bool is_benchmark;           // True: benchmark mode, which renders finer slices.
 };
 
 struct Renderer {
   int32_t index;           // Index of the renderer's tables and scratch memory in an engine.
-  bool gathers;            // True: block mode gathers smooth cells instead of rendering them.
+  bool gathers;            // True: block mode blurs smooth cells without views.
   int32_t benchmark_side;  // Side in pixels of the blocks that benchmark mode renders.
 
   // Returns the number of views N along the radius for a block whose largest blur radius is r_max

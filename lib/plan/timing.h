@@ -29,9 +29,9 @@ void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t la
 // so that all machines choose the same partition.
 uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work);
 
-// Returns the predicted time of gathering `pixels` pixels of a layer, in picoseconds. `radius` is
-// the largest blur radius of these pixels, in pixels of the layer (kDisparityBits). Gathering is a
-// filter like upsampling, so it uses the coefficient of upsampling.
+// Returns the predicted time of blurring `pixels` pixels of a layer without views, in picoseconds.
+// `radius` is the largest blur radius of these pixels, in pixels of the layer (kDisparityBits). The
+// blur is a filter like upsampling, so the prediction uses the coefficient of upsampling.
 uint64_t PredictGather(const starfocus_timing& timing, uint64_t pixels, int32_t radius);
 
 // Returns the default coefficients, which are the same on all machines, so that all machines split

@@ -82,8 +82,8 @@ class TilePart {
                                        Min(simd::kStripColumns, rect_.width - pair.x), pair.rows});
   }
 
-  // Finds the slices that each cell pair sees. Returns the number of pixels rendered in each view,
-  // summed over all slices.
+  // Finds, for each pair of cells, the slices that some view shows in these cells. Returns the
+  // number of pixels rendered in each view, summed over all slices.
   uint64_t FindPairs() {
     static_assert(kLeastRows == kCellSize && simd::kStripColumns % kCellSize == 0,
                   "pairs are whole cells");
@@ -106,9 +106,9 @@ class TilePart {
     return pixels;
   }
 
-  // Tests the pixels of a slice that at least one view shows in a cell pair. In the result, `some`
-  // contains the strips in which the slice covers any tested pixel. `all` is 1 if the slice covers
-  // all tested pixels, and 0 otherwise.
+  // Tests whether a slice covers the pixels that at least one view shows in a pair of cells. In the
+  // result, `some` contains the strips in which the slice covers any tested pixel. `all` is 1 if
+  // the slice covers all tested pixels, and 0 otherwise.
   static simd::SliceCover CoverOf(const SlicePlane& placed, const CellPair& pair) {
     const uint64_t strips = StripsOf(placed, pair.x);
     simd::SliceCover cover = {0, strips};
@@ -144,7 +144,7 @@ class TilePart {
     }
   }
 
-  // Clears the accumulators of rows [first, end), whose cells are gathered later.
+  // Clears the accumulators of rows [first, end), whose cells are later blurred without views.
   void ClearRows(int32_t x, int32_t first, int32_t end) {
     for (int32_t row = first; row < end; ++row) {
       std::memset(all_.accumulators + FirstSample(x, row), 0,

@@ -161,8 +161,8 @@ class SliceFinder {
     return static_cast<int32_t>(Limited(bins << coarser));
   }
 
-  // Divides the bins into slices, each spanning 2^coarser times the range of the rule. Returns the
-  // number of slices, or 0 if the slices exceed a limit of the rule.
+  // Divides the disparity bins into slices, each 2^coarser times as thick as SliceRule::range.
+  // Returns the number of slices, or 0 if the slices exceed a limit of SliceRule.
   int32_t Part(int coarser, Slice* slices) const {
     int32_t count = 0;
     int32_t area = 0;

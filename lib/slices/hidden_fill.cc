@@ -8,7 +8,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kAtOnce = 4;  // number of pixels whose sources are tested together
+constexpr int32_t kAtOnce = 4;  // number of pixels whose colour sources are tested at once
 
 class HiddenFiller {
  public:

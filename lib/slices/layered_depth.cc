@@ -269,13 +269,13 @@ class SurfaceFinder {
   }
 
   // Closes surfaces at steps where two slices may move apart. Behind each pixel on the near side of
-  // the step, the function inserts a copy of the pixel with the far side's disparity. With these
-  // copies, the surface stays closed, however its slices move.
+  // a disparity step, the function inserts a copy of the pixel with the far side's disparity. With
+  // these copies, the surface stays closed, however its slices move.
   void CloseRow(int32_t y) {
     const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << window_.layer),
                                      static_cast<int16_t>(kMostCopy << window_.layer)};
     const size_t at = surfaces_.At(0, y);
-    // `moved` is free, because FindEdges is no longer called.
+    // The array `moved` can be reused, because FindEdges no longer needs its content.
     int16_t* const copies = surfaces_.moved;
     uint64_t strips = kernels_.FindCopies(Row(y), surfaces_.stride,
                                           static_cast<size_t>(surfaces_.width), limits, copies);

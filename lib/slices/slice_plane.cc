@@ -109,13 +109,14 @@ simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Re
     for (int32_t k = 0; k < first; ++k) row[k] = row[first];
     for (int32_t k = last; k < width; ++k) row[k] = row[last - 1];
   }
-  return {~uint64_t{0}, 0};  // a conservative cover is sufficient, because few rows are padded
+  // Few rows are padded, so every group of a padded row may simply count as partly covered.
+  return {~uint64_t{0}, 0};
 }
 
-// Extends the covers of rows by the `reach` pixels that the filter spreads.
+// Extends the coverage bits of each row by the `reach` pixels that the filter spreads.
 void SpreadCover(int32_t reach, const SlicePlane& placed) {
   constexpr int32_t kMost = simd::kMaxSpread;
-  simd::SliceCover before[kMost] = {};  // unextended covers of the rows above the current row
+  simd::SliceCover before[kMost] = {};  // unextended bits of the rows above the current row
   for (int32_t row = 0; row < placed.rows; ++row) {
     const simd::SliceCover here = placed.cover[row];
     uint64_t some = here.some;

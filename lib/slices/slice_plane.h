@@ -43,8 +43,8 @@ inline constexpr int32_t kWidestSubaperture = 8 * kShiftOne;
 // Returns the largest SliceReach for lenses with blur radii up to `max_blur` pixels, any N and the
 // widest subapertures. The margin kRounding covers the error of rounding the focus and a disparity
 // to kDisparityBits. The margin kRounding also covers the distance from the middle of a slice to
-// its pixels. This distance is up to two units of disparity if a bin holds several disparities
-// (kSliceBins).
+// its pixels. If a disparity bin holds several disparities (kSliceBins), the distance from the
+// middle is up to two units of disparity.
 constexpr int32_t LargestSliceReach(double max_blur) {
   constexpr double kRounding = 4.0 / (1 << kDisparityBits);
   const double rim = (max_blur + kRounding) * LargestSubapertureExtent() * kShiftOne;
@@ -71,7 +71,7 @@ struct SlicePlane {
   size_t plane = 0;   // Distance between planes in samples; a row has four planes.
   int32_t subaperture = 0;            // Width of a view's subaperture, kShiftBits.
   int16_t* samples = nullptr;         // Samples of the first row.
-  simd::SliceCover* cover = nullptr;  // Cover of each row.
+  simd::SliceCover* cover = nullptr;  // Coverage bits of each row.
 };
 
 // Returns the distance in samples between the planes of a slice that extends `reach` pixels beyond
@@ -91,14 +91,14 @@ constexpr size_t ShiftedRows(size_t height, size_t reach) {
   return height + 2 * reach + simd::kRowsAhead;
 }
 
-// Returns the size in bytes of the covers of `rows` rows, rounded up so that the samples after the
-// covers are aligned like the covers.
+// Returns the size in bytes of one SliceCover for each of `rows` rows, rounded up to keep the
+// alignment of the samples that follow.
 constexpr size_t CoverBytes(size_t rows) {
   constexpr size_t kAligned = 4;
   return (rows + kAligned - 1) / kAligned * kAligned * sizeof(simd::SliceCover);
 }
 
-// Returns the size in bytes of a slice with its covers.
+// Returns the size in bytes of a slice, including one SliceCover per row.
 constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
   return SliceSize(width, height, reach) * sizeof(int16_t) + CoverBytes(height + 2 * reach);
 }
@@ -157,7 +157,7 @@ constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
 // compositor reads. The caller sets the pointers of `shifted`.
 void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
 
-// Writes those of `rows` that are not empty to the strip, shifted by `offset` along the row.
+// Writes the non-empty rows of the range `rows` to the strip, shifted by `offset` along the row.
 void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed,
                 const simd::SliceOffset& offset, int32_t x, const RowRange& rows,
                 const ShiftedSlice& shifted);

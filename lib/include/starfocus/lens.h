@@ -52,9 +52,9 @@ typedef struct starfocus_lens {
   double ring_inner; /**< Ring: radius of the hole divided by the radius of the disc, [0,
                         STARFOCUS_MAX_RING_INNER]; default 0.5. */
   /** Cat's eye: distance of a second rim from the axis, in radii of the lens, as seen from a corner
-   *  of the picture, [0, 1]. Light passes only where both rims are open. The distance of the second
-   *  rim falls to 0 towards the middle of the picture. The cut by the second rim does not darken
-   *  the picture. Values above 0 require STARFOCUS_FEATURE_SHAPES. STARFOCUS_MODE_BLUR ignores
+   *  of the picture, [0, 1]. Light passes only inside both rims. The distance of the second rim
+   *  falls to 0 towards the middle of the picture. The cut by the second rim does not darken the
+   *  picture. Values above 0 require STARFOCUS_FEATURE_SHAPES. STARFOCUS_MODE_BLUR ignores
    *  cats_eye. Default 0. */
   double cats_eye;
 } starfocus_lens;

@@ -4,10 +4,10 @@
  *
  * The engine takes a light field: 1 to 17 rectified views with 8 bits per sample, and the disparity
  * map of the centre view. The engine computes the picture that a lens would have taken with another
- * focus and another aperture. The views are the star of the paper, or lie at any positions, for
- * example the positions of a stereo pair. The paper is Huang et al., "Fast Physically-Correct
- * Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View Interpolation". Numbers in
- * parentheses, such as (9), are equations of the paper.
+ * focus and another aperture. The views form the star-shaped pattern of the paper, or lie at any
+ * positions, for example the positions of a stereo pair. The paper is Huang et al., "Fast
+ * Physically-Correct Refocusing for Sparse Light Fields Using Block-Based Multi-Rate View
+ * Interpolation". Numbers in parentheses, such as (9), are equations of the paper.
  *
  * The following function focuses a picture at disparity 3.5:
  *
@@ -182,8 +182,8 @@ typedef struct starfocus_config {
    *  starfocus_view_position. With `positions`: 1 to STARFOCUS_MAX_VIEWS. Default 5. */
   int32_t views;
   /** Smallest disparity that a map may contain; default 0. A range wider than the range of the maps
-   *  may change pictures. A wider range raises N in the frame modes, and makes slices thicker above
-   *  32 pixels of blur. */
+   *  may change the refocused pictures. A wider range increases the number of views in the frame
+   *  modes. If the blur exceeds 32 pixels, a wider range also makes slices thicker. */
   double disparity_min;
   double
       disparity_max; /**< largest disparity that a map may contain, >= disparity_min; default 0 */
@@ -235,9 +235,10 @@ static inline void starfocus_config_init(starfocus_config* config) {
   starfocus_config_init_sized(config, (uint32_t)sizeof(starfocus_config));
 }
 
-/** Returns the position of a view of the star. Sets of 1, 5 and 9 views are the first views of the
- *  set of 17: view 0 is the centre; 1 to 4 are (1, 0), (-1, 0), (0, 1), (0, -1); 5 to 8 are (1, 1),
- *  (-1, 1), (1, -1), (-1, -1); 9 to 16 are views 1 to 8 at half the distance.
+/** Returns the position of a view in the star-shaped pattern of the paper. Sets of 1, 5 and 9 views
+ *  are the first views of the set of 17: view 0 is the centre; 1 to 4 are (1, 0), (-1, 0), (0, 1),
+ *  (0, -1); 5 to 8 are (1, 1), (-1, 1), (1, -1), (-1, -1); 9 to 16 are views 1 to 8 at half the
+ *  distance.
  *  @param index index of the view, [0, STARFOCUS_MAX_VIEWS)
  *  @param u,v receive the position
  *  @return 1, or 0 if `index` is out of range or a pointer is null */
@@ -305,7 +306,7 @@ STARFOCUS_API void starfocus_destroy(starfocus_engine* engine);
 /** Mode of refocusing, which determines the division of the picture into blocks and the number of
  *  rendered views. */
 typedef enum starfocus_mode {
-  /** One number of views N for the whole picture, by (9). */
+  /** The whole picture uses the same number of views N, by equation (9). */
   STARFOCUS_MODE_FRAME = 0,
   /** N = 2 ceil(r_max) for the whole picture: the paper's benchmark of quality. In this mode, the
    *  slice renderer uses thinner slices than in other modes. */
@@ -323,7 +324,8 @@ typedef enum starfocus_mode {
 
 /** Method that renders views. */
 typedef enum starfocus_renderer {
-  /** Line scan for STARFOCUS_MODE_FRAME of a star of 5 or more views; slices otherwise. */
+  /** Line scans for STARFOCUS_MODE_FRAME with 5 or more views at the positions of
+   *  starfocus_view_position; otherwise slices. */
   STARFOCUS_RENDERER_AUTO = 0,
   /** The paper's line scan (section IV), with views about one pixel apart (9). Requires
    *  STARFOCUS_FEATURE_LINE_SCAN and the views of starfocus_view_position. */
@@ -412,7 +414,7 @@ typedef struct starfocus_report {
   double r_max; /**< Largest blur radius that the disparity range allows, pixels. */
   int32_t n;    /**< N, the number of views along the radius of the aperture; the largest N of all
                    blocks. */
-  int32_t rendered_views;    /**< Number of rendered views in the aperture if N is `n`. */
+  int32_t rendered_views;    /**< Number of rendered views with `n` views along the radius. */
   int32_t superblock;        /**< Side of the superblocks, pixels. */
   uint64_t rendered_samples; /**< R, G and B samples rendered in all views and layers. */
   /** Statistics of each layer. Frame modes use only layer 0. */

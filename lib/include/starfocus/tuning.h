@@ -44,9 +44,9 @@ typedef struct starfocus_tuning {
    *  the centre view is blurred by the point-spread function (4). If 0, STARFOCUS_MODE_BLOCK
    *  renders views for all pixels. Default 1. */
   int32_t gather;
-  /** Factor of N in STARFOCUS_MODE_BLOCK and STARFOCUS_MODE_FRAME; N is rounded up. The number of
-   *  views grows with the square of the factor. Range [STARFOCUS_MIN_N_SCALE,
-   *  STARFOCUS_MAX_N_SCALE]; default 1. */
+  /** STARFOCUS_MODE_BLOCK and STARFOCUS_MODE_FRAME multiply N, the number of views along the
+   *  radius, by this factor and round the product up. The number of views grows with the square of
+   *  the factor. Range [STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE]; default 1. */
   double n_scale;
   starfocus_timing timing; /**< each coefficient <= STARFOCUS_MAX_TIMING */
 } starfocus_tuning;
