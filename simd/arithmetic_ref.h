@@ -16,7 +16,7 @@ inline int16_t Saturated(int32_t value) {
 // Returns the mean of two numbers, rounded half up.
 inline int32_t Mean(int32_t a, int32_t b) { return (a + b + 1) >> 1; }
 
-// Returns the product of two numbers of 15 fractional bits, rounded half up.
+// Returns the product of two numbers with 15 fractional bits, rounded half up.
 inline int16_t Product15(int32_t a, int32_t b) {
   return static_cast<int16_t>((a * b + (1 << 14)) >> 15);
 }

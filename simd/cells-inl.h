@@ -71,8 +71,8 @@ struct Steps {
         slope_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.slope_limit))),
         gap_limit(hn::Set(UnsignedTag(), static_cast<uint16_t>(limits.gap_limit))) {}
 
-  // Adds the steps of disparity between the rows of pixels a and b. A step counts as inside the
-  // cell if all bits of its lane of `inside` are set.
+  // Adds the absolute differences between the disparities of vectors a and b. A difference counts
+  // as inside the cell if all bits of its lane of `inside` are set.
   HWY_INLINE void Add(CellRow a, CellRow b, UnsignedRow inside) {
     const CellTag d16;
     const UnsignedTag du16;
@@ -107,8 +107,8 @@ struct Steps {
       hn::Zero(hn::Repartition<uint32_t, UnsignedTag>());
 };
 
-// Measures the steps of a cell without depth edges. Returns false if the cell has a depth edge.
-// Most cells have no depth edge.
+// Measures the differences between neighbouring disparities in a cell without depth edges. Returns
+// false if the cell has a depth edge. Most cells have no depth edge.
 HWY_INLINE bool MeasureSlopes(const int16_t* const rows[10], const CellRow (&here)[8],
                               UnsignedRow all_but_first, const CellLimits& limits,
                               CellMeasure* measure) {
@@ -165,8 +165,8 @@ inline void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
   const UnsignedTag du16;
   const auto min = [](CellRow a, CellRow b) HWY_ATTR { return hn::Min(a, b); };
   const auto max = [](CellRow a, CellRow b) HWY_ATTR { return hn::Max(a, b); };
-  // The step from column -1 to column 0 leads into the cell, and therefore is not a step inside the
-  // cell.
+  // The difference between columns -1 and 0 crosses the boundary of the cell, and therefore does
+  // not count as inside the cell.
   const auto all_but_first = hn::VecFromMask(du16, hn::Gt(hn::Iota(du16, 0), hn::Zero(du16)));
   const auto focus = hn::Set(d16, limits.focus);
   CellRow here[8];

@@ -9,10 +9,11 @@ namespace starfocus::simd {
 
 struct CellLimits {
   int16_t focus;  // disparity from which CellMeasure::nearest is measured
-  // Largest step that is not a depth edge; <= 4369, so that the sum of 15 steps fits in 16 bits.
+  // Largest difference between neighbouring disparities that is not a depth edge; at most 4369, so
+  // that the sum of 15 differences fits in 16 bits.
   int16_t edge;
-  int16_t slope_limit;  // Larger steps within a surface add only `slope_limit` to `slopes`.
-  int16_t gap_limit;    // Larger steps at depth edges add only `gap_limit` to `gaps`.
+  int16_t slope_limit;  // Limit to which the differences in CellMeasure::slopes are clamped.
+  int16_t gap_limit;    // Limit to which the differences in CellMeasure::gaps are clamped.
 };
 
 // Output of MeasureCell for 8x8 disparities and their neighbours.
@@ -24,9 +25,10 @@ struct CellMeasure {
   // pixels of the cell, or between a pixel of the cell and a neighbour outside. If edge_low >
   // edge_high, the cell has no depth edge.
   int16_t edge_low, edge_high;
-  // Statistics of the steps between pixels inside the cell. Index 0 is for steps along rows, and
-  // index 1 for steps along columns. `slopes` is the sum of the steps within a surface. `edges` is
-  // the number of depth edges, and `gaps` the sum of the steps at depth edges.
+  // Statistics of the differences between neighbouring disparities inside the cell. Index 0 is for
+  // neighbours in a row, and index 1 for neighbours in a column. `slopes` is the sum of the
+  // differences within surfaces. `edges` is the number of depth edges, and `gaps` the sum of the
+  // differences at depth edges.
   uint32_t slopes[2], edges[2], gaps[2];
 };
 

@@ -11,8 +11,8 @@ void AddDisparity(int16_t disparity, int16_t* low, int16_t* high) {
   if (disparity > *high) *high = disparity;
 }
 
-// Adds the step between two neighbours along rows (0) or along columns (1). `inside` is true if
-// both neighbours belong to the cell.
+// Adds the difference between disparities a and b, which are neighbours in a row (`along` = 0) or
+// in a column (`along` = 1). `inside` is true if both neighbours belong to the cell.
 void AddStep(int a, int b, bool inside, int along, const CellLimits& limits, CellMeasure* measure) {
   const int step = std::abs(a - b);
   const int nearer = a > b ? a : b;

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Returns a mask of the lanes in which the difference lies in [-limit, limit].
+// Returns a mask of the lanes in which `difference` lies in [-limit, limit].
 HWY_INLINE hn::Mask<LanesTag> IsWithin(LanesVec difference, int16_t limit) {
   const LanesTag d16;
   return hn::Not(hn::Or(hn::Gt(difference, hn::Set(d16, limit)),

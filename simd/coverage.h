@@ -15,7 +15,8 @@ namespace starfocus::simd {
 // view. All disparities must have the same scale; any scale is permitted.
 struct CoverView {
   int16_t along;  // movement in the view per unit of disparity, 15 fractional bits
-  // Movement that takes the near pixel onto the far pixel, in the scale of disparities.
+  // Movement in the view that places the near pixel onto the far pixel, in the scale of
+  // disparities.
   int16_t place;
   int16_t within;  // Largest deviation from `place` at which the near pixel covers the far pixel.
   int16_t least;   // A near pixel covers far pixels only if it is nearer by more than `least`.
@@ -50,13 +51,13 @@ void CoverPlaces(const int16_t* near, const uint8_t* coverage, const int16_t* fa
 
 // Sums the light around each pixel n < kSliceLanes. The sum includes the pixels within kNearReach
 // whose near surface is the near surface of pixel n. The light of each pixel is multiplied by the
-// pixel's weight and by the tap from kNearTaps. Each product is rounded half up.
+// pixel's weight and by a filter coefficient from kNearTaps. Each product is rounded half up.
 void SumNear(const NearRows& rows, NearSums* sums);
 
 }  // namespace reference
 
-// Taps of SumNear by the distance in columns and rows. All taps sum to 118, so that with weights of
-// 256 the total is less than 1 (15 fractional bits).
+// Filter coefficients of SumNear, by the distance in columns and rows. The coefficients of all
+// pixels sum to 118, so that with weights of 256 the total is less than 1 (15 fractional bits).
 inline constexpr int16_t kNearTaps[kNearReach + 1][kNearReach + 1] = {
     {10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
 

@@ -119,7 +119,8 @@ inline void BlendRows(const int16_t* HWY_RESTRICT a, const int16_t* HWY_RESTRICT
     const auto from = hn::LoadU(d16, a + n);
     const auto difference = hn::SaturatedSub(hn::LoadU(d16, b + n), from);
     const auto apart = hn::Or(hn::Gt(difference, step), hn::Lt(difference, down));
-    // The product overflows only in lanes in which it is not used.
+    // The product overflows only in lanes in which `apart` is true, and these lanes do not use the
+    // product.
     const auto product = hn::Mul(difference, weight);
     const auto between = hn::Add(from, hn::ShiftRight<8>(hn::Add(product, half)));
     hn::StoreU(hn::IfThenElse(apart, hn::LoadU(d16, nearer + n), between), d16, out + n);

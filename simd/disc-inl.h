@@ -20,8 +20,8 @@ namespace HWY_NAMESPACE {
 inline constexpr size_t kDiscChunk = 192;  // number of samples that are filtered together
 inline constexpr size_t kDiscMargin = 3 * kMaxDisc;
 
-// Stores the means of two rows with equal weights in the disc. The middle row has no counterpart
-// and is copied.
+// Computes the means of two rows of samples to which the disc filter applies equal weights. The
+// middle row has no counterpart and is copied.
 HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t count,
                             uint16_t* HWY_RESTRICT means) {
   if (above == below) {
@@ -37,9 +37,10 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
   }
 }
 
-// Means of rows with equal weights in the disc. Row y contains the means of two rows: y rows above
-// and y rows below the middle row. If the second column of a pair lies beyond the disc, one more
-// tap on each side is read, with weight zero.
+// Means of pairs of rows to which the disc filter applies equal weights. Row y contains the means
+// of two rows: y rows above and y rows below the middle row. If the second column of a pair of
+// columns lies beyond the disc, the column is read with weight zero, so each row has spare samples
+// at both ends.
 struct DiscMeans {
   static constexpr size_t kPixel = 3, kTap = 2 * kPixel, kSpare = HWY_MAX_BYTES;
   static constexpr size_t kStride = kTap + kDiscChunk + 2 * kDiscMargin + kTap + kSpare;
@@ -65,8 +66,9 @@ struct DiscMeans {
   static size_t Margin(const Disc& disc) { return kPixel * static_cast<size_t>(disc.size); }
 };
 
-// Taps of a quarter of one or two discs. Each tap weights two adjacent columns. Each weight is the
-// sum of the weights of all pixels that mirror each other.
+// Filter coefficients (taps) of a quarter of one disc or of two discs. Each `Tap` contains the
+// weights of two adjacent columns. Each weight is the sum of the weights of all pixels that mirror
+// each other.
 struct DiscTaps {
   struct Pair {
     uint16_t first, second;
@@ -77,9 +79,9 @@ struct DiscTaps {
   };
   Tap taps[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   size_t count = 0;
-  int32_t rows = 0;  // number of rows of the quarter, up to the last row with taps
+  int32_t rows = 0;  // number of rows of the quarter, up to the last row with a nonzero weight
 
-  // Makes taps at all positions at which either disc has a nonzero weight.
+  // Creates a `Tap` for each pair of columns in which either disc has a nonzero weight.
   DiscTaps(const Disc& disc, const Disc& second) {
     const auto pair_of = [](const Disc& of, int32_t x, int32_t y) {
       return Pair{Weight(of, x, y), Weight(of, x + 1, y)};
@@ -128,15 +130,15 @@ struct DiscScale {
   int bits, whole;
 };
 
-// Output buffer for the light of a disc, and the scale of the light. The buffer needs spare room,
-// because vectors write past the last sample.
+// Output buffer for the light that a disc filter computes, and the scale of the light. The buffer
+// needs spare room, because vectors write past the last sample.
 struct DiscTarget {
   DiscScale scale;
   int16_t* light;
 };
 
-// Computes the light of `count` samples as sums of the means weighted by a disc. If kTwo is true,
-// also computes sums weighted by a second disc.
+// Filters `count` samples with a disc: multiplies the means by the weights of the disc and adds the
+// products. If kTwo is true, also computes sums weighted by a second disc.
 #if HWY_TARGET == HWY_SCALAR
 
 template <bool kTwo>
@@ -180,7 +182,7 @@ struct DiscSums {
     return hn::AverageRound(hn::LoadU(d16, right), hn::LoadU(d16, left));
   }
 
-  // Multiplies two vectors of means by the weights of a pair and adds the products to the sums.
+  // Multiplies two vectors of means by the two weights in `pair` and adds the products to the sums.
   static HWY_INLINE void Add(V16 first, V16 second, const DiscTaps::Pair& pair, V32& low,
                              V32& high) {
     AddWeighed(hn::BitCast(di16, first), hn::BitCast(di16, second), pair.first, pair.second, low,
@@ -257,7 +259,7 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
 
 #endif
 
-// Destination of the light: codes, or samples of a layer if `codes` is null.
+// Destination of the filtered light: 8-bit codes, or samples of a layer if `codes` is null.
 struct DiscOutput {
   uint8_t* codes;
   int16_t* samples;
@@ -302,7 +304,7 @@ inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& small
 
 inline void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding,
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
-  // Number of fractional bits by which light is rounded before the encoding.
+  // Number of fractional bits of the light that rounding removes before the light is encoded.
   const int whole = encoding.entries == nullptr ? kLightBits : 0;
   const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc.bits + whole, whole}};
   FilterRows<false>(in, disc, disc, codes, codes);

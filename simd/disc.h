@@ -26,9 +26,10 @@ inline constexpr int32_t kMaxDisc = 12;
 
 namespace reference {
 
-// Filters each sample of `in`. R, G and B are filtered separately. Output out[y][n] is the code of
-// the disc's weighted sum of light around in[y][n], divided by 2^bits. The quotient is rounded half
-// up to light, or to the code if light is the code itself.
+// Filters each sample of `in`. R, G and B are filtered separately. Output out[y][n] is the 8-bit
+// code of the mean light around in[y][n]: the sum of the light, weighted by the disc, is divided by
+// 2^bits. The quotient is rounded half up to an integer, or to a whole code if encoding.entries is
+// null.
 //
 // Pixels that mirror each other are averaged before the multiplication by their weight. First, the
 // two mirrored pixels of each column are averaged. Then the means of two mirrored columns are
@@ -40,9 +41,9 @@ namespace reference {
 void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding, uint8_t* out,
                 size_t out_stride);
 
-// Filters rows of a layer like FilterDisc. Output out[y][n] is the sum as a sample of kLayerBits,
-// rounded half up. The unit of out_stride is one sample. All input samples must be in the valid
-// range.
+// Filters rows of a layer like FilterDisc. Output out[y][n] is the weighted sum, converted to a
+// sample of a layer (kLayerBits) and rounded half up. The unit of out_stride is one sample. All
+// input samples must be in the valid range.
 void FilterDiscLayer(const SampleRows& in, const Disc& disc, int16_t* out, size_t out_stride);
 
 // Filters rows with two discs at once. Each output is equal to the output of FilterDiscLayer.

@@ -26,7 +26,8 @@ uint32_t DiscSum(const SampleRows& in, size_t row, size_t n, const Disc& disc) {
   return sum;
 }
 
-// Converts a disc's sum to light, and rounds the light by `dropped` more bits.
+// Converts the weighted sum of a disc to light. Rounding removes the `dropped` lowest bits of the
+// light.
 int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
   const int bits = disc.bits + dropped;
   return static_cast<int32_t>((sum + (uint32_t{1} << bits >> 1)) >> bits);
@@ -36,7 +37,7 @@ int32_t LightOf(uint32_t sum, const Disc& disc, int dropped) {
 
 void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& encoding, uint8_t* out,
                 size_t out_stride) {
-  // Number of fractional bits by which light is rounded before the encoding.
+  // Number of fractional bits of the light that rounding removes before the light is encoded.
   const int whole = encoding.entries == nullptr ? kLightBits : 0;
   for (size_t row = 0; row < in.rows; ++row, out += out_stride) {
     for (size_t n = 0; n < in.count; ++n) {

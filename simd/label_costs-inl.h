@@ -14,14 +14,14 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-// Differences of all views at kMatchPixels pixels.
+// Colour differences between each side view and the centre view, at kMatchPixels pixels.
 struct ViewDifferences {
   uint8_t values[kMostMatched][kMatchPixels];
   uint8_t* rows[kMostMatched];
 };
 
-// Replaces or limits the differences of views that do not see the pixels at this label. `n` is the
-// index of the first pixel.
+// Replaces or limits the differences of views that do not show the pixels at the disparity of
+// `label`. `n` is the index of the first pixel.
 HWY_INLINE void ChangeHidden(const LabelRow& row, const ViewMove* moves, size_t n, uint8_t label,
                              ViewDifferences* differences) {
   const size_t views = row.arms * row.rings, half = row.arms / 2;

@@ -18,8 +18,8 @@ struct ViewMove {
   // Offset from the pixel's red sample in the centre view to the moved pixel's red sample in the
   // side view.
   int32_t at;
-  // Offset from the pixel in the first view's plane of hidden labels to the moved pixel in this
-  // view's plane of hidden labels.
+  // Offset in LabelRow::hidden from the pixel in the plane of the first view to the moved pixel in
+  // the plane of the side view.
   int32_t hidden;
 };
 
@@ -28,14 +28,16 @@ struct LabelRow {
   const uint8_t* pixels;  // Red sample of the first pixel in the centre view.
   size_t plane;           // Distance in samples between the planes R, G and B, in all views.
   const ViewMove* moves;  // moves[l * arms * rings + k]: offsets of label l in side view k.
-  // Number of hidden labels, or kViewEnds, at the first pixel in the first view's plane. Null if
-  // all views see all pixels.
+  // Planes with the number of hidden labels, or kViewEnds, of each pixel in each view; points to
+  // the first pixel of the row in the plane of the first view. Null if all views see all pixels.
   const uint8_t* hidden;
   size_t labels;       // [1, 254].
-  size_t arms, rings;  // Numbers of arms and rings of the views, as in LeastSide.
+  size_t arms, rings;  // The side views lie on `arms` rays and `rings` rings around the centre.
   bool one_side;       // True to use the views on the best side of a pixel, false to use all views.
   bool ends;           // True if some values of `hidden` may be kViewEnds.
-  bool limits;  // True to replace only views that end, and to limit the cost of hidden views.
+  // True to replace a view only at pixels outside the view, and to limit the differences of views
+  // that hide a pixel.
+  bool limits;
 };
 
 namespace reference {

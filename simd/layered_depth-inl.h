@@ -156,8 +156,8 @@ HWY_INLINE ptrdiff_t StepOf(const DepthRow& row, int side) {
   return side % 2 == 0 ? along : -along;
 }
 
-// Returns the lanes of a group that have a nonzero distance; bit k stands for lane k. Next to a
-// vertical edge, only a few lanes have a nonzero distance.
+// Returns the lanes of a group in which the distance to an edge is not 0; bit k stands for lane k.
+// Next to a vertical edge, only a few lanes have a distance other than 0.
 HWY_INLINE uint32_t LanesOf(const uint8_t* distances) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   uint32_t lanes = 0;
@@ -259,7 +259,8 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t*
   }
 }
 
-// Returns the source (HiddenRow::source) of the surface with rank `best` and this disparity.
+// Returns the source (HiddenRow::source) of the hidden surface that has the rank `best` and the
+// given disparity.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SourceOf(D d16, const StripSides& sides, size_t k, V best, V disparity) {
   auto source = hn::Zero(d16);
@@ -328,11 +329,12 @@ HWY_INLINE bool ChooseSurfaces(const StripSides& sides, size_t strip, const Hidd
   for (int surface = 0; surface < kSurfaces - 1; ++surface) {
     hidden.found[surface][strip / kSliceLanes] = static_cast<uint16_t>(found[surface]);
   }
-  return found[0] != 0;  // a pixel with a second hidden surface always has a first one
+  return found[0] != 0;  // a pixel with a second hidden surface always has a first hidden surface
 }
 
-// Writes the shares of a group of pixels, which mark the pixels at which surfaces end. Returns the
-// sides with edges, one bit each. Most groups have no edges.
+// Writes the first surface's share of each pixel in a group: kSliceEnd if the surface ends at the
+// pixel, otherwise kSliceWhole. Returns the sides with edges, one bit each. Most groups have no
+// edges.
 HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t strip, uint8_t* HWY_RESTRICT share) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   const auto one = hn::Set(d8, uint8_t{1}), none = hn::Zero(d8);
