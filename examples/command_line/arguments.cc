@@ -32,8 +32,9 @@ std::string WithoutDashes(const std::string& name) {
   return name.substr(std::min(name.find_first_not_of('-'), name.size()));
 }
 
-// Separator and number of the parts of an option's type. The type "X,Y" has two parts, and
-// "D0:D1:N" has three. The separator is 0 if values of the type are not divided into parts.
+// Describes the parts of an option's type: the separator between the parts, and the number of
+// parts. The type "X,Y" has two parts, and "D0:D1:N" has three. The separator is 0 if values of the
+// type are not divided into parts.
 struct Parts {
   char separator = 0;
   size_t count = 1;
@@ -56,8 +57,8 @@ Parts PartsOf(const std::string& type) {
   return parts;
 }
 
-// Appends the numbers of a text. `separator` or spaces separate the numbers. Returns false if the
-// text contains anything else.
+// Appends all numbers in `text` to `numbers`. `separator` or spaces separate the numbers. Returns
+// false if the text contains anything else.
 bool AddNumbers(const std::string& text, char separator, std::vector<std::string>* numbers) {
   const std::string between = std::string(" ") + separator;
   for (size_t begin = text.find_first_not_of(between); begin < text.size();) {

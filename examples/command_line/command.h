@@ -39,7 +39,7 @@ enum class Use {
   kOptional,
   kDefault,  // optional; the help shows the initial value of the variable
   kRequired,
-  kCommaSeparated,  // optional; one argument contains all values
+  kCommaSeparated,  // optional; one argument contains all values, separated by commas
 };
 
 struct Option {
@@ -49,7 +49,7 @@ struct Option {
   Target target;
   Use use = Use::kOptional;
   const char* excludes = nullptr;  // An earlier option that cannot be combined with this option.
-  const char* default_text = nullptr;  // Default in the help for kOptional.
+  const char* default_text = nullptr;  // Default that the help shows if `use` is kOptional.
 };
 
 inline const Option kHelpOption = {"-h,--help", nullptr, "Print this help and exit", {}};

@@ -43,9 +43,9 @@ Target Pair(char separator, std::optional<Pixel>* value);
 // Target for X,Y,W,H, a rectangle of integers with W and H above 0.
 Target Region(starfocus_region* value);
 
-// Target for views: 17, 9, 5 or 1 for views of the star, or U,V:U,V... for views at these
-// positions. The first position must be 0,0, and coordinates must be within +-1. Coordinates are
-// rounded to four decimals, as in file names.
+// Target for views: 17, 9, 5 or 1 for that number of views in the standard layout, or U,V:U,V...
+// for views at these positions. The first position must be 0,0, and coordinates must be within +-1.
+// Coordinates are rounded to four decimals, as in file names.
 Target Views(Positions* positions);
 
 // Parses finite numbers separated by `separator`. Returns an empty list if any part is invalid.

@@ -134,8 +134,8 @@ Error Unexpected(CLI::App* app, const std::string& argument) {
   return Error::Usage("command line", "no more arguments for " + name, "'" + argument + "'");
 }
 
-// Returns the error for an unknown, missing or extra argument. If `value` is an error, which an
-// invalid value caused, returns `value`.
+// Returns the error for an unknown, missing or extra argument. If `value` contains the error of an
+// invalid value, returns this error unless another argument is unexpected.
 Error WrongLine(CLI::App* app, const CLI::ParseError& wrong, const Error& value) {
   const std::vector<std::string> others = app->remaining(true);
   const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };

@@ -41,8 +41,8 @@ for axis in axes:
 figure.savefig(output / "focal_stack.png", dpi=100)
 
 
-# %% Plot time against error. The mode `benchmark`, the reference for errors, renders twice as many views as the blur
-# can show.
+# %% Plot time against error. Errors are relative to the mode `benchmark`, which renders about two views along the
+# radius for each pixel of blur radius.
 def psnr(picture: np.ndarray, truth: np.ndarray) -> float:
     """Returns the PSNR in decibels over all samples."""
     return 10 * np.log10(255**2 / max(np.mean((picture.astype(float) - truth) ** 2), 1e-9))

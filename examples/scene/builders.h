@@ -19,7 +19,7 @@ struct Position {
   double x, y, d;
 };
 
-// Radii along the axes of a Position.
+// Radii of a surface along the axes x, y and d of the scene.
 struct Radii {
   double x, y, d = 0;
 };

@@ -51,7 +51,7 @@ starfocus_config ConfigOf(int side, const EngineProbe& probe) {
   config.max_blur = std::fmax(probe.r_max, 1);
   config.superblock = kBlock;
   config.transfer = STARFOCUS_TRANSFER_NONE;
-  config.tuning.gather = 0;  // the PSF of rendered views is measured, not the PSF of gathering
+  config.tuning.gather = 0;  // disables blur by filtering, to measure the PSF of rendered views
   config.tuning.max_layer = probe.layer;
   config.tuning.timing.block = STARFOCUS_MAX_TIMING;  // makes a single block the cheapest partition
   return config;
@@ -139,8 +139,8 @@ starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result) {
   Impulse impulse(side, probe.r, dark);
   Engine engine(ConfigOf(side, probe));
   if (engine.status() != STARFOCUS_OK) return engine.status();
-  // The reference is the refocused flat picture, because rounding in a layer adds up to 2/64 of a
-  // grey level.
+  // The reference is the refocused flat picture, because rounding in a layer can change a sample by
+  // as much as 2/64 of a grey level.
   const starfocus_status flat_status = engine.Refocus(impulse, probe);
   if (flat_status != STARFOCUS_OK) return flat_status;
   const std::vector<double> flat = ReadLevels(engine);

@@ -68,7 +68,7 @@ std::string Explain(const EngineStep& step) {
   // explains the error.
   const double r = std::fabs(step.r);
   if (MakeLayerTheory(r, step.layer).error > kThreshold) {
-    return "the filters between layers: with them, the error of the ideal PSF exceeds 1e-3";
+    return "the filters between layers raise the error of the ideal PSF above 1e-3";
   }
   if (step.subapertures > kThreshold) {
     return "too few views: with this N, the error of exact subapertures exceeds 1e-3";

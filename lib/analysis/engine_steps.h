@@ -44,9 +44,9 @@ starfocus_status MeasureStep(const EngineProbe& probe, EngineStep* step);
 // the result.
 inline constexpr double kExplained[] = {1.1e-5, 2e-5, 2e-5};  // by layer
 
-// Returns an explanation why step.engine exceeds kThreshold, or an empty string if step.engine does
-// not exceed kThreshold. The explanation starts with "unexplained" if the measured PSF differs from
-// StarPsf by more than rounding explains.
+// If step.engine exceeds kThreshold, returns an explanation; otherwise, returns an empty string.
+// The explanation starts with "unexplained" if the measured PSF differs from StarPsf by more than
+// rounding explains.
 std::string Explain(const EngineStep& step);
 
 }  // namespace starfocus::analysis

@@ -12,8 +12,8 @@ namespace starfocus::analysis {
 // A part of the unit disc with uniform brightness.
 struct BrightOpening {
   double inner = 0;  // radius of the round hole in the middle
-  // Number of sides of a regular polygon with straight edges and a corner at (0, -1). A value of 0
-  // makes the opening a disc.
+  // Number of sides of a regular polygon with straight edges and a corner at (0, -1). If `blades`
+  // is 0, the opening is a disc.
   int blades = 0;
   bool Contains(double u, double v) const;
 };

@@ -12,10 +12,11 @@ namespace starfocus::analysis {
 
 // ViewsBySubaperture in lib/base/rules.h implements the rule for subapertures. Up to a radius of
 // half a pixel, the ideal PSF (4) is the unit impulse, so the centre view alone is exact. For
-// larger radii, the SSE (8) meets two limits at every r <= r_max. One limit of the SSE is 10^-3.
-// The other limit is the larger of two errors of the paper's PSF with N from (9): SSE at r, and
-// worst SSE of over-sampling. The paper derives (9) from the worst SSE of over-sampling.
-// SubapertureStudy::Margin measures how closely both limits are met.
+// larger radii, the SSE (8) meets two limits at every r <= r_max. The first limit is an SSE of
+// 10^-3. The second limit is the larger of two values for the paper's PSF with N from (9): the SSE
+// at r, and the worst SSE of over-sampling. The paper derives (9) from the worst SSE of
+// over-sampling. SubapertureStudy::Margin computes the ratio of the error of subapertures to the
+// limit of ViewsBySubaperture.
 
 // Returns the smallest N for which subapertures are at least as accurate at r as the paper's PSF
 // with N from (9), by their SSE (8).

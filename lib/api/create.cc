@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: creates and destroys engines in memory from an allocator. Only this file calls malloc and
-// free, so that static programs that provide the memory do not link the heap functions.
+// free. Therefore, statically linked programs that provide the memory themselves do not contain the
+// heap functions.
 #include <cstdint>
 #include <cstdlib>
 

@@ -61,7 +61,7 @@ starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32
   for (int32_t y = 0; y < height; ++y) {
     FillLine({disparity + static_cast<size_t>(y) * row_step, 1, width});
   }
-  // Filling the rows leaves only rows without any known value, so all columns now have equal gaps.
+  // Unknown values now remain only in rows without any known value, so all columns have equal gaps.
   for (int32_t x = 0; x < width; ++x) FillLine({disparity + x, row_step, height});
   return STARFOCUS_OK;
 }

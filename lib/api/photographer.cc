@@ -90,8 +90,8 @@ bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
   return false;
 }
 
-// Returns the disparity that has the most other disparities within kNear. Among disparities with
-// equally many, returns the smallest.
+// Returns the disparity that has the most other disparities within kNear. If several disparities
+// have equally many others within kNear, returns the smallest of these disparities.
 double MostCommon(const Sorted& sorted) {
   int32_t most = 0, best = 0;
   for (int32_t k = 0; k < sorted.count; ++k) {

@@ -108,7 +108,7 @@ starfocus_status starfocus_refocus(starfocus_engine* engine, const starfocus_par
   auto& e = *reinterpret_cast<EngineState*>(engine);
   if (full.preview_shift != 0) {
     return Refuse(STARFOCUS_ERROR_RANGE, {"preview_shift", double(full.preview_shift)},
-                  {"0 without a prepared light field", 0, 0}, &e.problem);
+                  {"0 unless the light field is prepared", 0, 0}, &e.problem);
   }
   return Refocus({full, *light_field, nullptr, *out}, &e, report);
 }

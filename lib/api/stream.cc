@@ -114,8 +114,9 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   return STARFOCUS_OK;
 }
 
-// Writes up to `rows` finished rows to the sink. Before that, refocuses the stripes of these rows
-// if all required input rows have been pushed. Adds the number of written rows to *written.
+// Writes up to `rows` finished rows to the sink. Before writing, refocuses stripes that are not yet
+// finished, if all required input rows have been pushed. Adds the number of written rows to
+// *written.
 starfocus_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine,
                           int32_t* written) {
   Stream& stream = engine->stream;

@@ -14,8 +14,8 @@
 namespace starfocus {
 
 // Starts an API call that receives a configuration. Copies the configuration to *full, which must
-// contain the defaults. Clears the problem of the previous call, and checks that no pointer is
-// null.
+// contain the defaults. Clears the error description (`problem`) of the previous call, and checks
+// that no pointer is null.
 template <class Config>
 starfocus_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers,
                              Config* full) {
@@ -28,8 +28,8 @@ starfocus_config DefaultConfig();
 
 starfocus_params DefaultParams();
 
-// Starts an API call that receives an engine: clears the problem of the engine and checks that no
-// pointer is null.
+// Starts an API call that receives an engine: clears the engine's error description (`problem`) and
+// checks that no pointer is null.
 starfocus_status EnterEngine(starfocus_engine* engine, std::initializer_list<Pointer> pointers);
 
 // Starts an API call that refocuses: performs the checks of EnterEngine and copies `params` to

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The last digit of a computed tangent may differ between machines. The difference changes a
-// rounded result only if the exact value is almost halfway between two integers.
+// The last digit of a computed tangent may differ between machines. Such a difference between
+// machines changes a rounded result only if the exact value is almost halfway between two integers.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
 struct UnitVector {
@@ -26,8 +26,8 @@ UnitVector DirectionOf(double angle) {
 
 // Each edge is an arc of radius 1 / `curvature` through two corners on the unit circle. `half` is
 // half the angle between the two corners. The centre of the arc lies on the edge's normal, at
-// cos(half) - sqrt(1 / curvature^2 - sin(half)^2). The product of this position and the curvature
-// has a limit for straight edges.
+// cos(half) - sqrt(1 / curvature^2 - sin(half)^2). The product of the centre's position and the
+// curvature remains finite as the curvature approaches 0 (straight edges).
 void SetPolygon(const starfocus_lens& lens, ApertureShape* opening) {
   opening->blades = lens.blades;
   const double half = kPi / lens.blades;

@@ -13,7 +13,8 @@
 
 namespace starfocus {
 
-// Fractional bits of the numbers that describe an opening, in radii of the lens.
+// Number of fractional bits of the coordinates that describe an opening. The unit of these
+// coordinates is the radius of the lens.
 inline constexpr int kOpeningBits = 14;
 inline constexpr int32_t kOpeningOne = 1 << kOpeningBits;
 

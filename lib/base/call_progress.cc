@@ -29,9 +29,9 @@ bool CallProgress::Ask() {
   if (progress_ == nullptr) return true;
   if (IsCancelled()) return false;
   if (asking_.exchange(1) != 0) return true;
-  // Checks again, because another thread may have cancelled the call after the first check. Only
-  // one thread at a time reads the number of finished jobs, so that the reported number never
-  // decreases.
+  // Checks for cancellation again, because another thread may have cancelled the call after the
+  // first check. Only one thread at a time reads the number of finished jobs, so that the reported
+  // number never decreases.
   if (!IsCancelled()) {
     const int64_t jobs_done = jobs_done_.load(std::memory_order_relaxed);
     const auto more = static_cast<int32_t>((next_ - done_) * jobs_done / jobs_);

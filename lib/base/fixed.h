@@ -98,7 +98,7 @@ inline constexpr FixedRange kLayerSample = {"layer sample", 0, 255 * 64};
 inline constexpr FixedRange kHolePosition = {"position of a hole", -66300 * kPixel, 66300 * kPixel};
 inline constexpr FixedRange kHolePixel = {"hole at layer 0", 0, (255 << 7) * kPixel* kPixel};
 inline constexpr FixedRange kUnmixed = {"unmixed pixel", 0, 255 << 7};
-inline constexpr FixedRange kRemainder = {"weight left after all orbits", 0, 0};
+inline constexpr FixedRange kRemainder = {"weight that remains unassigned", 0, 0};
 }  // namespace ranges
 
 // Returns `value`. With STARFOCUS_CHECK_RANGES, which only one debug build defines, a value outside

@@ -32,8 +32,8 @@ bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
   return true;
 }
 
-// Implements starfocus_job. A thread reads the set of jobs only while the thread holds a worker,
-// and the set changes only while all workers are free.
+// Implements starfocus_job. A thread reads the set of jobs only while the thread occupies a worker
+// slot, and the set changes only while all slots are free.
 void CallJob(void* data, int32_t index, int32_t worker) {
   JobSet& set = *static_cast<JobSet*>(data);
   if (worker < 0 || worker >= set.max_workers || set.busy[worker].exchange(1) != 0) {

@@ -24,8 +24,9 @@ starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem)
                             : status == STARFOCUS_ERROR_CANCELLED ? "progress"
                             : status == STARFOCUS_ERROR_MEMORY    ? "allocator"
                                                                   : "";
-  const char* const expected =
-      status == STARFOCUS_ERROR_RUNNER ? "each job once, by a worker below max_workers" : "";
+  const char* const expected = status == STARFOCUS_ERROR_RUNNER
+                                   ? "each job once, with a worker index below max_workers"
+                                   : "";
   return Refuse(status, {field}, {expected}, problem);
 }
 

@@ -31,8 +31,8 @@ int32_t ViewsByPaper(double r_max);
 // and narrow parts, N is at least 6 above 5 pixels (docs/constants.md, Openings).
 int32_t ViewsBySubaperture(double r_max, Demand demand = Demand::kFallOff);
 
-// Returns n * scale, rounded up, for the N of either rule. `scale` is in [0.5, 2]; the result for n
-// = 0 is 0.
+// Returns n * scale, rounded up, where `n` is the result of ViewsByPaper or ViewsBySubaperture.
+// `scale` is in [0.5, 2]; the result for n = 0 is 0.
 int32_t ScaleViews(int32_t n, double scale);
 
 // Returns the number of views along the aperture radius in benchmark mode: 2 * ceil(r_max).
@@ -46,12 +46,13 @@ int32_t ViewsOfBenchmark(double r_max);
 int32_t LayerByPaper(double r_min, Demand demand = Demand::kFallOff);
 int32_t LayerBySubaperture(double r_min, bool depth_edges, Demand demand = Demand::kFallOff);
 
-// Largest blur radius in pixels that is gathered instead of rendered from views. The number of
-// filter taps grows with the square of the radius. With a smaller limit, rendering is slower and
-// less exact (docs/constants.md).
+// Largest blur radius, in pixels, that is computed by filtering (gathering) instead of rendering
+// views. The number of filter taps grows with the square of the radius. With a smaller limit,
+// rendering is slower and less exact (docs/constants.md).
 inline constexpr int32_t kMaxGather = 12;
 
-// Returns the largest blur radius that is gathered, if all blur radii are at most r_max.
+// Returns the largest blur radius that is computed by filtering (gathering), if all blur radii are
+// at most r_max.
 constexpr double LargestGather(double r_max) { return r_max < kMaxGather ? r_max : kMaxGather; }
 
 }  // namespace starfocus

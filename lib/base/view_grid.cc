@@ -7,7 +7,8 @@ namespace starfocus {
 
 namespace {
 
-// Spread of a run in pixels, kShiftBits. Rendering a run with one shift misplaces the pixels of the
+// Spread of a run, which is a sequence of adjacent pixels: largest difference between the shifts of
+// the pixels, in pixels (kShiftBits). Rendering a run with one shift misplaces the pixels of the
 // run by at most half the spread, in any view. Halving the spread brings no improvement
 // (docs/constants.md).
 constexpr int32_t kRunSpread = kShiftOne / 4;

@@ -19,7 +19,7 @@ struct ViewGrid {
   int layer = 0;         // Layer L.
   // Views with |i| <= half_views fill holes from the captured views at half distance.
   int32_t half_views = 0;
-  int32_t spread = 0;  // largest disparity range of a run, kDisparityBits
+  int32_t spread = 0;  // largest disparity range of pixels that share one shift, kDisparityBits
 
   // Index of the outermost view along an axis.
   int32_t n() const { return aperture.last; }

@@ -24,13 +24,13 @@ int16_t Converted(double coordinate) {
   return static_cast<int16_t>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
 }
 
-// Views are ignored if their distance from the axis of the side is at least kTooFarBeside times
-// their distance along the axis.
+// Each side has an axis, which starts at the centre view. A view is ignored if its distance from
+// this axis is at least kTooFarBeside times its distance along the axis.
 constexpr int32_t kTooFarBeside = 8;
 
 // Rates how well a view sees behind edges on a side.
 struct Rating {
-  int32_t along, across;  // distances of the view along the axis of the side, and from this axis
+  int32_t along, across;  // distance of the view along the side's axis, and distance from this axis
   ViewPosition at;
 
   bool Helps() const { return across < kTooFarBeside * along; }
@@ -60,8 +60,8 @@ Rating Rate(const ViewPosition& at, const int8_t* side) {
 ViewPosition StarPosition(int index) { return kStar[index]; }
 
 int CapturedView(int u, int v, bool half) {
-  // Indices of the star's views at full distance, by u + 1 and v + 1. Views at half distance have
-  // the index of the full-distance view plus 8.
+  // Indices of the captured views at full distance from the centre, indexed by u + 1 and v + 1.
+  // Views at half distance have the index of the full-distance view plus 8.
   constexpr int8_t kIndex[3][3] = {{8, 2, 6}, {4, 0, 3}, {7, 1, 5}};
   const int index = kIndex[u + 1][v + 1];
   return half && index != 0 ? index + 8 : index;
@@ -95,7 +95,8 @@ starfocus_status FindViews(const starfocus_config& config, ViewSet* views) {
     views->star = views->star && SamePosition(views->at[k], kStar[k]);
     for (int32_t other = 0; other < k; ++other) {
       check.Need(!SamePosition(views->at[k], views->at[other]), STARFOCUS_ERROR_RANGE,
-                 {"positions[]", kNoNumber, k}, {"another position than those before"});
+                 {"positions[]", kNoNumber, k},
+                 {"a position that differs from all earlier positions"});
     }
   }
   return check.status();

@@ -48,11 +48,11 @@ struct ViewSet {
   ViewPosition at[kMaxViews] = {};
 };
 
-// Returns position `index` of the star.
+// Returns the position of view `index` in the standard layout of 1, 5, 9 or 17 views.
 ViewPosition StarPosition(int index);
 
-// Returns the index of the star's view in direction (u, v) at full or half distance. The values u
-// and v are -1, 0 or 1, and not both 0.
+// Returns the index of the view in direction (u, v) of the standard layout, at full distance or, if
+// `half` is true, at half distance. The values u and v are -1, 0 or 1, and not both 0.
 int CapturedView(int u, int v, bool half);
 
 // Finds the views of a configuration. Returns STARFOCUS_ERROR_RANGE for an invalid number of views

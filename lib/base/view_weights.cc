@@ -12,8 +12,8 @@ namespace {
 // square / n^2, with 20 fractional bits. The computation uses only integers, so every machine gets
 // the same weights.
 uint64_t Relative(uint64_t square, uint64_t n_square, uint64_t fall_off) {
-  const uint64_t denominator = (square << 16) + fall_off * n_square;   // < 2^40.
-  const uint64_t ratio = ((fall_off * n_square) << 24) / denominator;  // 2^24 at the centre.
+  const uint64_t denominator = (square << 16) + fall_off * n_square;   // Less than 2^40.
+  const uint64_t ratio = ((fall_off * n_square) << 24) / denominator;  // Equals 2^24 at the centre.
   return (ratio * ratio) >> 28;
 }
 
@@ -23,8 +23,8 @@ size_t IndexOf(const ViewWeights& aperture, int32_t i, int32_t j) {
   return static_cast<size_t>(aperture.full ? (i + n) * (2 * n + 1) + j + n : i * (i + 1) / 2 + j);
 }
 
-// Calls visit(i, j, views) for the views i^2 + j^2 <= most, |i|, |j| <= last, whose weights are
-// stored. `views` is the number of views that share the weight.
+// Calls visit(i, j, views) for each stored weight of a view (i, j) with i^2 + j^2 <= most and |i|,
+// |j| <= last. `views` is the number of views that share the weight.
 template <class Visit>
 void ForEachWeight(const ViewWeights& aperture, bool by_size, const Visit& visit) {
   const int32_t last = aperture.last, most = aperture.most;
@@ -46,8 +46,9 @@ void Clear(const ViewWeights& aperture, uint16_t* weights) {
   for (size_t index = 0; index < size; ++index) weights[index] = 0;
 }
 
-// Computes the weights in proportion to the light `light(i, j)`, 20 bits. Weights outside the disc
-// must be 0 on entry. `light` may read the old contents of `weights`.
+// Computes weights that are proportional to light(i, j), which returns a fixed-point number of 20
+// bits. Weights outside the disc must be 0 on entry. `light` may read the old contents of
+// `weights`.
 template <class Light>
 void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* aperture) {
   aperture->weights = weights;

@@ -41,11 +41,11 @@ struct ViewWeights {
 };
 
 // Radius of the lens in subapertures, times kSubapertureUnits, for the N of ViewsBySubaperture. The
-// radii are computed, not tuned. At blur radii of N = 4, the radius 123 has at most twice the worst
-// error of any other radius with as many views. At N = 5 the smallest error is at the radius 32 * 5
-// - 11. At N = 3 the radius 94 has the smallest error among the radii that meet the threshold at
-// every blur radius. See WorstOfLens in lib/analysis/subaperture_rule.h, and the tables in
-// docs/constants.md.
+// radii are computed, not tuned. For N = 4, a lens radius of 123 units (1 / kSubapertureUnits) has
+// at most twice the worst error of any other radius with as many views. For N = 5, the lens radius
+// with the smallest error is 32 * 5 - 11 units. For N = 3, a lens radius of 94 units has the
+// smallest error among the radii that meet the error threshold at every blur radius. See
+// WorstOfLens in lib/analysis/subaperture_rule.h, and the tables in docs/constants.md.
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
   return n == 1 ? kSubapertureUnits : n == 3 ? 94 : n == 4 ? 123 : kSubapertureUnits * n - 11;
@@ -99,10 +99,10 @@ inline size_t ViewWeightsSize(const ApertureShape& opening, int32_t n) {
   return opening.IsSymmetric() ? ViewWeightsSize(n) : FullApertureSize(n);
 }
 
-// Computes the weights of the views i^2 + j^2 <= N^2, which are a_{d,N} of (5). For openings other
-// than (3), the weight of a view is the light that passes through the subaperture around the view.
-// Fills weights[ViewWeightsSize(opening, n)]; n in [0, kMaxViewsAlongRadius]. The weights ignore
-// cat's eyes; MakeCatsEye applies them.
+// Computes the weights a_{d,N} of (5) for the views (i, j) with i^2 + j^2 <= N^2. For openings
+// other than (3), the weight of a view is the light that passes through the subaperture around the
+// view. Fills weights[ViewWeightsSize(opening, n)]; n in [0, kMaxViewsAlongRadius]. The weights
+// ignore cat's eyes; MakeCatsEye applies them.
 ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* weights);
 
 // Computes the weights of views that represent subapertures of a lens of radius

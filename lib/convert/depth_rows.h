@@ -19,7 +19,7 @@ struct DepthSource {
   // Position in the map of each column of the picture (simd::SpreadRow); null if the map is as wide
   // as the picture.
   const uint32_t* columns;
-  // First row of the picture that `map` contains; 0 if the map is lower than the picture.
+  // First row of the picture that `map` contains; 0 if the map has fewer rows than the picture.
   int32_t first = 0;
 };
 

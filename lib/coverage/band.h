@@ -17,8 +17,8 @@ void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t ro
 void ClearTile(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the initial alpha (0, kWhole or kUnparted) and the near disparities of a tile, both from
-// the disparity map alone. Writes the far light that the centre view shows in the tile to the cells
-// of all levels.
+// the disparity map alone. Reads the light of the far surface from the centre view, and writes this
+// light to the cells of the tile at all levels.
 void StartTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

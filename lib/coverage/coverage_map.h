@@ -42,14 +42,14 @@ inline constexpr int32_t kFarKnownBits = 8;
 inline constexpr int32_t kKnown = 1 << kFarKnownBits;
 
 // Largest displacement in pixels of a nearer surface relative to the far surface, along either
-// axis. Far light is not read from views in which a nearer surface moves by more than kMostMove
-// pixels.
+// axis. The light of the far surface is not read from views in which a nearer surface moves by more
+// than kMostMove pixels.
 inline constexpr int32_t kMostMove = 32;
 
 // Number of columns on each side of the picture that may be read.
 inline constexpr int32_t kAside = 48;
 static_assert(kAside >= kMostMove + 2 && kAside % kCoverageTile == 0,
-              "kAside must exceed kMostMove and be a multiple of a tile");
+              "kAside must exceed kMostMove and be a multiple of the side of a tile");
 inline constexpr int16_t kNowhere = INT16_MIN;
 
 // Levels of cells, with sides of 1, 2, 4, 8 and 16 pixels.
@@ -63,8 +63,8 @@ struct CoverageTile {
   // True if many pixels of the tile are next to depth edges. If the light field provides coverage,
   // one pixel next to an edge makes the tile ragged.
   uint8_t ragged;
-  // True if the tile is ragged and has many mixed pixels. If the light field provides coverage, one
-  // mixed pixel makes the tile mixed.
+  // True if many pixels of the tile are mixtures of two surfaces, and if `ragged` is true. If the
+  // light field provides coverage, one mixed pixel makes the tile mixed.
   uint8_t mixed;
   // True if pixels near edges are split in this tile, because this tile or a neighbouring tile is
   // mixed.
@@ -79,8 +79,9 @@ struct CoverageMap {
   int32_t columns = 0, tile_rows = 0;
   int16_t disparity_min = 0;  // starfocus_config.disparity_min, kDisparityBits.
   int bin_bits = 0;           // log2 of the number of disparity values in each bin of near_bins.
-  int32_t around =
-      1;  // Distance in tiles from a ragged tile within which the passes process tiles.
+  // Largest distance, in tiles, between a tile that is marked `ragged` and a tile that the passes
+  // process.
+  int32_t around = 1;
   CoverageTile* tiles = nullptr;
   // Planes of pixels, with kAside unused pixels before and after each row.
   uint8_t* first = nullptr;  // Coverage after the first pass.
@@ -126,7 +127,7 @@ struct CoverageMap {
   bool IsStarted(int32_t column, int32_t row) const {
     return AnyAround(column, row, around, &CoverageTile::ragged);
   }
-  // Returns the far light of pixel (x, y).
+  // Returns the light of the far surface at pixel (x, y).
   FarCell& FarAt(int32_t x, int32_t y) const { return far[0][CellAt(x, y, 0)]; }
 };
 

@@ -9,18 +9,18 @@
 
 namespace starfocus {
 
-// Computes the far-light cells of levels 1 to 4 of a tile from the cells of level 0. Each cell gets
-// the light of the farthest surface in the cell.
+// Computes the light of the far surface in the cells of levels 1 to 4 of a tile, from the cells of
+// level 0. Each cell gets the light of the farthest surface in the cell.
 void PullTile(int32_t column, int32_t row, const CoverageMap& map);
 
-// Light of the far surface at each pixel of a tile. The weight of a pixel is 0 if no far light is
-// known nearby.
+// Light of the far surface at each pixel of a tile. The weight of a pixel is 0 if the light of the
+// far surface is not known nearby.
 struct FarTile {
   FarCell cells[kCoverageTile * kCoverageTile];
 };
 
-// Fills in the unknown far light of the tile's pixels from levels 1 to 4 of this tile and of the
-// neighbouring tiles.
+// Fills in unknown light of the far surface at the tile's pixels, from levels 1 to 4 of this tile
+// and of the neighbouring tiles.
 void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far);
 
 // Returns the eighth power of `a`. The argument has kAlphaBits fractional bits, and the result has

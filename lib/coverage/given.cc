@@ -194,7 +194,7 @@ void TakeGiven(const CoverageInput& in, int32_t column, int32_t row) {
       const size_t to = map.At(x, row * kCoverageTile + y);
       const FarCell& cell = far.cells[y * kCoverageTile + k];
       if (map.alpha[to] == kUnparted) continue;
-      // A pixel cannot be split if no far light is known nearby.
+      // A pixel cannot be split if the light of the far surface is not known nearby.
       map.alpha[to] = cell.weight == 0 ? kUnparted : map.first[to];
       std::memcpy(map.FarAt(x, row * kCoverageTile + y).rgb, cell.rgb, sizeof(cell.rgb));
     }

@@ -14,8 +14,8 @@ namespace starfocus {
 // disparity map implies.
 void StartGiven(const CoverageInput& in, int32_t column, int32_t row);
 
-// Writes the final coverage and far light of a tile. Requires the far light that LookBehindTile
-// reads from all views (look.h).
+// Writes the final coverage of a tile, and the light of the far surface in the tile. LookBehindTile
+// (look.h) must have read the light of the far surface from all views.
 void TakeGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

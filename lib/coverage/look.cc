@@ -17,11 +17,11 @@ constexpr int32_t kWithin = 3 << (kDisparityBits - 1);
 // log2 of the factor by which the weight of the centre view is reduced. Near edges, all pixels of
 // the centre view are mixtures.
 constexpr int kCentreBits = 3;
-// The far light of a pixel is fully known if the weights of its samples from all views sum to at
-// least 2^kEnoughBits * kKnown.
+// At a pixel, the light of the far surface is fully known if the sample weights from all views sum
+// to at least 2^kEnoughBits * kKnown.
 constexpr int kEnoughBits = 1;
 
-// A side view from which far light is read.
+// A side view from which the light of the far surface is read.
 struct SideLook {
   OcclusionView look;
   bool down;      // True if the search for occluders runs along columns, false if along rows.
@@ -101,8 +101,8 @@ class TileLooker {
     }
   }
 
-  // Reads the far light of row y from a view and adds the light to sums_. Adjacent pixels of equal
-  // disparity are read together.
+  // Reads the light of the far surface in row y from a view, and adds the light to sums_. Adjacent
+  // pixels of equal disparity are read together.
   void LookInto(const SideLook& view, int32_t y) {
     int16_t covered[kCoverageTile] = {};
     if (!FindCovered(view, y, covered)) return;

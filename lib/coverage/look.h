@@ -8,10 +8,10 @@
 
 namespace starfocus {
 
-// Reads the far light of the tile's split pixels from the centre view and the side views, and
-// recomputes the cells of all levels. Light from a view gets a smaller weight if nearer surfaces
-// cover more of the pixel in that view (FarWeight). The coverage by nearer surfaces is the result
-// of the first unmixing pass.
+// Reads the light of the far surface at the tile's split pixels from all views, and recomputes the
+// cells of all levels. Light from a view gets a smaller weight if nearer surfaces cover more of the
+// pixel in that view (FarWeight). The coverage by nearer surfaces is the result of the first
+// unmixing pass.
 void LookBehindTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

@@ -41,8 +41,8 @@ inline int32_t TilesAhead(const starfocus_config& config, int pass) {
     case kUnmixAgain:
       return 0;
     case kLook:
-      // UnmixAgain fills in unknown far light from the surrounding tiles, so it requires the far
-      // light of the next row of tiles.
+      // UnmixAgain fills in unknown light of the far surface from the surrounding tiles, so it
+      // requires this light in the next row of tiles.
       return 1;
     case kUnmixFirst:
       // A tile next to a mixed tile is thin, so the Look pass requires `mixed` one row ahead.

@@ -99,8 +99,8 @@ int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess
   return guess + static_cast<int32_t>(RoundShift((alpha - guess) * trust, kAlphaBits));
 }
 
-// Calls visit(x, y, alpha, far light) for each pixel of the tile that is near an edge and whose far
-// light is known. Coordinates x and y are in pixels of the picture.
+// Calls visit(x, y, alpha, cell) for each pixel of the tile that is near an edge, if the light of
+// the far surface (`cell`) is known. Coordinates x and y are in pixels of the picture.
 template <class Visit>
 void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column, int32_t row,
                    const Visit& visit) {

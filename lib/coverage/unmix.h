@@ -12,8 +12,9 @@ namespace starfocus {
 // CoverageTile::mixed if the pixels of the tile are, on average, mixed enough for a thin structure.
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);
 
-// Writes the coverage of a tile after the second pass, and the tile's far light. The inputs are the
-// coverage of the first pass and the far light of all views (look.h).
+// Writes the coverage of a tile after the second pass, and the light of the far surface in the
+// tile. The inputs are the coverage of the first pass and the light of the far surface from all
+// views (look.h).
 void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

@@ -10,8 +10,8 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// kJump is the cost of a step to another surface between two pixels of one colour. The cost is half
-// of kJump if the colours of the pixels differ by kColourEdge.
+// kJump is the cost of a step to another surface between two pixels of one colour. If the colours
+// of the two pixels differ by kColourEdge, a step costs half of kJump.
 constexpr int32_t kJump = 120, kColourEdge = 12;
 
 // Arguments of WeighChoices.

@@ -11,7 +11,8 @@ namespace {
 constexpr int32_t kPixel = 1 << kDisparityBits;
 constexpr int16_t kUnknown = INT16_MIN;
 // Largest difference of disparity between a pixel and a neighbour that counts as flat, in fixed
-// point (kDisparityBits). At blurred edges, neighbours differ more.
+// point (kDisparityBits). At blurred edges, the disparities of neighbours differ by more than
+// kFlat.
 constexpr int32_t kFlat = kPixel / 2;
 // Smallest number of flat pixels among the 5x5 pixels around a pixel that is not on a ramp. At
 // the corner of a surface, at least 8 of the 25 pixels are flat; on a ramp, at most 5 are.

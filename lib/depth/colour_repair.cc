@@ -14,17 +14,17 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// Largest difference between a choice and the map's disparity at which the choice counts as the
-// map's disparity.
+// Largest difference between a candidate disparity and the map's disparity at which both
+// disparities count as one surface.
 constexpr int32_t kSameSurface = kPixel;
-// Smallest total gain, over the pixels within kGainRadius, that is required for a change. One or
-// two contradicted pixels are more likely a speckle on their surface than the edge of another
-// surface. In maps that are mostly right, a much larger gain is required. Maps that are mostly
-// right are wrong only at objects with the colour of the background, and colours are unreliable at
-// such objects.
+// A pixel changes only if the changes within kGainRadius have a large enough total gain, which is
+// the cost that they save. One or two contradicted pixels are more likely a speckle on their
+// surface than the edge of another surface. In maps that are mostly right, a much larger gain is
+// required. Maps that are mostly right are wrong only at objects with the colour of the background,
+// and colours are unreliable at such objects.
 constexpr int32_t kGainRadius = 3;
 constexpr EvidenceScale kGains = {18, 22, 1000, 60};
-// Number of path directions in the sums of choices.
+// Number of directions of the paths along which costs are summed.
 constexpr int32_t kPaths = 4;
 constexpr int32_t kColourPhases = 9;
 // Changed pixels get the mean disparity of the chosen surface within kMeanRadius. In this mean,
@@ -111,8 +111,8 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
   CountBeside(grid, job.map.disparity, tile, index, job.memory->thin);
 }
 
-// Determines from the counts of all tiles the gain required for a change. Marks the cells that must
-// not change, which are the cells with thin structure or hair.
+// Computes the gain (saved cost) that a change requires, from the counts of all tiles. Marks the
+// cells that must not change, which are the cells with thin structure or hair.
 void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
   memory->least_gain = LeastEvidence(kGains, memory->counts, plan.columns * plan.rows);
   const ThinGrid grid = GridOf(plan);

@@ -44,7 +44,7 @@ struct ColourMemory {
   uint8_t* certainty;
   TileCount* counts;   // One element for each tile.
   SoftCount* soft;     // One element for each tile of the repaired map.
-  int32_t least_gain;  // Smallest gain required for a change.
+  int32_t least_gain;  // Smallest gain (saved cost) that a change requires.
   ThinCells thin;      // Thin structure of the map.
   HairCells hair_cells;
   HairMemory hair;    // Shares the memory of maps[1], maps[2] and all later planes.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates the disparities of a light field's centre view with two sweeps over all labels. The
-// first sweep uses the views on one side of each pixel. The result of the first sweep shows which
-// views see each pixel, and the second sweep uses only these views.
+// Estimates the disparities of a light field's centre view with two sweeps over all candidate
+// disparities (labels). The first sweep uses the views on one side of each pixel. The result of the
+// first sweep shows which views see each pixel, and the second sweep uses only these views.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_H_
 

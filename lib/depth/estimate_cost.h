@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures how well each label fits the views at each pixel of a region.
+// Measures how well each candidate disparity (label) fits the views at each pixel of a region.
 #ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_COST_H_
 #define STARFOCUS_LIB_DEPTH_ESTIMATE_COST_H_
 
@@ -15,7 +15,8 @@ enum class Seeing {
 };
 
 // Fills tile->cost for the pixels of `region`. The caller must have loaded the views around
-// `region` and marked their hidden labels (tile_views.h).
+// `region`, and marked the labels (disparities) that nearer surfaces hide in each view
+// (tile_views.h).
 void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
                   const simd::DepthKernels& kernels, TileMemory* tile);
 

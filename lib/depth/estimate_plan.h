@@ -40,7 +40,8 @@ struct EstimatePlan {
   int32_t labels;
   int32_t reach;  // largest movement, in pixels, of a point from the centre view to a side view,
                   // plus one
-  // Side views. Arms are in the order of their angles, and the outer ring comes first.
+  // Side views. The views at full distance from the centre come first, and views at one distance
+  // are in the order of their angles.
   int32_t arms, rings;
   SideView side[kMostSideViews];
   int32_t directions;     // Number of directions of paths: 4 or 8.

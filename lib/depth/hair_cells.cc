@@ -18,8 +18,8 @@ constexpr int32_t kBeside = 1, kMostInside = 4;
 // A cell has hair if more than a fifth of the near pixels within 12 cells look like background.
 constexpr int32_t kHairReach = 12, kHairShare = 5;
 
-// Replaces each of `count` values, which are `stride` apart, with the reduction by `join` of all
-// values within a distance of `reach`.
+// For each of `count` values, combines all values at most `reach` positions away with the function
+// `join`, and replaces the value with the result. Consecutive values are `stride` elements apart.
 template <class T, class Join>
 void JoinLine(int32_t count, ptrdiff_t stride, int32_t reach, const Join& join, T* values,
               int32_t* line) {

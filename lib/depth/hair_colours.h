@@ -11,8 +11,8 @@ namespace starfocus {
 
 // Computes background colours for the first pass, from cells without near pixels nearby.
 void PullFar(const void* data, int32_t index, int32_t worker);
-// Compute foreground colours for the first pass, from near pixels weighted by their contrast to the
-// background. MeasureContrast must run first, for all tiles.
+// MeasureContrast and PullNear compute foreground colours for the first pass, from near pixels
+// weighted by their contrast to the background. MeasureContrast must run first, for all tiles.
 void MeasureContrast(const void* data, int32_t index, int32_t worker);
 void PullNear(const void* data, int32_t index, int32_t worker);
 // Computes foreground and background colours for the second pass, from all pixels weighted by the

@@ -10,10 +10,11 @@
 namespace starfocus {
 namespace {
 
-// A map has hair with closed outlines if more than this share of the pixels 2 to 4 cells inside
-// outlines looks like background. Shares are in units of 1/256. Maps that neural networks compute
-// for the hair scene have a share of 80. Exact maps, maps that are wrong by 3 pixels and
-// photographs have a share of at most 28 (docs/depth.md).
+// A map has hair with closed outlines if, of the pixels 2 to 4 cells inside outlines, a share of
+// more than kLeastFar looks like background. Shares are in units of 1/256. In maps that neural
+// networks compute for the hair scene, a share of 80/256 looks like background. In exact maps, maps
+// that are wrong by 3 pixels, and photographs, the share that looks like background is at most
+// 28/256 (docs/depth.md).
 constexpr int64_t kLeastFar = 48;
 
 void MeasureTile(const void* data, int32_t index, int32_t) {

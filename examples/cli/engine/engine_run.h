@@ -30,7 +30,7 @@ struct EngineTask {
 struct EngineResult {
   Image picture;
   starfocus_report report = {};
-  double seconds = 0;  // time inside the engine
+  double seconds = 0;  // processing time in the engine, in seconds
   size_t workspace_bytes = 0;
   size_t prepared_bytes = 0;
 };

@@ -15,7 +15,9 @@ namespace starfocus {
 
 class Json {
  public:
-  Json();  // null; Set turns the value into an object, and Add turns the value into an array
+  // Creates a null value. Set turns the value into an object, and Add turns the value into an
+  // array.
+  Json();
   // NOLINTBEGIN: members and elements are written as plain values
   Json(std::nullptr_t);
   Json(double value);

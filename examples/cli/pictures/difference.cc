@@ -27,7 +27,8 @@ Image DrawDifference(const Image& a, const Image& b, int white) {
     for (size_t c = 0; c < 3; ++c) {
       most = std::max(most, std::abs(int{a.pixels[i + c]} - int{b.pixels[i + c]}));
     }
-    // Red, green and blue rise to their maximum in turn, each over a third of the range.
+    // As the difference grows from 0 to `white`, first red, then green, then blue rises to the
+    // maximum.
     const int way = std::min(most, white) * 3 * 255 / white;
     for (int c = 0; c < 3; ++c) {
       map.pixels[i + size_t(c)] = static_cast<uint8_t>(std::clamp(way - 255 * c, 0, 255));

@@ -21,8 +21,8 @@ struct ApertureOptions {
 
 struct ApertureChoice {
   double radius = 1;      // Radius at the requested strength.
-  double widest = 1;      // f-stop of radius 1.
-  double strength = 1;    // 0 to 1; `radius` already includes this factor.
+  double widest = 1;      // F-stop of an aperture of radius 1.
+  double strength = 1;    // Strength from 0 to 1; `radius` already includes this factor.
   std::string option;     // Option that set the radius; empty: the default.
   std::string value;      // Value of `option` as typed.
   bool narrowed = false;  // True if the default exceeded the blur limit and was reduced.

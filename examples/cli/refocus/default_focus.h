@@ -12,7 +12,7 @@ namespace starfocus {
 struct DefaultFocus {
   bool at_pixel = true;
   int x = 0, y = 0;      // Pixel in focus.
-  double disparity = 0;  // Focus if at_pixel is false.
+  double disparity = 0;  // Disparity in focus if at_pixel is false.
   std::string source;    // Description of the origin of the focus, for users.
 };
 
@@ -22,8 +22,9 @@ struct DefaultFocus {
 DefaultFocus FindDefaultFocus(const Capture& capture);
 
 // Returns a pixel of the nearest large surface near the centre. A large surface has similar
-// disparities on at least a tenth of the middle half of width and height. Returns the centre of the
-// map if all disparities in the middle half are unknown. Coordinates are pixels of the map.
+// disparities, and covers at least a tenth of the central area with half the width and height of
+// the map. Returns the centre of the map if all disparities in the middle half are unknown.
+// Coordinates are pixels of the map.
 DefaultFocus FindSurface(const FloatMap& map);
 
 // Prints the focus and its origin to stderr.

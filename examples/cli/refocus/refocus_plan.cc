@@ -47,7 +47,8 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
 // Returns the disparity at pixel (x, y) of the picture after filling unknown values around this
 // pixel. Returns nullopt if no value around this pixel is known.
 std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
-  constexpr int kAround = 16;  // larger than the neighbourhood of starfocus_focus_at
+  // Number of pixels to read on each side of pixel (x, y). starfocus_focus_at reads fewer pixels.
+  constexpr int kAround = 16;
   const int left = std::max(0, x - kAround), top = std::max(0, y - kAround);
   FloatMap part;
   part.width = std::min(map.width, x + kAround + 1) - left;
@@ -86,13 +87,13 @@ void AddTuningOptions(Command* command, LensOptions* options) {
           {"--renderer", "slices|line-scan",
            "slices renders a few views from slices of the scene; line-scan renders the "
            "paper's views line by line and needs a star of views; default: slices, but "
-           "line-scan in mode frame with 5 or more views",
+           "line-scan for --mode frame with 5 or more views",
            Choice<starfocus_renderer>(
                {{"slices", STARFOCUS_RENDERER_SLICES}, {"line-scan", STARFOCUS_RENDERER_LINE_SCAN}},
                &options->renderer)},
           {"--n-scale", "X",
            "Factor for the number of views along the radius, 0.5 to 2; smaller is faster, "
-           "larger is closer to the benchmark",
+           "larger is more accurate",
            Number(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE,
                   "a factor from " + Short(STARFOCUS_MIN_N_SCALE) + " to " +
                       Short(STARFOCUS_MAX_N_SCALE),
@@ -161,8 +162,8 @@ void AddLensOptions(Command* command, LensOptions* options) {
   AddOptions(
       {
           {"--transfer", "srgb|none",
-           "Meaning of the pixel values: srgb is light coded as sRGB, which a lens adds "
-           "up; none averages the values themselves",
+           "Meaning of the pixel values: srgb values are converted to light before they "
+           "are averaged; none averages the values themselves",
            Transfer(&options->transfer), Use::kDefault},
           {"--highlights", "X", "Brightness of clipped lamps as a multiple of white, 1 to 64",
            Number(1, STARFOCUS_MAX_HIGHLIGHTS,

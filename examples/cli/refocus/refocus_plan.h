@@ -48,8 +48,8 @@ struct LensPlan {
   int x = 0, y = 0;  // pixel that determines the focus
   ApertureChoice aperture;
   starfocus_region region = {};  // All 0: the whole picture.
-  Config config;                 // Timing and features for the shape; other fields have defaults.
-  starfocus_lens lens = {};      // Shape of the aperture; other fields have defaults.
+  Config config;  // Timing, and features that the shape requires; other fields have defaults.
+  starfocus_lens lens = {};  // Shape of the aperture; other fields have defaults.
 };
 
 // Checks --focus, --focus-at, the shape and the timing before a light field is read. The aperture
@@ -57,7 +57,8 @@ struct LensPlan {
 Result<LensPlan> PlanLens(const LensOptions& options);
 void UseFocus(const DefaultFocus& focus, LensPlan* plan);
 
-// Checks that the renderer supports views at these positions. Line scans require a star.
+// Checks that the renderer supports views at these positions. The line-scan renderer requires the
+// standard layout of 1, 5, 9 or 17 views.
 Error CheckRenderer(const std::string& where, const LensPlan& plan, const Positions& views);
 
 // Measures a map, which must not have unknown values. Error messages start with `where`.

@@ -10,9 +10,9 @@ double Share(uint64_t part, uint64_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-// Returns the statistics of each layer as JSON. Shares are relative to all layers. Times in seconds
-// are CPU times, summed over the threads. The timing model applies only to blocks that are rendered
-// with views after an analysis of the block's content.
+// Returns the statistics of each layer as JSON. The shares of area and time are fractions of the
+// totals over all layers. Times in seconds are CPU times, summed over the threads. The timing model
+// applies only to blocks that are rendered with views after an analysis of the block's content.
 Json LayersJson(const starfocus_report& report, bool predicted) {
   uint64_t pixels = 0, time = 0;
   for (const starfocus_layer_report& layer : report.layers) {

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Parses truth_dt<D>_ut<U>.png. Names for other aperture shapes have a suffix and do not match.
+// Parses truth_dt<D>_ut<U>.png. Returns nullopt for a name with a suffix, which denotes an aperture
+// shape other than the default.
 std::optional<LensAt> ParseTruthName(const fs::path& name) {
   const std::string stem = name.stem().string();
   LensAt lens;
@@ -29,8 +30,8 @@ std::optional<LensAt> ParseTruthName(const fs::path& name) {
   return lens.aperture > 0 && lens.aperture <= 1 ? std::optional(lens) : std::nullopt;
 }
 
-// Returns the transfer of the folder's pictures. The file meta.txt may state that pictures are
-// averages of codes instead of light.
+// Returns the transfer of the folder's pictures. If the file meta.txt contains "transfer: none",
+// the pictures are averages of encoded values instead of linear light.
 starfocus_transfer TransferOf(const std::string& folder) {
   const Result<Bytes> bytes = ReadSmallFile((fs::path(folder) / "meta.txt").string());
   const std::string text(bytes->begin(), bytes->end());

@@ -50,7 +50,7 @@ void Extend(const EngineStep& step, const std::string& reason, bool joined,
 
 // Returns the smallest blur radius, a multiple of 0.5, at which the renderer uses the layer. The
 // layers of the line scan follow the paper's rule (12). The layers of the slice renderer follow
-// LayerBySubaperture, without depth edges.
+// LayerBySubaperture for blocks without depth edges.
 double LeastRadius(starfocus_renderer renderer, int layer) {
   const auto layer_at = [&](double r) {
     return renderer == STARFOCUS_RENDERER_LINE_SCAN ? LayerByPaper(r)

@@ -24,7 +24,8 @@ constexpr PaperRow kPaper[] = {{2.0, 0.00, 0.19, 4.3e-3, 1.4e-3},
                                {3.5, 1.44, 0.27, 3.0e-4, 5.3e-5},
                                {4.0, 1.49, 0.28, 1.3e-4, 3.0e-5}};
 
-// Returns true if `value` has the printed value after rounding to two digits.
+// Returns true if `value`, rounded to two significant digits, equals `printed`, the number in the
+// paper's table.
 bool SameDigits(double value, double printed) {
   char a[20], b[20];
   std::snprintf(a, sizeof(a), "%.1e", value);

@@ -49,13 +49,11 @@ void PrintThreshold() {
   const RatioPoint no_rim = WorstOverSampling(4, kDefaultTheta, Rim::kExcluded);
   const double beside = PaperError(4 / kBeside, 4, kDefaultTheta, Rim::kExcluded);
   std::printf(
-      "  By (3)-(8) as written, 0.787 is not the point of equal SSE: that is %.3f, the curve "
-      "having\n"
-      "  a cusp at N/r = 1.5. What the paper did differently is unknown; of the variants tried, "
-      "one\n"
-      "  gives 0.787: without views on the rim of the aperture the point is %.3f, and %.3f with\n"
-      "  the curve read next to the cusp, at 1.51 (SSE %.1e). 0.787 is on the safe side either "
-      "way.\n\n",
+      "  By (3)-(8) as written, the point of equal SSE is N/r = %.3f, not 0.787. The curve has a\n"
+      "  cusp at N/r = 1.5. The cause of the difference from the paper is unknown. One of the\n"
+      "  variants tried gives 0.787: without views on the rim of the aperture, the point of equal\n"
+      "  SSE is %.3f, or %.3f if the curve is read next to the cusp, at 1.51 (SSE %.1e).\n"
+      "  The threshold 0.787 is safe in all of these cases.\n\n",
       UnderSamplingRatio(4, kDefaultTheta, over.error),
       UnderSamplingRatio(4, kDefaultTheta, no_rim.error, Rim::kExcluded),
       UnderSamplingRatio(4, kDefaultTheta, beside, Rim::kExcluded), beside);

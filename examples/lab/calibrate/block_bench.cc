@@ -29,8 +29,8 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
   if (status == STARFOCUS_OK) status = owner_.Init(MakeConfig(light_field));
   if (status == STARFOCUS_OK) {
     engine_ = reinterpret_cast<EngineState*>(owner_.get());
-    // Create apertures for blocks of any N. The opening has the default shape, which Focus also
-    // uses.
+    // Create apertures for blocks of any N. The aperture has the default shape, as in
+    // BlockBench::Focus.
     starfocus_params params;
     starfocus_params_init(&params);
     SetOpening(ShapeOf(params.lens), &engine_->tables);

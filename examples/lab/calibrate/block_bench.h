@@ -35,8 +35,8 @@ class BlockBench {
   uint64_t Time(const BlockTask& task);
 
  private:
-  // HoldDisparity and HoldLayer fill the engine's rings and layers with whole pictures instead of
-  // stripes, so that blocks may be refocused in any order.
+  // HoldDisparity and HoldLayer fill the engine's ring buffers and subsampled layers with whole
+  // pictures instead of stripes. Therefore, blocks may be refocused in any order.
   void HoldDisparity();
   void HoldLayer(int layer);
   void Focus(const BlockTask& task);

@@ -17,7 +17,8 @@ constexpr int kLayerSides[] = {16, 32, 64, 128, 256};
 constexpr int kViewNumbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16};
 constexpr int kMostViews = 16;
 
-// Number of random draws per pass. Each pass permits more lenses and layers than the previous pass.
+// Number of attempts to draw a random block, in each pass. Each pass permits more lenses and layers
+// than the previous pass.
 constexpr int kDraws = 60000;
 enum Pass { kUsualLens, kAnyAperture, kAnyLayer, kPasses };
 
@@ -74,7 +75,8 @@ double BlockSampler::SmallestRadius(const Lens& lens, const Rect& rect) const {
   return smallest;
 }
 
-// Returns the largest blur radius of the cells that splat into the rectangle.
+// Returns the largest blur radius of all cells, which are squares of kCellSize pixels, whose
+// blurred light reaches the rectangle.
 double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
   const int reach = static_cast<int>(LargestRadius(lens, range_)) / kCellSize + 2;
   const int left = rect.x / kCellSize, top = rect.y / kCellSize;
@@ -93,8 +95,8 @@ double BlockSampler::SplattingRadius(const Lens& lens, const Rect& rect) const {
 }
 
 BlockSampler::Lens BlockSampler::RandomLens(int pass) {
-  // The focus lies within the disparity range of the scene or slightly outside. In the pass that
-  // ignores the layer, the focus may lie farther outside.
+  // The focus lies within the disparity range of the scene or slightly outside. In the pass
+  // kAnyLayer, the focus may lie farther outside the disparity range.
   const double beyond = pass == kAnyLayer ? 24 : 8;
   Lens lens;
   lens.focus = range_.low - beyond + Random() * (range_.high - range_.low + 2 * beyond);

@@ -18,7 +18,7 @@ namespace starfocus {
 struct BlockKind {
   int side;   // Size of the block in the picture, in pixels.
   int layer;  // Layer L.
-  int n;      // N; 0 at layers 1 and 2: any.
+  int n;      // Number of views along the radius, N; 0 at layers 1 and 2 stands for any N.
 };
 
 struct BlockGroup {
@@ -30,7 +30,8 @@ class BlockSampler {
  public:
   explicit BlockSampler(const FloatMap& disparity);
 
-  // Returns groups of up to `count` blocks for each kind. Kinds that do not occur in the scene are
+  // Returns one group of random blocks for each kind of block: up to `count` blocks at layer 0, and
+  // up to 4 * `count` at layers 1 and 2. Kinds of blocks that do not occur in the scene are
   // omitted.
   std::vector<BlockGroup> Sample(int count);
 

@@ -41,7 +41,7 @@ Equations MakeEquations(const std::vector<Measurement>& measurements) {
     equations.length[i] = std::sqrt(equations.matrix[i][i]);
   }
   for (size_t i = 0; i < equations.length.size(); ++i) {
-    if (equations.length[i] == 0) continue;  // this term is 0 for all blocks
+    if (equations.length[i] == 0) continue;  // term i is 0 for all blocks
     equations.right[i] /= equations.length[i];
     for (size_t k = 0; k < equations.length.size(); ++k) {
       if (equations.length[k] == 0) continue;

@@ -144,7 +144,7 @@ Error Calibrate(const CalibrateOptions& options) {
 Command CalibrateCommand() {
   const auto options = std::make_shared<CalibrateOptions>();
   return {"calibrate",
-          "Measure the coefficients of the timing model, by which mode block chooses its blocks",
+          "Measure the coefficients of the timing model, which selects the blocks of --mode block",
           {
               {"-o,--output", "FILE",
                "JSON file to write, for refocus --timing; default: print the coefficients only",

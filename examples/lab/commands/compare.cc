@@ -24,7 +24,9 @@ Error CheckMap(const CompareOptions& options) {
   if (options.map.empty()) return {};
   if (Error error = CheckImageOutput(options.map)) return error;
   if (IsStandardStream(options.map)) {
-    return Error::Usage("--map", "a file, because the figures go to standard output", options.map);
+    return Error::Usage("--map",
+                        "a file, because the measured differences are written to standard output",
+                        options.map);
   }
   return CheckApart({{"--map", options.map}}, {{}, {options.first, options.second}});
 }
@@ -70,8 +72,8 @@ Command CompareCommand() {
               {"A", "FILE", "First picture", &options->first, Use::kRequired},
               {"B", "FILE", "Second picture, of the same size", &options->second, Use::kRequired},
               {"--map", "FILE",
-               "Picture to write of the differences: black for none, over red to white for "
-               "the largest; default: none",
+               "Picture of the differences to write, from black (equal) through red to white "
+               "(largest difference); default: none",
                &options->map},
               {"--json", nullptr, "Print JSON instead of text; the PSNR of equal pictures is null",
                &options->json},

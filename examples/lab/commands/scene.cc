@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int64_t kMostPixels = int64_t{1} << 25;  // limits memory, which holds all views
+// Largest number of pixels per view. The limit is necessary because memory holds all views at once.
+constexpr int64_t kMostPixels = int64_t{1} << 25;
 constexpr int kMostSeed = 1000000;
 constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
 constexpr char kCoverageFile[] = "coverage.png";
@@ -218,7 +219,7 @@ Command SceneCommand() {
            "-1 to 1 that begin with 0,0",
            Views(&options->views), Use::kDefault},
           {"--truth", "D,U ...",
-           "Render also the true picture of a lens focused at disparity D, -500 to 500, "
+           "Also render the ground-truth picture of a lens focused at disparity D, -500 to 500, "
            "with aperture U, above 0 and at most 1; may be repeated; default: none",
            &options->truths},
           {"--transfer", "srgb|none",

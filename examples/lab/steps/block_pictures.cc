@@ -32,8 +32,8 @@ void TurnGrey(uint8_t* pixel) {
   std::fill_n(pixel, 3, static_cast<uint8_t>(grey));
 }
 
-// Weights with which only the rightmost view of the lens has light. N is the largest N that every
-// engine has memory for, so that the subaperture of the view is narrow.
+// Weights of the views, which are 0 for all views except the rightmost view of the lens. N is the
+// largest N that every engine has memory for, so that the subaperture of the view is narrow.
 class RightmostView {
  public:
   explicit RightmostView(const ApertureShape& opening) {
@@ -53,7 +53,7 @@ class RightmostView {
   ViewWeights weights_;
 };
 
-// A row of light that SIMD kernels may read.
+// A row of RGB light values, with the padding that SIMD kernels require.
 using LightRow = std::vector<int16_t>;
 LightRow MakeRow(int32_t width) {
   return LightRow(3 * static_cast<size_t>(width) + simd::kPadding);
@@ -109,8 +109,9 @@ class BlockArtist {
     return memory_->surfaces.At(border.left + x, border.top + y);
   }
 
-  // Returns the index of the first hidden surface behind the pixel, or 0 if there is none. Copies
-  // that close gaps within the visible surface do not count.
+  // Returns the index of the first hidden surface behind the pixel, or 0 if there is none. Skips
+  // surfaces within kMostCopy of the visible disparity, because these are copies that close gaps in
+  // the visible surface.
   int FirstHidden(int32_t x, int32_t y) const {
     const LayeredDepth& surfaces = memory_->surfaces;
     const Border& border = planned_.block.border;

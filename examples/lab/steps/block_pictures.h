@@ -16,10 +16,12 @@ struct PlannedBlock {
   const LightField& light_field;
 };
 
-// Draws the block in all pictures except `gathered`. The block must be at layer 0 and not gather.
+// Draws the block in all pictures except `gathered`. The block must be at layer 0, and
+// block.gathers must be false.
 void DrawRendered(const PlannedBlock& planned, StepPictures* pictures);
 
-// Sets the pixels of gathered cells in pictures->gathered to white.
+// Sets pixels of pictures->gathered to white if the engine computes these pixels by filtering
+// instead of rendering views.
 void MarkGathered(const PlannedBlock& planned, StepPictures* pictures);
 
 // Replaces `percent` of a pixel's colour by `colour`.

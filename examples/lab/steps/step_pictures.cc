@@ -39,7 +39,8 @@ class StepRun {
     return Refocus(false, {nullptr, &light_field_, pictures, DrawRendered});
   }
 
-  // Refocuses with the default tuning, and marks gathered cells.
+  // Refocuses with the default tuning, and marks the cells that are computed by filtering instead
+  // of rendering views.
   Result<Image> MarkGatheredCells(StepPictures* pictures) const {
     return Refocus(true, {nullptr, &light_field_, pictures, MarkGathered});
   }

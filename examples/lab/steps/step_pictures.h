@@ -24,10 +24,10 @@ struct StepPictures {
   Image slices;    // The centre view in grey, tinted by the slice of each pixel's nearest surface.
   Image hidden;    // The first hidden surface; elsewhere the centre view in grey.
   Image matte;     // Share of the nearer surface in mixed pixels; elsewhere the dimmed centre view.
-  Image coverage;  // Coverage in thin structures, white: 1; elsewhere the dimmed centre view.
+  Image coverage;  // Coverage in thin structures (white is 1); elsewhere the dimmed centre view.
   Image view;      // The view from the rightmost point of the lens, shifted to the focus.
   Image holes;     // `view`, rendered from captured views whose pixels are all magenta.
-  Image gathered;  // The refocused picture, with gathered cells tinted violet.
+  Image gathered;  // The refocused picture, tinted violet where the blur is computed by filtering.
 };
 
 // Draws all pictures. Errors start with `where`, the name of the light field.
