@@ -22,7 +22,7 @@ enum class Container {
 
 Container CheckContainer(const Bytes& bytes);
 
-// Returns the error for a file of the format `format` that ends too early.
+// Returns the error for a truncated file of the format `format`.
 Error Truncated(const std::string& where, const std::string& format);
 
 // Returns a description of an unsupported file, for use in error messages: "a text file", "a GIF

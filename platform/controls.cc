@@ -13,7 +13,7 @@ QuadratureDecoder::QuadratureDecoder(bool a, bool b)
     : a_(a), b_(b), rest_(Place(a, b)), quarters_(0) {}
 
 int QuadratureDecoder::Edge(bool a, bool b) {
-  // An edge changes only one line, so `moved` is 0, 1 or 3.
+  // A signal edge changes the level of at most one line, so `moved` is 0, 1 or 3.
   const int moved = (Place(a, b) - Place(a_, b_) + 4) % 4;
   a_ = a;
   b_ = b;

@@ -10,7 +10,7 @@ namespace starfocus {
 namespace {
 
 constexpr size_t kHeader = 128, kTag = 12;
-constexpr size_t kColourSpace = 16, kSignature = 36;  // offsets of two fields in the profile header
+constexpr size_t kColourSpace = 16, kSignature = 36;  // offsets in bytes in the profile header
 
 bool HasText(const Bytes& icc, size_t at, const char* text) {
   return std::equal(text, text + 4, icc.begin() + static_cast<ptrdiff_t>(at));

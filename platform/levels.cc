@@ -29,7 +29,7 @@ enum class Alpha {
 };
 
 // Converts interleaved samples of 1 (grey) to 4 (RGB and alpha) channels to grey levels. The caller
-// has set the size of the map in `result`, and the sample value of white.
+// must have set the size of the map and the sample value of white in `result`.
 template <class Sample>
 Result<Samples> TakeGrey(const std::string& where, const Sample* pixel, int channels, Alpha alpha,
                          Samples result) {

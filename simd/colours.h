@@ -30,7 +30,7 @@ struct ColourSample {
   int16_t red_green, green_blue;  // Red - green, green - blue, [-255, 255].
   // Key of the sample before the colour difference is added; samples with kNoColourKey are skipped.
   uint16_t key;
-  uint16_t place;  // index in `least` of the results for the sample's group
+  uint16_t place;  // index in the array `least` of the results for the sample's group
 };
 
 // Returns the difference of two colours from the differences of the members of ColourSample. Hue

@@ -61,8 +61,8 @@ inline void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t cou
   }
 }
 
-// Number of edges that LookBehind evaluates: on each of the four sides, the next edge and the edge
-// beyond the next edge's far side.
+// Number of depth edges that LookBehind evaluates for a pixel: on each of the four sides, the next
+// edge and a second edge behind the next edge.
 inline constexpr int kEdges = 8;
 
 // Surfaces beyond the edges of a group of pixels. Edge k is on side k % 4, and is valid if bit k of
@@ -80,7 +80,7 @@ struct OcclusionQuery {
   const int16_t* at;
   ptrdiff_t step;
   int16_t unit;
-  int32_t sure;  // Number of pixels of the line that lie in the field for all lanes.
+  int32_t sure;  // Number of pixels of the line that are inside the field in all lanes.
   int32_t last;  // Last pixel of the line that can cover the hidden pixel.
 };
 
@@ -150,7 +150,7 @@ HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewL
   return hn::MaskFromVec(covered);
 }
 
-// Returns the distance in samples between a pixel and the next pixel towards a side.
+// Returns the distance in samples from a pixel to its neighbour on the side `side`.
 HWY_INLINE ptrdiff_t StepOf(const DepthRow& row, int side) {
   const ptrdiff_t along = side < 2 ? 1 : row.stride;
   return side % 2 == 0 ? along : -along;
@@ -218,8 +218,8 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
   return FindCovered(d16, query, disparity, room);
 }
 
-// Looks behind an edge of each pixel of `lanes`. In lanes outside `lanes`, the distances to the far
-// sides are 0. Writes the result as edge `index`. Sides are in the order of DepthRow::edges.
+// Looks behind an edge of each pixel of `lanes`. In the other lanes, the distances to the far sides
+// of edges are 0. Writes the result as edge `index`. Sides are in the order of DepthRow::edges.
 HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t* distances,
                                uint32_t lanes, int index, StripSides* sides) {
   const LanesTag d16;

@@ -47,7 +47,7 @@ struct StripPairs {
 // Writes the sums over all views of the cell pairs to job.sums.
 void CompositeStrip(const StripJob& job, const StripPairs& pairs);
 
-// Returns the sums of row `row` of the part of the tile.
+// Returns a pointer to the sums of row `row` in the buffer StripJob::sums.
 inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
   return sums + kPixelSums * simd::kSliceLanes * static_cast<size_t>(row);
 }

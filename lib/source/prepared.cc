@@ -33,7 +33,7 @@ starfocus_status MakeLayers(const Prepared& prepared, const RowSource& source,
           prepared.layers[layer].Row(engine->row_store.layers[layer].rows.first);
     }
     engine->workers.jobs.call_progress.SetRows(y);
-    // The filters read up to kBeyond rows below the stripe.
+    // The filters of the layers read up to kBeyond rows below the rows that they process.
     read = {read.last, Min(height, y + side + kBeyond)};
     status = LoadRows(source, read, prepared.disparity, engine);
     if (status != STARFOCUS_OK) break;

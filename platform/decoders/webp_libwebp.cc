@@ -47,7 +47,7 @@ Metadata ReadMetadata(const Bytes& webp) {
   Metadata metadata;
   const WebPData file = {webp.data(), webp.size()};
   const std::unique_ptr<WebPMux, FreeMux> mux(WebPMuxCreate(&file, 0));
-  if (mux == nullptr) return metadata;  // libwebp cannot find the chunks of metadata
+  if (mux == nullptr) return metadata;  // libwebp cannot parse the file's chunks
   metadata.icc = ChunkOf(mux.get(), "ICCP");
   metadata.exif = ChunkOf(mux.get(), "EXIF");
   TrimExif(&metadata.exif);

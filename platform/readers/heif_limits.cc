@@ -38,8 +38,7 @@ uint32_t WholeOf(const Bytes& bytes, size_t at, size_t size) {
 bool FitsItsData(const HeifItem& item) {
   const bool grid = item.type == "grid";
   const size_t number = item.head.size() > 1 && (item.head[1] & 1) != 0 ? 4 : 2;
-  const size_t sizes =
-      grid ? 4 : 10;  // bytes before the size: version, flags, tile counts or colour
+  const size_t sizes = grid ? 4 : 10;  // bytes before the picture size in the item's data
   if (item.head.size() < sizes + 2 * number) return false;
   const size_t tiles = (size_t{item.head[2]} + 1) * (size_t{item.head[3]} + 1);
   if (grid && tiles != item.inputs.size()) return false;

@@ -107,8 +107,8 @@ bool ChooseByEdges(DepthPhoto* photo) {
 bool HasSameProportions(const FloatMap& map, int width, int height) {
   constexpr double kTolerance = 0.03;
   const double a = double(map.width) * height, b = double(map.height) * width;
-  // Allow an error of one pixel in the smaller of the sizes of picture and map, because sizes are
-  // rounded to whole pixels.
+  // Allow an error of one pixel in the size of the picture or of the map, whichever is smaller,
+  // because sizes are rounded to whole pixels.
   return std::fabs(a - b) <= std::max({kTolerance * std::min(a, b), double(width), double(height)});
 }
 

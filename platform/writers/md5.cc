@@ -60,7 +60,7 @@ std::string Md5(const std::string& text) {
     Digest(reinterpret_cast<const uint8_t*>(padded.data()) + at, &state);
   }
   std::string digits;
-  for (int i = 0; i < 32; ++i) {  // low byte of a word first, high digit of a byte first
+  for (int i = 0; i < 32; ++i) {  // bytes from low to high, and digits from high to low
     digits += "0123456789ABCDEF"[state[size_t(i / 8)] >> (4 * ((i % 8) ^ 1)) & 15];
   }
   return digits;
