@@ -303,8 +303,8 @@ side_by_side() {
   return $result
 }
 
-# fuzz_target SECONDS NAME: fuzzes, starting from the seeds and from inputs that earlier runs found. In a clean checkout
-# all runs are identical, so a failure is caused by the change under test.
+# fuzz_target SECONDS NAME: runs the fuzz target NAME, starting from the seeds and from inputs that earlier runs found.
+# In a clean checkout all runs are identical, so a failure is caused by the change under test.
 fuzz_target() {
   local work=build/fuzz/inputs/$2 length=1024
   case "$2" in heif | layouts | photo | xmp) length=4096 ;; esac

@@ -92,8 +92,8 @@ void PrintJson(const Capture& capture, const starfocus_disparity_stats& stats,
   std::printf("%s\n", json.Text().c_str());
 }
 
-// Returns true if the input has a map, or a star of views from which a map can be estimated. Stereo
-// pairs and single rows of views are not stars.
+// Returns true if the input has a map, or a star of views from which a map can be estimated. No map
+// can be estimated from stereo pairs and single rows of views.
 bool HasMap(const Capture& capture) {
   Positions positions;
   for (const ViewFile& file : capture.files) positions.push_back(file.position);

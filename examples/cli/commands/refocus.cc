@@ -30,7 +30,7 @@ struct RefocusOptions {
   std::vector<std::string> inputs;
   InputOptions input;  // the input that is being refocused
   std::string report, map;
-  starfocus_region region = {};  // All 0: the whole picture.
+  starfocus_region region = {};  // Part to compute; four zeros: the whole picture.
   std::vector<double> sweep;     // Foci of a sweep; empty: no sweep.
   int jobs = 1;
   OutputOptions output;
@@ -128,8 +128,8 @@ Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
   return capture;
 }
 
-// Checks all options that do not depend on the final map. These checks run early, because resizing
-// or repairing the map takes a long time.
+// Checks all options that do not depend on the final map. Invalid options are reported
+// before the map is resized or repaired, which takes a long time.
 Error Foresee(const RefocusOptions& options, const Capture& capture, LensPlan* plan) {
   const LightField& light_field = capture.light_field;
   if (Error error = CheckRenderer(capture.path, *plan, light_field.positions)) return error;

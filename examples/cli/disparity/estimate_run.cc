@@ -17,7 +17,7 @@ namespace starfocus {
 namespace {
 
 constexpr int kSmallWidth = 256;      // Largest width of pictures for finding the disparity range.
-constexpr int kLeastConfidence = 48;  // Limit that excludes outliers at edges and on flat walls.
+constexpr int kLeastConfidence = 48;  // Pixels of lower confidence are ignored.
 constexpr double kStrays = 0.0005;    // Fraction of values discarded at each end of the range.
 
 using Images = std::vector<Image>;
@@ -53,7 +53,7 @@ struct MapTask {
 
 struct MadeMap {
   FloatMap map;
-  Bytes confidence, coverage;  // empty if not requested; coverage is also empty if not found
+  Bytes confidence, coverage;  // Empty if not requested or not found.
 };
 
 Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* maker) {

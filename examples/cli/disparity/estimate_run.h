@@ -34,12 +34,12 @@ struct RepairOptions {
   bool coverage = false, confidence = false;  // additional outputs
 };
 
-// Converts grey levels, one for each pixel, to a picture of the size of `centre`. The levels are
-// confidence or coverage.
+// Converts grey levels, one for each pixel, to a picture of the size of `centre`. The grey levels
+// are confidences or coverage.
 Image DrawLevels(const std::vector<uint8_t>& levels, const Image& centre);
 
-// Returns the number of views of the largest star that the first positions form. Maps are computed
-// only from the views of this largest star.
+// Returns the number of views (1, 5, 9 or 17) of the largest star that the first positions form.
+// Maps are computed only from the views of the largest star.
 int StarWithin(const Positions& positions);
 
 // Returns an error unless the first 5 or more views form a star. Error messages start with `where`.
@@ -54,8 +54,9 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
 Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
                                             const DisparityRange& range, int threads);
 
-// Repairs the map of a light field with the largest star among its views. The star may consist of
-// only the centre view. Shows progress. Error messages start with `where`.
+// Repairs the map of a light field with the largest star among its views. Without
+// a star of 5 or more views, the repair uses the centre view alone. Shows progress. Error messages
+// start with `where`.
 Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightField& light_field,
                                           const RepairOptions& options);
 
