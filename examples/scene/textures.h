@@ -9,8 +9,7 @@
 namespace starfocus {
 
 // Fabrics and skin.
-Color PaintKnit(const Surface& s,
-                const Hit& hit);  // Knitted ribs, with bands in the colour `second`.
+Color PaintKnit(const Surface& s, const Hit& hit);   // Knitted ribs; bands have colour `second`.
 Color PaintTweed(const Surface& s, const Hit& hit);  // A herringbone pattern.
 Color PaintSkin(const Surface& s, const Hit& hit);   // Plain skin with pores and freckles.
 Color PaintFace(const Surface& s, const Hit& hit);   // Skin with cheeks and a mouth.
@@ -27,8 +26,7 @@ Color PaintBook(const Surface& s, const Hit& hit);   // A lettered spine of a bo
 Color PaintLandscape(const Surface& s, const Hit& hit);
 Color PaintBulb(const Surface& s, const Hit& hit);    // A glowing bulb.
 Color PaintMatter(const Surface& s, const Hit& hit);  // The colour `color` with grain.
-Color PaintLamp(const Surface& s,
-                const Hit& hit);  // The colour `color` with a rim in the colour `second`.
+Color PaintLamp(const Surface& s, const Hit& hit);    // `color`, with a rim in the colour `second`.
 
 // Test patterns.
 Color PaintChecker(const Surface& s, const Hit& hit);

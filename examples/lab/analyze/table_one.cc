@@ -48,7 +48,7 @@ Figure AnalyseTableOne() {
                          "free_theta_pi", "free_sse_down2", "free_sse_alias"});
   std::printf(
       "Table I: filters of least SSE_down2 per r, beta_D in steps of 0.01, theta of 0.01 pi\n"
-      "    r  beta_D  theta/pi  SSE_down2      SSE_a  paper   without steps: beta_D theta/pi "
+      "    r  beta_D  theta/pi  SSE_down2      SSE_a  paper   unrestricted:  beta_D theta/pi "
       "SSE_down2\n");
   for (const PaperRow& paper : kPaper) {
     const analysis::Optimum found = analysis::OptimiseOnGrid(paper.r);
