@@ -30,7 +30,7 @@ struct RefocusOptions {
   std::vector<std::string> inputs;
   InputOptions input;  // the input that is being refocused
   std::string report, map;
-  starfocus_region region = {};  // Part to compute; four zeros: the whole picture.
+  starfocus_region region = {};  // Rectangle to compute; four zeros select the whole picture.
   std::vector<double> sweep;     // Foci of a sweep; empty: no sweep.
   int jobs = 1;
   OutputOptions output;
