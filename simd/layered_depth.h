@@ -31,10 +31,10 @@ struct EdgeLimits {
 };
 
 // Returns the largest supported distance, in units of disparity, between a pixel and the last pixel
-// before a depth edge. The far side of a depth edge is one pixel beyond the last pixel before the
-// edge, and distances in pixels must fit in a byte. A pixel whose distance to a depth edge exceeds
-// the returned value counts as a pixel without an edge. The returned value is less than INT16_MAX,
-// because a saturated distance must mean that there is no edge.
+// before a depth edge. The returned distance leaves room for the edge's far side, one pixel
+// farther, because distances in pixels must fit in a byte. A pixel whose distance to a depth edge
+// exceeds the returned value counts as a pixel without an edge. The returned value is less than
+// INT16_MAX, because a saturated distance must mean that there is no edge.
 constexpr int16_t FarthestEdge(int unit_bits) {
   const int32_t units = int32_t{254} << unit_bits;
   return static_cast<int16_t>(units < INT16_MAX ? units : INT16_MAX - 1);
@@ -59,9 +59,9 @@ struct CopyLimits {
 };
 
 // Depth edges between each of kSliceLanes pixels of a row and the next pixel. Bit k of `falls` is
-// set if pixel k is nearer to the camera than pixel k + 1, and a depth edge lies between both
-// pixels. Bit k of `rises` is set if pixel k + 1 is nearer to the camera than pixel k, and a depth
-// edge lies between both pixels.
+// set if a depth edge follows pixel k, and pixel k is nearer to the camera than pixel k + 1. Bit k
+// of `rises` is set if a depth edge follows pixel k, and pixel k + 1 is nearer to the camera than
+// pixel k.
 struct StepBits {
   uint16_t falls, rises;
 };

@@ -203,9 +203,9 @@ class SurfaceFinder {
   }
 
   // Returns the distance to the far side of the nearest depth edge in the direction `towards`, or 0
-  // if the pixel hides no such far side. A step does not count as an edge if two conditions hold.
-  // The step must be at most an eighth of the depth that the previous edge hides. The near side of
-  // the step must hide the far side of the previous edge.
+  // if the far side is not hidden. A step does not count as an edge if two conditions hold. The
+  // step must be at most an eighth of the depth that the previous edge hides. The near side of the
+  // step must hide the far side of the previous edge.
   int NextEdge(int x, int y, const Direction& towards) const {
     int k = 0;
     while (extended_.Inside(x + (k + 1) * towards.x, y + (k + 1) * towards.y)) ++k;

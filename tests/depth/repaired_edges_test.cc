@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the outlines of repaired maps. Where edges of the picture are soft, the outline of the near
-// surface must move outwards to include the mixed pixels. Outlines must not be more ragged than the
-// picture.
+// surface must move outwards to include the mixed pixels. Outlines in the repaired map must not be
+// more ragged than the edges in the picture.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ struct Scene {
     field.views[0] = starfocus_image_rgb(rgb.data(), 3 * kWidth);
   }
   starfocus::ColourMap Map() const { return {plan, field, map.data()}; }
-  // Fills picture and map. The edge in the picture is a ramp of `ramp` pixels that begins at the
-  // given column.
+  // Fills the picture and the map with a near half and a far half. The edge in the picture is a
+  // ramp of `ramp` pixels that begins at the given column.
   template <class Column>
   void Fill(double ramp, const Column& edge_of_map, int edge_of_picture) {
     for (int y = 0; y < kHeight; ++y) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests for which pixels of a given map a repair sweeps all disparities.
+// Tests for how a repair selects the pixels at which it tries all disparities.
 #include "lib/depth/swept.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ namespace {
 using namespace starfocus;
 using test::PlaneScene;
 
-// Returns a mask of the pixels that a repair of the map `given` sweeps.
+// Returns a mask of the pixels at which a repair of the map `given` tries all disparities.
 std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& given) {
   const test::PlaneField field = RenderPlanes(scene);
   EstimatePlan plan = starfocus::MakePlan(ConfigOf(field, -6, 8));
@@ -38,7 +38,8 @@ std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& 
 }
 
 TEST_CASE(
-    "swept: in a correct map, only pixels around steps are swept, even across tile boundaries") {
+    "swept: in a correct map, all disparities are tried only around steps, even at tile "
+    "boundaries") {
   PlaneScene scene;
   scene.width = 400;
   scene.near_left = 130;
@@ -47,7 +48,7 @@ TEST_CASE(
     scene.views = views;
     const std::vector<uint8_t> swept = SweptOf(scene, MapOf(scene));
     for (int x = 0; x < scene.width; ++x) {
-      // The repair distrusts the pixels on both sides of a step, and sweeps all pixels within
+      // The repair distrusts the pixels on both sides of a step, and tries all disparities within
       // kSweptRadius of a distrusted pixel.
       const bool near = (x >= 129 - kSweptRadius && x <= 130 + kSweptRadius) ||
                         (x >= 261 - kSweptRadius && x <= 262 + kSweptRadius);
@@ -59,7 +60,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("swept: disparities that contradict the views are swept, even if they are smooth") {
+TEST_CASE("swept: all disparities are tried where a smooth map contradicts the views") {
   PlaneScene scene;
   scene.near_left = scene.near_right = 0;
   std::vector<float> given = MapOf(scene);

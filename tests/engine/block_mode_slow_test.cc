@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests STARFOCUS_MODE_BLOCK through the public ABI. Streamed rows must have the bytes of whole
+// Tests STARFOCUS_MODE_BLOCK through the public ABI. Streamed rows must equal the rows of whole
 // pictures, constant pictures must not change, and blocks in focus must be copied. Pictures of
 // block mode must be close to pictures of the benchmark mode.
 #include <doctest/doctest.h>

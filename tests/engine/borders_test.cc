@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that the borders which the engine declares for a block are sufficient and not too large.
 // Noise in place of all values beyond the borders must not change the bytes of a block. If the
-// noise starts one pixel nearer, at least one block must change.
+// noise starts one pixel closer to the block, at least one block must change.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using test::Borders;
 constexpr int kAll = 10000;  // border width that keeps the whole picture
 
 // Widths of the borders, in pixels, within which the centre view, the map and the side views are
-// kept. Parts of the light field beyond these borders are replaced by noise.
+// kept. Pixels and disparities outside the kept borders are replaced by noise.
 struct Kept {
   int centre = kAll, map = kAll, sides = kAll;
 };
@@ -199,7 +199,7 @@ struct Sum {
   double blur, aperture, part;
   int Borders::*border;
   int Kept::*kept;
-  int unused;  // outermost pixels that affect no known picture
+  int unused;  // Number of outermost pixels of the border that affect no tested picture.
   float highlights = 1;
   int side = 160;
 
@@ -221,7 +221,7 @@ struct Sum {
 
 // Reasons for unused pixels:
 // - Layers: blocks begin and end with whole cells, which determine their bytes. The outermost taps
-//   of two successive filters leave a part of a pixel that is rounded to 0.
+// of two successive filters contribute too little to change a rounded sample.
 // - Side views: hidden pixels at the edge of the border are hardly visible, especially at layers 1
 //   and 2. The disparities of hidden pixels seldom reach the largest disparity of the
 //   configuration.
@@ -267,8 +267,8 @@ TEST_CASE("borders: if a border is one pixel too narrow, the bytes of superblock
 struct Dependence {
   bool beyond = false, within = false;
 
-  // run(border) returns the output of the step. `run` replaces all input beyond the border by
-  // noise.
+  // The function `run` returns the output of the tested step for a border of the given width. `run`
+  // replaces all input beyond the border by noise.
   template <class Run>
   void Add(int border, const Run& run) {
     const auto all = run(kAll);

@@ -23,7 +23,8 @@ struct Trial {
   starfocus_mode mode = STARFOCUS_MODE_FRAME;
   int block = 64;
   bool noisy = false;
-  int levels = 0;  // If > 0, number of different disparities, at random per pixel.
+  // If above 0, the disparity of each pixel is chosen at random from `levels` values.
+  int levels = 0;
   double max_blur = 64, n_scale = 1, theta = 0;  // Theta 0: default fall-off.
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
   int transfer = STARFOCUS_TRANSFER_SRGB;

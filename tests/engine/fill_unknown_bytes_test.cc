@@ -25,7 +25,8 @@ struct Scenes {
   Scenes(int width, int height, int views, uint64_t seed)
       : unknown(test::RandomScene(width, height, views, -3, 3, seed)), filled(unknown) {}
 
-  // Makes [first, end) of row y unknown. The expected filled disparity is `value`.
+  // Makes the disparities of columns [first, end) of row y unknown. The expected filled disparity
+  // is `value`.
   void Forget(int y, int first, int end, float value, float as = kNaN) {
     for (int x = first; x < end; ++x) {
       unknown.Disparity(x, y) = as;

@@ -217,7 +217,8 @@ TEST_CASE("given coverage: highlights brighten only pixels near lamps") {
   config.highlights = 16;
   const test::Output lit = test::OutputOf(config, params, scene);
   CHECK((lit.bytes != plain.bytes));
-  // Blocks with highlights are not gathered, so their rounding differs by at most a level.
+  // Blocks with highlights are rendered from views only, so their rounding differs by at most a
+  // level.
   int largest = 0;
   for (size_t n = 30 * plain.stride; n < plain.bytes.size(); ++n) {
     largest = std::max(largest, std::abs(lit.bytes[n] - plain.bytes[n]));

@@ -39,7 +39,7 @@ struct Case {
   test::Depth depth;
   Lens lens;
   int block;
-  int levels = 0, range = 0;                // Fields of a LevelCase, or 0.
+  int levels = 0, range = 0;                // Levels and range of a LevelCase, or 0 in other cases.
   const test::NamedShape* shape = nullptr;  // Shape of the lens, or null for the default shape.
 };
 
@@ -90,8 +90,8 @@ std::vector<Case> Cases() {
                std::to_string(level.block);
     cases.push_back(one);
   }
-  // The lenses of these cases test both renderers in block mode, the PSFs of blur mode, and wide
-  // blurs.
+  // The lenses kLenses[5] to kLenses[7] test both renderers in block mode, the PSFs of blur mode,
+  // and wide blurs.
   for (const test::NamedShape& shape : test::kShapes) {
     for (const Lens& lens : {kLenses[5], kLenses[6], kLenses[7]}) {
       for (const int block : {32, 64}) {
@@ -110,7 +110,7 @@ std::vector<Case> Cases() {
   return cases;
 }
 
-// Number of pixels at each layer, and number of gathered pixels.
+// Number of pixels at each layer, and number of pixels blurred without rendering views.
 struct Covered {
   uint64_t layers[STARFOCUS_LAYERS] = {};
   uint64_t gathered = 0;
@@ -124,7 +124,7 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   // Cases with slanted surfaces average codes as in the paper, and other cases average light.
   config.transfer =
       one.depth == test::Depth::kSlanted ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
-  // Cases with 9 views gather no cells, so that views are rendered at all layers.
+  // In cases with 9 views, every cell is rendered from views, so views occur at all layers.
   config.tuning.gather = one.views != 9;
   if (one.levels > 0) config.tuning.n_scale = 0.5;
   starfocus_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);

@@ -37,7 +37,8 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
                              starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB) {
   starfocus_config config = test::ConfigFor(scene, 20);
   config.superblock = 32;
-  // The test disables layers and gathering, which the engine does not use near highlights.
+  // The test disables layers 1 and 2 and the blurring of cells without views, which the engine does
+  // not use near highlights.
   config.tuning.max_layer = config.tuning.gather = 0;
   config.highlights = float(highlights);
   config.transfer = transfer;
@@ -107,7 +108,7 @@ TEST_CASE("highlights: white areas larger than lamps are not brightened") {
       for (size_t i = 0; i < plain.size(); ++i) {
         most = std::max(most, std::abs(int(plain[i]) - int(bright[i])));
       }
-      CHECK(most <= 1);  // rounding: blocks with highlights gather no cells
+      CHECK(most <= 1);  // Blocks with highlights are rendered from views only.
     }
   }
   // A white area that is long in only one direction, such as a fluorescent tube, counts as a lamp.

@@ -42,9 +42,12 @@ TEST_CASE("layout: each allocated piece is aligned, padded and counted" *
       continue;
     }
     CHECK(first == memory);
-    CHECK(reinterpret_cast<uint8_t*>(second) == memory + 128);  // 1 + 64 bytes, rounded up.
-    CHECK(shared == memory + 128 + 256);                        // 140 + 64 bytes, rounded up.
-    CHECK(last == shared + 1088);                               // 1000 + 64 bytes, rounded up.
+    // 1 + 64 bytes are rounded up to 128 bytes.
+    CHECK(reinterpret_cast<uint8_t*>(second) == memory + 128);
+    // 140 + 64 bytes are rounded up to 256 bytes.
+    CHECK(shared == memory + 128 + 256);
+    // 1000 + 64 bytes are rounded up to 1088 bytes.
+    CHECK(last == shared + 1088);
   }
   CHECK(counting.Bytes() == 128 + 256 + 1088 + 64);
   CHECK(arena.Bytes() == counting.Bytes());

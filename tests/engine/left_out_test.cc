@@ -152,7 +152,7 @@ TEST_CASE("omitted work: layers that no block reads are not computed") {
             STARFOCUS_OK);
     return test::LayerColumns(engine.get());
   };
-  CHECK(columns(2.25) == 0);  // at blur radius 0.25, all blocks are at layer 0
+  CHECK(columns(2.25) == 0);  // At blur radius 0.25, all blocks are at layer 0.
   // At blur radius 25, all blocks are at layer 2, and no block reads layer 1.
   CHECK(columns(27) == 3);
   config.tuning.max_layer = 1;

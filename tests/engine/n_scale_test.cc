@@ -26,7 +26,7 @@ Refocused Refocus(const test::Scene& scene, const starfocus_params& params, doub
                   double max_blur = 32) {
   starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.n_scale = n_scale;
-  config.tuning.gather = 0;  // without gathering, only N affects the pictures
+  config.tuning.gather = 0;  // If all cells are rendered from views, only N affects the pictures.
   return test::RefocusScene(scene, config, params);
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("n_scale: the scale multiplies N of both renderers in frame and block 
           starfocus_config config = test::ConfigFor(scene);
           config.tuning.n_scale = scale;
           config.tuning.max_layer = 0;
-          config.tuning.gather = 0;  // gathered cells render no views
+          config.tuning.gather = 0;  // All cells are rendered from views.
           starfocus_report report = {};
           const test::Output out = test::OutputOf(config, params, scene, &report);
           const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN

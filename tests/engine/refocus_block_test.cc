@@ -38,8 +38,8 @@ test::Scene FlatScene(int width, int height, int views, float limit, test::Rando
   return scene;
 }
 
-// Returns noise on disparities that form stairs or a pyramid. Each step ends every run but is not a
-// depth edge, so that runs do not depend on where a line begins.
+// Returns noise on disparities that form stairs or a pyramid. Each step ends every run of equal
+// shifts but is not a depth edge, so the runs are the same wherever a line begins.
 test::Scene StairScene(int width, int height, int views, float limit, test::Random* random) {
   constexpr float kStep = 1.25f;
   test::Scene scene = NoiseScene(width, height, views, limit, random);
@@ -108,7 +108,7 @@ struct FrameDiff {
 void CheckPicture(const test::Scene& scene, const starfocus_params& params, int more,
                   FrameDiff* changes) {
   starfocus_config config = test::ConfigFor(scene, 40);
-  config.tuning.gather = 0;  // Renders views in all cells.
+  config.tuning.gather = 0;  // All cells are rendered from views.
   config.superblock = 128;   // One superblock, so that layers are complete.
   config.tuning.n_scale = more % 2 == 0 ? 1 : STARFOCUS_MIN_N_SCALE;
   test::Engine engine(config);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that mirroring, transposing or rotating the light field mirrors, transposes or rotates the
-// refocused picture, if the picture consists of whole blocks. The pictures must be equal to the
+// refocused picture, if the picture consists of whole blocks. The pictures must be equal byte for
 // byte, except for rotations with wide subapertures.
 #include <doctest/doctest.h>
 

@@ -221,7 +221,8 @@ TEST_CASE("blur: BlurStep rounds each radius to the nearest radius that has a PS
     last = step;
   }
   CHECK(starfocus::BlurStep(0) == 0);
-  CHECK(starfocus::BlurStep(4) == 1);  // half of 1/8 pixel is rounded up
+  // A radius halfway between two steps of 1/8 pixel is rounded up.
+  CHECK(starfocus::BlurStep(4) == 1);
   CHECK(starfocus::BlurStep(3) == 0);
   CHECK(starfocus::BlurStep(4 * kOne) == 32);
   CHECK(starfocus::BlurStep(8 * kOne) == 64);

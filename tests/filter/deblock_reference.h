@@ -35,7 +35,7 @@ struct LayeredPicture {
   std::vector<uint8_t> layers;
 };
 
-// Returns true if the condition of (16) and (17) holds.
+// Returns true if the condition of equations (16) and (17) holds.
 inline bool Artificial(const uint8_t* a, const uint8_t* b, int beta) {
   bool all = true;
   for (int c = 0; c < 3; ++c) all = all && std::abs(int(a[c]) - int(b[c])) < beta;

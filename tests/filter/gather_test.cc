@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the gathering of the block mode. Smooth cells, and no other cells, must be gathered.
-// Gathered cells must be blurred as in the blur mode.
+// Tests the cells of block mode that are blurred by a filter, without rendering views. Exactly the
+// smooth cells of a picture must be blurred by the filter. The filter must blur a cell in the same
+// way as the blur mode does.
 #include "lib/filter/gather.h"
 
 #include <doctest/doctest.h>
@@ -63,7 +64,8 @@ struct Cells {
     return int(std::ceil((radius + kOne / 2) / double(kOne)));
   }
 
-  // Returns the kind of a cell by its definition, from all cells of the picture.
+  // Returns the kind of a cell according to the definition of CellKind, from all cells of the
+  // picture.
   CellKind KindOf(int column, int row) const {
     const Cell& own = *grid.At(column, row);
     int low = INT32_MAX, high = INT32_MIN, widest = 0;
@@ -99,7 +101,7 @@ struct Cells {
   starfocus::BlurScale scale;
 };
 
-TEST_CASE("gather: the cells that are gathered match their definition") {
+TEST_CASE("gather: the kind of each cell (mixed, sloped or flat) matches the definition") {
   test::Random random(61);
   int found[3] = {0, 0, 0};
   for (int round = 0; round < 60; ++round) {
@@ -157,7 +159,9 @@ TEST_CASE("gather: for a flat surface, block mode gives the same picture as blur
   }
 }
 
-TEST_CASE("gather: only block mode with slices gathers, for blurs above 0.5 and up to 48 pixels") {
+TEST_CASE(
+    "gather: only block mode with slices blurs cells without views, for blurs above 0.5 and up to "
+    "48 pixels") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
   const starfocus_config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {
@@ -205,7 +209,7 @@ TEST_CASE(
     CAPTURE(seed);
     MESSAGE("PSNR in dB with and without gathering: ", test::Psnr(gathered.rgb, benchmark.rgb), " ",
             test::Psnr(views.rgb, benchmark.rgb), ", gathered ", gathered.report.gathered_pixels);
-    // At 52 dB half of the difference comes from rounding both pictures to bytes.
+    // At 52 dB, half of the difference comes from rounding both pictures to bytes.
     CHECK(test::Psnr(gathered.rgb, benchmark.rgb) >
           std::min(test::Psnr(views.rgb, benchmark.rgb) - 0.2, 52.0));
   }

@@ -103,7 +103,7 @@ double CentreOfViews(double radius, double gradient) {
   return sum / views;
 }
 
-TEST_CASE("slope: a gathered picture is shifted to the centroid of the light of all views") {
+TEST_CASE("slope: blurred cells are shifted to the centroid of the light of all views") {
   starfocus::ApertureShape disc;
   disc.shape = STARFOCUS_SHAPE_DISC;
   const int32_t spread = starfocus::MeanSquare(disc);

@@ -34,7 +34,7 @@ void SetShape(int drawn, starfocus_lens* lens) {
   lens->cats_eye = drawn % 3 == 0 ? drawn % 9 / 8.0 : 0;
 }
 
-// Derives 2 to 17 views at positions off the star from the value of another field.
+// Derives 2 to 17 views, at positions that form no star set, from the value of another field.
 void SetPositions(int drawn, starfocus_config* config) {
   config->views = 2 + drawn % 16;
   for (int k = 1; k < config->views; ++k) {

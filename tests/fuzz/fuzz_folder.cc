@@ -48,7 +48,7 @@ void WriteMap(const std::string& path, int side, Input* input) {
   Write(path, header + std::string(static_cast<size_t>(8 * side), '\0'), input);
 }
 
-// Returns the file name of a view of the star or of a view at any position. In a few cases, the
+// Returns the file name of a view of a star set, or of a view at any position. In a few cases, the
 // name only starts like the name of a view. A position may be out of range or occur twice.
 std::string NameOf(int view, Input* input) {
   if (!input->Rarely()) {

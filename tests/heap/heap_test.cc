@@ -138,7 +138,7 @@ TEST_CASE("size queries, initialisation, refocusing and streaming make no heap c
       const test::Scene scene = test::RandomScene(70, 50, views, -3, 3, 5);
       starfocus_config config = test::ConfigFor(scene, 16);
       config.features |= STARFOCUS_FEATURE_STREAMING;
-      test::Engine holder(config);  // only its memory is used
+      test::Engine holder(config);  // The test uses only the memory of this engine.
       REQUIRE(holder.status() == STARFOCUS_OK);
       const starfocus_params params = test::Params(1.25, 0.9, mode);
       const starfocus_light_field field = scene.Field();
@@ -209,7 +209,7 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
   config.superblock = 32;
   config.features |= STARFOCUS_FEATURE_STREAMING;
   config.tuning.gather = 0;     // Without gathering, blocks use all layers.
-  test::Engine holder(config);  // Only its memory is used.
+  test::Engine holder(config);  // The test uses only the memory of this engine.
   REQUIRE(holder.status() == STARFOCUS_OK);
   const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   int told = 0;
@@ -238,7 +238,7 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
 TEST_CASE("creating an engine with an allocator, and cancelling, make no heap call") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
   const starfocus_config config = test::ConfigFor(scene, 16);
-  test::Engine holder(config);  // only its memory is used
+  test::Engine holder(config);  // The test uses only the memory of this engine.
   const starfocus_allocator allocator = {holder.workspace(),
                                          [](void* memory, size_t, size_t) { return memory; },
                                          [](void*, void*, size_t) {}};

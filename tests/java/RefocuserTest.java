@@ -189,9 +189,9 @@ public final class RefocuserTest {
     final ByteBuffer star = refocusedFrom(new int[] {0, 1, 2, 3, 4}, null);
     check(star.equals(refocusedFrom(
               new int[] {0, 2, 1, 4, 3}, new double[] {0, 0, -1, 0, 1, 0, 0, -1, 0, 1})),
-        "the positions of the star in another order give the same picture");
+        "a star set with its views in another order gives the same picture");
     final ByteBuffer pair = refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 1, 0});
-    check(!pair.equals(star), "a pair and the star give different pictures");
+    check(!pair.equals(star), "a pair and a star set give different pictures");
     check(!pair.equals(refocusedFrom(new int[] {0, 1}, new double[] {0, 0, 0.5, 0})),
         "a pair at half the distance gives another picture");
     checkThrows(IllegalArgumentException.class, "positions: expected 4 numbers, found 3",

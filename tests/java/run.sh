@@ -52,7 +52,7 @@ compile() {
   quietly javac -Xlint:all -Werror --release 11 -cp "$work/classes" -d "$work/classes" "$@"
 }
 
-# Checks for pages of 16 KiB, which Android 15 requires.
+# Checks that the segments of a library are aligned to pages of 16 KiB, as Android 15 requires.
 page_alignment() {
   readelf -lW "$1" | awk '$1 == "LOAD" { ++n; if ($NF != "0x4000") bad = 1 } END { exit bad || n < 2 }' ||
     fail "$1 is not aligned to pages of 16 KiB: $(readelf -lW "$1" | grep LOAD)"

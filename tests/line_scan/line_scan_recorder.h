@@ -24,11 +24,11 @@ enum class Kind { kSurface, kMix, kHole };
 struct Shown {
   int times = 0;
   Kind kind = Kind::kSurface;
-  int source = -1;  // shown pixel of the line; in a hole, the pixel whose surface continues
+  int source = -1;  // Shown pixel of the line; in a hole, the pixel whose surface continues.
   // Pixel of the line that is mixed with `source`: a neighbour, a pixel of another surface, or the
   // end of a surface that covers a part of a hole.
   int other = -1;
-  int weight = 0;  // weight of `other`
+  int weight = 0;  // Weight of `other`.
 };
 
 inline bool operator==(const Shown& a, const Shown& b) {

@@ -35,7 +35,7 @@ TEST_CASE("line scan: weights follow the width of the subaperture") {
   }
 }
 
-TEST_CASE("line scan: the neighbour lies on the side that the surface comes from") {
+TEST_CASE("line scan: a pixel is blended with the neighbour on the side of the exact position") {
   const ViewGrid grid = MakeGrid(4, 0, 1);
   for (const int view : {1, 2, 3, 4}) {
     for (const double disparity : {0.9, 1.3, 2.1, -0.7, -1.9}) {

@@ -90,8 +90,8 @@ const Line kLines[] = {
     {"a step above kSurfaceStep leaves a hole",
      {{10, 2}, {10, 2 - kStep - 1.0 / 64}},
      {Hole(8, 9, 10)}},
-    // A third surface lies in the gap of one pixel. The stretched pixel is a copy of this surface,
-    // and is not blended with neighbours across the edges.
+    // A third surface lies in the gap of one pixel. The stretched pixel is a copy of the third
+    // surface, and is not blended with neighbours across depth edges.
     {"a pixel inside a run has no neighbour across a depth edge",
      {{10, 3.375}, {2, 0}, {12, 4}},
      {Moved(0, 8, 3),
@@ -106,7 +106,8 @@ const Line kLines[] = {
      {{10, 0}, {5, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Moved(6, 10, 5), Rim(10, 15, 14, 64), Hole(11, 15, 15),
       Moved(15, 24, 0)}},
-    // The near surface moves to the range from 5 3/4 to 10 3/4.
+    // Pixels 10 to 14 of the line move by 4 1/4 pixels, to the range from 5 3/4 to 10 3/4 of the
+    // view.
     {"a nearer surface covers a part of the pixel next to its last pixel",
      {{10, 0}, {5, 4.25}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 5, 10, 64), Moved(6, 10, 4), Rim(10, 15, 14, 192), Hole(11, 15, 15),
@@ -128,7 +129,7 @@ const Line kLines[] = {
     {"a surface of one pixel is mixed at both ends",
      {{10, 0}, {1, 4.75}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 10, 5, 64), Rim(6, 11, 10, 64), Hole(7, 11, 11)}},
-    {"a surface of one pixel that moves to 5 3/4 to 6 3/4 is mixed at both ends",
+    {"a surface of one pixel that moves to pixels 5 3/4 to 6 3/4 is mixed at both ends",
      {{10, 0}, {1, 4.25}, {9, 0}},
      {Moved(0, 5, 0), Mix(5, 5, 10, 64), Rim(6, 11, 10, 192), Hole(7, 11, 11)}},
     // The surface with disparity -3 is hidden. The surface with disparity 0 starts where the near

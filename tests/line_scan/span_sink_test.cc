@@ -80,7 +80,7 @@ struct Drawing {
 
 TEST_CASE(
     "span sink: a mixed pixel has parts of two colours and the disparity of the first pixel") {
-  for (const int other : {1, 6, 9}) {  // the second pixel is on either side, at any distance
+  for (const int other : {1, 6, 9}) {  // Second pixel of the mixture.
     for (const int weight : {1, 64, 128}) {
       const auto draw = [&](auto* sink) { sink->Mix(5, 4, other, weight); };
       const double exact = 80 + (20.0 * other - 80) * weight / 256;
@@ -102,7 +102,7 @@ TEST_CASE(
 
 TEST_CASE("span sink: the rim of a hole is mixed, with the disparity of the larger part") {
   struct Case {
-    int pixel, rim, at;  // pixel and rim in the line, position in the view
+    int pixel, rim, at;  // Pixel and rim of the line, and pixel of the view.
   };
   for (const Case& c : {Case{8, 2, 4}, Case{2, 8, 7}}) {
     for (const int covered : {1, 127, 128, 129, 255}) {

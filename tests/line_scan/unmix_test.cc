@@ -84,7 +84,8 @@ struct Scene {
 };
 
 TEST_CASE("unmix: the near part of a sharp pixel next to a defocused surface is removed") {
-  CHECK(Scene(0, 4, {40, 240, 140}).Mixed() == 40);  // the mixed pixel is half near
+  // Half of the mixed pixel shows the near surface.
+  CHECK(Scene(0, 4, {40, 240, 140}).Mixed() == 40);
   CHECK(Scene(0, 4, {40, 240, 180}).Mixed() == 40);
   // The mixed pixel shows a quarter of the near surface, and unmixing removes half of this quarter.
   CHECK(Scene(0, 4, {40, 240, 90}).Mixed() == 65);
@@ -122,7 +123,8 @@ TEST_CASE("unmix: pixels that are blurred, not mixed, or sharp in the near surfa
   CHECK(Scene(0, 1, {40, 240, 140}).Mixed() == 140);   // The step is too small for a depth edge.
   CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() ==
         140);  // The mixed pixel is blurred by three pixels.
-  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);  // A slightly blurred pixel: in part.
+  // A slightly blurred pixel is unmixed in part.
+  CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);
   CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() ==
         90);                                          // The near surface is hardly more defocused.
   CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);  // The near surface covers most of the pixel.

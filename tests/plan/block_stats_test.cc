@@ -57,7 +57,7 @@ struct Map {
     const int cx = std::clamp(x, 0, width - 1), cy = std::clamp(y, 0, height - 1);
     return size_t(cy) * size_t(width) + size_t(cx);
   }
-  // Returns the blur radius (2) in pixels.
+  // Returns the blur radius by equation (2), in pixels.
   double Radius(int x, int y) const { return radius[Index(x, y)]; }
   // Returns the radius of the nearer of two neighbouring pixels, or -1 without a depth edge between
   // these pixels. The second pixel is below or to the right of the first pixel.
@@ -170,7 +170,7 @@ struct Exact {
   // Smallest radius of pixels and edges in the block and in the kLayerMargin[1] pixels around the
   // block.
   double shown_min = 1e9;
-  double ring_min = 1e9;  // smallest radius in the block and in the 8 pixels around
+  double ring_min = 1e9;  // Smallest radius in the block and within 8 pixels around the block.
 };
 
 Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
@@ -372,7 +372,7 @@ TEST_CASE("cells: the border of a pixel with a large blur is measured from the p
 }
 
 TEST_CASE("cells: a pixel out of focus widens only the borders of blocks that the pixel reaches") {
-  // Pixel (24 + k, 40) has radius 5 and is next to the block of 16 at (32, 32).
+  // Pixel (24 + k, 40) has radius 5 and is next to the block of 16x16 pixels at (32, 32).
   for (int k = 0; k < 8; ++k) {
     Map map = EmptyMap(96, 96, 0, 1);
     map.At(24 + k, 40) = Fixed(5);
@@ -388,8 +388,8 @@ TEST_CASE("cells: a pixel out of focus widens only the borders of blocks that th
     CHECK(stats.border[0].bottom <= 1);
     if (needed > 0) CHECK(stats.r_max >= 5 * kDisparityOne);
     CHECK(stats.r_min == 0);
-    // Blocks that the pixel does not reach have no border for the pixel, and their r_max ignores
-    // its radius.
+    // Blocks that the defocused pixel does not reach need no border for the pixel, and their r_max
+    // ignores the pixel's radius.
     for (const int column : {7, 8}) {
       const BlockStats far = test::MeasureBlock(cells.grid, map.scale, column, 4, 3);
       CHECK(far.border[0].left <= 1);
@@ -410,8 +410,8 @@ TEST_CASE("cells: the blur of a silhouette also widens the border of the cell be
     }
     map.Measure();
     const Cells cells(map, 0, 96, 4);
-    // The block at 32 contains the edge. The surface reaches the block at 48 from 8 pixels away,
-    // and the block at 16 from 9 pixels away.
+    // The block at position 32 contains the depth edge. The surface reaches the block at 48 from 8
+    // pixels away, and the block at 16 from 9 pixels away.
     for (const int column : {6, 4, 2}) {
       const BlockStats stats = transposed ? test::MeasureBlock(cells.grid, map.scale, 4, column, 4)
                                           : test::MeasureBlock(cells.grid, map.scale, column, 4, 4);

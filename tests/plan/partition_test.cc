@@ -125,7 +125,7 @@ TEST_CASE(
   CHECK(blocks > 2 * superblocks);  // on average, a superblock has more than two blocks
 }
 
-TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a superblock of 128") {
+TEST_CASE("partition: the choice is the cheapest of all 83522 partitions of a 128x128 superblock") {
   test::Random random(8);
   for (int round = 0; round < 3; ++round) {
     const Plan plan(128 - 30 * round, 128, 128, 8, &random);
@@ -159,7 +159,8 @@ TEST_CASE(
     for (const int side : {32, 64, 128, 256}) {
       Plan plan(side - 5, side, side, 10, &random);
       plan.config.tuning.timing = {};
-      plan.rules.gathers = false;  // the cost of gathered cells is not part of timing.block
+      // Cells that are blurred without views have other costs than timing.block.
+      plan.rules.gathers = false;
       plan.config.tuning.timing.block = block;
       const std::vector<Block> blocks = plan.Partition(0, 0);
       REQUIRE(blocks.size() == 1);

@@ -165,7 +165,8 @@ TEST_CASE(
     return sum * STARFOCUS_MAX_TIMING;
   };
   for (const int side : {16, 32, 64, 128, 256}) {
-    // This content has more slopes, edges and gaps than any picture with this number of pixels.
+    // The tested content has more slopes, edges and gaps than any picture with the same number of
+    // pixels.
     const auto pixels = uint32_t(side * side);
     const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
     const Content content[2] = {along, along};

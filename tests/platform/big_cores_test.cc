@@ -17,7 +17,7 @@ namespace {
 
 using starfocus::CoreSet;
 
-using Numbers = std::vector<int>;  // number in a file of Linux for each core
+using Numbers = std::vector<int>;  // For each core, the number in a file of Linux.
 
 void Write(const std::string& folder, const std::string& file, const Numbers& numbers) {
   for (size_t core = 0; core < numbers.size(); ++core) {

@@ -95,7 +95,8 @@ TEST_CASE("light_field: views at any positions are read back, with the centre fi
   LightField back = ValueOf(LoadLightField(folder.path(), {}));
   REQUIRE(back.views.size() == 4);
   CHECK_FALSE(AreStar(back.positions));
-  // The loader returns views of the star first. All other views follow the star in the order of u.
+  // The loader returns the views of the star set first. Views outside the star set follow in the
+  // order of u.
   const int order[] = {0, 3, 2, 1};
   for (size_t i = 0; i < 4; ++i) {
     CHECK(back.views[i].pixels[0] == 10 * order[i] + 3);
@@ -141,7 +142,7 @@ TEST_CASE(
                  "expected 3x2 pixels, the size of the centre view"));
 }
 
-TEST_CASE("light_field: an incomplete star is read, but not without its centre") {
+TEST_CASE("light_field: a star set with missing views is read, but not without its centre view") {
   TempFolder folder;
   REQUIRE(Save(folder, Make(9, 4, 4)) == "");
   Remove(folder, 6);

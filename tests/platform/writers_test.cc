@@ -69,7 +69,7 @@ class TiffBuilder {
 // directory, and a thumbnail.
 Bytes CameraExif(bool little) {
   TiffBuilder tiff(little);
-  tiff.Put(3, 2);                            // At offset 8: three entries.
+  tiff.Put(3, 2);                            // Number of entries of the directory at offset 8.
   tiff.Entry(0x010f, 2, 8, 8 + 2 + 36 + 4);  // Make.
   tiff.Entry(0x0112, 3, 1, 6);               // Orientation.
   tiff.Entry(0x8769, 4, 1, 58);              // Directory of sizes.
@@ -353,9 +353,9 @@ TEST_CASE(
   const std::string file = "'" + folder.file("a.jpg") + "'";
   const std::string tags = Ask(folder, "exiftool -s -s -G1 -n " + file);
   CHECK(Contains(tags, "Far: 1\n"));
-  CHECK(Contains(tags, "Near: 0.11111"));             // 1 / (8 + 1).
-  CHECK(Contains(tags, "FocalDistance: 0.166666"));   // 1 / (2 + 3 + 1).
-  CHECK(Contains(tags, "BlurAtInfinity: 0.0075\n"));  // 0.5 * 6 / 400.
+  CHECK(Contains(tags, "Near: 0.11111"));             // The expected value is 1 / (8 + 1).
+  CHECK(Contains(tags, "FocalDistance: 0.166666"));   // The expected value is 1 / (2 + 3 + 1).
+  CHECK(Contains(tags, "BlurAtInfinity: 0.0075\n"));  // The expected value is 0.5 * 6 / 400.
   const std::string png = Ask(folder, "exiftool -b -XMP-GDepth:DepthImage " + file);
   const std::string sharp = Ask(folder, "exiftool -b -XMP-GImage:ImageData " + file);
   REQUIRE(WriteFile(folder.file("d.png"), FromText(png)) == "");

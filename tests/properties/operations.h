@@ -33,11 +33,12 @@ using Bytes = std::vector<uint8_t>;
 // Conditions of an operation that must not affect the bytes of the result.
 struct Setup {
   int workers = 1;
-  bool used = false;  // true if engine and memory were used before
+  bool used = false;  // True if the engine and its memory were used before.
   // A null pointer selects the best kernels of this machine.
   const starfocus::simd::Kernels* kernels = nullptr;
   const starfocus::simd::DepthKernels* depth_kernels = nullptr;
-  test::Symmetry mirror = {false, false, false};  // applied to the input; undone in the result
+  // Symmetry that is applied to the input and undone in the result.
+  test::Symmetry mirror = {false, false, false};
 };
 
 // Function that executes an operation whose input and engine are set up. A Run may be called any

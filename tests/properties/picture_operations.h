@@ -30,8 +30,8 @@ struct Lens {
   double aperture;
   int views;
   float highlights = 1;
-  bool flat =
-      false;  // True for a scene of one surface, whose blocks are gathered unless `layered`.
+  // True for a scene of one surface, which is blurred without views unless `layered`.
+  bool flat = false;
   bool layered = false;  // True if blocks of one surface render views at layers 1 and 2.
 };
 

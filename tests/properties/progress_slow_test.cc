@@ -93,7 +93,8 @@ TEST_CASE("progress: at most a million samples are computed between two progress
     starfocus_config config = test::ConfigFor(scene, 32);
     config.superblock = side;
     config.tuning.max_layer = 0;
-    // As a lower bound of the work for gathered pixels, the test assumes PSFs of half the width.
+    // As a lower bound of the work for cells that are blurred without views, the test assumes PSFs
+    // of half the width.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
     starfocus_params params = test::Params(9 - radius, 1, of.mode, of.renderer);
     test::Engine engine(config);

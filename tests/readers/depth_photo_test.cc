@@ -325,8 +325,9 @@ std::string Turned(std::string file) {
   file[at + 9] = 6;
   const size_t chunk = file.find("eXIf");
   if (chunk == std::string::npos) return file;
-  const size_t size = static_cast<uint8_t>(file[chunk - 2]) * 256u +
-                      static_cast<uint8_t>(file[chunk - 1]) + 4;  // with the name of the chunk
+  // The size includes the 4 bytes of the chunk's name.
+  const size_t size =
+      static_cast<uint8_t>(file[chunk - 2]) * 256u + static_cast<uint8_t>(file[chunk - 1]) + 4;
   return file.replace(chunk + size, 4, Big(Crc(file.substr(chunk, size)), 4));
 }
 

@@ -109,7 +109,8 @@ TEST_CASE(
     const Opened opened("map.png", GreyPng(levels), NearIs(Near::kBlack));
     CheckScene(opened);
     CHECK(opened.At(0, 4) == doctest::Approx(0));
-    CHECK(opened.At(28, 15) == doctest::Approx(0));  // filled with the wall, not the box
+    // The pixel is filled with the wall, not with the box.
+    CHECK(opened.At(28, 15) == doctest::Approx(0));
     CHECK(opened.At(0, 35) == doctest::Approx(opened.At(40, 35)));
     CHECK(opened.HasNote("288 of 1728 pixels of the depth map are unknown"));
     CHECK(opened.HasNote("--unknown none"));

@@ -87,7 +87,8 @@ void WriteStanford(const TempFolder& folder, const Place& place) {
   }
 }
 
-TEST_CASE("Stanford: the star of the grid is read, in the order of the positions in the names") {
+TEST_CASE(
+    "Stanford: the star set of the grid is read, in the order of the positions in the names") {
   TempFolder placed, turned, plain;
   WriteStanford(placed, [](int row, int column) {
     return "_-" + std::to_string(381 + row) + ".909271_" + std::to_string(1103 + 7 * column) +
@@ -131,8 +132,8 @@ TEST_CASE("grids by name: squares and single rows are read, and missing views ar
   CHECK(LevelAt(capture, 1, 1) == 8);
   std::filesystem::remove(three.file("scene r2c2 8bit.png"));
   CHECK(Contains(OpenAndLoad(three, &capture), "a picture for each place in 3 rows of 3, found 8"));
-  // The largest part of 8 x 8 views that has a middle is 7 x 7. Its edge is 3 views from the
-  // middle, so no view is at half the distance.
+  // The largest part of 8 x 8 views that has a middle is 7 x 7. The edge of 7 x 7 views is 3 views
+  // from the middle, so no view is at half the distance.
   grid(sixteen, 8, 8);
   REQUIRE(OpenAndLoad(sixteen, &capture) == "");
   CHECK(capture.light_field.views.size() == 9);

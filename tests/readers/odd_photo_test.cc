@@ -19,8 +19,8 @@ namespace {
 
 using namespace photos;
 
-// Checks that a GDepth photo with the given attributes opens with a note. The levels of such a
-// photo define only an order, in which black is near by default.
+// Checks that a GDepth photo with the given attributes opens with a note. The levels of a GDepth
+// photo without a valid range define only an order, in which black is near by default.
 void CheckOrder(const std::string& attributes) {
   CAPTURE(attributes);
   Capture capture;

@@ -157,8 +157,8 @@ TEST_CASE("depth kernels: SmoothDisparity averages noise within a surface") {
   rows.tolerance = 10;
   int16_t smooth[2];
   ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
-  // In this mean, the values -104, -100, -100 and -101 have weight 64, and the other -100 has
-  // weight 54.
+  // In the first expected mean, the values -104, -100, -100 and -101 have weight 64, and the other
+  // -100 has weight 54.
   CHECK(smooth[0] == -101);
   // With a tolerance of 9, the value that differs by 10 has no weight. One value of -100 has weight
   // 64, and the values -100, -101 and -100 have weight 54.

@@ -152,9 +152,9 @@ class CallMemory {
 
   struct Region {
     const char* name;
-    size_t value_size, first, size;  // in bytes; `first` is the offset of the first value
+    size_t value_size, first, size;  // Sizes in bytes, and the offset of the first value in bytes.
     std::unique_ptr<uint8_t[]> bytes;
-    std::vector<Role> roles;  // one role for each byte
+    std::vector<Role> roles;  // Role of each byte.
     std::vector<uint8_t> before, expected;
   };
 

@@ -37,7 +37,8 @@ TEST_CASE(
   uint8_t out[3];
   ReferenceKernels().Finish(wide, 3, 24, {nullptr, nullptr}, out);
   CheckValues("finish", out, {255, 8, 7});
-  const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};  // red light of two pixels, in planes of 16
+  // Red light of two pixels, in planes of 16 pixels.
+  const uint32_t stack[4 * 16] = {3 << 16, 3 << 16};
   std::vector<uint32_t> covered(stack, stack + 4 * 16);
   covered[3 * 16] = 12 << 16;
   covered[3 * 16 + 1] = 99;

@@ -200,8 +200,8 @@ std::vector<uint8_t> FieldEdges(const DepthField& field, int side, Draw* draw) {
   return distances;
 }
 
-// Sets the views that see behind edges: none, views of a star at one or two distances, or views at
-// any positions.
+// Sets the views that see behind edges: none, views of a star set at one or two distances, or views
+// at any positions.
 void SetLooks(Draw* draw, DepthRow* row) {
   const bool none = draw->Rarely(5), second = draw->Int(0, 1) == 0;
   const bool anywhere = !draw->timed() && draw->Int(0, 2) == 0;

@@ -24,7 +24,7 @@ void AddPaths(Draw* draw, DepthCall* call) {
   const size_t labels = draw->Length(1, kMostPathLabels, kTimedPathLabels);
   const size_t count = draw->Size(1, 9, 64), places = PathLabels(labels);
   const ptrdiff_t step = draw->Int(0, 1) == 0 ? 1 : -1;
-  const size_t first = step > 0 ? 0 : count - 1;  // index of the first pixel on the path
+  const size_t first = step > 0 ? 0 : count - 1;  // Index of the first pixel on the path.
   // The path continues from the previous row or from the previous pixel.
   const bool from_row = draw->timed() || draw->Int(0, 1) == 0;
   const auto costs = Filled<uint8_t>(count * places, [&] { return draw->Int(0, kMostCost); });

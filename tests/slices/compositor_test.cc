@@ -187,7 +187,7 @@ TEST_CASE("stack: no more tiles are computed after cancellation") {
 }
 
 // With AddressSanitizer, red zones between the parts of a workspace increase its size.
-TEST_CASE("stack: a worker requires 1.15 MiB for blocks of 64 and blurs of up to 32 pixels" *
+TEST_CASE("stack: a worker requires 1.15 MiB for blocks of 64 pixels and blurs of up to 32 pixels" *
           doctest::skip(starfocus::kRedZone > 0)) {
   size_t bytes[2];
   for (int workers = 1; workers <= 2; ++workers) {

@@ -94,8 +94,8 @@ TEST_CASE("slices: the range of a band of rows includes the disparities of all s
   Scene scene;
   scene.At(15, 15) = 20;
   scene.At(51, 17) = -40;
-  scene.At(63, 18) = -50;   // Too far away to be visible in the middle.
-  scene.At(20, 51) = -300;  // Extends the range to hidden surfaces.
+  scene.At(63, 18) = -50;   // The pixel is too far away to be visible in the middle of the picture.
+  scene.At(20, 51) = -300;  // The pixel extends the range of disparities to hidden surfaces.
   for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
   scene.At(0, 31, 2) = -200;
   scene.Cut(2.25);

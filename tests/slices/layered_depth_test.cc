@@ -205,8 +205,8 @@ TEST_CASE("surfaces: disparity steps below 2/64 pixel, or from 1/2 to 3/4 pixel,
   CHECK(steep.hiding[20] != 0);
 }
 
-// Returns the distance from (x, y) to the far side of the next edge, or 0 if the pixel does not
-// hide this side. A step of up to an eighth of the depth that the previous edge hides does not
+// Returns the distance from (x, y) to the next depth edge's far side, or 0 if the pixel does not
+// hide the far side. A step of up to an eighth of the depth that the previous edge hides does not
 // count as an edge.
 int Distance(const Scene& scene, int x, int y, int dx, int dy) {
   const auto at = [&](int t) {

@@ -70,7 +70,7 @@ TEST_CASE("matte: a defocused surface ends a quarter of a pixel farther out, wit
     int light = 0;
     for (size_t k = 0; k < mixed.size(); ++k) light += mixed[k] - pure[k];
     CAPTURE(transposed);
-    // The mixed column adds a quarter of a pixel of near light, spread over the blur.
+    // The mixed column adds a quarter of a pixel of the near surface's light, spread over the blur.
     CHECK(std::abs(light - (kNear - kFar) / 4) <= 12);
     for (int k = edge - 5; k < edge + 5; ++k) {
       CHECK(mixed[size_t(k)] - pure[size_t(k)] >= 0);
@@ -93,7 +93,7 @@ TEST_CASE("matte: a defocused background contains no light of a sharp surface") 
 
 TEST_CASE("matte: a pixel is split only if its surfaces move apart by more than a pixel") {
   // With three views along the radius, the outermost view is at 96/94 of the radius. With the
-  // aperture 94/96, the outermost view is therefore at 1.
+  // aperture 94/96, the outermost view is therefore at a distance of 1 from the centre view.
   constexpr double kAperture = 94.0 / 96, kLeast = 1.0 / 64;
   const std::vector<int> whole = MiddleRow(Mixed(0, -1, 5), 0, false, kAperture);
   CHECK(whole[kEdge - 2] > kFar);

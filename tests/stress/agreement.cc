@@ -18,15 +18,15 @@ namespace {
 // neither the layer nor N by (9) changes. With constant layer and N, the weights of the views
 // change gradually.
 constexpr int kSmoothJump = 12;
-// Limit for steps of the lens that change N by (9) or N of the benchmark. At r = 1, five views
-// become thirteen, and the two PSFs differ by 1e-2 (Fig. 6 below N = 4). The difference is larger
-// if theta puts all weight in the middle or on the rim.
+// Limit for steps of the lens that change N, which is given by equation (9) or by the benchmark
+// mode. At r = 1, five views become thirteen, and the two PSFs differ by 1e-2 (Fig. 6 below N = 4).
+// The difference is larger if theta puts all weight in the middle or on the rim.
 constexpr int kViewsJump = 64;
 // Limit for steps of the lens that change the layer. With the theta of Table I, a subsampled blur
 // differs from the ideal blur by 6.7e-4.
 constexpr int kLayerJump = 24;
-// Limit for steps of the lens that change the layer, with any theta other than that of
-// Table I. The filters are not optimised for other values, so the blurs differ more, especially for
+// Limit for steps of the lens that change the layer, with any theta other than that of Table I. The
+// filters are not optimised for other values of theta, so the blurs differ more, especially for
 // apertures with a bright rim.
 constexpr int kLayerJumpOfTheta = 48;
 // Limit for the blur mode, whose PSFs exist only for radii that are at least 1/8 pixel apart.
@@ -85,7 +85,7 @@ Outcome Mirrors(test::Random* random) {
   // subsampling starts at the left and the top, so layers are not symmetric
   setup.config.tuning.max_layer = 0;
   // Among equally near pixels, coverage uses the first pixel in row order, which is not symmetric.
-  // With the disparity range of strands, such pixels are frequent.
+  // With the disparity range of strands, several pixels are often at the same smallest distance.
   if (setup.strands) setup.config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   // Polygons and cat's eyes are not symmetric.
   starfocus_lens& lens = setup.params.lens;

@@ -43,7 +43,7 @@ void LimitWork(Setup* setup) {
 Setup RandomCase(test::Random* random) {
   Setup setup = RandomSetup(kRegimes[std::min(random->Int(0, 4), random->Int(0, 4))], random);
   LimitWork(&setup);
-  if (random->Int(0, 7) == 0) setup.config.superblock = 0;  // selected by the library
+  if (random->Int(0, 7) == 0) setup.config.superblock = 0;  // The library selects the block size.
   if (random->Int(0, 3) == 0)
     setup.config.highlights = float(random->Real(1, STARFOCUS_MAX_HIGHLIGHTS));
   if (random->Int(0, 3) == 0) {

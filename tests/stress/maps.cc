@@ -156,8 +156,8 @@ Outcome Maps(test::Random* random) {
   const int views = kViewCounts[random->Int(0, 3)];
   question.repairs = views == 1 || random->Int(0, 2) > 0;
   const bool plane = question.repairs && random->Int(0, 2) == 0;
-  // The picture is larger than the disparity of the plane. Otherwise side views would show nothing
-  // of the centre view.
+  // The picture is larger than the disparity of the plane. With a larger disparity, side views
+  // would show nothing of the centre view.
   const int least = plane ? 2 * kPlaneMost + 1 : 1;
   question.scene =
       test::EmptyScene(random->Int(least, 90), random->Int(least, 60), views, -kMost, kMost);

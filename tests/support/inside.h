@@ -42,7 +42,8 @@ inline starfocus::Borders BordersOf(double max_blur) {
   return BordersOf(config, max_blur);
 }
 
-// Blocks and gathered cells of the stripe that was refocused last.
+// Blocks of the stripe that was refocused last, and their cells that were blurred without rendering
+// views.
 struct StripeBlocks {
   std::vector<starfocus::Block> blocks;
   starfocus::GatherMap gathered;

@@ -59,8 +59,8 @@ inline Scene IntegerScene(int width, int height, int views, Depth depth) {
 }
 
 // Makes a picture of noise, in which each pixel has one of `levels` random disparities within
-// +-range. Each of these disparities requires a slice. If `levels` exceeds the limit of slices in a
-// block, the slices become wider.
+// +-range. Each of the `levels` disparities requires a slice. If `levels` exceeds the limit of
+// slices in a block, the slices become wider.
 inline Scene LevelScene(int side, int levels, int range) {
   Scene scene = EmptyScene(side, side, 1, static_cast<float>(-range), static_cast<float>(range));
   Random random(static_cast<uint64_t>(1000 * range + levels));

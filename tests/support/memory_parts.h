@@ -16,8 +16,8 @@ namespace test {
 
 struct MemoryPart {
   const char* name;
-  bool shared;  // true if other tasks of the worker share this memory
-  // start of the part, or null if the engine does not have this part
+  bool shared;  // True if other tasks of the worker share this memory.
+  // Start of the part, or null if the engine does not have this part.
   const void* first;
   size_t begin = 0, end = 0;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plans the partition of a random disparity map independently of the engine. Computes the
-// parameters of each block by the rules for layers, views and gathering and by the timing model.
-// For comparison, the code computes the costs of all possible partitions.
+// parameters of each block by the rules for layers, views and cells blurred without views, and by
+// the timing model. For comparison, the code computes the costs of all possible partitions.
 #ifndef STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_
 #define STARFOCUS_TESTS_SUPPORT_PARTITION_PLAN_H_
 
@@ -44,7 +44,7 @@ struct Apertures {
     for (size_t n = 0; n < all.size(); ++n) {
       std::vector<uint16_t> weights(starfocus::ViewWeightsSize(int(n)));
       all[n] = renderer.make_aperture(int(n), starfocus::ApertureFallOff(0.8), weights.data());
-      all[n].weights = nullptr;  // planning reads no weights
+      all[n].weights = nullptr;  // Planning does not read the weights of views.
     }
   }
   std::vector<starfocus::ViewWeights> all;
@@ -148,7 +148,7 @@ struct Plan {
 
   std::vector<int16_t> disparity;
   std::vector<Cell> cells;
-  std::vector<uint8_t> flags;  // for each cell, true if the cell is gathered
+  std::vector<uint8_t> flags;  // For each cell, true if the cell is blurred without views.
   starfocus::GatherMap gathered;
   CellGrid grid;
   int around = 0;
@@ -173,8 +173,8 @@ inline int LayerOf(bool subapertures, double r_min, bool silhouette, starfocus::
   return r_min < first ? 0 : r_min < 24 * first / 7 || silhouette ? 1 : 2;
 }
 
-// Returns N by (9), or by the rule for subapertures. By the rule for subapertures, N is larger for
-// openings without fall-off.
+// Returns N by equation (9), or by the rule for subapertures. By the rule for subapertures, N is
+// larger for openings without fall-off.
 inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
   if (subapertures && demand >= starfocus::Demand::kPolygon && r_max > 5 && r_max <= 34) return 6;
   if (subapertures && demand != starfocus::Demand::kFallOff && r_max > 0.5 && r_max <= 11) return 4;
@@ -195,8 +195,8 @@ inline int ViewsOf(bool subapertures, double r_max, starfocus::Demand demand) {
 
 inline int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
 
-// Plans the part of a block that views must render. This part is the bounding rectangle of all
-// cells that may not be gathered, in pixels of the layer. At the sides of the block, the rectangle
+// Plans the part of a block that views must render. The rendered part is the bounding rectangle of
+// all cells that require views, in pixels of the layer. At the sides of the block, the rectangle
 // includes the margin that upsampling reads. N and the border are computed from the blocks of 16
 // pixels that contain cells to be rendered.
 inline void PlanRest(const Plan& plan, Block* block) {
@@ -245,7 +245,7 @@ inline void PlanRest(const Plan& plan, Block* block) {
                    beyond(border.bottom)};
 }
 
-// The predicted time of gathering all possible cells of a block at a layer, and the number of these
+// Predicted time of blurring cells of a block without views at a layer, and the number of these
 // cells.
 struct GatherPlan {
   uint64_t cells = 0, gathered = 0, cost = 0;
@@ -265,9 +265,9 @@ struct GatherPlan {
   }
 };
 
-// Plans to gather all cells of the block that may be gathered at the block's layer. If the whole
-// block can be gathered at layer 0, the block is gathered at layer 0. `upsampling` is the predicted
-// time of upsampling, which is part of the block's cost.
+// Plans to blur all suitable cells of a block by a filter, at the block's layer, instead of
+// rendering views. If the whole block can be blurred by the filter at layer 0, the block is moved
+// to layer 0. `upsampling` is the predicted time of upsampling, which is part of the block's cost.
 inline void PlanGathering(const Plan& plan, uint64_t upsampling, Block* block) {
   const GatherPlan here(plan, block->rect, block->layer), below(plan, block->rect, 0);
   if (here.gathered > 0) {

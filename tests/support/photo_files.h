@@ -21,7 +21,7 @@ inline void Require(const Error& error) {
   if (error) throw std::runtime_error(error.line());
 }
 
-// Returns the bytes of a picture as a file with this extension.
+// Returns the bytes of a file that holds the picture in the format of `extension`.
 inline std::string Encode(const Image& image, const std::string& extension) {
   TempFolder folder;
   Require(WriteImage(folder.file("picture" + extension), image));
@@ -247,8 +247,8 @@ inline std::string MultiPicture(const std::string& first, const std::string& sec
     return Segment(0xe2, std::string("MPF\0", 4) + (options.little ? "II" : "MM") + number(42, 2) +
                              number(8, 4) + directory + entries);
   };
-  // Offsets count from the TIFF header, at byte 10: 2 bytes before the segment, 4 of its header and
-  // 4 of "MPF".
+  // Offsets count from the TIFF header at byte 10, after 2 bytes of picture, 4 bytes of segment
+  // header and 4 bytes of "MPF".
   const auto size = static_cast<uint32_t>(Insert(first, index(0, 0)).size());
   return Insert(first, index(size, size - 10 + options.moved)) + second;
 }

@@ -25,7 +25,7 @@ inline void ReadPlanes(starfocus::PlaneViews* planes, starfocus::Window* window)
   window->centre = planes->view[0];
 }
 
-// Sets the views of `window` to the star of 1, 5, 9 or 17 views.
+// Sets the views of `window` to the star set of 1, 5, 9 or 17 views.
 inline void SetStar(int views, starfocus::Window* window) {
   starfocus_config config = {};
   config.views = views;

@@ -97,7 +97,7 @@ struct Scene {
   size_t disparity_width = 0;  // Floats.
   std::vector<std::vector<uint8_t>> pictures;
   std::vector<float> disparity;
-  std::vector<uint8_t> coverage;  // rows without padding; empty: no coverage
+  std::vector<uint8_t> coverage;  // Coverage in rows without padding; empty: no coverage.
   std::vector<starfocus_position>
       positions;  // positions of the views; empty: starfocus_view_position
 

@@ -54,9 +54,9 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
   return regions;
 }
 
-// Checks that all ways to refocus a scene return the bytes of the whole picture. The ways are
-// streams, prepared light fields, the next frame of a video, views with gaps between pixels, and
-// regions. Returns the whole picture.
+// Checks that all ways to refocus a scene return the bytes of the whole picture. The tested calls
+// use streams, prepared light fields, the next frame of a video, views with gaps between pixels,
+// and regions. Returns the whole picture.
 inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_params params,
                         bool many_regions = false) {
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
