@@ -19,11 +19,11 @@ struct SlicePlanes {
   size_t plane;
 };
 
-// Interpolation of a view between up to four consecutive samples p of a slice:
-//   p[1] + first (p[1] - p[0]) + third (p[1] - p[2]) + fourth (p[2] - p[3]),
-// where `first` is `inside` if p[0] and p[1] have equal coverage, and `edge` if not. All factors
-// are in [-1, 0] with 15 fractional bits, because 16 bits can represent -1 but not 1. If `third` is
-// not 0, `inside` and `edge` are equal. If `third` is 0, `fourth` is also 0.
+// Factors of the interpolation between up to four consecutive samples p of a slice:
+//   p[1] + first (p[1] - p[0]) + third (p[1] - p[2]) + fourth (p[2] - p[3]).
+// The factor `first` is `inside` if p[0] and p[1] have equal coverage, and `edge` if not. All
+// factors are in [-1, 0] with 15 fractional bits, because 16 bits can represent -1 but not 1. If
+// `third` is not 0, `inside` and `edge` are equal. If `third` is 0, `fourth` is also 0.
 struct SliceFraction {
   int16_t inside, edge, third, fourth;
 };

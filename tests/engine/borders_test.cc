@@ -221,7 +221,7 @@ struct Sum {
 
 // Reasons for unused pixels:
 // - Layers: blocks begin and end with whole cells, which determine their bytes. The outermost taps
-// of two successive filters contribute too little to change a rounded sample.
+//   of two successive filters contribute too little to change a rounded sample.
 // - Side views: hidden pixels at the edge of the border are hardly visible, especially at layers 1
 //   and 2. The disparities of hidden pixels seldom reach the largest disparity of the
 //   configuration.
