@@ -33,7 +33,7 @@ LensPoint Turn(LensPoint p, LensPoint by) {
 
 // Returns points on the unit disc in a sunflower pattern. About kLensSamples of the points pass the
 // opening. The radii follow the inverse of the distribution of the squared radius s. With the
-// fall-off (3), the density of s is proportional to 1 / (s + cot^2)^2.
+// fall-off (3), the density of s is proportional to 1 / (s + cot^2(theta))^2.
 std::vector<LensPoint> LensPoints(const SceneOpening& opening) {
   std::vector<LensPoint> points;
   LensPoint direction = {1, 0};

@@ -16,7 +16,8 @@ namespace starfocus {
 
 class RayTracer {
  public:
-  // Pixels are averages of light. `transfer` defines how codes represent light.
+  // The colour of a pixel is the average linear light of its rays. `transfer` defines how codes
+  // represent light.
   RayTracer(const Scene& scene, int width, int height, starfocus_transfer transfer,
             ThreadRunner* runner);
 

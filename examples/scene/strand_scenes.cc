@@ -58,7 +58,7 @@ Strand Hair(Dice dice) {
 
 constexpr double kGround = 384;
 
-// Creates a blade of grass. Nine of ten blades grow in the left half of the picture.
+// Creates a blade of grass. Nine of ten blades of grass grow in the left half of the scene.
 Strand Blade(int index, Dice dice) {
   const double left = index % 10 == 9 ? 0 : -580;
   const Point root = {dice.Between(left, left + 580), kGround + dice.Between(20, 70)};

@@ -19,8 +19,8 @@ struct InsidePart {
         top(Clamp(-rect.y, 0, rect.height)),
         bottom(Clamp(Inside(window.picture_height, window.layer) - rect.y, 0, rect.height)) {}
 
-  // Returns the number of pixels of the layer for `size` pixels of the picture. A layer in memory
-  // has more pixels than Inside returns (LayerSize).
+  // Returns the number of pixels of the layer for `size` pixels of the picture. The
+  // memory of a layer also holds pixels beyond the picture's edge, which LayerSize counts.
   static int32_t Inside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
 };
 

@@ -35,9 +35,9 @@ struct GatherMap {
 // reads.
 Rect LayerFrame(const Rect& block, int32_t layer);
 
-// Cells of a block in which some cells are blurred without views, at the layer of the block. Pixels
-// in the margin are treated like the nearest cell of the block, so that a block does not depend on
-// its neighbours.
+// The cells of one block, at the block's layer. A filter blurs some of these cells without
+// rendering views. Pixels in the margin are treated like the nearest cell of the block, so that a
+// block does not depend on its neighbours.
 struct BlockCells {
   const GatherMap* map;
   Rect block;  // rectangle of the block in pixels of the picture

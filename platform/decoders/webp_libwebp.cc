@@ -17,7 +17,7 @@ namespace {
 
 // Limits of the number of pixels: per byte of the file, and for any file. The WebP format does not
 // limit the pixels per byte: 38 bytes can encode 8000x8000 pixels of one colour. The decoder
-// requires 7 bytes of memory per pixel. Photographs have a few pixels per byte.
+// requires 7 bytes of memory per pixel. Files of photographs have a few pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 65536, kAnyFilesPixels = int64_t{1} << 24;
 
 Error Failed(const std::string& where, VP8StatusCode status) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests that a stream continues after a failed runner. A repeated pull must return the bytes of a
-// stream whose runner never fails.
+// Tests that a stream continues after a failed runner. A pull that is repeated after the
+// failure must return the same bytes as the pull of a stream whose runner never fails.
 #include <doctest/doctest.h>
 
 #include <cstring>

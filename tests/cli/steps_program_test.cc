@@ -216,7 +216,7 @@ TEST_CASE("steps: the picture `gathered` marks only cells away from depth edges"
   CHECK(marked < 6000);
 }
 
-TEST_CASE("steps: the sheet cuts and enlarges pictures") {
+TEST_CASE("sheet: --crop and --zoom crop and enlarge a picture") {
   const Steps steps;
   Succeed(steps.folder, "sheet steps/mean.png -o sheet.png --crop 20,10,30,20 --zoom 3");
   const Image sheet = ValueOf(ReadImage(steps.folder.file("sheet.png")));

@@ -141,8 +141,9 @@ struct Distance {
   // Number of pixels that the engine and the reference split into surfaces of different
   // disparities.
   int disparities = 0;
-  // Numbers of split pixels whose coverage differs by more than kCoverageLimit, and whose light of
-  // the farther surface differs by more than kLightLimit.
+  // Number of split pixels in which the coverage of the engine and the reference differs by more
+  // than kCoverageLimit; number of split pixels in which the light of the farther surface differs
+  // by more than kLightLimit.
   int alphas = 0, lights = 0;
   double alpha = 0, alpha_sum = 0;  // Largest and summed difference of coverage.
   // Largest and summed difference of the light of the farther surface, in codes.

@@ -118,7 +118,9 @@ TEST_CASE("matte: with one view, a pixel between two other surfaces is not split
   CHECK(MiddleRow(scene, 0)[kEdge - 1] < 80);
 }
 
-TEST_CASE("matte: a pixel at the end of a slope covers a quarter even where slices overlap") {
+TEST_CASE(
+    "matte: the nearer surface covers a quarter of the mixed pixel at a slope, even if slices "
+    "overlap") {
   test::Scene scene = Mixed(0, -8, 5);
   scene.disparity_min = -8;
   scene.disparity_max = 1;

@@ -32,8 +32,8 @@ std::string ThreeDigits(double value) {
 }
 
 // Returns the first number of three digits that satisfies `fits`. The search starts at `value` and
-// changes the third digit up or down. The function tests the number as printed, so that the number
-// also fits if a user types it.
+// increments or decrements the third digit. The function tests the number as printed, so that the
+// number also fits if a user types it.
 template <class Fits>
 double FirstThatFits(double value, int direction, const Fits& fits) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
