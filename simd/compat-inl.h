@@ -9,6 +9,7 @@
 #endif
 
 #include "hwy/highway.h"
+#include "simd/wasm-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
