@@ -26,6 +26,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 #define STARFOCUS_HAVE_PAIR_MULTIPLY 0
 #endif
 
+// Returns true if all lanes of a vector of integers are 0.
+template <class D>
+HWY_INLINE bool AllZero(D d, hn::Vec<D> v) {
+#if HWY_ARCH_WASM && HWY_TARGET != HWY_SCALAR
+  (void)d;
+  return !wasm_v128_any_true(v.raw);
+#else
+  return hn::AllTrue(d, hn::Eq(v, hn::Zero(d)));
+#endif
+}
+
 // Returns a * wa + b * wb in 32-bit lanes, for a, b, wa, wb <= 32767.
 template <class D32, class V32 = hn::Vec<D32>>
 HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {

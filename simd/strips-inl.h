@@ -51,7 +51,7 @@ class RowMarks {
   // the row.
   HWY_INLINE void Add(LanesVec most, LanesVec least, int8_t* HWY_RESTRICT near) {
     const LanesTag d16;
-    const bool some = !hn::AllTrue(d16, hn::Eq(most, hn::Zero(d16)));
+    const bool some = !AllZero(d16, most);
     const bool all = hn::AllTrue(d16, hn::Eq(least, hn::Set(d16, kSliceOne)));
     if (some) near[0] = 0;
     if (some && !shown_) {
@@ -88,7 +88,7 @@ HWY_INLINE void ShiftRows(const SlicePlanes& in, const SliceFraction& fraction, 
       auto any = hn::Or(covered, next);
       if (kTaps > 2) any = hn::Or(any, load(3, 2));
       if (kTaps > 3) any = hn::Or(any, load(3, 3));
-      if (hn::AllTrue(d, hn::Eq(any, hn::Zero(d)))) {
+      if (AllZero(d, any)) {
         for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d), d, out + c * plane + n);
         least = hn::Zero(d);
         continue;
@@ -188,8 +188,7 @@ HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec exces
                           const ViewSums& sums) {
   const StripTag d16;
   const auto taken = hn::Sub(slice.covered, excess);
-  if (kKnown == Known::kNothing &&
-      !(kLooksFirst && hn::AllTrue(d16, hn::Eq(excess, hn::Zero(d16))))) {
+  if (kKnown == Known::kNothing && !(kLooksFirst && AllZero(d16, excess))) {
     const auto over = hn::Gt(slice.covered, light);
     const auto share = ShareOfLight(slice.covered, light, excess);
     const auto lit = [&](SliceVec value) HWY_ATTR {
@@ -239,7 +238,7 @@ HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
   auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
   // Colours of pixels without coverage are at most rounding errors. Products of rounding errors and
   // weights below one half are 0.
-  if (kLooksFirst && !kCovered && hn::AllTrue(d16, hn::Eq(covered, hn::Zero(d16)))) return;
+  if (kLooksFirst && !kCovered && AllZero(d16, covered)) return;
   const auto excess =
       kKnown == Known::kNothing ? hn::Max(hn::Sub(covered, light), hn::Zero(d16)) : hn::Zero(d16);
   auto r = between(at), g = between(at + plane), b = between(at + 2 * plane);
@@ -318,7 +317,7 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       } else {
         take(std::integral_constant<Known, Known::kNothing>());
       }
-      if (hn::AllTrue(d16, hn::Eq(hn::Or(light0, light1), zero))) break;
+      if (AllZero(d16, hn::Or(light0, light1))) break;
     }
   }
   if (views.extra_bits != 0) {
