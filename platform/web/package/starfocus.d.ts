@@ -1,17 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types of the npm package starfocus, which refocuses light fields of 1, 5, 9 or 17 views, and depth photos. The
-// engine runs in a worker, so all calls are asynchronous.
+// Types of the npm package starfocus, which refocuses photos with depth, and light fields of 5, 9 or 17 views. The engine
+// runs in a worker, so all calls are asynchronous.
 //
-//   const refocuser = await createRefocuser({width, height, views: 5, disparityMin: -9, disparityMax: 8, previews: 2});
-//   await refocuser.prepare(views, depth);
-//   const focus = await refocuser.focusAt(x, y);
-//   const small = await refocuser.preview({focus, shift: 2});
-//   const picture = await refocuser.refocus({focus});
-//   context.putImageData(new ImageData(picture.data, picture.width, picture.height), 0, 0);
+//   const photo = await openPhoto(image, depth);               // Blobs, ImageData, images, canvases
+//   const focus = await photo.focusAt({x, y});
+//   for await (const picture of photo.refocus({focus})) {      // a preview, then the full picture
+//     context.drawImage(await picture.toImageBitmap(), 0, 0, canvas.width, canvas.height);
+//   }
+//   photo.close();
 //
-// Options, settings and parameters are the fields of starfocus_config, starfocus_params and starfocus_lens in
-// starfocus/starfocus.h, with JavaScript names: max_blur is maxBlur. A field has the same meaning, range and default as
-// in C, and pictures have the same bytes as pictures of the C library. An omitted field has its default.
+// createRefocuser gives access to all settings of the engine. Its options, settings and parameters are the fields of
+// starfocus_config, starfocus_params and starfocus_lens in starfocus/starfocus.h, with JavaScript names: max_blur is
+// maxBlur. A field has the same meaning, range and default as in C, and pictures have the same bytes as pictures of the
+// C library. An omitted field has its default.
+
+/** The instance type of a global class, or never if this environment has no such class. */
+type Global<Name extends string> = typeof globalThis extends Record<Name, {prototype: infer Instance}> ? Instance : never;
+
+/** A Uint8ClampedArray on an ArrayBuffer, which the constructor of ImageData expects. */
+type Bytes = ReturnType<typeof Uint8ClampedArray.of>;
+/** A Float32Array on an ArrayBuffer. */
+type Floats = ReturnType<typeof Float32Array.of>;
+
+/** The key of a well-known symbol for `using`, or never if the library of the compiler lacks the symbol. */
+type DisposeKey<Name extends string> = SymbolConstructor extends Record<Name, infer Key extends symbol> ? Key : never;
+
+/** Objects that end with `using` and `await using`. */
+export type Disposables = {[Key in DisposeKey<'dispose'>]: () => void} & {[Key in DisposeKey<'asyncDispose'>]: () => Promise<void>};
+
+/** An AbortSignal. */
+export interface Signal {
+  readonly aborted: boolean;
+  readonly reason: any;
+  addEventListener(type: 'abort', listener: () => void): void;
+  removeEventListener(type: 'abort', listener: () => void): void;
+}
 
 /** How the picture is divided, and how many views are rendered (starfocus_mode). FRAME: one number of views for the
  *  whole picture. BENCHMARK: as FRAME with more views. BLOCK, the default: blocks of different sizes, each with its own
@@ -55,7 +78,7 @@ export interface Settings {
 }
 
 /** Options of createRefocuser. All but the settings are fixed for the lifetime of the refocuser. */
-export interface Options extends Settings {
+export interface Options extends Settings, WorkerOptions {
   /** Width of the views in pixels, an integer in [1, 65535]. */
   width: number;
   /** Height of the views in pixels, an integer in [1, 65535]. */
@@ -73,14 +96,30 @@ export interface Options extends Settings {
   maxLayer?: 0 | 1 | 2;
   /** A value of Transfer; default Transfer.SRGB. */
   transfer?: 0 | 1;
+}
+
+/** Options of the worker. */
+export interface WorkerOptions {
   /** Number of threads, including the thread that receives the calls, an integer in [1, 64]. The default is the number
    *  of cores. Pages that are not cross-origin isolated cannot share memory and always use 1 thread. */
   threads?: number;
+  /** Browsers: address of a copy of `starfocus/worker`, of the same version, on the page's server. The default is a
+   *  worker from a blob: URL, which a Content-Security-Policy may forbid. */
+  worker?: string | Global<'URL'>;
 }
 
-/** A view: an ImageData, or rows of R, G, B or of R, G, B, A without gaps, 8 bits per sample. All views of a light
- *  field have the same number of bytes per pixel. */
-export type View = ImageData | Uint8Array | Uint8ClampedArray;
+/** Pixels in memory: rows without gaps. `data` has 3 bytes (R, G, B) or 4 bytes (R, G, B, A) per pixel. */
+export interface Pixels {
+  readonly data: Uint8Array | Uint8ClampedArray;
+  /** Width in pixels. */
+  readonly width: number;
+  /** Height in pixels. */
+  readonly height: number;
+}
+
+/** A view: pixels of the picture's size, for example an ImageData, or only their bytes. All views of a light field have
+ *  the same number of bytes per pixel. */
+export type View = Pixels | Uint8Array | Uint8ClampedArray;
 
 /** Depth map of the centre view, as large as the picture or smaller. */
 export interface DepthMap {
@@ -103,15 +142,22 @@ export interface DepthMap {
 
 /** Options of calls that can be cancelled. */
 export interface Call {
-  /** Cancels the call, which then rejects with the reason of the signal. A call that has not started yet ends at
-   *  once. A running call ends within a few milliseconds if memory is shared. If memory is not shared, refocus() ends
-   *  after at most 512 more rows. In this case, a running prepare(), a preview, or a refocus() with `region` or
-   *  `blocks` completes. */
-  signal?: AbortSignal;
+  /** Cancels the call, which rejects at once with the reason of the signal. The worker ends the computation within a
+   *  few milliseconds if memory is shared, and otherwise after at most 512 more rows. A preview, and a refocusing with
+   *  `region` or `blocks` without shared memory, are computed to the end before the next call starts. */
+  signal?: Signal;
 }
 
-/** Parameters of one refocusing. All lens fields are checked, even if the shape does not use them. */
-export interface Params extends Call {
+/** Options of calls that report their progress. If the function throws, the call is cancelled and rejects with the
+ *  thrown value. */
+export interface Progress {
+  /** Receives the finished part, as `done` of `total` steps: every 50 ms if memory is shared, otherwise every 512
+   *  rows of a refocusing. */
+  onProgress?: (done: number, total: number) => void;
+}
+
+/** The lens. All fields are checked, even if the shape does not use them. */
+export interface Lens {
   /** Disparity in focus, in pixels, within +-1000000; default 0. */
   focus?: number;
   /** Radius of the aperture, [0, 1]. 1, the default, reaches the outermost views; 0 gives the centre view. */
@@ -131,6 +177,10 @@ export interface Params extends Call {
   /** Cat's eye: distance of a second rim from the axis, in radii of the lens, as seen from a corner of the picture,
    *  [0, 1]; default 0. Values above 0 require Settings.shapes. */
   catsEye?: number;
+}
+
+/** Parameters of one refocusing. */
+export interface Params extends Lens, Call {
   /** A value of Mode; default Mode.BLOCK. */
   mode?: 0 | 1 | 2 | 3;
   /** A value of Renderer; default Renderer.AUTO. */
@@ -157,82 +207,204 @@ export interface Block {
   n: number;
 }
 
-/** A refocused picture. The caller owns the picture, and the refocuser keeps no reference to it. */
+/** A refocused picture. The caller owns the picture, and the package keeps no reference to it. */
 export interface Picture {
   /** Rows of R, G, B, A without gaps. A is the alpha of the centre view, or 255 if the views have no alpha. In
    *  previews, A is 255. */
-  data: Uint8ClampedArray;
+  readonly data: Bytes;
   /** Width in pixels. */
-  width: number;
+  readonly width: number;
   /** Height in pixels. */
-  height: number;
+  readonly height: number;
+  /** The picture has 1 / 2^shift of the full size; 0 for full pictures. */
+  readonly shift: number;
   /** The blocks, if Params.blocks is true. */
-  blocks?: Block[];
+  readonly blocks?: Block[];
   /** Elapsed time in the worker, in milliseconds. */
-  milliseconds: number;
+  readonly milliseconds: number;
+  /** Browsers: returns an ImageData that shares `data`.
+   *  @throws StarfocusError with the code UNSUPPORTED in node */
+  toImageData(): Global<'ImageData'>;
+  /** Browsers: returns an ImageBitmap, which canvases draw at any size.
+   *  @throws StarfocusError with the code UNSUPPORTED in node */
+  toImageBitmap(): Promise<Global<'ImageBitmap'>>;
+  /** Browsers: encodes the picture.
+   *  @param options `type`: 'image/jpeg', the default, or another type that canvases can encode; `quality`: 0 to 1,
+   *      default 0.92
+   *  @throws StarfocusError with the code UNSUPPORTED in node */
+  toBlob(options?: {type?: string, quality?: number}): Promise<Global<'Blob'>>;
 }
 
-/** An error that the C library reports. Arguments of the wrong type are reported as TypeError. */
+/** Codes of StarfocusError.
+ *  ARGUMENT: an argument has the wrong type, is missing or has an unknown name. RANGE: a value is out of range.
+ *  FEATURE: the parameter requires a setting, for example `shapes`. BLUR: the blur of the lens exceeds `maxBlur`.
+ *  DISPARITY: a disparity is outside disparityMin and disparityMax. NOT_FINITE: a disparity is unknown, or all are.
+ *  STATE: no light field is prepared. CLOSED: close() was called. MEMORY: memory could not be allocated. DECODE: a
+ *  picture file could not be decoded. UNSUPPORTED: this environment lacks a feature. WORKER: the worker could not be
+ *  loaded. INTERNAL: an error of the package. */
+export type ErrorCode = 'ARGUMENT' | 'RANGE' | 'FEATURE' | 'BLUR' | 'DISPARITY' | 'NOT_FINITE' | 'STATE' | 'CLOSED' |
+    'MEMORY' | 'DECODE' | 'UNSUPPORTED' | 'WORKER' | 'INTERNAL';
+export declare const ErrorCode: {readonly [Code in ErrorCode]: Code};
+
+/** Every error of the package, except the reason of an aborted signal. */
 export declare class StarfocusError extends Error {
-  /** The starfocus_status of the C call. */
-  readonly status: number;
-  /** Field or argument that is wrong, with its C name; "" if no single one is wrong. */
+  /** Kind of the error. */
+  readonly code: ErrorCode;
+  /** Option, parameter or argument that is wrong, for example 'fStop' or 'views[2]'; '' if no single one is wrong. */
   readonly field: string;
+  /** The wrong value, if it is known. */
+  readonly value: unknown;
 }
 
 /** An engine in a worker, with at most one light field. Calls may be made at any time, and run one at a time in the
  *  order in which they were made. Create a refocuser with createRefocuser, and free it with close(). */
-export interface Refocuser {
+export interface Refocuser extends Disposables {
   /** Version of the library, for example "0.1.0". */
   readonly version: string;
   /** Number of threads. */
   readonly threads: number;
 
-  /** Prepares a light field for refocusing. The new light field replaces the previous one, even if the engine rejects
-   *  the new light field.
+  /** Prepares a light field for refocusing. The new light field replaces the previous one, even if the call fails or is
+   *  cancelled.
    *  @param views views in the order of starfocus_view_position (centre, right, left, below, above, ...)
    *  @param depth depth map; a Float32Array contains disparities and has the size of the picture
    *  @param options `coverage`: optional alpha of the foreground, one byte per pixel of the centre view, as matting
    *      networks compute it: the part of the pixel that the nearer of two surfaces covers (255: all). Near depth
-   *      edges, coverage takes precedence over the depth map. `transfer`: if true, the buffers of all arrays are
-   *      transferred to the worker and are empty afterwards; a depth map that must be converted is copied. Default
+   *      edges, coverage takes precedence over the depth map. `repair`: if true, noise and misplaced edges of the map
+   *      are corrected (starfocus_repair_disparity), which takes about a second per megapixel; default false.
+   *      `transfer`: if true, the buffers of all arrays are transferred to the worker and are empty afterwards. Default
    *      false: arrays are copied.
    *  @return elapsed time in the worker, in milliseconds
-   *  @throws TypeError for arrays of the wrong type or size; StarfocusError, for example if a disparity is outside
-   *      [disparityMin, disparityMax] or memory could not be allocated */
-  prepare(views: View[], depth: Float32Array | DepthMap,
-          options?: Call & {coverage?: Uint8Array | Uint8ClampedArray, transfer?: boolean}): Promise<{milliseconds: number}>;
+   *  @throws StarfocusError, for example with the code DISPARITY and the position of a disparity outside
+   *      [disparityMin, disparityMax] */
+  prepare(views: readonly View[], depth: Float32Array | DepthMap,
+          options?: Call & Progress & {coverage?: Uint8Array | Uint8ClampedArray, repair?: boolean, transfer?: boolean}):
+      Promise<{milliseconds: number}>;
 
   /** Changes settings. Creates a new engine and keeps the light field. Omitted settings keep their values.
-   *  @throws StarfocusError for values out of range, after which all settings keep their values; TypeError for options
-   *      that are fixed */
+   *  @throws StarfocusError for values out of range, after which all settings keep their values, and for options that
+   *      are fixed */
   configure(settings: Settings): Promise<void>;
 
   /** Refocuses at 1 / 2^shift of the size, which takes about 1 / 4^shift of the time. All parameters are in pixels of
    *  the full picture.
    *  @param params parameters; `shift` is at most Options.previews and has the default 1
-   *  @throws TypeError if no light field is prepared; StarfocusError for values out of range */
+   *  @throws StarfocusError for values out of range, or if no light field is prepared */
   preview(params?: Params & {shift?: 1 | 2 | 3}): Promise<Picture>;
 
   /** Refocuses at full size.
-   *  @param params parameters. `onProgress` receives the number of finished rows and of all rows: every 50 ms if memory
-   *      is shared, otherwise every 512 rows, and then not for calls with `region` or `blocks`
-   *  @throws TypeError if no light field is prepared; StarfocusError for values out of range */
-  refocus(params?: Params & {onProgress?: (rowsDone: number, rows: number) => void}): Promise<Picture>;
+   *  @throws StarfocusError for values out of range, or if no light field is prepared */
+  refocus(params?: Params & Progress): Promise<Picture>;
 
-  /** Returns the disparity to focus at for a pixel of the depth map, for example where a user tapped: the median
-   *  disparity of the surface at this pixel.
-   *  @param x column of the depth map, an integer in [0, its width)
-   *  @param y row of the depth map, an integer in [0, its height)
-   *  @throws TypeError if x or y is not an integer, or no light field is prepared; StarfocusError if the pixel is
-   *      outside the map, or a disparity up to 3 pixels away is unknown */
-  focusAt(x: number, y: number): Promise<number>;
+  /** Returns the disparity to focus at for a point of the picture, for example where a user tapped: the median
+   *  disparity of the surface there.
+   *  @param point position in pixels of the picture, 0 <= x < width and 0 <= y < height
+   *  @throws StarfocusError if the point is outside the picture, or a disparity up to 3 pixels away is unknown */
+  focusAt(point: Point): Promise<number>;
 
-  /** Ends the workers and frees their memory. Calls that have not completed reject with an Error. */
+  /** Returns a copy of the disparity map of the light field, after a repair. */
+  disparity(): Promise<{data: Floats, width: number, height: number}>;
+
+  /** Ends the workers and frees their memory. Calls that have not completed reject with the code CLOSED. An open
+   *  refocuser does not keep node running. */
   close(): void;
 }
 
+/** A position in pixels of the picture. Fractions are allowed. */
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
 /** Starts the workers and creates a refocuser.
- *  @throws TypeError for unknown options, and if the environment does not support WebAssembly with SIMD; StarfocusError
- *      for values out of range; Error if a worker could not be loaded */
+ *  @throws StarfocusError for wrong options, with the code UNSUPPORTED if the environment does not support WebAssembly
+ *      with SIMD, or with the code WORKER if a worker could not be loaded */
 export declare function createRefocuser(options: Options): Promise<Refocuser>;
+
+/** A picture for openPhoto: pixels in memory in all environments; picture files (Blob, File), images, bitmaps and
+ *  canvases in browsers. */
+export type Source = Pixels | Global<'Blob'> | Global<'ImageBitmap'> | Global<'HTMLImageElement'> |
+    Global<'HTMLCanvasElement'> | Global<'OffscreenCanvas'>;
+
+/** Depth for openPhoto: a source whose red channel, or only channel, is the depth. In a PNG file with 16 bits of grey,
+ *  all bits are used. */
+export type DepthSource = Source | {
+  /** width * height values, or 3 or 4 bytes per pixel. NaN is unknown. */
+  readonly data: Uint8Array | Uint8ClampedArray | Uint16Array | Float32Array;
+  /** Width in pixels, at most the width of the picture. */
+  readonly width: number;
+  /** Height in pixels, at most the height of the picture. */
+  readonly height: number;
+};
+
+/** Options of openPhoto. */
+export interface PhotoOptions extends WorkerOptions, Call, Progress {
+  /** The end of the depth values that is near: 'bright', the large values, or 'dark'. Default: 'bright' if the lower
+   *  third of the depth picture is brighter than the upper third. Photo.near has the result. */
+  near?: 'bright' | 'dark';
+  /** Blur at f/1.4 of the farthest point when the nearest point is in focus: the radius divided by the width of the
+   *  picture, (0, 1]; default 0.03. The radius is at most 125 pixels and at least 4. */
+  blur?: number;
+  /** True: depth values are disparities in pixels, as in light fields, and `near` and `blur` do not apply. Default
+   *  false: depth values have any unit. */
+  disparity?: boolean;
+  /** True: the depth is repaired (see Refocuser.prepare). Default: true unless `disparity` is true. */
+  repair?: boolean;
+}
+
+/** Lens of Photo.refocus. */
+export interface PhotoLens extends Lens {
+  /** Disparity in focus, from Photo.focusMin (far) to Photo.focusMax (near). */
+  focus: number;
+  /** f-stop, at least 1.4. f/1.4, the default, has the largest blur. Replaced by `aperture` if that is present. */
+  fStop?: number;
+  /** Brightness of clipped lamps relative to white, [1, 64]; default 1. */
+  highlights?: number;
+  /** True: Picture.blocks lists the blocks of the full picture. Default false. */
+  blocks?: boolean;
+}
+
+/** A refocusing that has been requested, and starts when it is iterated or awaited. The iteration yields a preview and
+ *  then the full picture; the promise resolves with the full picture. If Photo.refocus is called again, the iteration
+ *  ends without further pictures, and the promise rejects with an AbortError. */
+export interface Refocusing extends PromiseLike<Picture>, AsyncIterable<Picture> {
+  catch<Other>(reject: (reason: any) => Other | PromiseLike<Other>): Promise<Picture | Other>;
+  finally(settled: () => void): Promise<Picture>;
+}
+
+/** A photo with depth, or a light field, that is ready to be refocused. */
+export interface Photo extends Disposables {
+  /** Width of the picture in pixels. */
+  readonly width: number;
+  /** Height of the picture in pixels. */
+  readonly height: number;
+  /** Focus of the farthest point. */
+  readonly focusMin: number;
+  /** Focus of the nearest point. */
+  readonly focusMax: number;
+  /** The end of the depth values that is near. */
+  readonly near: 'bright' | 'dark';
+  /** Version of the library. */
+  readonly version: string;
+  /** Number of threads. */
+  readonly threads: number;
+  /** Returns the focus for a point of the picture, as Refocuser.focusAt. */
+  focusAt(point: Point): Promise<number>;
+  /** Requests a picture. A new request cancels the previous one.
+   *  @throws StarfocusError for a missing focus and values of the wrong type */
+  refocus(lens: PhotoLens, options?: Call & Progress): Refocusing;
+  /** Returns a copy of the disparity map, after a repair. */
+  disparity(): Promise<{data: Floats, width: number, height: number}>;
+  /** Ends the workers and frees their memory. An open photo does not keep node running. */
+  close(): void;
+}
+
+/** Opens a photo with depth: decodes the pictures, converts and repairs the depth, and prepares the engine, so that the
+ *  first refocusing is fast.
+ *  @param image the photo; or an array of 5, 9 or 17 views in the order of starfocus_view_position, with the option
+ *      `disparity`
+ *  @param depth the depth of the photo, at most as large as the photo
+ *  @param options options
+ *  @throws StarfocusError, for example with the code DECODE if a file is not a picture; the reason of `signal` if the
+ *      signal is aborted */
+export declare function openPhoto(image: Source | readonly Source[], depth: DepthSource, options?: PhotoOptions): Promise<Photo>;

@@ -7,12 +7,15 @@
 
 #include "platform/web/src/fields.h"
 #include "platform/web/src/threads.h"
+#include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
 #define PAGE 65536u
 #define MAX_BLOCKS 65536
 #define STACK (2 * PAGE) /* stack size of a helper in bytes */
+#define HAS_COVERAGE 1   /* flags of Room */
+#define REPAIR 2
 
 extern unsigned char __heap_base; /* end of the module's data; defined by the linker */
 
@@ -28,6 +31,7 @@ static uintptr_t top = (uintptr_t)&__heap_base; /* first unused byte */
 static uintptr_t stacks_end;                    /* end of the stacks; 0 before Room is called */
 static uintptr_t field_end;                     /* end of the light field */
 static starfocus_light_field field;
+static starfocus_disparity_output repaired;
 static void* prepared_memory;
 static size_t prepared_bytes;
 static starfocus_prepared* prepared;
@@ -125,14 +129,16 @@ static int MakeRoomForViews(int32_t pixel_bytes) {
   return 1;
 }
 
+static void MakeDepth(float* data, int32_t depth_width, int32_t depth_height) {
+  field.depth =
+      starfocus_depth_float(data, sizeof(float) * (size_t)depth_width, depth_width, depth_height);
+}
+
 static int MakeRoomForDepth(int32_t depth_width, int32_t depth_height) {
-  starfocus_depth_map* const depth = &field.depth;
-  depth->width = depth_width;
-  depth->height = depth_height;
-  depth->stride = sizeof(float) * (size_t)depth_width;
-  depth->data = Allocate(depth->stride * (size_t)depth_height);
-  depth->scale = 1;
-  return depth->data != NULL;
+  float* const data =
+      (float*)Allocate(sizeof(float) * (size_t)depth_width * (size_t)depth_height);
+  MakeDepth(data, depth_width, depth_height);
+  return data != NULL;
 }
 
 static int MakeRoomForCoverage(void) {
@@ -141,11 +147,22 @@ static int MakeRoomForCoverage(void) {
   return field.coverage != NULL;
 }
 
+static int MakeRoomForRepair(void) {
+  const size_t row = (size_t)config.width, rows = (size_t)config.height;
+  memset(&repaired, 0, sizeof(repaired));
+  repaired.disparity_stride = sizeof(float) * row;
+  repaired.disparity = (float*)Allocate(repaired.disparity_stride * rows);
+  repaired.coverage_stride = row;
+  repaired.coverage = (uint8_t*)Allocate(row * rows);
+  return repaired.disparity != NULL && repaired.coverage != NULL;
+}
+
 /* Allocates memory for a light field: views with `pixel_bytes` (3 or 4) bytes per pixel, a depth
- * map and, if `covers` is 1, coverage. Frees the previous light field and the engine. */
+ * map, coverage if `flags` contains HAS_COVERAGE, and the results of Repair if `flags` contains
+ * REPAIR. Frees the previous light field and the engine. */
 EXPORT(room)
 starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height,
-                      int32_t covers) {
+                      int32_t flags) {
   if (stacks_end == 0) stacks_end = top;
   top = stacks_end;
   engine = NULL;
@@ -155,7 +172,8 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
   refused = &problem;
   if (status != STARFOCUS_OK) return status;
   if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height) ||
-      (covers && !MakeRoomForCoverage())) {
+      ((flags & HAS_COVERAGE) != 0 && !MakeRoomForCoverage()) ||
+      ((flags & REPAIR) != 0 && !MakeRoomForRepair())) {
     return STARFOCUS_ERROR_MEMORY;
   }
   picture = (uint8_t*)Allocate(4 * (size_t)config.width * (size_t)config.height);
@@ -164,6 +182,44 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
   field_end = top;
   return picture != NULL && blocks != NULL && prepared_memory != NULL ? STARFOCUS_OK
                                                                       : STARFOCUS_ERROR_MEMORY;
+}
+
+static starfocus_depth_config RepairConfig(void) {
+  starfocus_depth_config repair;
+  starfocus_depth_config_init(&repair);
+  repair.width = config.width;
+  repair.height = config.height;
+  repair.views = config.views;
+  repair.disparity_min = config.disparity_min;
+  repair.disparity_max = config.disparity_max;
+  repair.max_workers = workers;
+  repair.runner = workers > 1 ? RunOnWorkers : NULL;
+  repair.progress = Progress;
+  repair.problem = &problem;
+  return repair;
+}
+
+/* Repairs the depth map of the light field, whose views are packed RGB. Replaces the map, and the
+ * coverage unless the light field has coverage. The workspace lies where the engine will be. */
+EXPORT(repair) starfocus_status Repair(void) {
+  const starfocus_depth_config repair = RepairConfig();
+  size_t bytes = 0;
+  refused = &problem;
+  starfocus_status status = starfocus_repair_workspace_size(&repair, &bytes);
+  if (status != STARFOCUS_OK) return status;
+  engine = NULL;
+  top = field_end;
+  void* const workspace = Allocate(bytes);
+  if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
+  if (field.coverage != NULL) repaired.coverage = NULL;
+  status = starfocus_repair_disparity(&repair, &field, &repaired, workspace, bytes);
+  if (status != STARFOCUS_OK) return status;
+  MakeDepth(repaired.disparity, config.width, config.height);
+  if (repaired.has_coverage) {
+    field.coverage = repaired.coverage;
+    field.coverage_stride = repaired.coverage_stride;
+  }
+  return STARFOCUS_OK;
 }
 
 /* Returns the memory of the pixels of a view, of the depth map (view -1) or of coverage (view -2).

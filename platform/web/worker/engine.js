@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the WebAssembly module of the engine, and creates the memory and the instances of the module. Used by
+// Compiles the WebAssembly module of the engine, and creates the memory and the instances of the module. Used by
 // worker.js.
-
-import {readFile} from './host.js';
 
 const PAGE = 65536;
 const MEMORY_IMPORT = 2;
@@ -35,17 +33,32 @@ function findMemoryFlags(bytes) {
     }
     return at + 1;
   }
-  throw new Error('starfocus.wasm is damaged: it does not import a memory.');
+  throw new Error('the module imports no memory');
 }
 
-/** Compiles the engine. The module is linked for shared memory, which a flag of the imported memory declares. If
+/** Returns the bytes of the module from their base64 text, which is compressed (raw deflate). */
+async function inflate(deflated) {
+  const bytes = Uint8Array.from(atob(deflated), letter => letter.charCodeAt(0));
+  const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
+  return new Uint8Array(await new Response(inflated).arrayBuffer());
+}
+
+function unsupported(message) {
+  throw Object.assign(new Error(message), {code: 'UNSUPPORTED'});
+}
+
+/** Compiles the engine from the text of its module. The module is linked for shared memory, which a flag of the imported memory declares. If
  *  `shared` is false, this function clears the flag, so that the module accepts memory that is not shared. */
-export async function compile(shared) {
-  const bytes = new Uint8Array(await readFile('starfocus.wasm'));
+export async function compile(deflated, shared) {
+  if (typeof WebAssembly !== 'object') unsupported('WebAssembly is not available here.');
+  if (typeof DecompressionStream !== 'function') {
+    unsupported('starfocus needs Chrome 91, Firefox 113, Safari 16.4, node 18 or newer.');
+  }
+  const bytes = await inflate(deflated);
   if (!shared) bytes[findMemoryFlags(bytes)] = 1;
   if (!WebAssembly.validate(bytes)) {
-    throw new Error('starfocus.wasm cannot be used: WebAssembly has no SIMD here (expected Chrome 91, Firefox 89, ' +
-                    'Safari 16.4 or newer, on a processor with SIMD).');
+    unsupported('WebAssembly has no SIMD here (expected Chrome 91, Firefox 113, Safari 16.4 or newer, on a processor ' +
+                'with SIMD).');
   }
   return WebAssembly.compile(bytes);
 }

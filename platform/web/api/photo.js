@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// openPhoto of starfocus.d.ts: a photo with its depth, or a light field, that is refocused with one call per lens.
+
+import {checkFields, expect, StarfocusError} from './errors.js';
+import {CALL, ENGINE, LENS} from './fields.js';
+import {Refocusing} from './refocusing.js';
+import {checkEngine, Refocuser} from './refocuser.js';
+import {WorkerCalls} from './worker_calls.js';
+
+const OPTIONS = {...ENGINE, ...CALL, near: 'any', blur: 'number', disparity: 'boolean', repair: 'boolean'};
+const VIEWS = [1, 5, 9, 17];
+const MAX_BLUR = 128;      // pixels, STARFOCUS_MAX_BLUR
+const LEAST_SPAN = 4;      // smallest blur of the farthest point, in pixels
+const REPAIR_MARGIN = 1;   // pixels that a repair may add to each end of the disparity range
+const FOCUS_MARGIN = 1.02; // of maxBlur, so that a focus at an end of the range is valid in spite of rounding
+const WIDEST = 1.4;        // f-stop with the largest blur
+const PREVIEWS = 3;
+
+/** Converts a picture to a value that can be sent to the worker: a Blob, an ImageBitmap or {data, width, height}. */
+async function toSendable(source, what) {
+  if (typeof Blob === 'function' && source instanceof Blob) return source;
+  if (ArrayBuffer.isView(source?.data)) return {data: source.data, width: source.width, height: source.height};
+  const isElement = typeof source?.width === 'number' && typeof globalThis.createImageBitmap === 'function';
+  expect(isElement, what, 'a Blob, ImageData, ImageBitmap, image, canvas or {data, width, height}', source);
+  try {
+    if (source.decode) await source.decode();  // an image that may still be loading
+    return await createImageBitmap(source, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
+  } catch (error) {
+    throw new StarfocusError('DECODE', `${what}: ${error.message}`, {field: what});
+  }
+}
+
+/** Returns the range of disparities, and the conversion of depth values to disparities. */
+function chooseRange({low, high, brightIsNear}, width, {near, blur = 0.03, disparity}) {
+  if (!(high > low) && !disparity) {
+    throw new StarfocusError('NOT_FINITE', 'depth: all values are equal, so there is nothing to focus on.', {field: 'depth'});
+  }
+  if (disparity) return {low, high, scale: 1, offset: 0, near: 'bright'};
+  const bright = near === undefined ? brightIsNear : near === 'bright';
+  const span = Math.min(Math.max(LEAST_SPAN, blur * width), MAX_BLUR / FOCUS_MARGIN);
+  const scale = (bright ? span : -span) / (high - low);
+  return {low: 0, high: span, scale, offset: -scale * (bright ? low : high), near: bright ? 'bright' : 'dark'};
+}
+
+function checkSizes({sizes, depth}) {
+  const [{width, height}] = sizes;
+  sizes.forEach((size, index) => expect(size.width === width && size.height === height, `image[${index}]`,
+                                        `${width} x ${height} pixels, as image[0] has`, `${size.width} x ${size.height}`, 'RANGE'));
+  expect(depth.width <= width && depth.height <= height, 'depth', `at most ${width} x ${height} pixels, the size of the picture`,
+         `${depth.width} x ${depth.height}`, 'RANGE');
+}
+
+export class Photo {
+  #refocuser;
+  #widest;        // aperture of f/1.4
+  #highlights = 1;
+  #latest = null; // the Refocusing that was requested last
+
+  constructor(refocuser, {width, height, low, high, near, maxBlur}) {
+    this.#refocuser = refocuser;
+    this.#widest = Math.min(1, maxBlur / (FOCUS_MARGIN * Math.max(high - low, 1 / 64)));
+    Object.assign(this, {width, height, focusMin: low, focusMax: high, near});
+  }
+
+  get threads() {
+    return this.#refocuser.threads;
+  }
+
+  get version() {
+    return this.#refocuser.version;
+  }
+
+  focusAt(point) {
+    return this.#refocuser.focusAt(point);
+  }
+
+  disparity() {
+    return this.#refocuser.disparity();
+  }
+
+  refocus(lens, options = {}) {
+    checkFields('refocus', lens, {...LENS, fStop: 'number', highlights: 'number', blocks: 'boolean'}, ['focus']);
+    checkFields('refocus', options, CALL);
+    const {fStop = WIDEST, highlights = 1, blocks, ...rest} = lens;
+    expect(fStop >= WIDEST, 'fStop', `at least ${WIDEST}`, fStop, 'RANGE');
+    this.#latest?.supersede();
+    const params = {aperture: this.#widest * WIDEST / fStop, ...rest};
+    return this.#latest = new Refocusing(this.#refocuser, {params, blocks, options, settle: () => this.#setHighlights(highlights)});
+  }
+
+  async #setHighlights(highlights) {
+    if (highlights === this.#highlights) return;
+    await this.#refocuser.configure({highlights});
+    this.#highlights = highlights;
+  }
+
+  close() {
+    this.#latest?.supersede();
+    this.#refocuser.close();
+  }
+
+  async [Symbol.asyncDispose ?? Symbol.for('Symbol.asyncDispose')]() {
+    this.close();
+  }
+
+  [Symbol.dispose ?? Symbol.for('Symbol.dispose')]() {
+    this.close();
+  }
+}
+
+/** Computes pictures that are not shown, because the first pictures of a worker take several times as long. */
+async function warmUp(refocuser, {width, height, low, high}) {
+  const focus = (low + high) / 2, side = 256;
+  await refocuser.preview({focus, shift: 2});
+  const region = {x: Math.max(0, (width - side) >> 1), y: Math.max(0, (height - side) >> 1),
+                  width: Math.min(side, width), height: Math.min(side, height)};
+  await refocuser.refocus({focus, region});
+}
+
+export async function openPhoto(image, depth, options = {}) {
+  checkFields('openPhoto', options, OPTIONS);
+  checkEngine(options);
+  const {threads, worker, signal, onProgress, near, blur, disparity = false, repair = !disparity} = options;
+  expect([undefined, 'bright', 'dark'].includes(near), 'near', `'bright' or 'dark'`, near);
+  expect(blur === undefined || blur > 0 && blur <= 1, 'blur', 'more than 0, at most 1', blur, 'RANGE');
+  const images = Array.isArray(image) ? image : [image];
+  expect(VIEWS.includes(images.length), 'image', 'one picture, or 5, 9 or 17 views', images.length, 'RANGE');
+  const calls = new WorkerCalls(worker);
+  try {
+    const views = await Promise.all(images.map((view, index) => toSendable(view, index ? `image[${index}]` : 'image')));
+    const found = await calls.call('decode', {views, depth: await toSendable(depth, 'depth')}, {signal, stops: true});
+    checkSizes(found);
+    const [{width, height}] = found.sizes, range = chooseRange(found.depth, width, {near, blur, disparity});
+    const margin = repair ? REPAIR_MARGIN : 0;
+    const maxBlur = Math.min(MAX_BLUR, Math.max(FOCUS_MARGIN * (range.high - range.low), 1));
+    const refocuser = await Refocuser.start({
+      width, height, views: images.length, disparityMin: range.low - margin, disparityMax: range.high + margin, maxBlur,
+      previews: PREVIEWS, fillUnknown: true, shapes: true, threads
+    }, calls);
+    await refocuser._prepare({depth: {scale: range.scale, offset: range.offset}, repair}, {signal, onProgress});
+    await warmUp(refocuser, {width, height, ...range});
+    return new Photo(refocuser, {width, height, maxBlur, ...range});
+  } catch (error) {
+    calls.end(error);
+    throw error;
+  }
+}

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// A worker with an engine, and the calls that wait for it. Calls run one at a time. This module sends the calls, reports
+// progress, cancels calls, and settles the promises of the calls with the worker's answers.
+
+import {StarfocusError} from './errors.js';
+import {host} from './host.js';
+
+const PROGRESS_INTERVAL = 50;  // ms
+
+export class WorkerCalls {
+  #worker = null;
+  #file;
+  #calls = [];  // calls without an answer; the worker runs the first of them
+  #lastId = 0;
+  #failure = null;  // error of all calls after close() or after the worker failed
+  #shared = null;   // memory shared with the worker: id of the call to cancel, finished rows, number of rows
+
+  /** Called after the worker was ended to cancel a call. */
+  onStop = () => {};
+
+  /** `file` is the address of worker.js, or undefined. */
+  constructor(file) {
+    this.#file = file;
+  }
+
+  /** Shows the memory in which the worker reports its progress, or null if memory is not shared. */
+  set shared(shared) {
+    this.#shared = shared && new Int32Array(shared.memory.buffer, shared.address, 3);
+  }
+
+  /** Sends a call to the worker, and resolves with the worker's answer. `options` are {signal, onProgress, transfer,
+   *  stops}. If the signal is aborted, the promise rejects at once. If `stops` is true, the worker cannot cancel the
+   *  call, so the worker is ended, and the next call starts another worker. */
+  call(name, values, {signal, onProgress, transfer = [], stops = false} = {}) {
+    return new Promise((resolve, reject) => {
+      if (this.#failure) return reject(this.#failure);
+      if (signal?.aborted) return reject(signal.reason);
+      const call = {id: ++this.#lastId, name, values, transfer, resolve, reject, signal, onProgress, stops, settled: false};
+      call.abort = () => this.#cancel(call, signal.reason);
+      signal?.addEventListener('abort', call.abort);
+      this.#calls.push(call);
+      if (this.#calls.length === 1) this.#send();
+    });
+  }
+
+  /** Ends the worker. Calls without an answer, and all later calls, reject with `error`. */
+  end(error) {
+    this.#failure ??= error;
+    this.#stop(this.#failure);
+  }
+
+  #stop(error) {
+    this.#worker?.terminate();
+    this.#worker = this.#shared = null;
+    const calls = this.#calls;
+    this.#calls = [];
+    for (const call of calls) this.#settle(call, () => call.reject(error));
+  }
+
+  #start() {
+    const fail = message => this.end(new StarfocusError(
+        'WORKER', `The worker of starfocus failed: ${message}. With a Content-Security-Policy that forbids blob: ` +
+            'workers, serve starfocus/worker and pass its address as the option worker.'));
+    try {
+      this.#worker = host.start(this.#file, message => this.#hear(message), fail);
+    } catch (error) {
+      fail(error.message);
+    }
+  }
+
+  #send() {
+    const [call] = this.#calls;
+    if (!call) return this.#worker?.ref(false);
+    if (!this.#worker) this.#start();
+    if (!this.#worker) return;
+    this.#worker.ref(true);
+    if (call.onProgress && this.#shared) {
+      this.#shared.fill(0, 1);
+      call.timer = setInterval(() => this.#report(call, this.#shared[1], this.#shared[2]), PROGRESS_INTERVAL);
+    }
+    try {
+      this.#worker.post({id: call.id, name: call.name, values: call.values}, call.transfer);
+    } catch (error) {
+      this.#finish(call, () => call.reject(new StarfocusError('ARGUMENT', `${call.name}: ${error.message}`)));
+    }
+  }
+
+  /** Rejects a call at once. A waiting call is removed, and the worker is asked to end a running call. */
+  #cancel(call, reason) {
+    this.#settle(call, () => call.reject(reason));
+    if (call !== this.#calls[0]) {
+      this.#calls = this.#calls.filter(other => other !== call);
+      return;
+    }
+    if (call.stops) {
+      this.#stop(new StarfocusError('STATE', `${call.name} was cancelled, so there is no light field.`));
+      return this.onStop();
+    }
+    if (this.#shared) Atomics.store(this.#shared, 0, call.id);
+    this.#worker?.post({cancel: call.id});
+  }
+
+  #report(call, done, total) {
+    if (call.settled || !(total > 0)) return;
+    try {
+      call.onProgress?.(done, total);
+    } catch (error) {
+      this.#cancel(call, error);
+    }
+  }
+
+  #hear({id, result, error, progress}) {
+    const [call] = this.#calls;
+    if (call?.id !== id) return;
+    if (progress) return this.#report(call, ...progress);
+    this.#finish(call, () => error ? call.reject(new StarfocusError(error.code, error.message, error))
+                                   : call.resolve(result));
+  }
+
+  /** Settles the running call and sends the next call. */
+  #finish(call, settle) {
+    this.#settle(call, settle);
+    this.#calls = this.#calls.filter(other => other !== call);
+    this.#send();
+  }
+
+  #settle(call, settle) {
+    clearInterval(call.timer);
+    call.signal?.removeEventListener('abort', call.abort);
+    if (!call.settled) settle();
+    call.settled = true;
+  }
+}

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// Worker that runs the engine. The worker receives the messages {id, name, values} and {cancel: id}, and sends
+// {id, result}, {id, error} and {id, progress}. With several threads, this worker starts helpers, which are workers
+// that run the same script, share its memory and run jobs of the engine.
+
+import {decodeDepth, decodePicture} from './decode.js';
+import {guessNear, measure, writeDisparities} from './depth.js';
+import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
+import {listen, post, startHelper} from 'worker-port';
+import {errorOf, locate} from './problem.js';
+
+const OK = 0;
+const BLOCK_NUMBERS = 6;  // number of int32 fields of a starfocus_block
+const HAS_COVERAGE = 1, REPAIR = 2;  // flags of the bridge's Room
+const DEPTH = -1, COVERAGE = -2;     // places of the bridge's Place
+
+// Without shared memory, the worker reads its messages each time it has computed this number of rows. docs/web.md lists
+// the cost of this interruption.
+const ROWS_AT_ONCE = 512;
+
+let memory, engine, threads, isShared;
+let config;            // options of createRefocuser
+let prepared = null;   // size of the disparity map of the prepared light field, or null
+let decoded = null;    // pictures of openPhoto: {views, depth}
+let current = 0;       // id of the running call
+
+const bytesAt = (address, length) => new Uint8Array(memory.buffer, address, length);
+const floatsAt = (address, length) => new Float32Array(memory.buffer, address, length);
+
+function check(status) {
+  if (status !== OK) throw errorOf(engine, memory, status);
+}
+
+/** Sets fields of a C structure by JavaScript names: {maxBlur: 8, region: {x: 0}} sets max_blur and region.x. */
+function setFields(set, values, prefix = '') {
+  for (const [key, value] of Object.entries(values)) {
+    if (value === undefined) continue;
+    const name = prefix + key.replace(/[A-Z]/g, letter => '_' + letter.toLowerCase());
+    if (typeof value === 'object') {
+      setFields(set, value, `${name}.`);
+      continue;
+    }
+    writeText(memory, engine.text(), name);
+    if (!set(Number(value))) throw new Error(`there is no field ${name}`);
+  }
+}
+
+/** Copies the R, G, B of a view with 3 or 4 bytes per pixel. */
+function copyRgb(from, to) {
+  if (from.length === to.length) return to.set(from);
+  for (let i = 0, at = 0; i < to.length; i += 3, at += 4) {
+    to[i] = from[at];
+    to[i + 1] = from[at + 1];
+    to[i + 2] = from[at + 2];
+  }
+}
+
+function copyLightField({views, depth, coverage, repair}) {
+  const pixels = config.width * config.height, channels = depth.channels ?? 1;
+  const pixelBytes = repair ? 3 : views[0].length / pixels;
+  const flags = (coverage ? HAS_COVERAGE : 0) | (repair ? REPAIR : 0);
+  check(engine.room(pixelBytes, depth.width, depth.height, flags));
+  views.forEach((view, index) => copyRgb(view, bytesAt(engine.place(index), pixelBytes * pixels)));
+  writeDisparities(depth, floatsAt(engine.place(DEPTH), depth.width * depth.height), channels);
+  if (coverage) bytesAt(engine.place(COVERAGE), pixels).set(coverage);
+}
+
+const mapOf = ({width, height}) => ({data: floatsAt(engine.place(DEPTH), width * height), width, height});
+
+/** Returns a promise that resolves after the messages that have arrived are handled. */
+const channel = new MessageChannel();
+function turn() {
+  return new Promise(resolve => {
+    channel.port1.onmessage = resolve;
+    channel.port2.postMessage(null);
+  });
+}
+
+const calls = {
+  async open({config: given, threads: count, shared, module: compiled, deflated}) {
+    config = given;
+    isShared = shared;
+    threads = count;
+    const module = compiled ?? await compile(deflated, shared);
+    memory = makeMemory(shared);
+    engine = await instantiate(module, memory);
+    engine.begin();
+    setFields(engine.configure, given);
+    check(engine.accept(count));
+    for (let worker = 1; worker < count; ++worker) {
+      await startHelper({id: 0, name: 'help', values: {module, memory, worker, stack: engine.stack()}});
+    }
+    return {
+      version: readText(memory, engine.version()), module,
+      shared: shared ? {memory, address: engine.shared()} : null
+    };
+  },
+
+  /** Decodes the pictures of openPhoto, and keeps them for prepare. */
+  async decode({views, depth}) {
+    const pictures = await Promise.all(views.map((view, index) => decodePicture(view, index ? `image[${index}]` : 'image')));
+    const map = await decodeDepth(depth);
+    decoded = {views: pictures.map(picture => picture.data), depth: map};
+    const {low, high} = measure(map.data, map.channels);
+    return {
+      sizes: pictures.map(({width, height, channels}) => ({width, height, channels})),
+      depth: {width: map.width, height: map.height, low, high, brightIsNear: guessNear(map)}
+    };
+  },
+
+  prepare(values) {
+    const start = performance.now();
+    prepared = null;
+    engine.aim(current);
+    const {depth, ...rest} = values.views ? values : {...values, ...decoded, depth: {...decoded.depth, ...values.depth}};
+    decoded = null;
+    copyLightField({depth, ...rest});
+    try {
+      if (rest.repair) check(engine.repair());
+      check(engine.make_engine());
+      check(engine.prepare());
+    } catch (error) {
+      throw locate(error, mapOf(depth), config);
+    }
+    prepared = rest.repair ? {width: config.width, height: config.height} : {width: depth.width, height: depth.height};
+    return {milliseconds: performance.now() - start};
+  },
+
+  configure(values) {
+    engine.begin();
+    setFields(engine.configure, values);
+    check(engine.accept(threads));
+    Object.assign(config, values);
+    if (prepared) check(engine.make_engine());
+  },
+
+  async refocus({shift, blocks, watched, ...params}) {
+    expectPrepared(shift > 0 ? 'preview' : 'refocus');
+    const start = performance.now();
+    engine.aim(current);
+    setFields(engine.set, params);
+    if (blocks) engine.watch();
+    const inParts = watched && !blocks && !isShared && shift === 0 && !params.region;
+    const picture = inParts ? await refocusInParts() : refocusAtOnce(shift);
+    if (blocks) picture.blocks = readBlocks();
+    return {...picture, shift, milliseconds: performance.now() - start};
+  },
+
+  focusAt({x, y}) {
+    expectPrepared('focusAt');
+    const {width, height} = prepared;
+    check(engine.focus_at(Math.floor(x * width / config.width), Math.floor(y * height / config.height)));
+    return new DataView(memory.buffer).getFloat64(engine.text(), true);
+  },
+
+  disparity() {
+    expectPrepared('disparity');
+    const {data, width, height} = mapOf(prepared);
+    return {data: data.slice(), width, height};
+  }
+};
+
+function expectPrepared(what) {
+  if (prepared) return;
+  throw Object.assign(new Error(`${what}: there is no light field; call prepare first.`), {code: 'STATE'});
+}
+
+function refocusAtOnce(shift) {
+  check(engine.refocus(shift));
+  const width = engine.picture_width(), height = engine.picture_height();
+  return {data: new Uint8ClampedArray(bytesAt(engine.picture(), 4 * width * height)), width, height};
+}
+
+/** Computes the picture in regions of ROWS_AT_ONCE rows. After each region, the function reports progress and handles
+ *  messages, so that the call can be cancelled. */
+async function refocusInParts() {
+  const {width, height} = config;
+  const data = new Uint8ClampedArray(4 * width * height);
+  for (let y = 0; y < height; y += ROWS_AT_ONCE) {
+    const region = {x: 0, y, width, height: Math.min(ROWS_AT_ONCE, height - y)};
+    setFields(engine.set, {region});
+    data.set(refocusAtOnce(0).data, 4 * width * y);
+    post({id: current, progress: [y + region.height, height]});
+    await turn();
+  }
+  return {data, width, height};
+}
+
+function readBlocks() {
+  const numbers = new Int32Array(memory.buffer, engine.blocks(), BLOCK_NUMBERS * engine.block_count());
+  return Array.from({length: engine.block_count()}, (_, i) => {
+    const [x, y, width, height, layer, n] = numbers.subarray(BLOCK_NUMBERS * i);
+    return {x, y, width, height, layer, n};
+  });
+}
+
+/** Runs jobs of the engine of another worker. Never returns. */
+async function help({module, memory: shared, worker, stack}) {
+  const helper = await instantiate(module, shared);
+  helper.__stack_pointer.value = stack;
+  post('ready');
+  helper.help(worker);
+}
+
+listen(async ({id, name, values, cancel}) => {
+  if (cancel !== undefined) {
+    if (engine) new Int32Array(memory.buffer)[engine.shared() / 4] = cancel;
+    return;
+  }
+  if (name === 'help') return help(values);
+  current = id;
+  try {
+    const result = await calls[name](values);
+    post({id, result}, result?.data ? [result.data.buffer] : []);
+  } catch (error) {
+    const {message, code = 'INTERNAL', field, value} = error;
+    post({id, error: {message, code, field, value}});
+  }
+});
