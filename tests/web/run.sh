@@ -44,5 +44,6 @@ echo '{"private": true, "type": "module"}' >package.json
 quietly npm install --offline --no-audit --no-fund "$work"/starfocus-*.tgz
 run golden_test.mjs
 run package_test.mjs
+run photo_test.mjs
 quietly npm install --no-audit --no-fund "playwright-core@$PLAYWRIGHT"
 run page_test.mjs

@@ -10,10 +10,16 @@ import {WorkerCalls} from './worker_calls.js';
 const OPTIONS = {...ENGINE, ...CALL, near: 'any', blur: 'number', disparity: 'boolean', repair: 'boolean'};
 const VIEWS = [1, 5, 9, 17];
 const MAX_BLUR = 128;      // pixels, STARFOCUS_MAX_BLUR
-const LEAST_SPAN = 4;      // smallest blur of the farthest point, in pixels
+const MAX_DISPARITY = 499; // pixels; STARFOCUS_MAX_DISPARITY without REPAIR_MARGIN
 const REPAIR_MARGIN = 1;   // pixels that a repair may add to each end of the disparity range
-const FOCUS_MARGIN = 1.02; // of maxBlur, so that a focus at an end of the range is valid in spite of rounding
-const WIDEST = 1.4;        // f-stop with the largest blur
+const BLUR_MARGIN = 1.01;  // factor of maxBlur, so that a focus at an end of the range is valid in spite of rounding
+const F_STOP = 1.8;        // default f-stop of photos; light fields have the default 1
+
+// Blur radius at f/1 of the farthest point if the nearest point is in focus, divided by the diagonal: a lens of 50 mm on
+// full frame, whose diagonal is 43.2666 mm, if the nearest point is 1.5 m away and the farthest infinitely far. The
+// program has the same default.
+const BLUR = 50 / 43.2666 * 50 / 1000 / 2 / 1.5;
+
 const PREVIEWS = 3;
 
 /** Converts a picture to a value that can be sent to the worker: a Blob, an ImageBitmap or {data, width, height}. */
@@ -31,15 +37,15 @@ async function toSendable(source, what) {
 }
 
 /** Returns the range of disparities, and the conversion of depth values to disparities. */
-function chooseRange({low, high, brightIsNear}, width, {near, blur = 0.03, disparity}) {
+function chooseRange({low, high, brightIsNear}, size, {near, blur = BLUR, disparity}) {
   if (!(high > low) && !disparity) {
     throw new StarfocusError('NOT_FINITE', 'depth: all values are equal, so there is nothing to focus on.', {field: 'depth'});
   }
-  if (disparity) return {low, high, scale: 1, offset: 0, near: 'bright'};
+  if (disparity) return {low, high, near: 'bright'};
   const bright = near === undefined ? brightIsNear : near === 'bright';
-  const span = Math.min(Math.max(LEAST_SPAN, blur * width), MAX_BLUR / FOCUS_MARGIN);
-  const scale = (bright ? span : -span) / (high - low);
-  return {low: 0, high: span, scale, offset: -scale * (bright ? low : high), near: bright ? 'bright' : 'dark'};
+  const most = Math.min(blur * Math.hypot(size.width, size.height), MAX_DISPARITY);
+  const order = {zero: bright ? low : high, factor: (bright ? most : -most) / (high - low), most};
+  return {low: 0, high: most, order, near: bright ? 'bright' : 'dark'};
 }
 
 function checkSizes({sizes, depth}) {
@@ -52,14 +58,16 @@ function checkSizes({sizes, depth}) {
 
 export class Photo {
   #refocuser;
-  #widest;        // aperture of f/1.4
+  #widest;        // largest aperture whose blur the engine allows
+  #fStop;         // default f-stop
   #highlights = 1;
   #latest = null; // the Refocusing that was requested last
 
-  constructor(refocuser, {width, height, low, high, near, maxBlur}) {
+  constructor(refocuser, {width, height, low, high, near, widest, order}) {
     this.#refocuser = refocuser;
-    this.#widest = Math.min(1, maxBlur / (FOCUS_MARGIN * Math.max(high - low, 1 / 64)));
-    Object.assign(this, {width, height, focusMin: low, focusMax: high, near});
+    this.#widest = widest;
+    this.#fStop = Math.max(order ? F_STOP : 1, 1 / widest);
+    Object.assign(this, {width, height, focusMin: low, focusMax: high, near, fStopMin: Math.max(1, 1 / widest)});
   }
 
   get threads() {
@@ -81,10 +89,10 @@ export class Photo {
   refocus(lens, options = {}) {
     checkFields('refocus', lens, {...LENS, fStop: 'number', highlights: 'number', blocks: 'boolean'}, ['focus']);
     checkFields('refocus', options, CALL);
-    const {fStop = WIDEST, highlights = 1, blocks, ...rest} = lens;
-    expect(fStop >= WIDEST, 'fStop', `at least ${WIDEST}`, fStop, 'RANGE');
+    const {fStop = this.#fStop, highlights = 1, blocks, ...rest} = lens;
+    expect(fStop >= this.fStopMin, 'fStop', `at least ${this.fStopMin}`, fStop, 'RANGE');
     this.#latest?.supersede();
-    const params = {aperture: this.#widest * WIDEST / fStop, ...rest};
+    const params = {aperture: Math.min(this.#widest, 1 / fStop), ...rest};
     return this.#latest = new Refocusing(this.#refocuser, {params, blocks, options, settle: () => this.#setHighlights(highlights)});
   }
 
@@ -128,18 +136,18 @@ export async function openPhoto(image, depth, options = {}) {
   const calls = new WorkerCalls(worker);
   try {
     const views = await Promise.all(images.map((view, index) => toSendable(view, index ? `image[${index}]` : 'image')));
-    const found = await calls.call('decode', {views, depth: await toSendable(depth, 'depth')}, {signal, stops: true});
+    const found = await calls.call('decode', {views, depth: await toSendable(depth, 'depth'), disparity}, {signal, stops: true});
     checkSizes(found);
-    const [{width, height}] = found.sizes, range = chooseRange(found.depth, width, {near, blur, disparity});
+    const [{width, height}] = found.sizes, range = chooseRange(found.depth, {width, height}, {near, blur, disparity});
     const margin = repair ? REPAIR_MARGIN : 0;
-    const maxBlur = Math.min(MAX_BLUR, Math.max(FOCUS_MARGIN * (range.high - range.low), 1));
+    const largest = BLUR_MARGIN * (range.high - range.low + margin + 1 / 64), maxBlur = Math.min(MAX_BLUR, largest);
     const refocuser = await Refocuser.start({
       width, height, views: images.length, disparityMin: range.low - margin, disparityMax: range.high + margin, maxBlur,
       previews: PREVIEWS, fillUnknown: true, shapes: true, threads
     }, calls);
-    await refocuser._prepare({depth: {scale: range.scale, offset: range.offset}, repair}, {signal, onProgress});
+    await refocuser._prepare({depth: {order: range.order}, repair}, {signal, onProgress});
     await warmUp(refocuser, {width, height, ...range});
-    return new Photo(refocuser, {width, height, maxBlur, ...range});
+    return new Photo(refocuser, {width, height, widest: maxBlur / largest, ...range});
   } catch (error) {
     calls.end(error);
     throw error;

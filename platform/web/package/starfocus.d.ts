@@ -342,8 +342,8 @@ export interface PhotoOptions extends WorkerOptions, Call, Progress {
   /** The end of the depth values that is near: 'bright', the large values, or 'dark'. Default: 'bright' if the lower
    *  third of the depth picture is brighter than the upper third. Photo.near has the result. */
   near?: 'bright' | 'dark';
-  /** Blur at f/1.4 of the farthest point when the nearest point is in focus: the radius divided by the width of the
-   *  picture, (0, 1]; default 0.03. The radius is at most 125 pixels and at least 4. */
+  /** Blur radius at f/1 of the farthest point if the nearest point is in focus, divided by the diagonal of the picture,
+   *  (0, 1]. The default, 0.0193, is the blur of a 50 mm lens on full frame if the nearest point is 1.5 m away. */
   blur?: number;
   /** True: depth values are disparities in pixels, as in light fields, and `near` and `blur` do not apply. Default
    *  false: depth values have any unit. */
@@ -356,7 +356,8 @@ export interface PhotoOptions extends WorkerOptions, Call, Progress {
 export interface PhotoLens extends Lens {
   /** Disparity in focus, from Photo.focusMin (far) to Photo.focusMax (near). */
   focus: number;
-  /** f-stop, at least 1.4. f/1.4, the default, has the largest blur. Replaced by `aperture` if that is present. */
+  /** f-stop, at least Photo.fStopMin; default 1.8, 1 for light fields, or fStopMin if that is larger. Replaced by `aperture`, which is
+   *  1 / fStop, if `aperture` is present. */
   fStop?: number;
   /** Brightness of clipped lamps relative to white, [1, 64]; default 1. */
   highlights?: number;
@@ -382,6 +383,8 @@ export interface Photo extends Disposables {
   readonly focusMin: number;
   /** Focus of the nearest point. */
   readonly focusMax: number;
+  /** Smallest f-stop: 1, or more if the blur at f/1 would exceed 128 pixels. */
+  readonly fStopMin: number;
   /** The end of the depth values that is near. */
   readonly near: 'bright' | 'dark';
   /** Version of the library. */

@@ -3,9 +3,10 @@
 
 const f = Math.fround;
 
-/** Returns the conversion of a value to a disparity. Each operation rounds to single precision, as starfocus/image.h
- *  requires. */
-function toDisparity({scale = 1, offset = 0, reciprocal = false, invalid}) {
+/** Returns the conversion of a value to a disparity. Each operation of a DepthMap rounds to single precision, as
+ *  starfocus/image.h requires. Maps of openPhoto have `order`: {zero, factor, most}. */
+function toDisparity({scale = 1, offset = 0, reciprocal = false, invalid, order}) {
+  if (order) return z => f(Math.min(Math.max(order.factor * (z - order.zero), 0), order.most));
   const a = f(scale), b = f(offset), unknown = f(invalid ?? NaN);
   if (reciprocal) return z => z === unknown ? NaN : f(f(a / z) + b);
   return z => z === unknown ? NaN : f(f(a * z) + b);
@@ -32,6 +33,30 @@ export function measure(data, channels = 1) {
     if (value > high && value < Infinity) high = value;
   }
   return {low, high};
+}
+
+const OUTLIERS = 1000;   // one of this number of values may be an outlier, at each end
+const SORTED = 1 << 20;  // largest number of values that are sorted
+
+/** Returns all finite values of a map, or of a large map a part, in ascending order. */
+function sortValues(data, channels) {
+  const step = channels * Math.max(1, Math.floor(data.length / channels / SORTED));
+  const values = data instanceof Float32Array ? new Float32Array(Math.ceil(data.length / step))
+                                              : new Uint16Array(Math.ceil(data.length / step));
+  let count = 0;
+  for (let i = 0; i < data.length; i += step) {
+    if (Number.isFinite(data[i])) values[count++] = data[i];
+  }
+  return values.subarray(0, count).sort();
+}
+
+/** Returns the quantiles of 0.1 % and 99.9 % of the finite values, {low, high}, and low > high if no value is
+ *  finite. */
+export function measureRobustly({data, channels}) {
+  const values = sortValues(data, channels);
+  if (values.length === 0) return {low: Infinity, high: -Infinity};
+  const beyond = Math.trunc((values.length - 1) / OUTLIERS);
+  return {low: values[beyond], high: values[values.length - 1 - beyond]};
 }
 
 function meanOfRows({data, width, channels}, from, to) {

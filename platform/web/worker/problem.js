@@ -15,9 +15,11 @@ function toName(field) {
   return NAMES[name] ?? name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
 }
 
+/** Replaces the C names in the description of a range. */
 function toWords(text) {
-  return text.replace('STARFOCUS_FEATURE_SHAPES', 'shapes: true')
-      .replace('STARFOCUS_FEATURE_FILL_UNKNOWN', 'fillUnknown: true')
+  return text.replace(/\blens\./g, '').replace('STARFOCUS_FEATURE_SHAPES', 'shapes: true')
+      .replace('STARFOCUS_MAX_BLUR', '128').replace('STARFOCUS_MAX_TIMING', '100000000')
+      .replace(/STARFOCUS_(\w+)_([A-Z_]+)/g, '$2')
       .replace(/\b[a-z]+(_[a-z]+)+\b/g, toName);
 }
 

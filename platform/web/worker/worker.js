@@ -4,7 +4,7 @@
 // that run the same script, share its memory and run jobs of the engine.
 
 import {decodeDepth, decodePicture} from './decode.js';
-import {guessNear, measure, writeDisparities} from './depth.js';
+import {guessNear, measure, measureRobustly, writeDisparities} from './depth.js';
 import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
 import {listen, post, startHelper} from 'worker-port';
 import {errorOf, locate} from './problem.js';
@@ -97,11 +97,11 @@ const calls = {
   },
 
   /** Decodes the pictures of openPhoto, and keeps them for prepare. */
-  async decode({views, depth}) {
+  async decode({views, depth, disparity}) {
     const pictures = await Promise.all(views.map((view, index) => decodePicture(view, index ? `image[${index}]` : 'image')));
     const map = await decodeDepth(depth);
     decoded = {views: pictures.map(picture => picture.data), depth: map};
-    const {low, high} = measure(map.data, map.channels);
+    const {low, high} = disparity ? measure(map.data, map.channels) : measureRobustly(map);
     return {
       sizes: pictures.map(({width, height, channels}) => ({width, height, channels})),
       depth: {width: map.width, height: map.height, low, high, brightIsNear: guessNear(map)}
