@@ -19,10 +19,10 @@ const depth = {data: codes, width, height};
 let photo;
 
 /** Writes a PGM depth picture next to a copy of the centre view, and refocuses the pair with the program. */
-function refocusByProgram(data, ...values) {
+function refocusByProgram({data, width: columns, height: rows}, ...values) {
   const picture = join(folder, 'pair.ppm'), map = join(folder, 'pair-depth.pgm'), out = join(folder, 'pair-out.png');
   writeFileSync(picture, Buffer.concat([Buffer.from(`P6 ${width} ${height} 255\n`), image.data]));
-  writeFileSync(map, Buffer.concat([Buffer.from(`P5 ${width} ${height} 255\n`), data]));
+  writeFileSync(map, Buffer.concat([Buffer.from(`P5 ${columns} ${rows} 255\n`), data]));
   execFileSync(program, ['refocus', picture, '-o', out, ...values], {stdio: 'pipe'});
   return readPng(out).data;
 }
@@ -41,8 +41,17 @@ test('a tap gives the picture of the program, with the depth repaired', async ()
     const picture = await photo.refocus({focus: await photo.focusAt({x, y})});
     assert.deepEqual([picture.width, picture.height, picture.shift], [width, height, 0]);
     assertSameBytes(dropAlpha(picture.data),
-                    refocusByProgram(codes, '--focus-at', `${Math.floor(x)},${Math.floor(y)}`, '--f-stop', '1.8'));
+                    refocusByProgram(depth, '--focus-at', `${Math.floor(x)},${Math.floor(y)}`, '--f-stop', '1.8'));
   }
+});
+
+test('depth of half the size gives the picture of the program', async () => {
+  const data = Uint8Array.from({length: codes.length / 4}, (_, i) => codes[4 * i - 2 * (i % (width >> 1)) ]);
+  const half = {data, width: width >> 1, height: height >> 1};
+  await withPhoto(await openPhoto(image, half, {threads: 2}), async opened => {
+    const picture = await opened.refocus({focus: await opened.focusAt({x: 100, y: 120})});
+    assertSameBytes(dropAlpha(picture.data), refocusByProgram(half, '--focus-at', '100,120', '--f-stop', '1.8'));
+  });
 });
 
 test('inverted depth gives the same picture, and near: bright inverts it', async () => {

@@ -76,6 +76,54 @@ export function guessNear(map) {
   return meanOfRows(map, map.height - third, map.height) > meanOfRows(map, 0, third);
 }
 
+/** Returns the samples of a map between which `to` samples of a resized map lie, for one direction. */
+function places(from, to) {
+  return Array.from({length: to}, (_, k) => {
+    const at = Math.min(Math.max((k + 0.5) * from / to - 0.5, 0), from - 1), first = Math.trunc(at);
+    return {first, second: Math.min(first + 1, from - 1), weight: f(at - first)};
+  });
+}
+
+/** Returns the mean of four values with weights. Unknown values (NaN) have no weight. */
+function average(values, weights) {
+  let sum = 0, total = 0, low = Infinity, high = -Infinity;
+  for (let i = 0; i < 4; ++i) {
+    const value = values[i];
+    if (!Number.isFinite(value)) continue;
+    sum = f(sum + f(weights[i] * value));
+    total = f(total + weights[i]);
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return total > 0 ? Math.min(Math.max(f(sum / total), low), high) : NaN;
+}
+
+/** Resizes a map to `width` x `height` values by bilinear interpolation, in the same single-precision operations as the
+ *  program, and writes it to a Float32Array. */
+export function resize(map, width, height, to) {
+  const columns = places(map.width, width), values = [0, 0, 0, 0], weights = [0, 0, 0, 0];
+  let i = 0;
+  for (const row of places(map.height, height)) {
+    const upper = map.width * row.first, lower = map.width * row.second, rest = f(1 - row.weight);
+    for (const {first, second, weight} of columns) {
+      values[0] = map.data[upper + first];
+      values[1] = map.data[upper + second];
+      values[2] = map.data[lower + first];
+      values[3] = map.data[lower + second];
+      if (values[0] === values[1] && values[2] === values[3] && values[0] === values[2]) {
+        to[i++] = values[0];
+        continue;
+      }
+      const left = f(1 - weight);
+      weights[0] = f(left * rest);
+      weights[1] = f(weight * rest);
+      weights[2] = f(left * row.weight);
+      weights[3] = f(weight * row.weight);
+      to[i++] = average(values, weights);
+    }
+  }
+}
+
 /** Returns {x, y, value} of the first disparity outside [low, high], or of the first one that is not finite, or
  *  undefined. */
 export function findBad({data, width}, low, high) {

@@ -4,7 +4,7 @@
 // that run the same script, share its memory and run jobs of the engine.
 
 import {decodeDepth, decodePicture} from './decode.js';
-import {guessNear, measure, measureRobustly, writeDisparities} from './depth.js';
+import {guessNear, measure, measureRobustly, resize, writeDisparities} from './depth.js';
 import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
 import {listen, post, startHelper} from 'worker-port';
 import {errorOf, locate} from './problem.js';
@@ -55,13 +55,22 @@ function copyRgb(from, to) {
   }
 }
 
-function copyLightField({views, depth, coverage, repair}) {
-  const pixels = config.width * config.height, channels = depth.channels ?? 1;
+/** Writes the disparities to the memory of the engine. A repair requires a map of the picture's size. */
+function copyDepth(depth, {width, height}) {
+  const to = floatsAt(engine.place(DEPTH), width * height), channels = depth.channels ?? 1;
+  if (depth.width === width && depth.height === height) return writeDisparities(depth, to, channels);
+  const data = new Float32Array(depth.width * depth.height);
+  writeDisparities(depth, data, channels);
+  resize({data, width: depth.width, height: depth.height}, width, height, to);
+}
+
+function copyLightField({views, depth, coverage, repair}, size) {
+  const pixels = config.width * config.height;
   const pixelBytes = repair ? 3 : views[0].length / pixels;
   const flags = (coverage ? HAS_COVERAGE : 0) | (repair ? REPAIR : 0);
-  check(engine.room(pixelBytes, depth.width, depth.height, flags));
+  check(engine.room(pixelBytes, size.width, size.height, flags));
   views.forEach((view, index) => copyRgb(view, bytesAt(engine.place(index), pixelBytes * pixels)));
-  writeDisparities(depth, floatsAt(engine.place(DEPTH), depth.width * depth.height), channels);
+  copyDepth(depth, size);
   if (coverage) bytesAt(engine.place(COVERAGE), pixels).set(coverage);
 }
 
@@ -114,15 +123,16 @@ const calls = {
     engine.aim(current);
     const {depth, ...rest} = values.views ? values : {...values, ...decoded, depth: {...decoded.depth, ...values.depth}};
     decoded = null;
-    copyLightField({depth, ...rest});
+    const {width, height} = rest.repair ? config : depth;
+    copyLightField({depth, ...rest}, {width, height});
     try {
       if (rest.repair) check(engine.repair());
       check(engine.make_engine());
       check(engine.prepare());
     } catch (error) {
-      throw locate(error, mapOf(depth), config);
+      throw locate(error, mapOf({width, height}), config);
     }
-    prepared = rest.repair ? {width: config.width, height: config.height} : {width: depth.width, height: depth.height};
+    prepared = {width, height};
     return {milliseconds: performance.now() - start};
   },
 
