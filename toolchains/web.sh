@@ -28,7 +28,7 @@ web() {
     *[!0-9]*) fail "usage: ./do web [PORT | build | test]" ;;
     *) port=$1 ;;
   esac
-  PACKAGES="$PACKAGES emscripten nodejs npm"
+  PACKAGES="$PACKAGES emscripten esbuild nodejs npm"
   install_missing
   build_web
   case "${1:-}" in
