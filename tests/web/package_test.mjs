@@ -153,6 +153,14 @@ test('progress grows', async () => {
   assert.ok(calls.every(([done, total], i) => total === height && done >= (calls[i - 1]?.[0] ?? 0)));
 });
 
+test('the progress of prepare with a repair grows over both steps', async () => {
+  const calls = [];
+  await refocuser.prepare(views, field.disparity.data, {repair: true, onProgress: (...values) => calls.push(values)});
+  assert.ok(calls.length > 1);
+  assert.ok(calls.every(([done, total], i) => total === 2 * height && done >= (calls[i - 1]?.[0] ?? 0)));
+  await refocuser.prepare(views, field.disparity.data);
+});
+
 test('an exception of onProgress rejects the call', async () => {
   let count = 0;
   const fail = () => {

@@ -44,6 +44,7 @@ static int32_t call; /* number of the running call */
 /* Memory that JavaScript reads and writes during a call: `cancelled` is the number of the call to
  * cancel, and `rows_done` of `rows` rows are finished. */
 static struct { int32_t cancelled, rows_done, rows; } shared;
+static int32_t rows_before, rows_after; /* rows of the steps before and after the current step */
 
 /* Returns memory aligned to STARFOCUS_ALIGNMENT, or null if the module's memory cannot grow. */
 static void* Allocate(size_t bytes) {
@@ -58,8 +59,8 @@ static void* Allocate(size_t bytes) {
 
 static int Progress(void* data, int32_t rows_done, int32_t rows) {
   (void)data;
-  __atomic_store_n(&shared.rows_done, rows_done, __ATOMIC_RELAXED);
-  __atomic_store_n(&shared.rows, rows, __ATOMIC_RELAXED);
+  __atomic_store_n(&shared.rows_done, rows_before + rows_done, __ATOMIC_RELAXED);
+  __atomic_store_n(&shared.rows, rows_before + rows + rows_after, __ATOMIC_RELAXED);
   return __atomic_load_n(&shared.cancelled, __ATOMIC_RELAXED) == call;
 }
 
@@ -135,8 +136,7 @@ static void MakeDepth(float* data, int32_t depth_width, int32_t depth_height) {
 }
 
 static int MakeRoomForDepth(int32_t depth_width, int32_t depth_height) {
-  float* const data =
-      (float*)Allocate(sizeof(float) * (size_t)depth_width * (size_t)depth_height);
+  float* const data = (float*)Allocate(sizeof(float) * (size_t)depth_width * (size_t)depth_height);
   MakeDepth(data, depth_width, depth_height);
   return data != NULL;
 }
@@ -211,9 +211,12 @@ EXPORT(repair) starfocus_status Repair(void) {
   top = field_end;
   void* const workspace = Allocate(bytes);
   if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
+  rows_after = config.height; /* of Prepare */
   if (field.coverage != NULL) repaired.coverage = NULL;
   status = starfocus_repair_disparity(&repair, &field, &repaired, workspace, bytes);
+  rows_after = 0;
   if (status != STARFOCUS_OK) return status;
+  rows_before = config.height;
   MakeDepth(repaired.disparity, config.width, config.height);
   if (repaired.has_coverage) {
     field.coverage = repaired.coverage;
@@ -258,7 +261,7 @@ EXPORT(prepare) starfocus_status Prepare(void) {
 /* Starts call `number`: resets the parameters, the progress and the list of blocks. */
 EXPORT(aim) void Aim(int32_t number) {
   call = number;
-  shared.rows_done = shared.rows = 0;
+  shared.rows_done = shared.rows = rows_before = rows_after = 0;
   block_count = 0;
   starfocus_params_init(&params);
   SetCallbacks(NULL);
