@@ -27,8 +27,8 @@ const withWorker = file => [`--alias:worker-source=${file}`, '--loader:.txt=text
 
 mkdirSync(folder, {recursive: true});
 writeFileSync(path('module.deflated'), deflateRawSync(readFileSync(module), {level: 9}));
-bundle('worker/worker.js', join(folder, 'worker.js'), ...workerOptions('port.js'));
-writeFileSync(path('worker.txt'), readFileSync(join(folder, 'worker.js')));
+bundle('worker/worker.js', join(folder, 'worker/worker.js'), ...workerOptions('port.js'));
+writeFileSync(path('worker.txt'), readFileSync(join(folder, 'worker/worker.js')));
 bundle('worker/worker.js', path('worker_node.txt'), '--platform=node', ...workerOptions('port_node.js'));
 bundle('api/starfocus.js', join(folder, 'starfocus.js'), '--format=esm', ...withWorker(path('worker.txt')),
        '--loader:.deflated=base64', `--alias:engine-module=${path('module.deflated')}`);
