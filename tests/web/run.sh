@@ -3,7 +3,8 @@
 # usage: run.sh BUILD WEB
 # Packs the npm package of the build folder WEB, installs it into an empty project, and tests it in node. Then
 # tests the page of WEB in Debian's Chromium, which playwright-core from npm controls. The programs of BUILD
-# compute the expected pictures.
+# compute the expected pictures. Finally builds the README's example with bundlers, and compiles programs that use the
+# package's types. bundlers/package-lock.json has the versions of all tools.
 set -eu
 [ $# = 2 ] || { echo "usage: $0 BUILD WEB" >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -16,9 +17,6 @@ STARFOCUS_PROGRAM=$build/starfocus STARFOCUS_FIELD=$work/field STARFOCUS_SITE=$w
 STARFOCUS_GOLDEN_FILE=$sources/tests/engine/golden.txt STARFOCUS_SERVER=$sources/examples/web/serve.mjs
 STARFOCUS_SCREENSHOTS=$web/screenshots
 export STARFOCUS_PROGRAM STARFOCUS_FIELD STARFOCUS_SITE STARFOCUS_GOLDEN_FILE STARFOCUS_SERVER STARFOCUS_SCREENSHOTS
-
-# This version of playwright-core works with Debian's Chromium.
-PLAYWRIGHT=1.49.1
 
 # quietly COMMAND...: runs a command. Prints the end of the output only if the command fails.
 quietly() {
@@ -34,16 +32,31 @@ run() {
 
 quietly "$STARFOCUS_PROGRAM-lab" scene "$work/field" --name portrait --size 320x240 --views 5
 (cd "$web/npm" && quietly npm pack --pack-destination "$work")
-size=$(stat -c %s "$work"/starfocus-*.tgz)
+STARFOCUS_PACKAGE=$(echo "$work"/starfocus-*.tgz)
+export STARFOCUS_PACKAGE
+size=$(stat -c %s "$STARFOCUS_PACKAGE")
 printf '%-40s %d bytes\n' 'the npm package' "$size"
 [ "$size" -le 225000 ] || { echo "web: package too large (expected at most 225000 bytes, found $size)" >&2; exit 1; }
 mkdir -p "$work/project" "$STARFOCUS_SCREENSHOTS"
 cd "$work/project"
 cp "$sources"/tests/web/*.mjs .
 echo '{"private": true, "type": "module"}' >package.json
-quietly npm install --offline --no-audit --no-fund "$work"/starfocus-*.tgz
+quietly npm install --offline --no-audit --no-fund "$STARFOCUS_PACKAGE"
 run golden_test.mjs
 run package_test.mjs
 run photo_test.mjs
-quietly npm install --no-audit --no-fund "playwright-core@$PLAYWRIGHT"
+
+# The projects find the tools, and the unpacked package, in the parent folder. npm keeps the downloads in its cache. After
+# a change of a version, `npm install --package-lock-only --omit-lockfile-registry-resolved` updates the lock file. The
+# lock file must contain no addresses: delete its `funding` fields.
+! grep -n :// "$sources/tests/web/bundlers/package-lock.json" || exit 1
+cp "$sources"/tests/web/bundlers/package*.json "$work"
+(cd "$work" && quietly npm ci --prefer-offline --no-audit --no-fund)
 run page_test.mjs
+mkdir "$work/node_modules/starfocus"
+tar -xzf "$STARFOCUS_PACKAGE" -C "$work/node_modules/starfocus" --strip-components=1
+cp -r "$sources/tests/web/bundlers" "$work"
+cd "$work/bundlers"
+rm package*.json
+run bundlers_test.mjs
+run types_test.mjs
