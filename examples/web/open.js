@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens files that the user drops or chooses: a light-field folder, a depth photo, or a picture with its depth picture.
-// Returns a light field {name, width, height, views: [ImageData], depth: {data: Float32Array, width, height}, low,
-// high}. The fields low and high are the smallest and largest disparity. Other files cause an Error with a message.
+// Recognizes the files that the user opens: a light-field folder, a depth photo, or a picture with its depth picture.
+// Returns {name, stem, images: [Blob], bitmap, depth, options, distances, kept}. `stem` names downloads, and `bitmap` is
+// the first image, or null if it is visible. `depth` and `options` are arguments of openPhoto. `distances` is
+// {far, near} in 1 / metre, or null. `kept` are segments of the downloaded JPEG. Other files cause an Error with a
+// message.
 
-import {inverseDistances, parseGDepth} from './gdepth.js';
+import {readDepth} from './depth_photo.js';
+import {isJpeg, keepSegments, orientationOf, readJpeg} from './jpeg.js';
 import {parsePfm} from './pfm.js';
-import {decode, isGray, redOf} from './pixels.js';
+import {call} from './pixels.js';
+import {checkPicture, isHeif} from './problem.js';
 
 // Positions in the order of starfocus_view_position. A set of views is a prefix of this list.
 const POSITIONS = [
@@ -13,30 +17,34 @@ const POSITIONS = [
   [.5, 0], [-.5, 0], [0, .5], [0, -.5], [.5, .5], [-.5, .5], [.5, -.5], [-.5, -.5]
 ];
 const SETS = [17, 9, 5, 1];
-
-// Depth photos store no blur scale. The range of disparities of a depth photo is scaled to this share of the picture's
-// width.
-const BLUR_OF_PHOTO = 0.03;
 const LARGEST_DISPARITY = 500;
+const HELP = 'Open a depth photo (a JPEG with a depth map), or a picture together with its depth picture.';
 
 const signed = value => (value < 0 ? '-' : '+') + Math.abs(value).toFixed(1);
 const viewName = ([u, v]) => `view_${signed(u)}_${signed(v)}`;
+const stemOf = name => name.replace(/\.\w+$/, '');
 
-function measure({data}) {
+function checkDisparities(name, depth) {
   let low = Infinity, high = -Infinity;
-  for (const value of data) {
-    if (value < low && value > -Infinity) low = value;
-    if (value > high && value < Infinity) high = value;
+  for (const value of depth.data) {
+    if (value < low) low = value;
+    if (value > high) high = value;
   }
-  return {low, high};
+  if (low >= -LARGEST_DISPARITY && high <= LARGEST_DISPARITY) return depth;
+  throw new Error(low > high ? `${name} contains no known disparities.` :
+                               `${name} contains disparities from ${low} to ${high}; expected -500 to 500 pixels.`);
 }
 
-function checkDepth(name, depth) {
-  const {low, high} = measure(depth);
-  if (!(low >= -LARGEST_DISPARITY && high <= LARGEST_DISPARITY)) {
-    throw new Error(`${name} contains disparities from ${low} to ${high}; expected -500 to 500 pixels.`);
-  }
-  return {depth, low, high};
+function checkSize(name, image, {width, height}) {
+  if (width <= image.width && height <= image.height) return;
+  throw new Error(`The depth of ${name} is ${width} x ${height}; expected at most ${image.width} x ${image.height}, the size of the picture.`);
+}
+
+/** Decodes a picture, and returns its size. */
+async function sizeOf(file, name) {
+  const bitmap = await checkPicture(file, name), {width, height} = bitmap;
+  bitmap.close();
+  return {width, height};
 }
 
 /** Opens a light-field folder. `find` returns the picture file with a given name, which has no extension. */
@@ -47,72 +55,105 @@ async function openFolder(files, find) {
   if (!map) {
     throw new Error('The folder has no disparity.pfm. The command "starfocus disparity FOLDER" estimates one from the views.');
   }
-  const views = await Promise.all(POSITIONS.slice(0, set).map(at => decode(find(viewName(at)))));
-  const [{width, height}] = views;
+  const images = POSITIONS.slice(0, set).map(at => find(viewName(at)));
   const depth = parsePfm(await map.arrayBuffer(), map.name);
-  for (const [index, view] of [...views, depth].entries()) {
-    if (view.width === width && view.height === height) continue;
+  const bitmap = await checkPicture(images[0]), {width, height} = bitmap;
+  const sizes = [bitmap, ...await Promise.all(images.slice(1).map(image => sizeOf(image)))];
+  for (const [index, size] of [...sizes, depth].entries()) {
+    if (size.width === width && size.height === height) continue;
     const wrong = index < set ? viewName(POSITIONS[index]) : map.name;
-    throw new Error(`${wrong} is ${view.width} x ${view.height}; expected ${width} x ${height}, the size of the centre view.`);
+    throw new Error(`${wrong} is ${size.width} x ${size.height}; expected ${width} x ${height}, the size of the centre view.`);
   }
-  const name = set > 1 ? `light field of ${set} views` : 'picture with its disparities';
-  return {name, width, height, views, ...checkDepth(map.name, depth)};
-}
-
-function checkSize(name, image, {width, height}) {
-  if (width <= image.width && height <= image.height) return;
-  throw new Error(`The depth of ${name} is ${width} x ${height}; expected at most ${image.width} x ${image.height}, the size of the picture.`);
-}
-
-/** Returns the light field of a photo with a map of values in any unit, larger for nearer points. */
-function depthPhoto(name, image, {data, width, height}) {
-  checkSize(name, image, {width, height});
-  const {low, high} = measure({data});
-  if (!(high > low)) throw new Error(`The depth of ${name} is the same everywhere, so there is nothing to focus on.`);
-  const span = Math.max(4, BLUR_OF_PHOTO * image.width);
-  const disparity = Float32Array.from(data, value => (value - low) / (high - low) * span);
   return {
-    name, width: image.width, height: image.height, views: [image], depth: {data: disparity, width, height},
-    low: 0, high: span
+    name: set > 1 ? `light field of ${set} views` : 'picture with its disparities',
+    stem: files[0].webkitRelativePath?.split('/')[0] || 'light-field',
+    images, bitmap, depth: checkDisparities(map.name, depth), options: {disparity: true}, distances: null, kept: []
   };
 }
 
-async function openJpeg(file) {
-  const found = parseGDepth(await file.arrayBuffer(), file.name);
-  if (!found) {
-    throw new Error(`${file.name} contains no depth map. Drop a depth photo (a JPEG with GDepth), or a picture together with its depth picture.`);
+/** Returns the depth, the options and the distances of a photo whose map has a `range` (see depth_photo.js). */
+async function understand(depth, {first, last, isDistance, metres, near}, orientation) {
+  if (first === undefined) {
+    const file = orientation > 1 ? await call('upright', {file: depth, orientation}) : depth;
+    return {depth: file, options: {near}, distances: null};
   }
-  const [image, map] = await Promise.all([decode(file), decode(found.picture, `The depth map of ${file.name}`)]);
-  const data = inverseDistances(redOf(map), found);
-  return depthPhoto(`depth photo ${file.name}`, image, {data, width: map.width, height: map.height});
+  const {low, high} = await call('measure', {file: depth});
+  const [from, to] = [low, high].map(level => first + level * (last - first));
+  const ends = isDistance ? [1 / from, 1 / to] : [from, to];
+  const distances = metres ? {far: Math.min(...ends), near: Math.max(...ends)} : null;
+  if (isDistance) {
+    return {depth: await call('invert', {file: depth, orientation, first, last}), options: {near: 'bright'}, distances};
+  }
+  const file = orientation > 1 ? await call('upright', {file: depth, orientation}) : depth;
+  return {depth: file, options: {near}, distances};
 }
 
-/** Opens a picture and its depth map. The map is a PFM of disparities, or a grey picture in which near points are
- *  bright. */
+/** Reads a JPEG file. Returns {bytes, jpeg, kept, orientation}; jpeg is null for other files. */
+async function readPhoto(file) {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  if (!isJpeg(bytes)) return {bytes, jpeg: null, kept: [], orientation: 1};
+  const jpeg = readJpeg(bytes);
+  return {bytes, jpeg, kept: keepSegments(jpeg.segments), orientation: orientationOf(jpeg.segments)};
+}
+
+async function openDepthPhoto(file) {
+  const {bytes, jpeg, kept, orientation} = await readPhoto(file);
+  const bitmap = await checkPicture(file);
+  if (isHeif(bytes)) {
+    throw new Error(`${file.name} is a HEIC picture, whose depth browsers cannot read. Open the picture together with its depth picture.`);
+  }
+  const found = jpeg && await readDepth(file.name, bytes, jpeg);
+  if (!found) throw new Error(`${file.name} contains no depth map. ${HELP}`);
+  const mapSize = await sizeOf(found.depth, `The depth map of ${file.name}`);
+  const [width, height] = orientation >= 5 ? [mapSize.height, mapSize.width] : [mapSize.width, mapSize.height];
+  const sharp = found.image && await checkPicture(found.image, `The sharp picture of ${file.name}`);
+  checkSize(file.name, sharp ?? bitmap, {width, height});
+  return {
+    name: `depth photo ${file.name}`, stem: stemOf(file.name), images: [found.image ?? file], bitmap: sharp ?? bitmap,
+    kept, ...await understand(found.depth, found.range, orientation)
+  };
+}
+
+/** Returns the index of the depth picture among two pictures. */
+async function findDepth(files) {
+  const named = files.findIndex(file => /depth|disp/i.test(file.name));
+  if (named >= 0) return named;
+  const grays = await Promise.all(files.map(file => call('isGray', {file})));
+  if (grays.includes(true)) return grays.indexOf(true);
+  throw new Error(`Neither ${files[0].name} nor ${files[1].name} is a depth picture: expected a grey picture, or "depth" in a file name.`);
+}
+
+/** Opens a picture and its depth map. The map is a PFM of disparities, or a grey picture. */
 async function openPair(files) {
   const map = files.find(file => /\.pfm$/i.test(file.name));
   if (map) {
-    const photo = files.find(file => file !== map);
-    const [image, depth] = [await decode(photo), parsePfm(await map.arrayBuffer(), map.name)];
-    const {width, height} = image;
-    checkSize(photo.name, image, depth);
-    return {name: `${photo.name} with ${map.name}`, width, height, views: [image], ...checkDepth(map.name, depth)};
+    const photo = files.find(file => file !== map), bitmap = await checkPicture(photo);
+    const depth = checkDisparities(map.name, parsePfm(await map.arrayBuffer(), map.name));
+    checkSize(photo.name, bitmap, depth);
+    return {
+      name: `${photo.name} with ${map.name}`, stem: stemOf(photo.name), images: [photo], bitmap,
+      depth, options: {disparity: true}, distances: null, kept: (await readPhoto(photo)).kept
+    };
   }
-  const images = await Promise.all(files.map(file => decode(file)));
-  const named = files.findIndex(file => /depth|disp/i.test(file.name));
-  const index = named >= 0 ? named : images.findIndex(isGray);
-  if (index < 0) {
-    throw new Error(`Neither ${files[0].name} nor ${files[1].name} is a depth picture: expected a grey picture, or "depth" in a file name.`);
-  }
-  const {width, height} = images[index];
-  return depthPhoto(`${files[1 - index].name} with ${files[index].name}`, images[1 - index],
-                    {data: Float32Array.from(redOf(images[index])), width, height});
+  const bitmaps = [];
+  for (const file of files) bitmaps.push(await checkPicture(file));
+  const index = await findDepth(files), photo = files[1 - index], bitmap = bitmaps[1 - index];
+  const {kept, orientation} = await readPhoto(photo), {width, height} = bitmaps[index];
+  // A map with the proportions of the stored photo is turned with the photo.
+  const isStored = orientation >= 5 && (bitmap.width < bitmap.height) !== (width < height);
+  const depth = isStored ? await call('upright', {file: files[index], orientation}) : files[index];
+  checkSize(photo.name, bitmap, isStored ? depth : {width, height});
+  bitmaps[index].close();
+  return {
+    name: `${photo.name} with ${files[index].name}`, stem: stemOf(photo.name), images: [photo], bitmap, depth, options: {},
+    distances: null, kept
+  };
 }
 
-/** Returns the light field in the files. */
+/** Returns the photo or light field in the files. */
 export async function open(files) {
   const has = pattern => files.some(file => pattern.test(file.name));
-  const find = stem => files.find(file => /\.(png|jpe?g)$/i.test(file.name) && file.name.replace(/\.\w+$/, '') === stem);
+  const find = stem => files.find(file => /\.(png|jpe?g|webp)$/i.test(file.name) && stemOf(file.name) === stem);
   if (has(/^view_[+-]/) || has(/^disparity\.pfm$/) && files.length > 2) return openFolder(files, find);
   if (has(/^input_Cam\d+\.png$/i)) {
     throw new Error('This is a light field of the HCI benchmark, which this page cannot read. Copy five of its views and its disparities into a starfocus folder.');
@@ -121,41 +162,9 @@ export async function open(files) {
     throw new Error('This is a light field of the Stanford archive, which has no disparities. This page needs a starfocus folder with disparity.pfm.');
   }
   if (files.length === 1 && /\.pfm$/i.test(files[0].name)) {
-    throw new Error(`${files[0].name} is a depth map without its picture. Drop both together.`);
+    throw new Error(`${files[0].name} is a depth map without its picture. Open both together.`);
   }
-  if (files.length === 1) return openJpeg(files[0]);
+  if (files.length === 1) return openDepthPhoto(files[0]);
   if (files.length === 2) return openPair(files);
   throw new Error(`Expected a light-field folder, a depth photo, or a picture with its depth picture, found ${files.length} files.`);
-}
-
-/** Loads the files of the demo from the server of the page. Returns the promises of the files; the centre view is the
- *  first. */
-export function fetchDemo() {
-  const names = [...POSITIONS.slice(0, 5).map(at => `${viewName(at)}.png`), 'disparity.pfm'];
-  return names.map(async name => {
-    const response = await fetch(`demo/${encodeURIComponent(name)}`);
-    if (!response.ok) throw new Error(`Cannot load ${name} of the demo: the server returned status ${response.status}.`);
-    return new File([await response.blob()], name);
-  });
-}
-
-/** Returns all dropped files, including the files in dropped folders. */
-export async function filesOfDrop(transfer) {
-  const entries = [...transfer.items].map(item => item.webkitGetAsEntry?.()).filter(Boolean);
-  if (!entries.length) return [...transfer.files];
-  const files = [];
-  const read = async entry => {
-    if (entry.isFile) {
-      files.push(await new Promise((resolve, reject) => entry.file(resolve, reject)));
-      return;
-    }
-    const reader = entry.createReader();
-    for (;;) {
-      const some = await new Promise((resolve, reject) => reader.readEntries(resolve, reject));
-      if (!some.length) return;
-      for (const one of some) await read(one);
-    }
-  };
-  for (const entry of entries) await read(entry);
-  return files;
 }

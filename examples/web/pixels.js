@@ -1,32 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes picture files with the decoders of the browser.
+// Calls the functions of pixels_worker.js.
 
-/** Returns the ImageData of a picture file, without conversion of colours. */
-export async function decode(file, name = file.name) {
-  let bitmap;
-  try {
-    bitmap = await createImageBitmap(file, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
-  } catch {
-    const kind = /\.hei[cf]$/i.test(name) ? 'a HEIC picture, which this browser cannot read' :
-                                            'not a picture that this browser can read';
-    throw new Error(`${name} is ${kind}.`);
-  }
-  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-  const context = canvas.getContext('2d', {willReadFrequently: true});
-  context.drawImage(bitmap, 0, 0);
-  bitmap.close();
-  return context.getImageData(0, 0, canvas.width, canvas.height);
+let worker = null, lastId = 0;
+const waiting = new Map();
+
+function start() {
+  worker = new Worker(new URL('pixels_worker.js', import.meta.url));
+  worker.onmessage = ({data: {id, result, error}}) => {
+    const {resolve, reject} = waiting.get(id);
+    waiting.delete(id);
+    if (error === undefined) resolve(result);
+    else reject(new Error(error));
+  };
 }
 
-/** Returns the red code of each pixel, 0 to 255, which is the grey value in a grey picture. */
-export function redOf(image) {
-  return Uint8Array.from({length: image.width * image.height}, (_, i) => image.data[4 * i]);
-}
-
-/** Returns true if green and blue differ from red by at most 8 at every pixel. */
-export function isGray({data}) {
-  for (let i = 0; i < data.length; i += 4) {
-    if (Math.abs(data[i] - data[i + 1]) > 8 || Math.abs(data[i] - data[i + 2]) > 8) return false;
-  }
-  return true;
+/** Calls the function `name` of the worker, and resolves with its result. `transfer` are objects that move to the
+ *  worker. */
+export function call(name, values, transfer = []) {
+  if (!worker) start();
+  return new Promise((resolve, reject) => {
+    waiting.set(++lastId, {resolve, reject});
+    worker.postMessage({id: lastId, name, values}, transfer);
+  });
 }

@@ -15,8 +15,8 @@ if (!folder) {
 }
 
 const TYPES = {
-  '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json',
-  '.pfm': 'application/octet-stream', '.png': 'image/png', '.wasm': 'application/wasm'
+  '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json', '.png': 'image/png',
+  '.jpg': 'image/jpeg'
 };
 const ISOLATION = {
   'Cross-Origin-Opener-Policy': 'same-origin',

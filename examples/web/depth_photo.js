@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the depth map in a JPEG file: GDepth (in XMP), Dynamic Depth (a picture behind the photo that XMP lists), or
+// Apple's depth (an auxiliary picture behind the photo). platform/readers does the same for the programs.
+
+import {isJpeg, readFurtherPictures} from './jpeg.js';
+import {readXmp, valueOf} from './xmp.js';
+
+const GOOGLE = 'http://ns.google.com/photos/1.0/', DYNAMIC = 'http://ns.google.com/photos/dd/1.0/';
+const DEPTH = `${GOOGLE}depthmap/`, IMAGE = `${GOOGLE}image/`, MAP = `${DYNAMIC}depthmap/`;
+const ITEMS = [`${DYNAMIC}item/`, `${GOOGLE}container/item/`];
+const PIXELS = 'http://ns.apple.com/pixeldatainfo/1.0/', APPLE = 'http://ns.apple.com/depthData/1.0/';
+const METRES = {m: 1, meters: 1, mm: 0.001, millimeters: 0.001};
+const PNG = [0x89, 0x50, 0x4E, 0x47];
+
+const isPng = (bytes, at) => PNG.every((byte, i) => bytes[at + i] === byte);
+const toNumber = value => value === undefined || value === '' ? NaN : Number(value.replace(/^\+?inf(inity)?$/i, 'Infinity'));
+
+/** Meaning of the levels of a map, 0 to 1. `first` and `last` are the values of the levels 0 and 1: distances if
+ *  `isDistance` is true, otherwise inverse distances. `metres` is true if the values are in metres or 1 / metre. `near`
+ *  is the near end. Without a range, only `near` is present. */
+function googleRange(format, near, far, units) {
+  const kind = format?.toLowerCase(), unit = METRES[units?.toLowerCase()];
+  const from = toNumber(near) * (unit ?? 1), to = toNumber(far) * (unit ?? 1), isInverse = kind === 'rangeinverse';
+  const isUsable = (isInverse || kind === 'rangelinear' && Number.isFinite(to)) && from > 0 && to > from;
+  if (!isUsable) return {near: 'dark'};
+  const metres = unit !== undefined;
+  return isInverse ? {first: 1 / from, last: 1 / to, isDistance: false, metres, near: 'dark'} :
+                     {first: from, last: to, isDistance: true, metres, near: 'dark'};
+}
+
+function appleRange(xmp) {
+  const isDistance = xmp.get(PIXELS, 'AuxiliaryImageType') === 'depth', near = isDistance ? 'dark' : 'bright';
+  const first = toNumber(xmp.get(PIXELS, 'FloatMinValue')), last = toNumber(xmp.get(PIXELS, 'FloatMaxValue'));
+  if (!(first >= 0 && last > first)) return {near};
+  return {first, last, isDistance, metres: xmp.get(APPLE, 'Accuracy') === 'absolute', near};
+}
+
+/** Decodes base64 without blocking the page. */
+async function decodeBase64(data, type) {
+  const letters = data.replace(/\s/g, '');
+  if (!letters) throw new Error('no data');
+  return (await fetch(`data:${type};base64,${letters}`)).blob();
+}
+
+async function readGDepth(name, xmp) {
+  const data = xmp.get(DEPTH, 'Data');
+  if (data === undefined) return null;
+  let depth;
+  try {
+    depth = await decodeBase64(data, xmp.get(DEPTH, 'Mime') ?? 'image/png');
+  } catch {
+    throw new Error(`${name} has a damaged depth map: its data are not valid base64.`);
+  }
+  const [format, near, far, units] = ['Format', 'Near', 'Far', 'Units'].map(field => xmp.get(DEPTH, field));
+  // The sharp picture. The photo itself may be blurred already.
+  const sharp = xmp.get(IMAGE, 'Data');
+  const image = sharp && await decodeBase64(sharp, xmp.get(IMAGE, 'Mime') ?? 'image/jpeg').catch(() => undefined);
+  return {depth, image, range: googleRange(format, near, far, units)};
+}
+
+/** Returns the position of item `index` of the directory, by the lengths of the items, or by its first bytes if the
+ *  lengths are wrong. Returns -1 if there is no picture. */
+function findItem(bytes, end, items, index) {
+  const sizeOf = ({length, padding}) => length + padding;
+  let begin = end + items[0].padding, behind = 0;
+  items.slice(1).forEach((item, k) => k + 1 < index ? begin += sizeOf(item) : behind += sizeOf(item));
+  for (const at of [begin, bytes.length - behind]) {
+    if (at >= end && (isJpeg(bytes, at) || isPng(bytes, at))) return at;
+  }
+  if (items[index].mime === 'image/png') {
+    let at = end - 1;
+    do at = bytes.indexOf(PNG[0], at + 1); while (at >= 0 && !isPng(bytes, at));
+    return at;
+  }
+  const jpegs = items.slice(1, index).filter(({mime}) => mime === 'image/jpeg').length;
+  const picture = readFurtherPictures(bytes, end)[jpegs];
+  return picture ? picture.bytes.byteOffset - bytes.byteOffset : -1;
+}
+
+function readItems(xmp) {
+  for (const namespace of ITEMS) {
+    const get = (element, name) => valueOf(element, namespace, name);
+    const items = xmp.owners(namespace, 'Mime').map(element => ({
+      mime: get(element, 'Mime'), uri: get(element, 'DataURI'), semantic: get(element, 'Semantic'),
+      length: Number(get(element, 'Length')) || 0, padding: Number(get(element, 'Padding')) || 0
+    }));
+    if (items.length) return items;
+  }
+  return [];
+}
+
+function readDynamicDepth(name, bytes, end, xmp) {
+  const map = ['DepthURI', 'Format', 'Near'].flatMap(field => xmp.owners(MAP, field))
+      .find(element => valueOf(element, MAP, 'ItemSemantic') !== 'Segmentation');
+  const items = readItems(xmp), uri = map && valueOf(map, MAP, 'DepthURI');
+  let index = uri ? items.findIndex((item, k) => k > 0 && item.uri === uri) : -1;
+  if (index < 0) index = items.findIndex((item, k) => k > 0 && item.semantic === 'Depth');
+  if (index < 0) {
+    if (map) throw new Error(`${name} lists a depth map that is not in the file.`);
+    return null;
+  }
+  const at = findItem(bytes, end, items, index);
+  if (at < 0) throw new Error(`${name} lists a depth map that is not in the file.`);
+  const range = map ? googleRange(...['Format', 'Near', 'Far', 'Units'].map(field => valueOf(map, MAP, field))) : {};
+  return {depth: new Blob([bytes.subarray(at)], {type: items[index].mime}), range};
+}
+
+function readApple(bytes, end) {
+  for (const picture of readFurtherPictures(bytes, end)) {
+    const xmp = readXmp(picture.segments), type = xmp.get(PIXELS, 'AuxiliaryImageType');
+    if (type !== 'disparity' && type !== 'depth') continue;
+    return {depth: new Blob([picture.bytes], {type: 'image/jpeg'}), range: appleRange(xmp)};
+  }
+  return null;
+}
+
+/** Returns the depth map in a JPEG file as {depth: Blob, range, image}, or null if the file has none. `image` is the
+ *  sharp picture, if the file has one besides the photo. */
+export async function readDepth(name, bytes, {segments, end}) {
+  const xmp = readXmp(segments);
+  return await readGDepth(name, xmp) ?? readDynamicDepth(name, bytes, end, xmp) ?? readApple(bytes, end);
+}

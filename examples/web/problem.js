@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds out why a file cannot be opened, and writes the messages of the page. Messages never contain the names of
+// options or functions.
+
+import {isJpeg, readJpeg} from './jpeg.js';
+
+const HEIF_BRANDS = /^(hei[cxms]|hev[cxms]|mif1|msf1)$/;
+const latin = bytes => new TextDecoder('latin1').decode(bytes);
+
+/** Returns true if the bytes start a HEIC file. */
+export const isHeif = bytes => latin(bytes.subarray(4, 8)) === 'ftyp' && HEIF_BRANDS.test(latin(bytes.subarray(8, 12)));
+
+const isPng = bytes => latin(bytes.subarray(1, 4)) === 'PNG';
+const isWebp = bytes => latin(bytes.subarray(0, 4)) === 'RIFF' && latin(bytes.subarray(8, 12)) === 'WEBP';
+
+function isCutOff(bytes) {
+  if (isJpeg(bytes)) return readJpeg(bytes).end === 0;
+  if (isPng(bytes)) return !latin(bytes.subarray(-1024)).includes('IEND');
+  return isWebp(bytes) && new DataView(bytes.buffer, bytes.byteOffset).getUint32(4, true) + 8 > bytes.length;
+}
+
+/** Returns the reason why the browser cannot decode a picture file, as the end of a sentence. */
+function reasonOf(bytes) {
+  if (!bytes.length) return 'is empty';
+  if (isHeif(bytes)) return 'is a HEIC picture, which this browser cannot read. Export the picture as JPEG';
+  if (isCutOff(bytes)) return 'is cut off: the end of the file is missing';
+  if (isJpeg(bytes) || isPng(bytes) || isWebp(bytes)) return 'is a damaged picture, or of a kind that this browser cannot read';
+  return 'is not a picture';
+}
+
+/** Decodes a picture file, and returns its ImageBitmap. If that fails, throws a sentence in which the file has this
+ *  name. */
+export async function checkPicture(file, name = file.name) {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  // Browsers may decode the first rows of a file that is cut off.
+  if (!isCutOff(bytes)) {
+    try {
+      return await createImageBitmap(file, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
+    } catch {
+      // reasonOf finds the reason.
+    }
+  }
+  throw new Error(`${name} ${reasonOf(bytes)}.`);
+}
+
+const SENTENCES = {
+  NOT_FINITE: name => `The depth of ${name} is the same everywhere, so there is nothing to focus on.`,
+  DISPARITY: name => `The depth of ${name} is out of range.`,
+  MEMORY: name => `There is not enough memory for ${name}.`,
+  WORKER: () => 'The engine could not be started. Reload the page, or check that it may start workers.'
+};
+
+/** Returns the message for an error of the engine while `name` was opened or refocused. */
+export function toSentence(error, name) {
+  if (error.name !== 'StarfocusError') return error.message;
+  if (error.code === 'UNSUPPORTED' && /SIMD/.test(error.message)) {
+    return 'WebAssembly has no SIMD here, which the engine needs. Use a newer browser.';
+  }
+  return SENTENCES[error.code]?.(name) ?? `${name} cannot be refocused here.`;
+}
