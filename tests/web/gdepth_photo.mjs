@@ -10,12 +10,17 @@ function segment(header, text) {
   return Buffer.concat([start, body]);
 }
 
-/** Inserts a depth map into a JPEG. The depth map is a PNG of inverse distances between 1 and 10. */
-export function makeGDepth(jpeg, png) {
+const NAMESPACES = 'xmlns:x="adobe:ns:meta/" xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#" ' +
+    'xmlns:GDepth="http://ns.google.com/photos/1.0/depthmap/" xmlns:xmpNote="http://ns.adobe.com/xmp/note/"';
+const packet = properties => `<x:xmpmeta ${NAMESPACES}><rdf:Description ${properties}/></x:xmpmeta>`;
+
+/** Inserts a depth map into a JPEG. The depth map is a PNG whose levels stand for distances from `near` to `far`. The
+ *  options are the other properties of GDepth. */
+export function makeGDepth(jpeg, png, {format = 'RangeInverse', near = 1, far = 10, units} = {}) {
   const guid = '0123456789ABCDEF'.repeat(2);
-  const standard = `<x:xmpmeta><rdf:Description GDepth:Format="RangeInverse" GDepth:Near="1" GDepth:Far="10" ` +
-      `GDepth:Mime="image/png" xmpNote:HasExtendedXMP="${guid}"/></x:xmpmeta>`;
-  const extension = `<x:xmpmeta><rdf:Description GDepth:Data="${png.toString('base64')}"/></x:xmpmeta>`;
+  const standard = packet(`GDepth:Format="${format}" GDepth:Near="${near}" GDepth:Far="${far}" GDepth:Mime="image/png" ` +
+                          `${units ? `GDepth:Units="${units}" ` : ''}xmpNote:HasExtendedXMP="${guid}"`);
+  const extension = packet(`GDepth:Data="${png.toString('base64')}"`);
   const parts = [segment('http://ns.adobe.com/xap/1.0/\0', standard)];
   for (let offset = 0; offset < extension.length; offset += SEGMENT) {
     const numbers = Buffer.alloc(8);

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives the page in Chromium for the tests of the page: servers, loading, taps, sliders, files, and the pixels of the
+// canvas. The tests share one page, `driver.page`.
+
+import assert from 'node:assert/strict';
+import {execFileSync, spawn} from 'node:child_process';
+import {copyFileSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {dirname, join} from 'node:path';
+import {chromium} from 'playwright-core';
+
+import {dropAlpha, readPng} from './pictures.mjs';
+
+export const {STARFOCUS_PROGRAM: program, STARFOCUS_SITE: site, STARFOCUS_FIELD: small} = process.env;
+export const sources = join(dirname(process.env.STARFOCUS_SERVER), '..', '..');
+const scratch = mkdtempSync(join(tmpdir(), 'starfocus-web-'));
+const servers = [];
+
+export const driver = {browser: null, page: null, address: '', problem: undefined};
+
+/** Starts a server for the site, and returns the address of the server. */
+export async function serve(...values) {
+  const server = spawn(process.execPath, [process.env.STARFOCUS_SERVER, site, '0', ...values]);
+  servers.push(server);
+  return new Promise(resolve => server.stdout.once('data', line => resolve(String(line).trim())));
+}
+
+export const launch = (...args) => chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox', ...args]});
+
+export async function end() {
+  await driver.browser?.close();
+  servers.forEach(server => server.kill());
+}
+
+/** Returns the bytes of the picture that the program computes. */
+export function refocusByProgram(folder, ...values) {
+  const path = join(scratch, 'expected.png');
+  execFileSync(program, ['refocus', folder, '-o', path, ...values], {stdio: 'pipe'});
+  return readPng(path).data;
+}
+
+/** Writes a little-endian PFM, whose bottom row is first. */
+function writePfm(path, data, width, height) {
+  const values = Buffer.alloc(4 * width * height);
+  data.forEach((value, i) => {
+    const x = i % width, y = Math.floor(i / width);
+    values.writeFloatLE(value, 4 * ((height - 1 - y) * width + x));
+  });
+  writeFileSync(path, Buffer.concat([Buffer.from(`Pf\n${width} ${height}\n-1.0\n`), values]));
+}
+
+/** Writes the demo of the page as a light-field folder of the program, and returns the folder. */
+export function makeDemoFolder() {
+  const demo = join(site, 'demo'), folder = join(scratch, 'demo');
+  mkdirSync(folder);
+  const {scale, offset} = JSON.parse(readFileSync(join(demo, 'disparity.json')));
+  const {data, width, height} = readPng(join(demo, 'disparity.png'));
+  const disparities = Float32Array.from({length: width * height}, (_, i) => (data[3 * i] << 8 | data[3 * i + 1]) * scale + offset);
+  writePfm(join(folder, 'disparity.pfm'), disparities, width, height);
+  for (const position of ['+0.0_+0.0', '+1.0_+0.0', '-1.0_+0.0', '+0.0_+1.0', '+0.0_-1.0']) {
+    execFileSync(program, ['refocus', join(demo, `view_${position}.jpg`), '--depth', join(folder, 'disparity.pfm'),
+                           '--depth-unit', 'disparity', '--no-repair', '--focus', '0', '--strength', '0',
+                           '-o', join(folder, `view_${position}.png`)], {stdio: 'pipe'});
+  }
+  copyFileSync(join(demo, 'meta.txt'), join(folder, 'meta.txt'));
+  return folder;
+}
+
+/** Returns the pixel [x, y] of a named object in the demo, from the demo's meta.txt. */
+export const place = name => /(\d+),(\d+)/.exec(readFileSync(join(site, 'demo', 'meta.txt'), 'utf8').split('\n')
+    .find(line => line.startsWith(`${name}:`))).slice(1).map(Number);
+
+export const status = () => driver.page.textContent('#status');
+export const error = () => driver.page.locator('#error:visible').textContent({timeout: 20000});
+
+export async function waitFor(pattern, page = driver.page) {
+  try {
+    await page.waitForFunction(([source]) => RegExp(source).test(document.getElementById('status').textContent),
+                               [pattern.source], {timeout: 60000, polling: 20});
+  } catch {
+    assert.fail(`expected a status like ${pattern}, found '${await page.textContent('#status')}' '${await page.textContent('#error')}'`);
+  }
+}
+
+/** Waits until the page shows a full picture, which implies that all earlier requests have finished. */
+export const full = () => waitFor(/Full picture: [\d.]+ ms$/);
+
+/** Performs an action that changes the status, and waits for the status. */
+export async function andWait(action, pattern) {
+  await driver.page.evaluate(() => document.getElementById('status').textContent = '');
+  await action();
+  await waitFor(pattern);
+}
+
+export const andFull = action => andWait(action, /Full picture: [\d.]+ ms$/);
+
+/** Returns the R, G, B bytes of the canvas. */
+export async function shown() {
+  const {page} = driver;
+  await page.evaluate(() => new Promise(resolve => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  const text = await page.evaluate(async () => {
+    const canvas = document.getElementById('picture');
+    const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const url = await new Promise(resolve => {
+      const reader = new FileReader();
+      reader.onload = () => resolve(reader.result);
+      reader.readAsDataURL(new Blob([data]));
+    });
+    return url.slice(url.indexOf(',') + 1);
+  });
+  return dropAlpha(new Uint8Array(Buffer.from(text, 'base64')));
+}
+
+/** Taps on a pixel of the canvas, and waits for the full picture. */
+export async function tap(x, y) {
+  const {page} = driver;
+  const at = await page.evaluate(([x, y]) => {
+    const canvas = document.getElementById('picture');
+    canvas.scrollIntoView({block: 'center'});
+    const box = canvas.getBoundingClientRect();
+    const scale = Math.min(box.width / canvas.width, box.height / canvas.height);
+    return [
+      box.left + (box.width - canvas.width * scale) / 2 + (x + .5) * scale,
+      box.top + (box.height - canvas.height * scale) / 2 + (y + .5) * scale
+    ];
+  }, [x, y]);
+  await andFull(() => page.mouse.click(...at));
+}
+
+/** Moves a slider to a value, or to an end: 'min' or 'max'. */
+export const setSlider = (id, value) => driver.page.locator(`#${id}`).evaluate((slider, value) => {
+  slider.value = slider[value] ?? value;
+  slider.dispatchEvent(new Event('input', {bubbles: true}));
+}, String(value));
+
+export const choose = what => driver.page.check(`input[name=show][value=${what}]`);
+export const focusText = () => driver.page.getAttribute('#focus', 'aria-valuetext');
+export const screenshot = (name, page = driver.page) =>
+    page.screenshot({path: join(process.env.STARFOCUS_SCREENSHOTS, `${name}.png`)});
+export const file = (name, buffer = readFileSync(join(small, name))) => ({name, mimeType: '', buffer});
+export const openFiles = (...files) => driver.page.setInputFiles('#files', files);
+
+/** Makes a JPEG photo and a grey PNG of its depth, which is a ramp from left to right, in the browser. */
+export async function drawPhoto(width, height, quality = 0.9) {
+  const text = await driver.page.evaluate(async ([width, height, quality]) => {
+    const encode = async (canvas, type) => {
+      const bytes = new Uint8Array(await (await canvas.convertToBlob({type, quality})).arrayBuffer());
+      let letters = '';
+      for (let i = 0; i < bytes.length; i += 0x8000) letters += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
+      return btoa(letters);
+    };
+    const photo = new OffscreenCanvas(width, height), context = photo.getContext('2d');
+    for (let i = 0; i < 3000; ++i) {
+      context.fillStyle = `hsl(${i * 47 % 360} 60% ${20 + i * 13 % 60}%)`;
+      context.fillRect(i * 7919 % width, i * 6007 % height, width / 20, height / 20);
+    }
+    const depth = new OffscreenCanvas(Math.min(width, 800), Math.min(height, 600)), ramp = depth.getContext('2d');
+    for (let x = 0; x < depth.width; ++x) {
+      const level = Math.round(255 * x / (depth.width - 1));
+      ramp.fillStyle = `rgb(${level} ${level} ${level})`;
+      ramp.fillRect(x, 0, 1, depth.height);
+    }
+    return {jpeg: await encode(photo, 'image/jpeg'), png: await encode(depth, 'image/png')};
+  }, [width, height, quality]);
+  return {jpeg: Buffer.from(text.jpeg, 'base64'), png: Buffer.from(text.png, 'base64')};
+}
+
+export async function load(url, options = {}) {
+  driver.page = await driver.browser.newPage({viewport: {width: 1280, height: 860}, ...options});
+  driver.page.on('pageerror', problem => driver.problem = problem);
+  await driver.page.goto(url);
+  await waitFor(/^Opened: the demo/);
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests which files the page opens, which files it rejects and why, and what it keeps of a photo. page_test.mjs imports
+// these tests.
+
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
+import test from 'node:test';
+import {deflateSync} from 'node:zlib';
+
+import {makeGDepth} from './gdepth_photo.mjs';
+import {
+  andFull, andWait, choose, drawPhoto, driver, error, file, focusText, openFiles, refocusByProgram, screenshot, setSlider, shown,
+  small, sources, tap, waitFor
+} from './page_driver.mjs';
+import {assertSameBytes} from './pictures.mjs';
+
+const sample = name => file(name, readFileSync(join(sources, 'tests', 'fuzz', 'corpus', 'photo', name)));
+const photo = () => file('photo.png', file('view_+0.0_+0.0.png').buffer);
+const opened = (pattern, ...files) => andWait(() => openFiles(...files), pattern);
+
+/** Returns the text of the focus at both ends of the slider, from far to near. */
+async function focusTexts() {
+  const texts = [];
+  for (const end of ['min', 'max']) {
+    await andFull(() => setSlider('focus', end));
+    texts.push(await focusText());
+  }
+  return texts;
+}
+
+/** Returns a segment of EXIF in big-endian order, with the orientation 6 and the maker "Maker". */
+function makeExif() {
+  const tiff = Buffer.from('4d4d002a00000008' + '0002' + '010f000200000006' + '00000026' + '0112000300000001' + '00060000' +
+                           '00000000', 'hex');
+  const body = Buffer.concat([Buffer.from('Exif\0\0', 'latin1'), tiff, Buffer.from('Maker\0', 'latin1')]);
+  return Buffer.concat([Buffer.from([0xFF, 0xE1, 0, body.length + 2]), body]);
+}
+
+function pngChunk(name, data) {
+  const body = Buffer.concat([Buffer.from(name, 'latin1'), data]), length = Buffer.alloc(4), check = Buffer.alloc(4);
+  let crc = ~0;
+  for (const byte of body) {
+    crc ^= byte;
+    for (let bit = 0; bit < 8; ++bit) crc = crc >>> 1 ^ (crc & 1 ? 0xEDB88320 : 0);
+  }
+  length.writeUInt32BE(data.length);
+  check.writeUInt32BE(~crc >>> 0);
+  return Buffer.concat([length, body, check]);
+}
+
+/** Returns a grey PNG of 64 x 48 pixels with 16 bits, whose values differ only in the low 8 bits. */
+function makePng16() {
+  const header = Buffer.from([0, 0, 0, 64, 0, 0, 0, 48, 16, 0, 0, 0, 0]);
+  const row = Buffer.from([0, ...Array.from({length: 64}, (_, x) => [0x10, 4 * x]).flat()]);
+  return Buffer.concat([
+    Buffer.from('\x89PNG\r\n\x1A\n', 'latin1'), pngChunk('IHDR', header),
+    pngChunk('IDAT', deflateSync(Buffer.concat(Array(48).fill(row)))), pngChunk('IEND', Buffer.alloc(0))
+  ]);
+}
+
+test('a depth picture with 16 bits keeps its bits', async () => {
+  await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', makePng16()));
+  await choose('depth');
+  await driver.page.waitForTimeout(500);
+  const depth = await shown(), row = depth.subarray(0, 3 * 320);
+  assert.ok(Math.abs(row[3 * 310] - row[3 * 10]) > 100, 'the low bits are visible');
+  await choose('picture');
+});
+
+test('opens light fields, and pairs with disparities', async () => {
+  const names = ['view_+0.0_+0.0', 'view_+1.0_+0.0', 'view_-1.0_+0.0', 'view_+0.0_+1.0', 'view_+0.0_-1.0'];
+  await opened(/^Opened: light field of 5 views, 320 x 240/, ...names.map(name => file(`${name}.png`)), file('disparity.pfm'));
+  await tap(100, 120);
+  assertSameBytes(await shown(), refocusByProgram(small, '--focus-at', '100,120'));
+  assert.ok(await driver.page.isDisabled('#swap'));
+  await andWait(() => driver.page.setInputFiles('#folder', small), /^Opened: light field of 5 views, 320 x 240/);
+  await opened(/^Opened: photo\.png with map\.pfm/, photo(), file('map.pfm', file('disparity.pfm').buffer));
+  await tap(100, 120);
+  assertSameBytes(await shown(), refocusByProgram(small, '--focus-at', '100,120', '--views', '1'));
+});
+
+test('guesses the near end of a depth picture, and swaps it', async () => {
+  const {png} = await drawPhoto(64, 48);
+  await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', png));
+  const brightness = async () => {
+    await choose('depth');
+    await driver.page.waitForTimeout(300);
+    const depth = await shown();
+    return depth[3 * 310] - depth[3 * 10];  // right minus left in the first row
+  };
+  const before = await brightness();
+  await tap(300, 120);
+  await andFull(() => driver.page.click('#swap'));
+  assert.ok(before * await brightness() < 0, 'the other end is near');
+  await choose('picture');
+});
+
+test('opens depth photos of phones, with distances where they are known', async () => {
+  const {jpeg, png} = await drawPhoto(64, 48);
+  const phone = makeGDepth(jpeg, png, {units: 'm'});
+  await andWait(() => driver.page.evaluate(bytes => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([new Uint8Array(bytes)], 'phone.jpg'));
+    dispatchEvent(new DragEvent('drop', {dataTransfer: transfer, cancelable: true}));
+  }, [...phone]), /^Opened: depth photo phone\.jpg, 64 x 48/);
+  assert.deepEqual(await focusTexts(), ['10 m away', '1 m away']);
+  await opened(/^Opened: depth photo no-unit\.jpg/, file('no-unit.jpg', makeGDepth(jpeg, png)));
+  assert.deepEqual(await focusTexts(), ['farthest', 'nearest']);
+  await opened(/^Opened: depth photo linear\.jpg/, file('linear.jpg', makeGDepth(jpeg, png, {format: 'RangeLinear', units: 'm', far: 5})));
+  assert.deepEqual(await focusTexts(), ['5 m away', '1 m away']);
+  await opened(/^Opened: depth photo dynamic\.jpg, 8 x 6/, sample('dynamic.jpg'));
+  assert.match((await focusTexts()).join(), /^9 m away,1 m away$/);
+  await opened(/^Opened: depth photo diopters\.jpg, 8 x 6/, sample('diopters.jpg'));
+  assert.deepEqual(await focusTexts(), ['farthest', 'nearest']);
+  await opened(/^Opened: depth photo apple\.jpg, 8 x 6/, sample('apple.jpg'));
+  assert.match((await focusTexts()).join(), /^1 m away,0\.25 m away$/);
+});
+
+test('keeps EXIF in the downloaded JPEG, which is upright', async () => {
+  const {jpeg, png} = await drawPhoto(64, 48), exif = makeExif();
+  const turned = Buffer.concat([jpeg.subarray(0, 2), exif, jpeg.subarray(2)]);
+  await opened(/^Opened: depth photo IMG_1\.jpg, 48 x 64/, file('IMG_1.jpg', makeGDepth(turned, png)));
+  await tap(24, 32);
+  const [download] = await Promise.all([driver.page.waitForEvent('download'), driver.page.click('#download')]);
+  assert.equal(download.suggestedFilename(), 'IMG_1-refocused.jpg');
+  const bytes = readFileSync(await download.path()), upright = Buffer.from(exif);
+  upright[upright.indexOf('0112000300000001', 'hex') + 9] = 1;
+  assert.deepEqual(bytes.subarray(2, 2 + exif.length), upright);
+});
+
+test('rejects what it cannot read in a true sentence, and keeps what was open', async () => {
+  const centre = file('view_+0.0_+0.0.png'), pfm = readFileSync(join(small, 'disparity.pfm'));
+  const {jpeg, png} = await drawPhoto(64, 48), text = Buffer.from('no picture');
+  const heic = Buffer.concat([Buffer.from([0, 0, 0, 24]), Buffer.from('ftypheic\0\0\0\0mif1heic')]);
+  const flat = file('flat-depth.png', file('view_+0.0_+0.0.png').buffer);
+  await opened(/^Opened: depth photo phone\.jpg/, file('phone.jpg', makeGDepth(jpeg, png)));
+  const rejected = [
+    [[file('photo.jpg', jpeg)], /^photo\.jpg contains no depth map\. Open a depth photo/],
+    [[file('broken.jpg', makeGDepth(jpeg, text))], /^The depth map of broken\.jpg is not a picture\.$/],
+    [[file('notes.txt', text)], /^notes\.txt is not a picture\.$/],
+    [[file('cut.jpg', jpeg.subarray(0, -100)), file('disparity.pfm')], /^cut\.jpg is cut off: the end of the file is missing\.$/],
+    [[file('cut.png', centre.buffer.subarray(0, 5000)), file('disparity.pfm')], /^cut\.png is cut off/],
+    [[file('a.png', centre.buffer), file('map.pfm', pfm.subarray(0, 5000))], /^map\.pfm is cut off: 320 x 240 values need/],
+    [[file('a.png', centre.buffer), file('map.pfm', jpeg)], /^map\.pfm is not a depth map/],
+    [[file('phone.heic', heic), file('depth.png', centre.buffer)], /^phone\.heic is a HEIC picture, which this browser cannot read\./],
+    [[file('phone.heic', heic)], /^phone\.heic is a HEIC picture/],
+    [[file('photo.jpg', jpeg), flat], /^The depth of photo\.jpg is 320 x 240; expected at most 64 x 48/],
+    [[file('input_Cam000.png', jpeg), file('parameters.cfg', jpeg)], /HCI benchmark/],
+    [[file('out_00_00_-1_1_.png', jpeg)], /Stanford archive/],
+    [[centre, file('view_+1.0_+0.0.png'), file('view_-1.0_+0.0.png')], /no disparity\.pfm/],
+    [[file('view_+1.0_+0.0.png'), file('view_-1.0_+0.0.png')], /no centre view/],
+    [[file('disparity.pfm')], /depth map without its picture/],
+    [[1, 2, 3].map(i => file(`${i}.png`, jpeg)), /found 3 files/]
+  ];
+  for (const [files, message] of rejected) {
+    await opened(/^Still open: depth photo phone\.jpg\.$/, ...files);
+    assert.match(await error(), message);
+    assert.doesNotMatch(await error(), /starfocus_|STARFOCUS|undefined|\bNaN\b/);
+  }
+  await screenshot('error');
+  await tap(10, 10);
+  assert.ok(await driver.page.isHidden('#error'), 'an alert disappears after the next success');
+});
