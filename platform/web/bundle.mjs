@@ -7,7 +7,7 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
-import {deflateRawSync} from 'node:zlib';
+import {deflateSync} from 'node:zlib';
 
 const [esbuild, module, folder] = process.argv.slice(2);
 const sources = dirname(fileURLToPath(import.meta.url)), scratch = dirname(module);
@@ -26,7 +26,7 @@ const workerOptions = port => ['--format=iife', `--alias:worker-port=${join(sour
 const withWorker = file => [`--alias:worker-source=${file}`, '--loader:.txt=text'];
 
 mkdirSync(folder, {recursive: true});
-writeFileSync(path('module.deflated'), deflateRawSync(readFileSync(module), {level: 9}));
+writeFileSync(path('module.deflated'), deflateSync(readFileSync(module), {level: 9}));
 bundle('worker/worker.js', join(folder, 'worker/worker.js'), ...workerOptions('port.js'));
 writeFileSync(path('worker.txt'), readFileSync(join(folder, 'worker/worker.js')));
 bundle('worker/worker.js', path('worker_node.txt'), '--platform=node', ...workerOptions('port_node.js'));

@@ -142,8 +142,25 @@ test('an aborted prepare rejects at once; without a light field calls fail; the 
   await assert.rejects(preparing, {name: 'AbortError'});
   await assert.rejects(waiting, {code: 'STATE'});
   await assert.rejects(refocuser.refocus({focus: 5}), {code: 'STATE'});
-  await refocuser.prepare(views, field.disparity.data);
-  assert.equal((await refocuser.refocus({focus: 5})).width, width);
+  for (const delay of [0, 20]) {
+    const signal = AbortSignal.timeout(delay), aborted = refocuser.prepare(views, field.disparity.data, {repair: true, signal});
+    const next = refocuser.prepare(views, field.disparity.data);
+    await assert.rejects(aborted, {name: 'TimeoutError'});
+    await next;
+    assert.equal((await refocuser.refocus({focus: 5})).width, width);
+  }
+});
+
+test('another worker, after an aborted prepare, has the settings that were configured', async () => {
+  const small = await createRefocuser({width: 8, height: 8, views: 1, disparityMin: 0, disparityMax: 1, maxBlur: 64, threads: 1});
+  await small.configure({maxBlur: undefined, timing: {a: 5}});
+  const pixels = [new Uint8Array(192)], stop = new AbortController();
+  const aborted = small.prepare(pixels, new Float32Array(64), {signal: stop.signal});
+  stop.abort();
+  await assert.rejects(aborted, {name: 'AbortError'});
+  await small.prepare(pixels, new Float32Array(64));
+  assert.equal((await small.refocus({focus: 45})).width, 8);
+  small.close();
 });
 
 test('progress grows', async () => {
@@ -209,6 +226,10 @@ test('wrong arguments are rejected with a code, the field and the value', async 
     [() => refocuser.prepare(views, {data: map, scale: 1e39}), 'RANGE', /^depth.scale: expected a finite number/],
     [() => refocuser.prepare(views, {data: map, near: 1}), 'ARGUMENT', /depth: expected one of the fields .*found 'near'/],
     [() => refocuser.prepare(views, [...map]), 'ARGUMENT', /^depth: expected an object, found an Array/],
+    [() => refocuser.prepare(views, new Uint16Array(3)), 'ARGUMENT', /^depth: expected an object, found a Uint16Array/],
+    [() => refocuser.refocus({mode: 1e10}), 'RANGE', /^mode: .*expected a value of mode, found 10000000000/],
+    [() => refocuser.preview({shift: 3, region: {x: 0, y: 0, width: 0, height: 1}}), 'RANGE', /^region/],
+    [() => refocuser.prepare(views, map.map((d, i) => i === 3 ? Infinity : d)), 'NOT_FINITE', /pixel \(3, 0\) is Infinity/],
     [() => refocuser.prepare(views, {data: new Float64Array(3)}), 'ARGUMENT', /^depth.data: .*found a Float64Array/],
     [() => refocuser.prepare(views, new Float32Array(5)), 'RANGE', /^depth.data: expected 320 x 240 values, found 5/],
     [() => refocuser.prepare(views.slice(1), map), 'RANGE', /expected an array of 5, found 4/],

@@ -4,6 +4,7 @@
 
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
+import {getEventListeners} from 'node:events';
 import {writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
@@ -85,6 +86,28 @@ test('f-stops, highlights and shapes change the picture', async () => {
   assertSameBytes((await photo.refocus({focus: 3})).data, open.data);
 });
 
+test('each picture has its own highlights, and undefined fields count as omitted', async () => {
+  const plain = await photo.refocus({focus: 3}), bright = photo.refocus({focus: 3, highlights: 8});
+  bright.catch(() => {});
+  assertSameBytes((await photo.refocus({focus: 3})).data, plain.data);
+  const paused = photo.refocus({focus: 3})[Symbol.asyncIterator]();
+  await paused.next();
+  const expected = await photo.refocus({focus: 3, highlights: 8}), newer = photo.refocus({focus: 3, highlights: 8});
+  const [, last] = await Promise.all([paused.next(), newer]);
+  assertSameBytes(last.data, expected.data);
+  const stopped = await photo.refocus({focus: 3, fStop: 4});
+  assertSameBytes((await photo.refocus({focus: 3, fStop: 4, aperture: undefined})).data, stopped.data);
+});
+
+test('a signal that is used for many requests keeps no listeners', async () => {
+  const {signal} = new AbortController();
+  for (let i = 0; i < 3; ++i) {
+    await photo.refocus({focus: 3}, {signal});
+    for await (const picture of photo.refocus({focus: 3}, {signal})) assert.ok(picture.width > 0);
+  }
+  assert.equal(getEventListeners(signal, 'abort').length, 0);
+});
+
 test('an iteration yields a preview and the full picture', async () => {
   const shifts = [];
   for await (const picture of photo.refocus({focus: 2, blocks: true})) {
@@ -114,7 +137,7 @@ test('a signal aborts refocus and openPhoto', async () => {
   await assert.rejects(async () => {
     for await (const picture of photo.refocus({focus: 1}, {signal: AbortSignal.abort()})) assert.fail(picture.width);
   }, {name: 'AbortError'});
-  for (const delay of [0, 30, 100]) {
+  for (const delay of [0, 10, 20, 40, 60, 80, 100]) {
     const stop = new AbortController(), opening = openPhoto(image, depth, {signal: stop.signal, threads: 2});
     setTimeout(() => stop.abort(), delay);
     await assert.rejects(opening, {name: 'AbortError'});
@@ -142,12 +165,23 @@ test('wrong arguments are rejected with a code', async () => {
     [() => openPhoto(image, depth, {near: 'white'}), 'ARGUMENT', /^near: expected 'bright' or 'dark', found 'white'/],
     [() => openPhoto(image, depth, {blur: 0}), 'RANGE', /^blur: expected more than 0/],
     [() => openPhoto(image, depth, {nonsense: 1}), 'ARGUMENT', /'nonsense'/],
-    [() => openPhoto(image, {...depth, data: codes.subarray(1)}), 'RANGE', /^depth: expected width \* height values/],
+    [() => openPhoto(image, {...depth, data: codes.subarray(1)}), 'RANGE', /^depth.data: expected 320 x 240 x 1 or 3 or 4 values, found 76799/],
     [() => openPhoto(image, {data: codes.map(() => 7), width, height}), 'NOT_FINITE', /all values are equal/],
-    [() => openPhoto({...image, data: image.data.subarray(5)}, depth), 'RANGE', /^image: expected/],
+    [() => openPhoto({...image, data: image.data.subarray(5)}, depth), 'RANGE', /^image.data: expected/],
     [() => openPhoto([image, image], depth), 'RANGE', /^image: expected one picture, or 5, 9 or 17 views, found 2/],
     [() => openPhoto(new Blob(['text']), depth), 'UNSUPPORTED', /^image: picture files cannot be decoded here/],
+    [() => openPhoto({...image, data: image.data.subarray(0, width * height)}, depth), 'RANGE', /^image.data: expected/],
+    [() => openPhoto({...image, data: new Uint16Array(3 * width * height)}, depth), 'ARGUMENT', /^image.data: .*Uint16Array/],
+    [() => openPhoto(image, {data: new Float64Array(9), width: 3, height: 3}), 'ARGUMENT', /^depth.data: .*Float64Array/],
+    [() => openPhoto(image, {data: new Float32Array(27), width: 3, height: 3}), 'RANGE', /^depth.data: expected 3 x 3 x 1 /],
+    [() => openPhoto(field.views, depth), 'RANGE', /^disparity: expected true for several views/],
+    [() => openPhoto([{data: new Uint8Array(4 * width * height), width, height}, ...field.views.slice(1)],
+                     field.disparity, {disparity: true}), 'RANGE', /^image\[1\]: expected 4 bytes per pixel/],
+    [() => openPhoto(image, {...field.disparity, data: field.disparity.data.map(() => NaN)}, {disparity: true}),
+     'NOT_FINITE', /^depth: expected a map with finite disparities/],
     [() => photo.refocus({}), 'ARGUMENT', /a value of focus/],
+    [() => photo.refocus({focus: 1000}), 'RANGE', /^focus: expected 0 to 7\.7.*, found 1000/],
+    [() => photo.refocus({focus: 1, highlights: 0}), 'RANGE', /^highlights: expected 1 to 64, found 0/],
     [() => photo.refocus({focus: 1, fStop: 0.5}), 'RANGE', /^fStop: expected at least 1, found 0.5/],
     [() => photo.focusAt({x: NaN, y: 0}), 'RANGE', /^x: expected a number, found NaN/]
   ];

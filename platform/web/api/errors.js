@@ -29,7 +29,7 @@ export function describe(value) {
   if (typeof value === 'string') return `'${value.length > 40 ? `${value.slice(0, 40)}...` : value}'`;
   if (typeof value !== 'object' && typeof value !== 'function') return String(value);
   const name = value.constructor?.name || typeof value;
-  return `${/^[AEIOU]/.test(name) ? 'an' : 'a'} ${name}`;
+  return `${/^[AEIO]/.test(name) ? 'an' : 'a'} ${name}`;
 }
 
 /** Throws a StarfocusError that names the field, the expected values and the given value, unless `holds` is true. */
@@ -43,7 +43,8 @@ const KINDS = {
   integer: [value => typeof value === 'number', 'an integer'],
   boolean: [value => typeof value === 'boolean', 'true or false'],
   function: [value => typeof value === 'function', 'a function'],
-  object: [value => typeof value === 'object' && value !== null && !Array.isArray(value), 'an object'],
+  object: [value => typeof value === 'object' && value !== null && !Array.isArray(value) && !ArrayBuffer.isView(value),
+           'an object'],
   signal: [value => typeof value?.addEventListener === 'function' && 'aborted' in value, 'an AbortSignal'],
   any: [() => true, '']
 };
@@ -62,7 +63,8 @@ function checkField(field, value, kind) {
 export function checkFields(what, values, kinds, required = []) {
   expect(KINDS.object[0](values), what, 'an object', values);
   for (const [name, value] of Object.entries(values)) {
-    expect(Object.hasOwn(kinds, name), what, `one of the fields ${Object.keys(kinds).join(', ')}`, name);
+    const names = Object.keys(kinds);
+    expect(names.includes(name), what, `one of the fields ${names.join(', ')}`, name);
     if (value !== undefined) checkField(name, value, kinds[name]);
   }
   const missing = required.find(name => values[name] === undefined);

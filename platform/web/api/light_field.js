@@ -3,8 +3,8 @@
 
 import {checkFields, expect} from './errors.js';
 
-const isBytes = array => array instanceof Uint8Array || array instanceof Uint8ClampedArray;
-const isDepth = array => isBytes(array) || array instanceof Uint16Array || array instanceof Float32Array;
+export const isBytes = array => array instanceof Uint8Array || array instanceof Uint8ClampedArray;
+export const isDepth = array => isBytes(array) || array instanceof Uint16Array || array instanceof Float32Array;
 
 /** Returns the bytes of a view, which is an ImageData, {data, width, height}, or an array with 3 or 4 bytes per pixel. */
 function bytesOfView(view, what, {width, height}) {

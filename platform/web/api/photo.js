@@ -3,6 +3,7 @@
 
 import {checkFields, expect, StarfocusError} from './errors.js';
 import {CALL, ENGINE, LENS} from './fields.js';
+import {isBytes, isDepth} from './light_field.js';
 import {Refocusing} from './refocusing.js';
 import {checkEngine, Refocuser} from './refocuser.js';
 import {WorkerCalls} from './worker_calls.js';
@@ -22,10 +23,22 @@ const BLUR = 50 / 43.2666 * 50 / 1000 / 2 / 1.5;
 
 const PREVIEWS = 3;
 
+/** Returns pixels in memory, with one value or 3 or 4 bytes per pixel for depth, and 3 or 4 bytes for pictures. */
+function checkPixels({data, width, height}, what) {
+  const isMap = what === 'depth', channels = data.length / (width * height);
+  expect(isMap ? isDepth(data) : isBytes(data), `${what}.data`,
+         `${isMap ? 'a Float32Array, a Uint16Array, ' : ''}a Uint8Array or a Uint8ClampedArray`, data);
+  expect(Number.isInteger(width) && width > 0, `${what}.width`, 'an integer above 0', width, 'RANGE');
+  expect(Number.isInteger(height) && height > 0, `${what}.height`, 'an integer above 0', height, 'RANGE');
+  const counts = isMap ? isBytes(data) ? [1, 3, 4] : [1] : [3, 4];
+  expect(counts.includes(channels), `${what}.data`, `${width} x ${height} x ${counts.join(' or ')} values`, data.length, 'RANGE');
+  return {data, width, height, channels};
+}
+
 /** Converts a picture to a value that can be sent to the worker: a Blob, an ImageBitmap or {data, width, height}. */
 async function toSendable(source, what) {
   if (typeof Blob === 'function' && source instanceof Blob) return source;
-  if (ArrayBuffer.isView(source?.data)) return {data: source.data, width: source.width, height: source.height};
+  if (source?.data !== undefined) return checkPixels(source, what);
   const isElement = typeof source?.width === 'number' && typeof globalThis.createImageBitmap === 'function';
   expect(isElement, what, 'a Blob, ImageData, ImageBitmap, image, canvas or {data, width, height}', source);
   try {
@@ -41,7 +54,12 @@ function chooseRange({low, high, brightIsNear}, size, {near, blur = BLUR, dispar
   if (!(high > low) && !disparity) {
     throw new StarfocusError('NOT_FINITE', 'depth: all values are equal, so there is nothing to focus on.', {field: 'depth'});
   }
-  if (disparity) return {low, high, near: 'bright'};
+  if (disparity) {
+    expect(low <= high, 'depth', 'a map with finite disparities', 'none', 'NOT_FINITE');
+    expect(low >= -MAX_DISPARITY && high <= MAX_DISPARITY, 'depth', `disparities within +-${MAX_DISPARITY}`,
+           -low > high ? low : high, 'DISPARITY');
+    return {low, high, near: 'bright'};
+  }
   const bright = near === undefined ? brightIsNear : near === 'bright';
   const most = Math.min(blur * Math.hypot(size.width, size.height), MAX_DISPARITY);
   const order = {zero: bright ? low : high, factor: (bright ? most : -most) / (high - low), most};
@@ -50,6 +68,8 @@ function chooseRange({low, high, brightIsNear}, size, {near, blur = BLUR, dispar
 
 function checkSizes({sizes, depth}) {
   const [{width, height}] = sizes;
+  sizes.forEach((size, index) => expect(size.channels === sizes[0].channels, `image[${index}]`,
+                                        `${sizes[0].channels} bytes per pixel, as image[0] has`, size.channels, 'RANGE'));
   sizes.forEach((size, index) => expect(size.width === width && size.height === height, `image[${index}]`,
                                         `${width} x ${height} pixels, as image[0] has`, `${size.width} x ${size.height}`, 'RANGE'));
   expect(depth.width <= width && depth.height <= height, 'depth', `at most ${width} x ${height} pixels, the size of the picture`,
@@ -60,8 +80,7 @@ export class Photo {
   #refocuser;
   #widest;        // largest aperture whose blur the engine allows
   #fStop;         // default f-stop
-  #highlights = 1;
-  #latest = null; // the Refocusing that was requested last
+  #latest = null; // AbortController of the last request
 
   constructor(refocuser, {width, height, low, high, near, widest, order}) {
     this.#refocuser = refocuser;
@@ -89,21 +108,19 @@ export class Photo {
   refocus(lens, options = {}) {
     checkFields('refocus', lens, {...LENS, fStop: 'number', highlights: 'number', blocks: 'boolean'}, ['focus']);
     checkFields('refocus', options, CALL);
-    const {fStop = this.#fStop, highlights = 1, blocks, ...rest} = lens;
+    const {fStop = this.#fStop, highlights = 1, ...rest} = lens;
+    const {focus, aperture = Math.min(this.#widest, 1 / fStop)} = lens;
     expect(fStop >= this.fStopMin, 'fStop', `at least ${this.fStopMin}`, fStop, 'RANGE');
-    this.#latest?.supersede();
-    const params = {aperture: Math.min(this.#widest, 1 / fStop), ...rest};
-    return this.#latest = new Refocusing(this.#refocuser, {params, blocks, options, settle: () => this.#setHighlights(highlights)});
-  }
-
-  async #setHighlights(highlights) {
-    if (highlights === this.#highlights) return;
-    await this.#refocuser.configure({highlights});
-    this.#highlights = highlights;
+    expect(highlights >= 1 && highlights <= 64, 'highlights', '1 to 64', highlights, 'RANGE');
+    expect(focus >= this.focusMin - REPAIR_MARGIN && focus <= this.focusMax + REPAIR_MARGIN, 'focus',
+           `${this.focusMin} to ${this.focusMax}`, focus, 'RANGE');
+    this.#latest?.abort();
+    this.#latest = new AbortController();
+    return new Refocusing(this.#refocuser, {...rest, aperture, highlights}, {...options, superseded: this.#latest});
   }
 
   close() {
-    this.#latest?.supersede();
+    this.#latest?.abort();
     this.#refocuser.close();
   }
 
@@ -117,12 +134,12 @@ export class Photo {
 }
 
 /** Computes pictures that are not shown, because the first pictures of a worker take several times as long. */
-async function warmUp(refocuser, {width, height, low, high}) {
+async function warmUp(refocuser, {width, height, low, high, signal}) {
   const focus = (low + high) / 2, side = 256;
-  await refocuser.preview({focus, shift: 2});
+  await refocuser.preview({focus, shift: 2, signal});
   const region = {x: Math.max(0, (width - side) >> 1), y: Math.max(0, (height - side) >> 1),
                   width: Math.min(side, width), height: Math.min(side, height)};
-  await refocuser.refocus({focus, region});
+  await refocuser.refocus({focus, region, signal});
 }
 
 export async function openPhoto(image, depth, options = {}) {
@@ -133,20 +150,23 @@ export async function openPhoto(image, depth, options = {}) {
   expect(blur === undefined || blur > 0 && blur <= 1, 'blur', 'more than 0, at most 1', blur, 'RANGE');
   const images = Array.isArray(image) ? image : [image];
   expect(VIEWS.includes(images.length), 'image', 'one picture, or 5, 9 or 17 views', images.length, 'RANGE');
+  expect(images.length === 1 || disparity, 'disparity', 'true for several views', disparity, 'RANGE');
   const calls = new WorkerCalls(worker);
   try {
     const views = await Promise.all(images.map((view, index) => toSendable(view, index ? `image[${index}]` : 'image')));
-    const found = await calls.call('decode', {views, depth: await toSendable(depth, 'depth'), disparity}, {signal, stops: true});
+    const map = await toSendable(depth, 'depth');
+    const transfer = [...views, map].filter(source => typeof ImageBitmap === 'function' && source instanceof ImageBitmap);
+    const found = await calls.call('decode', {views, depth: map, disparity}, {signal, stops: true, transfer});
     checkSizes(found);
     const [{width, height}] = found.sizes, range = chooseRange(found.depth, {width, height}, {near, blur, disparity});
     const margin = repair ? REPAIR_MARGIN : 0;
-    const largest = BLUR_MARGIN * (range.high - range.low + margin + 1 / 64), maxBlur = Math.min(MAX_BLUR, largest);
+    const largest = BLUR_MARGIN * (range.high - range.low + 2 * REPAIR_MARGIN + 1 / 64), maxBlur = Math.min(MAX_BLUR, largest);
     const refocuser = await Refocuser.start({
       width, height, views: images.length, disparityMin: range.low - margin, disparityMax: range.high + margin, maxBlur,
       previews: PREVIEWS, fillUnknown: true, shapes: true, threads
-    }, calls);
+    }, {calls, signal});
     await refocuser._prepare({depth: {order: range.order}, repair}, {signal, onProgress});
-    await warmUp(refocuser, {width, height, ...range});
+    await warmUp(refocuser, {width, height, signal, ...range});
     return new Photo(refocuser, {width, height, widest: maxBlur / largest, ...range});
   } catch (error) {
     calls.end(error);

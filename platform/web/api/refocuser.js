@@ -18,19 +18,19 @@ export class Refocuser {
   #calls;
   #config;   // options of the light field and settings
   #threads;
-  #module;   // compiled module, for another worker
-  #open;     // promise of the worker's engine, or null
 
-  /** Starts the worker of `calls` with the options of createRefocuser. */
-  static async start(options, calls = new WorkerCalls(options.worker)) {
-    const refocuser = new Refocuser();
-    const {threads, worker, ...config} = options;
+  /** Creates an engine in the worker of `calls` with the options of createRefocuser. */
+  static async start(options, {calls = new WorkerCalls(options.worker), signal} = {}) {
+    const refocuser = new Refocuser(), {threads, worker, ...config} = options;
     refocuser.#calls = calls;
-    calls.onStop = () => refocuser.#open = null;
     refocuser.#config = config;
     refocuser.#threads = host.canShare() ? threads ?? Math.min(host.countCores(), MAX_THREADS) : 1;
+    const values = () => ({config: refocuser.#config, threads: refocuser.#threads, shared: host.canShare()});
     try {
-      await refocuser.#start();
+      const {version, shared, module} = await calls.call('open', {...values(), deflated}, {signal, stops: true});
+      refocuser.version = version;
+      calls.shared = shared;
+      calls.reopen = () => ({...values(), module});
     } catch (error) {
       calls.end(error);
       throw error;
@@ -40,19 +40,6 @@ export class Refocuser {
 
   get threads() {
     return this.#threads;
-  }
-
-  /** Creates the engine, unless the worker has one. */
-  #start() {
-    this.#open ??= this.#calls.call('open', {
-      config: this.#config, threads: this.#threads, shared: host.canShare(),
-      ...(this.#module ? {module: this.#module} : {deflated})
-    }).then(({version, shared, module}) => {
-      this.version = version;
-      this.#module = module;
-      this.#calls.shared = shared;
-    });
-    return this.#open;
   }
 
   async prepare(views, depth, options = {}) {
@@ -67,8 +54,7 @@ export class Refocuser {
 
   /** Prepares a light field that is checked. Conversion and repair cannot be interrupted, so a cancelled call ends the
    *  worker. */
-  async _prepare(values, options) {
-    await this.#start();
+  _prepare(values, options) {
     return this.#calls.call('prepare', values, {...options, stops: true});
   }
 
@@ -78,28 +64,30 @@ export class Refocuser {
       throw new StarfocusError('ARGUMENT', `configure: ${fixed} cannot change after createRefocuser.`, {field: fixed});
     }
     checkFields('configure', settings, SETTINGS);
-    await this.#start();
     await this.#calls.call('configure', settings);
-    Object.assign(this.#config, settings);
+    const values = Object.entries(settings).filter(([, value]) => value !== undefined);
+    const timing = settings.timing ? {timing: {...this.#config.timing, ...settings.timing}} : {};
+    this.#config = {...this.#config, ...Object.fromEntries(values), ...timing};
   }
 
   async preview(params = {}) {
     checkFields('preview', params, {...PARAMS, signal: CALL.signal, shift: 'integer'});
     const {shift = 1, signal, ...rest} = params;
     expect(shift >= 1 && shift <= 3, 'shift', '1, 2 or 3', shift, 'RANGE');
-    return this.#refocus({shift, ...rest}, {signal});
+    return this._refocus({shift, ...rest}, {signal});
   }
 
   async refocus(params = {}) {
     checkFields('refocus', params, {...PARAMS, ...CALL});
     const {signal, onProgress, ...rest} = params;
-    return this.#refocus({shift: 0, watched: Boolean(signal || onProgress), ...rest}, {signal, onProgress});
+    return this._refocus({shift: 0, ...rest}, {signal, onProgress});
   }
 
-  async #refocus(values, options) {
+  /** Refocuses with checked parameters, which may contain `highlights`. */
+  async _refocus(values, options) {
     if (values.region) checkFields('region', values.region, PARAMS.region, ['x', 'y', 'width', 'height']);
-    await this.#start();
-    return new Picture(await this.#calls.call('refocus', values, options));
+    const watched = Boolean(options.signal || options.onProgress);
+    return new Picture(await this.#calls.call('refocus', {...values, watched}, options));
   }
 
   async focusAt(point) {
@@ -107,12 +95,10 @@ export class Refocuser {
     const {width, height} = this.#config;
     expect(point.x >= 0 && point.x < width, 'x', `0 to ${width - 1}`, point.x, 'RANGE');
     expect(point.y >= 0 && point.y < height, 'y', `0 to ${height - 1}`, point.y, 'RANGE');
-    await this.#start();
     return this.#calls.call('focusAt', {x: point.x, y: point.y});
   }
 
   async disparity() {
-    await this.#start();
     return this.#calls.call('disparity', {});
   }
 

@@ -15,57 +15,55 @@ function adapt(refocuser, shift, milliseconds) {
 
 export class Refocusing {
   #refocuser;
-  #params;
-  #blocks;
+  #lens;
   #options;
-  #settle;      // sets the highlights before the first picture
-  #superseded = new AbortController();
-  #signal;      // aborted by the caller or by a newer request
-  #full = null; // promise of the full picture
+  #full = null;  // promise of the full picture
 
-  constructor(refocuser, {params, blocks, options, settle}) {
+  /** `options` are {signal, onProgress, superseded}. A newer request aborts the AbortController `superseded`. */
+  constructor(refocuser, lens, options) {
     this.#refocuser = refocuser;
-    this.#params = params;
-    this.#blocks = blocks;
+    this.#lens = lens;
     this.#options = options;
-    this.#settle = settle;
-    this.#signal = this.#superseded.signal;
-    options.signal?.addEventListener('abort', () => this.#superseded.abort(options.signal.reason), {once: true});
-    if (options.signal?.aborted) this.#superseded.abort(options.signal.reason);
   }
 
-  /** Cancels this request in favour of a newer one. */
-  supersede() {
-    this.#superseded.abort();
+  /** Calls `compute`. While it runs, the caller's signal also aborts this request. */
+  async #run(compute) {
+    const {signal, superseded} = this.#options, abort = () => superseded.abort(signal.reason);
+    if (signal?.aborted) abort();
+    signal?.addEventListener('abort', abort);
+    try {
+      return await compute(superseded.signal);
+    } finally {
+      signal?.removeEventListener('abort', abort);
+    }
   }
 
-  async #preview() {
-    await this.#settle();
-    const shift = shifts.get(this.#refocuser) ?? 2;
-    const picture = await this.#refocuser.preview({...this.#params, shift, signal: this.#signal});
-    adapt(this.#refocuser, shift, picture.milliseconds);
-    return picture;
-  }
-
-  async #finish() {
-    await this.#settle();
-    return this.#refocuser.refocus({
-      ...this.#params, blocks: this.#blocks, signal: this.#signal, onProgress: this.#options.onProgress
+  #preview() {
+    return this.#run(async signal => {
+      const {blocks, ...lens} = this.#lens, shift = shifts.get(this.#refocuser) ?? 2;
+      const picture = await this.#refocuser._refocus({...lens, shift}, {signal});
+      adapt(this.#refocuser, shift, picture.milliseconds);
+      return picture;
     });
+  }
+
+  #finish() {
+    return this.#full ??= this.#run(
+        signal => this.#refocuser._refocus({...this.#lens, shift: 0}, {signal, onProgress: this.#options.onProgress}));
   }
 
   async* [Symbol.asyncIterator]() {
     try {
       yield await this.#preview();
-      yield await (this.#full ??= this.#finish());
+      yield await this.#finish();
     } catch (error) {
       // A newer request ends the iteration without an error.
-      if (!this.#signal.aborted || this.#options.signal?.aborted) throw error;
+      if (!this.#options.superseded.signal.aborted || this.#options.signal?.aborted) throw error;
     }
   }
 
   then(resolve, reject) {
-    return (this.#full ??= this.#finish()).then(resolve, reject);
+    return this.#finish().then(resolve, reject);
   }
 
   catch(reject) {

@@ -7,6 +7,9 @@ import {host} from './host.js';
 
 const PROGRESS_INTERVAL = 50;  // ms
 
+/** Returns the reason of an aborted signal. Old browsers have no reasons. */
+const reasonOf = signal => signal.reason ?? new DOMException('The call was aborted.', 'AbortError');
+
 export class WorkerCalls {
   #worker = null;
   #file;
@@ -15,46 +18,46 @@ export class WorkerCalls {
   #failure = null;  // error of all calls after close() or after the worker failed
   #shared = null;   // memory shared with the worker: id of the call to cancel, finished rows, number of rows
 
-  /** Called after the worker was ended to cancel a call. */
-  onStop = () => {};
+  /** Returns the values of the call 'open' for another worker, which replaces a worker that had an engine; or null. */
+  reopen = null;
 
   /** `file` is the address of worker.js, or undefined. */
   constructor(file) {
     this.#file = file;
   }
 
-  /** Shows the memory in which the worker reports its progress, or null if memory is not shared. */
-  set shared(shared) {
-    this.#shared = shared && new Int32Array(shared.memory.buffer, shared.address, 3);
-  }
-
   /** Sends a call to the worker, and resolves with the worker's answer. `options` are {signal, onProgress, transfer,
    *  stops}. If the signal is aborted, the promise rejects at once. If `stops` is true, the worker cannot cancel the
    *  call, so the worker is ended, and the next call starts another worker. */
-  call(name, values, {signal, onProgress, transfer = [], stops = false} = {}) {
+  call(name, values, options = {}) {
     return new Promise((resolve, reject) => {
+      const {signal} = options;
       if (this.#failure) return reject(this.#failure);
-      if (signal?.aborted) return reject(signal.reason);
-      const call = {id: ++this.#lastId, name, values, transfer, resolve, reject, signal, onProgress, stops, settled: false};
-      call.abort = () => this.#cancel(call, signal.reason);
+      if (signal?.aborted) return reject(reasonOf(signal));
+      const call = this.#make(name, values, {...options, resolve, reject});
+      call.abort = () => this.#cancel(call, reasonOf(signal));
       signal?.addEventListener('abort', call.abort);
       this.#calls.push(call);
       if (this.#calls.length === 1) this.#send();
     });
   }
 
+  #make(name, values, options) {
+    return {id: ++this.#lastId, name, values, transfer: [], settled: false, ...options};
+  }
+
   /** Ends the worker. Calls without an answer, and all later calls, reject with `error`. */
   end(error) {
     this.#failure ??= error;
-    this.#stop(this.#failure);
-  }
-
-  #stop(error) {
-    this.#worker?.terminate();
-    this.#worker = this.#shared = null;
+    this.#stop();
     const calls = this.#calls;
     this.#calls = [];
-    for (const call of calls) this.#settle(call, () => call.reject(error));
+    for (const call of calls) this.#settle(call, () => call.reject(this.#failure));
+  }
+
+  #stop() {
+    this.#worker?.terminate();
+    this.#worker = this.#shared = null;
   }
 
   #start() {
@@ -66,12 +69,32 @@ export class WorkerCalls {
     } catch (error) {
       fail(error.message);
     }
+    if (this.#worker && this.reopen) this.#calls.unshift(this.#makeOpen());
+  }
+
+  /** Returns the call that creates the engine of another worker. If it fails, the call that waits for it rejects. */
+  #makeOpen() {
+    return this.#make('open', this.reopen(), {
+      resolve: ({shared}) => this.shared = shared,
+      reject: error => {
+        this.#stop();
+        const waiting = this.#calls[1];
+        if (!waiting) return;
+        this.#settle(waiting, () => waiting.reject(error));
+        this.#calls.splice(1, 1);
+      }
+    });
+  }
+
+  /** Shows the memory in which the worker reports its progress, or null if memory is not shared. */
+  set shared(shared) {
+    this.#shared = shared && new Int32Array(shared.memory.buffer, shared.address, 3);
   }
 
   #send() {
-    const [call] = this.#calls;
-    if (!call) return this.#worker?.ref(false);
+    if (this.#calls.length === 0) return this.#worker?.ref(false);
     if (!this.#worker) this.#start();
+    const [call] = this.#calls;
     if (!this.#worker) return;
     this.#worker.ref(true);
     if (call.onProgress && this.#shared) {
@@ -87,14 +110,13 @@ export class WorkerCalls {
 
   /** Rejects a call at once. A waiting call is removed, and the worker is asked to end a running call. */
   #cancel(call, reason) {
+    const runs = call === this.#calls[0];
     this.#settle(call, () => call.reject(reason));
-    if (call !== this.#calls[0]) {
-      this.#calls = this.#calls.filter(other => other !== call);
-      return;
-    }
+    if (!runs || call.stops) this.#calls = this.#calls.filter(other => other !== call);
+    if (!runs) return;
     if (call.stops) {
-      this.#stop(new StarfocusError('STATE', `${call.name} was cancelled, so there is no light field.`));
-      return this.onStop();
+      this.#stop();
+      return this.#send();
     }
     if (this.#shared) Atomics.store(this.#shared, 0, call.id);
     this.#worker?.post({cancel: call.id});
@@ -102,10 +124,11 @@ export class WorkerCalls {
 
   #report(call, done, total) {
     if (call.settled || !(total > 0)) return;
+    const fail = error => this.#cancel(call, error);
     try {
-      call.onProgress?.(done, total);
+      Promise.resolve(call.onProgress?.(done, total)).catch(fail);
     } catch (error) {
-      this.#cancel(call, error);
+      fail(error);
     }
   }
 

@@ -282,7 +282,8 @@ export interface Refocuser extends Disposables {
       Promise<{milliseconds: number}>;
 
   /** Changes settings. Creates a new engine and keeps the light field. Omitted settings keep their values.
-   *  @throws StarfocusError for values out of range, after which all settings keep their values, and for options that
+   *  @throws StarfocusError for values out of range or if memory is too small, after which all settings keep their
+   *      values, and for options that
    *      are fixed */
   configure(settings: Settings): Promise<void>;
 
@@ -394,7 +395,7 @@ export interface Photo extends Disposables {
   /** Returns the focus for a point of the picture, as Refocuser.focusAt. */
   focusAt(point: Point): Promise<number>;
   /** Requests a picture. A new request cancels the previous one.
-   *  @throws StarfocusError for a missing focus and values of the wrong type */
+   *  @throws StarfocusError for a missing focus and values out of range */
   refocus(lens: PhotoLens, options?: Call & Progress): Refocusing;
   /** Returns a copy of the disparity map, after a repair. */
   disparity(): Promise<{data: Floats, width: number, height: number}>;

@@ -24,6 +24,7 @@ static starfocus_problem problem;        /* problem of the last call with a conf
 static const starfocus_problem* refused; /* problem of the last call */
 static starfocus_config wanted;          /* configuration that is being set */
 static starfocus_config config;          /* configuration of the light field and the engine */
+static starfocus_config previous;        /* configuration before the last call of Accept */
 static starfocus_params params;
 static starfocus_engine* engine;
 static int32_t workers;
@@ -102,12 +103,16 @@ EXPORT(accept) starfocus_status Accept(int32_t count) {
   const starfocus_status status = starfocus_workspace_size(&wanted, &bytes);
   refused = &problem;
   if (status == STARFOCUS_OK) {
+    previous = config;
     config = wanted;
     workers = count;
     SetHelpers(count - 1);
   }
   return status;
 }
+
+/* Restores the configuration before the last call of Accept. */
+EXPORT(restore) void Restore(void) { config = previous; }
 
 /* Allocates the stack of a helper. Must be called before the first call of Room. Returns the end of
  * the stack, from which the stack grows downwards, or 0 if there is no memory. */

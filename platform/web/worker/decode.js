@@ -3,21 +3,22 @@
 
 import {readPng16} from './png16.js';
 
-function fail(code, message) {
-  throw Object.assign(new Error(message), {code});
+function fail(code, field, message) {
+  throw Object.assign(new Error(`${field}: ${message}`), {code, field});
 }
 
 /** Returns the pixels of an ImageBitmap or a picture file as {data, width, height, channels}. */
 async function drawPixels(source, what) {
   if (typeof OffscreenCanvas !== 'function') {
-    fail('UNSUPPORTED', `${what}: picture files cannot be decoded here; pass {data, width, height}.`);
+    fail('UNSUPPORTED', what, 'picture files cannot be decoded here; pass {data, width, height}.');
   }
   let bitmap;
   try {
     bitmap = await createImageBitmap(source, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
   } catch {
-    fail('DECODE', `${what}: ${source.name ? `${source.name} is` : 'this is'} not a picture that this browser can decode.`);
+    fail('DECODE', what, `${source.name ? `${source.name} is` : 'this is'} not a picture that this browser can decode.`);
   }
+  source.close?.();
   const {width, height} = bitmap, canvas = new OffscreenCanvas(width, height);
   const context = canvas.getContext('2d', {willReadFrequently: true});
   context.drawImage(bitmap, 0, 0);
@@ -25,24 +26,14 @@ async function drawPixels(source, what) {
   return {data: context.getImageData(0, 0, width, height).data, width, height, channels: 4};
 }
 
-function checkPixels({data, width, height}, what) {
-  const whole = Number.isInteger(width) && Number.isInteger(height) && width > 0 && height > 0;
-  const channels = whole ? data.length / (width * height) : 0;
-  if (![1, 3, 4].includes(channels)) {
-    fail('RANGE', `${what}: expected width * height values, or 3 or 4 times as many, found ${data.length} values for ` +
-                      `${width} x ${height} pixels.`);
-  }
-  return {data, width, height, channels};
-}
-
-/** Returns the pixels of a picture: a Blob, an ImageBitmap, or {data, width, height}. */
+/** Returns the pixels of a picture: a Blob, an ImageBitmap, or {data, width, height, channels}. */
 export async function decodePicture(source, what) {
-  return source.data ? checkPixels(source, what) : drawPixels(source, what);
+  return source.data ? source : drawPixels(source, what);
 }
 
 /** Returns the pixels of a depth picture. A PNG with 16 bits of grey keeps its bits. */
 export async function decodeDepth(source) {
-  if (source.data) return checkPixels(source, 'depth');
+  if (source.data) return source;
   const grey = source.arrayBuffer && await readPng16(source);
   return grey ?? drawPixels(source, 'depth');
 }

@@ -36,10 +36,10 @@ function findMemoryFlags(bytes) {
   throw new Error('the module imports no memory');
 }
 
-/** Returns the bytes of the module from their base64 text, which is compressed (raw deflate). */
+/** Returns the bytes of the module from their base64 text, which is compressed (zlib). */
 async function inflate(deflated) {
   const bytes = Uint8Array.from(atob(deflated), letter => letter.charCodeAt(0));
-  const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
+  const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(inflated).arrayBuffer());
 }
 

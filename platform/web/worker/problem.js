@@ -5,7 +5,8 @@ import {findBad} from './depth.js';
 import {readText} from './engine.js';
 
 const CODES = {
-  3: 'RANGE', 4: 'FEATURE', 7: 'MEMORY', 8: 'MEMORY', 11: 'BLUR', 12: 'DISPARITY', 13: 'NOT_FINITE', 14: 'NOT_FINITE'
+  3: 'RANGE', 4: 'FEATURE', 7: 'MEMORY', 8: 'MEMORY', 11: 'BLUR', 12: 'DISPARITY', 13: 'NOT_FINITE', 14: 'NOT_FINITE',
+  15: 'RANGE'
 };
 const NAMES = {max_workers: 'threads', preview_shift: 'shift'};
 
@@ -17,8 +18,11 @@ function toName(field) {
 
 /** Replaces the C names in the description of a range. */
 function toWords(text) {
-  return text.replace(/\blens\./g, '').replace('STARFOCUS_FEATURE_SHAPES', 'shapes: true')
-      .replace('STARFOCUS_MAX_BLUR', '128').replace('STARFOCUS_MAX_TIMING', '100000000')
+  return text.replace(/\blens\./g, '')
+      .replace(/\ba starfocus_(mode|renderer|shape|transfer)\b/g, 'a value of $1')
+      .replace('STARFOCUS_FEATURE_SHAPES', 'shapes: true')
+      .replace('STARFOCUS_MAX_BLUR', '128')
+      .replace('STARFOCUS_MAX_TIMING', '100000000')
       .replace(/STARFOCUS_(\w+)_([A-Z_]+)/g, '$2')
       .replace(/\b[a-z]+(_[a-z]+)+\b/g, toName);
 }
@@ -38,20 +42,21 @@ function readProblem(engine, memory, status) {
   };
 }
 
-/** Returns the error of a status of the engine. */
-export function errorOf(engine, memory, status) {
-  const sentence = readText(memory, engine.status_string(status)), problem = readProblem(engine, memory, status);
-  const {field = '', expected, value} = problem ?? {};
+/** Returns the error of a status of the engine. `given` are the arguments of the call. */
+export function errorOf(engine, memory, status, given = {}) {
+  const sentence = toWords(readText(memory, engine.status_string(status)));
+  const {field = '', expected, value: read} = readProblem(engine, memory, status) ?? {};
+  const value = field.split('.').reduce((values, name) => values?.[name], given) ?? read;
   const found = value === undefined ? '' : `, found ${value}`;
   const message = field ? `${field}: ${sentence} (expected ${expected}${found})` : sentence;
-  return Object.assign(new Error(message), {code: CODES[status] ?? 'INTERNAL', status, field, value});
+  return Object.assign(new Error(message), {code: CODES[status] ?? 'INTERNAL', field, value});
 }
 
 /** Adds the position of the first bad disparity of `map` to an error of prepare. */
 export function locate(error, map, {disparityMin, disparityMax}) {
   if (error.code !== 'DISPARITY' && error.code !== 'NOT_FINITE') return error;
   const range = error.code === 'DISPARITY';
-  const bad = range ? findBad(map, disparityMin, disparityMax) : findBad(map, -Infinity, Infinity);
+  const bad = range ? findBad(map, disparityMin, disparityMax) : findBad(map, -Number.MAX_VALUE, Number.MAX_VALUE);
   if (!bad) return error;
   const expected = range ? `${disparityMin} to ${disparityMax}, the range of disparityMin and disparityMax` :
                            'a finite number; fillUnknown: true fills unknown values';

@@ -27,8 +27,9 @@ let current = 0;       // id of the running call
 const bytesAt = (address, length) => new Uint8Array(memory.buffer, address, length);
 const floatsAt = (address, length) => new Float32Array(memory.buffer, address, length);
 
-function check(status) {
-  if (status !== OK) throw errorOf(engine, memory, status);
+/** Throws the error of a status. `given` are the arguments of the call. */
+function check(status, given) {
+  if (status !== OK) throw errorOf(engine, memory, status, given);
 }
 
 /** Sets fields of a C structure by JavaScript names: {maxBlur: 8, region: {x: 0}} sets max_blur and region.x. */
@@ -95,7 +96,7 @@ const calls = {
     engine = await instantiate(module, memory);
     engine.begin();
     setFields(engine.configure, given);
-    check(engine.accept(count));
+    check(engine.accept(count), {...given, threads: count});
     for (let worker = 1; worker < count; ++worker) {
       await startHelper({id: 0, name: 'help', values: {module, memory, worker, stack: engine.stack()}});
     }
@@ -139,19 +140,27 @@ const calls = {
   configure(values) {
     engine.begin();
     setFields(engine.configure, values);
-    check(engine.accept(threads));
-    Object.assign(config, values);
-    if (prepared) check(engine.make_engine());
+    check(engine.accept(threads), values);
+    const status = prepared ? engine.make_engine() : OK;
+    if (status === OK) {
+      if (values.highlights !== undefined) config.highlights = values.highlights;
+      return;
+    }
+    const error = errorOf(engine, memory, status, values);
+    engine.restore();
+    check(engine.make_engine());
+    throw error;
   },
 
-  async refocus({shift, blocks, watched, ...params}) {
+  async refocus({shift, blocks, watched, highlights, ...params}) {
     expectPrepared(shift > 0 ? 'preview' : 'refocus');
+    if (highlights !== undefined && highlights !== (config.highlights ?? 1)) calls.configure({highlights});
     const start = performance.now();
     engine.aim(current);
     setFields(engine.set, params);
     if (blocks) engine.watch();
     const inParts = watched && !blocks && !isShared && shift === 0 && !params.region;
-    const picture = inParts ? await refocusInParts() : refocusAtOnce(shift);
+    const picture = inParts ? await refocusInParts(params) : refocusAtOnce(shift, {shift, ...params});
     if (blocks) picture.blocks = readBlocks();
     return {...picture, shift, milliseconds: performance.now() - start};
   },
@@ -175,21 +184,21 @@ function expectPrepared(what) {
   throw Object.assign(new Error(`${what}: there is no light field; call prepare first.`), {code: 'STATE'});
 }
 
-function refocusAtOnce(shift) {
-  check(engine.refocus(shift));
+function refocusAtOnce(shift, given) {
+  check(engine.refocus(shift), given);
   const width = engine.picture_width(), height = engine.picture_height();
   return {data: new Uint8ClampedArray(bytesAt(engine.picture(), 4 * width * height)), width, height};
 }
 
 /** Computes the picture in regions of ROWS_AT_ONCE rows. After each region, the function reports progress and handles
  *  messages, so that the call can be cancelled. */
-async function refocusInParts() {
+async function refocusInParts(given) {
   const {width, height} = config;
   const data = new Uint8ClampedArray(4 * width * height);
   for (let y = 0; y < height; y += ROWS_AT_ONCE) {
     const region = {x: 0, y, width, height: Math.min(ROWS_AT_ONCE, height - y)};
     setFields(engine.set, {region});
-    data.set(refocusAtOnce(0).data, 4 * width * y);
+    data.set(refocusAtOnce(0, given).data, 4 * width * y);
     post({id: current, progress: [y + region.height, height]});
     await turn();
   }
@@ -223,7 +232,8 @@ listen(async ({id, name, values, cancel}) => {
     const result = await calls[name](values);
     post({id, result}, result?.data ? [result.data.buffer] : []);
   } catch (error) {
-    const {message, code = 'INTERNAL', field, value} = error;
+    const {message, field, value} = error, isMemory = error instanceof RangeError;
+    const code = isMemory ? 'MEMORY' : /^[A-Z]+(_FINITE)?$/.test(error.code) ? error.code : 'INTERNAL';
     post({id, error: {message, code, field, value}});
   }
 });
