@@ -283,8 +283,7 @@ export interface Refocuser extends Disposables {
 
   /** Changes settings. Creates a new engine and keeps the light field. Omitted settings keep their values.
    *  @throws StarfocusError for values out of range or if memory is too small, after which all settings keep their
-   *      values, and for options that
-   *      are fixed */
+   *      values, and for options that are fixed */
   configure(settings: Settings): Promise<void>;
 
   /** Refocuses at 1 / 2^shift of the size, which takes about 1 / 4^shift of the time. All parameters are in pixels of
@@ -355,7 +354,7 @@ export interface PhotoOptions extends WorkerOptions, Call, Progress {
 
 /** Lens of Photo.refocus. */
 export interface PhotoLens extends Lens {
-  /** Disparity in focus, from Photo.focusMin (far) to Photo.focusMax (near). */
+  /** Disparity in focus, from Photo.focusMin (far) to Photo.focusMax (near), or up to one pixel beyond. */
   focus: number;
   /** f-stop, at least Photo.fStopMin; default 1.8, 1 for light fields, or fStopMin if that is larger. Replaced by `aperture`, which is
    *  1 / fStop, if `aperture` is present. */
