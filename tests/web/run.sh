@@ -23,11 +23,12 @@ quietly() {
   "$@" >"$work/log" 2>&1 || { tail -n 60 "$work/log" >&2; echo "web: failed: $*" >&2; exit 1; }
 }
 
-# run NAME: runs a test in the project, and prints the number of passed cases.
+# run NAME: runs a test in the project, and prints the number of passed cases and the measured times.
 run() {
   start=$(date +%s)
   quietly node --test --test-reporter=tap "$1"
   printf '%-40s %s tests passed (%d s)\n' "$1" "$(sed -n 's/^# pass //p' "$work/log")" $(($(date +%s) - start))
+  sed -n -E 's/^[# ]*((slow phone|12 megapixels|renderer): .*)/  \1/p' "$work/log"
 }
 
 quietly "$STARFOCUS_PROGRAM-lab" scene "$work/field" --name portrait --size 320x240 --views 5
