@@ -32,6 +32,29 @@ make_web_demo() {
   printf 'made the demo %s (%d s)\n' "$1" $((SECONDS - start))
 }
 
+# Copies the decoder of HEIC files to the folder $1: libheif-js, which npm fetches once. The page works without the
+# decoder, but opens no HEIC depth photos.
+add_heic_decoder() {
+  local version=1.23.2 fetched=build/web/heic decoder=build/web/heic/node_modules/libheif-js/libheif-wasm
+  rm -rf "$1"
+  is_heic_decoder $decoder || npm install --prefix $fetched --no-save --prefer-offline --no-audit --no-fund \
+    --ignore-scripts libheif-js@$version >/dev/null 2>&1
+  if ! is_heic_decoder $decoder; then
+    echo "note: the page opens no HEIC depth photos, because npm cannot fetch libheif-js $version"
+    return
+  fi
+  mkdir -p "$1" && cp $decoder/libheif.js $decoder/LICENSE "$1" &&
+    gzip -9nc $decoder/libheif.wasm >"$1/libheif.wasm.gzip" || exit 1
+}
+
+# Returns 0 if the folder $1 contains the files of libheif-js with the expected checksums.
+is_heic_decoder() {
+  sha256sum --check --status 2>/dev/null <<SUMS
+f148d9ff173e5a6d6781e80dccb8336f54bfbb032392ceb2d37e0e92923c4bf3  $1/libheif.js
+e4aa8333fbe55ec7c6c776f735236f40bed9103188498f8131d4e52b73cdfee8  $1/libheif.wasm
+SUMS
+}
+
 # Builds the npm package in build/web/npm, and the page with the package and a demo in build/web/site. The demo is made
 # only if the demo is missing. The programs of the release build make the demo if these programs exist.
 build_web() {
@@ -42,6 +65,7 @@ build_web() {
   [ -f $site/demo/disparity.json ] || make_web_demo $site/demo
   rm -rf $site/starfocus
   cp -r build/web/npm $site/starfocus || exit 1
+  add_heic_decoder $site/heic
   cp examples/web/*.html examples/web/*.css examples/web/*.js $site || exit 1
 }
 

@@ -3,7 +3,7 @@
 // Apple's depth (an auxiliary picture behind the photo). platform/readers does the same for the programs.
 
 import {isJpeg, readFurtherPictures} from './jpeg.js';
-import {readXmp, valueOf} from './xmp.js';
+import {readXmp, valueOf, Xmp} from './xmp.js';
 
 const GOOGLE = 'http://ns.google.com/photos/1.0/', DYNAMIC = 'http://ns.google.com/photos/dd/1.0/';
 const DEPTH = `${GOOGLE}depthmap/`, IMAGE = `${GOOGLE}image/`, MAP = `${DYNAMIC}depthmap/`;
@@ -33,6 +33,14 @@ function appleRange(xmp) {
   const first = toNumber(xmp.get(PIXELS, 'FloatMinValue')), last = toNumber(xmp.get(PIXELS, 'FloatMaxValue'));
   if (!(first >= 0 && last > first)) return {near};
   return {first, last, isDistance, metres: xmp.get(APPLE, 'Accuracy') === 'absolute', near};
+}
+
+/** Returns the range of the depth map in a HEIC file, by the XMP of the map. Without XMP, the near end is unknown. */
+export function heicRange(packet) {
+  if (!packet) return {};
+  const xmp = new Xmp();
+  xmp.add(packet);
+  return appleRange(xmp);
 }
 
 /** Decodes base64 without blocking the page. */

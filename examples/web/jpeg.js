@@ -110,6 +110,18 @@ export function keepSegments(segments) {
   ];
 }
 
+/** Returns the segments that a refocused HEIC photo keeps. `exif` is the EXIF item of the file, which starts with the
+ *  offset of the TIFF header. Data that exceed one segment are omitted. */
+export function keepItems(exif, profile) {
+  const skip = exif ? 4 + new DataView(exif.buffer).getUint32(0) : 0;
+  const bytesOf = name => new TextEncoder().encode(name);
+  const segment = (marker, name, data) => ({marker, data: Uint8Array.from([...bytesOf(name), ...data])});
+  return keepSegments([
+    ...(exif ? [segment(APP1, EXIF, exif.subarray(skip))] : []),
+    ...(profile ? [segment(APP2, `${PROFILE}\x01\x01`, profile)] : [])
+  ].filter(({data}) => data.length + 2 <= 0xFFFF));
+}
+
 /** Returns the JPEG file `blob` with these segments behind its first marker. */
 export function insertSegments(blob, segments) {
   const parts = segments.flatMap(({marker, data}) => [

@@ -5,11 +5,11 @@
 // {far, near} in 1 / metre, or null. `kept` are segments of the downloaded JPEG. Other files cause an Error with a
 // message.
 
-import {readDepth} from './depth_photo.js';
-import {isJpeg, keepSegments, orientationOf, readJpeg} from './jpeg.js';
+import {heicRange, readDepth} from './depth_photo.js';
+import {isJpeg, keepItems, keepSegments, orientationOf, readJpeg} from './jpeg.js';
 import {parsePfm} from './pfm.js';
-import {call} from './pixels.js';
-import {checkPicture, isHeif} from './problem.js';
+import {call, decodeHeic} from './pixels.js';
+import {checkPicture, isHeif, namesDepth} from './problem.js';
 
 // Positions in the order of starfocus_view_position. A set of views is a prefix of this list.
 const POSITIONS = [
@@ -18,7 +18,7 @@ const POSITIONS = [
 ];
 const SETS = [17, 9, 5, 1];
 const LARGEST_DISPARITY = 500;
-const HELP = 'Open a depth photo (a JPEG with a depth map), or a picture together with its depth picture.';
+const HELP = 'Open a depth photo (a file with photo and depth map), or a picture together with its depth picture.';
 
 const signed = value => (value < 0 ? '-' : '+') + Math.abs(value).toFixed(1);
 const viewName = ([u, v]) => `view_${signed(u)}_${signed(v)}`;
@@ -96,12 +96,37 @@ async function readPhoto(file) {
   return {bytes, jpeg, kept: keepSegments(jpeg.segments), orientation: orientationOf(jpeg.segments)};
 }
 
-async function openDepthPhoto(file) {
-  const {bytes, jpeg, kept, orientation} = await readPhoto(file);
-  const bitmap = await checkPicture(file);
-  if (isHeif(bytes)) {
+async function openHeic(file, bytes) {
+  const found = namesDepth(bytes) && await decodeHeic(file);
+  if (!found?.depth) {
+    if (found !== null) throw new Error(`${file.name} contains no depth map. ${HELP}`);
+    (await checkPicture(file)).close();
     throw new Error(`${file.name} is a HEIC picture, whose depth browsers cannot read. Open the picture together with its depth picture.`);
   }
+  const {image, exif, profile, depth} = found, bitmap = await checkPicture(image, file.name);
+  checkSize(file.name, bitmap, depth);
+  return {
+    name: `depth photo ${file.name}`, stem: stemOf(file.name), images: [image], bitmap, kept: keepItems(exif, profile),
+    ...await understand(depth.file, heicRange(depth.xmp), 1)
+  };
+}
+
+/** Returns a file that the browser decodes: `file`, or the picture in a HEIC file that the browser cannot decode. */
+async function toReadable(file) {
+  if (!isHeif(new Uint8Array(await file.slice(0, 12).arrayBuffer()))) return file;
+  try {
+    (await createImageBitmap(file)).close();
+    return file;
+  } catch {
+    const found = await decodeHeic(file).catch(() => null);
+    return found ? new File([found.image], file.name) : file;  // checkPicture reports failures
+  }
+}
+
+async function openDepthPhoto(file) {
+  const {bytes, jpeg, kept, orientation} = await readPhoto(file);
+  if (isHeif(bytes)) return openHeic(file, bytes);
+  const bitmap = await checkPicture(file);
   const found = jpeg && await readDepth(file.name, bytes, jpeg);
   if (!found) throw new Error(`${file.name} contains no depth map. ${HELP}`);
   const mapSize = await sizeOf(found.depth, `The depth map of ${file.name}`);
@@ -165,6 +190,6 @@ export async function open(files) {
     throw new Error(`${files[0].name} is a depth map without its picture. Open both together.`);
   }
   if (files.length === 1) return openDepthPhoto(files[0]);
-  if (files.length === 2) return openPair(files);
+  if (files.length === 2) return openPair(await Promise.all(files.map(toReadable)));
   throw new Error(`Expected a light-field folder, a depth photo, or a picture with its depth picture, found ${files.length} files.`);
 }

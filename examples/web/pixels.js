@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls the functions of pixels_worker.js.
+// Calls the functions of pixels_worker.js and heic.js.
 
 let worker = null, lastId = 0;
 const waiting = new Map();
@@ -22,4 +22,18 @@ export function call(name, values, transfer = []) {
     waiting.set(++lastId, {resolve, reject});
     worker.postMessage({id: lastId, name, values}, transfer);
   });
+}
+
+/** Decodes a HEIC file, as read() of heic.js. The memory of the decoder is freed with its worker. Resolves with null if
+ *  the site has no decoder. */
+export function decodeHeic(file) {
+  const decoder = new Worker(new URL('heic.js', import.meta.url));
+  return new Promise((resolve, reject) => {
+    decoder.onmessage = ({data: {result, error}}) => {
+      if (error === undefined) resolve(result);
+      else reject(new Error(`${file.name} cannot be decoded: ${error}.`));
+    };
+    decoder.onerror = () => reject(new Error(`${file.name} cannot be decoded: the decoder failed.`));
+    decoder.postMessage(file);
+  }).finally(() => decoder.terminate());
 }

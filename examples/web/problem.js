@@ -5,10 +5,14 @@
 import {isJpeg, readJpeg} from './jpeg.js';
 
 const HEIF_BRANDS = /^(hei[cxms]|hev[cxms]|mif1|msf1)$/;
+const DEPTH_TYPE = /urn:mpeg:(hevc:2015:auxid:2|mpegB:cicp:systems:auxiliary:depth)\0/;
 const latin = bytes => new TextDecoder('latin1').decode(bytes);
 
 /** Returns true if the bytes start a HEIC file. */
 export const isHeif = bytes => latin(bytes.subarray(4, 8)) === 'ftyp' && HEIF_BRANDS.test(latin(bytes.subarray(8, 12)));
+
+/** Returns true if a HEIC file names the type of auxiliary pictures with depth. */
+export const namesDepth = bytes => DEPTH_TYPE.test(latin(bytes));
 
 const isPng = bytes => latin(bytes.subarray(1, 4)) === 'PNG';
 const isWebp = bytes => latin(bytes.subarray(0, 4)) === 'RIFF' && latin(bytes.subarray(8, 12)) === 'WEBP';

@@ -3,19 +3,22 @@
 // these tests.
 
 import assert from 'node:assert/strict';
-import {readFileSync} from 'node:fs';
+import {existsSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 import {deflateSync} from 'node:zlib';
 
 import {makeGDepth} from './gdepth_photo.mjs';
 import {
-  andFull, andWait, choose, drawPhoto, driver, error, file, focusText, openFiles, refocusByProgram, screenshot, setSlider, shown,
-  small, sources, tap, waitFor
+  andFull, andWait, choose, drawPhoto, driver, error, file, focusText, load, openFiles, refocusByProgram, screenshot,
+  setSlider, shown, site, small, sources, tap, waitFor
 } from './page_driver.mjs';
 import {assertSameBytes} from './pictures.mjs';
 
 const sample = name => file(name, readFileSync(join(sources, 'tests', 'fuzz', 'corpus', 'photo', name)));
+const photos = join(process.env.STARFOCUS_DATA_DIR ?? join(sources, '..', 'shared', 'data'), 'photos');
+const noDecoder = !existsSync(join(site, 'heic')) && 'the site has no HEIC decoder';
+const noPug = noDecoder || !existsSync(join(photos, 'pug.heic')) && `${photos} has no pug.heic`;
 const photo = () => file('photo.png', file('view_+0.0_+0.0.png').buffer);
 const opened = (pattern, ...files) => andWait(() => openFiles(...files), pattern);
 
@@ -144,7 +147,7 @@ test('rejects what it cannot read in a true sentence, and keeps what was open', 
     [[file('a.png', centre.buffer), file('map.pfm', pfm.subarray(0, 5000))], /^map\.pfm is cut off: 320 x 240 values need/],
     [[file('a.png', centre.buffer), file('map.pfm', jpeg)], /^map\.pfm is not a depth map/],
     [[file('phone.heic', heic), file('depth.png', centre.buffer)], /^phone\.heic is a HEIC picture, which this browser cannot read\./],
-    [[file('phone.heic', heic)], /^phone\.heic is a HEIC picture/],
+    [[file('phone.heic', heic)], /^phone\.heic contains no depth map\./],
     [[file('photo.jpg', jpeg), flat], /^The depth of photo\.jpg is 320 x 240; expected at most 64 x 48/],
     [[file('input_Cam000.png', jpeg), file('parameters.cfg', jpeg)], /HCI benchmark/],
     [[file('out_00_00_-1_1_.png', jpeg)], /Stanford archive/],
@@ -161,4 +164,62 @@ test('rejects what it cannot read in a true sentence, and keeps what was open', 
   await screenshot('error');
   await tap(10, 10);
   assert.ok(await driver.page.isHidden('#error'), 'an alert disappears after the next success');
+});
+
+/** Returns the correlation of the canvas with a grey PNG of other size. */
+const correlateWith = png => driver.page.evaluate(async text => {
+  const side = 100, picture = await createImageBitmap(await (await fetch(`data:image/png;base64,${text}`)).blob());
+  const [a, b] = [document.getElementById('picture'), picture].map(source => {
+    const context = new OffscreenCanvas(side, side).getContext('2d');
+    context.drawImage(source, 0, 0, side, side);
+    return context.getImageData(0, 0, side, side).data.filter((_, i) => i % 4 === 0);
+  });
+  const mean = of => a.reduce((sum, _, i) => sum + of(i), 0) / a.length;
+  const [meanA, meanB] = [mean(i => a[i]), mean(i => b[i])];
+  const covariance = mean(i => (a[i] - meanA) * (b[i] - meanB));
+  return covariance / Math.sqrt(mean(i => (a[i] - meanA) ** 2) * mean(i => (b[i] - meanB) ** 2));
+}, png.toString('base64'));
+
+const heicSample = () => readFileSync(join(sources, 'tests', 'fuzz', 'corpus', 'heif', 'depth.heic'));
+
+test('opens a portrait of a phone in HEIC', {skip: noPug}, async () => {
+  const {page} = driver;
+  await load(driver.address);  // a page of its own, whose memory is freed
+  await opened(/^Opened: depth photo pug\.heic, 4032 x 3024/, file('pug.heic', readFileSync(join(photos, 'pug.heic'))));
+  await choose('depth');
+  await driver.page.waitForTimeout(500);
+  const likeness = await correlateWith(readFileSync(join(photos, 'pug_depth.png')));
+  assert.ok(likeness > 0.98, `expected the depth of pug_depth.png, found a correlation of ${likeness}`);
+  await choose('picture');
+  await screenshot('heic');
+  assert.deepEqual(await focusTexts(), ['farthest', 'nearest']);
+  const [download] = await Promise.all([driver.page.waitForEvent('download'), driver.page.click('#download')]);
+  assert.equal(download.suggestedFilename(), 'pug-refocused.jpg');
+  const start = readFileSync(await download.path()).subarray(0, 8000).toString('latin1');
+  assert.match(start, /Exif\0\0.*Apple.*ICC_PROFILE\0/s);
+  await driver.page.close();
+  driver.page = page;
+});
+
+test('decodes HEIC, and loads the decoder only if it is needed', {skip: noDecoder}, async () => {
+  const {png} = await drawPhoto(16, 16), heic = heicSample(), plain = Buffer.from(heic);
+  plain[plain.indexOf('auxid:2') + 6] = '1'.charCodeAt();  // alpha instead of depth
+  const requests = [], note = request => requests.push(request.url());
+  driver.page.context().on('request', note);
+  await opened(/^Still open/, file('plain.heic', plain));
+  assert.match(await error(), /^plain\.heic contains no depth map\. Open a depth photo/);
+  assert.ok(!requests.some(url => url.includes('heic')), 'the decoder is not loaded');
+  await opened(/^Opened: depth photo small\.heic, 16 x 16/, file('small.heic', heic));
+  assert.ok(requests.some(url => url.includes('libheif.wasm')), 'the decoder is loaded');
+  driver.page.context().off('request', note);
+  await opened(/^Opened: plain\.heic with depth\.png, 16 x 16/, file('plain.heic', plain), file('depth.png', png));
+  await opened(/^Still open/, file('cut.heic', heic.subarray(0, -200)));
+  assert.match(await error(), /^cut\.heic cannot be decoded: the file is damaged, or of a kind/);
+});
+
+test('names HEIC as the reason if the site has no decoder', async () => {
+  await driver.page.context().route('**/heic/*', route => route.fulfill({status: 404}));
+  await opened(/^Still open/, file('small.heic', heicSample()));
+  assert.match(await error(), /^small\.heic is a HEIC picture, which this browser cannot read\./);
+  await driver.page.context().unroute('**/heic/*');
 });

@@ -29,6 +29,7 @@ run() {
   quietly node --test --test-reporter=tap "$1"
   printf '%-40s %s tests passed (%d s)\n' "$1" "$(sed -n 's/^# pass //p' "$work/log")" $(($(date +%s) - start))
   sed -n -E 's/^[# ]*((slow phone|12 megapixels|renderer): .*)/  \1/p' "$work/log"
+  sed -n 's/^ok [0-9]* - \(.*\) # SKIP/  skipped: \1:/p' "$work/log"
 }
 
 quietly "$STARFOCUS_PROGRAM-lab" scene "$work/field" --name portrait --size 320x240 --views 5
