@@ -28,7 +28,7 @@ run() {
   start=$(date +%s)
   quietly node --test --test-reporter=tap "$1"
   printf '%-40s %s tests passed (%d s)\n' "$1" "$(sed -n 's/^# pass //p' "$work/log")" $(($(date +%s) - start))
-  sed -n -E 's/^[# ]*((slow phone|12 megapixels|renderer): .*)/  \1/p' "$work/log"
+  sed -n -E 's/^[# \\]*((slow phone|12 megapixels|renderer): .*)/  \1/p' "$work/log"
   sed -n 's/^ok [0-9]* - \(.*\) # SKIP/  skipped: \1:/p' "$work/log"
 }
 
