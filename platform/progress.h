@@ -20,10 +20,10 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void Step(int64_t steps = 1);  // Step may be called by any thread
+  void Step(int64_t steps = 1);  // Thread-safe.
 
   // Prints a permanent line on stderr above the progress line, even if stderr is not a terminal.
-  // Tell may be called by any thread.
+  // Thread-safe.
   void Tell(const std::string& line);
 
   // Returns a text such as "what: 43 %, 12 s left". `seconds` is the elapsed time. The text omits

@@ -165,7 +165,7 @@ HWY_INLINE SliceVec ShareOfLight(SliceVec covered, SliceVec light, SliceVec exce
   return hn::Min(hn::Sub(one, taken), hn::SaturatedAdd(twice, twice));
 }
 
-// Visibility of a slice in a group of rows of a view, as far as it is known before compositing.
+// Visibility of a slice in a group of rows of a view, as known before compositing.
 enum class Known {
   kLit,  // No slice in front covers any pixel of these rows.
   // The condition of kLit holds, and the slice covers all pixels of these rows completely, so that

@@ -12,7 +12,7 @@
 
 namespace starfocus {
 
-// Offsets of the GPIO lines of the controls; -1 if a control is missing.
+// GPIO lines of the controls, as offsets on the GPIO chip; -1: the board lacks the control.
 struct PanelLines {
   int encoder_a = -1, encoder_b = -1;
   int aperture = -1;

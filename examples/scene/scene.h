@@ -39,7 +39,7 @@ struct Hit {
   double x, y, d;  // Position in the scene.
   double lx, ly;   // Position relative to the surface's centre, along its axes; for strands, along
                    // and across the strand.
-  double nx, ny, nz;  // Normal: right, down, towards the camera.
+  double nx, ny, nz;  // Surface normal; x points right, y down, z towards the camera.
   size_t strand = 0;  // Index of the strand in the surface's strands.
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the PSF that the engine is designed to have. The model of subapertures follows the way
-// in which the line scan and the slice renderer render them.
+// Computes the PSF that the engine is designed to have. Subapertures are modelled as the
+// line scan and the slice renderer render them.
 #ifndef STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
 #define STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
 

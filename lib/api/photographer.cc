@@ -40,7 +40,7 @@ struct Sorted {
   }
 };
 
-// Sorts the disparities of the pixels around pixel (x, y). Returns false if one of these
+// Sorts the disparities of the 7 x 7 pixels around pixel (x, y). Returns false if one of these
 // disparities is not finite.
 bool SortAround(const Map& map, int32_t x, int32_t y, Sorted* sorted) {
   for (int32_t row = Max(0, y - kAround); row <= Min(map.height - 1, y + kAround); ++row) {

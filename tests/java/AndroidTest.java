@@ -13,8 +13,9 @@ import java.nio.ByteBuffer;
 import java.nio.ByteOrder;
 
 /**
- * AndroidTest DOUBLE: tests the paths for Bitmap and HardwareBuffer. The library DOUBLE replaces
- * Android's classes and the functions of the NDK. At aperture 0 the picture is the centre view.
+ * Tests the paths for Bitmap and HardwareBuffer. The only argument is the path of a library that
+ * replaces Android's classes and the functions of the NDK. At aperture 0 the picture is the centre
+ * view.
  */
 public final class AndroidTest {
   private static final int WIDTH = 50, HEIGHT = 31;

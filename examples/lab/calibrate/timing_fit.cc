@@ -51,7 +51,7 @@ Equations MakeEquations(const std::vector<Measurement>& measurements) {
   return equations;
 }
 
-// Solves the equations by coordinate descent. Each iteration sets a single unknown to its best
+// Solves the equations with coordinate descent: each iteration sets one unknown to its best
 // non-negative value.
 Vector Solve(const Equations& equations) {
   constexpr int kMostSweeps = 200000;

@@ -109,9 +109,9 @@ class BlockArtist {
     return memory_->surfaces.At(border.left + x, border.top + y);
   }
 
-  // Returns the index of the first hidden surface behind the pixel, or 0 if there is none. Skips
-  // surfaces within kMostCopy of the visible disparity, because these are copies that close gaps in
-  // the visible surface.
+  // Returns the index of the first hidden surface behind the pixel, or 0 if no surface is hidden.
+  // Skips surfaces within kMostCopy of the visible disparity, because these are copies that close
+  // gaps in the visible surface.
   int FirstHidden(int32_t x, int32_t y) const {
     const LayeredDepth& surfaces = memory_->surfaces;
     const Border& border = planned_.block.border;
