@@ -73,8 +73,8 @@ namespace starfocus::simd {
 
 STARFOCUS_DECLARE_TABLE(Kernels, STARFOCUS_KERNELS)
 
-// Returns the table of the target with this name, or null if there is no such target. Like
-// KernelsOfTarget, FindKernels is only for tests and the bench.
+// Returns the table of the target with this name, or null if there is no such target. The
+// restrictions of KernelsOfTarget (kernel_table.h) apply to FindKernels as well.
 const Kernels* FindKernels(const char* name);
 
 }  // namespace starfocus::simd

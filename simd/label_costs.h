@@ -36,7 +36,7 @@ struct LabelRow {
   bool one_side;       // True to use the views on the best side of a pixel, false to use all views.
   bool ends;           // True if some values of `hidden` may be kViewEnds.
   // True to replace a view only at pixels outside the view, and to limit the differences of views
-  // that hide a pixel.
+  // in which a surface hides the pixel.
   bool limits;
 };
 

@@ -66,13 +66,13 @@ struct StepBits {
   uint16_t falls, rises;
 };
 
-// Direction of a captured view in which background pixels behind depth edges are visible. The
-// pixels that may occlude a hidden pixel in this view lie on a line that starts at the hidden
-// pixel. Pixel m of the line is m pixels away towards `side`. Perpendicular to `side`, pixel m is
-// shifted to the right or to the bottom by m slant 2^-kSlantBits pixels, rounded half up.
+// A captured view that may show the surfaces behind depth edges. The pixels that may occlude a
+// hidden pixel in this view lie on a line that starts at the hidden pixel. Pixel m of the line is m
+// pixels away towards `side`. Perpendicular to `side`, pixel m is shifted to the right or to the
+// bottom by m slant 2^-kSlantBits pixels, rounded half up.
 struct ViewLook {
   int16_t unit;  // Disparity that moves a pixel of the view by one pixel; 0 if there is no view.
-  int8_t side;   // Side of the view, in the order right, left, bottom, top.
+  int8_t side;   // Direction of the line: 0 right, 1 left, 2 bottom, 3 top.
   // Slope of the line, in [-2^kSlantBits, 2^kSlantBits]; 0 for lines along rows or columns.
   int16_t slant;
 };
@@ -169,8 +169,8 @@ uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count, const Co
 // its depth behind the pixel.
 //
 // The first hidden surface is the candidate with the lowest rank. If two candidates have equal
-// rank, the nearer candidate is chosen. The second hidden surface is the lowest-ranked candidate
-// whose disparity differs from the first hidden surface by more than 2^unit_bits.
+// rank, the nearer candidate is chosen. The second hidden surface is chosen in the same way, from
+// the candidates that differ from the first hidden surface by more than 2^unit_bits.
 //
 // A view shows a hidden surface behind a pixel if no pixel on the line of the ViewLook covers the
 // hidden surface. A pixel of the line covers the surface if two conditions hold. First, the pixel

@@ -28,8 +28,8 @@ inline constexpr int kChoiceBits = 6;
 // kLeastJump.
 inline constexpr int kLargestJump = 400, kLeastJump = 128, kSimilarColours = 16;
 
-// A row of pixels in which AddPaths extends the paths by one pixel each. The pointers point to
-// pixel 0; pixel k is k * step pixels after pixel 0, and step is 1 or -1. A pixel has PathLabels
+// A row of pixels. AddPaths extends the path at pixel k of `before` to pixel k. The pointers point
+// to pixel 0; pixel k is k * step pixels after pixel 0, and step is 1 or -1. A pixel has PathLabels
 // elements in `cost`, `before`, `path` and `sum`, and one element in all other arrays. Elements of
 // paths that are not labels must be kNoLabel, even before AddPaths writes the paths. The element
 // before the first element of a path must be kNoLabel as well.

@@ -124,7 +124,7 @@ inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count,
 }
 
 // HalfBandOf computes centre c + near (a + b) + far (d + e) for vectors of samples a to e, rounded
-// and saturated.
+// and saturated. BetweenOf computes this sum without the term of c.
 #if HWY_TARGET != HWY_SCALAR
 
 using FilterTag = hn::ScalableTag<int16_t>;

@@ -55,15 +55,16 @@ void Narrow(const int16_t* in, size_t count, const Encoding& encoding, uint8_t* 
 // `shift` is in [7, 24]. Results must be in the valid range.
 void FinishLayer(const uint32_t* accumulators, size_t count, int shift, int16_t* out);
 
-// Filters samples that are `step` apart. Output out[n] is centre in[n] + near (in[n - step] + in[n
-// + step]) + far (in[n - 3 step] + in[n + 3 step]), rounded half up to a sample and clamped to
-// `range`.
+// Filters samples that are `step` apart. Output out[n] is
+//   centre in[n] + near (in[n - step] + in[n + step]) + far (in[n - 3 step] + in[n + 3 step]),
+// rounded half up to a sample and clamped to `range`.
 void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps, size_t count,
                     const SampleRange& range, int16_t* out);
 
 // Filters a line and keeps the even pixels. `even` and `odd` are the output of SplitPhases. Output
-// out[n] is centre even[n] + near (odd[n - 3] + odd[n]) + far (odd[n - 6] + odd[n + 3]), rounded
-// half up to a sample and saturated to 16 bits. Input samples must be in the valid range.
+// out[n] is
+//   centre even[n] + near (odd[n - 3] + odd[n]) + far (odd[n - 6] + odd[n + 3]),
+// rounded half up to a sample and saturated to 16 bits. Input samples must be in the valid range.
 void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps, size_t count,
            int16_t* out);
 

@@ -67,10 +67,10 @@ namespace reference {
 SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count, size_t plane,
                        int16_t* out);
 
-// Filters samples that are `step` apart. Output out[n] is the saturated sum of the taps times in[n
-// + k step], |k| <= reach. The two samples at an equal distance on both sides are averaged before
-// the multiplication. Each mean and each product is rounded half up. Whole groups of kSliceLanes
-// are read and written. Samples must not be negative.
+// Filters samples that are `step` apart. Output out[n] is the saturated sum of the products of
+// taps and samples in[n + k step], |k| <= reach. The two samples at an equal distance on both sides
+// are averaged before the multiplication. Each mean and each product is rounded half up. Whole
+// groups of kSliceLanes are read and written. Samples must not be negative.
 void SpreadSlice(const int16_t* in, ptrdiff_t step, const SliceTaps& taps, size_t count,
                  int16_t* out);
 

@@ -29,11 +29,12 @@ void MixSamples(const int16_t* less, const int16_t* more, const int16_t* share, 
                 int16_t* out);
 
 // Moves rows of samples with interleaved R, G and B, by adding the scalar product of `move` and the
-// gradient. Output out[y][n] is in[y][n] + across (in[y][n + 3] - in[y][n - 3]) + down (in[y +
-// 1][n] - in[y - 1][n]). Each product is rounded half up, each difference and sum is saturated to
-// 16 bits, and the result is clamped to the valid range. MoveSamples reads one more row above and
-// below `in`, and one more pixel to the left and right of `in`. The unit of out_stride is one
-// sample. `in` and `out` must not overlap.
+// gradient. Output out[y][n] is
+//   in[y][n] + across (in[y][n + 3] - in[y][n - 3]) + down (in[y + 1][n] - in[y - 1][n]).
+// Each product is rounded half up, each difference and sum is saturated to 16 bits, and the
+// result is clamped to the valid range. MoveSamples reads one more row above and below `in`, and
+// one more pixel to the left and right of `in`. The unit of out_stride is one sample. `in` and
+// `out` must not overlap.
 void MoveSamples(const SampleRows& in, const HalfMove& move, int16_t* out, size_t out_stride);
 
 }  // namespace reference

@@ -139,8 +139,8 @@ starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result) {
   Impulse impulse(side, probe.r, dark);
   Engine engine(ConfigOf(side, probe));
   if (engine.status() != STARFOCUS_OK) return engine.status();
-  // The reference is the refocused flat picture, because rounding in a layer can change a sample by
-  // as much as 2/64 of a grey level.
+  // The reference is the refocused flat picture, because rounding in a layer adds up to 2/64 of a
+  // grey level to a sample.
   const starfocus_status flat_status = engine.Refocus(impulse, probe);
   if (flat_status != STARFOCUS_OK) return flat_status;
   const std::vector<double> flat = ReadLevels(engine);

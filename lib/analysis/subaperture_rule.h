@@ -27,8 +27,8 @@ int FewestSubapertures(double r, double theta);
 // centre view is rendered. The values of LensInSubapertures keep the largest SSE small.
 double WorstOfLens(int lens, double r_max, double theta);
 
-// Errors of the PSF of subapertures at each multiple of a step of r. The lab program uses these
-// errors to find rules for N.
+// Errors of the PSFs of subapertures and of the paper at each multiple of a step of r. The lab
+// program uses these errors to find rules for N.
 class SubapertureStudy {
  public:
   // Computes the ideal PSFs for r = k * step, 0 < r <= r_limit.

@@ -41,8 +41,8 @@ double AliasingError(double r, const Filters& filters);
 struct Optimum {
   double r;
   Filters filters;
-  double error;     // (10).
-  double aliasing;  // (11).
+  double error;     // SSE (10).
+  double aliasing;  // Aliasing (11).
 };
 Optimum Optimise(double r);
 

@@ -21,8 +21,8 @@ inline constexpr int kKnownBits = 8;
 inline constexpr int32_t kFullyKnown = 1 << kKnownBits;
 
 struct ColourMean {
-  uint16_t rgb[3];  // kMeanBits.
-  uint16_t weight;  // [0, kFullyKnown].
+  uint16_t rgb[3];  // Mean colour, in fixed point (kMeanBits).
+  uint16_t weight;  // Weight of the mean, [0, kFullyKnown].
 };
 
 // Weighted sum of the colours of pixels or cells.

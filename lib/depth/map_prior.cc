@@ -11,8 +11,8 @@
 namespace starfocus {
 namespace {
 
-// The given map adds no cost to a label whose disparity differs from a trusted disparity by at most
-// kOwnLabels (kDisparityBits).
+// The given map adds no cost to a label whose disparity differs from the pixel's trusted disparity
+// by at most kOwnLabels (kDisparityBits).
 constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
 // Writes the initial prior of one pixel: 0 for the labels near the pixel's disparity, and the

@@ -61,7 +61,7 @@ typedef struct starfocus_depth_config {
   starfocus_runner runner; /**< Runs jobs; default null: the calling thread runs them. */
   void* runner_data;       /**< Passed to `runner`. */
   /** Receives finished rows of the map after each tile, which takes up to 50 ms; default null.
-   * After STARFOCUS_ERROR_CANCELLED the outputs and the workspace are unspecified. */
+   *  After STARFOCUS_ERROR_CANCELLED the outputs and the workspace are unspecified. */
   starfocus_progress progress;
   void* progress_data;        /**< Passed to `progress`. */
   starfocus_problem* problem; /**< Receives the cause of an error of a call; default null. */

@@ -80,7 +80,7 @@ typedef struct starfocus_image {
   /** Bytes from pixel to pixel of an RGB format: at least 3, or 4 with alpha, and at most
    *  STARFOCUS_MAX_PIXEL_STRIDE. For YUV_420_888, bytes from chroma sample to chroma sample, 1 or
    *  2. The value 0 selects the smallest value that the format allows. YUV formats other than
-   *  YUV_420_888 accept only their smallest value. */
+   *  YUV_420_888 accept only 0 and their smallest value: 1 for I420, 2 for NV12 and NV21. */
   int32_t pixel_stride;
   void*
       planes[3]; /**< First byte of each plane; planes that the format does not use are ignored. */
@@ -117,9 +117,9 @@ typedef enum starfocus_depth_meaning {
  *  p = floor(128 (2x + 1) w / W) - 128 of the map, in 1/256 and limited to [0, 256 (w - 1)]. For
  *  rows, the formula applies with y and heights in place of x and widths. Values are interpolated
  *  between two rows first, then between two columns. At a distance of s / 256 from D0 to D1, in
- *  1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 - D0| <= 96 (1.5 pixels). If
- * |D1 - D0| > 96, the result is D0 for s < 128 and D1 for s >= 128. An unknown value is never
- * interpolated. */
+ *  1/64 pixel, the result is D0 + ((s (D1 - D0) + 128) >> 8) if |D1 - D0| <= 96 (1.5 pixels). For
+ *  larger differences, the result is D0 for s < 128 and D1 for s >= 128. An unknown value is never
+ *  interpolated. */
 typedef struct starfocus_depth_map {
   const void* data; /**< First value, aligned to its type. */
   size_t stride;    /**< Bytes from row to row, at least one row, a multiple of the type's size. */
@@ -128,7 +128,7 @@ typedef struct starfocus_depth_map {
   int32_t type;     /**< starfocus_depth_type. */
   int32_t meaning;  /**< starfocus_depth_meaning. */
   double scale;     /**< Finite and not 0; rounded to float; 1 for disparities. */
-  double offset;    /**< finite; rounded to float. */
+  double offset;    /**< Finite; rounded to float. */
   double invalid;   /**< Value z of unknown depth, rounded to float; used if has_invalid is 1. */
   int32_t has_invalid; /**< 1: values equal to `invalid` are unknown; 0: `invalid` is ignored. */
 } starfocus_depth_map;

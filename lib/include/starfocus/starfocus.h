@@ -125,8 +125,8 @@ extern "C" {
 #define STARFOCUS_FEATURE_COVERAGE 2u
 /** Enables the functions starfocus_stream_* and reserves ring buffers of rows. */
 #define STARFOCUS_FEATURE_STREAMING 4u
-/** Enables image formats other than packed RGB, and depth maps of other types than float or of
- *  smaller sizes than the picture. */
+/** Enables image formats other than packed RGB. Enables depth maps that are smaller than the
+ *  picture or have another format than starfocus_depth_float describes. */
 #define STARFOCUS_FEATURE_IMAGES 8u
 /** Fills unknown values of disparity maps (NaN, infinite, or the map's invalid value). An unknown
  *  value between two known values of its row gets the smaller value. At the ends of a row, an
@@ -186,7 +186,7 @@ typedef struct starfocus_config {
    *  modes. If the blur exceeds 32 pixels, a wider range also makes slices thicker. */
   double disparity_min;
   double
-      disparity_max; /**< largest disparity that a map may contain, >= disparity_min; default 0 */
+      disparity_max; /**< Largest disparity that a map may contain, >= disparity_min; default 0. */
   /** Upper limit of the blur radius aperture * |d - focus| in pixels, (0, STARFOCUS_MAX_BLUR];
    *  default 32. The limit affects the size of the workspace, but not the pictures. */
   double max_blur;
@@ -196,7 +196,7 @@ typedef struct starfocus_config {
    *  pixels. The memory of a worker grows with the area of a superblock, and is 1.15 MiB with
    *  superblocks of 64 pixels. starfocus_report.superblock reports the selected side. */
   int32_t superblock;
-  int32_t max_workers; /**< number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1 */
+  int32_t max_workers; /**< Number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1. */
   /** Bits STARFOCUS_FEATURE_*; default LINE_SCAN and COVERAGE. Without LINE_SCAN,
    *  STARFOCUS_RENDERER_AUTO always selects slices, and calls reject STARFOCUS_RENDERER_LINE_SCAN
    *  with STARFOCUS_ERROR_FEATURE. */
@@ -205,7 +205,7 @@ typedef struct starfocus_config {
    *  > 0, starfocus_prepare additionally stores reduced light fields, down to 1 / 2^s of the size.
    *  Previews do not enlarge the workspace. */
   int32_t previews;
-  int32_t transfer; /**< starfocus_transfer; default STARFOCUS_TRANSFER_SRGB */
+  int32_t transfer; /**< starfocus_transfer; default STARFOCUS_TRANSFER_SRGB. */
   /** Brightness of clipped lamps relative to white, [1, STARFOCUS_MAX_HIGHLIGHTS]; default 1. A
    *  pixel is part of a lamp if at least two of its codes are 251 or more. White areas that are
    *  wider and higher than a limit of 1/32 of the picture's width (16 to 128 pixels) are brightened
@@ -217,7 +217,7 @@ typedef struct starfocus_config {
    *  STARFOCUS_RENDERER_LINE_SCAN and starfocus/depth.h require the positions of
    *  starfocus_view_position. */
   starfocus_position positions[STARFOCUS_MAX_VIEWS];
-  starfocus_tuning tuning; /**< trade-offs between time and error */
+  starfocus_tuning tuning; /**< Trade-offs between time and error. */
   /** Receives the cause of an error of calls that take this configuration; default null. For calls
    *  with an engine, starfocus_engine_problem returns the cause instead. */
   starfocus_problem* problem;
@@ -280,7 +280,7 @@ STARFOCUS_API starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
 
 /** Allocator of starfocus_create. */
 typedef struct starfocus_allocator {
-  void* data; /**< passed to `allocate` and `release` */
+  void* data; /**< Passed to `allocate` and `release`. */
   /** Returns `bytes` bytes aligned to `alignment` (STARFOCUS_ALIGNMENT), or null on failure. */
   void* (*allocate)(void* data, size_t bytes, size_t alignment);
   /** Frees memory that `allocate` returned. `memory` is not null, and `bytes` is the size that was
@@ -294,7 +294,7 @@ typedef struct starfocus_allocator {
  *  @param allocator allocator; null: malloc and free
  *  @param engine receives the engine, or null on error
  *  @return STARFOCUS_OK, STARFOCUS_ERROR_MEMORY, STARFOCUS_ERROR_NULL if a function of the
- * allocator is null, or an error of the configuration */
+ *  allocator is null, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_create(const starfocus_config* config,
                                                 const starfocus_allocator* allocator,
                                                 starfocus_engine** engine);
@@ -306,7 +306,7 @@ STARFOCUS_API void starfocus_destroy(starfocus_engine* engine);
 /** Mode of refocusing, which determines the division of the picture into blocks and the number of
  *  rendered views. */
 typedef enum starfocus_mode {
-  /** The whole picture uses the same number of views N, by equation (9). */
+  /** One N, the number of views along the radius, for the whole picture, by equation (9). */
   STARFOCUS_MODE_FRAME = 0,
   /** N = 2 ceil(r_max) for the whole picture: the paper's benchmark of quality. In this mode, the
    *  slice renderer uses thinner slices than in other modes. */
@@ -348,14 +348,14 @@ typedef struct starfocus_light_field {
   /** The configured number of views, in the order of starfocus_view_position or
    *  starfocus_config.positions. */
   starfocus_image views[STARFOCUS_MAX_VIEWS];
-  starfocus_depth_map depth; /**< depth map of the centre view */
+  starfocus_depth_map depth; /**< Depth map of the centre view. */
   /** Optional alpha of the foreground, in the form that matting networks compute. For each pixel of
-   *  the centre view, the alpha is the part of the pixel that the nearer of two surfaces covers, 0
-   *  to 255. Within 32 pixels of depth edges of more than 5 pixels, the alpha takes precedence over
-   *  the map. If null, the light field has no alpha. Engines without STARFOCUS_FEATURE_COVERAGE
-   *  ignore the alpha. */
+   *  the centre view, the alpha is the part of the pixel that the nearer of two surfaces covers,
+   *  from 0 (no part) to 255 (the whole pixel). Within 32 pixels of depth edges of more than 5
+   *  pixels, the alpha takes precedence over the map. If null, the light field has no alpha.
+   *  Engines without STARFOCUS_FEATURE_COVERAGE ignore the alpha. */
   const uint8_t* coverage;
-  size_t coverage_stride; /**< bytes from row to row of `coverage`, >= width */
+  size_t coverage_stride; /**< Bytes from row to row of `coverage`, >= width. */
 } starfocus_light_field;
 
 /** The previous frame of a video: its light field and its picture. The light field and the picture
@@ -375,7 +375,7 @@ typedef struct starfocus_params {
                          STARFOCUS_MODE_BLUR. */
   /** Part of the picture to compute. All fields are 0 by default, which streams require. */
   starfocus_region region;
-  starfocus_lens lens; /**< the lens; see starfocus_lens for its defaults */
+  starfocus_lens lens; /**< The lens; see starfocus_lens for its defaults. */
   /** For starfocus_refocus_prepared: the picture has 1 / 2^preview_shift of the full size. Range
    *  [0, starfocus_config.previews]; default 0. */
   int32_t preview_shift;
@@ -479,21 +479,21 @@ STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
  *
  *  With a preview_shift s, the picture has 1 / S of the size, where S = 2^s, and takes about
  *  1 / S^2 of the time. Even for a preview, all parameters are in pixels of the full size. The
- * output contains the columns from floor(x / S) to floor((x + width - 1) / S) of the reduced
- * picture, where x and width describe the region. The rows of the output follow from y and height
- * by the same formula. The alpha of a preview is 255. Previews read only the prepared light field,
- * and not the views.
+ *  output contains the columns from floor(x / S) to floor((x + width - 1) / S) of the reduced
+ *  picture, where x and width describe the region. The rows of the output follow from y and height
+ *  by the same formula. The alpha of a preview is 255. Previews read only the prepared light field,
+ *  and not the views.
  *
  *  A preview is the picture of a reduced light field, byte for byte. In the reduced light field a
  *  pixel of a view is the mean light of S x S pixels, in steps of 1/128 code. At the right and
  *  bottom edges, fewer pixels are averaged. In the reduced light field a disparity is the median of
- *  S x S disparities divided by S, rounded half up to 1/64. The median is the larger of the two
- *  middle values. A preview corresponds to a picture of an engine with the reduced size, and with
- *  the disparity range, max_blur and focus divided by S. Callbacks and the report count pixels of
- *  the preview.
+ *  S x S disparities divided by S, rounded half up to 1/64. Of two middle values, the median is the
+ *  larger one. A preview corresponds to a picture of an engine with the reduced size, and with the
+ *  disparity range, max_blur and focus divided by S. Callbacks and the report count pixels of the
+ *  preview.
  *  @param engine engine with the size, views, positions, disparity range, max_layer and transfer of
  *         the engine that prepared the light field. Several engines may use one prepared light
- * field at the same time
+ *  field at the same time
  *  @param params lens and region; `params->previous` must be null
  *  @param prepared prepared light field
  *  @param out picture, as for starfocus_refocus
@@ -507,8 +507,8 @@ STARFOCUS_API starfocus_status starfocus_refocus_prepared(starfocus_engine* engi
                                                           starfocus_report* report);
 
 /** Starts to refocus a picture by rows. An unfinished picture of an earlier stream is abandoned.
- * After this call, push rows of the light field and pull rows of the picture in turn, until all
- * rows are written.
+ *  After this call, push rows of the light field and pull rows of the picture in turn, until all
+ *  rows are written.
  *  @param engine engine with STARFOCUS_FEATURE_STREAMING
  *  @param params lens; `region` must be all 0 and `previous` null
  *  @return STARFOCUS_OK, or an error of the arguments */
@@ -528,7 +528,7 @@ STARFOCUS_API starfocus_status starfocus_stream_begin(starfocus_engine* engine,
  *         pull rows before you push the rest
  *  @return STARFOCUS_OK, or an error of the arguments. After STARFOCUS_ERROR_DISPARITY and
  *         STARFOCUS_ERROR_NOT_FINITE, the rows before the invalid row are consumed. The result is
- *         STARFOCUS_ERROR_STATE if starfocus_stream_begin was not called */
+ *         STARFOCUS_ERROR_STATE if no stream was begun */
 STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
                                                      const starfocus_light_field* light_field,
                                                      int32_t rows, int32_t* consumed);
@@ -594,7 +594,7 @@ STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t
  *  @param x,y pixel inside the map
  *  @param focus receives the disparity to focus at
  *  @return STARFOCUS_OK, an error of the arguments, or STARFOCUS_ERROR_NOT_FINITE if one of the 7 x
- * 7 disparities is NaN or infinite */
+ *  7 disparities is NaN or infinite */
 STARFOCUS_API starfocus_status starfocus_focus_at(const float* disparity, size_t stride,
                                                   int32_t width, int32_t height, int32_t x,
                                                   int32_t y, double* focus);

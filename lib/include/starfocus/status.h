@@ -24,14 +24,14 @@ typedef enum starfocus_status {
   STARFOCUS_ERROR_STRUCTURE = 2, /**< A structure was not initialized by its init function. */
   STARFOCUS_ERROR_RANGE = 3,     /**< A field or an argument is out of range. */
   STARFOCUS_ERROR_FEATURE = 4,   /**< The engine lacks a required feature or view. */
-  STARFOCUS_ERROR_STATE = 5,     /**< No stream was begun, or coverage is missing in some rows. */
+  STARFOCUS_ERROR_STATE = 5,     /**< No stream was begun, or only some rows have coverage. */
   STARFOCUS_ERROR_WORKSPACE = 6, /**< The given memory is too small or not aligned. */
   STARFOCUS_ERROR_TOO_LARGE = 7, /**< The configuration requires more memory than is addressable. */
   STARFOCUS_ERROR_MEMORY = 8,    /**< Memory could not be allocated. */
   STARFOCUS_ERROR_STRIDE = 9,    /**< A stride is smaller than a row, or not aligned. */
   STARFOCUS_ERROR_OVERLAP = 10,  /**< An output overlaps an input or the workspace. */
-  STARFOCUS_ERROR_BLUR = 11,     /**< Aperture * |d - focus| exceeds max_blur for disparity_min or
-                                      disparity_max. */
+  STARFOCUS_ERROR_BLUR = 11,     /**< The blur radius aperture * |d - focus| exceeds max_blur at
+                                      disparity_min or disparity_max. */
   STARFOCUS_ERROR_DISPARITY = 12,   /**< A disparity is outside the configured range. */
   STARFOCUS_ERROR_NOT_FINITE = 13,  /**< A disparity is NaN or infinite. */
   STARFOCUS_ERROR_ALL_INVALID = 14, /**< The disparity map has no finite value. */

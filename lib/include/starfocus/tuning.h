@@ -48,7 +48,7 @@ typedef struct starfocus_tuning {
    *  radius, by this factor and round the product up. The number of views grows with the square of
    *  the factor. Range [STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE]; default 1. */
   double n_scale;
-  starfocus_timing timing; /**< each coefficient <= STARFOCUS_MAX_TIMING */
+  starfocus_timing timing; /**< Each coefficient <= STARFOCUS_MAX_TIMING. */
 } starfocus_tuning;
 
 #endif /* STARFOCUS_TUNING_H_ */
