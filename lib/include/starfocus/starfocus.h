@@ -528,7 +528,7 @@ STARFOCUS_API starfocus_status starfocus_stream_begin(starfocus_engine* engine,
  *         pull rows before you push the rest
  *  @return STARFOCUS_OK, or an error of the arguments. After STARFOCUS_ERROR_DISPARITY and
  *         STARFOCUS_ERROR_NOT_FINITE, the rows before the invalid row are consumed. The result is
- *         STARFOCUS_ERROR_STATE if no stream was begun */
+ *         STARFOCUS_ERROR_STATE if no stream is active, or if only some rows have coverage */
 STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
                                                      const starfocus_light_field* light_field,
                                                      int32_t rows, int32_t* consumed);
@@ -548,7 +548,7 @@ STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
  *  @param written receives the number of written rows; 0 if more rows must be pushed first
  *  @param report receives statistics, which are complete after the last row. May be null
  *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_CANCELLED or
- *          STARFOCUS_ERROR_RUNNER; STARFOCUS_ERROR_STATE if no stream was begun */
+ *          STARFOCUS_ERROR_RUNNER; STARFOCUS_ERROR_STATE if no stream is active */
 STARFOCUS_API starfocus_status starfocus_stream_pull(starfocus_engine* engine,
                                                      const starfocus_image* out, int32_t rows,
                                                      int32_t* written, starfocus_report* report);

@@ -24,7 +24,7 @@ typedef enum starfocus_status {
   STARFOCUS_ERROR_STRUCTURE = 2, /**< A structure was not initialized by its init function. */
   STARFOCUS_ERROR_RANGE = 3,     /**< A field or an argument is out of range. */
   STARFOCUS_ERROR_FEATURE = 4,   /**< The engine lacks a required feature or view. */
-  STARFOCUS_ERROR_STATE = 5,     /**< No stream was begun, or only some rows have coverage. */
+  STARFOCUS_ERROR_STATE = 5,     /**< No stream is active, or only some rows have coverage. */
   STARFOCUS_ERROR_WORKSPACE = 6, /**< The given memory is too small or not aligned. */
   STARFOCUS_ERROR_TOO_LARGE = 7, /**< The configuration requires more memory than is addressable. */
   STARFOCUS_ERROR_MEMORY = 8,    /**< Memory could not be allocated. */
