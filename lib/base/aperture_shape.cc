@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The last digit of a computed tangent may differ between machines. Such a difference between
-// machines changes a rounded result only if the exact value is almost halfway between two integers.
+// The last digit of a tangent may differ between machines, here and in ApertureFallOff. The rounded
+// result differs only if the exact value is almost halfway between two integers.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
 struct UnitVector {

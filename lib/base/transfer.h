@@ -14,8 +14,8 @@ using simd::kLightBits;
 using simd::kLightWhite;
 
 struct Transfer {
-  const int16_t* light;  // light of each of the 256 codes
-  // Mapping from light to codes for SIMD kernels, which avoid tables where possible.
+  const int16_t* light;  // Light of each of the 256 codes.
+  // Conversion in both directions for SIMD kernels, which avoid tables where possible.
   simd::Encoding encoding;
 };
 

@@ -66,8 +66,8 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* ape
   while (bits > 1 && (largest << bits) / total > static_cast<uint64_t>(kMaxWeight - 8)) --bits;
   aperture->sum_bits = bits;
   // Symmetric views share a weight. The weight of each group of symmetric views also corrects the
-  // rounding errors of the weights before. The weight of the centre view, a group of its own,
-  // corrects the whole error.
+  // rounding errors of all earlier weights. A group of a single view, such as the centre view,
+  // leaves no rounding error.
   uint64_t wanted = 0;
   int64_t given = 0;
   ForEachWeight(*aperture, by_size, [&](int32_t i, int32_t j, int32_t views) {

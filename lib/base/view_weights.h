@@ -41,11 +41,12 @@ struct ViewWeights {
 };
 
 // Radius of the lens in subapertures, times kSubapertureUnits, for the N of ViewsBySubaperture. The
-// radii are computed, not tuned. For N = 4, a lens radius of 123 units (1 / kSubapertureUnits) has
-// at most twice the worst error of any other radius with as many views. For N = 5, the lens radius
-// with the smallest error is 32 * 5 - 11 units. For N = 3, a lens radius of 94 units has the
-// smallest error among the radii that meet the error threshold at every blur radius. See
-// WorstOfLens in lib/analysis/subaperture_rule.h, and the tables in docs/constants.md.
+// radii are computed, not tuned. The error of a lens radius is the worst error over the blur radii
+// that use this N. For N = 4, a lens radius of 123 units (1 / kSubapertureUnits) has at most twice
+// the error of any other radius with as many views. For N = 5, no lens radius has a smaller error
+// than 32 * 5 - 11 units. For N = 3, a lens radius of 94 units has the smallest error among the
+// radii that meet the error threshold at every blur radius. See WorstOfLens in
+// lib/analysis/subaperture_rule.h, and the tables in docs/constants.md.
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
   return n == 1 ? kSubapertureUnits : n == 3 ? 94 : n == 4 ? 123 : kSubapertureUnits * n - 11;

@@ -35,8 +35,8 @@ using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
 // by more than kLeastMixed (kAlphaBits).
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-// Marks the pixels in and around a tile that are on ramps. Pixels less than kRampReach from the rim
-// of the array are never marked.
+// Marks the pixels in and around a tile that are on ramps. The outermost kRampReach pixels are
+// never marked.
 struct Ramps {
   static constexpr int32_t kSide = GivenDisparities::kSide;
   bool at[kSide * kSide] = {};

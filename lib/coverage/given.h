@@ -15,7 +15,7 @@ namespace starfocus {
 void StartGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the final coverage of a tile, and the light of the far surface in the tile. LookBehindTile
-// (look.h) must have read the light of the far surface from all views.
+// (look.h) must have read the light of the far surface.
 void TakeGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

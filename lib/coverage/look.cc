@@ -17,8 +17,8 @@ constexpr int32_t kWithin = 3 << (kDisparityBits - 1);
 // log2 of the factor by which the weight of the centre view is reduced. Near edges, all pixels of
 // the centre view are mixtures.
 constexpr int kCentreBits = 3;
-// At a pixel, the light of the far surface is fully known if the sample weights from all views sum
-// to at least 2^kEnoughBits * kKnown.
+// At a pixel, the light of the far surface is fully known if the weights of its samples sum to at
+// least 2^kEnoughBits * kKnown.
 constexpr int kEnoughBits = 1;
 
 // A side view from which the light of the far surface is read.

@@ -76,9 +76,8 @@ using Rgb = int32_t[3];
 
 constexpr int32_t Compared(int32_t light) { return light >> (kLightBits - kColourBits); }
 
-// Returns the part of a pixel that the near surface covers, if the pixel's colour `mixed` is a
-// mixture of `near` and `far`. Returns `guess` if `mixed` is not a mixture of `near` and `far`, or
-// if the contrast between `near` and `far` is too small.
+// Returns the part of a pixel that the near surface covers, if `mixed` is a mixture of `near` and
+// `far`. Returns `guess` if `mixed` is not such a mixture, or if the contrast is too small.
 int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess) {
   int32_t contrast = 0, along = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
@@ -138,7 +137,7 @@ void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
   const CoverageMap& map = *in.map;
   // Returns a weight of 0 for pixels on the far side of an edge. For other pixels, the weight
-  // increases with the number of near-side pixels in the surrounding 3x3 pixels.
+  // increases with the number of surrounding 3x3 pixels that are not on the far side.
   const auto weight_of = [&](int32_t x, int32_t y) {
     if (map.alpha[map.At(x, y)] == 0) return 0;
     int32_t count = 0;

@@ -13,8 +13,8 @@ namespace starfocus {
 void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the coverage of a tile after the second pass, and the light of the far surface in the
-// tile. The inputs are the coverage of the first pass and the light of the far surface from all
-// views (look.h).
+// tile. The inputs are the coverage of the first pass and the light of the far surface that
+// LookBehindTile has read (look.h).
 void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

@@ -20,9 +20,10 @@ struct Borders {
   int32_t cells = 0;                     // Number of cells (not pixels) around a superblock.
   int32_t parted = 0;                    // Pixels of the coverage map.
   int32_t centre = 0;                    // Pixels of the centre view and the disparity map.
-  int32_t highlights = 0;  // Pixels to the farthest highlight that matters; 0: no highlights.
-  int32_t views = 0;       // Pixels of any view.
-  int32_t streamed = 0;    // Rows around a stripe of a stream, rounded up to even for images.
+  // Distance of the farthest highlights that affect a superblock; 0: no highlights.
+  int32_t highlights = 0;
+  int32_t views = 0;     // Pixels of any view.
+  int32_t streamed = 0;  // Rows around a stripe of a stream, rounded up to even for images.
 };
 
 // Adds the borders of all processing steps for blur radii up to `max_blur`. `joins` is true if

@@ -26,8 +26,8 @@ size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
 void LayOutAnew(const starfocus_config& config, EngineState* engine);
 
 // Poisons the red zones of an engine's memory during the lifetime of this object; no-op in builds
-// without red zones. After the lifetime of this object, the caller may use the memory for another
-// purpose.
+// without red zones. After the lifetime of this object, the caller, which owns the memory, may use
+// the memory for another purpose.
 class RedZones {
  public:
   explicit RedZones(EngineState* engine);

@@ -21,7 +21,7 @@ struct Lens {
   Rect region;  // region of `params`, or the whole picture if no region is set
   const Renderer* renderer;
   double r_max;                  // Largest blur radius for the configured disparities, in pixels.
-  const ViewWeights* apertures;  // Indexed by N, the number of views along the radius.
+  const ViewWeights* apertures;  // Apertures of `renderer`, indexed by N.
   int32_t largest_n;             // Largest N of `apertures`.
   ViewWeights aperture;          // In frame modes, the aperture for the whole picture.
   BlurScale scale;

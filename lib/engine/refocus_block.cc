@@ -80,7 +80,7 @@ void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& ou
   }
 }
 
-// Number of views rendered for a block, and number of samples of one view.
+// Number of views rendered for a block, and number of samples of all these views together.
 struct Rendered {
   uint64_t views, samples;
 };
@@ -179,7 +179,7 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
 // the block.
 const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rendered : block.rect; }
 
-// Copies `rect` from the centre view. RefocusViews calls this function where no view moves a pixel.
+// Copies `rect`, in which no view moves a pixel, from the centre view.
 Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>& out,
                    Scratch* scratch) {
   const uint64_t samples = Samples(rect);

@@ -37,10 +37,10 @@ struct BlockPixelsMemory {
 struct Scratch {
   void* renderers[kMaxRenderers];  // Scratch memory of each renderer.
   uint32_t* sums;                  // 3 R^2 samples.
-  uint16_t* aperture_weights;      // View weights of a block with cat's eyes.
-  LampRuns* lamp_runs;             // Cache of runs of highlights, if highlights are enabled.
-  BlockPixelsMemory field;         // Pixels of a block that is blurred without views.
-  SpanMemory spans;                // Spans of a block that is blurred by depth.
+  uint16_t* aperture_weights;  // With cat's eyes: view weights of a block, for up to the largest N.
+  LampRuns* lamp_runs;         // Cache of runs of highlights, if highlights are enabled.
+  BlockPixelsMemory field;     // Pixels of a block that is blurred without views.
+  SpanMemory spans;            // Spans of a block that is blurred by depth.
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;    // Samples of the rendered rectangle.

@@ -61,8 +61,8 @@ Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 // Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Rounding changes filtered
 // pixels slightly, so the share fades to 0 at the limits of FindMixture instead of stopping
 // abruptly. The share fades at contrasts below twice the smallest contrast, and for shares from 4/5
-// to 1. The share fades as well between one and two times the largest distance at which FindMixture
-// accepts a colour as a mixture.
+// to 1. The share also fades between one and two times the largest squared distance at which
+// FindMixture accepts a colour as a mixture.
 int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
 
 // Calls visit(column, row) for each pixel of a field if the disparity of one of its four neighbours

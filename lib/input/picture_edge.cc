@@ -8,8 +8,8 @@
 namespace starfocus {
 namespace {
 
-// Part of a rectangle that lies inside the picture, relative to the upper left corner of the
-// rectangle. `right` and `bottom` are exclusive.
+// Part of a rectangle of the layer that lies inside the picture, in pixels from the upper left
+// corner of the rectangle. `right` and `bottom` are exclusive.
 struct InsidePart {
   int32_t left, right, top, bottom;
 
@@ -19,8 +19,8 @@ struct InsidePart {
         top(Clamp(-rect.y, 0, rect.height)),
         bottom(Clamp(Inside(window.picture_height, window.layer) - rect.y, 0, rect.height)) {}
 
-  // Returns the number of pixels of the layer for `size` pixels of the picture. The
-  // memory of a layer also holds pixels beyond the picture's edge, which LayerSize counts.
+  // Returns the number of pixels of the layer for `size` pixels of the picture. A stored layer has
+  // more pixels (LayerSize).
   static int32_t Inside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
 };
 

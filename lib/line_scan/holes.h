@@ -20,7 +20,8 @@ struct HoleView {
   const ViewGrid* grid;
   bool transposed;
   int u, v;
-  // ViewGrid::Move of the rendered view's distance along each axis; 0 if u or v is 0.
+  // ViewGrid::Move of the rendered view's distance along each axis. `move_u` is 0 if u is 0, and
+  // `move_v` is 0 if v is 0.
   int64_t move_u, move_v;
   bool half;
 };

@@ -9,9 +9,10 @@ int32_t LayerOf(const BlockStats& stats, Demand demand) {
   return LayerByPaper(static_cast<double>(stats.r_min) / (1 << kDisparityBits), demand);
 }
 
-// Views on the axes of the aperture (type A in the paper) are scanned along one direction, half of
-// them along rows and half along columns. The estimated work counts half of all views as scanned
-// along rows and half as scanned along columns. Type B views are scanned along both axes.
+// Half of the type A views (on the axes of the aperture, IV-B) are scanned along rows, and half
+// along columns. Each type A view is rendered with the border of the other axis. The estimate
+// counts half of all views as scanned along rows and half as scanned along columns. Type B views
+// are scanned along both axes.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
   const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);

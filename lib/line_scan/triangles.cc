@@ -113,8 +113,8 @@ class Star {
     return field.transposed ? grid_.aperture.Weight(j, i) : grid_.aperture.Weight(i, j);
   }
 
-  // Adds the views of types A and C along the rows of `field`, in the two triangles of the aperture
-  // next to the axis of type A. `other` is the transposed field.
+  // Adds the views of types A and C along the rows of `field`, in the four triangles of the
+  // aperture next to the axis of type A. `other` is the transposed field.
   void AddViews(const BlockPixels& field, const BlockPixels& other, uint32_t* accumulators) {
     // Number of samples of a type A view.
     const int64_t samples = 3 * int64_t{field.width} * field.height;

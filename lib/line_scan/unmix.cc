@@ -8,8 +8,8 @@ namespace {
 
 constexpr int32_t kShareOne = 1 << kShareBits;
 
-// Largest blur radius of a sharp surface, kShiftBits. A limit of 3 pixels, where the paper's
-// subsampled layers begin, would hide outlines (docs/constants.md).
+// Largest blur radius of a sharp surface, kShiftBits. From a blur radius of 3 pixels on, where the
+// paper's subsampled layers begin, no outline is visible (docs/constants.md).
 constexpr int32_t kSharp = 2 * kShiftOne;
 
 // Returns the part of the near surface (kShiftBits) that is removed from a mixed pixel; negative
@@ -53,9 +53,9 @@ class Unmixer {
 
   // Returns the part of a pixel (kShareBits) that the far colour replaces. At full strength, the
   // result is 1 if the share of the nearer surface is at least one half. Pixels with a smaller
-  // share are replaced only in part. Most of the light removed from such pixels would be missing
-  // from the nearer surface beyond the edge. A smaller `strength` reduces the result where no
-  // outline would be visible.
+  // share are replaced only in part, because most of the removed light would be missing from the
+  // nearer surface beyond the edge. A smaller `strength` reduces the result where no outline would
+  // be visible.
   static int32_t AmountOf(int32_t share, int32_t strength) {
     return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
   }

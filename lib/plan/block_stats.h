@@ -38,8 +38,8 @@ struct Cell {
   uint16_t has_edge : 1;  // 1: a depth edge lies inside the cell or at one of its sides.
   int16_t low, high;      // Range of disparities, kDisparityBits.
   // Number of pixels that the cell splats to the left, right, top and bottom, measured from the
-  // opposite edge of the cell. `inside` is the distance from each side to the innermost pixel that
-  // splats beyond the side.
+  // opposite edge of the cell. `inside` counts the pixels from each side to the innermost pixel
+  // that splats beyond the side.
   uint8_t span[4];
   uint8_t inside[4];
   // Members of Content, counted along rows and along columns.

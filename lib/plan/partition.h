@@ -25,9 +25,9 @@ struct Block {
   int32_t layer;  // Layer L.
   int32_t n;      // N, the number of views along the radius.
   bool gathers;   // True: the cells that GatherMap selects are blurred without views.
-  // true: views may show highlights, so the block is rendered for light and for excess separately.
+  // True: views may show highlights, so the block is rendered for light and for excess separately.
   bool has_highlights;
-  uint64_t cost;  // predicted time in picoseconds
+  uint64_t cost;  // Predicted time in picoseconds.
 };
 
 struct PartitionRules {

@@ -61,8 +61,8 @@ struct Renderer {
   void (*take_scratch)(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
                        void* scratch);
 
-  // Returns true if no view moves any pixel of the rectangle. If no view moves any pixel, the
-  // refocused rectangle is an exact copy of the centre view.
+  // Returns true if no view moves any pixel of the rectangle. The refocused rectangle is then an
+  // exact copy of the centre view.
   bool (*nothing_moves)(const RenderJob& job);
   // Writes the weighted sums of the views over job.rect to `sums`: rows of 3 * width values with
   // sum_bits(aperture) fractional bits. Returns the number of samples rendered in each view. After

@@ -35,8 +35,7 @@ struct CompositorScratch {
   CellPair* pairs;             // Cell pairs of a tile.
   uint32_t* sums;              // kPixelSums per pixel of a strip.
   uint8_t* pool;               // Slices of a part of a tile, and the strips of these slices.
-  size_t pool_bytes;  // Size of the pool, at least LeastPool; a larger pool allows larger parts of
-                      // a tile.
+  size_t pool_bytes;           // At least LeastPool; a larger pool allows larger parts.
 };
 
 // Upper bound of the memory for a slice of the smallest tile part and for the slice's strip, in

@@ -21,7 +21,7 @@ struct FillScratch {
   int16_t* rgb;        // Height rows.
   int16_t* saved;      // kFillStep + 1 rows with the colours before the current smoothing pass.
   uint16_t* source;    // Height rows, in the format of simd::FarRow.
-  // largest distance in pixels over which each row repeats colours; height elements
+  // Largest distance in pixels over which each row repeats colours; height elements.
   uint8_t* farthest;
 };
 

@@ -80,7 +80,7 @@ struct SurfaceBands {
 // (OcclusionViews) and in which nothing covers the surface. If no view sees the surface, the colour
 // of the background beyond the edge is repeated. If several sides provide a surface of the same
 // disparity at the same distance, their colours are averaged. At steps within a surface, each pixel
-// hides a copy of itself (kLeastCopy).
+// on the near side hides a copy of itself (kLeastCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                       LayeredDepth* surfaces);
 

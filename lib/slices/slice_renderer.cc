@@ -99,8 +99,8 @@ const Renderer kSliceRenderer = {
     // that these slices fit into the memory for coarse slices.
     32, ViewsBySubaperture, LayerOf, MakeSubapertures, MeasureWork, sizeof(CompositorScratch),
     TakeScratch,
-    // The function nothing_moves returns false, because views always move the pixels at the ends of
-    // a slice's disparity range a little.
+    // nothing_moves returns false, because even the smallest shift moves the pixels at the boundary
+    // of a slice (OffsetOf in slice_plane.cc).
     [](const RenderJob&) { return false; }, CompositeRectangle,
     [](const ViewWeights&) { return kCompositeBits; }};
 
