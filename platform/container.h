@@ -16,7 +16,7 @@ namespace starfocus {
 enum class Container {
   kUnknown,    // File that is neither PNG nor JPEG.
   kWhole,      // Complete file, including its end marker.
-  kTruncated,  // File that ends before one of its parts, or without an end marker.
+  kTruncated,  // File that ends within one of its parts, or without an end marker.
   kBroken,     // A PNG chunk has a wrong checksum, or a JPEG table has more codes than bytes.
 };
 

@@ -40,8 +40,8 @@ Error WriteFile(const std::string& path, const Result<Bytes>& encoded);
 Error WriteText(const std::string& path, const std::string& text);
 
 // Returns an error if a later call of WriteFile with the path `path` would probably fail. The
-// folder of `path` must be writable, the file system must accept the file name, and `path` must not
-// be a folder or a read-only file.
+// folder of `path` must exist and be writable, the file system must accept the file name, and
+// `path` must not be a folder or a read-only file.
 Error CheckOutputPath(const std::string& path);
 
 // Returns an error if `path` is a device or pipe, on which a reader could wait forever.

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr int kStarSets[] = {1, 5, 9, 17};
 constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
 constexpr const char* kPair[] = {"im0.png", "im1.png"};  // Views at (0, 0) and (1, 0).
-constexpr double kDecimals = 1e4;                        // File names have four decimals.
+constexpr double kDecimals = 1e4;                        // Names have up to four decimals.
 constexpr double kAlike = 0.5 / kDecimals;
 
 // Formats a coordinate, for example "+0.5". Whole numbers are formatted with one decimal.

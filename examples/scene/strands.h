@@ -51,8 +51,7 @@ class Strands {
   struct Segment {
     Point start, direction;  // Direction is a unit vector.
     double length, along;    // Length of the segment, and distance of its start from the root.
-    double radius,
-        growth;  // Half width at the start, and change of the half width per canvas unit.
+    double radius, growth;   // Half width at the start, and its change per canvas unit.
     double d;
     size_t strand;
 

@@ -7,8 +7,8 @@
 namespace starfocus {
 namespace {
 
-// Limit of the number of pixels. The library stb_image reads at most 2^30 samples of a PNG file,
-// which may have four samples per pixel.
+// Limit of the number of pixels. The library stb_image counts bytes in an int. It reads at most
+// 2^30 samples of a PNG file, which may have four samples per pixel.
 constexpr int64_t kMostPixels = int64_t{1} << 28;
 
 }  // namespace

@@ -36,7 +36,8 @@ void Take(png_structp png, png_bytep data, png_size_t size) {
   call->at += size;
 }
 
-// Handles text chunks, which libpng would otherwise store and inflate. Keeps only EXIF and XMP.
+// Handles text chunks and suggested palettes, which libpng would otherwise store and, if
+// compressed, inflate. Keeps only EXIF and XMP.
 int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   Call* call = static_cast<Call*>(png_get_user_chunk_ptr(png));
   const bool packed = std::memcmp(chunk->name, "zTXt", 4) == 0;

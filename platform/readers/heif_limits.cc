@@ -14,7 +14,8 @@ constexpr int64_t kMostSide = 16384;
 // Limits of the number of pixels: per byte of the file, and for any file. An AVIF picture of one
 // colour has 31 000 pixels per byte.
 constexpr int64_t kMostPixelsPerByte = 32768, kAnyFilesPixels = int64_t{1} << 20;
-// The tiles of a picture may have kMostOverlap times the area of the picture, plus kAnyFilesPixels.
+// The total area of the tiles of a picture is at most kMostOverlap times the area of the picture,
+// plus kAnyFilesPixels.
 constexpr int64_t kMostOverlap = 4;
 
 int64_t AreaOf(const HeifItem& item) { return int64_t{item.width} * int64_t{item.height}; }
@@ -38,7 +39,8 @@ uint32_t WholeOf(const Bytes& bytes, size_t at, size_t size) {
 bool FitsItsData(const HeifItem& item) {
   const bool grid = item.type == "grid";
   const size_t number = item.head.size() > 1 && (item.head[1] & 1) != 0 ? 4 : 2;
-  const size_t sizes = grid ? 4 : 10;  // bytes before the picture size in the item's data
+  // Version, flags, and tile counts or canvas colour precede the picture size in the item's data.
+  const size_t sizes = grid ? 4 : 10;
   if (item.head.size() < sizes + 2 * number) return false;
   const size_t tiles = (size_t{item.head[2]} + 1) * (size_t{item.head[3]} + 1);
   if (grid && tiles != item.inputs.size()) return false;

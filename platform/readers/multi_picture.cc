@@ -9,8 +9,8 @@
 namespace starfocus {
 namespace {
 
-// Limit on the number of pictures, because a start code without a picture causes a scan of the rest
-// of the file.
+// Limit on the number of start codes that are tried, because a start code without a picture causes
+// a scan of the rest of the file.
 constexpr size_t kMostPictures = 64;
 constexpr size_t kEntrySize = 16;
 constexpr uint32_t kEntryTag = 0xb002, kTypeBits = 0xffffff;

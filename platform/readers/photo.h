@@ -36,7 +36,7 @@ struct DepthPhoto {
   Image right;              // Right picture of a stereo pair; empty: no stereo pair.
   MapMeaning meaning = MapMeaning::kOrder;
   int orientation = 1;    // EXIF orientation that has not been applied yet.
-  double focal_35mm = 0;  // Focal length on full frame in millimetres; 0: unknown.
+  double focal_35mm = 0;  // Equivalent focal length on full frame in millimetres; 0: unknown.
   bool has_focus = false;
   // Focus point, as fractions of the width and height before rotation.
   double focus_x = 0, focus_y = 0;

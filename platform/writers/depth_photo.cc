@@ -54,8 +54,9 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
   return grey;
 }
 
-// Returns the attributes NearDisparity and FarDisparity. Disparities that exceed
-// STARFOCUS_MAX_DISPARITY for a lens of f/1 are shifted into the valid range. A shift of all
+// Returns the attributes NearDisparity and FarDisparity. If a disparity for a lens of f/1 is
+// outside
+// +-STARFOCUS_MAX_DISPARITY, all disparities are shifted into this range. A shift of all
 // disparities has no effect on the blur.
 Result<std::string> OwnAttributes(const std::string& path, const SharpOriginal& photo,
                                   const Range& range) {

@@ -36,7 +36,7 @@ struct ViewOptions {
 
 // Contents of the page, in the order of their computation.
 struct Contents {
-  // Lenses of the pictures at six foci, followed by the lenses of the ground truths.
+  // Lenses of the strip of pictures, followed by the lenses of the ground truths.
   std::vector<LensAt> lenses;
   std::vector<TruthFile> truths;
   std::vector<PageFigure> strip, blocks, errors;

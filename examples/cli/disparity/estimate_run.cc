@@ -17,7 +17,7 @@ namespace starfocus {
 namespace {
 
 constexpr int kSmallWidth = 256;      // Largest width of pictures for finding the disparity range.
-constexpr int kLeastConfidence = 48;  // Pixels of lower confidence are ignored.
+constexpr int kLeastConfidence = 48;  // Excludes outliers at edges and on flat walls.
 constexpr double kStrays = 0.0005;    // Fraction of values discarded at each end of the range.
 
 using Images = std::vector<Image>;

@@ -54,9 +54,9 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
 Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
                                             const DisparityRange& range, int threads);
 
-// Repairs the map of a light field with the largest star among its views. Without
-// a star of 5 or more views, the repair uses the centre view alone. Shows progress. Error messages
-// start with `where`.
+// Repairs the map of a light field with the largest star among its views. Without a star of 5 or
+// more views, the repair uses the centre view alone. Shows progress. Error messages start with
+// `where`.
 Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightField& light_field,
                                           const RepairOptions& options);
 

@@ -20,7 +20,8 @@ Figure DrawViewPsfs();         // Fig. 4.
 Figure DrawViewResponses();    // Fig. 5.
 Figure DrawSubsampledBlurs();  // Fig. 8.
 
-// Returns the table of N for subapertures, for blur radii up to `max_blur`.
+// Returns the table of N for subapertures and checks the rule for N, for blur radii up to
+// `max_blur`.
 Figure AnalyseSubapertures(double max_blur);
 
 // Measures the engine's PSFs for blur radii up to `largest`. Returns an error if the engine cannot

@@ -35,7 +35,7 @@ typedef struct starfocus_pool starfocus_pool;
 STARFOCUS_API int32_t starfocus_pool_cores(void);
 
 /** Creates a pool. On systems with big and small cores, the threads run only on the big cores if
- * the system has a big core for each worker. Free the pool with starfocus_pool_destroy.
+ *  the system has a big core for each worker. Free the pool with starfocus_pool_destroy.
  *  @param workers number of workers, at most STARFOCUS_MAX_WORKERS; 0 or less:
  *         starfocus_pool_cores(). The caller of starfocus_pool_run is one of the workers, so a
  *         pool of n workers starts n - 1 threads. The pool has fewer workers if the system
@@ -61,7 +61,7 @@ STARFOCUS_API int32_t starfocus_pool_workers(const starfocus_pool* pool);
 STARFOCUS_API int starfocus_pool_run(void* pool, starfocus_job job, void* job_data, int32_t count);
 
 /** Ends the threads and frees the pool. No call of starfocus_pool_run with this pool may be
- * running.
+ *  running.
  *  @param pool pool; no-op if null */
 STARFOCUS_API void starfocus_pool_destroy(starfocus_pool* pool);
 

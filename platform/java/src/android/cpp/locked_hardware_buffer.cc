@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Native methods of dev.starfocus.android.LockedHardwareBuffer. These
-// native methods require Android API level 29.
+// Native methods of dev.starfocus.android.LockedHardwareBuffer. The methods require Android API
+// level 29.
 #include <android/hardware_buffer.h>
 #include <android/hardware_buffer_jni.h>
 #include <jni.h>

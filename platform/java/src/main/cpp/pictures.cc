@@ -28,8 +28,8 @@ int PlanesOf(int32_t format) {
   }
 }
 
-// Returns the number of rows of a plane, and the number of bytes per row without padding. The
-// result is valid even if image.pixel_stride has a value that the library will reject.
+// Returns the number of rows of a plane, and the number of bytes from the start of a row to the end
+// of its last pixel. The result is valid even for a pixel_stride that the library will reject.
 PlaneSize SizeOf(const starfocus_image& image, int plane, int64_t width, int64_t height) {
   const int64_t step = std::max(image.pixel_stride, 0);
   const int planes = PlanesOf(image.format);
