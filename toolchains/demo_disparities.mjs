@@ -30,7 +30,7 @@ function chunk(name, data) {
   return Buffer.concat([frame.subarray(0, 4), body, frame.subarray(4)]);
 }
 
-/** CRC-32 of PNG. node has a function for this since version 22. */
+/** Returns the CRC-32 of PNG. Old versions of node have no zlib.crc32. */
 function checksum(bytes) {
   if (zlib.crc32) return zlib.crc32(bytes);
   let crc = ~0;

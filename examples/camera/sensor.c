@@ -20,8 +20,8 @@ static int SeenByFirst(int x, int y, int u, int v, int* seen_x, int* seen_y) {
   return is_ball;
 }
 
-/* Returns the luma of a pixel: chequers on the ball, or stripes and white tiles on the wall. Ball
- * and wall have a noise texture. */
+/* Returns the luma of a pixel: chequers on the ball, or stripes and white tiles on the wall. Noise
+ * is part of both surfaces, so all cameras see the same noise at a surface point. */
 static uint8_t LumaAt(int x, int y, int u, int v) {
   int seen_x, seen_y, grain;
   const int is_ball = SeenByFirst(x, y, u, v, &seen_x, &seen_y);

@@ -145,7 +145,8 @@ TEST_CASE("analysis: Fig. 6 and the thresholds of equation (9) are reproduced") 
   const double exact = UnderSamplingRatio(4, kTheta, WorstOverSampling(4, kTheta).error);
   CHECK(exact == doctest::Approx(0.7700).epsilon(1e-4));
   // The paper does not explain its under-sampling ratio of 0.787. The ratio is 0.787 if no views
-  // lie on the rim and the error curve of Fig. 6 is read next to its cusp.
+  // lie on the rim and the error curve of Fig. 6 is read next to its cusp. Trials found this
+  // variant.
   CHECK(WorstOverSampling(4, kTheta, Rim::kExcluded).ratio == 1.5);
   const double beside = PaperError(4 / 1.51, 4, kTheta, Rim::kExcluded);
   CHECK(beside < kThreshold);

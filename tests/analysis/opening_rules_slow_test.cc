@@ -34,7 +34,8 @@ int FirstRadius(const Layer& layer) {
   return r;
 }
 
-TEST_CASE("openings: with any opening, layer 1 has at most the error of a fall-off lens at r = 7") {
+TEST_CASE(
+    "openings: at its first radius, layer 1 has at most the error of a fall-off lens at r = 7") {
   const double fall_off = SubsampledError(7, {1.28, kDefaultTheta});
   for (const Asked& asked : kAsked) {
     CAPTURE(asked.name);

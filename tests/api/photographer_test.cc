@@ -122,7 +122,7 @@ TEST_CASE("focus at: a slanted surface is in focus at the given pixel") {
   }
 }
 
-TEST_CASE("focus at: the focus is a mean, which reduces noise") {
+TEST_CASE("focus at: the focus is a median, which reduces noise") {
   test::Random random(5);
   Map map(60, 60, 0);
   for (float& value : map.values) {

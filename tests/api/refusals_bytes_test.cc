@@ -219,7 +219,7 @@ const std::pair<const char*, starfocus_region> kBadRegions[] = {
     {"region.x", {kLeast, kLeast, kMost, kMost}},
 };
 
-TEST_CASE("calls: illegal pictures, memory and other pointer arguments are rejected") {
+TEST_CASE("calls: null pointers and illegal pictures, memory, row counts and shifts are rejected") {
   Fixture pictures(false), images(true);
   for (const Row& row : kPictures)
     Check(&pictures, row.functions, row.spoil, row.status, row.field);

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# Usage: cmake -DNM=… -DSTATIC=… -P symbols_test.cmake Checks the external symbols of lib/ and simd/. Allowed symbols
-# are memory copies, a few functions of <math.h>, helpers of the compiler, and Highway's choice of target. Symbols of
-# libstdc++ (exceptions, RTTI, streams, operator new) and of I/O are forbidden. Only
-# starfocus_create, in a separate translation unit, may use the heap, if the caller passes no
+# Usage: cmake -DNM=… -DSTATIC=… -P symbols_test.cmake
+# Checks the external symbols of lib/ and simd/. Allowed symbols are memory copies, a few functions of <math.h>, helpers
+# of the compiler, and Highway's choice of target. Symbols of libstdc++ (exceptions, RTTI, streams, operator new) and of
+# I/O are forbidden. Only starfocus_create, in a separate translation unit, may use the heap, if the caller passes no
 # allocator.
 cmake_minimum_required(VERSION 3.20)
 execute_process(COMMAND "${NM}" -P "${STATIC}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)

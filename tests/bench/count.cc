@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: starfocus-bench-count MODE [FOLDER VIEWS] Refocuses one light field once, so that
-// callgrind can count the instructions of starfocus_refocus. The light field is synthetic, or has
-// the first VIEWS views of FOLDER. The focus is the smallest disparity. Prints the number of pixels
-// and the SIMD target.
+// usage: starfocus-bench-count MODE [FOLDER VIEWS]
+//
+// Refocuses one light field once, so that callgrind can count the instructions of
+// starfocus_refocus. The light field is small and synthetic, or has the first VIEWS views of
+// FOLDER. The focus is the smallest disparity. Prints the number of pixels and the SIMD target.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

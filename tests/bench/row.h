@@ -56,8 +56,8 @@ struct Row {
   double ratio_frame = kNone, ratio_blur = kNone;
   size_t workspace = 0;                             // Size of the workspace, bytes.
   double layer_time[STARFOCUS_LAYERS] = {0, 0, 0};  // Share of the time of all blocks, by layer.
-  double layer_pixels[STARFOCUS_LAYERS] = {0, 0,
-                                           0};  // Share of the pixels of all blocks, by layer.
+  // Share of the pixels of all blocks, by layer.
+  double layer_pixels[STARFOCUS_LAYERS] = {0, 0, 0};
 
   double pixels() const { return double(width) * height; }
   double ns_per_pixel() const { return ms * 1e6 / pixels(); }

@@ -21,7 +21,7 @@ struct Choice {
   std::vector<int> superblocks;  // Values of starfocus_config.superblock, measured in block mode.
   std::vector<double> n_scales;  // Values of starfocus_tuning.n_scale in block and frame mode.
   bool rules = false;            // True to measure both renderers in block and frame mode.
-  // SIMD targets, measured at the middle quantile; "all": all targets
+  // SIMD targets, measured at the middle quantile; "all": all targets.
   std::vector<std::string> targets;
   std::vector<int> workers;       // Numbers of workers above 1, measured at the middle quantile.
   double largest_radius = 0;      // Largest radius of the sweep of blur radii, pixels; 0: no sweep.

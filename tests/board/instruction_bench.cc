@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// usage: instruction_bench CASE simd|reference RUNS Refocuses RUNS times. count_instructions.c
-// counts the instructions of the program with RUNS = 2 and with RUNS = 1. The setup does not depend
-// on RUNS, so the difference of the two counts is the cost of one refocusing. `instruction_bench
-// list` prints the cases.
+// usage: instruction_bench CASE simd|reference RUNS
+//
+// Refocuses RUNS times. count_instructions.c counts the instructions of the program with RUNS = 2
+// and with RUNS = 1. The setup does not depend on RUNS, so the difference of the two counts is the
+// cost of one refocusing. `instruction_bench list` prints the cases.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

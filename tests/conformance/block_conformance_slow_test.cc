@@ -70,7 +70,8 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
 starfocus_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
   starfocus_config config = test::ConfigFor(scene, max_blur);
   config.tuning.max_layer = max_layer;
-  config.tuning.deblocking = 0;  // thresholds of deblocking magnify rounding errors
+  // The thresholds of deblocking magnify rounding errors. deblock_test tests deblocking.
+  config.tuning.deblocking = 0;
   config.superblock = 32;
   while (config.superblock < scene.height) config.superblock *= 2;
   return config;

@@ -32,7 +32,7 @@ struct Distance {
   double unrounded = 0;  // Largest difference of an engine's byte from the unrounded reference.
   double sum = 0;        // Sum of all differences between bytes.
   double samples = 0;
-  // Largest allowed mean difference of a picture with at least kEnoughSamples samples.
+  // Largest mean difference of all pictures with at least kEnoughSamples samples.
   double worst_mean = 0;
 
   double mean() const { return samples == 0 ? 0 : sum / samples; }

@@ -105,8 +105,9 @@ class Parter {
   }
 
   // Marks tiles that contain mixed pixels. With given coverage, a tile is marked if the coverage of
-  // any pixel differs from the coverage according to the map. Without given coverage, a tile is
-  // marked if the mean of 4 * coverage * (1 - coverage) is above 3/16.
+  // any pixel with two surfaces differs by more than 1/16 from the coverage according to the map.
+  // Without given coverage, a tile is marked if the mean of 4 * coverage * (1 - coverage) is above
+  // 3/16.
   void MarkMixed() {
     std::map<std::pair<int, int>, double> mixture;
     ForEach([&](int x, int y) {

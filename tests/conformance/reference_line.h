@@ -89,11 +89,10 @@ struct Lens {
     // Subapertures of openings with sharp edges are sampled at 16x16 points, as in the engine.
     if (opening.shape != STARFOCUS_SHAPE_FALL_OFF)
       return passing * opening.Mean(i, j, Radius(), 16);
-    // The fall-off over a subaperture is sampled at 16x16 points, as for other shapes. At the rim
-    // of a lens with N = 4, the exact integral over each subaperture is 5.5 % larger than the
-    // sampled value. The difference between the exact integral and the sampled value is 0.02 % of
-    // all light. Next to lamps ten times as bright as white, the difference is three codes in dark
-    // parts of the picture.
+    // The fall-off over a subaperture is sampled at 16x16 points, as for other shapes. With
+    // N = 4, the exact integral over each of the four subapertures at the rim is 5.5 % larger than
+    // the sampled value. This difference is 0.02 % of all light. Next to lamps ten times as bright
+    // as white, the difference is three codes in dark parts of the picture.
     if (subapertures > 0) return passing * opening.Mean(i, j, subapertures, 16);
     return passing * ApertureDensity(double(i) / n, double(j) / n, opening.cot2);
   }

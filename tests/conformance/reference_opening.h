@@ -91,7 +91,7 @@ struct ApertureShape {
   }
 
   // Returns the mean density of the subaperture around (i, j), sampled at `points` x `points`
-  // points. The lens is `width` subapertures wide.
+  // points. The radius of the lens is `width` subapertures.
   double Mean(int i, int j, double width, int points) const {
     double sum = 0;
     ForEachPoint(i, j, width, points, [&](double u, double v) { sum += Density(u, v); });

@@ -112,7 +112,8 @@ void SetConfig(Trial* trial, test::Random* random) {
   config = test::ConfigFor(trial->scene, std::max(0.5, radius));
   config.superblock = random->Int(0, 3) == 0 ? 64 : 32;
   config.tuning.max_layer = random->Int(0, STARFOCUS_LAYERS - 1);
-  config.tuning.deblocking = 0;  // thresholds of deblocking magnify rounding errors
+  // The thresholds of deblocking magnify rounding errors. deblock_test tests deblocking.
+  config.tuning.deblocking = 0;
   config.tuning.gather = random->Int(0, 3) == 0 ? 0 : 1;
   // A low cost per block makes the partition fine, and a high cost makes the partition coarse.
   if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);

@@ -159,7 +159,9 @@ TEST_CASE("colour repair: no bit of a correct map with steps, planes and fractio
   CHECK(SameBits(Repair(plane).map, plane.map));
 }
 
-TEST_CASE("colour repair: for a picture of one colour, at most the outline changes") {
+TEST_CASE(
+    "colour repair: for a picture of one colour, only the outline may change and has low "
+    "confidence") {
   Photo photo = MakeDisc(0);
   std::fill(photo.rgb.begin(), photo.rgb.end(), uint8_t{77});
   const Repaired repaired = Repair(photo);

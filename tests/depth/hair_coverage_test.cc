@@ -108,7 +108,8 @@ TEST_CASE("hair coverage: outlines without hair are repaired even near hair, and
 }
 
 TEST_CASE(
-    "hair coverage: without hair, a request for coverage changes neither map nor confidence") {
+    "hair coverage: without hair, a request finds no coverage and changes neither map nor "
+    "confidence") {
   Portrait portrait;
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;

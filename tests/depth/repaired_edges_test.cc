@@ -55,7 +55,7 @@ int Softness(const Scene& scene) {
   return starfocus::SoftnessOf(counts, 2);
 }
 
-TEST_CASE("repaired edges: SoftnessOf returns the width in pixels of the picture's soft edges") {
+TEST_CASE("repaired edges: SoftnessOf returns the width of soft edges, at most kMostSoft pixels") {
   Scene scene;
   const auto straight = [](int) { return 48; };
   scene.Fill(1, straight, 48);

@@ -121,12 +121,12 @@ TEST_CASE("unmix: the far colour is read from the view that sees behind the edge
 TEST_CASE("unmix: pixels that are blurred, not mixed, or sharp in the near surface do not change") {
   CHECK(Scene(-4, 0, {40, 240, 140}).Mixed() == 140);  // The near surface is in focus.
   CHECK(Scene(0, 1, {40, 240, 140}).Mixed() == 140);   // The step is too small for a depth edge.
-  CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() ==
-        140);  // The mixed pixel is blurred by three pixels.
+  // The mixed pixel is blurred by three pixels.
+  CHECK(Scene(-3, 8, {40, 240, 140}).Mixed() == 140);
   // A slightly blurred pixel is unmixed in part.
   CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);
-  CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() ==
-        90);                                          // The near surface is hardly more defocused.
+  // The near surface is hardly more defocused.
+  CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() == 90);
   CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);  // The near surface covers most of the pixel.
   CHECK(Scene(0, 4, {40, 240, 20}).Mixed() == 20);  // The mixed colour lies beyond the far colour.
   CHECK(Scene(0, 4, {40, 44, 42}).Mixed() == 42);   // The surfaces differ by only 4 levels.

@@ -421,7 +421,8 @@ TEST_CASE("cells: the blur of a silhouette also widens the border of the cell be
   }
 }
 
-TEST_CASE("cells: borders of BordersOf are as wide as the block analysis requires, and not wider") {
+TEST_CASE(
+    "cells: borders of BordersOf are as wide as the block analysis requires, and no cell wider") {
   test::Random random(12);
   int short_sighted = 0;  // number of blocks that require all cells of the border
   for (const double r : {0.1, 1.0, 4.9, 13.3, 32.0, 60.0}) {

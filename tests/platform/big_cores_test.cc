@@ -17,7 +17,7 @@ namespace {
 
 using starfocus::CoreSet;
 
-using Numbers = std::vector<int>;  // For each core, the number in a file of Linux.
+using Numbers = std::vector<int>;  // A value of Linux for each core, or indices of cores.
 
 void Write(const std::string& folder, const std::string& file, const Numbers& numbers) {
   for (size_t core = 0; core < numbers.size(); ++core) {

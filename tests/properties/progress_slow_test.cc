@@ -108,7 +108,7 @@ TEST_CASE("progress: at most a million samples are computed between two progress
     double samples =
         double(report.rendered_samples) + 3.0 * size * size * double(report.gathered_pixels);
     if (of.mode == STARFOCUS_MODE_BLUR)
-      samples = 3.0 * 64 * 64 * 49 * 49;  // work at the smallest blur radius
+      samples = 3.0 * 64 * 64 * 49 * 49;  // assumes PSFs with a radius of 24
     CAPTURE(samples);
     CHECK(samples > 4 * kMost);
     CHECK(watch.calls >= samples / kMost);

@@ -30,9 +30,8 @@ void CostLabels(Draw* draw, DepthCall* call) {
   const auto planes =
       Filled<uint8_t>(3 * (views + 1) * row.plane, [&] { return draw->Int(least, 255); });
   row.pixels = call->Input("planes", planes, kPadding) + kReach;
-  // `hidden` holds the label from which a pixel is hidden in a view. With many views, random labels
-  // seldom hide a pixel in all views. Therefore a third of the calls use labels that hide more
-  // pixels.
+  // A view does not see a pixel at labels below the value of `hidden`. With many views, random
+  // values seldom hide a pixel in all views. Therefore a third of the calls use larger values.
   const int least_hidden = draw->Rarely(3) ? int(row.labels) / 2 : 0;
   const auto hidden = Filled<uint8_t>(views * row.plane, [&] {
     return draw->Int(0, 5) == 0 && row.ends ? kViewEnds : draw->Int(least_hidden, int(row.labels));

@@ -73,9 +73,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// Returns a mark for each row of a strip: kCoveredNear, or the distance to the next row that is not
-// empty. `covered` holds the number of covered samples of each row. If `full` is true, rows
-// followed by covered rows only are marked kCoveredNear.
+// Returns the marks of the rows of a strip (strips.h). `covered` holds the number of covered
+// samples of each row. If `full` is true, a row that is not empty covers all of its pixels.
 std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   std::vector<int8_t> near(covered.size() - kRowsAhead);
   for (size_t row = 0; row < near.size(); ++row) {

@@ -18,7 +18,7 @@ using namespace starfocus;
 
 constexpr int kSize = 64;
 
-// Returns the rule without its limit on the area of a slice.
+// Returns the rule without its limit on the total area of all slices.
 SliceRule Ample(SliceRule rule) {
   rule.area = INT32_MAX;
   return rule;
@@ -156,7 +156,7 @@ TEST_CASE("slices: ranges of disparity are 3/8 pixel or more for large blur, wit
   }
 }
 
-TEST_CASE("slices: the largest area of a slice depends only on the blur of the lens") {
+TEST_CASE("slices: the limit of the total area of slices depends only on the blur of the lens") {
   CHECK(starfocus::SliceArea(4) == 400);
   for (const double blur : {0.5, 8.0, 32.9}) {
     CAPTURE(blur);

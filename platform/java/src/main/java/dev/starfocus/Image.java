@@ -5,9 +5,9 @@ import java.nio.ByteBuffer;
 
 /**
  * A picture with 8 bits per sample in direct buffers: the C structure starfocus_image. The engine
- * reads and writes the buffers in place. A plane extends from the position of its buffer to the
- * limit; later changes of position and limit have no effect. The size of the picture is the size in
- * the {@link Configuration}, or the size of the region.
+ * reads and writes the buffers in place. A plane starts at the position of its buffer and ends at
+ * or before the limit; later changes of position and limit have no effect. The size of the picture
+ * is the size in the {@link Configuration}, or the size of the region.
  */
 public final class Image {
   /** Formats with one plane, named by the order of bytes in memory. The letter X means alpha. */

@@ -9,10 +9,10 @@ import java.util.Objects;
  * threads may use a Refocuser, but only one call runs at a time. {@link #cancel} and {@link
  * #rowsDone} do not wait for a running call, so that other threads can use them during a call.
  *
- * <p>Calls throw {@link StarfocusException} for errors that the library reports, such as values out
- * of range. Calls throw IllegalArgumentException for buffers that are not direct or are too small,
- * and for read-only outputs. Calls throw NullPointerException for null arguments, OutOfMemoryError
- * if memory is insufficient, and IllegalStateException after {@link #close}.
+ * <p>Calls throw {@link StarfocusException} for errors that the library reports, such as values or
+ * disparities out of range. Calls throw IllegalArgumentException for buffers that are not direct or
+ * are too small, and for read-only outputs. Calls throw NullPointerException for null arguments,
+ * OutOfMemoryError if memory is insufficient, and IllegalStateException after {@link #close}.
  *
  * <p>The bytes of pictures depend neither on the machine nor on the number of workers.
  */
@@ -39,7 +39,7 @@ public final class Refocuser implements AutoCloseable {
   /**
    * Refocuses a light field.
    *
-   * @param field light field, which the engine reads during the call and does not change
+   * @param field light field, which the engine reads only during the call and does not change
    * @param parameters lens and region
    * @param out receives the picture, in any format. The image has the size of the picture, or of
    *     the region of the parameters, and must not overlap the light field. Alpha is copied from
