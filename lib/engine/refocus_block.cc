@@ -191,22 +191,7 @@ Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>
 Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                       Scratch* scratch) {
   const Lens& lens = *in.lens;
-  const ViewWeights& aperture = WeightsOf(lens, block.n);
-  // With N = 0 a block shows the centre view alone. To render the centre view, the weights of N = 1
-  // are used, and grid.step = 0 moves all views to the centre.
-  const bool pinhole = aperture.n == 0;
-  const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
-  const ApertureShape& opening = in.tables->opening;
-  const bool cats_eye = opening.cats_eye > 0;
-  const ViewWeights rendered =
-      cats_eye ? MakeCatsEye(whole, opening,
-                             ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
-                             scratch->aperture_weights)
-               : whole;
-  ViewGrid grid =
-      MakeViewGrid(rendered, lens.params.lens.focus, lens.params.lens.aperture * rendered.extent,
-                   block.layer, in.config->views == 17);
-  if (pinhole) grid.step = 0;
+  const ViewGrid grid = GridOf(in, block, scratch->aperture_weights);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;
   const RenderJob job = {
@@ -215,8 +200,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   // If some cells of a block at layer 1 or 2 are blurred without views, GatherBlock upsamples the
   // whole block later.
   const bool in_part = block.layer > 0 && block.gathers;
-  const bool copies =
-      !block.has_highlights && !in_part && (pinhole || lens.renderer->nothing_moves(job));
+  const bool copies = !block.has_highlights && !in_part &&
+                      (WeightsOf(lens, block.n).n == 0 || lens.renderer->nothing_moves(job));
   return copies ? CopyBlock(in, ViewsRect(block), out, scratch)
                 : Render(in, block, job, out, scratch);
 }
@@ -234,6 +219,27 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
 }
 
 }  // namespace
+
+ViewGrid GridOf(const BlockInputs& in, const Block& block, uint16_t* cats_eye) {
+  const Lens& lens = *in.lens;
+  const ViewWeights& aperture = WeightsOf(lens, block.n);
+  // With N = 0 a block shows the centre view alone. To render the centre view, the weights of N = 1
+  // are used, and grid.step = 0 moves all views to the centre.
+  const bool pinhole = aperture.n == 0;
+  const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
+  const ApertureShape& opening = in.tables->opening;
+  const ViewWeights rendered =
+      opening.cats_eye > 0
+          ? MakeCatsEye(whole, opening,
+                        ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
+                        cats_eye)
+          : whole;
+  ViewGrid grid =
+      MakeViewGrid(rendered, lens.params.lens.focus, lens.params.lens.aperture * rendered.extent,
+                   block.layer, in.config->views == 17);
+  if (pinhole) grid.step = 0;
+  return grid;
+}
 
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                   Scratch* scratch) {

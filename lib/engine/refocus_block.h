@@ -3,7 +3,10 @@
 #ifndef STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 #define STARFOCUS_LIB_ENGINE_REFOCUS_BLOCK_H_
 
+#include <cstdint>
+
 #include "lib/base/geometry.h"
+#include "lib/base/view_grid.h"
 #include "lib/engine/lens.h"
 #include "lib/engine/scratch.h"
 #include "lib/engine/tables.h"
@@ -26,6 +29,10 @@ struct BlockInputs {
   const GatherMap* gathered;
   starfocus_clock clock;  // a null clock disables measuring the time of blocks
 };
+
+// Returns the grid of the views that the block is rendered from. `cats_eye` is memory for the
+// weights of an aperture with a cat's eye: FullApertureSize(N) elements.
+ViewGrid GridOf(const BlockInputs& in, const Block& block, uint16_t* cats_eye);
 
 // Writes the rectangle of the block to `out` and adds the block to scratch->counts.
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,

@@ -194,13 +194,9 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
 // Finds the slices of a tile. `tile` is in pixels of the rectangle to refocus.
 void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratch,
                SliceStack* stack) {
-  SliceRule rule = job.is_benchmark ? kFineSlices : kSlices;
-  rule.area = MostSliceArea(job.r_max);
   const Rect in_surfaces = {stack->inner.x + tile.x, stack->inner.y + tile.y, tile.width,
                             tile.height};
-  const SliceJob slice_job = {job.kernels, &scratch->surfaces, job.grid,           rule,
-                              in_surfaces, scratch->bins,      scratch->least_blur};
-  stack->count = FindSlices(slice_job, stack->slices, &stack->bands);
+  stack->count = FindSlices(SlicesOfTile(job, in_surfaces, *scratch), stack->slices, &stack->bands);
   for (int32_t k = 0; k < stack->count; ++k) {
     FindOffsets(*job.grid, stack->slices[k].disparity, static_cast<size_t>(stack->count),
                 scratch->offsets + k);
@@ -253,6 +249,12 @@ uint64_t CompositeTile(const Rectangle& all, const Rect& tile) {
 }
 
 }  // namespace
+
+SliceJob SlicesOfTile(const RenderJob& job, const Rect& tile, const CompositorScratch& scratch) {
+  SliceRule rule = job.is_benchmark ? kFineSlices : kSlices;
+  rule.area = MostSliceArea(job.r_max);
+  return {job.kernels, &scratch.surfaces, job.grid, rule, tile, scratch.bins, scratch.least_blur};
+}
 
 uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accumulators) {
   auto* const memory = static_cast<CompositorScratch*>(scratch);

@@ -64,6 +64,10 @@ constexpr size_t CellPairs(int32_t side) {
 // Fractional bits of the sums of CompositeRectangle.
 inline constexpr int kCompositeBits = kMaxLightBits + kLightBits;
 
+// Returns the job that finds the slices of a tile. `tile` is in pixels of scratch.surfaces, which
+// must contain the surfaces of the job's rectangle.
+SliceJob SlicesOfTile(const RenderJob& job, const Rect& tile, const CompositorScratch& scratch);
+
 // Implements Renderer::render for slices. Each tile of the rectangle has its own slices. Returns
 // the number of samples rendered in each view (three per pixel), summed over all slices. `scratch`
 // is a CompositorScratch.

@@ -130,6 +130,36 @@ TEST_CASE("steps: disparities are brighter if nearer, and each plane is one slic
   for (const auto& colour : colours[0]) CHECK(colours[1].count(colour) == 0);
 }
 
+// Returns the number of slices of a grey scene of stripes 16 pixels wide, with disparities 13 and
+// 13 - step in turn. Each tile shows both disparities.
+size_t SlicesOfStep(float step) {
+  TempFolder folder;
+  LightField field;
+  Image grey(kWidth, kHeight);
+  std::fill(grey.pixels.begin(), grey.pixels.end(), uint8_t{128});
+  field.views.assign(5, grey);
+  field.disparity = {kWidth, kHeight, {}};
+  for (int k = 0; k < kWidth * kHeight; ++k) {
+    field.disparity.values.push_back(k % 32 < 16 ? 13 : 13 - step);
+  }
+  ThreadRunner runner(1);
+  REQUIRE(SaveLightField(folder.file("lf"), field, &runner) == "");
+  Succeed(folder, "steps lf -o steps --focus 0");
+  const Image slices = ValueOf(ReadImage(folder.file("steps/slices.png")));
+  std::set<std::pair<int, int>> colours;
+  for (int x = 0; x < kWidth; ++x) colours.insert({At(slices, x, 40)[0], At(slices, x, 40)[1]});
+  return colours.size();
+}
+
+TEST_CASE("steps: slices are as thick as in the engine") {
+  // At a blur of 13 pixels N is 5, and the outermost views lie at 0.859 times the radius of the
+  // lens. The blur of these views is 11.17 pixels, and varies within a slice by at most 3/8 of a
+  // pixel times (11.17 - 4) / 4. Rounded down several times in units of 1/64, the disparities of a
+  // slice differ by at most 47/64 of a pixel.
+  CHECK(SlicesOfStep(46 / 64.F) == 1);
+  CHECK(SlicesOfStep(49 / 64.F) == 2);
+}
+
 TEST_CASE("steps: hidden surfaces show the far plane behind edges only") {
   const Steps steps;
   const Image hidden = steps.Picture("hidden");

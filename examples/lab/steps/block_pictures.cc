@@ -5,6 +5,8 @@
 #include <iterator>
 #include <vector>
 
+#include "lib/engine/refocus_block.h"
+#include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
 
 namespace starfocus {
@@ -19,9 +21,9 @@ constexpr uint8_t kBlack[3] = {0, 0, 0};
 
 // Returns the colour of a slice. Slices of one disparity have one colour in all blocks.
 const uint8_t (&ColourOf(const Slice& slice))[3] {
-  constexpr int kRange = 3 << kDisparityBits >> 3;
+  constexpr int kColourRange = 3 << kDisparityBits >> 3;  // 3/8 of a pixel of disparity.
   constexpr auto kCount = static_cast<int>(std::size(kSliceColours));
-  const int number = (slice.disparity - INT16_MIN) / kRange;
+  const int number = (slice.disparity - INT16_MIN) / kColourRange;
   return kSliceColours[number % kCount];
 }
 
@@ -69,15 +71,14 @@ class BlockArtist {
         window_(engine_.row_store.windows[0]),
         memory_(static_cast<CompositorScratch*>(
             engine_.workers.scratch[0].renderers[kSliceRenderer.index])),
-        view_(engine_.tables.opening),
-        pictures_(*pictures) {
-    const starfocus_lens& lens = engine_.lens.params.lens;
-    const ViewWeights& weights = view_.weights();
-    grid_ = MakeViewGrid(weights, lens.focus, lens.aperture * weights.extent, 0, false);
-  }
+        grid_(
+            GridOf(InputsOf(engine_), planned_.block, engine_.workers.scratch[0].aperture_weights)),
+        job_{&window_, &grid_,  engine_.kernels,    rect_, planned_.block.border,
+             nullptr,  nullptr, engine_.lens.r_max, false},
+        pictures_(*pictures) {}
 
   void Draw() {
-    Render();
+    Render(job_);
     DrawSlices();
     LightRow hidden = MakeRow(rect_.width), mean = hidden;
     for (int32_t y = 0; y < rect_.height; ++y) {
@@ -87,18 +88,28 @@ class BlockArtist {
       Encode(mean, y, &pictures_.mean);
       for (int32_t x = 0; x < rect_.width; ++x) DrawPixel(x, y);
     }
+    DrawView();
   }
 
  private:
-  void Render() {
-    uint32_t* const sums = engine_.workers.scratch[0].sums;
-    const RenderJob job = {&window_, &grid_,  engine_.kernels,    rect_, planned_.block.border,
-                           nullptr,  nullptr, engine_.lens.r_max, false};
-    kSliceRenderer.render(job, memory_, sums);
+  // Renders the views of the job. The scratch memory then contains the surfaces of the block.
+  void Render(const RenderJob& job) {
+    kSliceRenderer.render(job, memory_, engine_.workers.scratch[0].sums);
+  }
+
+  void DrawView() {
+    const RightmostView view(engine_.tables.opening);
+    const ViewWeights& weights = view.weights();
+    const starfocus_lens& lens = engine_.lens.params.lens;
+    const ViewGrid grid =
+        MakeViewGrid(weights, lens.focus, lens.aperture * weights.extent, 0, false);
+    RenderJob job = job_;
+    job.grid = &grid;
+    Render(job);
     const size_t samples = 3 * static_cast<size_t>(rect_.width);
     for (int32_t y = 0; y < rect_.height; ++y) {
-      engine_.kernels->Finish(sums + static_cast<size_t>(y) * samples, samples,
-                              kSliceRenderer.sum_bits(view_.weights()), window_.transfer->encoding,
+      engine_.kernels->Finish(engine_.workers.scratch[0].sums + static_cast<size_t>(y) * samples,
+                              samples, kSliceRenderer.sum_bits(weights), window_.transfer->encoding,
                               PixelOf(&pictures_.view, rect_.x, rect_.y + y));
     }
   }
@@ -174,19 +185,11 @@ class BlockArtist {
   }
 
   void DrawSlicesOf(const Rect& tile) {
-    SliceRule rule = kSlices;
-    rule.area = MostSliceArea(engine_.lens.r_max);
     const Border& border = planned_.block.border;
-    const SliceJob job = {engine_.kernels,
-                          &memory_->surfaces,
-                          &grid_,
-                          rule,
-                          {border.left + tile.x, border.top + tile.y, tile.width, tile.height},
-                          memory_->bins,
-                          memory_->least_blur};
+    const Rect in_surfaces = {border.left + tile.x, border.top + tile.y, tile.width, tile.height};
     Slice slices[kMaxSlices];
     SurfaceBands bands;
-    const int32_t count = FindSlices(job, slices, &bands);
+    const int32_t count = FindSlices(SlicesOfTile(job_, in_surfaces, *memory_), slices, &bands);
     for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
       for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
         const int16_t disparity = memory_->surfaces.disparity[0][At(x, y)];
@@ -235,8 +238,8 @@ class BlockArtist {
   const Rect& rect_;
   const Window& window_;
   CompositorScratch* const memory_;
-  const RightmostView view_;
-  ViewGrid grid_;
+  const ViewGrid grid_;  // Grid of the engine.
+  const RenderJob job_;  // The engine's job for this block.
   StepPictures& pictures_;
 };
 
