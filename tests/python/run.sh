@@ -41,5 +41,7 @@ for plot in focal_stack time_and_error; do
   [ "$(stat -c %s "$work/plots/$plot.png")" -gt 20000 ] || { echo "python: no $plot.png" >&2; exit 1; }
 done
 printf '%-40s %s\n' 'Python, example' "$(tail -n 1 "$work/log")"
+quietly "$python" "$sources/tests/python/batch_dask_test.py" "$build/starfocus" "$work/scene" "$work/batch"
+printf '%-40s %s\n' 'Python, batch with Dask' "$(tail -n 1 "$work/log")"
 left=$(find "$sources/platform/python" -name '*.so' -o -name build -o -name '*.egg-info')
 [ -z "$left" ] || { echo "python: installing left in the source tree" $left >&2; exit 1; }
