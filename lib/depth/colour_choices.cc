@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/colour_choices.h"
 
+#include <algorithm>
 #include <cstring>
 #include <initializer_list>
 
@@ -98,10 +99,14 @@ void ChooseInBlock(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y)
 // pixel, unless such a block would extend beyond the cell.
 void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t y) {
   const int32_t last = first + WholeBlocks(area.width) - kCellBlock;
+  uint8_t least[kColourCell];  // smallest doubt in each column of the row of blocks
+  std::memset(least, kDoubtReach + 1, sizeof least);
+  for (int32_t row = y; row < Min(y + kCellBlock, area.height); row += 2) {
+    const uint8_t* doubt = job.doubt + job.map.At(area.x, area.y + row);
+    for (int32_t x = 0; x < area.width; ++x) least[x] = std::min(least[x], doubt[x]);
+  }
   for (int32_t x = first; x < area.width;) {
-    bool doubtful = false;
-    for (int32_t row = y; row < y + kCellBlock; row += 2) doubtful |= IsDoubtful(job, area, x, row);
-    if (doubtful) {
+    if (least[x] <= kDoubtReach) {
       ChooseInBlock(job, area, Min(x, last), y);
       x += kCellBlock;
     } else {
@@ -110,28 +115,16 @@ void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t 
   }
 }
 
-// Gives each pixel that is not doubtful its own disparity as the only choice. Returns true if any
-// pixel is doubtful.
-bool ChooseOwn(const ChoiceJob& job, const Rect& area) {
+bool HasDoubt(const ChoiceJob& job, const Rect& area) {
   bool doubtful = false;
-  for (int32_t y = area.y; y < area.y + area.height; ++y) {
-    Choices* row = job.memory.choices + (y - job.region.y) * job.region.width - job.region.x;
-    for (int32_t x = area.x; x < area.x + area.width; ++x) {
-      const size_t at = job.map.At(x, y);
-      if (job.doubt[at] <= kDoubtReach) {
-        doubtful = true;
-        continue;
-      }
-      row[x].count = 1;
-      row[x].disparity[0] = job.map.disparity[at];
-      row[x].cost[0] = row[x].sum[0] = 0;
-    }
+  for (int32_t y = area.y; y < area.y + area.height && !doubtful; ++y) {
+    ForDoubtful(job.doubt + job.map.At(area.x, y), area.width, [&](int32_t) { doubtful = true; });
   }
   return doubtful;
 }
 
 void ChooseInCell(const ChoiceJob& job, const Rect& area) {
-  if (!ChooseOwn(job, area)) return;
+  if (!HasDoubt(job, area)) return;
   FillCell(job.map, job.doubt, area, job.memory.cell);
   for (int32_t y = 0; y < area.height; y += kCellBlock) {
     for (int32_t odd = 0; odd < 4; ++odd) ChooseInRow(job, area, odd % 2, y + odd / 2);
@@ -147,7 +140,7 @@ int32_t JumpBetween(const uint8_t* a, const uint8_t* b) {
 void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* path) {
   int32_t least = path->cost[0];
   for (int32_t k = 1; k < from.count; ++k) least = Min(least, path->cost[k]);
-  ChoicePath next;
+  int16_t next[kMostChoices];
   for (int32_t k = 0; k < to->count; ++k) {
     int32_t cost = least + jump;
     for (int32_t other = 0; other < from.count; ++other) {
@@ -155,22 +148,48 @@ void ContinueAmong(const Choices& from, int32_t jump, Choices* to, ChoicePath* p
       if (difference > 3 * kPixel) continue;
       cost = Min(cost, path->cost[other] + (difference > kPixel ? jump / 2 : 0));
     }
-    next.cost[k] = static_cast<int16_t>(to->cost[k] + cost - least);
-    to->sum[k] = static_cast<int16_t>(to->sum[k] + next.cost[k]);
+    next[k] = static_cast<int16_t>(to->cost[k] + cost - least);
+    to->sum[k] = static_cast<int16_t>(to->sum[k] + next[k]);
   }
-  *path = next;
+  std::copy_n(next, to->count, path->cost);
 }
 
-// Continues a path from a pixel to the next pixel, given the colours of both pixels. In the most
-// frequent case, both pixels have a single choice and both choices are on one surface, so the path
-// adds no cost.
-inline void Continue(const Choices& from, const uint8_t* colour, const uint8_t* next, Choices* to,
-                     ChoicePath* path) {
-  if (from.count > 1 || to->count > 1 || Abs(to->disparity[0] - from.disparity[0]) > kPixel) {
-    return ContinueAmong(from, JumpBetween(colour, next), to, path);
+// A line of pixels of a region, along which a path leads. The members describe the pixel at
+// position 0 and the distances from a pixel to the next pixel.
+struct PathLine {
+  ptrdiff_t pixel, pixel_step;    // index of the pixel in the map
+  ptrdiff_t choice, choice_step;  // index of the pixel in the region
+  const uint8_t* colour;
+  ptrdiff_t colour_step;
+
+  PathLine(const ChoiceJob& job, int32_t x, int32_t y, int32_t dx, int32_t dy) {
+    const Rect& region = job.region;
+    pixel = static_cast<ptrdiff_t>(job.map.At(region.x + x, region.y + y));
+    pixel_step = dx + ptrdiff_t{dy} * job.map.plan.width;
+    choice = x + ptrdiff_t{y} * region.width;
+    choice_step = dx + ptrdiff_t{dy} * region.width;
+    colour = job.map.Pixel(region.x + x, region.y + y);
+    colour_step = 3 * ptrdiff_t{dx} + dy * static_cast<ptrdiff_t>(job.map.ColourStride());
   }
-  path->cost[0] = to->cost[0];
-  to->sum[0] = static_cast<int16_t>(to->sum[0] + to->cost[0]);
+  // Moves position 0 by `columns` to the right.
+  void Move(int32_t columns) {
+    pixel += columns;
+    choice += columns;
+    colour += 3 * ptrdiff_t{columns};
+  }
+};
+
+// Returns the choices of the pixel at position `at` of a line. A pixel without doubt has its own
+// disparity as the only choice, which is stored in `own`.
+inline Choices* ChoicesAt(const ChoiceJob& job, const PathLine& line, int32_t at, Choices* own) {
+  const ptrdiff_t place = line.pixel + at * line.pixel_step;
+  if (job.doubt[place] <= kDoubtReach) {
+    return job.memory.choices + line.choice + at * line.choice_step;
+  }
+  own->count = 1;
+  own->disparity[0] = job.map.disparity[place];
+  own->cost[0] = own->sum[0] = 0;
+  return own;
 }
 
 void Begin(Choices* choices, ChoicePath* path) {
@@ -180,38 +199,68 @@ void Begin(Choices* choices, ChoicePath* path) {
   }
 }
 
+// Continues the path of a line to the doubtful pixel at position `at`. The costs of a path at a
+// pixel without doubt whose predecessor is also without doubt depend only on these two pixels. A
+// path that has reached neither therefore begins two pixels before the doubtful pixel.
+void ContinueTo(const ChoiceJob& job, const PathLine& line, int32_t at, ChoicePath* path) {
+  Choices own[2];
+  const int32_t first = Max(at - 2, 0);
+  if (path->at < first) {
+    path->at = first;
+    Begin(ChoicesAt(job, line, first, own), path);
+  }
+  for (; path->at < at; ++path->at) {
+    const Choices* from = ChoicesAt(job, line, path->at, own);
+    Choices* to = ChoicesAt(job, line, path->at + 1, own + 1);
+    if (from->count == 1 && to->count == 1 &&
+        Abs(to->disparity[0] - from->disparity[0]) <= kPixel) {
+      // In the most frequent case, both pixels have a single choice and both choices are on one
+      // surface, so the path adds no cost.
+      Begin(to, path);
+      continue;
+    }
+    const uint8_t* colour = line.colour + path->at * line.colour_step;
+    ContinueAmong(*from, JumpBetween(colour, colour + line.colour_step), to, path);
+  }
+}
+
+constexpr int32_t kNotBegun = -1;
+
 // Adds the costs of paths along rows to the sums of the choices. Paths lead to the right (direction
 // 1) or to the left (-1).
-void AddPathsAcross(const ColourMap& map, const Rect& region, int32_t direction, Choices* choices) {
+void AddPathsAcross(const ChoiceJob& job, int32_t direction) {
+  const Rect& region = job.region;
+  const int32_t last = region.width - 1;
   for (int32_t y = 0; y < region.height; ++y) {
-    Choices* row = choices + static_cast<size_t>(y) * static_cast<size_t>(region.width);
-    int32_t x = direction > 0 ? 0 : region.width - 1;
+    const uint8_t* doubt = job.doubt + job.map.At(region.x, region.y + y);
+    const PathLine line(job, direction > 0 ? 0 : last, y, direction, 0);
     ChoicePath path;
-    Begin(row + x, &path);
-    for (int32_t k = 1; k < region.width; ++k, x += direction) {
-      const uint8_t* colour = map.Pixel(region.x + x, region.y + y);
-      Continue(row[x], colour, colour + 3 * direction, row + x + direction, &path);
+    path.at = kNotBegun;
+    if (direction > 0) {
+      ForDoubtful(doubt, region.width, [&](int32_t x) { ContinueTo(job, line, x, &path); });
+      continue;
+    }
+    for (int32_t at = 0; at <= last; ++at) {
+      if (doubt[last - at] <= kDoubtReach) ContinueTo(job, line, at, &path);
     }
   }
 }
 
 // Adds the costs of paths along columns to the sums of the choices. Paths lead down (direction 1)
 // or up (-1).
-void AddPathsDown(const ColourMap& map, const Rect& region, int32_t direction, ChoicePath* paths,
-                  Choices* choices) {
-  const auto width = static_cast<size_t>(region.width);
-  int32_t y = direction > 0 ? 0 : region.height - 1;
-  for (size_t x = 0; x < width; ++x) {
-    Begin(choices + static_cast<size_t>(y) * width + x, paths + x);
-  }
-  for (int32_t k = 1; k < region.height; ++k, y += direction) {
-    const Choices* from = choices + static_cast<size_t>(y) * width;
-    Choices* to = choices + static_cast<size_t>(y + direction) * width;
-    const uint8_t* colour = map.Pixel(region.x, region.y + y);
-    const uint8_t* next = map.Pixel(region.x, region.y + y + direction);
-    for (size_t x = 0; x < width; ++x) {
-      Continue(from[x], colour + 3 * x, next + 3 * x, to + x, paths + x);
-    }
+void AddPathsDown(const ChoiceJob& job, int32_t direction) {
+  const Rect& region = job.region;
+  ChoicePath* paths = job.memory.paths;
+  for (int32_t x = 0; x < region.width; ++x) paths[x].at = kNotBegun;
+  const int32_t top = direction > 0 ? 0 : region.height - 1;
+  const PathLine first(job, 0, top, 0, direction);
+  for (int32_t at = 0; at < region.height; ++at) {
+    const uint8_t* doubt = job.doubt + job.map.At(region.x, region.y + top + at * direction);
+    ForDoubtful(doubt, region.width, [&](int32_t x) {
+      PathLine line = first;
+      line.Move(x);
+      ContinueTo(job, line, at, paths + x);
+    });
   }
 }
 
@@ -235,8 +284,8 @@ void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region
     }
   }
   for (const int32_t direction : {1, -1}) {
-    AddPathsAcross(map, region, direction, memory.choices);
-    AddPathsDown(map, region, direction, memory.paths, memory.choices);
+    AddPathsAcross(job, direction);
+    AddPathsDown(job, direction);
   }
 }
 

@@ -24,20 +24,22 @@ struct Choices {
   int16_t disparity[kMostChoices], cost[kMostChoices], sum[kMostChoices];
 };
 
-// Costs of a path up to a pixel, one for each choice of the pixel.
+// Costs of a path up to a pixel, one for each choice of the pixel. `at` is the pixel's position on
+// the line of the path.
 struct ChoicePath {
+  int32_t at;
   int16_t cost[kMostChoices];
 };
 
 // Scratch memory of a worker for one region.
 struct ChoiceMemory {
   Choices* choices;
-  ChoicePath* paths;  // path costs at each pixel of a row
+  ChoicePath* paths;  // path of each column
   ColourCell* cell;
 };
 
-// Fills memory.choices with the choices of all pixels of `region`, row by row, and computes the sum
-// of path costs of each choice.
+// Fills memory.choices with the choices of the doubtful pixels of `region`, row by row, and
+// computes the sum of path costs of each choice. The elements of other pixels are not written.
 void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region,
                   const simd::DepthKernels& kernels, const ChoiceMemory& memory);
 

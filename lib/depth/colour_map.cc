@@ -25,12 +25,12 @@ constexpr int32_t kFlatCell = 4;
 // (kDisparityBits).
 constexpr int32_t kLeastNoise = 6;
 
-// Fills the unknown pixels of a row. Returns false if no pixel of the row is known.
-bool FillRow(int32_t width, int16_t* row) {
+// Fills the unknown pixels of a row, unless no pixel of the row is known.
+void FillRow(int32_t width, int16_t* row) {
   int32_t last = -1;
   for (int32_t x = 0; x <= width; ++x) {
     if (x < width && row[x] == kUnknown) continue;
-    if (x == width && last < 0) return false;
+    if (x == width && last < 0) return;
     for (int32_t k = last + 1; k < x; ++k) {
       const int32_t before = k - last, after = x - k;
       const bool left =
@@ -39,7 +39,6 @@ bool FillRow(int32_t width, int16_t* row) {
     }
     last = x;
   }
-  return true;
 }
 
 // Fills the unknown rows [first, end), which lie between two known rows, or between a known row and
@@ -78,51 +77,96 @@ uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   return 0;
 }
 
-// Returns true if every pixel of a cell is known, and if the cell and its surroundings are flat.
-bool IsFlat(const ColourMap& map, const Rect& cell) {
-  if (HasStep(map, cell, kFlatRadius, kFlat)) return false;
-  for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-    const float* row = GivenAt(map.light_field, y) + cell.x;
-    for (int32_t x = 0; x < cell.width; ++x) {
-      if (!std::isfinite(row[x])) return false;
+// Extremes of each column of a strip of cells and its surroundings, and the unknown pixels of the
+// strip. Element 0 is column `left` of the picture.
+struct FlatStrip {
+  static constexpr int32_t kMost = kMostTileSide + 2 * (kDoubtMargin + kFlatRadius);
+
+  int32_t left, width;
+  int16_t low[kMost], high[kMost];
+  uint8_t unknown[kMost];
+
+  FlatStrip(const ColourMap& map, const Rect& strip) {
+    const Rect around = Widened(map.plan, strip, kFlatRadius);
+    left = around.x;
+    width = around.width;
+    std::fill_n(low, width, INT16_MAX);
+    std::fill_n(high, width, INT16_MIN);
+    std::fill_n(unknown, width, uint8_t{0});
+    for (int32_t y = around.y; y < around.y + around.height; ++y) {
+      const int16_t* row = map.disparity + map.At(left, y);
+      for (int32_t k = 0; k < width; ++k) {
+        low[k] = std::min(low[k], row[k]);
+        high[k] = std::max(high[k], row[k]);
+      }
+    }
+    for (int32_t y = strip.y; y < strip.y + strip.height; ++y) {
+      const float* row = GivenAt(map.light_field, y) + left;
+      for (int32_t k = 0; k < width; ++k) unknown[k] |= std::isfinite(row[k]) ? 0 : 1;
     }
   }
-  return true;
-}
 
-// Fills the initial doubt (DoubtAt) of each pixel of a region.
-void FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
+  // Returns true if columns [x, x + count) of the strip are known, and if these columns and their
+  // surroundings are flat.
+  bool IsFlat(int32_t x, int32_t count) const {
+    const int32_t first = Max(x - kFlatRadius - left, 0);
+    const int32_t end = Min(x + count + kFlatRadius - left, width);
+    int16_t least = INT16_MAX, most = INT16_MIN;
+    for (int32_t k = first; k < end; ++k) {
+      least = std::min(least, low[k]);
+      most = std::max(most, high[k]);
+    }
+    uint8_t any = 0;
+    for (int32_t k = x - left; k < x - left + count; ++k) any |= unknown[k];
+    return any == 0 && most - least <= kFlat;
+  }
+};
+
+// Fills the initial doubt (DoubtAt) of each pixel of a region. Returns true if a pixel is doubtful.
+bool FillAlone(const ColourMap& map, const Rect& region, uint8_t* doubt) {
+  bool doubtful = false;
+  std::memset(doubt, kDoubtReach + 1,
+              static_cast<size_t>(region.width) * static_cast<size_t>(region.height));
   for (int32_t top = 0; top < region.height; top += kFlatCell) {
+    const int32_t height = Min(kFlatCell, region.height - top);
+    const FlatStrip strip(map, {region.x, region.y + top, region.width, height});
     for (int32_t left = 0; left < region.width; left += kFlatCell) {
-      const Rect cell = {region.x + left, region.y + top, Min(kFlatCell, region.width - left),
-                         Min(kFlatCell, region.height - top)};
-      const bool flat = IsFlat(map, cell);
-      for (int32_t y = 0; y < cell.height; ++y) {
-        uint8_t* row = doubt + (top + y) * region.width + left;
-        for (int32_t x = 0; x < cell.width; ++x) {
-          row[x] = flat ? uint8_t{kDoubtReach + 1} : DoubtAt(map, cell.x + x, cell.y + y);
+      const int32_t width = Min(kFlatCell, region.width - left);
+      if (strip.IsFlat(region.x + left, width)) continue;
+      for (int32_t y = top; y < top + height; ++y) {
+        for (int32_t x = left; x < left + width; ++x) {
+          const uint8_t found = DoubtAt(map, region.x + x, region.y + y);
+          doubt[y * region.width + x] = found;
+          doubtful = doubtful || found <= kDoubtReach;
         }
       }
     }
   }
+  return doubtful;
 }
 
-// Scans the region forwards (direction 1) or backwards (-1) and limits each pixel's doubt to the
-// doubt of a previously scanned neighbour plus 1.
-void CarryOn(const Rect& region, int32_t direction, uint8_t* doubt) {
-  const int32_t width = region.width, height = region.height;
-  for (int32_t k = 0; k < height; ++k) {
-    uint8_t* row = doubt + (direction > 0 ? k : height - 1 - k) * width;
-    const uint8_t* before = k > 0 ? row - direction * width : row;
-    for (int32_t x = 0; x < width && k > 0; ++x) {
-      const int32_t beside = Min(before[Max(x - 1, 0)], before[Min(x + 1, width - 1)]);
-      row[x] = static_cast<uint8_t>(Min(row[x], Min(before[x], beside) + 1));
-    }
-    int32_t last = UINT8_MAX;
-    for (int32_t n = 0; n < width; ++n) {
-      uint8_t* at = row + (direction > 0 ? n : width - 1 - n);
-      last = Min(*at, last + 1);
-      *at = static_cast<uint8_t>(last);
+// Writes the smallest value of each pixel and its neighbours in a row.
+void TakeLeastBeside(int32_t width, const uint8_t* row, uint8_t* least) {
+  least[0] = std::min(row[0], row[width > 1 ? 1 : 0]);
+  least[width - 1] = std::min(row[width - 1], row[width > 1 ? width - 2 : 0]);
+  for (int32_t x = 1; x + 1 < width; ++x) {
+    least[x] = std::min(row[x], std::min(row[x - 1], row[x + 1]));
+  }
+}
+
+// Limits the doubt of each pixel to the smallest doubt of its eight neighbours plus 1.
+void LimitToNeighbours(const Rect& region, uint8_t* doubt) {
+  uint8_t least[3][FlatStrip::kMost];  // results of TakeLeastBeside for the rows around a row
+  const int32_t width = region.width, last = region.height - 1;
+  TakeLeastBeside(width, doubt, least[0]);
+  for (int32_t y = 0; y <= last; ++y) {
+    uint8_t* row = doubt + y * width;
+    if (y < last) TakeLeastBeside(width, row + width, least[(y + 1) % 3]);
+    const uint8_t *above = least[Max(y - 1, 0) % 3], *own = least[y % 3];
+    const uint8_t* below = least[Min(y + 1, last) % 3];
+    for (int32_t x = 0; x < width; ++x) {
+      const uint8_t around = std::min(own[x], std::min(above[x], below[x]));
+      row[x] = std::min(row[x], static_cast<uint8_t>(around + 1));
     }
   }
 }
@@ -145,17 +189,30 @@ bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int3
 
 }  // namespace
 
-void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
-             int16_t* disparity) {
-  const ColourMap map = {plan, light_field, disparity};
+RowBand BandOf(const EstimatePlan& plan, int32_t index) {
+  const int32_t bands = plan.columns * plan.rows;
+  return {TileBegin(plan.height, bands, index), TileBegin(plan.height, bands, index + 1)};
+}
+
+void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field,
+              const RowBand& band, int16_t* disparity) {
+  for (int32_t y = band.first; y < band.end; ++y) {
+    int16_t* row = disparity + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    const float* given = GivenAt(light_field, y);
+    bool unknown = false;
+    for (int32_t x = 0; x < plan.width; ++x) {
+      const bool known = std::isfinite(given[x]);
+      row[x] = known ? ToFixed(given[x]) : kUnknown;
+      unknown |= !known;
+    }
+    if (unknown) FillRow(plan.width, row);
+  }
+}
+
+void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity) {
   int32_t unknown = 0;  // number of unknown rows directly above row y, which remain to be filled
   for (int32_t y = 0; y < plan.height; ++y) {
-    int16_t* row = disparity + map.At(0, y);
-    const float* given = GivenAt(light_field, y);
-    for (int32_t x = 0; x < plan.width; ++x) {
-      row[x] = std::isfinite(given[x]) ? ToFixed(given[x]) : kUnknown;
-    }
-    if (!FillRow(plan.width, row)) {
+    if (disparity[static_cast<size_t>(y) * static_cast<size_t>(plan.width)] == kUnknown) {
       ++unknown;
       continue;
     }
@@ -165,25 +222,28 @@ void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
   FillRows(plan, plan.height - unknown, plan.height, disparity);
 }
 
-int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity) {
-  constexpr int32_t kMost = 1023;  // counts[kMost] includes all larger values
-  uint32_t counts[kMost + 1] = {};
-  const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
-  size_t total = 0;
-  for (size_t y = 1; y + 1 < height; ++y) {
-    for (size_t x = 1; x + 1 < width; ++x) {
-      const int16_t* d = disparity + y * width + x;
+void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const RowBand& band,
+                NoiseCounts* noise) {
+  const ptrdiff_t width = plan.width;
+  for (int32_t y = Max(band.first, 1); y < Min(band.end, plan.height - 1); ++y) {
+    const int16_t* row = disparity + y * width;
+    for (ptrdiff_t x = 1; x + 1 < width; ++x) {
+      const int16_t* d = row + x;
       const int32_t others = *(d - 1) + *(d + 1) + *(d - width) + *(d + width);
-      ++counts[Min(Abs(others - 4 * *d), kMost)];
-      ++total;
+      ++noise->counts[Min(Abs(others - 4 * *d), NoiseCounts::kMost)];
     }
   }
+}
+
+int32_t NoiseOf(const NoiseCounts& noise) {
+  size_t total = 0;
+  for (const uint32_t count : noise.counts) total += count;
   int32_t median = 0;
-  for (size_t below = counts[0]; 2 * below < total; below += counts[median]) ++median;
+  for (size_t below = noise.counts[0]; 2 * below < total; below += noise.counts[median]) ++median;
   // For normally distributed noise, the median is 0.6745 * sqrt(20), or approximately 3, standard
   // deviations.
-  const int32_t noise = median / 3;
-  return noise > kLeastNoise ? noise : 0;
+  const int32_t deviation = median / 3;
+  return deviation > kLeastNoise ? deviation : 0;
 }
 
 bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t step) {
@@ -211,16 +271,17 @@ bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y) 
 
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt) {
   const Rect region = Widened(map.plan, tile, kDoubtMargin);
-  FillAlone(map, region, scratch);
-  CarryOn(region, 1, scratch);
-  CarryOn(region, -1, scratch);
+  if (FillAlone(map, region, scratch)) {
+    for (int32_t k = 0; k < kDoubtReach; ++k) LimitToNeighbours(region, scratch);
+  }
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const uint8_t found = scratch[(y - region.y) * region.width + x - region.x];
-      const bool beside = found >= 1 && found <= kDisplacement;
-      const bool thin = beside && IsThin(map, region, scratch, x, y);
-      doubt[map.At(x, y)] = thin ? uint8_t{kThinDoubt} : found;
-    }
+    const uint8_t* found = scratch + (y - region.y) * region.width + tile.x - region.x;
+    uint8_t* row = doubt + map.At(tile.x, y);
+    std::copy_n(found, tile.width, row);
+    ForDoubtful(found, tile.width, [&](int32_t k) {
+      const bool beside = found[k] >= 1 && found[k] <= kDisplacement;
+      if (beside && IsThin(map, region, scratch, tile.x + k, y)) row[k] = kThinDoubt;
+    });
   }
 }
 

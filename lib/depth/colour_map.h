@@ -6,6 +6,7 @@
 #define STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 
 #include <cstdint>
+#include <cstring>
 
 #include "lib/base/fixed.h"
 #include "lib/base/rows.h"
@@ -47,22 +48,66 @@ struct ColourMap {
     return static_cast<const uint8_t*>(view.data) + static_cast<size_t>(y) * view.stride +
            3 * static_cast<size_t>(x);
   }
+  // Returns the distance in bytes between rows of the picture.
+  size_t ColourStride() const { return RowsOf(light_field.views[0]).stride; }
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
   }
 };
 
-// Converts light_field.depth, which must have at least one finite pixel, to fixed point. A pixel
-// that is not finite gets the disparity of the nearest finite pixel in its row. Rows without a
-// finite pixel are copied from the nearest row with a finite pixel. If two finite pixels or rows
-// are equally near, the smaller disparity is copied.
-void ReadMap(const EstimatePlan& plan, const starfocus_light_field& light_field,
-             int16_t* disparity);
+// Calls act(k) for each doubtful pixel k of a row of `count` pixels.
+template <class Act>
+void ForDoubtful(const uint8_t* doubt, int32_t count, const Act& act) {
+  constexpr uint64_t kNoDoubt = uint64_t{0x0101010101010101} * (kDoubtReach + 1);
+  for (int32_t k = 0; k < count; ++k) {
+    uint64_t eight = 0;
+    if (k + 8 <= count) std::memcpy(&eight, doubt + k, sizeof eight);
+    if (eight == kNoDoubt) {
+      k += 7;
+    } else if (doubt[k] <= kDoubtReach) {
+      act(k);
+    }
+  }
+}
+
+// A band of whole rows of the picture, from row `first` to row `end` - 1.
+struct RowBand {
+  int32_t first, end;
+};
+// Returns band `index` of the picture, which has as many bands as tiles.
+RowBand BandOf(const EstimatePlan& plan, int32_t index);
+
+// Converts a band of light_field.depth to fixed point. A pixel that is not finite gets the
+// disparity of the nearest finite pixel in its row. If two finite pixels are equally near, the
+// smaller disparity is copied. Rows without a finite pixel remain unknown.
+void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field,
+              const RowBand& band, int16_t* disparity);
+
+// Copies rows without a finite pixel from the nearest row with a finite pixel. If two rows are
+// equally near, the smaller disparities are copied. At least one row must have a finite pixel. Call
+// FillUnknownRows after ReadRows has read all bands.
+void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity);
+
+// Numbers of pixels by the absolute difference between four times the pixel's disparity and the sum
+// of the disparities of its neighbours.
+struct NoiseCounts {
+  static constexpr int32_t kMost = 1023;  // counts[kMost] includes all larger values
+
+  uint32_t counts[kMost + 1];
+
+  void Add(const NoiseCounts& other) {
+    for (int32_t k = 0; k <= kMost; ++k) counts[k] += other.counts[k];
+  }
+};
+
+// Adds the pixels of a band to `noise`, except the pixels at the edges of the picture.
+void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const RowBand& band,
+                NoiseCounts* noise);
 
 // Returns the standard deviation of the map's noise in kDisparityBits, or 0 if the noise is
 // invisible. The deviation is computed from the median difference between a pixel and the mean of
 // its neighbours. Edges do not affect the median.
-int32_t MeasureNoise(const EstimatePlan& plan, const int16_t* disparity);
+int32_t NoiseOf(const NoiseCounts& noise);
 
 // Returns true if any two disparities in `rect`, extended by `margin` pixels, differ by more than
 // `step`.
@@ -73,9 +118,9 @@ bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y);
 
 // Computes the doubt of the pixels of `tile`. The doubt is 0 on ramps and at unknown pixels, and 1
 // at steps. The doubt increases by 1 per pixel of distance from ramps, unknown pixels and steps, up
-// to kDoubtReach + 1. A map may have widened surfaces by displacing their steps. Surfaces that are
-// too thin to have been widened have doubt kThinDoubt. `scratch` has one byte per pixel of the
-// tile, extended by kDoubtMargin pixels on each side.
+// to kDoubtReach + 1, which all pixels without doubt have. A map may have widened surfaces by
+// displacing their steps. Surfaces that are too thin to have been widened have doubt kThinDoubt.
+// `scratch` has one byte per pixel of the tile, extended by kDoubtMargin pixels on each side.
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt);
 
 }  // namespace starfocus

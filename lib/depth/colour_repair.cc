@@ -26,7 +26,7 @@ constexpr int32_t kGainRadius = 3;
 constexpr EvidenceScale kGains = {18, 22, 1000, 60};
 // Number of directions of the paths along which costs are summed.
 constexpr int32_t kPaths = 4;
-constexpr int32_t kColourPhases = 9;
+constexpr int32_t kReadPhases = 2, kColourPhases = 9;
 // Changed pixels get the mean disparity of the chosen surface within kMeanRadius. In this mean,
 // pixels far from steps have weight kSureWeight, and pixels near steps have weight 1.
 constexpr int32_t kMeanRadius = 5, kSureWeight = 4;
@@ -35,13 +35,24 @@ struct ColourJob {
   const ColourMap& map;
   const MapOutput& output;
   const Smoothing& smoothing;
-  int16_t* to;  // map that the phase writes
-  int16_t* chosen;
+  int16_t* to;      // map that the phase writes
+  int16_t* chosen;  // result of Choose; only doubtful pixels are written
   ColourMemory* memory;
   const simd::DepthKernels& kernels;
 };
 
 const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>(data); }
+
+void ReadBand(const void* data, int32_t index, int32_t) {
+  const ColourJob& job = JobOf(data);
+  ReadRows(job.map.plan, job.map.light_field, BandOf(job.map.plan, index), job.to);
+}
+
+void CountBand(const void* data, int32_t index, int32_t worker) {
+  const ColourJob& job = JobOf(data);
+  CountNoise(job.map.plan, job.map.disparity, BandOf(job.map.plan, index),
+             job.memory->workers[worker].noise);
+}
 
 void SmoothMap(const void* data, int32_t index, int32_t worker) {
   const ColourJob& job = JobOf(data);
@@ -55,9 +66,10 @@ void DoubtTile(const void* data, int32_t index, int32_t worker) {
                job.memory->doubt);
 }
 
-// Chooses the disparity with the smallest sum for a pixel, and computes the pixel's gain and
-// certainty.
-void Choose(const ColourJob& job, size_t at, const Choices& choices) {
+// Chooses the disparity with the smallest sum for a doubtful pixel, and computes the pixel's gain.
+// Returns the cost of the best other surface minus the cost of the chosen surface, divided by the
+// number of paths.
+uint8_t Choose(const ColourJob& job, size_t at, const Choices& choices) {
   const int32_t given = job.map.disparity[at];
   int32_t best = 0, own = 0;
   for (int32_t k = 1; k < choices.count; ++k) {
@@ -73,22 +85,30 @@ void Choose(const ColourJob& job, size_t at, const Choices& choices) {
   job.chosen[at] = same ? static_cast<int16_t>(given) : choices.disparity[best];
   job.memory->gain[at] =
       same ? int16_t{0} : static_cast<int16_t>(choices.cost[own] - choices.cost[best]);
-  job.memory->certainty[at] = static_cast<uint8_t>(margin / kPaths);
+  return static_cast<uint8_t>(margin / kPaths);
 }
 
+// Returns the confidence of pixel (x, y), or null if no confidence is requested.
+uint8_t* ConfidenceAt(const ColourJob& job, int32_t x, int32_t y) {
+  if (job.output.confidence == nullptr) return nullptr;
+  return job.output.confidence + static_cast<size_t>(y) * job.output.confidence_stride +
+         static_cast<size_t>(x);
+}
+
+// Returns true if a doubtful pixel would change.
 bool Differs(const ColourJob& job, size_t at) { return job.chosen[at] != job.map.disparity[at]; }
 
 TileCount CountTile(const ColourJob& job, const Rect& tile) {
   TileCount count = {};
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = job.map.At(x, y);
+    ForDoubtful(job.memory->doubt + job.map.At(tile.x, y), tile.width, [&](int32_t k) {
+      const size_t at = job.map.At(tile.x + k, y);
       const int32_t doubt = job.memory->doubt[at];
       // Pixels on ramps count as edge pixels.
-      if (doubt > kThinDoubt || (doubt != 0 && !IsBesideStep(job.map, tile, x, y))) continue;
+      if (doubt > kThinDoubt || (doubt != 0 && !IsBesideStep(job.map, tile, tile.x + k, y))) return;
       ++count.rough;
       count.differs += Differs(job, at) ? 1 : 0;
-    }
+    });
   }
   return count;
 }
@@ -101,10 +121,15 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
   const Rect region = Widened(job.map.plan, tile, kTileMargin);
   WeighChoices(job.map, job.memory->doubt, region, job.kernels, memory.choices);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const Choices* row = memory.choices.choices + (y - region.y) * region.width;
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      Choose(job, job.map.At(x, y), row[x - region.x]);
-    }
+    const Choices* row = memory.choices.choices + (y - region.y) * region.width + tile.x - region.x;
+    const size_t at = job.map.At(tile.x, y);
+    uint8_t* confidence = ConfidenceAt(job, tile.x, y);
+    std::fill_n(job.memory->gain + at, tile.width, int16_t{0});
+    if (confidence != nullptr) std::fill_n(confidence, tile.width, uint8_t{UINT8_MAX});
+    ForDoubtful(job.memory->doubt + at, tile.width, [&](int32_t k) {
+      const uint8_t certainty = Choose(job, at + static_cast<size_t>(k), row[k]);
+      if (confidence != nullptr) confidence[k] = certainty;
+    });
   }
   job.memory->counts[index] = CountTile(job, tile);
   const ThinGrid grid = GridOf(job.map.plan);
@@ -157,21 +182,34 @@ float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
   return static_cast<float>(sum) / static_cast<float>(weights * kPixel);
 }
 
-// Writes a pixel of the result. If `keeps` is true, known disparities are not changed.
+// Writes a doubtful pixel of the result, to which WriteRow has written the map's disparity. If
+// `keeps` is true, known disparities are not changed.
 void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
   const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
-  const float given = GivenAt(job.map.light_field, y)[x];
-  const bool known = std::isfinite(given), differs = Differs(job, at);
+  const bool known = std::isfinite(GivenAt(job.map.light_field, y)[x]), differs = Differs(job, at);
   const bool changes = !known || (differs && !keeps && IsGainsaid(job, x, y));
+  if (changes) {
+    const float written = job.output.Clamped(MeanOfSurface(job, x, y));
+    job.output.disparity[row * job.output.stride + column] = written;
+    job.to[at] = ToFixed(written);
+  }
+  uint8_t* confidence = ConfidenceAt(job, x, y);
+  if (confidence != nullptr && differs && !changes) *confidence = 0;
+}
+
+// Writes the disparities of the map to the pixels [x, x + count) of row y.
+void WriteRow(const ColourJob& job, int32_t x, int32_t y, int32_t count) {
+  const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
+  float* disparity = job.output.disparity + row * job.output.stride + column;
   const bool noisy = job.map.disparity != job.memory->maps[0];
-  const float smoothed = static_cast<float>(job.map.disparity[at]) / kPixel;
-  const float kept = noisy ? job.output.Clamped(smoothed) : given;
-  const float written = changes ? job.output.Clamped(MeanOfSurface(job, x, y)) : kept;
-  job.output.disparity[row * job.output.stride + column] = written;
-  job.to[at] = ToFixed(written);
-  if (job.output.confidence == nullptr) return;
-  job.output.confidence[row * job.output.confidence_stride + column] =
-      differs && !changes ? uint8_t{0} : job.memory->certainty[at];
+  for (int32_t k = 0; noisy && k < count; ++k) {
+    disparity[k] = job.output.Clamped(static_cast<float>(job.map.disparity[at + k]) / kPixel);
+    job.to[at + k] = ToFixed(disparity[k]);
+  }
+  if (!noisy) {
+    std::copy_n(GivenAt(job.map.light_field, y) + x, count, disparity);
+    std::copy_n(job.map.disparity + at, count, job.to + at);
+  }
 }
 
 // Writes `disparity` to the output if `disparity` differs from the pixel's disparity in the job's
@@ -182,27 +220,37 @@ void Change(const ColourJob& job, int32_t x, int32_t y, int16_t disparity) {
   const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
   job.output.disparity[row * job.output.stride + column] =
       job.output.Clamped(static_cast<float>(disparity) / kPixel);
-  if (job.output.confidence == nullptr) return;
-  job.output.confidence[row * job.output.confidence_stride + column] = 0;
+  if (uint8_t* confidence = ConfidenceAt(job, x, y)) *confidence = 0;
 }
 
 void WriteTile(const void* data, int32_t index, int32_t) {
   const ColourJob& job = JobOf(data);
   const ColourMemory& memory = *job.memory;
-  ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t number) {
+  const Rect tile = TileOf(job.map.plan, index);
+  const ThinGrid grid = GridOf(job.map.plan);
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) WriteRow(job, tile.x, y, tile.width);
+  ForCells(grid, index, [&](const Rect& cell, int32_t number) {
     const bool keeps = memory.thin.thin[number] != 0;
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      for (int32_t x = cell.x; x < cell.x + cell.width; ++x) WritePixel(job, keeps, x, y);
+      ForDoubtful(memory.doubt + job.map.At(cell.x, y), cell.width,
+                  [&](int32_t k) { WritePixel(job, keeps, cell.x + k, y); });
     }
   });
+  MeasureCells(grid, job.to, index, memory.ranges);
 }
 
 // Calls act(cell) for each cell of a tile that has a step larger than `step` in the cell or within
-// `margin` pixels of the cell. Cells of thin structure are skipped.
+// `margin` pixels of the cell. Cells of thin structure are skipped if `skips_thin` is true.
+// WidenTile writes disparities from up to kMostSoft + 1 pixels away, so the ranges of the cells of
+// the repaired map exclude steps of the widened map as well.
 template <class Act>
-void ForSteps(const ColourJob& job, int32_t index, int32_t margin, int32_t step, const Act& act) {
-  ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t number) {
-    if (job.memory->thin.thin[number] != 0) return;
+void ForSteps(const ColourJob& job, int32_t index, int32_t margin, int32_t step, bool skips_thin,
+              const Act& act) {
+  static_assert(kMajorityReach + kMostSoft + 1 <= kLeastCellSide, "MayHaveStep reads enough cells");
+  const ThinGrid grid = GridOf(job.map.plan);
+  ForCells(grid, index, [&](const Rect& cell, int32_t number) {
+    if (skips_thin && job.memory->thin.thin[number] != 0) return;
+    if (!MayHaveStep(grid, job.memory->ranges, number, step)) return;
     if (HasStep(job.map, cell, margin, step)) act(cell);
   });
 }
@@ -210,9 +258,8 @@ void ForSteps(const ColourJob& job, int32_t index, int32_t margin, int32_t step,
 void CountSoftEdges(const void* data, int32_t index, int32_t) {
   const ColourJob& job = JobOf(data);
   SoftCount count = {};
-  ForCells(GridOf(job.map.plan), index, [&](const Rect& cell, int32_t) {
-    if (HasStep(job.map, cell, 1, kSoftStep)) CountSoft(job.map, cell, &count);
-  });
+  ForSteps(job, index, 1, kSoftStep, false,
+           [&](const Rect& cell) { CountSoft(job.map, cell, &count); });
   job.memory->soft[index] = count;
 }
 
@@ -225,9 +272,8 @@ void WidenTile(const void* data, int32_t index, int32_t) {
     const size_t at = job.map.At(tile.x, y);
     std::copy_n(job.map.disparity + at, tile.width, job.to + at);
   }
-  const int32_t softness = SoftnessOf(job.memory->soft, plan.columns * plan.rows);
-  if (softness == 0) return;
-  ForSteps(job, index, softness, kSoftStep, [&](const Rect& cell) {
+  const int32_t softness = job.memory->softness;
+  ForSteps(job, index, softness, kSoftStep, true, [&](const Rect& cell) {
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       if (!HasStep(job.map, {cell.x, y, cell.width, 1}, softness, kSoftStep)) continue;
       for (int32_t x = cell.x; x < cell.x + cell.width; ++x) {
@@ -242,7 +288,7 @@ void WidenTile(const void* data, int32_t index, int32_t) {
 void EvenTile(const void* data, int32_t index, int32_t) {
   static_assert(kMostCellSide <= kMostMajority, "rows of cells");
   const ColourJob& job = JobOf(data);
-  ForSteps(job, index, kMajorityReach, kMajorityStep, [&](const Rect& cell) {
+  ForSteps(job, index, kMajorityReach, kMajorityStep, true, [&](const Rect& cell) {
     int16_t even[kMostMajority];
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       TakeMajority(job.map, {cell.x, y, cell.width, 1}, even);
@@ -256,17 +302,35 @@ void CompleteTile(const void* data, int32_t index, int32_t) {
   CompleteCoverage(job.map, job.output, job.memory->hair_cells, TileOf(job.map.plan, index));
 }
 
+// Converts the given map to fixed point (maps[0]) and measures its noise.
+starfocus_status ReadMap(const ColourMap& given, const MapOutput& output,
+                         const simd::DepthKernels& kernels, Phases* phases, ColourMemory* memory) {
+  const Smoothing unused = {};
+  const ColourJob job = {given, output, unused, memory->maps[0], nullptr, memory, kernels};
+  starfocus_status status = phases->Run(ReadBand, &job);
+  if (status != STARFOCUS_OK) return status;
+  FillUnknownRows(given.plan, memory->maps[0]);
+  const int32_t workers = memory->jobs.max_workers;
+  for (int32_t k = 0; k < workers; ++k) *memory->workers[k].noise = {};
+  status = phases->Run(CountBand, &job);
+  NoiseCounts* all = memory->workers[0].noise;
+  for (int32_t k = 1; k < workers; ++k) all->Add(*memory->workers[k].noise);
+  memory->noise = NoiseOf(*all);
+  return status;
+}
+
 // Repairs the map, except where hair was found.
 starfocus_status ChooseByColour(const ColourMap& given, const simd::DepthKernels& kernels,
                                 const MapOutput& output, Phases* phases, ColourMemory* memory) {
   const EstimatePlan& plan = given.plan;
   const starfocus_light_field& light_field = given.light_field;
   int16_t* const* maps = memory->maps;
-  const int32_t noise = MeasureNoise(plan, maps[0]);
+  const int32_t noise = memory->noise;
   const ColourMap half = {plan, light_field, maps[1]};
   const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
   int16_t* const written = maps[noise > 0 ? 0 : 2];
-  const ColourMap repaired = {plan, light_field, written}, wide = {plan, light_field, maps[1]};
+  const ColourMap repaired = {plan, light_field, written};
+  ColourMap wide = {plan, light_field, maps[1]};
   // The first pass averages disparities within three standard deviations, which reduces the noise
   // to a third.
   const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
@@ -285,7 +349,12 @@ starfocus_status ChooseByColour(const ColourMap& given, const simd::DepthKernels
       {CompleteTile, {map, output, second, nullptr, nullptr, memory, kernels}},
   };
   for (const auto& phase : all) {
+    if (phase.function == WidenTile) {
+      memory->softness = SoftnessOf(memory->soft, plan.columns * plan.rows);
+      if (memory->softness == 0) wide.disparity = repaired.disparity;
+    }
     const bool skips = phase.function == SmoothMap      ? noise == 0
+                       : phase.function == WidenTile    ? memory->softness == 0
                        : phase.function == CompleteTile ? !memory->has_coverage
                                                         : false;
     if (skips) {
@@ -314,6 +383,7 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
   memory.choices.cell = arena->Take<ColourCell>(1);
   memory.doubt = arena->Take<uint8_t>(area);
   memory.smooth = arena->Take<SmoothMemory>(1);
+  memory.noise = arena->Take<NoiseCounts>(1);
   return memory;
 }
 
@@ -333,10 +403,10 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
   for (int k = 1; k < 3; ++k) maps[k] = arena.Take<int16_t>(width, height);
   auto* gain = arena.Take<int16_t>(width, height);
   auto* doubt = arena.Take<uint8_t>(width, height);
-  auto* certainty = arena.Take<uint8_t>(width, height);
   auto* counts = arena.Take<TileCount>(tiles);
   auto* soft = arena.Take<SoftCount>(tiles);
   const ThinCells thin = TakeThinCells(GridOf(plan), &arena);
+  const CellRanges ranges = TakeCellRanges(GridOf(plan), &arena);
   // The search for coverage runs first, so the memory of the search may overlap the memory of all
   // later phases.
   arena.Reuse(mark);
@@ -350,10 +420,10 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
     for (int k = 0; k < 3; ++k) made.maps[k] = maps[k];
     made.gain = gain;
     made.doubt = doubt;
-    made.certainty = certainty;
     made.counts = counts;
     made.soft = soft;
     made.thin = thin;
+    made.ranges = ranges;
     made.hair_cells = hair_cells;
     made.hair = hair;
     made.workers = workers;
@@ -368,16 +438,16 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
                                 ColourMemory* memory) {
-  ReadMap(plan, light_field, memory->maps[0]);
   const ColourMap given = {plan, light_field, memory->maps[0]};
-  const int32_t before = output.coverage == nullptr ? 0 : kHairPhases;
+  const int32_t before = kReadPhases + (output.coverage == nullptr ? 0 : kHairPhases);
   Phases phases(plan, before + kColourPhases, &memory->jobs);
   memory->has_coverage = false;
-  if (before != 0) {
-    const starfocus_status status = FindHairCoverage(given, output, memory->hair_cells,
-                                                     memory->hair, &phases, &memory->has_coverage);
-    if (status != STARFOCUS_OK) return status;
+  starfocus_status status = ReadMap(given, output, kernels, &phases, memory);
+  if (status == STARFOCUS_OK && output.coverage != nullptr) {
+    status = FindHairCoverage(given, output, memory->hair_cells, memory->hair, &phases,
+                              &memory->has_coverage);
   }
+  if (status != STARFOCUS_OK) return status;
   return ChooseByColour(given, kernels, output, &phases, memory);
 }
 

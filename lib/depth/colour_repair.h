@@ -26,6 +26,7 @@ struct ColourTileMemory {
   ChoiceMemory choices;
   uint8_t* doubt;
   SmoothMemory* smooth;
+  NoiseCounts* noise;  // noise of the pixels that the worker has counted
 };
 
 // Memory of a repair by colour. All maps have the size of the picture, and disparities are in fixed
@@ -38,14 +39,14 @@ struct ColourMemory {
   // For each pixel, cost of the map's disparity minus the cost of the chosen disparity; 0 if both
   // disparities are on one surface.
   int16_t* gain;
-  uint8_t* doubt;  // result of MeasureDoubt
-  // Cost of the best other surface minus the cost of the chosen surface, divided by the number of
-  // paths.
-  uint8_t* certainty;
+  int32_t noise;       // result of NoiseOf
+  uint8_t* doubt;      // result of MeasureDoubt
   TileCount* counts;   // One element for each tile.
   SoftCount* soft;     // One element for each tile of the repaired map.
   int32_t least_gain;  // Smallest gain (saved cost) that a change requires.
   ThinCells thin;      // Thin structure of the map.
+  CellRanges ranges;   // Disparities of the repaired map.
+  int32_t softness;    // Result of SoftnessOf.
   HairCells hair_cells;
   HairMemory hair;    // Shares the memory of maps[1], maps[2] and all later planes.
   bool has_coverage;  // Output: true if the last call found coverage.

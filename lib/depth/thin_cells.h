@@ -12,8 +12,9 @@
 
 namespace starfocus {
 
-// Largest width and height of a cell in pixels.
-inline constexpr int32_t kMostCellSide = 25;
+// Largest width and height of a cell in pixels. Cells beside other cells have at least
+// kLeastCellSide pixels in this direction.
+inline constexpr int32_t kMostCellSide = 25, kLeastCellSide = 8;
 
 // Grid of cells over a map. Each tile is divided into cells of about 16 x 16 pixels. A mirrored
 // picture has mirrored cells.
@@ -52,6 +53,20 @@ inline constexpr int32_t kThinGiven = 24, kThinFound = 17;
 
 // Fills cells.dense and cells.thin. Call FindThin after CountBeside has been called for all tiles.
 void FindThin(const ThinGrid& grid, int32_t percent, const ThinCells& cells);
+
+// Smallest and largest disparity of each cell of a map, row by row.
+struct CellRanges {
+  int16_t *low, *high;
+};
+CellRanges TakeCellRanges(const ThinGrid& grid, Arena* arena);
+
+// Fills the ranges of the cells of tile `index` of a map.
+void MeasureCells(const ThinGrid& grid, const int16_t* map, int32_t index,
+                  const CellRanges& ranges);
+
+// Returns false if no two disparities in cell `number` and the eight cells around it differ by more
+// than `step`.
+bool MayHaveStep(const ThinGrid& grid, const CellRanges& ranges, int32_t number, int32_t step);
 
 // Calls act(rectangle, number) for each cell of tile `index`.
 template <class Act>

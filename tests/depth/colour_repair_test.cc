@@ -213,7 +213,9 @@ TEST_CASE("colour repair: a row without known values is a copy of the nearest kn
   photo.Map(0, 2) = 1, photo.Map(1, 2) = 4;
   photo.Map(0, 6) = 3, photo.Map(1, 6) = 2;
   std::vector<int16_t> filled(photo.map.size());
-  starfocus::ReadMap(PlanOf(photo), FieldOf(photo), filled.data());
+  const starfocus::EstimatePlan plan = PlanOf(photo);
+  starfocus::ReadRows(plan, FieldOf(photo), {0, photo.height}, filled.data());
+  starfocus::FillUnknownRows(plan, filled.data());
   // A row that is equally near to two known rows gets the farther surface.
   const int expected[] = {1, 4, 1, 4, 1, 4, 1, 4, 1, 2, 3, 2, 3, 2, 3, 2};
   for (size_t k = 0; k < filled.size(); ++k) CHECK(filled[k] == expected[k] << kDisparityBits);
