@@ -9,9 +9,10 @@ LOGS=build/log
 PROGRAM=$BUILD/starfocus
 LAB=$BUILD/starfocus-lab
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
-  libjpeg62-turbo-dev libpng-dev libdeflate-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev"
+  libjpeg62-turbo-dev libpng-dev libdeflate-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev
+  libsixel-dev"
 # Packages with programs that the tests use to check files written by starfocus.
-JUDGES="libimage-exiftool-perl webp"
+JUDGES="libimage-exiftool-perl webp libsixel-bin"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
 FUZZ_TARGETS="engine depth images files folder heif layouts photo xmp differential"
 export LC_ALL=C.UTF-8
@@ -125,6 +126,8 @@ has() {
     libexpat1-dev) has_header expat.h ;;
     libexif-dev) has_header libexif/exif-data.h ;;
     libheif-dev) has_header libheif/heif.h ;;
+    libsixel-dev) has_header sixel/sixel.h ;;
+    libsixel-bin) command -v sixel2png ;;
     libbenchmark-dev) has_header benchmark/benchmark.h ;;
     lib*) false ;;
     *) command -v "$1" ;;
