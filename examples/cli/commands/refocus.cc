@@ -54,10 +54,10 @@ std::vector<Output> ListOutputs(const RefocusOptions& options) {
 
 Error CheckOutputs(const RefocusOptions& options) {
   const std::vector<Output> outputs = ListOutputs(options);
-  Error error = CheckImageOutput(options.output.out);
+  Error error = options.output.out.empty() ? Error() : CheckImageOutput(options.output.out);
   for (size_t i = 0; i < outputs.size() && !error; ++i) {
-    error = outputs[i].option == "--report" ? CheckOutputPath(outputs[i].path)
-                                            : CheckImageOutput(outputs[i].path);
+    const bool text = outputs[i].option == "--report" || outputs[i].option == "--compare";
+    error = text ? CheckOutputPath(outputs[i].path) : CheckImageOutput(outputs[i].path);
   }
   if (error) return error;
   return CheckApart(outputs, {{options.input.path},
@@ -159,7 +159,7 @@ Result<Loaded> Load(const RefocusOptions& options, LensPlan* plan) {
   return loaded;
 }
 
-Error RunOne(const RefocusOptions& options, const PictureOptions& how, double widest,
+Error RunOne(const RefocusOptions& options, const PictureOptions& how, const LensPlan& plan,
              const EngineTask& one, double start) {
   EngineTask task = one;
   std::vector<starfocus_block> blocks;
@@ -172,7 +172,11 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, double wi
   EngineResult result;
   Error error = run.Start(InputName(options.input.path), task);
   if (!error) error = run.Refocus(InputName(options.input.path), task).MoveTo(&result);
-  if (!error) error = WriteRefocused(options.output, how, widest, task, result.picture);
+  if (!error) {
+    Refocused refocused = {options.input.path, &task, &result.picture, plan.aperture.widest};
+    if (plan.focus_option == "--focus-at") refocused.at = Pixel{plan.x, plan.y};
+    error = WriteRefocused(options.output, how, refocused);
+  }
   if (!error && !options.map.empty()) {
     const starfocus_region& region = task.params.region;
     error = WriteImage(options.map, DrawPartition(result.picture, region.x, region.y, blocks));
@@ -212,13 +216,15 @@ Error RunInput(const RefocusOptions& options) {
                               options.output.small_png ? PngSize::kSmall : PngSize::kQuick};
   const EngineTask task = MakeTask(*plan, loaded->capture.light_field, loaded->stats,
                                    loaded->max_blur, !options.report.empty());
-  return options.sweep.empty() ? RunOne(options, how, plan->aperture.widest, task, start)
+  return options.sweep.empty() ? RunOne(options, how, *plan, task, start)
                                : RunSweep(options, how, plan->foci, task, start);
 }
 
 Error RunInputs(const RefocusOptions& options) {
   for (const auto& [name, typed] : {std::pair{"--map", !options.map.empty()},
                                     {"--report", !options.report.empty()},
+                                    {"--compare", !options.output.compare.empty()},
+                                    {"--show", options.output.show},
                                     {"--coverage", !options.input.coverage.empty()},
                                     {"--sweep", !options.sweep.empty()}}) {
     if (typed)

@@ -2,7 +2,6 @@
 // starfocus view: writes a page that shows a light field and its refocused pictures.
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "examples/cli/pictures/shrink.h"
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_plan.h"
+#include "examples/cli/view/legend.h"
 #include "examples/cli/view/page.h"
 #include "examples/cli/view/strip.h"
 #include "examples/command_line/options.h"
@@ -42,12 +42,6 @@ struct Contents {
   std::vector<PageFigure> strip, blocks, errors;
 };
 
-std::string Number(double value, int decimals) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
-}
-
 Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents) {
   const Result<Image> read = ReadImage(truth.path);
   if (!read) return read.error();
@@ -57,7 +51,7 @@ Error ShowTruth(const TruthFile& truth, const Image& picture, Contents* contents
   const std::string lens =
       "focus " + Short(truth.lens.focus) + ", aperture " + Short(truth.lens.aperture);
   const std::string psnr =
-      std::isinf(difference.psnr) ? "equal" : Number(difference.psnr, 2) + " dB";
+      std::isinf(difference.psnr) ? "equal" : Decimal(difference.psnr, 2) + " dB";
   contents->errors.push_back(
       {"Ground truth of a thin lens, " + lens, "Ground truth, " + lens, Shrink(real, kLarge)});
   contents->errors.push_back(
@@ -72,7 +66,7 @@ Error ShowPicture(size_t index, const Image& picture, const std::vector<starfocu
                   Contents* contents) {
   const size_t foci = contents->lenses.size() - contents->truths.size();
   if (index >= foci) return ShowTruth(contents->truths[index - foci], picture, contents);
-  const std::string focus = Number(contents->lenses[index].focus, 2);
+  const std::string focus = Decimal(contents->lenses[index].focus, 2);
   contents->strip.push_back({"The photograph focused at disparity " + focus,
                              "Focus " + focus + (index == 0 ? ", far" : "") +
                                  (index > 0 && index + 1 == foci ? ", near" : ""),
@@ -91,20 +85,22 @@ Error WritePage(const ViewOptions& options, const Capture& capture,
   const LightField& light_field = capture.light_field;
   const std::string size =
       std::to_string(light_field.width()) + " × " + std::to_string(light_field.height());
-  Page page(std::filesystem::path(capture.path + "/").parent_path().filename().string(),
-            capture.metadata.icc);
+  Page page(capture.path, capture.metadata.icc);
   page.AddTable({{"Format", capture.format},
                  {"Size", size + " pixels"},
                  {"Views", std::to_string(light_field.views.size())},
-                 {"Disparity", Number(stats.min, 2) + " to " + Number(stats.max, 2) +
+                 {"Disparity", Decimal(stats.min, 2) + " to " + Decimal(stats.max, 2) +
                                    " pixels; larger is nearer"},
                  {"Unknown disparities", std::to_string(stats.invalid)}});
   const std::string& out = options.out;
   Error error =
       page.AddFigures(out, "Photograph and disparity map",
                       {{"The photograph, sharp everywhere", "Centre view", light_field.views[0]},
-                       {"The disparity map: bright is near, dark is far",
-                        "Disparity: white is nearest", DrawDisparity(light_field.disparity)}},
+                       {"The disparity map in colours",
+                        "Disparity in pixels",
+                        DrawDepth(light_field.disparity),
+                        {},
+                        LegendHtml(stats, {})}},
                       kLarge / 2);
   if (!error) error = page.AddFigures(out, "Refocused", contents.strip, kSmall);
   page.AddHistogram("Histogram of disparity", Histogram(light_field.disparity, stats, kBins),

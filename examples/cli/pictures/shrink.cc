@@ -32,10 +32,12 @@ void BoxPixel(const Image& source, int x, int y, Image* target) {
 
 }  // namespace
 
-Image Shrink(const Image& source, int width) {
-  if (source.width <= width) return source;
-  const int64_t height = int64_t(source.height) * width / source.width;
-  Image target(width, static_cast<int>(std::max<int64_t>(1, height)));
+Image Shrink(const Image& source, int width, int height) {
+  if (source.width <= width && source.height <= height) return source;
+  const int64_t fitted = int64_t(source.width) * height / source.height;
+  const int64_t across = std::clamp<int64_t>(fitted, 1, width);
+  const int64_t down = std::max<int64_t>(1, source.height * across / source.width);
+  Image target(static_cast<int>(across), static_cast<int>(down));
   for (int y = 0; y < target.height; ++y) {
     for (int x = 0; x < target.width; ++x) BoxPixel(source, x, y, &target);
   }

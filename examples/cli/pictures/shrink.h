@@ -7,9 +7,9 @@
 
 namespace starfocus {
 
-// If a picture is wider than `width`, reduces the picture to this width. Every pixel is the mean of
-// the area that the pixel covers in the source.
-Image Shrink(const Image& source, int width);
+// Reduces a picture that is larger than `width` x `height` pixels, and keeps its proportions. Every
+// pixel is the mean of the area that the pixel covers in the source.
+Image Shrink(const Image& source, int width, int height = kMaxPictureSize);
 
 }  // namespace starfocus
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "examples/cli/pictures/tint.h"
+
 namespace starfocus {
 namespace {
 
@@ -10,8 +12,6 @@ namespace {
 constexpr uint8_t kLayerColors[STARFOCUS_LAYERS][3] = {
     {230, 60, 50}, {60, 180, 75}, {50, 110, 235}};
 constexpr int kTintPercent = 40;
-
-int Grey(const uint8_t* rgb) { return (77 * rgb[0] + 150 * rgb[1] + 29 * rgb[2] + 128) >> 8; }
 
 // Tints a block, and draws an outline along the first row and column of the block. The outline
 // along the last row and column belongs to the neighbouring blocks. The first pixel of `map` is
@@ -25,10 +25,7 @@ void DrawBlock(const starfocus_block& block, int left, int top, Image* map) {
     for (int x = begin; x < end; ++x) {
       uint8_t* pixel = map->row(y - top) + 3 * (x - left);
       const bool outline = x == block.x || y == block.y;
-      const int percent = outline ? 100 : kTintPercent, grey = Grey(pixel);
-      for (int c = 0; c < 3; ++c) {
-        pixel[c] = static_cast<uint8_t>((color[c] * percent + grey * (100 - percent) + 50) / 100);
-      }
+      Tint(color, outline ? 100 : kTintPercent, pixel);
     }
   }
 }

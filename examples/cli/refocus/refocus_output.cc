@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <iterator>
 
+#include "examples/cli/pictures/shrink.h"
 #include "examples/command_line/options.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
+#include "platform/terminal_graphics.h"
 #include "platform/writers/depth_photo.h"
 #include "platform/writers/png.h"
 
@@ -43,6 +45,41 @@ uint16_t Nearest(const std::vector<double>& foci, float disparity) {
   return static_cast<uint16_t>(nearest - foci.begin());
 }
 
+// Checks the options --compare and --show, one of which can replace --output.
+Error PlanLooking(const OutputOptions& options, bool sweep, bool region) {
+  const bool looks = !options.compare.empty() || options.show;
+  if (options.out.empty() && !looks) {
+    return Error::Usage("--output", "--output FILE, --compare FILE or --show", "none");
+  }
+  if (looks && sweep) {
+    return Error::Usage(options.show ? "--show" : "--compare", "a single picture", "--sweep");
+  }
+  if (!options.compare.empty() && region) {
+    return Error::Usage("--compare", "a whole picture", "--region");
+  }
+  return options.show ? FindGraphicsTerminal("--show").error() : Error();
+}
+
+Error WriteDepthPhoto(const std::string& path, const PictureOptions& how,
+                      const Refocused& refocused) {
+  const EngineTask& task = *refocused.task;
+  SharpOriginal photo = {};
+  photo.before = &task.light_field->views[0];
+  photo.disparity = &task.light_field->disparity;
+  photo.focus = task.params.lens.focus;
+  photo.aperture = task.params.lens.aperture;
+  photo.widest = refocused.widest;
+  return WriteFile(path,
+                   EncodeDepthPhoto(path, *refocused.picture, photo, how.quality, how.metadata));
+}
+
+// Shows a picture on the terminal, reduced to the size of the terminal.
+Error Show(const Image& picture) {
+  const Result<GraphicsTerminal> terminal = FindGraphicsTerminal("--show");
+  if (!terminal) return terminal.error();
+  return ShowOnTerminal("--show", *terminal, Shrink(picture, terminal->width, terminal->height));
+}
+
 }  // namespace
 
 void AddOutputOptions(Command* command, OutputOptions* options) {
@@ -50,8 +87,9 @@ void AddOutputOptions(Command* command, OutputOptions* options) {
       {
           {"-o,--output", "FILE",
            "Picture to write (.png, .ppm, .jpg or .webp), or the folder for the pictures "
-           "of several inputs; - or FORMAT:-, such as jpg:-, writes to standard output",
-           &options->out, Use::kRequired},
+           "of several inputs; - or FORMAT:-, such as jpg:-, writes to standard output; required "
+           "unless --compare or --show is given",
+           &options->out},
           {"--quality", "N", "Quality of JPEG and WebP pictures, 1 to 100",
            Whole(1, 100, &options->quality), Use::kDefault},
           {"--small-png", nullptr,
@@ -69,6 +107,14 @@ void AddOutputOptions(Command* command, OutputOptions* options) {
            "With --sweep, PNG file to write that stores for each pixel which picture "
            "shows it in focus, counted from 0; default: none",
            &options->focus_index},
+          {"--compare", "FILE",
+           "HTML page to write that shows the picture before and after refocusing with a movable "
+           "divider, the depth in colours, and the pixels in focus; default: none",
+           &options->compare},
+          {"--show", nullptr,
+           "Show the picture on the terminal, which must support the kitty graphics protocol or "
+           "sixels",
+           &options->show},
       },
       command);
 }
@@ -76,7 +122,7 @@ void AddOutputOptions(Command* command, OutputOptions* options) {
 std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures) {
   std::vector<Output> outputs;
   if (pictures == 0 || FormatExtension(options.out) == kAnimation) {
-    outputs.push_back({"--output", options.out});
+    if (!options.out.empty()) outputs.push_back({"--output", options.out});
   } else {
     for (size_t i = 0; i < pictures; ++i) {
       outputs.push_back({"--output", NumberedName(options.out, i)});
@@ -84,10 +130,12 @@ std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures) 
   }
   if (!options.all_in_focus.empty()) outputs.push_back({"--all-in-focus", options.all_in_focus});
   if (!options.focus_index.empty()) outputs.push_back({"--focus-index", options.focus_index});
+  if (!options.compare.empty()) outputs.push_back({"--compare", options.compare});
   return outputs;
 }
 
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region) {
+  if (Error error = PlanLooking(options, sweep, region)) return error;
   if (sweep && IsStandardStream(options.out) && FormatExtension(options.out) != kAnimation) {
     return Error::Usage("--sweep",
                         "a file for --output, or webp:- for an animation on standard output",
@@ -107,17 +155,18 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region) {
                                : options.out);
 }
 
-Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,
-                     const EngineTask& task, const Image& picture) {
-  if (!options.depth_photo) return WriteImage(options.out, picture, how);
-  SharpOriginal photo = {};
-  photo.before = &task.light_field->views[0];
-  photo.disparity = &task.light_field->disparity;
-  photo.focus = task.params.lens.focus;
-  photo.aperture = task.params.lens.aperture;
-  photo.widest = widest;
-  return WriteFile(options.out,
-                   EncodeDepthPhoto(options.out, picture, photo, how.quality, how.metadata));
+Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
+                     const Refocused& refocused) {
+  Error error;
+  if (options.depth_photo) {
+    error = WriteDepthPhoto(options.out, how, refocused);
+  } else if (!options.out.empty()) {
+    error = WriteImage(options.out, *refocused.picture, how);
+  }
+  if (!error && !options.compare.empty()) {
+    error = WriteComparison(options.compare, refocused, how.metadata.icc);
+  }
+  return error || !options.show ? error : Show(*refocused.picture);
 }
 
 Error WritePair(const OutputOptions& options, const PictureOptions& how,

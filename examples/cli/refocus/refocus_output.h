@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "examples/cli/engine/engine_run.h"
+#include "examples/cli/view/comparison.h"
 #include "examples/command_line/command.h"
 #include "examples/command_line/outputs.h"
 #include "platform/result.h"
@@ -19,9 +20,9 @@ namespace starfocus {
 
 // Options of the command line for the output.
 struct OutputOptions {
-  std::string out, all_in_focus, focus_index;
+  std::string out, all_in_focus, focus_index, compare;
   int quality = 95;
-  bool depth_photo = false, small_png = false;
+  bool depth_photo = false, small_png = false, show = false;
 };
 
 void AddOutputOptions(Command* command, OutputOptions* options);
@@ -29,14 +30,13 @@ void AddOutputOptions(Command* command, OutputOptions* options);
 // Lists the output files of a refocusing, or of a sweep of `pictures` pictures (0: no sweep).
 std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
 
-// Checks the options before any file is read. Does not check the output files. `region` is true if
-// only part of the picture is computed.
+// Checks the options before any file is read, and whether the terminal can show the picture. Does
+// not check the output files. `region` is true if only part of the picture is computed.
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 
-// Writes the picture of a task to the files that the options select. `widest` is the f-stop of
-// aperture radius 1.
-Error WriteRefocused(const OutputOptions& options, const PictureOptions& how, double widest,
-                     const EngineTask& task, const Image& picture);
+// Writes a picture to the files and shows it on the terminal, as the options select.
+Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
+                     const Refocused& refocused);
 
 // Writes the files that the options all_in_focus and focus_index request in place of a sweep. The
 // first file is the centre view, which is sharp everywhere. The second file contains the index of

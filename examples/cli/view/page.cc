@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "examples/cli/pictures/shrink.h"
+#include "examples/cli/view/legend.h"
+#include "examples/cli/view/slider.h"
 #include "examples/command_line/options.h"
 #include "platform/base64.h"
+#include "platform/standard_stream.h"
 #include "platform/text.h"
 #include "platform/writers/jpeg.h"
 
@@ -17,14 +21,8 @@ constexpr int kQuality = 88;
 // Width of a bar and height of the histogram, in units of the viewBox.
 constexpr int kBarWidth = 20, kBarsHeight = 200;
 
-// Start of the HTML page. The content security policy blocks all loading, even if a file name
-// contains HTML. Pictures and style are embedded in the page. Text has a contrast of at least 7 : 1
-// on light and on dark backgrounds.
-constexpr char kHead[] =
-    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-    "style-src 'unsafe-inline'\">\n"
-    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-    "<style>\n"
+// CSS rules of every page. Text has a contrast of at least 7 : 1 on light and on dark backgrounds.
+constexpr char kStyle[] =
     ":root { color-scheme: light dark; --ground: #fff; --text: #1b1b1b; --soft: #4a4a4a; "
     "--bar: #1d4f91; --line: #c8c8c8; }\n"
     "@media (prefers-color-scheme: dark) { :root { --ground: #16181b; --text: #f0f0f0; "
@@ -41,7 +39,9 @@ constexpr char kHead[] =
     "td { font-variant-numeric: tabular-nums; } th { color: var(--soft); }\n"
     "svg { width: 100%; max-width: 48rem; height: auto; } rect { fill: var(--bar); }\n"
     "svg text { fill: var(--text); font-size: 14px; } svg line { stroke: var(--soft); }\n"
-    "</style>\n";
+    ".picture { position: relative; } .mark { position: absolute; width: 1.2rem; height: 1.2rem; "
+    "transform: translate(-50%, -50%); border: 3px solid #fff; border-radius: 50%; "
+    "box-shadow: 0 0 0 2px #000, inset 0 0 0 2px #000; }\n";
 
 std::string Row(const std::string& name, const std::string& value) {
   return "<tr><th scope=\"row\">" + EscapeXml(name) + "</th><td>" + EscapeXml(value) +
@@ -56,11 +56,35 @@ std::string Bar(int bar, int64_t count, int64_t most) {
   return text;
 }
 
+// Returns an <img> element that contains the picture.
+Result<std::string> Embed(const std::string& path, const std::string& says, const Image& picture,
+                          const Bytes& icc) {
+  const Result<Bytes> jpeg = EncodeJpeg(path, picture, kQuality, {{}, icc}, {});
+  if (!jpeg) return jpeg.error();
+  return "<img width=\"" + std::to_string(picture.width) + "\" height=\"" +
+         std::to_string(picture.height) + "\" alt=\"" + EscapeXml(says) +
+         "\" src=\"data:image/jpeg;base64," + EncodeBase64(*jpeg) + "\">";
+}
+
+std::string Mark(const std::optional<PagePlace>& place) {
+  if (!place) return "";
+  return "<span class=\"mark\" style=\"left: " + Decimal(100 * place->x, 3) +
+         "%; top: " + Decimal(100 * place->y, 3) + "%\"></span>";
+}
+
 }  // namespace
 
-Page::Page(const std::string& title, const Bytes& icc)
-    : head_("<meta charset=\"utf-8\">\n<title>" + EscapeXml(title) + "</title>\n" + kHead),
-      body_("<h1>" + EscapeXml(title) + "</h1>\n"),
+std::string Decimal(double value, int decimals) {
+  char text[400];  // The largest double has 309 digits.
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  return text;
+}
+
+Page::Page(const std::string& path, const Bytes& icc)
+    : title_(EscapeXml(
+          std::filesystem::path(InputName(path) + "/").parent_path().filename().string())),
+      style_(std::string(kStyle) + kLegendStyle),
+      body_("<h1>" + title_ + "</h1>\n"),
       icc_(icc) {}
 
 void Page::AddTable(const std::vector<std::pair<std::string, std::string>>& rows) {
@@ -74,15 +98,28 @@ Error Page::AddFigures(const std::string& path, const std::string& heading,
   body_ += "<section>\n<h2>" + EscapeXml(heading) + "</h2>\n<div class=\"figures\">\n";
   for (const PageFigure& figure : figures) {
     const Image small = Shrink(figure.picture, width);
-    const Result<Bytes> jpeg = EncodeJpeg(path, small, kQuality, {{}, icc_}, {});
-    if (!jpeg) return jpeg.error();
-    body_ += "<figure style=\"max-width: " + std::to_string(small.width) + "px\"><img width=\"" +
-             std::to_string(small.width) + "\" height=\"" + std::to_string(small.height) +
-             "\" alt=\"" + EscapeXml(figure.says) + "\" src=\"data:image/jpeg;base64," +
-             EncodeBase64(*jpeg) + "\"><figcaption>" + EscapeXml(figure.caption) +
+    const Result<std::string> embedded =
+        Embed(path, figure.says, small, figure.legend.empty() ? icc_ : Bytes());
+    if (!embedded) return embedded.error();
+    body_ += "<figure style=\"max-width: " + std::to_string(small.width) +
+             "px\"><div class=\"picture\">" + *embedded + Mark(figure.mark) + "</div>" +
+             figure.legend + "<figcaption>" + EscapeXml(figure.caption) +
              "</figcaption></figure>\n";
   }
   body_ += "</div>\n</section>\n";
+  return {};
+}
+
+Error Page::AddSlider(const std::string& path, const PageFigure& before, const PageFigure& after,
+                      int side) {
+  const Image small = Shrink(before.picture, side, side);
+  const Result<std::string> one = Embed(path, before.says, small, icc_);
+  if (!one) return one.error();
+  const Result<std::string> two = Embed(path, after.says, Shrink(after.picture, side, side), icc_);
+  if (!two) return two.error();
+  style_ += kSliderStyle;
+  script_ = kSliderScript;
+  body_ += SliderHtml(*one, *two, small.width, small.height);
   return {};
 }
 
@@ -91,10 +128,7 @@ void Page::AddHistogram(const std::string& heading, const std::vector<int64_t>& 
   const auto bars = static_cast<int>(counts.size());
   const int64_t most = std::max<int64_t>(1, *std::max_element(counts.begin(), counts.end()));
   const auto edge = [&](int bar) {
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.2f",
-                  stats.min + (double(stats.max) - stats.min) * bar / bars);
-    return std::string(text);
+    return Decimal(stats.min + (double(stats.max) - stats.min) * bar / bars, 2);
   };
   const std::string width = std::to_string(bars * kBarWidth), axis = std::to_string(kBarsHeight);
   body_ += "<section>\n<h2>" + EscapeXml(heading) + "</h2>\n<svg viewBox=\"0 0 " + width + " " +
@@ -117,8 +151,18 @@ void Page::AddHistogram(const std::string& heading, const std::vector<int64_t>& 
 }
 
 std::string Page::Html() const {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n" + head_ + "</head>\n<body>\n<main>\n" +
-         body_ + "</main>\n</body>\n</html>\n";
+  // The content security policy blocks all loading, even if a file name contains HTML. Pictures,
+  // style and script are embedded in the page.
+  const std::string policy =
+      std::string("default-src 'none'; img-src data:; style-src 'unsafe-inline'") +
+      (script_.empty() ? "" : std::string("; script-src '") + kSliderScriptHash + "'");
+  const std::string script = script_.empty() ? "" : "<script>" + script_ + "</script>\n";
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title_ +
+         "</title>\n<meta http-equiv=\"Content-Security-Policy\" content=\"" + policy +
+         "\">\n<meta name=\"viewport\" content=\"width=device-width, "
+         "initial-scale=1\">\n<style>\n" +
+         style_ + "</style>\n</head>\n<body>\n<main>\n" + body_ + "</main>\n" + script +
+         "</body>\n</html>\n";
 }
 
 }  // namespace starfocus

@@ -4,6 +4,7 @@
 #define STARFOCUS_EXAMPLES_CLI_VIEW_PAGE_H_
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,17 +16,28 @@
 
 namespace starfocus {
 
+// Formats `value` with a fixed number of decimals.
+std::string Decimal(double value, int decimals);
+
+// A place in a picture, as fractions of the width and the height of the picture.
+struct PagePlace {
+  double x = 0, y = 0;
+};
+
 struct PageFigure {
   std::string says;  // alternative text of the picture
   std::string caption;
   Image picture;
+  std::optional<PagePlace> mark = {};  // centre of a ring over the picture; nullopt: no ring
+  std::string legend = "";             // HTML below the picture (legend.h)
 };
 
 // Builds the page. Callers pass plain text, and this class escapes HTML characters.
 class Page {
  public:
-  // `icc` is the colour profile of all pictures; empty for sRGB.
-  Page(const std::string& title, const Bytes& icc);
+  // The title is the file name of the input `path`. `icc` is the colour profile of all pictures
+  // without a legend; empty for sRGB. Pictures with a legend are in sRGB, like the legend.
+  Page(const std::string& path, const Bytes& icc);
 
   void AddTable(const std::vector<std::pair<std::string, std::string>>& rows);
 
@@ -33,6 +45,12 @@ class Page {
   // pixels. Error messages start with `path`, which is the file of the page.
   Error AddFigures(const std::string& path, const std::string& heading,
                    const std::vector<PageFigure>& figures, int width);
+
+  // Adds two pictures of the same size with a divider (slider.h), reduced to at most `side` pixels
+  // on a side. A page has at most one slider. Error messages start with `path`, which is the file
+  // of the page.
+  Error AddSlider(const std::string& path, const PageFigure& before, const PageFigure& after,
+                  int side);
 
   // Adds a histogram of bars, and a collapsible table of the numbers.
   void AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,
@@ -42,7 +60,7 @@ class Page {
   std::string Html() const;
 
  private:
-  std::string head_, body_;
+  std::string title_, style_, script_, body_;
   const Bytes icc_;
 };
 

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests the ways to look at a refocused picture: the page of `refocus --compare`, and pictures on
+// terminals with `refocus --show`.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "platform/base64.h"
+#include "platform/image_io.h"
+#include "platform/light_field.h"
+#include "tests/cli/refusals.h"
+#include "tests/support/terminal.h"
+
+namespace starfocus::looking_program_test {
+namespace {
+
+constexpr char kQuery[] = "\x1b[c\r\x1b[K";
+constexpr int kWidth = 60, kHeight = 40, kNearColumn = 40;
+
+// Writes a folder `<&>` with one view. Columns from kNearColumn on have disparity 6, and the other
+// columns have disparity -2.
+void MakeField(const TempFolder& folder) {
+  LightField field;
+  field.views.emplace_back(kWidth, kHeight);
+  field.disparity.width = kWidth;
+  field.disparity.height = kHeight;
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    const int x = i % kWidth, y = i / kWidth;
+    for (int c = 0; c < 3; ++c) {
+      field.views[0].pixels[size_t(3 * i + c)] = uint8_t((x / 5 + y / 5) % 2 == 0 ? 200 : 60 + c);
+    }
+    field.disparity.values.push_back(x < kNearColumn ? -2.0f : 6.0f);
+  }
+  ThreadRunner runner(1);
+  REQUIRE(SaveLightField(folder.file("<&>"), field, &runner) == "");
+}
+
+// Returns the pictures that a page contains, in their order.
+std::vector<Image> PicturesIn(const std::string& page) {
+  const std::string start = "data:image/jpeg;base64,";
+  std::vector<Image> pictures;
+  for (size_t at = page.find(start); at != std::string::npos; at = page.find(start, at + 1)) {
+    const size_t begin = at + start.size();
+    const auto bytes = DecodeBase64(page.substr(begin, page.find('"', begin) - begin));
+    REQUIRE(bytes);
+    pictures.push_back(ValueOf(DecodeImage("page", *bytes)).image);
+  }
+  return pictures;
+}
+
+// Returns the mean difference of the samples of two pictures of the same size.
+double MeanDifference(const Image& a, const Image& b) {
+  REQUIRE(a.width == b.width);
+  REQUIRE(a.height == b.height);
+  int64_t sum = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+  return double(sum) / double(a.pixels.size());
+}
+
+// Returns true if all samples of a pixel are within `most` of the expected colour.
+bool IsNear(const Image& picture, int x, int y, const std::vector<int>& color, int most) {
+  for (size_t c = 0; c < 3; ++c) {
+    if (std::abs(picture.row(y)[3 * x + int(c)] - color[c]) > most) return false;
+  }
+  return true;
+}
+
+TEST_CASE("compare: the page has the picture before and after, its depth, and the focus") {
+  TempFolder folder;
+  MakeField(folder);
+  Succeed(folder, "refocus '<&>' --focus-at 50,10 -o out.png --compare page.html");
+  const std::string page = Text(folder.file("page.html"));
+  const std::vector<Image> pictures = PicturesIn(page);
+  REQUIRE(pictures.size() == 4);
+  CHECK(MeanDifference(pictures[0], ValueOf(ReadImage(folder.file("<&>/view_+0.0_+0.0.png")))) < 4);
+  CHECK(MeanDifference(pictures[1], ValueOf(ReadImage(folder.file("out.png")))) < 4);
+  CHECK(MeanDifference(pictures[0], pictures[1]) > 8);
+  // The first and the last colour of the legend, and grey and orange for pixels out of and in
+  // focus.
+  CHECK(IsNear(pictures[2], 10, 20, {68, 1, 84}, 6));
+  CHECK(IsNear(pictures[2], 55, 20, {253, 231, 37}, 6));
+  CHECK(IsNear(pictures[3], 12, 22, {200, 200, 200}, 12));
+  CHECK(IsNear(pictures[3], 52, 22, {233, 164, 80}, 12));
+  CHECK(Contains(page, "rgb(68 1 84), "));
+  CHECK(Contains(page, ", rgb(253 231 37))"));
+  CHECK(Contains(page, "<span>far -2.00</span><span>focus 6.00</span><span>near 6.00</span>"));
+  CHECK(Contains(page, "<span class=\"plane\" style=\"left: 100.00%\">"));
+  CHECK(Count(page, "<span class=\"mark\" style=\"left: 84.167%; top: 26.250%\">") == 2);
+  CHECK(Contains(page, "<td>disparity 6.00, at pixel 50,10</td>"));
+  CHECK(Contains(page, "<td>f/1.0, radius 1.000</td>"));
+  CHECK(Contains(page, "<td>33.3 % of the pixels, blurred by at most 1.0 pixels</td>"));
+}
+
+TEST_CASE("compare: the page loads nothing, and its script is the one that the policy allows") {
+  TempFolder folder;
+  MakeField(folder);
+  const Outcome outcome = Call(folder, "refocus '<&>' --focus 2 --strength 0 --compare -");
+  CHECK(outcome.code == 0);
+  const std::string& page = outcome.out;
+  CHECK(Contains(page, "<title>&lt;&amp;&gt;</title>"));
+  CHECK(!Contains(page, "<&>"));
+  CHECK(Count(page, "src=") == 4);
+  CHECK(Count(page, "src=\"data:image/jpeg;base64,/9j/") == 4);
+  CHECK(Count(page, "http:") + Count(page, "https:") + Count(page, "url(") == 0);
+  CHECK(Count(page, " alt=\"The ") == 4);
+  CHECK(Count(page, "<input type=\"range\" min=\"0\" max=\"100\" ") == 1);
+  CHECK(Count(page, " aria-label=\"") == 2);
+  CHECK(Contains(page, "input:focus-visible"));
+  for (const char* element : {"html", "head", "style", "script", "main", "section", "figure", "div",
+                              "span", "table", "tr", "td", "figcaption"}) {
+    CAPTURE(element);
+    CHECK(Count(page, "<" + std::string(element) + ">") +
+              Count(page, "<" + std::string(element) + " ") ==
+          Count(page, "</" + std::string(element) + ">"));
+  }
+  // The focus is halfway between the disparities -2 and 6, and nothing marks a pixel.
+  CHECK(Contains(page, "<span class=\"plane\" style=\"left: 50.00%\">"));
+  CHECK(Count(page, "class=\"mark\"") == 0);
+  CHECK(Contains(page, "<td>radius 0.000</td>"));
+  CHECK(Contains(page, "<td>100.0 % of the pixels"));
+  const size_t begin = page.find("<script>") + 8, hash = page.find("'sha256-") + 8;
+  const std::string script = page.substr(begin, page.find("</script>") - begin);
+  REQUIRE(WriteText(folder.file("script"), script) == "");
+  REQUIRE(std::system(("cd '" + folder.path() + "' && sha256sum script >sum").c_str()) == 0);
+  const std::string sum = Text(folder.file("sum"));
+  Bytes digest;
+  for (size_t i = 0; i < 64; i += 2)
+    digest.push_back(uint8_t(std::stoi(sum.substr(i, 2), nullptr, 16)));
+  CHECK(page.substr(hash, page.find('\'', hash) - hash) == EncodeBase64(digest));
+}
+
+TEST_CASE("compare: a page needs one whole picture and a file of its own") {
+  TempFolder folder;
+  MakeField(folder);
+  const std::string call = "refocus '<&>' --focus 1 ";
+  CheckRefused(folder, call + "--compare p.html --sweep 0:1:2",
+               "--compare: expected a single picture");
+  CheckRefused(folder, call + "--compare p.html --region 0,0,8,8",
+               "--compare: expected a whole picture");
+  CheckRefused(folder, call + "--compare p.html -o p.html", "p.html");
+  CheckRefused(folder, call + "--compare p.png -o p.png", "which another output uses");
+  CheckRefused(folder, call + "--compare '<&>/disparity.pfm'", "a file of the light field");
+  CheckRefused(folder, call + "--compare none/p.html", "none");
+  CheckRefused(folder, call + "--compare p.html --depth-photo", "--depth-photo");
+  CheckRefused(folder, call + "--compare p.html -o new/", "--compare: expected a single input");
+  CheckRefused(folder, call + "--show -o new/", "--show: expected a single input");
+  CheckRefused(folder, call + "--show </dev/null", "standard output");
+  CheckRefused(folder, "refocus '<&>' --focus 1",
+               "--output: expected --output FILE, --compare FILE or --show");
+}
+
+// Runs `refocus --show` on a terminal of 10 rows that sends `answer`.
+TerminalRun Show(const TempFolder& folder, const std::string& answer, unsigned short width,
+                 unsigned short height) {
+  const std::string command = "cd '" + folder.path() +
+                              "' && TERM=test exec '" STARFOCUS_PROGRAM
+                              "' refocus '<&>' --focus 6 -o out.png --show 2>errors";
+  return CallOnTerminal(command, {10, 40, width, height}, kQuery, answer);
+}
+
+// Returns the picture that escape sequences of the kitty protocol contain.
+Image ReadKitty(const std::string& out) {
+  std::string data;
+  bool last = false;
+  for (size_t at = out.find("\x1b_Ga=T"); at != std::string::npos && !last;
+       at = out.find("\x1b_G", at + 1)) {
+    const size_t payload = out.find(';', at) + 1, end = out.find("\x1b\\", at);
+    REQUIRE(end - payload <= 4096);
+    last = Contains(out.substr(at, payload - at), "m=0;");
+    CHECK((last || (end - payload) % 4 == 0));
+    data += out.substr(payload, end - payload);
+  }
+  CHECK(last);
+  const auto bytes = DecodeBase64(data);
+  REQUIRE(bytes);
+  return ValueOf(DecodeImage("kitty", *bytes)).image;
+}
+
+TEST_CASE("show: a terminal with the kitty protocol gets the pixels, reduced if necessary") {
+  TempFolder folder;
+  MakeField(folder);
+  const TerminalRun run = Show(folder, "\x1b_Gi=31;OK\x1b\\\x1b[?62;4c", 800, 600);
+  CHECK(run.code == 0);
+  CHECK(run.restored);
+  CHECK(Text(folder.file("errors")) == "");
+  CHECK(ReadKitty(run.out).pixels == ValueOf(ReadImage(folder.file("out.png"))).pixels);
+  // The last of 10 rows is for the prompt: 20 - 2 = 18 pixels remain, and 60 * 18 / 40 = 27.
+  const Image low = ReadKitty(Show(folder, "\x1b_Gi=31;OK\x1b\\\x1b[?62c", 800, 20).out);
+  CHECK(low.width == 27);
+  CHECK(low.height == 18);
+  // A terminal that states its size only in an answer.
+  const Image narrow =
+      ReadKitty(Show(folder, "\x1b_Gi=31;OK\x1b\\\x1b[4;600;30t\x1b[?62c", 0, 0).out);
+  CHECK(narrow.width == 30);
+  CHECK(narrow.height == 20);
+}
+
+TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture") {
+  TempFolder folder;
+  MakeField(folder);
+  const TerminalRun run = Show(folder, "\x1b[?62;4;22c", 800, 600);
+  if (Contains(Text(folder.file("errors")), "built without libsixel")) return;
+  CHECK(run.code == 0);
+  CHECK(run.restored);
+  const size_t begin = run.out.find("\x1bP"), end = run.out.find("\x1b\\", begin);
+  REQUIRE(end != std::string::npos);
+  const std::string sixels = run.out.substr(begin, end + 2 - begin);
+  CHECK(Contains(sixels, "q\"1;1;60;40"));
+  CHECK(Contains(Show(folder, "\x1b[?2;0;30;400S\x1b[?62;4c", 800, 600).out, "q\"1;1;30;20"));
+  CHECK(Contains(Show(folder, "\x1b[?2;0;300;10S\x1b[?62;4c", 800, 600).out, "q\"1;1;15;10"));
+  if (std::system("command -v sixel2png >/dev/null") != 0) {
+    MESSAGE("SKIPPED: sixel2png is absent");
+    return;
+  }
+  REQUIRE(WriteText(folder.file("sixels"), sixels) == "");
+  REQUIRE(std::system(("cd '" + folder.path() + "' && sixel2png -i sixels -o shown.png").c_str()) ==
+          0);
+  // A sixel colour has 101 levels, and the colours are dithered.
+  CHECK(MeanDifference(ValueOf(ReadImage(folder.file("shown.png"))),
+                       ValueOf(ReadImage(folder.file("out.png")))) < 6);
+}
+
+TEST_CASE("show: other terminals are named before any work, and keep their mode") {
+  TempFolder folder;
+  MakeField(folder);
+  const TerminalRun without = Show(folder, "\x1b[?64;22c", 800, 600);
+  CHECK(without.code == 2);
+  CHECK(without.restored);
+  const std::string errors = Text(folder.file("errors"));
+  CheckErrorLine(errors);
+  CHECK(Contains(errors,
+                 "--show: expected a terminal with kitty or sixel graphics, found a "
+                 "terminal (TERM=test)"));
+  CHECK(Contains(errors, "64;22"));
+  CHECK(folder.count() == 2);
+  const TerminalRun silent = Show(folder, "", 800, 600);
+  CHECK(silent.code == 2);
+  CHECK(silent.restored);
+  CHECK(Contains(Text(folder.file("errors")), "did not answer within a second"));
+  CHECK(folder.count() == 2);
+}
+
+}  // namespace
+}  // namespace starfocus::looking_program_test

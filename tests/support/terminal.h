@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs a program on a pseudoterminal that answers queries as a terminal emulator would.
+#ifndef STARFOCUS_TESTS_SUPPORT_TERMINAL_H_
+#define STARFOCUS_TESTS_SUPPORT_TERMINAL_H_
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <string>
+
+namespace starfocus {
+
+struct TerminalRun {
+  int code = -1;    // exit code, or -1 if a signal ended the program
+  std::string out;  // everything that the program wrote to the terminal
+  bool restored =
+      false;  // true if the terminal echoes and reads lines after the program, as before
+};
+
+// Connects standard input and output of this process to a terminal, and runs a shell command.
+[[noreturn]] inline void RunOnTerminal(const std::string& name, const std::string& command) {
+  setsid();
+  const int terminal = open(name.c_str(), O_RDWR);
+  const bool ready = ioctl(terminal, TIOCSCTTY, 0) == 0 && dup2(terminal, STDIN_FILENO) >= 0 &&
+                     dup2(terminal, STDOUT_FILENO) >= 0;
+  if (ready) execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+  _exit(126);
+}
+
+// Runs a shell command on a terminal of the given size. When the output ends with `query`, the
+// terminal sends `answer`.
+inline TerminalRun CallOnTerminal(const std::string& command, const winsize& size,
+                                  const std::string& query, const std::string& answer) {
+  const int controller = posix_openpt(O_RDWR | O_NOCTTY);
+  REQUIRE(controller >= 0);
+  REQUIRE(grantpt(controller) == 0);
+  REQUIRE(unlockpt(controller) == 0);
+  REQUIRE(ioctl(controller, TIOCSWINSZ, &size) == 0);
+  const std::string name = ptsname(controller);
+  const int kept = open(name.c_str(), O_RDWR | O_NOCTTY);  // keeps the terminal after the program
+  REQUIRE(kept >= 0);
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) RunOnTerminal(name, command);
+  TerminalRun run;
+  int status = 0;
+  for (bool ended = false;;) {
+    pollfd output = {controller, POLLIN, 0};
+    if (poll(&output, 1, 20) > 0) {
+      char buffer[4096];
+      const ssize_t got = read(controller, buffer, sizeof(buffer));
+      run.out.append(buffer, got > 0 ? size_t(got) : 0);
+      const size_t begin = run.out.size() - std::min(run.out.size(), query.size());
+      if (run.out.compare(begin, std::string::npos, query) == 0 && !answer.empty()) {
+        REQUIRE(write(controller, answer.data(), answer.size()) == ssize_t(answer.size()));
+      }
+    } else if (ended) {
+      break;
+    } else {
+      ended = waitpid(child, &status, WNOHANG) == child;
+    }
+  }
+  termios mode;
+  run.restored =
+      tcgetattr(kept, &mode) == 0 && (mode.c_lflag & ICANON) != 0 && (mode.c_lflag & ECHO) != 0;
+  close(kept);
+  close(controller);
+  if (WIFEXITED(status)) run.code = WEXITSTATUS(status);
+  return run;
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_TESTS_SUPPORT_TERMINAL_H_
