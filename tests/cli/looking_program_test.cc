@@ -17,21 +17,20 @@ namespace starfocus::looking_program_test {
 namespace {
 
 constexpr char kQuery[] = "\x1b[c\r\x1b[K";
-constexpr int kWidth = 60, kHeight = 40, kNearColumn = 40;
 
-// Writes a folder `<&>` with one view. Columns from kNearColumn on have disparity 6, and the other
-// columns have disparity -2.
-void MakeField(const TempFolder& folder) {
+// Writes a folder `<&>` with one view. Columns from two thirds of the width on have disparity 6,
+// and the other columns have disparity -2.
+void MakeField(const TempFolder& folder, int width = 60, int height = 40) {
   LightField field;
-  field.views.emplace_back(kWidth, kHeight);
-  field.disparity.width = kWidth;
-  field.disparity.height = kHeight;
-  for (int i = 0; i < kWidth * kHeight; ++i) {
-    const int x = i % kWidth, y = i / kWidth;
+  field.views.emplace_back(width, height);
+  field.disparity.width = width;
+  field.disparity.height = height;
+  for (int i = 0; i < width * height; ++i) {
+    const int x = i % width, y = i / width;
     for (int c = 0; c < 3; ++c) {
       field.views[0].pixels[size_t(3 * i + c)] = uint8_t((x / 5 + y / 5) % 2 == 0 ? 200 : 60 + c);
     }
-    field.disparity.values.push_back(x < kNearColumn ? -2.0f : 6.0f);
+    field.disparity.values.push_back(3 * x < 2 * width ? -2.0f : 6.0f);
   }
   ThreadRunner runner(1);
   REQUIRE(SaveLightField(folder.file("<&>"), field, &runner) == "");
@@ -91,6 +90,28 @@ TEST_CASE("compare: the page has the picture before and after, its depth, and th
   CHECK(Contains(page, "<td>disparity 6.00, at pixel 50,10</td>"));
   CHECK(Contains(page, "<td>f/1.0, radius 1.000</td>"));
   CHECK(Contains(page, "<td>33.3 % of the pixels, blurred by at most 1.0 pixels</td>"));
+}
+
+TEST_CASE("compare: large pictures are reduced, and their depth and focus stay aligned") {
+  TempFolder wide, tall;
+  MakeField(wide, 1800, 24);
+  MakeField(tall, 24, 1800);
+  const std::string arguments = "refocus '<&>' --focus 6 --aperture 0.2 --compare -";
+  const std::vector<Image> flat = PicturesIn(Call(wide, arguments).out);
+  const std::vector<Image> upright = PicturesIn(Call(tall, arguments).out);
+  REQUIRE(flat.size() == 4);
+  REQUIRE(upright.size() == 4);
+  for (const size_t i : {0, 1, 2, 3}) {
+    CHECK(flat[i].width == (i < 2 ? 1600 : 600));
+    CHECK(flat[i].height == (i < 2 ? 21 : 8));
+    CHECK(upright[i].width == (i < 2 ? 21 : 8));
+    CHECK(upright[i].height == (i < 2 ? 1575 : 600));
+  }
+  CHECK(IsNear(flat[2], 395, 4, {68, 1, 84}, 20));
+  CHECK(IsNear(flat[2], 404, 4, {253, 231, 37}, 20));
+  const auto red = [&](int x) { return flat[3].row(4)[3 * x] - flat[3].row(4)[3 * x + 2]; };
+  CHECK(red(395) < 30);
+  CHECK(red(404) > 90);
 }
 
 TEST_CASE("compare: the page loads nothing, and its script is the one that the policy allows") {
@@ -185,6 +206,7 @@ TEST_CASE("show: a terminal with the kitty protocol gets the pixels, reduced if 
   CHECK(run.code == 0);
   CHECK(run.restored);
   CHECK(Text(folder.file("errors")) == "");
+  CHECK(Contains(run.out, ",q=2,"));  // Answers would appear as typed text.
   CHECK(ReadKitty(run.out).pixels == ValueOf(ReadImage(folder.file("out.png"))).pixels);
   // The last of 10 rows is for the prompt: 20 - 2 = 18 pixels remain, and 60 * 18 / 40 = 27.
   const Image low = ReadKitty(Show(folder, "\x1b_Gi=31;OK\x1b\\\x1b[?62c", 800, 20).out);
