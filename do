@@ -9,7 +9,7 @@ LOGS=build/log
 PROGRAM=$BUILD/starfocus
 LAB=$BUILD/starfocus-lab
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
-  libjpeg62-turbo-dev libpng-dev libdeflate-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev
+  libjpeg62-turbo-dev libpng-dev libdeflate-dev libtiff-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev
   libsixel-dev"
 # Packages with programs that the tests use to check files written by starfocus.
 JUDGES="libimage-exiftool-perl webp libsixel-bin"
@@ -120,6 +120,7 @@ has() {
     libjpeg62-turbo-dev) has_header jpeglib.h ;;
     libpng-dev) has_header png.h ;;
     libdeflate-dev) has_header libdeflate.h ;;
+    libtiff-dev) has_header tiffio.h ;;
     libwebp-dev) has_header webp/mux.h ;;
     libimage-exiftool-perl) command -v exiftool ;;
     webp) command -v webpinfo ;;

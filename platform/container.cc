@@ -91,6 +91,8 @@ constexpr Beginning kBeginnings[] = {
     {0, "BM", "a BMP file"},
     {0, "II*", "a TIFF or raw file"},
     {0, "MM", "a TIFF or raw file"},
+    {0, "\x93NUMPY", "a NumPy array"},
+    {0, "v/1\x01", "an OpenEXR file"},
     {0, "%PDF", "a PDF file"},
     {0, "PK\x03\x04", "a ZIP archive"},
     {0, "\x1f\x8b", "a gzip archive"},

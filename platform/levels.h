@@ -14,8 +14,9 @@
 namespace starfocus {
 
 struct Samples {
-  FloatMap map;     // Sample values, 0 to `largest`; NaN for transparent pixels.
-  int largest = 0;  // Sample value of white.
+  FloatMap map;                   // Sample values, 0 to `largest`; NaN for transparent pixels.
+  int largest = 0;                // Sample value of white; 0 for floats, which have no limits.
+  bool larger_is_nearer = false;  // True if the format defines that larger values are nearer.
 };
 
 // Decodes the samples of a depth picture. `where` appears only in error messages. If `use_alpha` is

@@ -52,10 +52,8 @@ Result<Header> ParseHeader(const std::string& path, TextHeader* header) {
   return Header{size.width, size.height, factor < 0 ? ByteOrder::kLittle : ByteOrder::kBig};
 }
 
-Result<FloatMap> Decode(const std::string& path) {
-  const Result<Bytes> bytes = ReadFile(path);
-  if (!bytes) return bytes.error();
-  TextHeader header(*bytes);
+Result<FloatMap> Decode(const std::string& path, const Bytes& bytes) {
+  TextHeader header(bytes);
   const Result<Header> parsed = ParseHeader(path, &header);
   if (!parsed) return parsed.error();
   if (!FitsMemory(parsed->width, parsed->height, sizeof(float))) {
@@ -91,10 +89,15 @@ Bytes Encode(const FloatMap& map, ByteOrder order) {
 
 Result<FloatMap> ReadPfm(const std::string& path) {
   try {
-    return Decode(path);
+    const Result<Bytes> bytes = ReadFile(path);
+    return bytes ? Decode(path, *bytes) : bytes.error();
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }
+}
+
+Result<FloatMap> DecodePfm(const std::string& where, const Bytes& pfm) {
+  return Decode(where, pfm);
 }
 
 Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order) {

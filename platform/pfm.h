@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/file.h"
 #include "platform/result.h"
 
 namespace starfocus {
@@ -27,6 +28,8 @@ enum class ByteOrder { kLittle, kBig };
 // Reads a map. Values of the map may be NaN or infinite. ReadPfm ignores the magnitude of the scale
 // in the header, which states a unit that disparities do not use.
 Result<FloatMap> ReadPfm(const std::string& path);
+// Decodes a PFM file in memory. `where` appears only in error messages.
+Result<FloatMap> DecodePfm(const std::string& where, const Bytes& pfm);
 Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order = ByteOrder::kLittle);
 
 }  // namespace starfocus

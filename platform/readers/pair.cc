@@ -8,7 +8,7 @@
 #include <system_error>
 #include <tuple>
 
-#include "platform/levels.h"
+#include "platform/depth_file.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/map_orientation.h"
 #include "platform/readers/unknown_depth.h"
@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr char kSeparators[] = "-_.", kDepth[] = "depth";
 constexpr size_t kDepthLength = sizeof(kDepth) - 1;
-constexpr const char* kExtensions[] = {".png", ".pgm", ".pfm", ".jpg", ".jpeg"};
+constexpr const char* kExtensions[] = {".png",  ".pgm", ".pfm",  ".jpg",
+                                       ".jpeg", ".tif", ".tiff", ".npy"};
 
 bool EndsIn(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -63,24 +64,15 @@ std::optional<Candidate> Fit(const std::string& photo, const std::string& file) 
                    static_cast<size_t>(extension - std::begin(kExtensions)), file};
 }
 
-Result<Samples> ReadSamples(const std::string& path, bool use_alpha) {
-  if (LowerExtension(path) == ".pfm") {
-    Samples samples;
-    if (Error error = ReadPfm(path).MoveTo(&samples.map)) return error;
-    return samples;
-  }
-  const Result<Bytes> bytes = ReadFile(path);
-  return bytes ? DecodeSamples(path, use_alpha, *bytes) : bytes.error();
-}
-
 // Sets the meaning of the map's values according to the options.
-void Understand(const DepthOptions& options, bool is_pfm, DepthPhoto* photo) {
+void Understand(const DepthOptions& options, bool larger_is_nearer, DepthPhoto* photo) {
   if (options.unit == DepthUnit::kDisparity) {
     TellMap("disparities in pixels", photo);
     photo->meaning = MapMeaning::kDisparity;
   } else if (options.unit == DepthUnit::kNone) {
     TellMap("relative depth without distances", photo);
-    ToOrder(is_pfm && options.near == Near::kUnknown ? Near::kWhite : options.near, photo);
+    ToOrder(larger_is_nearer && options.near == Near::kUnknown ? Near::kWhite : options.near,
+            photo);
   } else {
     const bool millimetres = options.unit == DepthUnit::kMillimetres;
     TellMap(millimetres ? "distances in millimetres" : "distances in metres", photo);
@@ -127,13 +119,19 @@ Error ReadDepthPicture(const std::string& path, const DepthOptions& options, Dep
   photo->format = "photo and depth picture";
   photo->facts.emplace_back("depth picture", path);
   if (Error error = CheckPlainFile(path)) return error;
-  Result<Samples> samples = ReadSamples(path, options.use_alpha);
+  const Result<Bytes> bytes = ReadFile(path);
+  if (!bytes) return bytes.error();
+  Result<Samples> samples = DecodeDepthFile(path, options.use_alpha, *bytes);
   if (!samples) return samples.error();
-  photo->map = std::move(samples->map);
-  MarkUnknown(options, samples->largest, photo);
-  StandWithPhoto(options.orientation, photo);
-  Understand(options, samples->largest == 0, photo);
+  TakeDepthPicture(options, std::move(*samples), photo);
   return {};
+}
+
+void TakeDepthPicture(const DepthOptions& options, Samples samples, DepthPhoto* photo) {
+  photo->map = std::move(samples.map);
+  MarkUnknown(options, samples.largest, photo);
+  StandWithPhoto(options.orientation, photo);
+  Understand(options, samples.larger_is_nearer, photo);
 }
 
 }  // namespace starfocus

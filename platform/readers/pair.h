@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "platform/levels.h"
 #include "platform/readers/photo.h"
 #include "platform/result.h"
 
@@ -15,14 +16,17 @@ namespace starfocus {
 bool IsDepthPictureName(const std::string& name);
 
 // Finds the depth picture next to a photograph NAME.jpg or NAME-image.jpg. The depth picture is
-// named NAME-depth, NAME_depth or NAME.depth, with .png, .pgm, .pfm, .jpg or .jpeg, in upper or
-// lower case. Returns "" if no depth picture is found. If the folder has several depth pictures of
-// the photograph, a note names the depth picture that is used.
+// named NAME-depth, NAME_depth or NAME.depth, with .png, .pgm, .pfm, .jpg, .jpeg, .tif, .tiff or
+// .npy, in upper or lower case. Returns "" if no depth picture is found. If the folder has several
+// depth pictures of the photograph, a note names the depth picture that is used.
 Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo);
 
-// Reads the depth picture (PNG, PGM, PPM, JPEG or PFM). The caller must have set photo->picture. By
-// default, larger values are nearer in PFM files, and the near end of other formats is guessed.
+// Reads the depth picture (depth_file.h). The caller must have set photo->picture. By default,
+// larger values are nearer in PFM files, and the near end of other formats is guessed.
 Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo);
+
+// Interprets the samples of a depth picture as the map of the photo, like ReadDepthPicture.
+void TakeDepthPicture(const DepthOptions& options, Samples samples, DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: readers of single files. The files are PFM maps, pictures in PNG, PPM and JPEG, and
-// small texts.
+// Fuzz target: readers of single files. The files are maps in PFM, NPY and TIFF, pictures in PNG,
+// PPM and JPEG, and small texts.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "platform/container.h"
+#include "platform/depth_file.h"
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/pfm.h"
@@ -51,6 +52,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     for (const float level : levels->values) {
       if (level < 0 || level > 1) std::abort();
     }
+  }
+  if (const auto samples = starfocus::DecodeDepthFile("depth", true, bytes)) {
+    const starfocus::FloatMap& map = samples->map;
+    if (map.values.size() != size_t(map.width) * size_t(map.height)) std::abort();
   }
   if (const auto samples = starfocus::DecodeCoverage("coverage", bytes)) {
     for (const float sample : samples->map.values) {

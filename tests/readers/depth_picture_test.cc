@@ -268,6 +268,19 @@ TEST_CASE("depth pictures: PFM follows --near, and units keep the values unchang
                  "disparities from -500 to 500"));
 }
 
+TEST_CASE("depth pictures: in NPY, the near end is guessed, and units keep the values unchanged") {
+  const FloatMap map = MapOf({3, 1.5, 0.9});
+  std::string npy = std::string("\x93NUMPY\1\0\76\0", 10) +
+                    "{'descr': '<f4', 'fortran_order': False, 'shape': (36, 48), }\n";
+  npy.append(reinterpret_cast<const char*>(map.values.data()), map.values.size() * sizeof(float));
+  const Opened by_order("map.npy", npy, {});
+  CHECK(by_order.HasNote("black is taken as near"));
+  CheckScene(Opened("map.npy", npy, NearIs(Near::kBlack)));
+  DepthOptions options;
+  options.unit = DepthUnit::kDisparity;
+  CHECK(Opened("map.npy", npy, options).At(kBox[0], kBox[1]) == doctest::Approx(0.9));
+}
+
 TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected") {
   std::string pgm = "P5\n48 36\n4095\n";
   for (const uint16_t level : LevelsOf(kMillimetres)) pgm += Big(level, 2);
@@ -373,7 +386,8 @@ TEST_CASE(
 
 TEST_CASE("depth pictures: a picture is found by its name next to the photo") {
   for (const char* name : {"photo-depth.png", "photo_depth.png", "photo.depth.png",
-                           "photo-depth.PNG", "PHOTO_Depth.Png", "Photo-DEPTH.png"}) {
+                           "photo-depth.PNG", "PHOTO_Depth.Png", "Photo-DEPTH.png",
+                           "photo-depth.npy", "photo-depth.tif", "photo-depth.tiff"}) {
     CAPTURE(name);
     TempFolder folder;
     Write(folder.file("photo.jpg"), Encode(Plain(kWidth, kHeight, 128), ".jpg"));

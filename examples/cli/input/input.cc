@@ -81,8 +81,8 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
                        "depth photos; - reads a photo from standard input",
                        several, Use::kRequired},
           {"--depth", "FILE",
-           "Depth picture of the photo (.png, .pgm, .jpg or .pfm); default: the map in "
-           "the photo, or the file NAME-depth, NAME_depth or NAME.depth in the folder of "
+           "Depth picture of the photo (PNG, PGM, JPEG, PFM, TIFF or NPY); default: the map "
+           "in the photo, or the file NAME-depth, NAME_depth or NAME.depth in the folder of "
            "the photo",
            &options->depth},
           {"--coverage", "FILE",

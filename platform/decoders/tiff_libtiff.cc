@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes TIFF with libtiff 4.5 or newer.
+#include "platform/decoders/tiff.h"
+
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "platform/decoders/limits.h"
+
+namespace starfocus {
+namespace {
+
+// A file in memory that libtiff reads, and the first error of libtiff.
+struct Source {
+  const Bytes& bytes;
+  uint64_t at = 0;
+  std::string problem = {};
+};
+
+tmsize_t Read(thandle_t handle, void* buffer, tmsize_t size) {
+  auto* source = static_cast<Source*>(handle);
+  const uint64_t left = source->bytes.size() - std::min<uint64_t>(source->at, source->bytes.size());
+  const auto count = static_cast<size_t>(std::min<uint64_t>(left, static_cast<uint64_t>(size)));
+  if (count > 0) std::memcpy(buffer, source->bytes.data() + source->at, count);
+  source->at += count;
+  return static_cast<tmsize_t>(count);
+}
+
+tmsize_t Write(thandle_t, void*, tmsize_t) { return 0; }
+
+toff_t Seek(thandle_t handle, toff_t offset, int origin) {
+  auto* source = static_cast<Source*>(handle);
+  const uint64_t base = origin == SEEK_CUR   ? source->at
+                        : origin == SEEK_END ? source->bytes.size()
+                                             : 0;
+  source->at = base + offset;
+  return source->at;
+}
+
+int Close(thandle_t) { return 0; }
+
+toff_t SizeOf(thandle_t handle) { return static_cast<Source*>(handle)->bytes.size(); }
+
+int KeepError(TIFF*, void* source, const char*, const char* format, std::va_list arguments) {
+  char text[200];
+  std::vsnprintf(text, sizeof(text), format, arguments);
+  std::string* problem = &static_cast<Source*>(source)->problem;
+  if (problem->empty()) *problem = text;
+  return 1;
+}
+
+int IgnoreWarning(TIFF*, void*, const char*, const char*, std::va_list) { return 1; }
+
+struct CloseTiff {
+  void operator()(TIFF* tiff) const { TIFFClose(tiff); }
+};
+using Tiff = std::unique_ptr<TIFF, CloseTiff>;
+
+// Opens a file. Returns null and sets source->problem if the file has no readable directory.
+Tiff Open(Source* source) {
+  TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
+  if (options == nullptr) return nullptr;
+  TIFFOpenOptionsSetErrorHandlerExtR(options, KeepError, source);
+  TIFFOpenOptionsSetWarningHandlerExtR(options, IgnoreWarning, nullptr);
+  // The largest blocks are strips as stored in the file, and tables of 8 bytes for each entry of 2
+  // bytes in the file. 1 MiB is enough for the state of a decoder.
+  TIFFOpenOptionsSetMaxSingleMemAlloc(
+      options, static_cast<tmsize_t>((size_t{1} << 20) + 4 * source->bytes.size()));
+  // "m" prevents libtiff from mapping the file.
+  Tiff tiff(TIFFClientOpenExt("depth", "rm", source, Read, Write, Seek, Close, SizeOf, nullptr,
+                              nullptr, options));
+  TIFFOpenOptionsFree(options);
+  return tiff;
+}
+
+struct Layout {
+  uint32_t width = 0, height = 0;
+  uint16_t samples = 1, bits = 1, format = SAMPLEFORMAT_UINT;
+  uint16_t photometric = PHOTOMETRIC_MINISBLACK, orientation = ORIENTATION_TOPLEFT;
+  uint16_t compression = COMPRESSION_NONE;
+  bool is_tiled = false;
+
+  explicit Layout(TIFF* tiff) : is_tiled(TIFFIsTiled(tiff) != 0) {
+    TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
+    TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+    TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_ORIENTATION, &orientation);
+    TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+  }
+
+  bool is_float() const { return format == SAMPLEFORMAT_IEEEFP; }
+};
+
+// Returns an error unless the program reads pictures of this layout.
+Error CheckLayout(const std::string& where, const Layout& layout) {
+  const auto refuse = [&where](const std::string& expected, const std::string& found) {
+    return Expected(where, expected,
+                    found + " (convert the map to PFM or NPY, or to PNG of 16 bits)");
+  };
+  constexpr uint16_t kCompressions[] = {COMPRESSION_NONE, COMPRESSION_LZW,
+                                        COMPRESSION_ADOBE_DEFLATE, COMPRESSION_DEFLATE,
+                                        COMPRESSION_PACKBITS};
+  if (layout.samples != 1 || layout.photometric != PHOTOMETRIC_MINISBLACK) {
+    return refuse("a TIFF of one value for each pixel, white as the largest value",
+                  std::to_string(layout.samples) + " samples of another meaning");
+  }
+  const bool is_integer =
+      layout.format == SAMPLEFORMAT_UINT && (layout.bits == 8 || layout.bits == 16);
+  if (!is_integer && !(layout.is_float() && layout.bits == 32)) {
+    return refuse(
+        "a TIFF of unsigned integers of 8 or 16 bits, or floats of 32 bits",
+        std::to_string(layout.bits) + (layout.is_float() ? "-bit floats" : "-bit integers"));
+  }
+  if (layout.is_tiled) return refuse("a TIFF of strips", "tiles");
+  if (layout.orientation != ORIENTATION_TOPLEFT) {
+    return refuse("a TIFF of orientation 1", std::to_string(layout.orientation));
+  }
+  if (std::find(std::begin(kCompressions), std::end(kCompressions), layout.compression) ==
+      std::end(kCompressions)) {
+    return refuse("a TIFF without compression, or with LZW, Deflate or PackBits",
+                  "compression " + std::to_string(layout.compression));
+  }
+  return {};
+}
+
+// Returns true if the file can contain the pixels. An LZW code of 12 bits expands to at most 4096
+// bytes, and other compressions expand less.
+bool CanHold(const Bytes& tiff, const Layout& layout) {
+  constexpr uint64_t kMostExpansion = 4096;
+  return uint64_t{layout.width} * layout.height * (layout.bits / 8U) / kMostExpansion <=
+         tiff.size();
+}
+
+void AppendRow(const Layout& layout, const std::vector<uint8_t>& row, std::vector<float>* values) {
+  for (size_t x = 0; x < layout.width; ++x) {
+    if (layout.is_float()) {
+      float value;
+      std::memcpy(&value, &row[4 * x], sizeof(value));
+      values->push_back(value);
+    } else if (layout.bits == 16) {
+      uint16_t value;  // in the byte order of this machine
+      std::memcpy(&value, &row[2 * x], sizeof(value));
+      values->push_back(value);
+    } else {
+      values->push_back(row[x]);
+    }
+  }
+}
+
+}  // namespace
+
+Result<Samples> DecodeTiff(const std::string& where, const Bytes& bytes) {
+  Source source = {bytes};
+  const auto damaged = [&] {
+    return Expected(where, "an undamaged TIFF file", "a damaged one (" + source.problem + ")");
+  };
+  const Tiff tiff = Open(&source);
+  if (tiff == nullptr) return damaged();
+  const Layout layout(tiff.get());
+  if (Error error = CheckLayout(where, layout)) return error;
+  if (Error error = CheckPictureSize(where, layout.width, layout.height)) return error;
+  if (!CanHold(bytes, layout)) {
+    source.problem = "it is too small for its pixels";
+    return damaged();
+  }
+  const int largest = layout.is_float() ? 0 : (1 << layout.bits) - 1;
+  Samples samples = {{static_cast<int>(layout.width), static_cast<int>(layout.height), {}},
+                     largest};
+  samples.map.values.reserve(size_t{layout.width} * layout.height);
+  std::vector<uint8_t> row(
+      std::max(static_cast<size_t>(TIFFScanlineSize(tiff.get())), size_t{layout.width} * 4));
+  for (uint32_t y = 0; y < layout.height; ++y) {
+    if (TIFFReadScanline(tiff.get(), row.data(), y, 0) != 1) return damaged();
+    AppendRow(layout, row, &samples.map.values);
+  }
+  return samples;
+}
+
+}  // namespace starfocus

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes depth maps from files of any supported format. The content of a file determines the
+// format, not the name.
+#ifndef STARFOCUS_PLATFORM_DEPTH_FILE_H_
+#define STARFOCUS_PLATFORM_DEPTH_FILE_H_
+
+#include <string>
+
+#include "platform/file.h"
+#include "platform/levels.h"
+#include "platform/result.h"
+
+namespace starfocus {
+
+// Decodes a depth map: PFM, NPY (decoders/npy.h), TIFF (decoders/tiff.h), or a picture (levels.h).
+// If `use_alpha` is true, pixels that are less than half opaque are NaN. `where` appears only in
+// error messages, which state how to convert files of other formats.
+Result<Samples> DecodeDepthFile(const std::string& where, bool use_alpha, const Bytes& bytes);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_PLATFORM_DEPTH_FILE_H_
