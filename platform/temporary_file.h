@@ -6,9 +6,12 @@
 #include <cstdio>
 #include <string>
 
+#include "platform/signal_cleanup.h"
+
 namespace starfocus {
 
-// A new file, which the destructor removes unless MoveTo has succeeded.
+// A new file, which the destructor removes unless MoveTo has succeeded. If a signal ends the
+// program, the file is removed as well (SignalCleanup).
 class TemporaryFile {
  public:
   // Creates the temporary file in the folder `folder`. On failure, file() is null and errno is set.
@@ -24,20 +27,10 @@ class TemporaryFile {
   // Closes the temporary file and renames it to `target`. Returns false and sets errno on failure.
   bool MoveTo(const std::string& target);
 
-  // Installs handlers for SIGINT, SIGTERM and SIGHUP, which remove the temporary files of all
-  // threads and end the program. Signals that the process ignores remain ignored.
-  static void RemoveOnSignals();
-
  private:
-  class Turn;
-  static void RemoveAllAndEnd(int signal);
-  void Leave();
-
   std::string name_;
   std::FILE* file_ = nullptr;
-  bool listed_ = false;
-  // neighbours in the list of temporary files
-  TemporaryFile *next_ = nullptr, *previous_ = nullptr;
+  SignalCleanup cleanup_;
 };
 
 }  // namespace starfocus

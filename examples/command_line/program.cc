@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "platform/file.h"
-#include "platform/temporary_file.h"
+#include "platform/signal_cleanup.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -45,7 +45,7 @@ std::string VersionText(const std::string& name) {
 
 int RunProgram(const char* name, const std::function<Error()>& run) {
   signal(SIGPIPE, SIG_IGN);
-  TemporaryFile::RemoveOnSignals();
+  SignalCleanup::Install();
   try {
     Error error = run();
     if (!error) error = CheckPrinted();

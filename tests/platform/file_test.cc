@@ -187,7 +187,7 @@ TEST_CASE("file: signals that end the program leave no temporary file") {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     TempFolder folder;
     const int status = EndBySignal(signal, [&](const auto& begun) {
-      TemporaryFile::RemoveOnSignals();
+      SignalCleanup::Install();
       TemporaryFile one(folder.path()), other(folder.path());
       if (folder.count() == 2 && begun()) {
         for (;;) pause();
@@ -204,7 +204,7 @@ TEST_CASE("file: a signal during concurrent writes leaves only complete files") 
   for (int attempt = 0; attempt < 20; ++attempt) {
     TempFolder folder;
     const int status = EndBySignal(SIGTERM, [&](const auto& begun) {
-      TemporaryFile::RemoveOnSignals();
+      SignalCleanup::Install();
       std::vector<std::thread> threads;
       for (int t = 0; t < 3; ++t) {
         threads.emplace_back([&, t] {
@@ -230,7 +230,7 @@ TEST_CASE("file: an ignored signal stays ignored") {
   REQUIRE(child >= 0);
   if (child == 0) {
     signal(SIGHUP, SIG_IGN);
-    TemporaryFile::RemoveOnSignals();
+    SignalCleanup::Install();
     raise(SIGHUP);
     _exit(5);
   }
