@@ -12,6 +12,7 @@
 #include "platform/readers/hci.h"
 #include "platform/readers/middlebury.h"
 #include "platform/readers/photo_scale.h"
+#include "platform/readers/sample_bits.h"
 #include "platform/readers/stanford.h"
 #include "platform/readers/view_array.h"
 #include "platform/standard_stream.h"
@@ -75,7 +76,7 @@ Result<Capture> OpenArray(const std::string& folder, const Names& pictures) {
   return capture;
 }
 
-Result<Capture> OpenFolder(const std::string& folder) {
+Result<Capture> OpenLayout(const std::string& folder) {
   const Result<Names> names = ListFolder(folder);
   if (!names) return names.error();
   if (std::optional<Capture> pair = FindGreyMapPair(folder, *names)) return std::move(*pair);
@@ -87,6 +88,15 @@ Result<Capture> OpenFolder(const std::string& folder) {
 }
 
 // Moves the two views of a stereo pair from `photo` to `capture`. A stereo pair in one file has no
+Result<Capture> OpenFolder(const std::string& folder) {
+  Result<Capture> capture = OpenLayout(folder);
+  if (!capture) return capture;
+  const auto none = [](const Bytes&) { return false; };  // reads only the beginning of the file
+  const Result<Bytes> beginning = ReadFileIf(capture->files[0].path, none);
+  if (beginning) NoteSampleBits(SampleBitsOf(*beginning), &capture->notes);
+  return capture;
+}
+
 // map.
 void TakePair(const std::string& path, DepthPhoto* photo, Capture* capture) {
   capture->files = {{{0, 0}, path}, {{1, 0}, path}};
@@ -114,6 +124,12 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   capture.facts = std::move(photo.facts);
   capture.notes = std::move(photo.notes);
   if (pair) {
+  if (photo.is_blurred) {
+    capture.facts.emplace_back("portrait", "the camera has blurred the background");
+    capture.notes.push_back(
+        "the camera has already blurred the background of this portrait, so refocusing blurs the "
+        "background again (an export without the portrait effect prevents this)");
+  }
     TakePair(path, &photo, &capture);
     return capture;
   }

@@ -18,6 +18,7 @@
 #include "platform/readers/pair.h"
 #include "platform/readers/profile.h"
 #include "platform/readers/stereo_pair.h"
+#include "platform/readers/sample_bits.h"
 #include "platform/readers/xmp.h"
 #include "platform/standard_stream.h"
 
@@ -151,7 +152,8 @@ void NoteProblem(DepthPhoto* photo) {
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near) {
   if (IsHeif(file)) return ReadHeif(where, file, near);
   if (IsJpeg(file)) return DecodeJpegPhoto(where, file, with_map, near);
-  Result<DecodedPicture> picture = DecodeImage(where, Bytes(file.data, file.data + file.size));
+  const Bytes bytes(file.data, file.data + file.size);
+  Result<DecodedPicture> picture = DecodeImage(where, bytes);
   if (!picture) return picture.error();
   DepthPhoto photo;
   photo.picture = std::move(picture->image);
@@ -170,6 +172,7 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   if (!bytes) return bytes.error();
   if (stream && bytes->empty()) return Expected(where, "a photo", "nothing");
   const Span file = {bytes->data(), bytes->size()};
+  NoteSampleBits(SampleBitsOf(bytes), &photo.notes);
   Result<DepthPhoto> decoded = DecodeDepthPhoto(where, file, depth.empty(), options.near);
   if (!decoded) return decoded;
   DepthPhoto& photo = *decoded;

@@ -80,10 +80,15 @@ void ReadExif(int width, int height, DepthPhoto* photo) {
   exif_data_load_data(data, segment.data(), static_cast<unsigned>(segment.size()));
   const int orientation = ShortOf(data, EXIF_IFD_0, EXIF_TAG_ORIENTATION);
   const int focal = ShortOf(data, EXIF_IFD_EXIF, EXIF_TAG_FOCAL_LENGTH_IN_35MM_FILM);
+  // Apple's values of CustomRendered for portraits, whose background is blurred. Other cameras use
+  // only 0 and 1.
+  constexpr int kPortraitHdr = 7, kPortrait = 8;
+  const int rendered = ShortOf(data, EXIF_IFD_EXIF, EXIF_TAG_CUSTOM_RENDERED);
   ReadSubject(data, width, height, photo);
   exif_data_unref(data);
   if (orientation >= 1 && orientation <= 8) photo->orientation = orientation;
   photo->focal_35mm = focal;
+  photo->is_blurred = rendered == kPortraitHdr || rendered == kPortrait;
   std::string text = std::to_string(exif.size()) + " bytes";
   if (focal > 0) text += ", lens of " + std::to_string(focal) + " mm on full frame";
   photo->facts.emplace_back("EXIF", text);

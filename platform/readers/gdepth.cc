@@ -77,6 +77,7 @@ void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
     return;
   }
   photo->picture = std::move(sharp->image);
+  photo->is_blurred = false;
   photo->facts.emplace_back("picture", "the sharp picture in the file (GImage:Data)");
 }
 

@@ -21,6 +21,7 @@
 #include "platform/readers/kept_metadata.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/profile.h"
+#include "platform/readers/sample_bits.h"
 #endif
 
 namespace starfocus {
@@ -165,6 +166,7 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   photo->has_subject = photo->has_subject && agrees;
   TurnPoint(photo->orientation, &photo->subject_x, &photo->subject_y);
   photo->orientation = 1;
+  NoteSampleBits(heif_image_handle_get_luma_bits_per_pixel(handle), &photo->notes);
   const size_t profile = heif_image_handle_get_raw_color_profile_size(handle);
   if (profile == 0 || profile > kMostMetadata) return;
   photo->metadata.icc.resize(profile);

@@ -37,6 +37,8 @@ struct DepthPhoto {
   MapMeaning meaning = MapMeaning::kOrder;
   int orientation = 1;    // EXIF orientation that has not been applied yet.
   double focal_35mm = 0;  // Equivalent focal length on full frame in millimetres; 0: unknown.
+  // True if the camera has blurred the background of `picture`, as its EXIF states.
+  bool is_blurred = false;
   bool has_focus = false;
   // Focus point, as fractions of the width and height before rotation.
   double focus_x = 0, focus_y = 0;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "platform/readers/sample_bits.h"
 #include "platform/readers/xmp.h"
 #include "platform/writers/jpeg.h"
 #include "tests/support/error_line.h"
@@ -273,6 +275,50 @@ TEST_CASE("captions: XMP and IPTC of a photo are kept, except properties of its 
                      &again) == "");
   CHECK(again.metadata.xmp.empty());
   CHECK(again.metadata.iptc.empty());
+}
+
+#ifdef STARFOCUS_HAS_EXIF
+TEST_CASE("portraits: blur of the camera is named, unless the file has the sharp picture") {
+  if (!CanReadXmp()) return;
+  for (const int rendered : {0, 1, 2, 6, 7, 8}) {
+    CAPTURE(rendered);
+    const std::string jpeg = Insert(Photo(), ExifSegment(1, 0, rendered));
+    const bool blurred = rendered >= 7;
+    Capture capture;
+    REQUIRE(Open(Gdepth(jpeg, kInverse, Data(RampPng())), &capture) == "");
+    CHECK(HasNote(capture, "already blurred the background of this portrait") == blurred);
+    CHECK((FactOf(capture, "portrait") != "") == blurred);
+    const std::string sharp = " GImage:Data=\"" + Base64(Photo()) + "\"";
+    REQUIRE(Open(Gdepth(jpeg, kInverse, Data(RampPng()) + sharp), &capture) == "");
+    CHECK(!HasNote(capture, "already blurred"));
+  }
+}
+#endif
+
+TEST_CASE("photos: pixels of more than 8 bits are named, in photos and in folders of views") {
+  const std::vector<uint16_t> grey(size_t(kWidth) * kHeight, 40000);
+  const std::string note = "the pixels have 16 bits for each colour, of which the program";
+  TempFolder folder;
+  for (const bool deep : {false, true}) {
+    CAPTURE(deep);
+    const std::string png =
+        deep ? Png16(kWidth, kHeight, grey) : Encode(Ramp(kWidth, kHeight), ".png");
+    Write(folder.file("a.png"), png);
+    Write(folder.file("a-depth.png"), RampPng());
+    CHECK(HasNote(ValueOf(OpenCapture(folder.file("a.png"), {})), note) == deep);
+    std::filesystem::create_directory(folder.file("lf"));
+    Write(folder.file("lf/view_+0.0_+0.0.png"), png);
+    CHECK(HasNote(ValueOf(OpenCapture(folder.file("lf"), {})), note) == deep);
+  }
+  const auto bits_of = [](const std::string& file) {
+    return SampleBitsOf(Bytes(file.begin(), file.end()));
+  };
+  CHECK(bits_of("P6 1 1 255\n") == 8);
+  CHECK(bits_of("P6 1 1 256\n") == 9);
+  CHECK(bits_of("P5\n# 1\n1 1 1023\n") == 10);
+  CHECK(bits_of("P6 1 1 65535\n") == 16);
+  CHECK(bits_of("P") == 8);
+  CHECK(bits_of("P6 1 1 x") == 8);
 }
 
 TEST_CASE("photos: an error names the type of the file") {

@@ -176,16 +176,17 @@ inline std::string Gdepth(const std::string& jpeg, const std::string& attributes
   return Insert(jpeg, XmpSegment(main) + Joined(ExtensionSegments(text, part)));
 }
 
-// Returns a segment of big-endian EXIF with an orientation and a focal length (EXIF 2.32, 4.6).
-inline std::string ExifSegment(int orientation, int focal_35mm) {
+// Returns a segment of big-endian EXIF with an orientation, a focal length and the value of
+// CustomRendered (EXIF 2.32, 4.6).
+inline std::string ExifSegment(int orientation, int focal_35mm, int rendered = 0) {
   const auto entry = [](int tag, int type, uint32_t value) {
     return Big(static_cast<uint32_t>(tag), 2) + Big(static_cast<uint32_t>(type), 2) + Big(1, 4) +
            (type == 3 ? Big(value, 2) + Big(0, 2) : Big(value, 4));
   };
   const std::string first = Big(2, 2) + entry(0x0112, 3, static_cast<uint32_t>(orientation)) +
                             entry(0x8769, 4, 8 + 2 + 24 + 4) + Big(0, 4);
-  const std::string second =
-      Big(1, 2) + entry(0xa405, 3, static_cast<uint32_t>(focal_35mm)) + Big(0, 4);
+  const std::string second = Big(2, 2) + entry(0xa401, 3, static_cast<uint32_t>(rendered)) +
+                             entry(0xa405, 3, static_cast<uint32_t>(focal_35mm)) + Big(0, 4);
   return Segment(0xe1, std::string("Exif\0\0MM\0\x2a\0\0\0\x08", 14) + first + second);
 }
 
