@@ -68,6 +68,7 @@ Result<Capture> OpenArray(const std::string& folder, const Names& pictures) {
   const bool stanford = IsStanford(pictures[0]) && array.rows > 1;
   Capture capture;
   capture.format = stanford ? "Stanford light field" : "rows and columns of views";
+  capture.is_row = array.rows == 1 || array.columns == 1;
   if (stanford) OrderStanford(&array);
   Result<Star> star = ChooseStar(folder, array, &capture.facts);
   if (!star) return star.error();
@@ -87,7 +88,6 @@ Result<Capture> OpenLayout(const std::string& folder) {
   return IsHci(*names) ? OpenHci(folder, *names) : OpenArray(folder, pictures);
 }
 
-// Moves the two views of a stereo pair from `photo` to `capture`. A stereo pair in one file has no
 Result<Capture> OpenFolder(const std::string& folder) {
   Result<Capture> capture = OpenLayout(folder);
   if (!capture) return capture;
@@ -97,6 +97,7 @@ Result<Capture> OpenFolder(const std::string& folder) {
   return capture;
 }
 
+// Moves the two views of a stereo pair from `photo` to `capture`. A stereo pair in one file has no
 // map.
 void TakePair(const std::string& path, DepthPhoto* photo, Capture* capture) {
   capture->files = {{{0, 0}, path}, {{1, 0}, path}};
@@ -123,13 +124,13 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   capture.metadata = std::move(photo.metadata);
   capture.facts = std::move(photo.facts);
   capture.notes = std::move(photo.notes);
-  if (pair) {
   if (photo.is_blurred) {
     capture.facts.emplace_back("portrait", "the camera has blurred the background");
     capture.notes.push_back(
         "the camera has already blurred the background of this portrait, so refocusing blurs the "
         "background again (an export without the portrait effect prevents this)");
   }
+  if (pair) {
     TakePair(path, &photo, &capture);
     return capture;
   }

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// User options for properties of a depth picture that the file of the picture does not state.
+// User options for properties of a depth picture that the file of the picture does not state, and
+// for the computation of a missing depth picture.
 #ifndef STARFOCUS_PLATFORM_READERS_DEPTH_OPTIONS_H_
 #define STARFOCUS_PLATFORM_READERS_DEPTH_OPTIONS_H_
 
+#include <functional>
 #include <vector>
+
+#include "platform/image.h"
+#include "platform/levels.h"
+#include "platform/result.h"
 
 namespace starfocus {
 
@@ -34,6 +40,9 @@ struct DepthOptions {
   bool has_unknown = false;
   std::vector<double> unknown;
   bool use_alpha = true;  // True: transparent pixels have unknown depth.
+  // Computes a depth picture of an upright photo for which no depth is found; null: nothing does.
+  // If `estimate` is set, the other options do not apply to a depth map in the file of a photo.
+  std::function<Result<Samples>(const Image& photo)> estimate = nullptr;
 };
 
 }  // namespace starfocus

@@ -15,10 +15,11 @@
 #include "platform/readers/gdepth.h"
 #include "platform/readers/heic.h"
 #include "platform/readers/kept_metadata.h"
+#include "platform/readers/orientation.h"
 #include "platform/readers/pair.h"
 #include "platform/readers/profile.h"
-#include "platform/readers/stereo_pair.h"
 #include "platform/readers/sample_bits.h"
+#include "platform/readers/stereo_pair.h"
 #include "platform/readers/xmp.h"
 #include "platform/standard_stream.h"
 
@@ -97,7 +98,7 @@ Error CheckOptions(const std::string& path, const DepthOptions& options) {
                        : options.has_unknown                               ? "--unknown"
                        : options.orientation != DepthOrientation::kUnknown ? "--depth-orientation"
                                                                            : nullptr;
-  if (option == nullptr) return {};
+  if (option == nullptr || options.estimate) return {};
   return Expected(path, std::string("a separate depth picture (--depth FILE) for ") + option,
                   "a depth map in the photo");
 }
@@ -124,7 +125,9 @@ Error NoMap(const std::string& path, const std::string& problem) {
   if (!CanReadXmp()) found += " that is read (this build has no expat)";
   if (!problem.empty()) found += " that can be read (" + problem + ")";
   return Expected(
-      path, "a depth map in the file, in NAME-depth.png or .jpg beside the file, or by --depth",
+      path,
+      "a depth map in the file, in NAME-depth.png or .jpg beside the file, or by --depth "
+      "or --depth-command",
       found);
 }
 
@@ -147,6 +150,17 @@ void NoteProblem(DepthPhoto* photo) {
   photo->notes.push_back("the depth map in the file is ignored: " + problem);
 }
 
+// Computes the depth picture of a photo without depth.
+Error EstimateDepth(const DepthOptions& options, DepthPhoto* photo) {
+  ApplyOrientation(photo);
+  Result<Samples> samples = options.estimate(photo->picture);
+  if (!samples) return samples.error();
+  photo->format = "photo with estimated depth";
+  photo->facts.emplace_back("depth", "computed by --depth-command");
+  TakeDepthPicture(options, std::move(*samples), photo);
+  return {};
+}
+
 }  // namespace
 
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near) {
@@ -158,6 +172,7 @@ Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool wi
   DepthPhoto photo;
   photo.picture = std::move(picture->image);
   photo.metadata = std::move(picture->metadata);
+  NoteSampleBits(SampleBitsOf(bytes), &photo.notes);
   ReadExif(&photo);
   CheckProfile(&photo);
   KeepCaptions(&photo);
@@ -172,8 +187,8 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   if (!bytes) return bytes.error();
   if (stream && bytes->empty()) return Expected(where, "a photo", "nothing");
   const Span file = {bytes->data(), bytes->size()};
-  NoteSampleBits(SampleBitsOf(bytes), &photo.notes);
-  Result<DepthPhoto> decoded = DecodeDepthPhoto(where, file, depth.empty(), options.near);
+  const Near near = options.estimate ? Near::kUnknown : options.near;
+  Result<DepthPhoto> decoded = DecodeDepthPhoto(where, file, depth.empty(), near);
   if (!decoded) return decoded;
   DepthPhoto& photo = *decoded;
   if (depth.empty() && !photo.map.values.empty()) {
@@ -185,12 +200,14 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
     if (Error error = FindDepthPicture(path, &photo).MoveTo(&photo.depth_path)) return error;
   }
   if (photo.depth_path.empty()) {
-    if (ReadStrayMap(file, options.near, &photo) || ReadStereoPair(path, file, &photo)) {
-      return decoded;
-    }
-    return NoMap(where, photo.map_problem);
+    if (ReadStrayMap(file, near, &photo) || ReadStereoPair(path, file, &photo)) return decoded;
+    if (!options.estimate) return NoMap(where, photo.map_problem);
   }
   NoteProblem(&photo);
+  if (photo.depth_path.empty()) {
+    if (Error error = EstimateDepth(options, &photo)) return error;
+    return decoded;
+  }
   if (Error error = ReadDepthPicture(photo.depth_path, options, &photo)) return error;
   return decoded;
 }

@@ -15,8 +15,9 @@ namespace starfocus {
 // is not empty. If `depth` is empty, the map is read from the file of the photograph. If this file
 // has no map, the map is read from a depth picture next to the file. A file without a map may be a
 // stereo pair; in this case, `right` of the result is the right picture. The function ignores
-// damaged optional data and adds a note. `options` apply to a separate depth picture. If the map is
-// in the file of the photograph, any option except `near` is an error.
+// damaged optional data and adds a note. For a photograph without depth, options.estimate computes
+// the depth picture if it is set. `options` apply to a separate depth picture. If the map is in the
+// file of the photograph, any option except `near` and `estimate` is an error.
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth);
 

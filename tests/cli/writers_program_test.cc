@@ -70,7 +70,8 @@ TEST_CASE("writers: a batch continues after a bad input and names the inputs tha
         Call(folder, "refocus lf bad more/ none -o out --focus 1 --jobs " + jobs);
     CHECK(outcome.code == 1);
     CHECK(Contains(outcome.err, "(failed: bad, none)"));
-    CHECK(Count(outcome.err, "\n") == 3);
+    CHECK(Contains(outcome.err, "\nstarfocus: 3 finished, 0 skipped, 2 failed\n"));
+    CHECK(Count(outcome.err, "\n") == 4);
     for (const char* name : {"lf.png", "one.png", "two.png"}) {
       CHECK(fs::exists(folder.file("out/" + std::string(name))));
     }

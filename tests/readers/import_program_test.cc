@@ -59,7 +59,7 @@ void MakePhotoAndMap(const TempFolder& folder) {
   Write(folder.file("map.png"), Encode(map, ".png"));
 }
 
-TEST_CASE("photos: every session of sessions.txt and plain_sessions.txt succeeds") {
+TEST_CASE("photos: every session of the tables succeeds") {
   const auto write_pair = [](const TempFolder& folder) {
     const std::string left = Encode(Plain(40, 24, 90), ".jpg");
     Write(folder.file("pair.mpo"), MultiPicture(left, Encode(Ramp(40, 24), ".jpg")));
@@ -69,6 +69,7 @@ TEST_CASE("photos: every session of sessions.txt and plain_sessions.txt succeeds
   };
   RunSessions("readers/plain_sessions.txt",
               {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
+  RunSessions("readers/depth_command_sessions.txt", {{"photo and map", MakePhotoAndMap}});
   if (CanReadXmp()) RunSessions("readers/sessions.txt", {{"GDepth photo", write_photo}});
 }
 

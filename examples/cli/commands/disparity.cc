@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <vector>
 
 #include "examples/cli/commands.h"
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/disparity/map_figures.h"
+#include "examples/cli/input/input.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
@@ -20,7 +22,8 @@ namespace starfocus {
 namespace {
 
 struct DisparityOptions {
-  std::string folder, out, confidence, coverage;
+  InputOptions input;
+  std::string out, confidence, coverage;
   std::optional<DisparityRange> range;
   Positions views;
   int threads = 1;
@@ -44,6 +47,20 @@ std::string ReadRange(const std::string& text, std::optional<DisparityRange>* ra
   return "";
 }
 
+std::vector<Output> PicturesOf(const DisparityOptions& options, const Plan& plan) {
+  std::vector<Output> pictures = {{"--output", plan.picture}};
+  if (!options.confidence.empty()) pictures.push_back({"--confidence", options.confidence});
+  if (!options.coverage.empty()) pictures.push_back({"--coverage", options.coverage});
+  return pictures;
+}
+
+// Returns all outputs, except the map if the command writes the map of its input folder.
+std::vector<Output> OutputsOf(const DisparityOptions& options, const Plan& plan) {
+  std::vector<Output> outputs = PicturesOf(options, plan);
+  if (!options.out.empty()) outputs.insert(outputs.begin(), {"--output", plan.map});
+  return outputs;
+}
+
 // Checks all options that can be checked before a file is read.
 Result<Plan> MakePlan(const DisparityOptions& options) {
   if (!options.views.empty() && StarWithin(options.views) == 1 && !options.repair) {
@@ -51,7 +68,14 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
                         std::to_string(options.views.size()) +
                             (options.views.size() == 1 ? " view" : " views that form no star"));
   }
-  Plan plan = {options.out.empty() ? DisparityPath(options.folder) : options.out, ""};
+  const std::string& input = options.input.path;
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(input, ignored);
+  if (options.out.empty() && (input == "-" || std::filesystem::exists(status)) &&
+      !std::filesystem::is_directory(status)) {
+    return Error::Usage("--output", "--output FILE, because SRC is no folder", "none");
+  }
+  Plan plan = {options.out.empty() ? DisparityPath(input) : options.out, ""};
   if (std::filesystem::path(plan.map).extension() != ".pfm") {
     return Error::Usage("--output", "a name that ends in .pfm", plan.map);
   }
@@ -66,46 +90,84 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
     return Error::Usage("--coverage", "--repair as well, because only a repair finds coverage",
                         "no --repair");
   }
-  if (options.out.empty() && HasDisparity(options.folder)) {
+  if (options.out.empty() && HasDisparity(input)) {
     return Expected(plan.map, "no existing map, or another name by --output", "an existing map");
   }
-  std::vector<Output> outputs = {{"--output", plan.picture}};
-  if (!options.confidence.empty()) outputs.push_back({"--confidence", options.confidence});
-  if (!options.coverage.empty()) outputs.push_back({"--coverage", options.coverage});
   Error error = CheckOutputPath(plan.map);
-  for (const Output& picture : outputs) {
+  for (const Output& picture : PicturesOf(options, plan)) {
     if (!error) error = CheckImageOutput(picture.path);
   }
-  if (!options.out.empty()) outputs.insert(outputs.begin(), {"--output", plan.map});
-  if (!error) error = CheckApart(outputs, {{options.folder}, {}});
+  if (!error) error = CheckApart(OutputsOf(options, plan), {{input}, {input, options.input.depth}});
   if (error) return error;
   return plan;
 }
 
-// Estimates the map of a light-field folder. Searches the disparity range of the command line if
-// given, otherwise finds a range first.
-Result<DisparityEstimate> EstimateFolder(const DisparityOptions& options,
-                                         const LightField& light_field) {
-  if (Error error = CheckStar(options.folder, light_field)) return error;
+// Estimates the map of a light field. Searches the disparity range of the command line if given,
+// otherwise finds a range first.
+Result<DisparityEstimate> Estimate(const DisparityOptions& options, const Capture& capture) {
+  const LightField& light_field = capture.light_field;
+  if (Error error = CheckStar(capture.path, light_field)) return error;
   const Result<DisparityRange> range =
-      options.range ? *options.range : FindRange(options.folder, light_field, options.threads);
+      options.range ? *options.range : FindRange(capture.path, light_field, options.threads);
   if (!range) return range.error();
-  return EstimateDisparity(options.folder, light_field, *range, options.threads);
+  return EstimateDisparity(capture.path, light_field, *range, options.threads);
 }
 
-// Repairs the map of a light-field folder.
-Result<DisparityEstimate> RepairFolder(const DisparityOptions& options,
-                                       const LightField& light_field) {
+// Repairs the map of the input.
+Result<DisparityEstimate> Repair(const DisparityOptions& options, const Capture& capture) {
+  const LightField& light_field = capture.light_field;
   Result<DisparityEstimate> estimate =
-      RepairDisparity(DisparityPath(options.folder), light_field,
+      RepairDisparity(MapName(capture), light_field,
                       {options.threads, !options.coverage.empty(), !options.confidence.empty()});
   if (estimate && !options.coverage.empty() && estimate->coverage.empty()) {
-    std::fprintf(stderr, "%s: no coverage is written: %s\n", options.folder.c_str(),
+    std::fprintf(stderr, "%s: no coverage is written: %s\n", capture.path.c_str(),
                  light_field.views.size() > 1
                      ? "only a repair with one view (--views 1) finds coverage"
                      : "the map has no hair with a closed outline");
   }
   return estimate;
+}
+
+// Returns the map of a photo that needs no repair.
+Result<DisparityEstimate> Take(const DisparityOptions& options, Capture* capture) {
+  if (!options.confidence.empty()) {
+    return Error::Usage("--confidence", "--repair as well, because the map needs no repair",
+                        "no --repair");
+  }
+  DisparityEstimate taken;
+  taken.map = std::move(capture->light_field.disparity);
+  const starfocus_disparity_stats stats = MeasureDisparity(taken.map);
+  taken.range = {static_cast<float>(stats.min), static_cast<float>(stats.max)};
+  return taken;
+}
+
+// Opens the input. If a map will be estimated, ignores an existing map. The map of a photo is
+// always used, because no map can be estimated from one view.
+Result<Capture> Open(const DisparityOptions& options, const Plan& plan, ThreadRunner* runner) {
+  Result<Capture> capture = OpenInput(options.input);
+  if (!capture) return capture;
+  if (capture->photo && options.range) {
+    return Error::Usage("--range", "several views, because a photo has a map",
+                        "the photo " + capture->path);
+  }
+  if (options.repair && capture->map_path.empty()) {
+    return Expected(MapName(*capture), "a disparity map to repair", "no file");
+  }
+  if (!options.repair && !capture->photo) capture->map_path.clear();
+  Error error = CheckApart(OutputsOf(options, plan),
+                           {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
+  if (!error) error = LoadCapture(options.views, &*capture, runner);
+  if (error) return error;
+  return capture;
+}
+
+// Work that makes the map.
+enum class Work { kEstimate, kRepair, kTake };
+
+Work ChooseWork(const DisparityOptions& options, const Capture& capture) {
+  if (options.repair) return Work::kRepair;
+  if (!capture.photo) return Work::kEstimate;
+  return capture.care == MapCare::kRepair ? Work::kRepair : Work::kTake;
 }
 
 Error WriteMap(const DisparityOptions& options, const Plan& plan, const Image& centre,
@@ -124,24 +186,26 @@ Error Run(const DisparityOptions& options) {
   const Result<Plan> plan = MakePlan(options);
   if (!plan) return plan.error();
   ThreadRunner runner(options.threads);
-  const Result<LightField> loaded = options.repair
-                                        ? LoadLightField(options.folder, options.views, &runner)
-                                        : LoadCaptured(options.folder, options.views, &runner);
-  if (!loaded) return loaded.error();
-  const LightField& light_field = *loaded;
+  Result<Capture> capture = Open(options, *plan, &runner);
+  if (!capture) return capture.error();
   const double start = Seconds();
-  const Result<DisparityEstimate> estimate =
-      options.repair ? RepairFolder(options, light_field) : EstimateFolder(options, light_field);
+  const Work work = ChooseWork(options, *capture);
+  const Result<DisparityEstimate> estimate = work == Work::kEstimate ? Estimate(options, *capture)
+                                             : work == Work::kRepair ? Repair(options, *capture)
+                                                                     : Take(options, &*capture);
   if (!estimate) return estimate.error();
   const double seconds = Seconds() - start;
+  const LightField& light_field = capture->light_field;
   if (Error error = WriteMap(options, *plan, light_field.views[0], *estimate)) return error;
   const double megapixels = 1e-6 * estimate->map.width * estimate->map.height;
   const int count = StarWithin(light_field.positions);
   std::printf("%s: disparities from %s to %s, %s %d view%s, %.1f s, %.1f s per megapixel\n",
               plan->map.c_str(), Short(estimate->range.min).c_str(),
               Short(estimate->range.max).c_str(),
-              options.repair ? "repaired with" : "estimated from", count, count == 1 ? "" : "s",
-              seconds, seconds / megapixels);
+              work == Work::kEstimate ? "estimated from"
+              : work == Work::kRepair ? "repaired with"
+                                      : "taken from",
+              count, count == 1 ? "" : "s", seconds, seconds / megapixels);
   return {};
 }
 
@@ -149,14 +213,18 @@ Error Run(const DisparityOptions& options) {
 
 Command DisparityCommand() {
   const auto options = std::make_shared<DisparityOptions>();
-  return {
+  Command command = {
       "disparity",
       "Estimate the disparity map of a light field from its views, or repair an existing map",
+      {},
+      [options] { return Run(*options); },
+      {"starfocus disparity lf", "starfocus disparity lf -o repaired.pfm --repair --threads 4"}};
+  AddInputOptions(&command, &options->input);
+  AddOptions(
       {
-          {"DIR", "DIR", "Light-field folder", &options->folder, Use::kRequired},
           {"-o,--output", "FILE",
            "Map to write (.pfm); a picture of the map (.png, bright is near) gets the "
-           "same name; default: disparity.pfm in DIR, if DIR has none",
+           "same name; default: disparity.pfm in SRC, if SRC is a folder without a map",
            &options->out},
           {"--confidence", "FILE",
            "Picture to write of the confidence of each pixel: black for unknown, brighter "
@@ -167,8 +235,8 @@ Command DisparityCommand() {
            "closed outline in the map; default: none",
            &options->coverage},
           {"--repair", nullptr,
-           "Repair the map of the folder by the views instead of estimating a new one: "
-           "displaced and blurred edges, and noise; needs --output",
+           "Repair the map of SRC by the views instead of estimating a new one: "
+           "displaced and blurred edges, and noise; needs --output; always done for photos",
            &options->repair},
           {"--range", "MIN:MAX",
            "Disparities to search, in pixels per unit of u, from -500 to 500; default: "
@@ -178,13 +246,13 @@ Command DisparityCommand() {
            })},
           {"--views", "17|9|5|1|U,V:U,V",
            "Views to use: the star of 17, 9 or 5 views; with --repair also 1 or positions "
-           "U,V:U,V; default: all views of the folder",
+           "U,V:U,V; default: all views of the input",
            Views(&options->views)},
           {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
            Use::kDefault},
       },
-      [options] { return Run(*options); },
-      {"starfocus disparity lf", "starfocus disparity lf -o repaired.pfm --repair --threads 4"}};
+      &command);
+  return command;
 }
 
 }  // namespace starfocus

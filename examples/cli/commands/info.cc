@@ -128,6 +128,7 @@ Command InfoCommand() {
       [options] { return Run(*options); },
       {"starfocus info photo.jpg", "starfocus info lf --json"}};
   AddInputOptions(&command, &options->input);
+  AddCoverageOption(&command, &options->input);
   AddOptions(
       {
           {"--json", nullptr,

@@ -231,9 +231,10 @@ Error RunInputs(const RefocusOptions& options) {
       return Error::Usage(name, "a single input and a file for --output",
                           "several inputs or a folder");
   }
-  const Result<std::vector<BatchItem>> items = PlanBatch(options.inputs, options.output.out);
-  if (!items) return items.error();
-  return RunBatch(*items, options.jobs, [&options](const BatchItem& item) {
+  const Result<Batch> batch =
+      PlanBatch(options.inputs, options.output.out, EstimatesDepth(options.input));
+  if (!batch) return batch.error();
+  return RunBatch(*batch, options.jobs, [&options](const BatchItem& item) {
     RefocusOptions one = options;
     one.input.path = item.input;
     one.output.out = item.output;
@@ -242,7 +243,9 @@ Error RunInputs(const RefocusOptions& options) {
 }
 
 Error Run(const RefocusOptions& options) {
-  if (IsBatch(options.inputs, options.output.out)) return RunInputs(options);
+  if (IsBatch(options.inputs, options.output.out, EstimatesDepth(options.input))) {
+    return RunInputs(options);
+  }
   RefocusOptions one = options;
   one.input.path = options.inputs[0];
   return RunInput(one);
@@ -259,6 +262,7 @@ Command RefocusCommand() {
                      {"starfocus refocus photo.jpg -o near.jpg --focus-at 800,600 --f-stop 2.8",
                       "starfocus refocus lf -o stack.webp --sweep -2:8:20 --strength 50"}};
   AddInputOptions(&command, &options->input, &options->inputs);
+  AddCoverageOption(&command, &options->input);
   AddOutputOptions(&command, &options->output);
   AddOptions(
       {

@@ -13,6 +13,7 @@
 #include "examples/cli/input/input.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/refocus/refocus_report.h"
+#include "examples/cli/video/frames.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
 #include "platform/folder.h"
@@ -24,19 +25,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Largest number of frames, because file names have four digits.
-constexpr size_t kMostFrames = 10000;
-
 struct VideoOptions {
-  std::vector<std::string> folders;
+  std::vector<std::string> inputs;
+  InputOptions input;  // options of each input
   std::string out, report;
   LensOptions lens;
-  bool fill_invalid = false;
+  MapOptions map;
 };
 
 // Frames of a video and their common properties.
 struct Video {
-  std::vector<std::string> folders;
+  std::vector<std::string> inputs;
+  FrameFolders converted;
+  std::vector<std::string> folders;  // light-field folders of the frames, some of them temporary
+  std::vector<std::string> wheres;   // names of the maps for error messages
   int width = 0, height = 0;
   Positions views;
   starfocus_disparity_stats stats = {};  // over all frames
@@ -49,27 +51,12 @@ std::string FramePath(const std::string& folder, size_t index) {
   return (fs::path(folder) / name).string();
 }
 
-// Returns the folders of the frames, which are the given folders. If the only given folder is not a
-// light field, returns its subfolders instead. Hidden folders and the output folder are omitted
-// from the subfolders.
-Result<std::vector<std::string>> FindFrames(const VideoOptions& options) {
-  std::vector<std::string> folders = options.folders;
-  std::error_code error;
-  const std::string only = folders[0];
-  if (folders.size() == 1 && fs::is_directory(only, error) &&
-      !fs::exists(DisparityPath(only), error)) {
-    folders.clear();
-    for (const auto& entry : fs::directory_iterator(only, error)) {
-      const bool hidden = entry.path().filename().string()[0] == '.';
-      const bool own = fs::equivalent(entry.path(), options.out, error);  // earlier output
-      if (entry.is_directory(error) && !hidden && !own) folders.push_back(entry.path().string());
-    }
-    std::sort(folders.begin(), folders.end());
-    if (folders.empty()) return Expected(only, "light-field folders in this folder", "none");
-  }
-  if (folders.size() <= kMostFrames) return folders;
-  return Error::Usage("DIR", "at most " + std::to_string(kMostFrames) + " frames",
-                      std::to_string(folders.size()));
+// Returns the input files that no output may overwrite.
+std::vector<std::string> FilesOf(const VideoOptions& options, const Video& video) {
+  std::vector<std::string> files = video.inputs;
+  files.push_back(options.input.depth);
+  files.push_back(options.lens.timing);
+  return files;
 }
 
 Error CheckOutputs(const VideoOptions& options, const Video& video) {
@@ -77,85 +64,105 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
   Error error;
   if (options.out.empty()) return Error::Usage("--output", "a folder", "an empty name");
   if (fs::is_directory(options.out, failure)) {
-    for (size_t i = 0; i < video.folders.size() && !error; ++i) {
+    for (size_t i = 0; i < video.inputs.size() && !error; ++i) {
       error = CheckImageOutput(FramePath(options.out, i));
     }
   } else {
     error = CheckFolderOutput(options.out);
     if (!error) error = CheckOutputPath(options.out);
   }
-  if (!error) error = CheckFolderApart({"--output", options.out}, video.folders);
+  if (!error) error = CheckFolderApart({"--output", options.out}, video.inputs);
   if (error) return error;
   std::vector<Output> outputs = {{"--output", options.out}};
-  for (size_t i = 0; i < video.folders.size(); ++i) {
+  for (size_t i = 0; i < video.inputs.size(); ++i) {
     outputs.push_back({"--output", FramePath(options.out, i)});
   }
   if (!options.report.empty()) {
     error = CheckOutputPath(options.report);
     outputs.push_back({"--report", options.report});
   }
-  return !error ? CheckApart(outputs, {video.folders, {options.lens.timing}}) : error;
+  return !error ? CheckApart(outputs, {video.inputs, FilesOf(options, video)}) : error;
 }
 
-Error CheckSize(const std::string& folder, const FloatMap& map, const Video& video) {
+Error CheckSize(const std::string& where, const FloatMap& map, const Video& video) {
   if (map.width == video.width && map.height == video.height) return {};
-  return Expected(folder,
+  return Expected(where,
                   SizeText(video.width, video.height) + " pixels, the size of the first frame",
                   SizeText(map.width, map.height));
 }
 
-// Measures the map of a folder, after filling its holes if requested.
-Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std::string& folder,
+// Measures the map of a frame, after filling its holes if requested.
+Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std::string& where,
                                           FloatMap* map) {
-  const std::string path = DisparityPath(folder);
-  if (options.fill_invalid) {
-    if (Error error = FillHoles(path, map)) return error;
+  if (options.map.fill) {
+    if (Error error = FillHoles(where, map)) return error;
   }
-  return PrepareDisparity(path, *map);
+  return PrepareDisparity(where, *map);
 }
 
-// Sets the focus of all frames to the focus of the first frame.
-Error FocusFirst(const std::string& folder, const FloatMap& map, LensPlan* plan) {
-  if (plan->focus_option.empty()) {
-    const DefaultFocus focus = FindSurface(map);
-    TellFocus(folder, focus);
-    UseFocus(focus, plan);
+// Opens a frame. The first frame sets the aperture and the views of all frames.
+Result<Frame> OpenFrame(const VideoOptions& options, const std::string& input, LensPlan* plan,
+                        Video* video) {
+  InputOptions one = options.input;
+  one.path = input;
+  Result<Capture> capture = OpenInput(one);
+  if (!capture) return capture.error();
+  const bool is_first = video->folders.empty();
+  if (is_first) {
+    Error error = PlanAperture(options.lens.aperture, *capture).MoveTo(&plan->aperture);
+    if (error) return error;
   }
-  return ChooseFocus(map, plan);
-}
-
-// Reads the views and disparities of all frames.
-Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
-  const auto chosen = ChooseViewFiles(video->folders[0], plan->options.views);
+  Result<Frame> frame = video->converted.Open(
+      options.map, is_first ? plan->options.views : video->views, plan->options.threads, &*capture);
+  if (!frame) return frame;
+  const auto chosen = ChooseViewFiles(frame->folder, is_first ? plan->options.views : video->views);
   if (!chosen) return chosen.error();
+  if (!is_first) return frame;
   for (const ViewFile& file : *chosen) video->views.push_back(file.position);
-  if (Error error = CheckRenderer(video->folders[0], *plan, video->views)) return error;
-  for (size_t i = 0; i < video->folders.size(); ++i) {
-    const std::string& folder = video->folders[i];
-    if (Error error = ChooseViewFiles(folder, video->views).error()) return error;
-    FloatMap map;
-    if (Error error = ReadDisparity(folder).MoveTo(&map)) return error;
-    if (i == 0) video->width = map.width, video->height = map.height;
-    if (Error error = CheckSize(folder, map, *video)) return error;
-    const Result<starfocus_disparity_stats> stats = Prepare(options, folder, &map);
-    if (!stats) return stats.error();
-    if (i == 0) {
-      if (Error error = FocusFirst(folder, map, plan)) return error;
+  if (Error error = CheckRenderer(input, *plan, video->views)) return error;
+  return frame;
+}
+
+// Adds a frame. The first frame sets the size and the focus of all frames.
+Error AddFrame(const VideoOptions& options, const std::string& input, Frame frame, LensPlan* plan,
+               Video* video) {
+  const bool is_first = video->folders.empty();
+  if (is_first) video->width = frame.map.width, video->height = frame.map.height;
+  if (Error error = CheckSize(input, frame.map, *video)) return error;
+  const Result<starfocus_disparity_stats> stats = Prepare(options, frame.where, &frame.map);
+  if (!stats) return stats.error();
+  if (is_first) {
+    if (plan->focus_option.empty()) {
+      TellFocus(input, frame.focus);
+      UseFocus(frame.focus, plan);
     }
-    video->stats.min = i == 0 ? stats->min : std::min(video->stats.min, stats->min);
-    video->stats.max = i == 0 ? stats->max : std::max(video->stats.max, stats->max);
+    if (Error error = ChooseFocus(frame.map, plan)) return error;
+    video->stats = *stats;
+  }
+  video->stats.min = std::min(video->stats.min, stats->min);
+  video->stats.max = std::max(video->stats.max, stats->max);
+  video->folders.push_back(frame.folder);
+  video->wheres.push_back(frame.where);
+  return {};
+}
+
+// Opens all frames and measures their maps.
+Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
+  for (const std::string& input : video->inputs) {
+    Result<Frame> frame = OpenFrame(options, input, plan, video);
+    if (!frame) return frame.error();
+    if (Error error = AddFrame(options, input, std::move(*frame), plan, video)) return error;
   }
   if (Error error = ChooseBlur(video->stats, plan).MoveTo(&video->max_blur)) return error;
-  TellAperture(video->folders[0], plan->aperture);
+  TellAperture(video->inputs[0], plan->aperture);
   return {};
 }
 
 Result<LightField> LoadFrame(const VideoOptions& options, const Video& video, size_t index) {
-  const std::string& folder = video.folders[index];
-  Result<LightField> frame = LoadLightField(folder, video.views);
+  Result<LightField> frame = LoadLightField(video.folders[index], video.views);
   if (!frame) return frame;
-  if (Error error = CheckSize(folder, frame->disparity, video)) return error;
-  if (Error error = Prepare(options, folder, &frame->disparity).error()) return error;
+  if (Error error = CheckSize(video.inputs[index], frame->disparity, video)) return error;
+  if (Error error = Prepare(options, video.wheres[index], &frame->disparity).error()) return error;
   return frame;
 }
 
@@ -166,13 +173,13 @@ Result<SeriesReport> RefocusFrames(const VideoOptions& options, const LensPlan& 
   LightField now, before;
   Image picture;
   for (size_t i = 0; i < video.folders.size(); ++i) {
-    const std::string &folder = video.folders[i], out = FramePath(options.out, i);
+    const std::string &input = video.inputs[i], out = FramePath(options.out, i);
     before = std::move(now);
     if (Error error = LoadFrame(options, video, i).MoveTo(&now)) return error;
     const EngineTask task = MakeTask(plan, now, video.stats, video.max_blur, true);
-    if (Error error = i == 0 ? run.Start(folder, task) : Error()) return error;
+    if (Error error = i == 0 ? run.Start(input, task) : Error()) return error;
     Result<EngineResult> result =
-        i == 0 ? run.Refocus(folder, task) : run.RefocusAfter(folder, task, before, picture);
+        i == 0 ? run.Refocus(input, task) : run.RefocusAfter(input, task, before, picture);
     if (!result) return result.error();
     if (Error error = WriteImage(out, result->picture)) return error;
     report.Add(out, task, *result);
@@ -186,8 +193,9 @@ Error Run(const VideoOptions& options) {
   Video video;
   Result<LensPlan> plan = PlanLens(options.lens);
   Error error = plan.error();
-  if (!error) error = PlanAperture(options.lens.aperture, {}).MoveTo(&plan->aperture);
-  if (!error) error = FindFrames(options).MoveTo(&video.folders);
+  if (!error) {
+    error = FindFrames(options.inputs, options.input, options.out).MoveTo(&video.inputs);
+  }
   if (!error) error = CheckOutputs(options, video);
   if (!error) error = Scan(options, &*plan, &video);
   if (!error) error = MakeFolder(options.out);
@@ -203,29 +211,29 @@ Command VideoCommand() {
   const auto options = std::make_shared<VideoOptions>();
   Command command = {
       "video",
-      "Refocus one light field after another, and copy the blocks that did not change",
+      "Refocus one light field or photo after another, and copy the blocks that did not change",
       {},
       [options] { return Run(*options); },
       {"starfocus video frames -o out --focus 2",
        "starfocus video lf0 lf1 lf2 -o out --focus-at 320,240 --report report.json"},
+      "Frames must have the same size and are taken in the order of SRC. If SRC is one folder that "
+      "is\n"
+      "not a light field, the frames are the light fields or photos in this folder, sorted by "
+      "name.\n"
       "The first frame sets the focus of all frames: at the pixel of --focus-at, or by default if "
       "no\n"
       "option sets it. Modes frame and benchmark choose one number of views for all frames."};
+  AddInputOptions(&command, &options->input, &options->inputs);
   AddOptions(
       {
-          {"DIR", "DIR",
-           "Light-field folders of the same size, in order, or one folder that contains "
-           "such folders, sorted by name",
-           &options->folders, Use::kRequired},
           {"-o,--output", "DIR", "Folder to write frame_0000.png, frame_0001.png, ... into",
            &options->out, Use::kRequired},
       },
       &command);
   AddLensOptions(&command, &options->lens);
+  AddMapOptions(&command, &options->map);
   AddOptions(
       {
-          {"--fill-invalid", nullptr,
-           "Replace non-finite disparities by the nearest valid disparity", &options->fill_invalid},
           {"--report", "FILE",
            "JSON file to write with the measurements of each frame, such as the number of "
            "reused blocks; default: none",

@@ -8,19 +8,12 @@
 #include <filesystem>
 
 #include "examples/cli/disparity/estimate_run.h"
+#include "examples/cli/input/depth_command.h"
 #include "examples/command_line/options.h"
 #include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
-
-// Parses "none" or a list of numbers separated by commas.
-std::string ReadUnknown(const std::string& text, DepthOptions* options) {
-  options->has_unknown = true;
-  options->use_alpha = text != "none";
-  if (options->use_alpha) options->unknown = ReadNumbers(text, ',');
-  return options->use_alpha && options->unknown.empty() ? "none or a list of values V,V,..." : "";
-}
 
 Error CheckNear(const DepthOptions& options) {
   if (options.unit == DepthUnit::kNone) return {};
@@ -68,72 +61,6 @@ Error Estimate(int threads, Capture* capture) {
 
 }  // namespace
 
-void AddInputOptions(Command* command, InputOptions* options, std::vector<std::string>* several) {
-  AddOptions(
-      {
-          several == nullptr
-              ? Option{"SRC", "DIR|PHOTO",
-                       "Light-field folder, folder of views with another layout, or depth photo; "
-                       "- reads a photo from standard input",
-                       &options->path, Use::kRequired}
-              : Option{"SRC", "DIR|PHOTO",
-                       "One or more light-field folders, folders of views with another layout, or "
-                       "depth photos; - reads a photo from standard input",
-                       several, Use::kRequired},
-          {"--depth", "FILE",
-           "Depth picture of the photo (PNG, PGM, JPEG, PFM, TIFF or NPY); default: the map "
-           "in the photo, or the file NAME-depth, NAME_depth or NAME.depth in the folder of "
-           "the photo",
-           &options->depth},
-          {"--coverage", "FILE",
-           "Picture of how much of each pixel the nearer surface covers, such as a "
-           "matting network computes: its alpha channel, or grey levels with white for "
-           "full coverage; default: coverage.png of a light-field folder, otherwise none",
-           &options->coverage},
-          {"--near", "white|black",
-           "Shade that is near in a depth picture; default: white in a .pfm file, "
-           "otherwise guessed from the lower part of the picture",
-           Choice<Near>({{"white", Near::kWhite}, {"black", Near::kBlack}}, &options->map.near)},
-          {"--depth-unit", "m|mm|disparity",
-           "Unit of the values of a depth picture: distances in metres (m) or millimetres "
-           "(mm), or disparities in pixels of the photo; default: no unit, only their "
-           "order counts",
-           Choice<DepthUnit>({{"m", DepthUnit::kMetres},
-                              {"mm", DepthUnit::kMillimetres},
-                              {"disparity", DepthUnit::kDisparity}},
-                             &options->map.unit)},
-          {"--depth-orientation", "photo|upright",
-           "Orientation of a depth picture: photo rotates the depth picture by the "
-           "photo's EXIF, upright does not; default: guessed from proportions and edges",
-           Choice<DepthOrientation>(
-               {{"photo", DepthOrientation::kPhoto}, {"upright", DepthOrientation::kUpright}},
-               &options->map.orientation)},
-          {"--unknown", "none|V,V,...",
-           "Values of a depth picture that mean an unknown depth; none means that all "
-           "pixels are known, also transparent ones; default: 0 and 65535 in 16-bit "
-           "pictures, unless other values show that these are depths",
-           Target(
-               [map = &options->map](const std::string& text) { return ReadUnknown(text, map); })},
-      },
-      command);
-}
-
-void AddMapOptions(Command* command, MapOptions* options) {
-  AddOptions(
-      {
-          {"--fill-invalid", nullptr,
-           "Replace non-finite disparities by the nearest valid disparity", &options->fill},
-          {"--repair", nullptr,
-           "Repair the disparity map first, by the side views or, for a single view, by "
-           "its colours: wrong and blurred edges, noise and unknown values; this is the "
-           "default for depth photos",
-           &options->repair},
-          {"--no-repair", nullptr, "Use the map of a depth photo without repair",
-           &options->no_repair, Use::kOptional, "--repair"},
-      },
-      command);
-}
-
 Result<Capture> OpenInput(const InputOptions& options) {
   if (options.path == "-") {
     if (options.depth == "-") {
@@ -154,8 +81,19 @@ Result<Capture> OpenInput(const InputOptions& options) {
       std::filesystem::is_directory(options.path, ignored)) {
     return Error::Usage(option, "a photo as SRC", "the folder " + options.path);
   }
+  bool estimates = false;
+  if (EstimatesDepth(options)) {
+    wanted.map.estimate = [&](const Image& photo) {
+      estimates = true;
+      return RunDepthCommand(options.command, options.map.use_alpha, photo);
+    };
+  }
   Result<Capture> capture = OpenCapture(options.path, wanted);
   if (!capture) return capture;
+  if (wanted.map.estimate && !estimates) {
+    capture->notes.push_back(std::string("--depth-command is not run, because the input has ") +
+                             (capture->map_path.empty() ? "several views" : "depth"));
+  }
   if (!options.coverage.empty()) capture->coverage_path = options.coverage;
   for (const std::string& note : capture->notes) {
     std::fprintf(stderr, "%s: %s\n", capture->path.c_str(), note.c_str());

@@ -7,30 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "examples/command_line/command.h"
+#include "examples/cli/input/input_options.h"
 #include "platform/readers/capture.h"
 #include "platform/result.h"
 
 namespace starfocus {
 
-struct InputOptions {
-  std::string path, depth, coverage;
-  DepthOptions map = {};
-};
-
-// Options for processing the map. By default, the format of the input determines the processing.
-struct MapOptions {
-  bool repair = false, no_repair = false, fill = false;
-};
-
-// Adds the options. If `several` is not null, the command takes several paths and stores the paths
-// in `several` instead of in `options`.
-void AddInputOptions(Command* command, InputOptions* options,
-                     std::vector<std::string>* several = nullptr);
-void AddMapOptions(Command* command, MapOptions* options);
-
-// Opens the input (OpenCapture) and prints notes about the input to stderr. The map of a photo is
-// not resized before LoadInput.
+// Opens the input (OpenCapture) and prints notes about the input to stderr. If the input is a photo
+// without depth, runs the depth command. The map of a photo is not resized before LoadInput.
 Result<Capture> OpenInput(const InputOptions& options);
 
 // Reads the map, and the views at the positions `views`, or all views if `views` is empty. A

@@ -14,8 +14,6 @@
 #include "platform/file.h"
 #include "platform/folder.h"
 #include "platform/progress.h"
-#include "platform/readers/capture.h"
-#include "platform/readers/pair.h"
 #include "platform/standard_stream.h"
 #include "platform/writers/picture.h"
 
@@ -23,39 +21,6 @@ namespace starfocus {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool IsLightField(const fs::path& folder) { return bool(OpenCapture(folder.string(), {})); }
-
-bool HasDepthPicture(const fs::path& path) {
-  DepthPhoto unused;
-  return !FindDepthPicture(path.string(), &unused)->empty();
-}
-
-// Returns true for a photograph. Depth pictures are not photographs, and PNG and WebP pictures are
-// photographs only if they have a depth picture next to them.
-bool IsPhoto(const fs::path& path) {
-  const std::string extension = LowerExtension(path.string());
-  if (IsDepthPictureName(path.filename().string())) return false;
-  if (extension == ".png" || extension == ".webp") return HasDepthPicture(path);
-  return extension == ".jpg" || extension == ".jpeg" || extension == ".heic" ||
-         extension == ".heif" || extension == ".avif";
-}
-
-// If `input` is a folder but not a light field, returns the inputs in the folder. Otherwise returns
-// only `input`.
-std::vector<std::string> Expand(const std::string& input) {
-  std::error_code ignored;
-  if (!fs::is_directory(input, ignored) || IsLightField(input)) return {input};
-  std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator(input, ignored)) {
-    const bool folder = entry.is_directory(ignored);
-    if (folder ? IsLightField(entry.path()) : IsPhoto(entry.path())) {
-      found.push_back(entry.path().string());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 std::string OutputOf(const std::string& input, const std::string& folder) {
   std::error_code ignored;
@@ -102,47 +67,9 @@ struct Work {
   }
 };
 
-}  // namespace
-
-bool IsBatch(const std::vector<std::string>& inputs, const std::string& out) {
-  std::error_code ignored;
-  if (inputs.size() > 1 || fs::is_directory(out, ignored)) return true;
-  if (out.empty() || out.back() == '/') return !out.empty();
-  // A folder of photographs counts as several inputs.
-  return inputs.size() == 1 && fs::is_directory(inputs[0], ignored) &&
-         FormatExtension(out).empty() && !IsLightField(inputs[0]);
-}
-
-Result<std::vector<BatchItem>> PlanBatch(const std::vector<std::string>& inputs,
-                                         const std::string& folder) {
-  if (IsPictureExtension(FormatExtension(folder))) {
-    return Error::Usage("--output", "a folder for the pictures of several inputs", folder);
-  }
-  std::vector<BatchItem> items;
-  std::vector<Output> outputs;
-  Inputs read;
-  for (const std::string& input : inputs) {
-    if (input == "-") {
-      return Error::Usage("SRC", "files as inputs, or a file for --output", "- (standard input)");
-    }
-    const std::vector<std::string> parts = Expand(input);
-    if (parts.empty())
-      return Expected(input, "a light field, or a folder of photos or light fields", "neither");
-    for (const std::string& part : parts) {
-      std::error_code ignored;
-      items.push_back({part, OutputOf(part, folder)});
-      outputs.push_back({"--output", items.back().output});
-      (fs::is_directory(part, ignored) ? read.folders : read.files).push_back(part);
-    }
-  }
-  if (Error error = CheckFolderApart({"--output", folder}, read.folders)) return error;
-  if (Error error = CheckApart(outputs, read)) return error;
-  if (Error error = MakeFolder(folder)) return error;
-  return items;
-}
-
-Error RunBatch(const std::vector<BatchItem>& items, int jobs,
-               const std::function<Error(const BatchItem&)>& run) {
+// Runs all items. Returns the inputs that failed.
+std::vector<std::string> RunItems(const std::vector<BatchItem>& items, int jobs,
+                                  const std::function<Error(const BatchItem&)>& run) {
   Work work = {items,
                run,
                {"refocusing " + std::to_string(items.size()) + " inputs",
@@ -158,12 +85,60 @@ Error RunBatch(const std::vector<BatchItem>& items, int jobs,
   }
   work.Go();
   for (std::thread& thread : threads) thread.join();
-  if (work.failed.empty()) return {};
-  std::sort(work.failed.begin(), work.failed.end());
+  return work.failed;
+}
+
+}  // namespace
+
+bool IsBatch(const std::vector<std::string>& inputs, const std::string& out, bool estimates_depth) {
+  std::error_code ignored;
+  if (inputs.size() > 1 || fs::is_directory(out, ignored)) return true;
+  if (out.empty() || out.back() == '/') return !out.empty();
+  // A folder of photographs counts as several inputs.
+  return inputs.size() == 1 && fs::is_directory(inputs[0], ignored) &&
+         FormatExtension(out).empty() && !IsLightField(inputs[0], estimates_depth);
+}
+
+Result<Batch> PlanBatch(const std::vector<std::string>& inputs, const std::string& folder,
+                        bool estimates_depth) {
+  if (IsPictureExtension(FormatExtension(folder))) {
+    return Error::Usage("--output", "a folder for the pictures of several inputs", folder);
+  }
+  Batch batch;
+  std::vector<Output> outputs;
+  Inputs read;
+  for (const std::string& input : inputs) {
+    if (input == "-") {
+      return Error::Usage("SRC", "files as inputs, or a file for --output", "- (standard input)");
+    }
+    const Result<FoundInputs> found = FindInputs(input, estimates_depth, folder);
+    if (!found) return found.error();
+    batch.skipped.insert(batch.skipped.end(), found->skipped.begin(), found->skipped.end());
+    for (const std::string& part : found->paths) {
+      std::error_code ignored;
+      batch.items.push_back({part, OutputOf(part, folder)});
+      outputs.push_back({"--output", batch.items.back().output});
+      (fs::is_directory(part, ignored) ? read.folders : read.files).push_back(part);
+    }
+  }
+  if (Error error = CheckFolderApart({"--output", folder}, read.folders)) return error;
+  if (Error error = CheckApart(outputs, read)) return error;
+  if (Error error = MakeFolder(folder)) return error;
+  return batch;
+}
+
+Error RunBatch(const Batch& batch, int jobs, const std::function<Error(const BatchItem&)>& run) {
+  TellSkipped(batch.skipped);
+  std::vector<std::string> failed = RunItems(batch.items, jobs, run);
+  const size_t finished = batch.items.size() - failed.size();
+  std::fprintf(stderr, "starfocus: %zu finished, %zu skipped, %zu failed\n", finished,
+               batch.skipped.size(), failed.size());
+  if (failed.empty()) return {};
+  std::sort(failed.begin(), failed.end());
   std::string names;
-  for (const std::string& name : work.failed) names += (names.empty() ? "" : ", ") + name;
-  return Expected("refocus", std::to_string(items.size()) + " pictures",
-                  std::to_string(items.size() - work.failed.size()) + " (failed: " + names + ")");
+  for (const std::string& name : failed) names += (names.empty() ? "" : ", ") + name;
+  return Expected("refocus", std::to_string(batch.items.size()) + " pictures",
+                  std::to_string(finished) + " (failed: " + names + ")");
 }
 
 }  // namespace starfocus

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "examples/cli/disparity/map_figures.h"
+#include "examples/cli/input/input.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "examples/lab/commands.h"
@@ -16,21 +17,25 @@ namespace starfocus {
 namespace {
 
 struct StepsOptions {
-  std::string light_field, out;
+  InputOptions input;
+  std::string out;
   std::optional<double> focus;
   double aperture = 1;
 };
 
 Error Run(const StepsOptions& options) {
-  const std::string& where = options.light_field;
+  const std::string& where = options.input.path;
   if (Error error = CheckFolderApart({"--output", options.out}, {where})) return error;
   if (Error error = CheckFolderOutput(options.out)) return error;
-  const Result<LightField> light_field = LoadLightField(where, {});
-  if (!light_field) return light_field.error();
+  Result<Capture> capture = OpenInput(options.input);
+  if (!capture) return capture.error();
+  if (Error error = LoadInput({}, 1, &*capture)) return error;
+  if (Error error = CareForMap({}, 1, &*capture)) return error;
+  const LightField& light_field = capture->light_field;
   const Result<StepPictures> drawn =
-      DrawSteps(where, *light_field, {*options.focus, options.aperture});
+      DrawSteps(where, light_field, {*options.focus, options.aperture});
   if (!drawn) return drawn.error();
-  const Image disparity = DrawDisparity(light_field->disparity);
+  const Image disparity = DrawDisparity(light_field.disparity);
   const std::pair<const char*, const Image&> files[] = {
       {"disparity", disparity},  {"mean", drawn->mean},   {"slices", drawn->slices},
       {"hidden", drawn->hidden}, {"matte", drawn->matte}, {"coverage", drawn->coverage},
@@ -48,20 +53,24 @@ Error Run(const StepsOptions& options) {
 
 Command StepsCommand() {
   const auto options = std::make_shared<StepsOptions>();
-  return {
+  Command command = {
       "steps",
       "Draw the intermediate data of refocusing: disparities, surfaces, slices, views, coverage "
       "and gathered cells",
+      {},
+      [options] { return Run(*options); },
+      {"starfocus-lab steps lf -o steps --focus 4",
+       "starfocus-lab steps lf -o steps --focus -5.7 --aperture 0.5"}};
+  AddInputOptions(&command, &options->input);
+  AddOptions(
       {
-          {"DIR", "DIR", "Light-field folder", &options->light_field, Use::kRequired},
           {"-o,--output", "FOLDER", "Folder for the PNG pictures", &options->out, Use::kRequired},
           {"--focus", "D", "Disparity in focus", Number(&options->focus), Use::kRequired},
           {"--aperture", "U", "Radius of the aperture, 0.01 to 1",
            Number(0.01, 1, "a radius from 0.01 to 1", &options->aperture), Use::kDefault},
       },
-      [options] { return Run(*options); },
-      {"starfocus-lab steps lf -o steps --focus 4",
-       "starfocus-lab steps lf -o steps --focus -5.7 --aperture 0.5"}};
+      &command);
+  return command;
 }
 
 }  // namespace starfocus

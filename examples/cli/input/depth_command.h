@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Estimates the depth of photos by a command of the user (--depth-command).
+#ifndef STARFOCUS_EXAMPLES_CLI_INPUT_DEPTH_COMMAND_H_
+#define STARFOCUS_EXAMPLES_CLI_INPUT_DEPTH_COMMAND_H_
+
+#include <string>
+
+#include "platform/image.h"
+#include "platform/levels.h"
+#include "platform/result.h"
+
+namespace starfocus {
+
+struct DepthCommand {
+  std::string command;  // empty: none
+  int seconds = 600;    // time limit
+};
+
+// Returns a description of the expected command if `text` lacks {input} or {output}, otherwise "".
+std::string CheckDepthCommand(const std::string& text);
+
+// Writes `photo` to a PNG file in a temporary folder, and runs the command with the paths of the
+// PNG file and of the depth picture in place of {input} and {output}. Reads the depth picture
+// (depth_file.h) and removes the folder. The command may add text to the name of the depth picture.
+// If `use_alpha` is true, transparent pixels of the depth picture are NaN. Several threads may call
+// the function at the same time.
+Result<Samples> RunDepthCommand(const DepthCommand& command, bool use_alpha, const Image& photo);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_INPUT_DEPTH_COMMAND_H_

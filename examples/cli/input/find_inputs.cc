@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/input/find_inputs.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include "platform/file.h"
+#include "platform/readers/capture.h"
+#include "platform/readers/pair.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string DepthPictureOf(const std::string& photo) {
+  DepthPhoto unused;
+  return *FindDepthPicture(photo, &unused);
+}
+
+bool IsDepthPicture(const std::string& path) {
+  return IsDepthPictureName(fs::path(path).filename().string());
+}
+
+// Returns the reason why a file is no photo, or an empty string if the file is a photo. Judges a
+// file by its name only.
+std::string ReasonToSkip(const std::string& path, bool estimates_depth) {
+  const std::string extension = LowerExtension(path);
+  if (IsDepthPicture(path)) return "a depth picture that no photo uses";
+  if (extension == ".png" || extension == ".webp") {
+    const bool has_depth = estimates_depth || !DepthPictureOf(path).empty();
+    return has_depth ? "" : "a PNG or WebP picture without a depth picture next to it";
+  }
+  const bool is_photo = extension == ".jpg" || extension == ".jpeg" || extension == ".heic" ||
+                        extension == ".heif" || extension == ".avif";
+  return is_photo ? "" : "a file of another type";
+}
+
+std::string Text(const SkippedPath& skipped) { return skipped.path + ": " + skipped.reason; }
+
+// Returns the error for a folder without inputs. A folder with files of a light field is assumed to
+// be a damaged light field.
+Error NothingFound(const std::string& path, const std::vector<SkippedPath>& skipped) {
+  if (!LightFieldFiles(path).empty()) return OpenCapture(path, {}).error();
+  return Expected(path, "a light field, or a folder of photos or light fields",
+                  skipped.empty() ? "an empty folder" : Text(skipped[0]));
+}
+
+}  // namespace
+
+bool IsLightField(const std::string& folder, bool estimates_depth) {
+  const Result<Capture> capture = OpenCapture(folder, {});
+  if (!capture || !capture->is_row || !capture->map_path.empty()) return bool(capture);
+  return !estimates_depth && !OpenCapture(capture->files[0].path, {});
+}
+
+Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
+                               const std::string& out) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored) || IsLightField(path, estimates_depth)) {
+    return FoundInputs{{path}, {}};
+  }
+  FoundInputs found;
+  std::set<std::string> depth_pictures;  // of the photos that were found
+  for (const auto& entry : fs::directory_iterator(path, ignored)) {
+    const std::string one = entry.path().string();
+    const bool is_hidden = entry.path().filename().string()[0] == '.';
+    if (is_hidden || fs::equivalent(entry.path(), out, ignored)) continue;
+    std::string reason;
+    if (entry.is_directory(ignored)) {
+      if (!IsLightField(one, estimates_depth)) reason = "a folder that is not a light field";
+    } else {
+      reason = ReasonToSkip(one, estimates_depth);
+      if (reason.empty()) depth_pictures.insert(DepthPictureOf(one));
+    }
+    if (reason.empty()) {
+      found.paths.push_back(one);
+    } else {
+      found.skipped.push_back({one, reason});
+    }
+  }
+  const auto is_used = [&](const SkippedPath& one) { return depth_pictures.count(one.path) != 0; };
+  found.skipped.erase(std::remove_if(found.skipped.begin(), found.skipped.end(), is_used),
+                      found.skipped.end());
+  std::sort(found.paths.begin(), found.paths.end());
+  std::sort(found.skipped.begin(), found.skipped.end(),
+            [](const SkippedPath& a, const SkippedPath& b) { return a.path < b.path; });
+  if (found.paths.empty()) return NothingFound(path, found.skipped);
+  return found;
+}
+
+void TellSkipped(const std::vector<SkippedPath>& skipped) {
+  for (const SkippedPath& one : skipped) {
+    std::fprintf(stderr, "starfocus: skipped %s\n", Text(one).c_str());
+  }
+}
+
+}  // namespace starfocus

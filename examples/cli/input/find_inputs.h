@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the light fields and photos in a folder.
+#ifndef STARFOCUS_EXAMPLES_CLI_INPUT_FIND_INPUTS_H_
+#define STARFOCUS_EXAMPLES_CLI_INPUT_FIND_INPUTS_H_
+
+#include <string>
+#include <vector>
+
+#include "platform/result.h"
+
+namespace starfocus {
+
+// A file or folder that is not an input, and the reason.
+struct SkippedPath {
+  std::string path, reason;
+};
+
+struct FoundInputs {
+  std::vector<std::string> paths;    // sorted
+  std::vector<SkippedPath> skipped;  // sorted by path; without hidden files
+};
+
+// Returns true if the folder is one light field. A row of pictures with numbers in their names is
+// not a light field if the pictures are photos with depth, or if `estimates_depth` states that a
+// depth command estimates the depth of each picture.
+bool IsLightField(const std::string& folder, bool estimates_depth);
+
+// Returns the inputs that `path` stands for. If `path` is a folder but not a light field, these are
+// the photos and light fields in the folder, without the folder `out`. Otherwise the only input is
+// `path`. A PNG or WebP file is a photo if it has a depth picture next to it, or if
+// `estimates_depth` is true. Returns an error if the folder contains no input.
+Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
+                               const std::string& out);
+
+// Prints the skipped paths to stderr.
+void TellSkipped(const std::vector<SkippedPath>& skipped);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_INPUT_FIND_INPUTS_H_

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options of commands that open light fields and photos.
+#ifndef STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_OPTIONS_H_
+#define STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_OPTIONS_H_
+
+#include <string>
+#include <vector>
+
+#include "examples/cli/input/depth_command.h"
+#include "examples/command_line/command.h"
+#include "platform/readers/depth_options.h"
+
+namespace starfocus {
+
+struct InputOptions {
+  std::string path, depth, coverage;
+  DepthCommand command;
+  DepthOptions map = {};
+};
+
+// Options for processing the map. By default, the format of the input determines the processing.
+struct MapOptions {
+  bool repair = false, no_repair = false, fill = false;
+};
+
+// Returns true if a depth command estimates the depth of photos without depth.
+inline bool EstimatesDepth(const InputOptions& options) { return !options.command.command.empty(); }
+
+// Adds the input and the options of its depth. If `several` is not null, the command takes several
+// paths and stores the paths in `several` instead of in `options`.
+void AddInputOptions(Command* command, InputOptions* options,
+                     std::vector<std::string>* several = nullptr);
+void AddCoverageOption(Command* command, InputOptions* options);
+void AddMapOptions(Command* command, MapOptions* options);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_INPUT_INPUT_OPTIONS_H_

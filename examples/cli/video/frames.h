@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds and opens the frames of a video, which are inputs of any format. Frames that are not
+// light-field folders are converted to light-field folders in a temporary folder.
+#ifndef STARFOCUS_EXAMPLES_CLI_VIDEO_FRAMES_H_
+#define STARFOCUS_EXAMPLES_CLI_VIDEO_FRAMES_H_
+
+#include <string>
+#include <vector>
+
+#include "examples/cli/input/input.h"
+#include "examples/cli/refocus/default_focus.h"
+#include "platform/temporary_folder.h"
+
+namespace starfocus {
+
+// Returns the inputs of the frames. If the only input is a folder but not a light field, these are
+// the photos and light fields in the folder, without the folder `out`. Prints other files in the
+// folder to stderr.
+Result<std::vector<std::string>> FindFrames(const std::vector<std::string>& inputs,
+                                            const InputOptions& options, const std::string& out);
+
+struct Frame {
+  std::string folder;  // light-field folder, which may be temporary
+  std::string where;   // name of the map for error messages
+  FloatMap map;
+  DefaultFocus focus;
+};
+
+// Converts frames to light-field folders, and removes these folders at the end.
+class FrameFolders {
+ public:
+  // Opens a frame whose input is already open. Converts the frame unless it is a light-field folder
+  // whose map needs no processing. Converted frames contain the views at the positions `views`, or
+  // all views if `views` is empty.
+  Result<Frame> Open(const MapOptions& options, const Positions& views, int threads,
+                     Capture* capture);
+
+ private:
+  // Loads the views and the map, processes the map, and writes the folder.
+  Error Convert(const MapOptions& options, const Positions& views, int threads, Capture* capture,
+                Frame* frame);
+
+  TemporaryFolder folder_;
+  int count_ = 0;  // converted frames
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_VIDEO_FRAMES_H_
