@@ -18,19 +18,41 @@ constexpr int32_t kBeside = 1, kMostInside = 4;
 // A cell has hair if more than a fifth of the near pixels within 12 cells look like background.
 constexpr int32_t kHairReach = 12, kHairShare = 5;
 
-// For each of `count` values, combines all values at most `reach` positions away with the function
-// `join`, and replaces the value with the result. Consecutive values are `stride` elements apart.
+// Number of columns that JoinColumns combines at a time.
+constexpr int32_t kJoinedColumns = 16;
+
+// Replaces each value of a row with the combination, by the function `join`, of all values at most
+// `reach` positions away. The compiler vectorises the inner loop.
 template <class T, class Join>
-void JoinLine(int32_t count, ptrdiff_t stride, int32_t reach, const Join& join, T* values,
-              int32_t* line) {
-  for (int32_t k = 0; k < count; ++k) line[k] = values[k * stride];
-  for (int32_t k = 0; k < count; ++k) {
-    const int32_t last = Min(k + reach, count - 1);
-    int32_t joined = line[Max(k - reach, 0)];
-    for (int32_t from = Max(k - reach, 0) + 1; from <= last; ++from) {
-      joined = join(joined, line[from]);
+void JoinRow(int32_t count, int32_t reach, const Join& join, T* values, int32_t* line) {
+  for (int32_t k = 0; k < count; ++k) line[k] = values[k];
+  for (int32_t shift = -reach; shift <= reach; ++shift) {
+    if (shift == 0) continue;
+    const int32_t end = Min(count, count - shift);
+    for (int32_t k = Max(0, -shift); k < end; ++k) {
+      values[k] = static_cast<T>(join(values[k], line[k + shift]));
     }
-    values[k * stride] = static_cast<T>(joined);
+  }
+}
+
+// Replaces each value of `width` columns with the combination of all values of its column at most
+// `reach` rows away. `width` is at most kJoinedColumns.
+template <class T, class Join>
+void JoinColumns(const HairCells& cells, int32_t width, int32_t reach, const Join& join,
+                 T* values) {
+  for (int32_t y = 0; y < cells.rows; ++y) {
+    int32_t* line = cells.line + ptrdiff_t{y} * kJoinedColumns;
+    for (int32_t x = 0; x < kJoinedColumns; ++x) line[x] = x < width ? values[cells.At(x, y)] : 0;
+  }
+  for (int32_t y = 0; y < cells.rows; ++y) {
+    const int32_t first = Max(y - reach, 0), last = Min(y + reach, cells.rows - 1);
+    int32_t joined[kJoinedColumns];
+    std::copy_n(cells.line + ptrdiff_t{first} * kJoinedColumns, kJoinedColumns, joined);
+    for (int32_t from = first + 1; from <= last; ++from) {
+      const int32_t* line = cells.line + ptrdiff_t{from} * kJoinedColumns;
+      for (int32_t x = 0; x < kJoinedColumns; ++x) joined[x] = join(joined[x], line[x]);
+    }
+    for (int32_t x = 0; x < width; ++x) values[cells.At(x, y)] = static_cast<T>(joined[x]);
   }
 }
 
@@ -39,10 +61,10 @@ void JoinLine(int32_t count, ptrdiff_t stride, int32_t reach, const Join& join, 
 template <class T, class Join>
 void JoinAround(const HairCells& cells, int32_t reach, const Join& join, T* values) {
   for (int32_t y = 0; y < cells.rows; ++y) {
-    JoinLine(cells.columns, 1, reach, join, values + cells.At(0, y), cells.line);
+    JoinRow(cells.columns, reach, join, values + cells.At(0, y), cells.line);
   }
-  for (int32_t x = 0; x < cells.columns; ++x) {
-    JoinLine(cells.rows, cells.columns, reach, join, values + x, cells.line);
+  for (int32_t x = 0; x < cells.columns; x += kJoinedColumns) {
+    JoinColumns(cells, Min(kJoinedColumns, cells.columns - x), reach, join, values + x);
   }
 }
 
@@ -81,7 +103,8 @@ HairCells TakeHairCells(int32_t width, int32_t height, Arena* arena) {
     *plane = arena->Take<int16_t>(columns, rows);
   }
   cells.marks = arena->Take<uint8_t>(columns, rows);
-  cells.line = arena->Take<int32_t>(columns > rows ? columns : rows);
+  const size_t block = rows * kJoinedColumns;
+  cells.line = arena->Take<int32_t>(columns > block ? columns : block);
   return cells;
 }
 

@@ -24,7 +24,7 @@ struct HairCells {
   // Lowest and highest disparity of the cell.
   int16_t *farthest, *nearest;
   uint8_t* marks;
-  int32_t* line;  // scratch memory for a row or a column
+  int32_t* line;  // scratch memory for a row or a block of columns
 
   // Mark of a cell with two surfaces within kSurfaceReach.
   static constexpr uint8_t kHasEdge = 1;
