@@ -18,7 +18,7 @@ constexpr size_t kSignatureSize = 6;
 // bytes.
 constexpr size_t kMostHeaderBytes = 1024;
 
-Error Refuse(const std::string& where, const std::string& expected, const std::string& found) {
+Error Reject(const std::string& where, const std::string& expected, const std::string& found) {
   return Expected(
       where, expected,
       found + " (numpy.save(FILE, depth.astype('float32')) writes a file that can be read)");
@@ -105,17 +105,17 @@ bool IsNpy(const Bytes& bytes) {
 
 Result<Samples> DecodeNpy(const std::string& where, const Bytes& npy) {
   const std::optional<Header> header = ParseHeader(npy);
-  if (!header) return Refuse(where, "an NPY file of one array of numbers", "another header");
+  if (!header) return Reject(where, "an NPY file of one array of numbers", "another header");
   const auto* type =
       std::find_if(std::begin(kTypes), std::end(kTypes),
                    [&header](const ValueType& one) { return header->type == one.name; });
   if (type == std::end(kTypes)) {
-    return Refuse(where, "an array of type <f4, <f8, |u1, <u2 or <i2", header->type);
+    return Reject(where, "an array of type <f4, <f8, |u1, <u2 or <i2", header->type);
   }
-  if (header->is_fortran_order) return Refuse(where, "an array in C order", "Fortran order");
+  if (header->is_fortran_order) return Reject(where, "an array in C order", "Fortran order");
   const std::vector<int64_t> sizes = DimensionsOf(header->shape);
   if (sizes.size() != 2) {
-    return Refuse(where, "an array of rows and columns", "the shape (" + header->shape + ")");
+    return Reject(where, "an array of rows and columns", "the shape (" + header->shape + ")");
   }
   if (Error error = CheckPictureSize(where, sizes[1], sizes[0])) return error;
   const auto count = static_cast<size_t>(sizes[0] * sizes[1]);

@@ -101,7 +101,7 @@ struct Layout {
 
 // Returns an error unless the program reads pictures of this layout.
 Error CheckLayout(const std::string& where, const Layout& layout) {
-  const auto refuse = [&where](const std::string& expected, const std::string& found) {
+  const auto reject = [&where](const std::string& expected, const std::string& found) {
     return Expected(where, expected,
                     found + " (convert the map to PFM or NPY, or to PNG of 16 bits)");
   };
@@ -109,23 +109,23 @@ Error CheckLayout(const std::string& where, const Layout& layout) {
                                         COMPRESSION_ADOBE_DEFLATE, COMPRESSION_DEFLATE,
                                         COMPRESSION_PACKBITS};
   if (layout.samples != 1 || layout.photometric != PHOTOMETRIC_MINISBLACK) {
-    return refuse("a TIFF of one value for each pixel, white as the largest value",
+    return reject("a TIFF of one value for each pixel, white as the largest value",
                   std::to_string(layout.samples) + " samples of another meaning");
   }
   const bool is_integer =
       layout.format == SAMPLEFORMAT_UINT && (layout.bits == 8 || layout.bits == 16);
   if (!is_integer && !(layout.is_float() && layout.bits == 32)) {
-    return refuse(
+    return reject(
         "a TIFF of unsigned integers of 8 or 16 bits, or floats of 32 bits",
         std::to_string(layout.bits) + (layout.is_float() ? "-bit floats" : "-bit integers"));
   }
-  if (layout.is_tiled) return refuse("a TIFF of strips", "tiles");
+  if (layout.is_tiled) return reject("a TIFF of strips", "tiles");
   if (layout.orientation != ORIENTATION_TOPLEFT) {
-    return refuse("a TIFF of orientation 1", std::to_string(layout.orientation));
+    return reject("a TIFF of orientation 1", std::to_string(layout.orientation));
   }
   if (std::find(std::begin(kCompressions), std::end(kCompressions), layout.compression) ==
       std::end(kCompressions)) {
-    return refuse("a TIFF without compression, or with LZW, Deflate or PackBits",
+    return reject("a TIFF without compression, or with LZW, Deflate or PackBits",
                   "compression " + std::to_string(layout.compression));
   }
   return {};
