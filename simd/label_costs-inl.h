@@ -21,12 +21,10 @@ struct ViewDifferences {
 };
 
 // Replaces or limits the differences of views that do not show the pixels at the disparity of
-// `label`. `n` is the index of the first pixel.
-HWY_INLINE void ChangeHidden(const LabelRow& row, const ViewMove* moves, size_t n, uint8_t label,
+// `label`. hidden[k] is the number of hidden labels of the first pixel in view k.
+HWY_INLINE void ChangeHidden(const LabelRow& row, const uint8_t* const* hidden, uint8_t label,
                              ViewDifferences* differences) {
-  const size_t views = row.arms * row.rings, half = row.arms / 2;
-  const uint8_t* hidden[kMostMatched] = {};
-  for (size_t k = 0; k < views; ++k) hidden[k] = row.hidden + n + moves[k].hidden;
+  const size_t views = row.views, half = row.arms / 2;
   if (!row.limits || row.ends) {
     const uint8_t last = row.limits ? uint8_t{kViewEnds - 1} : label;
     for (size_t k = 0; k < views; ++k) {
@@ -40,7 +38,7 @@ HWY_INLINE void ChangeHidden(const LabelRow& row, const ViewMove* moves, size_t 
 
 inline void CostLabels(const LabelRow& row, size_t count, size_t places,
                        uint8_t* HWY_RESTRICT cost) {
-  const size_t views = row.arms * row.rings;
+  const size_t views = row.views;
   ViewDifferences differences;
   for (size_t k = 0; k < views; ++k) differences.rows[k] = differences.values[k];
   uint8_t costs[kSliceLanes][kMatchPixels] = {};
@@ -52,12 +50,17 @@ inline void CostLabels(const LabelRow& row, size_t count, size_t places,
       for (size_t k = 0; k < views; ++k) {
         MatchView(pixels, pixels + moves[k].at, row.plane, kMatchPixels, differences.rows[k]);
       }
+      const auto label = static_cast<uint8_t>(l);
+      const uint8_t* hidden[kMostMatched] = {};
       if (row.hidden != nullptr) {
-        const auto label = static_cast<uint8_t>(l);
-        ChangeHidden(row, moves, n, label, &differences);
+        for (size_t k = 0; k < views; ++k) hidden[k] = row.hidden + n + moves[k].hidden;
+        if (row.sides.count == 0) ChangeHidden(row, hidden, label, &differences);
       }
       uint8_t* here = costs[l % kSliceLanes];
-      if (row.one_side) {
+      if (row.sides.count > 0) {
+        SeenCost(differences.rows, row.hidden == nullptr ? nullptr : hidden, label, row.sides,
+                 kMatchPixels, here);
+      } else if (row.one_side) {
         LeastSide(differences.rows, row.arms, row.rings, kMatchPixels, here);
       } else {
         MeanCost(differences.rows, views, kMatchPixels, here);

@@ -27,11 +27,15 @@ struct ViewMove {
 struct LabelRow {
   const uint8_t* pixels;  // Red sample of the first pixel in the centre view.
   size_t plane;           // Distance in samples between the planes R, G and B, in all views.
-  const ViewMove* moves;  // moves[l * arms * rings + k]: offsets of label l in side view k.
+  const ViewMove* moves;  // moves[l * views + k]: offsets of label l in side view k.
   // Planes with the number of hidden labels, or kViewEnds, of each pixel in each view; points to
   // the first pixel of the row in the plane of the first view. Null if all views see all pixels.
   const uint8_t* hidden;
-  size_t labels;       // [1, 254].
+  size_t labels;  // [1, 254].
+  size_t views;   // Number of side views, [1, kMostMatched].
+  // The sides from which SeenCost computes the cost, for views at any positions. If sides.count is
+  // 0, views = arms * rings, and the members below define the cost.
+  ViewSides sides;
   size_t arms, rings;  // The side views lie on `arms` rays and `rings` rings around the centre.
   bool one_side;       // True to use the views on the best side of a pixel, false to use all views.
   bool ends;           // True if some values of `hidden` may be kViewEnds.
@@ -42,10 +46,11 @@ struct LabelRow {
 
 namespace reference {
 
-// Sets cost[n * places + l] to the cost of label l at pixel n < count. StandIn and LimitHidden
-// first change the differences of hidden views. LeastSide or MeanCost then computes the cost from
-// the differences. `places` is a multiple of kSliceLanes and at least SliceSamples(labels). For
-// each pixel, SliceSamples(labels) costs are written.
+// Sets cost[n * places + l] to the cost of label l at pixel n < count. With sides, SeenCost
+// computes the cost from the differences of the views. Without sides, StandIn and LimitHidden first
+// change the differences of hidden views. LeastSide or MeanCost then computes the cost from the
+// differences. `places` is a multiple of kSliceLanes and at least SliceSamples(labels). For each
+// pixel, SliceSamples(labels) costs are written.
 void CostLabels(const LabelRow& row, size_t count, size_t places, uint8_t* cost);
 
 }  // namespace reference

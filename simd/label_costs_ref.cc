@@ -6,7 +6,7 @@ namespace {
 
 // Returns the cost of label l at pixel n.
 uint8_t CostLabel(const LabelRow& row, size_t n, size_t l) {
-  const size_t views = row.arms * row.rings;
+  const size_t views = row.views;
   const ViewMove* moves = row.moves + l * views;
   const auto label = static_cast<uint8_t>(l);
   uint8_t of_view[kMostMatched];
@@ -18,6 +18,11 @@ uint8_t CostLabel(const LabelRow& row, size_t n, size_t l) {
     MatchView(pixel, pixel + moves[k].at, row.plane, 1, differences[k]);
     if (row.hidden != nullptr) hidden[k] = row.hidden + n + moves[k].hidden;
   }
+  uint8_t cost = 0;
+  if (row.sides.count > 0) {
+    SeenCost(differences, row.hidden == nullptr ? nullptr : hidden, label, row.sides, 1, &cost);
+    return cost;
+  }
   if (row.hidden != nullptr) {
     const uint8_t last = row.limits ? uint8_t{kViewEnds - 1} : label;
     for (size_t k = 0; k < views; ++k) {
@@ -27,7 +32,6 @@ uint8_t CostLabel(const LabelRow& row, size_t n, size_t l) {
     }
     if (row.limits) LimitHidden(hidden, label, views, 1, differences);
   }
-  uint8_t cost = 0;
   if (row.one_side) {
     LeastSide(differences, row.arms, row.rings, 1, &cost);
   } else {

@@ -164,6 +164,54 @@ HWY_INLINE void MeanCost(const uint8_t* const* differences, size_t views, size_t
   }
 }
 
+// Returns the mean cost of the views in `mask` that see the pixels from pixel n on. The result is
+// UINT16_MAX at pixels that no view in `mask` sees.
+HWY_INLINE MatchVec SeenMean(const uint8_t* const* differences, const uint8_t* const* hidden,
+                             uint8_t label, uint32_t mask, size_t n) {
+  const MatchTag du16;
+  const auto one = hn::Set(du16, uint16_t{1}), last = hn::Set(du16, uint16_t{label});
+  auto sum = hn::Zero(du16), seen = sum;
+  size_t views = 0;
+  for (size_t k = 0; mask >> k != 0; ++k) {
+    if ((mask >> k & 1) == 0) continue;
+    ++views;
+    const auto difference = LoadWide(differences[k] + n);
+    if (hidden == nullptr) {
+      sum = hn::Add(sum, difference);
+      seen = hn::Add(seen, one);
+      continue;
+    }
+    const auto behind = LoadWide(hidden[k] + n);
+    const auto sees = hn::Eq(hn::Min(behind, last), behind);
+    sum = hn::Add(sum, hn::IfThenElseZero(sees, difference));
+    seen = hn::Add(seen, hn::IfThenElseZero(sees, one));
+  }
+  auto mean = hn::Set(du16, uint16_t{UINT16_MAX});
+  for (size_t k = hidden == nullptr ? views : 1; k <= views; ++k) {
+    const auto factor = hn::Set(du16, static_cast<uint16_t>(MeanFactor(k)));
+    const auto is_count = hn::Eq(seen, hn::Set(du16, static_cast<uint16_t>(k)));
+    mean = hn::IfThenElse(is_count, hn::ShiftRight<8>(hn::Mul(sum, factor)), mean);
+  }
+  return mean;
+}
+
+HWY_INLINE void SeenCost(const uint8_t* const* differences, const uint8_t* const* hidden,
+                         uint8_t label, const ViewSides& sides, size_t count,
+                         uint8_t* HWY_RESTRICT cost) {
+  const MatchTag du16;
+  const auto none = hn::Set(du16, uint16_t{UINT16_MAX});
+  const auto unknown = hn::Set(du16, uint16_t{kUnknownDifference * kCostScale});
+  const auto most = hn::Set(du16, uint16_t{kMostDifference * kCostScale});
+  for (size_t n = 0; n < count; n += hn::Lanes(du16)) {
+    auto least = none;
+    for (size_t side = 0; side < sides.count; ++side) {
+      least = hn::Min(least, SeenMean(differences, hidden, label, sides.masks[side], n));
+    }
+    least = hn::IfThenElse(hn::Eq(least, none), unknown, least);
+    StoreNarrow(hn::Min(least, most), cost + n);
+  }
+}
+
 #if HWY_TARGET != HWY_SCALAR
 // Interleaves rows i, i + 4, i + 8 and i + 12 of a matrix of 16 rows. In the output rows 4 i to 4 i
 // + 3, samples of one column are adjacent. Two such passes transpose the matrix.

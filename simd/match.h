@@ -27,6 +27,18 @@ inline constexpr uint8_t kViewEnds = 255;
 // Factor between differences and costs. Costs are in [0, 240].
 inline constexpr int kCostScale = 4;
 
+// Sets of side views. Bit k of a mask is 1 if side view k belongs to the set. Each set has a view.
+struct ViewSides {
+  const uint16_t* masks;
+  size_t count;
+};
+
+// Returns 256 * kCostScale / views, rounded up. The product of this factor and the sum of the
+// differences of `views` views is 256 times the cost. The product is less than 2^16.
+constexpr uint32_t MeanFactor(size_t views) {
+  return static_cast<uint32_t>((256 * kCostScale + views - 1) / views);
+}
+
 namespace reference {
 
 // Sets difference[n] to the difference between pixel n of the centre view and pixel n of a side
@@ -61,6 +73,13 @@ void LeastSide(const uint8_t* const* differences, size_t arms, size_t rings, siz
 // Sets cost[n] to the mean difference over all views times kCostScale, rounded down. `views` is 4,
 // 8 or 16.
 void MeanCost(const uint8_t* const* differences, size_t views, size_t count, uint8_t* cost);
+
+// Computes the cost from the side with the smallest mean difference. The mean of a side includes
+// only the views of the side that see the pixel: view k sees pixel n if hidden[k][n] <= label. If
+// `hidden` is null, all views see all pixels. The cost is the mean times kCostScale, as the sum
+// times MeanFactor. If no view of any side sees a pixel, the difference is kUnknownDifference.
+void SeenCost(const uint8_t* const* differences, const uint8_t* const* hidden, uint8_t label,
+              const ViewSides& sides, size_t count, uint8_t* cost);
 
 }  // namespace reference
 }  // namespace starfocus::simd

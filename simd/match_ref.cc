@@ -64,4 +64,26 @@ void MeanCost(const uint8_t* const* differences, size_t views, size_t count, uin
   }
 }
 
+void SeenCost(const uint8_t* const* differences, const uint8_t* const* hidden, uint8_t label,
+              const ViewSides& sides, size_t count, uint8_t* cost) {
+  for (size_t n = 0; n < count; ++n) {
+    uint32_t least = UINT32_MAX;
+    for (size_t side = 0; side < sides.count; ++side) {
+      uint32_t sum = 0, seen = 0;
+      for (size_t k = 0; sides.masks[side] >> k != 0; ++k) {
+        if ((sides.masks[side] >> k & 1) == 0) continue;
+        if (hidden != nullptr && hidden[k][n] > label) continue;
+        sum += differences[k][n];
+        ++seen;
+      }
+      if (seen == 0) continue;
+      const uint32_t mean = sum * MeanFactor(seen) >> 8;
+      least = mean < least ? mean : least;
+    }
+    constexpr uint32_t kMost = kMostDifference * kCostScale;
+    if (least == UINT32_MAX) least = kUnknownDifference * kCostScale;
+    cost[n] = static_cast<uint8_t>(least < kMost ? least : kMost);
+  }
+}
+
 }  // namespace starfocus::simd::reference

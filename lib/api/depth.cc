@@ -8,6 +8,7 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/base/rows.h"
+#include "lib/base/view_set.h"
 #include "lib/depth/colour_repair.h"
 #include "lib/depth/repair.h"
 
@@ -19,10 +20,14 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
   CheckPictureRange(
       {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
       &check);
-  const bool one = config.views == 1 && repairs;
-  check.Need(one || config.views == 5 || config.views == 9 || config.views == 17,
-             STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
-             {"5, 9 or 17 views, or 1 view for a repair"});
+  if (check.status() != STARFOCUS_OK) return check.status();
+  ViewSet views;
+  const starfocus_status status = FindViews(ViewsOf(config), &views);
+  if (status != STARFOCUS_OK) return status;
+  check.Need(views.count > 1 || repairs, STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
+             {"at least 2 views, or 1 view for a repair"});
+  check.Need(views.star || !repairs, STARFOCUS_ERROR_RANGE, {"positions[]"},
+             {"the positions of starfocus_view_position for a repair"});
   return check.status();
 }
 

@@ -67,16 +67,16 @@ int CapturedView(int u, int v, bool half) {
   return half && index != 0 ? index + 8 : index;
 }
 
-starfocus_status FindViews(const starfocus_config& config, ViewSet* views) {
+starfocus_status FindViews(const ViewRequest& request, ViewSet* views) {
   *views = {};
-  Checker check(config.problem);
-  check.In({"views", double(config.views)}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_VIEWS));
+  Checker check(request.problem);
+  check.In({"views", double(request.views)}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_VIEWS));
   if (check.status() != STARFOCUS_OK) return check.status();
-  views->count = config.views;
-  views->star = IsStarCount(config.views);
+  views->count = request.views;
+  views->star = IsStarCount(request.views);
   bool given = false;
-  for (int32_t k = 0; k < config.views; ++k) {
-    const starfocus_position& position = config.positions[k];
+  for (int32_t k = 0; k < request.views; ++k) {
+    const starfocus_position& position = request.positions[k];
     given = given || position.u != 0 || position.v != 0;
     check.In({"positions[].u", position.u, k}, STARFOCUS_FROM_TO(-1, 1));
     check.In({"positions[].v", position.v, k}, STARFOCUS_FROM_TO(-1, 1));
@@ -84,14 +84,14 @@ starfocus_status FindViews(const starfocus_config& config, ViewSet* views) {
     views->at[k] = {Converted(position.u), Converted(position.v)};
   }
   if (!given) {
-    for (int32_t k = 0; k < config.views; ++k) views->at[k] = kStar[k];
-    check.Need(views->star, STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
+    for (int32_t k = 0; k < request.views; ++k) views->at[k] = kStar[k];
+    check.Need(views->star, STARFOCUS_ERROR_RANGE, {"views", double(request.views)},
                {"1, 5, 9 or 17 without positions"});
     return check.status();
   }
   check.Need(SamePosition(views->at[0], {0, 0}), STARFOCUS_ERROR_RANGE, {"positions[]"},
              {"(0, 0)"});
-  for (int32_t k = 0; k < config.views; ++k) {
+  for (int32_t k = 0; k < request.views; ++k) {
     views->star = views->star && SamePosition(views->at[k], kStar[k]);
     for (int32_t other = 0; other < k; ++other) {
       check.Need(!SamePosition(views->at[k], views->at[other]), STARFOCUS_ERROR_RANGE,
@@ -104,13 +104,13 @@ starfocus_status FindViews(const starfocus_config& config, ViewSet* views) {
 
 bool HasStar(const starfocus_config& config) {
   ViewSet views;
-  return FindViews(config, &views) == STARFOCUS_OK && views.star;
+  return FindViews(ViewsOf(config), &views) == STARFOCUS_OK && views.star;
 }
 
 bool SameViews(const starfocus_config& a, const starfocus_config& b) {
   ViewSet first, second;
-  FindViews(a, &first);
-  FindViews(b, &second);
+  FindViews(ViewsOf(a), &first);
+  FindViews(ViewsOf(b), &second);
   bool same = first.count == second.count;
   for (int32_t k = 0; same && k < first.count; ++k) same = SamePosition(first.at[k], second.at[k]);
   return same;

@@ -7,6 +7,7 @@
 #include "lib/base/rows.h"
 #include "lib/depth/estimate_clean.h"
 #include "lib/depth/phases.h"
+#include "lib/depth/side_maps.h"
 #include "lib/depth/sweep.h"
 
 namespace starfocus {
@@ -23,6 +24,16 @@ void SweepFirst(const void* data, int32_t index, int32_t worker) {
 
 void SweepSecond(const void* data, int32_t index, int32_t worker) {
   SweepAllViews(&static_cast<const EstimateJob*>(data)->sweep, index, worker);
+}
+
+void FindUnseenTile(const void* data, int32_t index, int32_t) {
+  const Sweep& sweep = static_cast<const EstimateJob*>(data)->sweep;
+  FindUnseen(sweep.plan, TileOf(sweep.plan, index), sweep.memory);
+}
+
+void FillUnseenTile(const void* data, int32_t index, int32_t) {
+  const Sweep& sweep = static_cast<const EstimateJob*>(data)->sweep;
+  FillUnseen(sweep.plan, TileOf(sweep.plan, index), sweep.memory);
 }
 
 // Writes a tile of the result. Pixels that WithoutStray changes get confidence 0.
@@ -50,20 +61,39 @@ void WriteTile(const void* data, int32_t index, int32_t) {
   }
 }
 
+// Estimates the maps of all side views, which lie on one side of the centre view.
+starfocus_status SweepSideViews(const Sweep& sweep, Phases* phases) {
+  for (int32_t k = 0; k < sweep.plan.side_views; ++k) {
+    const SideReference side = MakeSideReference(sweep.plan, sweep.light_field, k);
+    const Sweep of_side = {side.plan,
+                           side.light_field,
+                           sweep.kernels,
+                           sweep.memory,
+                           SideMap(sweep.plan, *sweep.memory, k),
+                           false};
+    const starfocus_status status = phases->Run(SweepOneSide, &of_side);
+    if (status != STARFOCUS_OK) return status;
+  }
+  return STARFOCUS_OK;
+}
+
 }  // namespace
 
 starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,
                           EstimateMemory* memory) {
-  const EstimateJob job = {{plan, light_field, kernels, memory, output.confidence != nullptr},
-                           output};
-  constexpr JobFunction kPhases[] = {SweepFirst, SweepSecond, WriteTile};
-  Phases phases(plan, sizeof kPhases / sizeof *kPhases, &memory->jobs);
-  for (const JobFunction phase : kPhases) {
-    const starfocus_status status = phases.Run(phase, &job);
-    if (status != STARFOCUS_OK) return status;
+  const EstimateJob job = {
+      {plan, light_field, kernels, memory, memory->first, output.confidence != nullptr}, output};
+  constexpr JobFunction kAround[] = {SweepFirst, SweepSecond, WriteTile};
+  constexpr JobFunction kOneSided[] = {SweepSecond, FindUnseenTile, FillUnseenTile, WriteTile};
+  const bool one_sided = plan.one_sided();
+  const int32_t steps = one_sided ? 4 : 3;
+  Phases phases(plan, steps + (one_sided ? plan.side_views : 0), &memory->jobs);
+  starfocus_status status = one_sided ? SweepSideViews(job.sweep, &phases) : STARFOCUS_OK;
+  for (int32_t k = 0; k < steps && status == STARFOCUS_OK; ++k) {
+    status = phases.Run(one_sided ? kOneSided[k] : kAround[k], &job);
   }
-  return STARFOCUS_OK;
+  return status;
 }
 
 }  // namespace starfocus

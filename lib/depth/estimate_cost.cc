@@ -12,6 +12,12 @@ void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
   row.plane = views.plane;
   row.moves = tile->moves;
   row.labels = labels;
+  row.views = static_cast<size_t>(plan.side_views);
+  const auto all_views = static_cast<uint16_t>((1U << plan.side_views) - 1);
+  if (plan.arms == 0) {
+    const bool all = seeing == Seeing::kAll;
+    row.sides = {all ? &all_views : plan.sides, all ? 1 : static_cast<size_t>(plan.side_count)};
+  }
   row.arms = static_cast<size_t>(plan.arms);
   row.rings = static_cast<size_t>(plan.rings);
   row.one_side = seeing == Seeing::kOneSide;

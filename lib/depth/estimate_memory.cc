@@ -24,7 +24,7 @@ TileMemory TakeTile(const EstimatePlan& plan, const Rect& region, Arena* arena) 
   TileMemory tile = {};
   const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
   const size_t area = width * height, places = simd::PathLabels(static_cast<size_t>(plan.labels));
-  const auto side_views = static_cast<size_t>(plan.side_views());
+  const auto side_views = static_cast<size_t>(plan.side_views);
   const auto beyond = 2 * static_cast<size_t>(plan.reach) + 1;
   TileViews& views = tile.views;
   views.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
@@ -59,6 +59,9 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
   auto* first = arena.Take<int16_t>(width, height);
   auto* second = arena.Take<int16_t>(width, height);
   auto* certainty = arena.Take<uint8_t>(width, height);
+  int16_t* side_maps =
+      plan.one_sided() ? arena.Take<int16_t>(width * height, static_cast<size_t>(plan.side_views))
+                       : nullptr;
   int16_t* of_given[2] = {};
   for (int16_t*& map : of_given) map = plan.repairs ? arena.Take<int16_t>(width, height) : nullptr;
   uint8_t* of_pixels[3] = {};
@@ -76,6 +79,7 @@ size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
     made.first = first;
     made.second = second;
     made.certainty = certainty;
+    made.side_maps = side_maps;
     made.given = of_given[0];
     made.trusted = of_given[1];
     made.given_cost = of_pixels[0];

@@ -63,6 +63,9 @@ struct EstimateMemory {
   int16_t* first;
   int16_t* second;     // Disparities after the second sweep, which omits hidden views.
   uint8_t* certainty;  // Certainty of the second sweep.
+  // If the views lie on one side: the disparity maps of the side views, in the order of the plan.
+  // Each map has the size of the picture. Otherwise null.
+  int16_t* side_maps;
   // `given` and all later arrays of this structure are for repairs, and null for estimates. Unknown
   // disparities are kNoSurface.
   int16_t* given;    // Given disparities.

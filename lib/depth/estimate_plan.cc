@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/estimate_plan.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "lib/base/fixed.h"
-#include "lib/input/window.h"
 
 namespace starfocus {
 namespace {
@@ -15,16 +14,55 @@ namespace {
 constexpr int8_t kDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                       {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
-void OrderViews(int32_t views, EstimatePlan* plan) {
+void OrderStar(int32_t views, EstimatePlan* plan) {
   plan->arms = views == 5 ? 4 : 8;
   plan->rings = views == 17 ? 2 : 1;
-  for (int32_t k = 0; k < plan->side_views(); ++k) {
+  for (int32_t k = 0; k < plan->side_views; ++k) {
     const bool half = k >= plan->arms;
     const int8_t* direction = kDirections[(k % plan->arms) * (8 / plan->arms)];
-    const int32_t size = half ? 1 : 2;
     const int index = CapturedView(direction[0], direction[1], half);
-    plan->side[k] = {index, size * direction[0], size * direction[1]};
+    plan->side[k] = {index, StarPosition(index)};
   }
+}
+
+// Returns the mask of the side views whose directions differ by less than a right angle from
+// `direction`.
+uint16_t SideTowards(const EstimatePlan& plan, const int8_t* direction) {
+  uint32_t mask = 0;
+  for (int32_t k = 0; k < plan.side_views; ++k) {
+    const ViewPosition& at = plan.side[k].at;
+    if (at.u * direction[0] + at.v * direction[1] > 0) mask |= 1U << k;
+  }
+  return static_cast<uint16_t>(mask);
+}
+
+// Adds the sides of the views. A side whose views all belong to another side is left out.
+void FindSides(EstimatePlan* plan) {
+  uint16_t masks[kMostSides];
+  for (int32_t k = 0; k < kMostSides; ++k) masks[k] = SideTowards(*plan, kDirections[k]);
+  for (int32_t k = 0; k < kMostSides; ++k) {
+    bool needed = masks[k] != 0;
+    for (int32_t other = 0; other < kMostSides; ++other) {
+      const bool within = (masks[k] & ~masks[other]) == 0;
+      if (within && (masks[k] != masks[other] || other < k)) needed = false;
+    }
+    if (needed) plan->sides[plan->side_count++] = masks[k];
+  }
+}
+
+void TakeViews(const ViewSet& views, EstimatePlan* plan) {
+  plan->side_views = views.count - 1;
+  if (views.star) return OrderStar(views.count, plan);
+  for (int32_t k = 0; k < plan->side_views; ++k) plan->side[k] = {k + 1, views.at[k + 1]};
+  FindSides(plan);
+}
+
+// Returns -position * d, rounded to quarter pixels. Halves are rounded away from zero.
+int32_t QuarterMove(int32_t position, int32_t d) {
+  constexpr int kBits = kViewBits + kDisparityBits - 2;
+  const int64_t move = int64_t{-position} * d;
+  const auto quarters = static_cast<int32_t>(RoundShift(move < 0 ? -move : move, kBits));
+  return move < 0 ? -quarters : quarters;
 }
 
 }  // namespace
@@ -40,16 +78,29 @@ int32_t TileBegin(int32_t length, int32_t count, int32_t k) {
   return k <= count / 2 ? at(k) : length - at(count - k);
 }
 
-int32_t EstimatePlan::Phases(const SideView& view) const {
-  const int32_t move = step * Max(std::abs(view.u2), std::abs(view.v2));
-  int32_t phases = 1;
-  while (phases * move % 128 != 0) phases *= 2;
+LabelMove EstimatePlan::MoveOf(const SideView& view, int32_t l) const {
+  const int32_t across = QuarterMove(view.at.u, l * step), down = QuarterMove(view.at.v, l * step);
+  constexpr int32_t kQuarter = 128 / 4;
+  return {MoveAcross(view, low) + kQuarter * across, MoveDown(view, low) + kQuarter * down,
+          (across & 3) + 4 * (down & 3)};
+}
+
+ViewPhases EstimatePlan::PhasesOf(const SideView& view) const {
+  ViewPhases phases;
+  std::fill_n(phases.slot, kMostPhases, int8_t{-1});
+  for (int32_t l = 0; l < labels; ++l) {
+    const LabelMove move = MoveOf(view, l);
+    int8_t& slot = phases.slot[move.phase];
+    if (slot >= 0) continue;
+    slot = static_cast<int8_t>(phases.count);
+    phases.move[phases.count++] = move;
+  }
   return phases;
 }
 
 int32_t EstimatePlan::AllPhases() const {
   int32_t phases = 0;
-  for (int32_t view = 0; view < side_views(); ++view) phases += Phases(side[view]);
+  for (int32_t view = 0; view < side_views; ++view) phases += PhasesOf(side[view]).count;
   return phases;
 }
 
@@ -69,7 +120,9 @@ EstimatePlan MakePlan(const starfocus_depth_config& config) {
   const int32_t farthest = -plan.low > last ? -plan.low : last;
   plan.reach = (farthest >> kDisparityBits) + 2;
   plan.directions = 8;
-  OrderViews(config.views, &plan);
+  ViewSet views;
+  FindViews(ViewsOf(config), &views);
+  TakeViews(views, &plan);
   plan.columns = TilesAlong(config.width, kTileSide);
   plan.rows = TilesAlong(config.height, kTileSide);
   return plan;

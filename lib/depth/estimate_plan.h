@@ -9,6 +9,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
+#include "lib/base/view_set.h"
 #include "starfocus/depth.h"
 
 namespace starfocus {
@@ -25,12 +26,33 @@ inline constexpr int32_t kLabelStep = 1 << (kDisparityBits - 1);  // half a pixe
 inline constexpr int32_t kMostLabels = 129;
 inline constexpr int32_t kMostSideViews = STARFOCUS_MAX_VIEWS - 1;
 
-// A captured side view. The members u2 and v2 are twice the coordinates u and v of the view's
-// position.
+// A captured side view.
 struct SideView {
   int32_t index;
-  int32_t u2, v2;
+  ViewPosition at;
 };
+
+// Each label shifts a side view by whole pixels and by a fraction of a pixel. The fractions of all
+// labels differ by multiples of a quarter pixel, so there are at most kMostPhases fractions.
+inline constexpr int32_t kMostPhases = 16;
+
+// A shift of a side view, in 1/128 pixel, and the index of its fraction among the fractions of all
+// labels (ViewPhases::slot).
+struct LabelMove {
+  int32_t across, down;
+  int32_t phase;  // [0, kMostPhases)
+};
+
+// The fractions of a pixel by which the labels shift a side view.
+struct ViewPhases {
+  int32_t count = 0;
+  // Number of a phase among the phases that labels use, or -1 if no label uses the phase.
+  int8_t slot[kMostPhases] = {};
+  LabelMove move[kMostPhases] = {};  // One label's shift for each slot.
+};
+
+// Largest number of sides (EstimatePlan::sides).
+inline constexpr int32_t kMostSides = 8;
 
 struct EstimatePlan {
   int32_t width, height;
@@ -40,24 +62,33 @@ struct EstimatePlan {
   int32_t labels;
   int32_t reach;  // largest movement, in pixels, of a point from the centre view to a side view,
                   // plus one
-  // Side views. The views at full distance from the centre come first, and views at one distance
-  // are in the order of their angles.
-  int32_t arms, rings;
+  int32_t side_views;
   SideView side[kMostSideViews];
+  // If the views have the positions of starfocus_view_position, the views at full distance from the
+  // centre come first, and views at one distance are in the order of their angles. At other
+  // positions, `arms` is 0.
+  int32_t arms, rings;
+  // At other positions: masks of the side views whose directions differ by less than a right angle
+  // from one direction. The first sweep assumes that the views of one mask see a pixel.
+  uint16_t sides[kMostSides];
+  int32_t side_count;
   int32_t directions;     // Number of directions of paths: 4 or 8.
   bool repairs;           // True to repair a given map, false to estimate a new one.
   int32_t columns, rows;  // Numbers of tiles; odd, so that mirrored pictures have mirrored tiles.
 
-  int32_t side_views() const { return arms * rings; }
+  // Returns true if all side views lie on one side of the centre view, as in a stereo pair.
+  bool one_sided() const { return side_count == 1; }
   // Returns the disparity of label l.
   int32_t Disparity(int32_t l) const { return low + l * step; }
-  // Labels shift a view by fractions of a pixel that repeat periodically. Returns the period in
-  // labels: 1, 2 or 4.
-  int32_t Phases(const SideView& view) const;
-  // Returns the sum of Phases over all side views.
+  // Returns the shift of a side view at label l. The difference between the shifts of labels l and
+  // 0 is rounded to quarter pixels, which is exact for the positions of starfocus_view_position.
+  LabelMove MoveOf(const SideView& view, int32_t l) const;
+  ViewPhases PhasesOf(const SideView& view) const;
+  // Returns the sum of the numbers of phases over all side views.
   int32_t AllPhases() const;
 };
 
+// Returns the plan for a valid configuration.
 EstimatePlan MakePlan(const starfocus_depth_config& config);
 
 // Returns a plan with every second label of `plan` and with half of the paths. The last label of
@@ -80,10 +111,22 @@ Rect RegionOf(const EstimatePlan& plan, int32_t index);
 // Returns the rectangle enlarged by `margin` on all sides and clipped to the picture.
 Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin);
 
+// Returns -position * d, in 1/128 pixel. Halves are rounded away from zero.
+inline int32_t MoveBy(int32_t position, int32_t d) {
+  constexpr int32_t kBits = kViewBits + kDisparityBits - 7;
+  const int32_t move = -position * d;
+  return (move + (1 << (kBits - 1)) - (move < 0 ? 1 : 0)) >> kBits;
+}
 // Returns the horizontal or vertical movement of a point of disparity d from the centre view to a
 // side view, in 1/128 pixel.
-inline int32_t MoveAcross(const SideView& view, int32_t d) { return -view.u2 * d; }
-inline int32_t MoveDown(const SideView& view, int32_t d) { return -view.v2 * d; }
+inline int32_t MoveAcross(const SideView& view, int32_t d) { return MoveBy(view.at.u, d); }
+inline int32_t MoveDown(const SideView& view, int32_t d) { return MoveBy(view.at.v, d); }
+// Returns -position * d in whole pixels. Halves are rounded towards zero, as by WholeMove.
+inline int32_t WholeMoveBy(int32_t position, int32_t d) {
+  constexpr int32_t kBits = kViewBits + kDisparityBits;
+  const int32_t move = -position * d;
+  return (move + (1 << (kBits - 1)) - 1 + (move < 0 ? 1 : 0)) >> kBits;
+}
 // Rounds a movement in 1/128 pixel to whole pixels. Halves are rounded towards zero, so that
 // mirrored movements stay mirrored.
 inline int32_t WholeMove(int32_t move) { return (move + 63 + (move < 0 ? 1 : 0)) >> 7; }

@@ -138,8 +138,8 @@ void WriteTile(const void* data, int32_t index, int32_t) {
 starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
                         const simd::DepthKernels& kernels, const MapOutput& output,
                         EstimateMemory* memory) {
-  const RepairJob job = {{plan, light_field, kernels, memory, output.confidence != nullptr},
-                         output};
+  const RepairJob job = {
+      {plan, light_field, kernels, memory, memory->first, output.confidence != nullptr}, output};
   constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile, SweepFirst,
                                      SweepSecond, ValueTile, WriteTile};
   Phases phases(plan, sizeof kPhases / sizeof *kPhases, &memory->jobs);

@@ -21,6 +21,8 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker)
   FindMoves(plan, tile.views, tile.moves);
   if (first) {
     MarkOutside(plan, &tile.views);
+  } else if (plan.one_sided()) {
+    MarkHiddenInMaps(plan, memory.side_maps, &tile.views);
   } else {
     MarkHidden(plan, memory.first, region, &tile.views);
   }
@@ -28,7 +30,7 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker)
   if (plan.repairs) AddMapPrior(plan, region, memory.trusted, sweep.kernels, &tile);
   const EstimateTile of_tile = {plan, region, sweep.kernels, tile};
   AddAllPaths(of_tile);
-  ChooseDisparities(of_tile, tile_rect, first ? memory.first : memory.second,
+  ChooseDisparities(of_tile, tile_rect, first ? sweep.one_side : memory.second,
                     first || !sweep.rates ? nullptr : memory.certainty);
   if (plan.repairs && !first) WeighEvidence(plan, region, tile_rect, tile, &memory);
 }

@@ -14,14 +14,16 @@ struct Sweep {
   const starfocus_light_field& light_field;
   const simd::DepthKernels& kernels;
   EstimateMemory* memory;
-  bool rates;  // true if the certainty is computed
+  int16_t* one_side;  // map of the whole picture that SweepOneSide fills
+  bool rates;         // true if SweepAllViews computes the certainty
 };
 
-// Fills memory->first for tile `index` from the views on one side of each pixel. SweepOneSide is a
+// Fills sweep.one_side for tile `index` from the views on one side of each pixel. SweepOneSide is a
 // JobFunction; `data` is a Sweep.
 void SweepOneSide(const void* data, int32_t index, int32_t worker);
 // Fills memory->second, the certainty and, for a repair, the costs for tile `index`. Uses the views
-// that see each pixel according to memory->first. SweepAllViews is a JobFunction; `data` is a
+// that see each pixel according to memory->side_maps if the views lie on one side, otherwise
+// according to memory->first. SweepAllViews is a JobFunction; `data` is a
 // Sweep.
 void SweepAllViews(const void* data, int32_t index, int32_t worker);
 

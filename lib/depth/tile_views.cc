@@ -31,7 +31,7 @@ void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews&
 struct MovedView {
   Plane<const uint8_t> picture;
   int32_t moves;
-  int32_t across[4], down[4];
+  int32_t across[kMostPhases], down[kMostPhases];
 };
 
 // Makes the planes of a view for all shifts. The planes are stored consecutively from `out` on.
@@ -65,10 +65,6 @@ Rect PartInside(const EstimatePlan& plan, const TileViews& views) {
   return {x, y, right - x, Min(views.top + views.rows, plan.height) - y};
 }
 
-// A surface hides a pixel of a view if the surface is nearer by more than kSurfaceDepth
-// (kDisparityBits). Estimated disparities of one surface differ by less than kSurfaceDepth.
-constexpr int32_t kSurfaceDepth = 1 << kDisparityBits;
-
 // Returns the number of labels that a pixel at disparity d hides. The hidden labels are always the
 // lowest labels.
 uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
@@ -96,8 +92,8 @@ void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow&
   uint8_t behind = HiddenBehind(plan, last);
   for (int32_t x = of_map.from; x < of_map.to; ++x) {
     const int32_t d = of_map.disparity[x];
-    const int32_t across = kAcross ? WholeMove(MoveAcross(view, d)) : 0;
-    const int32_t down = kDown ? WholeMove(MoveDown(view, d)) : 0;
+    const int32_t across = kAcross ? WholeMoveBy(view.at.u, d) : 0;
+    const int32_t down = kDown ? WholeMoveBy(view.at.v, d) : 0;
     const auto column = static_cast<uint32_t>(x + across - inside.x);
     const auto row = static_cast<uint32_t>(of_map.y + down - inside.y);
     if ((kAcross && column >= columns) || (kDown && row >= rows)) continue;
@@ -111,8 +107,8 @@ void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow&
 // of `rect` can only move to pixels of the result, and only pixels of the result can hide pixels of
 // `rect`.
 Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect) {
-  const Rect across = Widened(plan, rect, view.u2 != 0 ? plan.reach : 0);
-  const Rect down = Widened(plan, rect, view.v2 != 0 ? plan.reach : 0);
+  const Rect across = Widened(plan, rect, view.at.u != 0 ? plan.reach : 0);
+  const Rect down = Widened(plan, rect, view.at.v != 0 ? plan.reach : 0);
   return {across.x, down.y, across.width, down.height};
 }
 
@@ -125,12 +121,13 @@ void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_
   views->rows = region.height + 2 * plan.reach + 1;
   MakePlanes({RowsOf(light_field.views[0]), 1, {}, {}}, plan, kernels, *views, views->rgb);
   uint8_t* planes = views->rgb + 3 * views->plane;
-  for (int32_t k = 0; k < plan.side_views(); ++k) {
+  for (int32_t k = 0; k < plan.side_views; ++k) {
     const SideView& side = plan.side[k];
-    MovedView view = {RowsOf(light_field.views[side.index]), plan.Phases(side), {}, {}};
+    const ViewPhases phases = plan.PhasesOf(side);
+    MovedView view = {RowsOf(light_field.views[side.index]), phases.count, {}, {}};
     for (int32_t phase = 0; phase < view.moves; ++phase) {
-      view.across[phase] = MoveAcross(side, plan.Disparity(phase)) & 127;
-      view.down[phase] = MoveDown(side, plan.Disparity(phase)) & 127;
+      view.across[phase] = phases.move[phase].across & 127;
+      view.down[phase] = phases.move[phase].down & 127;
     }
     MakePlanes(view, plan, kernels, *views, planes);
     planes += 3 * static_cast<size_t>(view.moves) * views->plane;
@@ -140,17 +137,17 @@ void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_
 void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove* moves) {
   const auto stride = static_cast<int32_t>(views.stride);
   const auto plane = static_cast<int32_t>(views.plane);
-  for (int32_t l = 0; l < plan.labels; ++l) {
-    const int32_t d = plan.Disparity(l);
-    int32_t first = 1;  // index of the view's first set of planes
-    for (int32_t k = 0; k < plan.side_views(); ++k) {
-      const SideView& side = plan.side[k];
-      const int32_t across = MoveAcross(side, d), down = MoveDown(side, d);
-      const int32_t phases = plan.Phases(side);
-      const int32_t at = 3 * (first + l % phases) * plane + (down >> 7) * stride + (across >> 7);
-      *moves++ = {at, k * plane + WholeMove(down) * stride + WholeMove(across)};
-      first += phases;
+  int32_t first = 1;  // index of the view's first set of planes
+  for (int32_t k = 0; k < plan.side_views; ++k) {
+    const ViewPhases phases = plan.PhasesOf(plan.side[k]);
+    for (int32_t l = 0; l < plan.labels; ++l) {
+      const LabelMove move = plan.MoveOf(plan.side[k], l);
+      const int32_t planes = 3 * (first + phases.slot[move.phase]);
+      moves[l * plan.side_views + k] = {
+          planes * plane + (move.down >> 7) * stride + (move.across >> 7),
+          k * plane + WholeMove(move.down) * stride + WholeMove(move.across)};
     }
+    first += phases.count;
   }
 }
 
@@ -159,7 +156,7 @@ void MarkOutside(const EstimatePlan& plan, TileViews* views) {
   views->ends = inside.height < views->rows || static_cast<size_t>(inside.width) < views->stride;
   views->all_seen = !views->ends;
   const auto rows = static_cast<size_t>(views->rows);
-  for (int32_t view = 0; view < plan.side_views(); ++view) {
+  for (int32_t view = 0; view < plan.side_views; ++view) {
     uint8_t* hidden = views->hidden + static_cast<size_t>(view) * views->plane;
     std::fill_n(hidden, rows * views->stride, simd::kViewEnds);
     for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
@@ -168,17 +165,34 @@ void MarkOutside(const EstimatePlan& plan, TileViews* views) {
   }
 }
 
+void MarkHiddenInMaps(const EstimatePlan& plan, const int16_t* side_maps, TileViews* views) {
+  MarkOutside(plan, views);
+  views->all_seen = false;
+  const Rect inside = PartInside(plan, *views);
+  const auto width = static_cast<size_t>(plan.width);
+  for (int32_t k = 0; k < plan.side_views; ++k) {
+    const int16_t* map =
+        side_maps + static_cast<size_t>(k) * width * static_cast<size_t>(plan.height);
+    uint8_t* hidden = views->hidden + static_cast<size_t>(k) * views->plane;
+    for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
+      const int16_t* disparity = map + static_cast<size_t>(y) * width + inside.x;
+      uint8_t* to = hidden + views->At(inside.x, y);
+      for (int32_t x = 0; x < inside.width; ++x) to[x] = HiddenBehind(plan, disparity[x]);
+    }
+  }
+}
+
 void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region,
                 TileViews* views) {
   MarkOutside(plan, views);
   views->all_seen = false;
-  for (int32_t k = 0; k < plan.side_views(); ++k) {
+  for (int32_t k = 0; k < plan.side_views; ++k) {
     const SideView& view = plan.side[k];
     const Rect inside = WithReach(plan, view, region), from = WithReach(plan, view, inside);
     uint8_t* hidden = views->hidden + static_cast<size_t>(k) * views->plane;
-    const auto hide = view.v2 == 0   ? HideBehindRow<true, false>
-                      : view.u2 == 0 ? HideBehindRow<false, true>
-                                     : HideBehindRow<true, true>;
+    const auto hide = view.at.v == 0   ? HideBehindRow<true, false>
+                      : view.at.u == 0 ? HideBehindRow<false, true>
+                                       : HideBehindRow<true, true>;
     for (int32_t y = from.y; y < from.y + from.height; ++y) {
       const int16_t* row = map + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
       hide(plan, view, {row, y, from.x, from.x + from.width}, inside, *views, hidden);

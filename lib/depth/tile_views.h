@@ -9,6 +9,10 @@
 
 namespace starfocus {
 
+// A surface hides a pixel of a view if the surface is nearer by more than kSurfaceDepth
+// (kDisparityBits). Estimated disparities of one surface differ by less than kSurfaceDepth.
+inline constexpr int32_t kSurfaceDepth = 1 << kDisparityBits;
+
 // Makes the planes of all views. The planes cover `region` and the pixels around it to which labels
 // can move pixels of the region.
 void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_field,
@@ -20,6 +24,10 @@ void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove*
 // Sets views->hidden to simd::kViewEnds outside the picture, and to 0 (no hidden labels) inside.
 // The first sweep uses MarkOutside.
 void MarkOutside(const EstimatePlan& plan, TileViews* views);
+
+// Marks the labels that the surfaces in the maps of the side views hide. `side_maps` contains one
+// map of the size of the picture for each side view.
+void MarkHiddenInMaps(const EstimatePlan& plan, const int16_t* side_maps, TileViews* views);
 
 // Marks the labels that the pixels of a map hide in the views, at all positions to which pixels of
 // the region can move. `map` has width * height disparities.

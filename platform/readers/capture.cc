@@ -14,6 +14,7 @@
 #include "platform/readers/photo_scale.h"
 #include "platform/readers/sample_bits.h"
 #include "platform/readers/stanford.h"
+#include "platform/readers/stereo_pair.h"
 #include "platform/readers/view_array.h"
 #include "platform/standard_stream.h"
 
@@ -97,10 +98,11 @@ Result<Capture> OpenFolder(const std::string& folder) {
   return capture;
 }
 
-// Moves the two views of a stereo pair from `photo` to `capture`. A stereo pair in one file has no
-// map.
-void TakePair(const std::string& path, DepthPhoto* photo, Capture* capture) {
-  capture->files = {{{0, 0}, path}, {{1, 0}, path}};
+// Moves the two views of a stereo pair from `photo` to `capture`. A stereo pair has no map.
+// `right` is the path of the right picture, which may be equal to `path`.
+void TakePair(const std::string& path, const std::string& right, DepthPhoto* photo,
+              Capture* capture) {
+  capture->files = {{{0, 0}, path}, {{1, 0}, right}};
   capture->light_field.positions = {{0, 0}, {1, 0}};
   capture->light_field.views = {std::move(photo->picture), std::move(photo->right)};
 }
@@ -111,15 +113,16 @@ int PixelAt(double share, int pixels) {
 }
 
 Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options) {
-  Result<DepthPhoto> read = ReadDepthPhotoFile(path, options.map, options.depth);
+  const bool two_files = !options.right.empty();
+  Result<DepthPhoto> read = two_files ? ReadPictureFiles(path, options.right)
+                                      : ReadDepthPhotoFile(path, options.map, options.depth);
   if (!read) return read.error();
   DepthPhoto& photo = *read;
   const bool pair = !photo.right.pixels.empty();
   Capture capture;
-  if (!pair) {
-    Error error = MakePhotoField(InputName(path), &photo).MoveTo(&capture.light_field);
-    if (error) return error;
-  }
+  Error error = pair ? AlignPair(InputName(path), &photo)
+                     : MakePhotoField(InputName(path), &photo).MoveTo(&capture.light_field);
+  if (error) return error;
   capture.format = photo.format;
   capture.metadata = std::move(photo.metadata);
   capture.facts = std::move(photo.facts);
@@ -131,7 +134,7 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
         "background again (an export without the portrait effect prevents this)");
   }
   if (pair) {
-    TakePair(path, &photo, &capture);
+    TakePair(path, two_files ? options.right : path, &photo, &capture);
     return capture;
   }
   if (!options.small_map) FitMap(&capture.light_field);

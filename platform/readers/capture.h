@@ -20,6 +20,7 @@ struct CaptureOptions {
   std::string depth;       // Path of the depth picture; empty: in the photo's file or next to it.
   DepthOptions map;        // Interpretation of the depth picture.
   bool small_map = false;  // True: LoadCapture, not OpenCapture, resizes the map of a photo.
+  std::string right = {};  // Path of the right picture of a stereo pair; empty: no second file.
 };
 
 struct Capture {

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include "platform/container.h"
 #include "platform/readers/heif_boxes.h"
@@ -290,16 +292,34 @@ bool EndsWithinBox(Span file) {
   return at < file.size;
 }
 
-Result<DepthPhoto> Read(const std::string& where, Span file, Near near) {
+// Opens a file whose boxes are within the limits. libheif reads from `file`, which the caller
+// keeps.
+Result<Context> OpenContext(const std::string& where, Span file) {
   if (Error error = CheckHeif(where, file)) return error;
-  const Context context(heif_context_alloc());
+  Context context(heif_context_alloc());
   if (context == nullptr) return OutOfMemory(where, "read it");
   heif_context_set_maximum_image_size_limit(context.get(), kMostSide);
-  heif_error failure =
+  const heif_error failure =
       heif_context_read_from_memory_without_copy(context.get(), file.data, file.size, nullptr);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
+  return context;
+}
+
+Result<Image> ReadPicture(const std::string& where, heif_context* context, uint32_t id,
+                          size_t file) {
   heif_image_handle* raw = nullptr;
-  failure = heif_context_get_primary_image_handle(context.get(), &raw);
+  const heif_error failure = heif_context_get_image_handle(context, id, &raw);
+  const Handle handle(raw);
+  if (failure.code != heif_error_Ok) return Broken(where, failure);
+  if (Error error = CheckSize(where, raw, file)) return error;
+  return DecodePicture(where, raw);
+}
+
+Result<DepthPhoto> Read(const std::string& where, Span file, Near near) {
+  const Result<Context> context = OpenContext(where, file);
+  if (!context) return context.error();
+  heif_image_handle* raw = nullptr;
+  const heif_error failure = heif_context_get_primary_image_handle(context->get(), &raw);
   const Handle primary(raw);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
   DepthPhoto photo;
@@ -328,11 +348,34 @@ Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near) {
   }
 }
 
+bool ReadHeifPair(const std::string& where, Span file, DepthPhoto* photo) {
+  const std::vector<uint32_t> ids = HeifStereoPair(file);
+  if (ids.empty()) return false;
+  try {
+    const Result<Context> context = OpenContext(where, file);
+    if (!context) return false;
+    Result<Image> left = ReadPicture(where, context->get(), ids[0], file.size);
+    Result<Image> right = ReadPicture(where, context->get(), ids[1], file.size);
+    if (!left || !right || left->width != right->width || left->height != right->height) {
+      return false;
+    }
+    photo->picture = std::move(*left);
+    photo->right = std::move(*right);
+    return true;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {  // C functions of libheif may throw C++ exceptions
+    return false;
+  }
+}
+
 #else
 
 Result<DepthPhoto> ReadHeif(const std::string& where, Span, Near) {
   return Unsupported(where, "HEIC", "libheif");
 }
+
+bool ReadHeifPair(const std::string&, Span, DepthPhoto*) { return false; }
 
 #endif
 

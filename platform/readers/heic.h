@@ -20,6 +20,11 @@ bool IsHeif(Span file);
 // which end of the grey range is near.
 Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near);
 
+// Reads the left and the right picture of the stereo pair in a HEIF file into photo->picture and
+// photo->right, as spatial photos of phones contain them. Returns false if the file has no stereo
+// pair, or a picture of the pair is unreadable, or the pictures differ in size.
+bool ReadHeifPair(const std::string& where, Span file, DepthPhoto* photo);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_PLATFORM_READERS_HEIC_H_

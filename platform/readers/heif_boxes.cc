@@ -206,6 +206,17 @@ std::optional<HeifItems> ReadHeifItems(Span file) {
   return good ? std::optional(std::move(items)) : std::nullopt;
 }
 
+std::vector<uint32_t> HeifStereoPair(Span file) {
+  Cursor meta(FindBox(file, "meta"));
+  ReadFullBox(&meta);
+  Cursor group(FindBox(FindBox(meta.rest(), "grpl"), "ster"));
+  ReadFullBox(&group);
+  group.Whole(4);  // identifier of the group
+  if (group.Whole32(4) != 2) return {};
+  const uint32_t left = group.Whole32(4), right = group.Whole32(4);
+  return group.good() ? std::vector<uint32_t>{left, right} : std::vector<uint32_t>();
+}
+
 std::vector<std::string> HeifBrands(Span file) {
   const std::optional<Box> first = Cursor(file).Next();
   if (!first || first->type != "ftyp") return {};

@@ -30,6 +30,10 @@ using HeifItems = std::map<uint32_t, HeifItem>;  // Items by their identifiers.
 // 4096 items.
 std::optional<HeifItems> ReadHeifItems(Span file);
 
+// Returns the identifiers of the left and the right picture of the first stereo pair (the entity
+// group 'ster', ISO/IEC 23008-12, 6.8.5). The result is empty if the file has no stereo pair.
+std::vector<uint32_t> HeifStereoPair(Span file);
+
 // Returns the brands of a HEIF file, the major brand first. The result is empty if the file does
 // not start with a file type box.
 std::vector<std::string> HeifBrands(Span file);

@@ -2,12 +2,19 @@
 #include "platform/readers/stereo_pair.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <iterator>
 #include <utility>
 #include <vector>
 
+#include "platform/file.h"
 #include "platform/image_io.h"
+#include "platform/readers/depth_photo_file.h"
+#include "platform/readers/heic.h"
 #include "platform/readers/multi_picture.h"
+#include "platform/readers/orientation.h"
+#include "platform/readers/pair_alignment.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -27,9 +34,27 @@ bool IsAuxiliary(const MultiPicture& picture) {
   });
 }
 
+// Reads a photo, without its depth map, and turns it upright.
+Result<DepthPhoto> ReadUpright(const std::string& path) {
+  if (Error error = CheckPlainFile(path)) return error;
+  const Result<Bytes> bytes = ReadFile(path);
+  if (!bytes) return bytes.error();
+  Result<DepthPhoto> photo =
+      DecodeDepthPhoto(path, {bytes->data(), bytes->size()}, false, Near::kUnknown);
+  if (!photo) return photo;
+  photo->map = {};
+  ApplyOrientation(&*photo);
+  return photo;
+}
+
 }  // namespace
 
 bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
+  if (IsHeif(file)) {
+    if (!ReadHeifPair(path, file, photo)) return false;
+    photo->format = "stereo pair (HEIF)";
+    return true;
+  }
   if (!IsJpeg(file)) return false;
   const Result<JpegParts> parts = ReadJpegParts(path, file);
   if (!parts || (parts->multi_picture.empty() && LowerExtension(path) != ".mpo")) return false;
@@ -54,6 +79,42 @@ bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
   photo->format = "stereo pair (MPO)";
   photo->right = std::move(right->image);
   return true;
+}
+
+Result<DepthPhoto> ReadPictureFiles(const std::string& left, const std::string& right) {
+  Result<DepthPhoto> first = ReadUpright(left);
+  if (!first) return first;
+  Result<DepthPhoto> second = ReadUpright(right);
+  if (!second) return second;
+  const Image& own = first->picture;
+  const Image& other = second->picture;
+  if (own.width != other.width || own.height != other.height) {
+    return Expected(right, "a picture of " + SizeText(own.width, own.height) + ", as " + left,
+                    SizeText(other.width, other.height));
+  }
+  first->format = "stereo pair (two files)";
+  first->right = std::move(second->picture);
+  return first;
+}
+
+Error AlignPair(const std::string& where, DepthPhoto* photo) {
+  constexpr double kLeastDifference = 0.3;  // pixels; smaller differences do not matter
+  const PairAlignment alignment = MeasureAlignment(photo->picture, photo->right);
+  if (alignment.contradicts()) {
+    return Expected(where, "two pictures of one scene, taken side by side with hardly any rotation",
+                    std::to_string(alignment.consistent) + " common points of " +
+                        std::to_string(alignment.corners));
+  }
+  const double largest = LargestDifference(alignment, photo->right);
+  if (!alignment.known() || largest < kLeastDifference) return {};
+  photo->right = AlignedPicture(alignment, photo->right);
+  char note[120];
+  std::snprintf(note, sizeof(note),
+                "points of the right picture were moved up or down by up to %.1f pixels, to the "
+                "heights of the left picture",
+                largest);
+  photo->notes.push_back(note);
+  return {};
 }
 
 }  // namespace starfocus

@@ -22,6 +22,7 @@ namespace test {
 // shows the plane with the highest disparity.
 struct PlaneScene {
   int width = 96, height = 64, views = 17;
+  std::vector<starfocus_position> positions = {};  // Positions of the views; empty: a star.
   // `lean` is the change of the disparity of the far plane per pixel of x.
   double near_left = 30, near_right = 62, near = 5, far = -3, lean = 0;
 
@@ -45,6 +46,7 @@ struct PlaneScene {
 struct PlaneField {
   int width = 0, height = 0;
   std::vector<std::vector<uint8_t>> views;
+  std::vector<starfocus_position> positions = {};  // Empty: a star.
 
   starfocus_light_field Get() const {
     starfocus_light_field field = {};
@@ -55,25 +57,39 @@ struct PlaneField {
   }
 };
 
-// Renders views whose samples are pixel(u, v, x, y, c).
+// Renders a view whose samples are pixel(u, v, x, y, c).
+template <class Pixel>
+std::vector<uint8_t> RenderView(int width, int height, const starfocus_position& position,
+                                const Pixel& pixel) {
+  std::vector<uint8_t> view;
+  for (int at = 0; at < 3 * width * height; ++at) {
+    view.push_back(pixel(position.u, position.v, at / 3 % width, at / 3 / width, at % 3));
+  }
+  return view;
+}
+
+// Renders a star of views whose samples are pixel(u, v, x, y, c).
 template <class Pixel>
 PlaneField RenderViews(int width, int height, int views, const Pixel& pixel) {
   PlaneField field = {width, height, {}};
   for (int k = 0; k < views; ++k) {
-    double u = 0, v = 0;
-    starfocus_view_position(k, &u, &v);
-    std::vector<uint8_t> view;
-    for (int at = 0; at < 3 * width * height; ++at) {
-      view.push_back(pixel(u, v, at / 3 % width, at / 3 / width, at % 3));
-    }
-    field.views.push_back(view);
+    starfocus_position position = {};
+    starfocus_view_position(k, &position.u, &position.v);
+    field.views.push_back(RenderView(width, height, position, pixel));
   }
   return field;
 }
+
 inline PlaneField RenderPlanes(const PlaneScene& scene) {
-  return RenderViews(
-      scene.width, scene.height, scene.views,
-      [&](double u, double v, int x, int y, int c) { return scene.Pixel(u, v, x, y, c); });
+  const auto pixel = [&](double u, double v, int x, int y, int c) {
+    return scene.Pixel(u, v, x, y, c);
+  };
+  if (scene.positions.empty()) return RenderViews(scene.width, scene.height, scene.views, pixel);
+  PlaneField field = {scene.width, scene.height, {}, scene.positions};
+  for (const starfocus_position& position : scene.positions) {
+    field.views.push_back(RenderView(scene.width, scene.height, position, pixel));
+  }
+  return field;
 }
 
 // Returns the map of the scene, with a near plane that is wider by `grown` pixels on both sides.
@@ -101,6 +117,7 @@ inline starfocus_depth_config ConfigOf(const PlaneField& field, float low, float
   config.width = field.width;
   config.height = field.height;
   config.views = int32_t(field.views.size());
+  std::copy(field.positions.begin(), field.positions.end(), config.positions);
   config.disparity_min = low;
   config.disparity_max = high;
   return config;
@@ -164,7 +181,10 @@ inline PlaneField MirroredField(const PlaneField& field, const Symmetry& mirror)
   PlaneField mirrored = field;
   for (int k = 0; k < int(field.views.size()); ++k) {
     const std::vector<uint8_t>& from = field.views[size_t(k)];
-    std::vector<uint8_t>& to = mirrored.views[size_t(MoveView(mirror, k))];
+    const bool star = field.positions.empty();
+    std::vector<uint8_t>& to = mirrored.views[size_t(star ? MoveView(mirror, k) : k)];
+    if (!star && mirror.mirror_x) mirrored.positions[size_t(k)].u *= -1;
+    if (!star && mirror.mirror_y) mirrored.positions[size_t(k)].v *= -1;
     for (int at = 0; at < field.width * field.height; ++at) {
       const auto [x, y] =
           Move(mirror, field.width, field.height, at % field.width, at / field.width);

@@ -4,7 +4,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <initializer_list>
+#include <vector>
 
 #include "starfocus/depth.h"
 
@@ -48,18 +51,62 @@ TEST_CASE(
     "estimate plan: views of a ring lie opposite each other, at the positions of the star set") {
   for (const int views : {5, 9, 17}) {
     const EstimatePlan plan = PlanOf(10, 10, views, 0, 1);
-    CHECK(plan.side_views() == views - 1);
-    for (int32_t k = 0; k < plan.side_views(); ++k) {
+    CHECK(plan.side_views == views - 1);
+    CHECK(!plan.one_sided());
+    for (int32_t k = 0; k < plan.side_views; ++k) {
       double u = 0, v = 0;
       REQUIRE(starfocus_view_position(plan.side[k].index, &u, &v) == 1);
-      CHECK(plan.side[k].u2 == 2 * u);
-      CHECK(plan.side[k].v2 == 2 * v);
+      CHECK(plan.side[k].at.u == starfocus::kViewOne * u);
+      CHECK(plan.side[k].at.v == starfocus::kViewOne * v);
       const int32_t ring = k / plan.arms * plan.arms;
       const starfocus::SideView& other = plan.side[ring + (k + plan.arms / 2) % plan.arms];
-      CHECK(other.u2 == -plan.side[k].u2);
-      CHECK(other.v2 == -plan.side[k].v2);
+      CHECK(other.at.u == -plan.side[k].at.u);
+      CHECK(other.at.v == -plan.side[k].at.v);
     }
   }
+}
+
+EstimatePlan PlanAt(const std::vector<starfocus_position>& positions, float low, float high) {
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
+  config.width = config.height = 10;
+  config.views = int32_t(positions.size());
+  std::copy(positions.begin(), positions.end(), config.positions);
+  config.disparity_min = low;
+  config.disparity_max = high;
+  return MakePlan(config);
+}
+
+TEST_CASE("estimate plan: sides are the largest sets of views within a half plane") {
+  const auto sides = [](const std::vector<starfocus_position>& positions) {
+    const EstimatePlan plan = PlanAt(positions, 0, 1);
+    return std::vector<uint16_t>(plan.sides, plan.sides + plan.side_count);
+  };
+  using Masks = std::vector<uint16_t>;
+  CHECK(sides({{0, 0}, {1, 0}}) == Masks{1});
+  CHECK(sides({{0, 0}, {1, 0}, {0.5, 0}, {0, -1}}) == Masks{7});
+  CHECK(sides({{0, 0}, {1, 0}, {-1, 0}}) == Masks{1, 2});
+  CHECK(sides({{0, 0}, {1, 0}, {-1, 0}, {0, 1}}) == Masks{5, 6});
+  CHECK(PlanAt({{0, 0}, {1, 0}, {0, 1}}, 0, 1).one_sided());
+  CHECK(!PlanAt({{0, 0}, {1, 0}, {-1, 0}}, 0, 1).one_sided());
+}
+
+TEST_CASE("estimate plan: shifts of views at any position differ by quarter pixels") {
+  const EstimatePlan plan = PlanAt({{0, 0}, {0.3, -0.7}}, -3.1F, 9);
+  const starfocus::SideView& view = plan.side[0];
+  const starfocus::ViewPhases phases = plan.PhasesOf(view);
+  CHECK(phases.count <= starfocus::kMostPhases);
+  for (int32_t l = 0; l < plan.labels; ++l) {
+    const starfocus::LabelMove move = plan.MoveOf(view, l);
+    CAPTURE(l);
+    CHECK(std::abs(move.across - MoveAcross(view, plan.Disparity(l))) <= 17);
+    CHECK(std::abs(move.down - MoveDown(view, plan.Disparity(l))) <= 17);
+    REQUIRE(phases.slot[move.phase] >= 0);
+    const starfocus::LabelMove& same = phases.move[phases.slot[move.phase]];
+    CHECK((same.across & 127) == (move.across & 127));
+    CHECK((same.down & 127) == (move.down & 127));
+  }
+  CHECK(PlanOf(10, 10, 17, 0, 20).AllPhases() == 8 * 2 + 8 * 4);
 }
 
 TEST_CASE("estimate plan: labels are half a pixel apart, or farther apart in a wide range") {
@@ -83,6 +130,11 @@ TEST_CASE("estimate plan: WholeMove rounds shifts to whole pixels, and halves to
   CHECK(WholeMove(-64) == 0);
   CHECK(WholeMove(-65) == -1);
   CHECK(WholeMove(-300) == -2);
+  using starfocus::WholeMoveBy;
+  CHECK(WholeMoveBy(starfocus::kViewOne, 32) == 0);
+  CHECK(WholeMoveBy(starfocus::kViewOne, 33) == -1);
+  CHECK(WholeMoveBy(-starfocus::kViewOne, 32) == 0);
+  CHECK(WholeMoveBy(-starfocus::kViewOne / 2, 66) == 1);
 }
 
 TEST_CASE("estimate plan: CoarsePlan keeps every other label and the range of the labels") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists operations that estimate or repair disparity maps, from star sets of every size or from one
-// view.
+// Lists operations that estimate or repair disparity maps, from star sets of every size, from other
+// sets of views, or from one view.
 #ifndef STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
 #define STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
 
@@ -46,6 +46,16 @@ inline MapInput Planes(int width, int height, int views, bool repairs) {
   test::Random random(7);
   for (float& disparity : input.given) disparity += float(random.Real(-0.7, 0.7));
   return input;
+}
+
+// Returns views of two planes at any positions.
+inline MapInput Positioned(int width, int height,
+                           const std::vector<starfocus_position>& positions) {
+  test::PlaneScene scene;
+  scene.width = width;
+  scene.height = height;
+  scene.positions = positions;
+  return {test::RenderPlanes(scene), {}, -3.7F, 6.2F};
 }
 
 // Returns a picture of a disc. In the map, the disc is too wide, and some values are unknown or
@@ -178,6 +188,12 @@ inline std::vector<Operation> MapOperations() {
     add(what + "17", questions, Planes(70, 20, 17, repairs));
     add(what + "5, two tiles high", questions, Planes(150, 140, 5, repairs));
   }
+  add("estimate by views: a pair", 5, Positioned(400, 40, {{0, 0}, {1, 0}}));
+  add("estimate by views: an upright pair", 5, Positioned(40, 50, {{0, 0}, {0.1, -0.77}}));
+  add("estimate by views: three views on one side", 6,
+      Positioned(50, 30, {{0, 0}, {0.3, 0.4}, {0.9, -0.2}}));
+  add("estimate by views: four views around the centre", 4,
+      Positioned(50, 30, {{0, 0}, {1, 0.1}, {-0.6, 0.2}, {0.1, -1}, {-0.3, 0.5}}));
   add("repair by colours", 6, Disc(false));
   add("repair by colours: noise", 6, Disc(true));
   add("repair by colours: hair", starfocus::kHairPhases, Hair());

@@ -106,12 +106,33 @@ const Refusal kArguments[] = {
      [](Call* c) { std::fill(c->given.begin(), c->given.end(), NAN); }},
 };
 
+// Sets the number of views, and the position of view 1.
+void Place(int32_t views, const starfocus_position& position, Call* call) {
+  call->config.views = views;
+  call->config.positions[1] = position;
+}
+
 const Refusal kConfigurations[] = {
     {kBoth, STARFOCUS_ERROR_STRUCTURE, [](Call* c) { c->config.size = 0; }},
     {kBoth, STARFOCUS_ERROR_STRUCTURE, [](Call* c) { ++c->config.size; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.width = 0; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.height = 65536; }},
     {kEstimate, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.views = 1; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.views = 18; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.views = 4; }},
+    {kEstimate, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.positions[1].u = 1; }},
+    {kEstimate, STARFOCUS_ERROR_RANGE,
+     [](Call* c) {
+       Place(2, {1.01, 0}, c);
+     }},
+    {kEstimate, STARFOCUS_ERROR_RANGE,
+     [](Call* c) {
+       Place(2, {0, NAN}, c);
+     }},
+    {kRepair, STARFOCUS_ERROR_RANGE,
+     [](Call* c) {
+       Place(2, {1, 0}, c);
+     }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = 9; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = NAN; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = 501; }},

@@ -26,6 +26,12 @@ starfocus_depth_config MakeConfig(Input* input) {
   config.width = input->Int(1, side);
   config.height = input->Int(1, side);
   config.views = kViews[input->Int(0, 3)];
+  if (input->Rarely()) {
+    config.views = input->Int(2, 4);
+    for (int32_t k = 1; k < config.views; ++k) {
+      config.positions[k] = {input->Real(-1, 1), input->Real(-1, 1)};
+    }
+  }
   const double most = input->Rarely() ? STARFOCUS_MAX_DISPARITY : 12;
   const double a = input->Real(-most, most), b = input->Real(-most, most);
   config.disparity_min = static_cast<float>(std::min(a, b));

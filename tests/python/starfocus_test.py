@@ -400,6 +400,16 @@ class Maps(unittest.TestCase):
         with self.assertRaises(starfocus.Cancelled):
             starfocus.estimate_disparity(views, low, high, progress=lambda done, rows: True)
 
+    def test_estimated_from_a_pair(self):
+        pair = [view[:64, :96] for view in VIEWS[:2]]
+        low, high = starfocus.measure_disparity(DISPARITY)[:2]
+        made = starfocus.estimate_disparity(pair, low, high, positions=[(0, 0), (1, 0)])
+        self.assertLess(np.median(np.abs(made.disparity - DISPARITY[:64, :96])), 0.5)
+        with self.assertRaises(ValueError):
+            starfocus.estimate_disparity(pair, low, high, positions=[(0, 0)])
+        with self.assertRaises(starfocus.StarfocusError):
+            starfocus.estimate_disparity(pair, low, high)
+
     def test_hair_with_a_closed_outline_gets_its_coverage(self):
         x, y = np.meshgrid(np.arange(240), np.arange(180))
         covered = np.where(y >= 110, 255, np.where(y >= 60, np.array([128, 255, 128, 0, 0, 0, 0])[x % 7], 0))

@@ -50,7 +50,7 @@ TEST_CASE("depth kernels: CostLabels returns values computed by hand") {
   costs.plane = 3;
   costs.moves = moves;
   costs.labels = 2;
-  costs.arms = 4;
+  costs.views = costs.arms = 4;
   costs.rings = 1;
   costs.one_side = true;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
@@ -69,6 +69,22 @@ TEST_CASE("depth kernels: CostLabels returns values computed by hand") {
   hidden[1] = 1;
   ReferenceDepthKernels().CostLabels(costs, 1, 16, cost);
   CHECK(int(cost[1]) == 7 + 7 + 60 + 60);
+}
+
+TEST_CASE("depth kernels: SeenCost averages the views that see the pixel, on the best side") {
+  const uint8_t values[3][2] = {{6, 60}, {9, 60}, {20, 60}};
+  const uint8_t* differences[] = {values[0], values[1], values[2]};
+  const uint16_t masks[] = {3, 4};
+  uint8_t cost[2];
+  reference::SeenCost(differences, nullptr, 0, {masks, 2}, 2, cost);
+  CheckValues("all see", cost, {30, 240});
+  // The first view hides labels 0 to 4, and the second view shows the first pixel only.
+  const uint8_t behind[3][2] = {{5, 5}, {4, kViewEnds}, {5, 5}};
+  const uint8_t* hidden[] = {behind[0], behind[1], behind[2]};
+  reference::SeenCost(differences, hidden, 4, {masks, 2}, 2, cost);
+  CheckValues("hidden", cost, {36, 192});
+  reference::SeenCost(differences, hidden, 5, {masks + 1, 1}, 2, cost);
+  CheckValues("second side", cost, {80, 240});
 }
 
 TEST_CASE("depth kernels: StandIn replaces a view that does not see a pixel by the opposite view") {

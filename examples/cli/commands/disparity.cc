@@ -63,10 +63,8 @@ std::vector<Output> OutputsOf(const DisparityOptions& options, const Plan& plan)
 
 // Checks all options that can be checked before a file is read.
 Result<Plan> MakePlan(const DisparityOptions& options) {
-  if (!options.views.empty() && StarWithin(options.views) == 1 && !options.repair) {
-    return Error::Usage("--views", "a star of 17, 9 or 5 views",
-                        std::to_string(options.views.size()) +
-                            (options.views.size() == 1 ? " view" : " views that form no star"));
+  if (options.views.size() == 1 && !options.repair) {
+    return Error::Usage("--views", "at least 2 views to estimate disparities", "1 view");
   }
   const std::string& input = options.input.path;
   std::error_code ignored;
@@ -97,7 +95,9 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   for (const Output& picture : PicturesOf(options, plan)) {
     if (!error) error = CheckImageOutput(picture.path);
   }
-  if (!error) error = CheckApart(OutputsOf(options, plan), {{input}, {input, options.input.depth}});
+  if (!error)
+    error = CheckApart(OutputsOf(options, plan),
+                       {{input}, {input, options.input.depth, options.input.right}});
   if (error) return error;
   return plan;
 }
@@ -106,7 +106,7 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
 // otherwise finds a range first.
 Result<DisparityEstimate> Estimate(const DisparityOptions& options, const Capture& capture) {
   const LightField& light_field = capture.light_field;
-  if (Error error = CheckStar(capture.path, light_field)) return error;
+  if (Error error = CheckEstimateViews(capture.path, light_field)) return error;
   const Result<DisparityRange> range =
       options.range ? *options.range : FindRange(capture.path, light_field, options.threads);
   if (!range) return range.error();
@@ -198,7 +198,8 @@ Error Run(const DisparityOptions& options) {
   const LightField& light_field = capture->light_field;
   if (Error error = WriteMap(options, *plan, light_field.views[0], *estimate)) return error;
   const double megapixels = 1e-6 * estimate->map.width * estimate->map.height;
-  const int count = StarWithin(light_field.positions);
+  const int count = work == Work::kEstimate ? EstimateViews(light_field.positions)
+                                            : StarWithin(light_field.positions);
   std::printf("%s: disparities from %s to %s, %s %d view%s, %.1f s, %.1f s per megapixel\n",
               plan->map.c_str(), Short(estimate->range.min).c_str(),
               Short(estimate->range.max).c_str(),
@@ -220,6 +221,7 @@ Command DisparityCommand() {
       [options] { return Run(*options); },
       {"starfocus disparity lf", "starfocus disparity lf -o repaired.pfm --repair --threads 4"}};
   AddInputOptions(&command, &options->input);
+  AddRightOption(&command, &options->input);
   AddOptions(
       {
           {"-o,--output", "FILE",
@@ -245,8 +247,8 @@ Command DisparityCommand() {
              return ReadRange(text, range);
            })},
           {"--views", "17|9|5|1|U,V:U,V",
-           "Views to use: the star of 17, 9 or 5 views; with --repair also 1 or positions "
-           "U,V:U,V; default: all views of the input",
+           "Views to use: the star of 17, 9 or 5 views, or positions U,V:U,V; with --repair also "
+           "1; default: all views of the input",
            Views(&options->views)},
           {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
            Use::kDefault},

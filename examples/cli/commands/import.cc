@@ -73,6 +73,7 @@ Command ImportCommand() {
       {"starfocus import photo.jpg lf",
        "starfocus import photo.png lf --depth depth.png --near white"}};
   AddInputOptions(&command, &options->input);
+  AddRightOption(&command, &options->input);
   AddCoverageOption(&command, &options->input);
   AddOptions(
       {

@@ -92,12 +92,9 @@ void PrintJson(const Capture& capture, const starfocus_disparity_stats& stats,
   std::printf("%s\n", json.Text().c_str());
 }
 
-// Returns true if the input has a map, or a star of views from which a map can be estimated. No map
-// can be estimated from stereo pairs and single rows of views.
+// Returns true if the input has a map, or several views from which a map can be estimated.
 bool HasMap(const Capture& capture) {
-  Positions positions;
-  for (const ViewFile& file : capture.files) positions.push_back(file.position);
-  return !capture.map_path.empty() || StarWithin(positions) > 1;
+  return !capture.map_path.empty() || capture.files.size() > 1;
 }
 
 Error Run(const InfoOptions& options) {
@@ -128,6 +125,7 @@ Command InfoCommand() {
       [options] { return Run(*options); },
       {"starfocus info photo.jpg", "starfocus info lf --json"}};
   AddInputOptions(&command, &options->input);
+  AddRightOption(&command, &options->input);
   AddCoverageOption(&command, &options->input);
   AddOptions(
       {

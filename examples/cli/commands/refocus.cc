@@ -61,8 +61,8 @@ Error CheckOutputs(const RefocusOptions& options) {
   }
   if (error) return error;
   return CheckApart(outputs, {{options.input.path},
-                              {options.input.path, options.input.depth, options.input.coverage,
-                               options.lens.timing}});
+                              {options.input.path, options.input.depth, options.input.right,
+                               options.input.coverage, options.lens.timing}});
 }
 
 // Parses D0:D1:N.
@@ -226,6 +226,7 @@ Error RunInputs(const RefocusOptions& options) {
                                     {"--compare", !options.output.compare.empty()},
                                     {"--show", options.output.show},
                                     {"--coverage", !options.input.coverage.empty()},
+                                    {"--right", !options.input.right.empty()},
                                     {"--sweep", !options.sweep.empty()}}) {
     if (typed)
       return Error::Usage(name, "a single input and a file for --output",
@@ -262,6 +263,7 @@ Command RefocusCommand() {
                      {"starfocus refocus photo.jpg -o near.jpg --focus-at 800,600 --f-stop 2.8",
                       "starfocus refocus lf -o stack.webp --sweep -2:8:20 --strength 50"}};
   AddInputOptions(&command, &options->input, &options->inputs);
+  AddRightOption(&command, &options->input);
   AddCoverageOption(&command, &options->input);
   AddOutputOptions(&command, &options->output);
   AddOptions(

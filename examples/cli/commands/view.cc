@@ -205,6 +205,7 @@ Command ViewCommand() {
       [options] { return Run(*options); },
       {"starfocus view lf -o page.html", "starfocus view photo.jpg -o page.html --f-stop 2.8"}};
   AddInputOptions(&command, &options->input);
+  AddRightOption(&command, &options->input);
   AddCoverageOption(&command, &options->input);
   AddOptions(
       {

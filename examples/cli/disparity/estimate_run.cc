@@ -2,7 +2,7 @@
 #include "examples/cli/disparity/estimate_run.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <memory>
 #include <new>
 
@@ -19,12 +19,21 @@ namespace {
 constexpr int kSmallWidth = 256;      // Largest width of pictures for finding the disparity range.
 constexpr int kLeastConfidence = 48;  // Excludes outliers at edges and on flat walls.
 constexpr double kStrays = 0.0005;    // Fraction of values discarded at each end of the range.
+// Views on few sides of the centre also confirm false matches. Without a star of views, a disparity
+// counts only if at least kLeastAgreeing of the 3x3 pixels around it have about the same disparity.
+constexpr int kLeastAgreeing = 6;
 
 using Images = std::vector<Image>;
 
-// Returns the views from which maps are computed.
+// Returns the views from which maps are repaired.
 Images StarOf(const LightField& light_field) {
   return {light_field.views.begin(), light_field.views.begin() + StarWithin(light_field.positions)};
+}
+
+// Returns the views from which maps are estimated.
+Images EstimateViewsOf(const LightField& light_field) {
+  return {light_field.views.begin(),
+          light_field.views.begin() + EstimateViews(light_field.positions)};
 }
 
 // Threads and progress line for computing a map.
@@ -46,7 +55,8 @@ struct FreeAligned {
 // Inputs and requested outputs of the computation of a map.
 struct MapTask {
   const Images& views;
-  const FloatMap* given;  // map to repair; null: estimate the map
+  const Positions& positions;  // positions of the light field; the first ones are those of `views`
+  const FloatMap* given;       // map to repair; null: estimate the map
   DisparityRange range;
   bool confidence, coverage;
 };
@@ -56,16 +66,13 @@ struct MadeMap {
   Bytes confidence, coverage;  // Empty if not requested or not found.
 };
 
-Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* maker) {
-  const bool repair = task.given != nullptr;
-  const Image& centre = task.views[0];
+starfocus_depth_config ConfigOf(const MapTask& task, Maker* maker) {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
-  starfocus_problem problem = {};
-  config.problem = &problem;
-  config.width = centre.width;
-  config.height = centre.height;
+  config.width = task.views[0].width;
+  config.height = task.views[0].height;
   config.views = static_cast<int32_t>(task.views.size());
+  std::copy_n(task.positions.begin(), task.views.size(), config.positions);
   config.disparity_min = task.range.min;
   config.disparity_max = task.range.max;
   config.max_workers = maker->pool.workers();
@@ -73,6 +80,15 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
   config.runner_data = &maker->pool;
   config.progress = PictureProgress::Tell;
   config.progress_data = &maker->progress;
+  return config;
+}
+
+Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* maker) {
+  const bool repair = task.given != nullptr;
+  const Image& centre = task.views[0];
+  starfocus_problem problem = {};
+  starfocus_depth_config config = ConfigOf(task, maker);
+  config.problem = &problem;
   size_t bytes = 0;
   MadeMap made = {{centre.width, centre.height, {}}, {}, {}};
   starfocus_status status = repair ? starfocus_repair_workspace_size(&config, &bytes)
@@ -131,6 +147,36 @@ Image Shrink(const Image& picture, int factor) {
   return small;
 }
 
+// Returns the number of pixels within 3x3 pixels around pixel (x, y) whose disparities are certain
+// and differ by at most 1 from the disparity of this pixel.
+int CountAgreeing(const MadeMap& made, int x, int y) {
+  const FloatMap& map = made.map;
+  int agreeing = 0;
+  for (int row = std::max(0, y - 1); row <= std::min(y + 1, map.height - 1); ++row) {
+    for (int column = std::max(0, x - 1); column <= std::min(x + 1, map.width - 1); ++column) {
+      const size_t at = size_t(row) * size_t(map.width) + size_t(column);
+      const bool sure = made.confidence[at] >= kLeastConfidence;
+      agreeing += sure && std::abs(map.at(column, row) - map.at(x, y)) <= 1 ? 1 : 0;
+    }
+  }
+  return agreeing;
+}
+
+// Returns the sorted disparities of the pixels that are certain.
+std::vector<float> SureDisparities(const MadeMap& made, bool star) {
+  std::vector<float> sure;
+  for (int y = 0; y < made.map.height; ++y) {
+    for (int x = 0; x < made.map.width; ++x) {
+      if (made.confidence[size_t(y) * size_t(made.map.width) + size_t(x)] < kLeastConfidence)
+        continue;
+      if (star || CountAgreeing(made, x, y) >= kLeastAgreeing) sure.push_back(made.map.at(x, y));
+    }
+  }
+  if (sure.empty()) sure.push_back(0);  // in a uniform picture, all disparities are uncertain
+  std::sort(sure.begin(), sure.end());
+  return sure;
+}
+
 }  // namespace
 
 Image DrawLevels(const Bytes& levels, const Image& centre) {
@@ -149,17 +195,19 @@ int StarWithin(const Positions& positions) {
   return 1;
 }
 
-Error CheckStar(const std::string& where, const LightField& light_field) {
-  if (StarWithin(light_field.positions) > 1) return {};
-  const size_t views = light_field.views.size();
-  return Expected(
-      where, "a star of 5, 9 or 17 views to estimate disparities",
-      views == 1 ? "a single view" : std::to_string(views) + " views that form no star");
+int EstimateViews(const Positions& positions) {
+  const int star = StarWithin(positions);
+  return star > 1 ? star : static_cast<int>(positions.size());
+}
+
+Error CheckEstimateViews(const std::string& where, const LightField& light_field) {
+  if (light_field.views.size() > 1) return {};
+  return Expected(where, "at least 2 views to estimate disparities", "a single view");
 }
 
 Result<DisparityRange> FindRange(const std::string& where, const LightField& light_field,
                                  int threads) {
-  const Images views = StarOf(light_field);
+  const Images views = EstimateViewsOf(light_field);
   const int factor = (views[0].width + kSmallWidth - 1) / kSmallWidth;
   std::vector<Image> small;
   for (const Image& view : views) small.push_back(Shrink(view, factor));
@@ -167,14 +215,10 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
       std::min(static_cast<float>(small[0].width) / 8,
                static_cast<float>(STARFOCUS_MAX_DISPARITY) / static_cast<float>(factor));
   Maker maker(threads, "searching the disparity range");
-  const Result<MadeMap> made = MakeMap(where, {small, nullptr, {-most, most}, true, false}, &maker);
+  const Result<MadeMap> made =
+      MakeMap(where, {small, light_field.positions, nullptr, {-most, most}, true, false}, &maker);
   if (!made) return made.error();
-  std::vector<float> sure;
-  for (size_t i = 0; i < made->confidence.size(); ++i) {
-    if (made->confidence[i] >= kLeastConfidence) sure.push_back(made->map.values[i]);
-  }
-  if (sure.empty()) sure.push_back(0);  // in a uniform picture, all disparities are uncertain
-  std::sort(sure.begin(), sure.end());
+  const std::vector<float> sure = SureDisparities(*made, StarWithin(light_field.positions) > 1);
   const auto strays = static_cast<size_t>(kStrays * static_cast<double>(sure.size()));
   // Extend the range by one pixel of the reduced pictures at each end, to include surfaces close to
   // discarded outliers.
@@ -185,9 +229,10 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
 
 Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
                                             const DisparityRange& range, int threads) {
-  const Images views = StarOf(light_field);
+  const Images views = EstimateViewsOf(light_field);
   Maker maker(threads, "estimating disparities");
-  Result<MadeMap> made = MakeMap(where, {views, nullptr, range, true, false}, &maker);
+  Result<MadeMap> made =
+      MakeMap(where, {views, light_field.positions, nullptr, range, true, false}, &maker);
   if (!made) return made.error();
   return DisparityEstimate{std::move(made->map), range, DrawLevels(made->confidence, views[0]), {}};
 }
@@ -208,8 +253,9 @@ Result<DisparityEstimate> RepairDisparity(const std::string& where, const LightF
                                 float(std::min(stats.max + kRepairReach, kMost))};
   const Images views = StarOf(light_field);
   Maker maker(options.threads, "repairing disparities");
-  Result<MadeMap> made =
-      MakeMap(where, {views, &given, range, options.confidence, options.coverage}, &maker);
+  Result<MadeMap> made = MakeMap(
+      where, {views, light_field.positions, &given, range, options.confidence, options.coverage},
+      &maker);
   if (!made) return made.error();
   DisparityEstimate estimate;
   if (options.confidence) estimate.confidence = DrawLevels(made->confidence, views[0]);

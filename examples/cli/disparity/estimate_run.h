@@ -39,14 +39,18 @@ struct RepairOptions {
 Image DrawLevels(const std::vector<uint8_t>& levels, const Image& centre);
 
 // Returns the number of views (1, 5, 9 or 17) of the largest star that the first positions form.
-// Maps are computed only from the views of the largest star.
+// Maps are repaired only from the views of the largest star.
 int StarWithin(const Positions& positions);
 
-// Returns an error unless the first 5 or more views form a star. Error messages start with `where`.
-Error CheckStar(const std::string& where, const LightField& light_field);
+// Returns the number of views from which maps are estimated: the views of the largest star of 5 or
+// more views, or all views if the first positions form no star.
+int EstimateViews(const Positions& positions);
 
-// Finds the range of disparities of 5, 9 or 17 views, up to an eighth of the picture's width. The
-// range is estimated from reduced pictures and extended by a margin.
+// Returns an error unless the light field has at least 2 views. Error messages start with `where`.
+Error CheckEstimateViews(const std::string& where, const LightField& light_field);
+
+// Finds the range of disparities of the views from which maps are estimated, up to an eighth of the
+// picture's width. The range is estimated from reduced pictures and extended by a margin.
 Result<DisparityRange> FindRange(const std::string& where, const LightField& light_field,
                                  int threads);
 

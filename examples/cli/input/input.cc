@@ -36,23 +36,33 @@ const char* DepthOption(const InputOptions& options) {
   return options.map.has_unknown ? "--unknown" : nullptr;
 }
 
+// Checks that the other options fit the right picture of a stereo pair.
+Error CheckRight(const InputOptions& options) {
+  std::error_code ignored;
+  if (options.right.empty()) return {};
+  if (options.path == "-") return Error::Usage("--right", "a file as SRC", "standard input");
+  if (std::filesystem::is_directory(options.path, ignored)) {
+    return Error::Usage("--right", "a photo as SRC", "the folder " + options.path);
+  }
+  const char* option = DepthOption(options);
+  if (option == nullptr) return {};
+  return Error::Usage("--right", std::string("no ") + option + ", because the map is estimated",
+                      "both");
+}
+
 // Estimates a map from the loaded views.
 Error Estimate(int threads, Capture* capture) {
   LightField* light_field = &capture->light_field;
-  const int star = StarWithin(light_field->positions);
-  if (star == 1) {
-    return Expected(
-        MapName(*capture),
-        light_field->views.size() == 1
-            ? "a disparity map, because none can be estimated from a single view"
-            : "a disparity map, because one can only be estimated from a star of 5, 9 or 17 views",
-        "no file");
+  if (light_field->views.size() == 1) {
+    return Expected(MapName(*capture),
+                    "a disparity map, because none can be estimated from a single view", "no file");
   }
   const Result<DisparityRange> range = FindRange(capture->path, *light_field, threads);
   if (!range) return range.error();
-  std::fprintf(
-      stderr, "%s: no map found, so disparities from %s to %s are estimated from %d views\n",
-      MapName(*capture).c_str(), Short(range->min).c_str(), Short(range->max).c_str(), star);
+  std::fprintf(stderr,
+               "%s: no map found, so disparities from %s to %s are estimated from %d views\n",
+               MapName(*capture).c_str(), Short(range->min).c_str(), Short(range->max).c_str(),
+               EstimateViews(light_field->positions));
   Result<DisparityEstimate> estimate =
       EstimateDisparity(capture->path, *light_field, *range, threads);
   if (estimate) light_field->disparity = std::move(estimate->map);
@@ -62,6 +72,7 @@ Error Estimate(int threads, Capture* capture) {
 }  // namespace
 
 Result<Capture> OpenInput(const InputOptions& options) {
+  if (Error error = CheckRight(options)) return error;
   if (options.path == "-") {
     if (options.depth == "-") {
       return Error::Usage("--depth", "a file, because SRC is standard input", "-");
@@ -72,6 +83,7 @@ Result<Capture> OpenInput(const InputOptions& options) {
   }
   CaptureOptions wanted;
   wanted.depth = options.depth;
+  wanted.right = options.right;
   wanted.small_map = true;
   wanted.map = options.map;
   if (Error error = CheckNear(options.map)) return error;

@@ -84,6 +84,17 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
   AddDepthPictureOptions(command, &options->map);
 }
 
+void AddRightOption(Command* command, InputOptions* options) {
+  AddOptions(
+      {
+          {"--right", "FILE",
+           "Right picture of a stereo pair, whose left picture is SRC; the disparities are "
+           "estimated; default: SRC is complete",
+           &options->right},
+      },
+      command);
+}
+
 void AddCoverageOption(Command* command, InputOptions* options) {
   AddOptions(
       {

@@ -13,7 +13,7 @@
 namespace starfocus {
 
 struct InputOptions {
-  std::string path, depth, coverage;
+  std::string path, depth, right, coverage;
   DepthCommand command;
   DepthOptions map = {};
 };
@@ -31,6 +31,7 @@ inline bool EstimatesDepth(const InputOptions& options) { return !options.comman
 void AddInputOptions(Command* command, InputOptions* options,
                      std::vector<std::string>* several = nullptr);
 void AddCoverageOption(Command* command, InputOptions* options);
+void AddRightOption(Command* command, InputOptions* options);
 void AddMapOptions(Command* command, MapOptions* options);
 
 }  // namespace starfocus

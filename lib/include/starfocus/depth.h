@@ -49,8 +49,9 @@ typedef struct starfocus_depth_config {
   uint32_t size;  /**< Size of the structure in bytes; set by starfocus_depth_config_init. */
   int32_t width;  /**< Width of the views in pixels, [1, STARFOCUS_MAX_SIZE]. */
   int32_t height; /**< Height of the views in pixels, [1, STARFOCUS_MAX_SIZE]. */
-  int32_t views;  /**< Number of views in the order of starfocus_view_position: 5, 9 or 17, or 1 for
-                     starfocus_repair_disparity; default 5. */
+  /** Number of views. Without `positions`: 5, 9 or 17 in the order of starfocus_view_position, or 1
+   *  for starfocus_repair_disparity. With `positions`: 2 to STARFOCUS_MAX_VIEWS. Default 5. */
+  int32_t views;
   double disparity_min; /**< Smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. */
   /** Largest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. The disparity range is
    *  searched in steps of half a pixel. In a disparity range wider than 64 pixels, the steps are
@@ -65,6 +66,11 @@ typedef struct starfocus_depth_config {
   starfocus_progress progress;
   void* progress_data;        /**< Passed to `progress`. */
   starfocus_problem* problem; /**< Receives the cause of an error of a call; default null. */
+  /** Positions of the views, as in starfocus_config: within [-1, 1], the first (0, 0), and all
+   *  different. The views of a stereo pair have the positions (0, 0) and (1, 0). Default all 0,
+   *  which selects the positions of starfocus_view_position. starfocus_repair_disparity requires
+   *  the positions of starfocus_view_position. */
+  starfocus_position positions[STARFOCUS_MAX_VIEWS];
 } starfocus_depth_config;
 
 /** Output planes of an estimate or repair of a disparity map. The planes must not overlap the
@@ -95,7 +101,8 @@ static inline void starfocus_depth_config_init(starfocus_depth_config* config) {
 
 /** Computes the workspace size of starfocus_estimate_disparity: 5 bytes per pixel of the picture,
  *  plus memory for each worker. Each worker takes up to 1.2 MB per pixel of the disparity range. In
- *  addition, each worker takes about 10, 20 or 45 MB with 5, 9 or 17 views.
+ *  addition, each worker takes about 10, 20 or 45 MB with 5, 9 or 17 views at the positions of
+ *  starfocus_view_position, and up to 14 MB for each other view that moves along both axes.
  *  @param config configuration
  *  @param bytes receives the size in bytes
  *  @return STARFOCUS_OK, or an error of the configuration */
@@ -109,6 +116,10 @@ starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* 
  *  The confidence is the cost of the best other disparity, at least two steps away, minus the cost
  *  of the result. Costs are in quarters of a code, summed over R, G and B. The confidence is 0 if
  *  another disparity fits equally well, for example on a wall of one colour, and at most 255.
+ *
+ *  If the views have other positions than those of starfocus_view_position, some pixels may be
+ *  hidden in all side views. If all side views lie on one side of the centre, such a pixel gets the
+ *  disparity of the background beside it, and confidence 0.
  *  @param config configuration
  *  @param light_field views; `depth` is ignored
  *  @param map output planes

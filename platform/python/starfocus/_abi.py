@@ -145,7 +145,7 @@ class DepthConfig(Structure):
         ("size", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
         ("disparity_min", c_double), ("disparity_max", c_double), ("max_workers", c_int32),
         ("runner", c_void_p), ("runner_data", c_void_p), ("progress", Progress), ("progress_data", c_void_p),
-        ("problem", c_void_p),
+        ("problem", c_void_p), ("positions", Position * MAX_VIEWS),
     ]
 
 

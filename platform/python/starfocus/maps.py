@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _abi
 from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, light_field, pointer,
-                     set_field, stride_of, whole)
+                     positions_of, set_field, stride_of, whole)
 from ._abi import library
 from .errors import check
 
@@ -103,20 +103,23 @@ def aperture_of_f_stop(f_stop: float, widest: float = 1.0) -> float:
     return aperture.value
 
 
-def estimate_disparity(views: Views, disparity_min: float, disparity_max: float, *, workers: int = 0,
-                       progress: Optional[ProgressFunction] = None) -> DisparityMap:
+def estimate_disparity(views: Views, disparity_min: float, disparity_max: float, *, positions: Any = None,
+                       workers: int = 0, progress: Optional[ProgressFunction] = None) -> DisparityMap:
     """Estimates the disparity of each pixel of the centre view.
 
     Args:
-        views: 5, 9 or 17 views at the positions of `view_positions`, each uint8 of shape (height, width, 3).
+        views: 5, 9 or 17 views at the positions of `view_positions`, or 2 to 17 views with `positions`, each uint8 of
+            shape (height, width, 3).
         disparity_min, disparity_max: range of the disparities in pixels per unit of u, within +-500.
+        positions: positions (u, v) of the views, each from -1 to 1, of which the first is (0, 0). For a stereo pair,
+            pass `[(0, 0), (1, 0)]`. None: the positions of `view_positions`.
         workers: number of threads; 0: one for each big core of the machine.
         progress: receives the number of finished rows and the number of rows; a true result cancels the call.
 
     Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape.
     """
     return _make_map(library.starfocus_estimate_workspace_size, library.starfocus_estimate_disparity, views, None,
-                     (disparity_min, disparity_max), workers, progress)
+                     (disparity_min, disparity_max), workers, progress, positions)
 
 
 def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optional[float] = None,
@@ -145,7 +148,7 @@ def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optiona
 
 
 def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray], span: Tuple[float, float],
-              workers: int, progress: Optional[ProgressFunction]) -> DisparityMap:
+              workers: int, progress: Optional[ProgressFunction], positions: Any = None) -> DisparityMap:
     views = as_list(views)
     shape = np.asarray(views[0]).shape if len(views) > 0 else ()
     if len(shape) != 3:
@@ -157,6 +160,8 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
     config.problem = ctypes.addressof(problem)
     for name, value in (("width", width), ("height", height), ("views", len(views))):
         set_field(config, name, value)
+    if positions is not None:
+        config.positions = positions_of(positions, len(views))
     config.disparity_min, config.disparity_max = span
     config.max_workers, config.progress = pool.workers, watch.function
     config.runner, config.runner_data = pool.runner, pool.handle
