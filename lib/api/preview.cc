@@ -27,7 +27,10 @@ class Reduction {
 
 starfocus_params ReducedParams(const PreviewRequest& request, const Rect& rect) {
   starfocus_params params = request.params;
-  params.lens.focus /= 1 << request.shift;
+  const double scale = 1.0 / (1 << request.shift);
+  params.lens.focus *= scale;
+  params.lens.focus_nearer *= scale;
+  params.lens.focus_farther *= scale;
   if (!IsWhole(params.region)) params.region = {rect.x, rect.y, rect.width, rect.height};
   return params;
 }

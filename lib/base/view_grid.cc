@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/base/view_grid.h"
 
-#include <cmath>
-
 namespace starfocus {
 
 namespace {
@@ -15,12 +13,11 @@ constexpr int32_t kRunSpread = kShiftOne / 4;
 
 }  // namespace
 
-ViewGrid MakeViewGrid(const ViewWeights& aperture, double focus, double aperture_radius, int layer,
-                      bool has_half_views) {
+ViewGrid MakeViewGrid(const ViewWeights& aperture, const FocusRange& focus, double aperture_radius,
+                      int layer, bool has_half_views) {
   ViewGrid grid;
   grid.aperture = aperture;
-  grid.focus = static_cast<int32_t>(
-      Checked(ranges::kFocus, std::floor(focus * (1 << kDisparityBits) + 0.5)));
+  grid.focus = focus;
   const double step = aperture_radius * (int64_t{1} << kStepBits);
   grid.step = RoundShift(static_cast<int64_t>(step) << 1, 1 + layer);
   if (grid.step < 1) grid.step = 1;

@@ -7,13 +7,14 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
+#include "lib/base/focus_range.h"
 #include "lib/base/view_weights.h"
 
 namespace starfocus {
 
 struct ViewGrid {
   ViewWeights aperture;  // N views along the radius.
-  int32_t focus = 0;     // d_t, kDisparityBits.
+  FocusRange focus;      // d_t
   int64_t step = 0;      // Position of the view at the rim, in pixels of the layer per unit of
                          // disparity: u_t / 2^layer, kStepBits.
   int layer = 0;         // Layer L.
@@ -31,15 +32,15 @@ struct ViewGrid {
   // Returns the displacement, in pixels (kShiftBits), of points with disparity `disparity` in a
   // view at position `move`. The absolute value of the displacement is at most the blur radius.
   int32_t Shift(int64_t move, int32_t disparity) const {
-    return static_cast<int32_t>(
-        Checked(ranges::kShift,
-                RoundShift(move * (disparity - focus), kStepBits + kDisparityBits - kShiftBits)));
+    return static_cast<int32_t>(Checked(
+        ranges::kShift,
+        RoundShift(move * focus.Distance(disparity), kStepBits + kDisparityBits - kShiftBits)));
   }
 };
 
-// Returns the grid for aperture radius u_t in (0, 1] and focus d_t, |d_t| <= 10^6.
-ViewGrid MakeViewGrid(const ViewWeights& aperture, double focus, double aperture_radius, int layer,
-                      bool has_half_views);
+// Returns the grid for aperture radius u_t in (0, 1] and focus d_t.
+ViewGrid MakeViewGrid(const ViewWeights& aperture, const FocusRange& focus, double aperture_radius,
+                      int layer, bool has_half_views);
 
 }  // namespace starfocus
 

@@ -44,17 +44,19 @@ Rect RegionOf(const starfocus_config& config, const starfocus_params& params) {
 int32_t LastGatherStep(const Lens& lens) { return BlurStepCount(LargestGather(lens.r_max)) - 1; }
 
 double LargestBlur(const starfocus_config& config, const starfocus_params& params) {
-  const double nearer = config.disparity_max - params.lens.focus;
-  const double farther = params.lens.focus - config.disparity_min;
-  return params.lens.aperture * (nearer > farther ? nearer : farther);
+  const starfocus_lens& lens = params.lens;
+  const double nearer = config.disparity_max - (lens.focus + lens.focus_nearer);
+  const double farther = lens.focus - lens.focus_farther - config.disparity_min;
+  const double distance = nearer > farther ? nearer : farther;
+  return distance > 0 ? lens.aperture * distance : 0;
 }
 
 starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params) {
   const double r_max = LargestBlur(config, params), aperture = params.lens.aperture;
   Checker check(config.problem);
   check.Need(r_max <= config.max_blur, STARFOCUS_ERROR_BLUR, {"lens.aperture", aperture},
-             {"at most max_blur over the largest |disparity - lens.focus| that is configured", 0,
-              aperture * config.max_blur / r_max});
+             {"at most max_blur over the largest distance of a configured disparity from the focus",
+              0, aperture * config.max_blur / r_max});
   return check.status();
 }
 
@@ -78,8 +80,9 @@ starfocus_status MakeLens(const starfocus_config& config, const starfocus_params
   if (status != STARFOCUS_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
   lens->aperture = FrameWeights(config, *tables, *lens);
-  const ViewGrid grid =
-      MakeViewGrid(lens->aperture, params.lens.focus, params.lens.aperture, 0, false);
+  const starfocus_lens& given = params.lens;
+  const FocusRange focus = MakeFocusRange(given.focus, given.focus_nearer, given.focus_farther);
+  const ViewGrid grid = MakeViewGrid(lens->aperture, focus, given.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
   if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, call_progress, tables);
   if (params.mode == STARFOCUS_MODE_BLUR)

@@ -235,7 +235,7 @@ ViewGrid GridOf(const BlockInputs& in, const Block& block, uint16_t* cats_eye) {
                         cats_eye)
           : whole;
   ViewGrid grid =
-      MakeViewGrid(rendered, lens.params.lens.focus, lens.params.lens.aperture * rendered.extent,
+      MakeViewGrid(rendered, lens.scale.focus, lens.params.lens.aperture * rendered.extent,
                    block.layer, in.config->views == 17);
   if (pinhole) grid.step = 0;
   return grid;

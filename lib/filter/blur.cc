@@ -284,10 +284,10 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
     const int16_t* row = scratch.rgb + static_cast<size_t>(y + job.border) * stride +
                          3 * static_cast<size_t>(job.border);
     const auto step_at = [&](int32_t x) {
-      return BlurStep(job.scale.Radius(Abs(disparity[x] - job.scale.focus)));
+      return BlurStep(job.scale.Radius(Abs(job.scale.focus.Distance(disparity[x]))));
     };
     const auto side_of = [&](int32_t x) {
-      return turns && disparity[x] < job.scale.focus ? -1 : 1;
+      return turns && disparity[x] < job.scale.focus.far ? -1 : 1;
     };
     for (int32_t x = 0; x < rect.width;) {
       const int32_t begin = x, step = step_at(x), side = side_of(x);

@@ -227,7 +227,8 @@ class Gather {
   Steps StepsOf(int32_t x, int32_t y) const {
     if (job_.cells.IsFlat(x, y)) {
       const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
-      const int32_t radius = job_.scale.Radius(Abs((cell.low + cell.high) / 2 - job_.scale.focus));
+      const int32_t distance = (cell.low + cell.high) / 2 - job_.scale.focus.far;
+      const int32_t radius = job_.scale.Radius(Abs(distance));
       const auto step = static_cast<int8_t>(BlurStep(radius >> job_.cells.layer));
       return {step, step};
     }

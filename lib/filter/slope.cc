@@ -11,7 +11,7 @@ constexpr int32_t kHalves = 2 * kCellSize;  // number of half pixels along the s
 // Returns the signed blur radius at the upper left corner of a cell.
 int32_t RadiusAtCorner(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row) {
   constexpr int kSummedBits = 3;  // log2 of the number of summed disparities, two of each cell
-  int64_t distance = -int64_t{scale.focus} * (1 << kSummedBits);
+  int64_t distance = -int64_t{scale.focus.far} * (1 << kSummedBits);
   for (int32_t y = row - 1; y <= row; ++y) {
     for (int32_t x = column - 1; x <= column; ++x) {
       const Cell& cell = *grid.At(Clamp(x, 0, grid.columns - 1), Clamp(y, 0, grid.rows - 1));

@@ -71,9 +71,12 @@ bool NothingMoves(const RenderJob& job) {
   if (window.layer != 0) return false;
   const int64_t still =
       (int64_t{kStill} << (kStepBits + kDisparityBits - kShiftBits)) / job.grid->step;
-  // Disparities that differ from the focus by at most `limit` form no depth edge, so no pixel is
-  // mixed.
-  const auto limit = static_cast<int32_t>(still < kSurfaceStep / 2 ? still : kSurfaceStep / 2);
+  // Disparities that differ from a single focus by at most `limit` form no depth edge, so no pixel
+  // is mixed. Disparities around a range in focus may form depth edges, where only surfaces that do
+  // not move at all stay unmixed.
+  const FocusRange& focus = job.grid->focus;
+  const int64_t most = focus.IsSingle() ? kSurfaceStep / 2 : 0;
+  const auto limit = static_cast<int32_t>(still < most ? still : most);
   // The ranges of rows and columns are clamped so that at least one row and one column lie inside
   // the picture.
   const Rect rect = Extended(job.rect, job.border);
@@ -84,7 +87,7 @@ bool NothingMoves(const RenderJob& job) {
   for (int32_t y = top; y < bottom; ++y) {
     const int16_t* row = window.disparity.Row(y);
     for (int32_t x = left; x < right; ++x) {
-      if (Abs(row[x] - job.grid->focus) > limit) return false;
+      if (Abs(focus.Distance(row[x])) > limit) return false;
     }
   }
   return true;

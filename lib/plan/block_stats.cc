@@ -59,7 +59,7 @@ void StoreSides(int32_t reach, Cell* cell) {
 void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
                   const int16_t (&highs)[kCellSize], Side low, Side high, Cell* cell) {
   for (int32_t k = 0; k < kCellSize; ++k) {
-    const int32_t distance = Farthest(lows[k], highs[k], scale.focus);
+    const int32_t distance = Farthest(lows[k], highs[k], scale.focus.far);
     const int32_t reach = ReachOf(scale.RadiusAbove(distance));
     const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
     cell->span[low] = Max(cell->span[low], SpanOf(beyond_low));
@@ -79,7 +79,7 @@ class CellRow {
         window_(window),
         scale_(scale),
         y_(row * kCellSize),
-        near_focus_(Clamp(scale.focus, INT16_MIN, INT16_MAX)),
+        near_focus_(Clamp(scale.focus.far, INT16_MIN, INT16_MAX)),
         limits_{static_cast<int16_t>(near_focus_), kSurfaceStep,
                 static_cast<int16_t>(DisparityOf(kRunDrift, scale.step)),
                 static_cast<int16_t>(DisparityOf(kLargestGap * kRadiusOne, scale.step))} {
@@ -100,14 +100,14 @@ class CellRow {
     }
     // The SIMD kernel measures distances from a focus that is clamped to int16. A focus outside
     // int16 lies on one side of all disparities, so the clamped part of the distance is added.
-    const int32_t nearest = found.nearest + Abs(scale_.focus - near_focus_);
-    const int32_t farthest = Farthest(cell.low, cell.high, scale_.focus);
+    const int32_t focus = scale_.focus.far;
+    const int32_t nearest = found.nearest + Abs(focus - near_focus_);
+    const int32_t farthest = Farthest(cell.low, cell.high, focus);
     cell.r_min = static_cast<uint16_t>(scale_.Radius(nearest));
     cell.r_max = static_cast<uint16_t>(scale_.RadiusAbove(farthest));
     int32_t shown = cell.r_min;
     if (found.edge_low <= found.edge_high) {
-      const int32_t sharpest =
-          Abs(scale_.focus - Clamp(scale_.focus, found.edge_low, found.edge_high));
+      const int32_t sharpest = Abs(focus - Clamp(focus, found.edge_low, found.edge_high));
       shown = Min(shown, scale_.Radius(sharpest));
       cell.has_edge = 1;
     }
@@ -126,16 +126,18 @@ class CellRow {
  private:
   static constexpr int32_t kRows = kCellSize + 2;
 
-  // Measures the cell at column x of the picture. Pixels outside the picture repeat its edge.
+  // Measures the closed disparities of the cell at column x of the picture. Pixels outside the
+  // picture repeat its edge.
   simd::CellMeasure Find(int32_t x) const {
     const int16_t* rows[kRows];
     int16_t copies[kRows][kRows];
-    if (x > 0 && x + kCellSize < window_.width) {
+    if (x > 0 && x + kCellSize < window_.width && scale_.focus.IsSingle()) {
       for (int32_t k = 0; k < kRows; ++k) rows[k] = rows_[k] + x;
     } else {
       for (int32_t k = 0; k < kRows; ++k) {
         for (int32_t column = 0; column < kRows; ++column) {
-          copies[k][column] = rows_[k][Clamp(x + column - 1, 0, window_.width - 1)];
+          const int32_t from = Clamp(x + column - 1, 0, window_.width - 1);
+          copies[k][column] = scale_.focus.Closed(rows_[k][from]);
         }
         rows[k] = copies[k] + 1;
       }
@@ -151,16 +153,17 @@ class CellRow {
     const int32_t column = x / kCoverageTile, row = y_ / kCoverageTile;
     const CoverageTile& tile = map.Tile(column, row);
     if (tile.thin == 0 || tile.low > tile.high) return;
+    const int16_t far = scale_.focus.Closed(tile.low), near = scale_.focus.Closed(tile.high);
     const auto widen = [&](int16_t* low, int16_t* high) {
-      *low = tile.low < *low ? tile.low : *low;
-      *high = tile.high > *high ? tile.high : *high;
+      *low = far < *low ? far : *low;
+      *high = near > *high ? near : *high;
     };
     for (int32_t k = 0; k < kCellSize; ++k) {
       widen(&found->column_low[k], &found->column_high[k]);
       widen(&found->row_low[k], &found->row_high[k]);
     }
     widen(&found->edge_low, &found->edge_high);
-    for (const int32_t disparity : {tile.low, tile.high}) {
+    for (const int32_t disparity : {far, near}) {
       found->nearest =
           static_cast<uint16_t>(Min(found->nearest, Min(Abs(disparity - near_focus_), UINT16_MAX)));
     }

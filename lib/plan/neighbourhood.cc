@@ -18,7 +18,7 @@ void StorePlanes(const Cell& cell, const BlurScale& scale, bool outside, size_t 
   }
   out[simd::kReachPlane * plane] = reach;
   out[simd::kNearPlane * plane] =
-      static_cast<int16_t>(ReachOf(scale.RadiusAbove(Abs(cell.high - scale.focus))));
+      static_cast<int16_t>(ReachOf(scale.RadiusAbove(Abs(cell.high - scale.focus.far))));
   out[simd::kRadiusPlane * plane] = static_cast<int16_t>(cell.r_max);
   out[simd::kEdgePlane * plane] = cell.has_edge;
   out[simd::kLowPlane * plane] = cell.low;
@@ -34,7 +34,7 @@ CellKind KindOf(const BlurScale& scale, int32_t low, int32_t high, int32_t wides
   };
   const auto is_gradual_or_low = [&](bool is_step) {
     if (!is_step) return true;
-    const int32_t blur = Max(Abs(low - scale.focus), Abs(high - scale.focus));
+    const int32_t blur = Max(Abs(low - scale.focus.far), Abs(high - scale.focus.far));
     return is_within(range, Max(scale.Radius(blur) / 2, kSharpSmoothRange));
   };
   if (is_within(range, kSmoothRange) && is_gradual_or_low(2 * widest > range)) {

@@ -188,6 +188,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   }
   PartThin(*job.window, field, &scratch->surfaces);
   InpaintHidden(*job.kernels, job.window->layer, scratch->fill, &scratch->surfaces);
+  CloseSurfaces(job.grid->focus, &scratch->surfaces);
   return inner;
 }
 
@@ -256,12 +257,17 @@ SliceJob SlicesOfTile(const RenderJob& job, const Rect& tile, const CompositorSc
   return {job.kernels, &scratch.surfaces, job.grid, rule, tile, scratch.bins, scratch.least_blur};
 }
 
-uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accumulators) {
+uint64_t CompositeRectangle(const RenderJob& given, void* scratch, uint32_t* accumulators) {
   auto* const memory = static_cast<CompositorScratch*>(scratch);
   SliceStack stack;
-  stack.grid = job.grid;
-  stack.weights = ScaleWeights(job.grid->aperture);
-  stack.inner = LoadSurfaces(job, memory, accumulators);
+  stack.inner = LoadSurfaces(given, memory, accumulators);
+  // The disparities of the surfaces and of their slices are closed.
+  ViewGrid grid = *given.grid;
+  grid.focus.near = grid.focus.far;
+  RenderJob job = given;
+  job.grid = &grid;
+  stack.grid = &grid;
+  stack.weights = ScaleWeights(grid.aperture);
   const Rectangle all = {&job, &stack, memory, accumulators};
   uint64_t pixels = 0;
   Rect tile = {0, 0, 0, 0};

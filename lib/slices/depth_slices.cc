@@ -97,8 +97,8 @@ class SliceFinder {
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);
       } else {  // skips pixels that are too sharp to reach the tile
-        MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus - least));
-        MarkPixels(surface, pixels, Max(range.low, grid_.focus + least), range.high);
+        MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus.far - least));
+        MarkPixels(surface, pixels, Max(range.low, grid_.focus.far + least), range.high);
       }
     }
   }
@@ -122,7 +122,7 @@ class SliceFinder {
     // `bins` may change any member.
     uint8_t* const bins = job_.bins;
     const int32_t* const least_blur = job_.least_blur;
-    const int32_t base = base_, bits = bin_bits_, focus = grid_.focus;
+    const int32_t base = base_, bits = bin_bits_, focus = grid_.focus.far;
     const int32_t left = job_.tile.x - pixels.x, right = left + job_.tile.width - 1;
     for (int32_t y = 0; y < pixels.height; ++y, disparity += surfaces_.stride) {
       const int32_t in_column = Beyond({job_.tile.x, pixels.y + y, 1, 1});

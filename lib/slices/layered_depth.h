@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/focus_range.h"
 #include "lib/input/block_pixels.h"
 #include "lib/input/window.h"
 #include "simd/kernels.h"
@@ -83,6 +84,12 @@ struct SurfaceBands {
 // on the near side hides a copy of itself (kLeastCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                       LayeredDepth* surfaces);
+
+// Closes the disparities of all surfaces (FocusRange::Closed), so that the surfaces inside the
+// range in focus belong to one slice. Within a slice, the nearer surface of a pixel covers the
+// farther ones. The captured views show surfaces at their original disparities, so this is the last
+// step.
+void CloseSurfaces(const FocusRange& focus, LayeredDepth* surfaces);
 
 }  // namespace starfocus
 

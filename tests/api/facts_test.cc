@@ -77,6 +77,8 @@ TEST_CASE("the defaults match the documentation in the headers") {
   CHECK(params.renderer == STARFOCUS_RENDERER_AUTO);
   CHECK(params.lens.aperture == 1);
   CHECK(params.lens.focus == 0);
+  CHECK(params.lens.focus_nearer == 0);
+  CHECK(params.lens.focus_farther == 0);
   CHECK(params.lens.shape == STARFOCUS_SHAPE_FALL_OFF);
   CHECK(params.lens.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
   CHECK(params.lens.blades == 5);

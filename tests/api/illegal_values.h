@@ -120,6 +120,19 @@ inline const Bad<starfocus_params> kBadParams[] = {
     {"lens.focus", [](starfocus_params* p) { p->lens.focus = -kInf; }},
     {"lens.focus", [](starfocus_params* p) { p->lens.focus = 1.1e6; }},
     {"lens.focus", [](starfocus_params* p) { p->lens.focus = -1e300; }},
+    {"lens.focus_nearer", [](starfocus_params* p) { p->lens.focus_nearer = kNan; }},
+    {"lens.focus_nearer", [](starfocus_params* p) { p->lens.focus_nearer = -0.01; }},
+    {"lens.focus_nearer", [](starfocus_params* p) { p->lens.focus_nearer = 1e6 + 1; }},
+    {"lens.focus_nearer",
+     [](starfocus_params* p) { p->lens.focus = p->lens.focus_nearer = 0.6e6; }},
+    {"lens.focus_farther", [](starfocus_params* p) { p->lens.focus_farther = kNan; }},
+    {"lens.focus_farther", [](starfocus_params* p) { p->lens.focus_farther = -0.01; }},
+    {"lens.focus_farther", [](starfocus_params* p) { p->lens.focus_farther = kInf; }},
+    {"lens.focus_farther",
+     [](starfocus_params* p) {
+       p->lens.focus = -0.6e6;
+       p->lens.focus_farther = 0.6e6;
+     }},
     {"lens.aperture", [](starfocus_params* p) { p->lens.aperture = -1e-300; }},
     {"lens.aperture", [](starfocus_params* p) { p->lens.aperture = -0.5; }},
     {"lens.aperture", [](starfocus_params* p) { p->lens.aperture = 1.0000001; }},

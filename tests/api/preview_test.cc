@@ -161,6 +161,8 @@ bool IsOfReduced(Prepared* prepared, starfocus_params params, int shift,
   const test::Output got = prepared->Preview(params, shift, test::RunBy(test::RunOnTwo), &report);
   test::Engine small(ReducedConfig(config, shift, report.superblock));
   params.lens.focus /= 1 << shift;
+  params.lens.focus_nearer /= 1 << shift;
+  params.lens.focus_farther /= 1 << shift;
   params.region = ReducedRegion(params.region, shift);
   test::Output expected(got.width, got.height, 3);
   REQUIRE(test::Refocus(&small, params, reduced, &expected) == STARFOCUS_OK);
@@ -197,6 +199,10 @@ TEST_CASE("preview: a preview equals the picture of a light field that is reduce
         if (test::Has(config.features, STARFOCUS_FEATURE_SHAPES)) params.lens.cats_eye = 0.5;
         if (lens == 2)
           params.mode = random.Int(0, 1) == 0 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
+        if (lens % 2 == 1) {
+          params.lens.focus_nearer = 3;
+          params.lens.focus_farther = 1.5;
+        }
         if (lens == 3) {
           params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};
           params.region.width = random.Int(1, size[0] - params.region.x);

@@ -35,6 +35,8 @@ TEST_CASE(
     params.renderer = random.Int(0, 2);
     if (round % 4 == 3) params.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
     if (round == 11) params.mode = STARFOCUS_MODE_BENCHMARK;
+    if (round % 3 == 0) params.lens.focus_nearer = random.Real(0, 6);
+    if (round % 5 == 0) params.lens.focus_farther = random.Real(0, 6);
     test::CheckWays(scene, config, params, true);
   }
 }

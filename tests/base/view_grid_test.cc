@@ -19,17 +19,39 @@ using starfocus::ViewGrid;
 ViewGrid MakeGrid(int n, double focus, double aperture, int layer = 0, bool half = false) {
   starfocus::ViewWeights views;
   views.n = views.last = n;
-  return starfocus::MakeViewGrid(views, focus, aperture, layer, half);
+  return starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, layer, half);
 }
 
 TEST_CASE("view grid: the focus is rounded to 1/64, half up") {
-  CHECK(MakeGrid(4, 0, 1).focus == 0);
-  CHECK(MakeGrid(4, 1.5, 1).focus == 96);
-  CHECK(MakeGrid(4, 1.0 / 128, 1).focus == 1);
-  CHECK(MakeGrid(4, -1.0 / 128, 1).focus == 0);
-  CHECK(MakeGrid(4, -3.0 / 128, 1).focus == -1);
-  CHECK(MakeGrid(4, STARFOCUS_MAX_FOCUS, 1).focus == 64000000);
-  CHECK(MakeGrid(4, -STARFOCUS_MAX_FOCUS, 1).focus == -64000000);
+  CHECK(MakeGrid(4, 0, 1).focus.far == 0);
+  CHECK(MakeGrid(4, 1.5, 1).focus.far == 96);
+  CHECK(MakeGrid(4, 1.0 / 128, 1).focus.far == 1);
+  CHECK(MakeGrid(4, -1.0 / 128, 1).focus.far == 0);
+  CHECK(MakeGrid(4, -3.0 / 128, 1).focus.far == -1);
+  CHECK(MakeGrid(4, STARFOCUS_MAX_FOCUS, 1).focus.far == 64000000);
+  CHECK(MakeGrid(4, -STARFOCUS_MAX_FOCUS, 1).focus.far == -64000000);
+}
+
+TEST_CASE("view grid: shifts grow from the nearer end of a range in focus, and are 0 inside") {
+  ViewGrid grid = MakeGrid(8, 0, 0.7);
+  grid.focus = starfocus::MakeFocusRange(0.5, 3, 2);
+  const ViewGrid far = MakeGrid(8, -1.5, 0.7), near = MakeGrid(8, 3.5, 0.7);
+  for (int disparity = -500 * 64; disparity <= 500 * 64; disparity += 7) {
+    const bool behind = disparity<-96, before = disparity> 224;
+    if (std::abs(grid.focus.Distance(disparity)) * 0.7 / 64 > STARFOCUS_MAX_BLUR) continue;
+    const int expected = behind   ? far.Shift(far.Move(5), disparity)
+                         : before ? near.Shift(near.Move(5), disparity)
+                                  : 0;
+    CHECK(grid.Shift(grid.Move(5), disparity) == expected);
+    CHECK(grid.focus.Closed(int16_t(disparity)) ==
+          disparity - std::clamp(disparity + 96, 0, 224 + 96));
+  }
+}
+
+TEST_CASE("view grid: the far end of a range is at least the smallest disparity") {
+  CHECK(starfocus::MakeFocusRange(3, 1, 1000).far == -500 * 64);
+  CHECK(starfocus::MakeFocusRange(-600, 0, 1000).far == -600 * 64);
+  CHECK(starfocus::MakeFocusRange(-600).far == -600 * 64);
 }
 
 TEST_CASE("view grid: view i lies at i u_t / N") {

@@ -55,7 +55,7 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
   ViewWeights aperture;
   aperture.n = kViewNumber;
-  const ViewGrid grid = MakeViewGrid(aperture, 0, 1, 0, false);
+  const ViewGrid grid = MakeViewGrid(aperture, {}, 1, 0, false);
   const Line line = {rgb.data(), disparity.data(), 1, kPixels};
   for (auto _ : state) {
     Ignore ignore;

@@ -116,12 +116,14 @@ inline std::string TextOf(const test::Scene& scene, const starfocus_params& para
                           const starfocus_config& config) {
   char text[600];
   std::snprintf(text, sizeof(text),
-                "%dx%d, %d views, mode %d, rule %d, disparity [%.9g, %.9g], focus %.9g, aperture "
-                "%.9g, block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, block cost %u, "
+                "%dx%d, %d views, mode %d, rule %d, disparity [%.9g, %.9g], focus %.9g + %.9g "
+                "- %.9g, aperture %.9g, block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, "
+                "block cost %u, "
                 "transfer %d, highlights %.9g, %s",
                 scene.width, scene.height, scene.views(), params.mode, params.renderer,
                 double{scene.disparity_min}, double{scene.disparity_max}, params.lens.focus,
-                params.lens.aperture, config.superblock, config.tuning.max_layer, params.lens.theta,
+                params.lens.focus_nearer, params.lens.focus_farther, params.lens.aperture,
+                config.superblock, config.tuning.max_layer, params.lens.theta,
                 config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block,
                 config.transfer, double{config.highlights}, test::ShapeText(params.lens).c_str());
   return text;

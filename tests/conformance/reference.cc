@@ -79,7 +79,8 @@ Lens MakeLens(const starfocus_params& params, const ApertureShape& opening, int 
   lens.most = n * n;
   lens.radius = params.lens.aperture;
   lens.opening = opening;
-  lens.focus = RoundedTo64(params.lens.focus);
+  lens.far = RoundedTo64(params.lens.focus - params.lens.focus_farther);
+  lens.near = RoundedTo64(params.lens.focus + params.lens.focus_nearer);
   double extent = 1;
   if (wide) {
     // The centres of the outermost subapertures are up to 5/32 of a subaperture beyond the rim of
@@ -254,6 +255,11 @@ LightField Load(const test::Scene& scene, int transfer) {
   return field;
 }
 
+double LargestBlur(const starfocus_lens& lens, double low, double high) {
+  const double near = lens.focus + lens.focus_nearer, far = lens.focus - lens.focus_farther;
+  return lens.aperture * std::max({0.0, high - near, far - low});
+}
+
 int ViewsAlongRadius(double r_max, int mode) {
   if (mode == STARFOCUS_MODE_BENCHMARK) return 2 * int(std::ceil(r_max));
   if (r_max < 4) return int(std::ceil(r_max));
@@ -285,9 +291,7 @@ void RefocusFrame(const LightField& field, const Lens& lens, int border, int blo
 
 Result Refocus(const test::Scene& scene, const starfocus_params& params,
                const starfocus_config& config, int block) {
-  const double r_max =
-      params.lens.aperture * std::max(std::fabs(scene.disparity_min - params.lens.focus),
-                                      std::fabs(scene.disparity_max - params.lens.focus));
+  const double r_max = LargestBlur(params.lens, scene.disparity_min, scene.disparity_max);
   const int n = ViewsAlongRadius(r_max, params.mode), border = int(std::ceil(r_max)) + 2;
   const Lens lens = MakeLens(params, params.lens, n, 0);
   Result result;
@@ -325,8 +329,7 @@ void RefocusAll(const LightField& field, const starfocus_params& params,
   const Picture& centre = field.at({0, 0});
   const std::vector<Picture> layers = MakeLayers(centre);
   const bool benchmark = params.mode == STARFOCUS_MODE_BENCHMARK;
-  const double r_max = params.lens.aperture * std::max(config.disparity_max - params.lens.focus,
-                                                       params.lens.focus - config.disparity_min);
+  const double r_max = LargestBlur(params.lens, config.disparity_min, config.disparity_max);
   const int widest = std::max(int(r_max), 32) + 3;  // reach of the most blurred slice
   const Slicing slicing = {size_t(benchmark ? 32 : 16), 5 * (widest + 16) * (widest + 16),
                            benchmark ? 0.125 : 0.375};

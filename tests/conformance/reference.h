@@ -15,6 +15,9 @@
 
 namespace reference {
 
+// Returns the largest blur radius in pixels of the disparities from `low` to `high`.
+double LargestBlur(const starfocus_lens& lens, double low, double high);
+
 // Returns the number of views along the aperture radius: (9), or 2 * ceil(r_max) for the benchmark.
 int ViewsAlongRadius(double r_max, int mode);
 

@@ -57,8 +57,8 @@ class Gather {
  private:
   double Scale() const { return 1 << block_.layer; }
 
-  // Computes the lowest and the highest disparity of a cell. Beyond the picture, the outermost
-  // pixels and the outermost cells are repeated.
+  // Computes the lowest and the highest closed disparity of a cell (Lens::Closed). Beyond the
+  // picture, the outermost pixels and the outermost cells are repeated.
   void DisparitiesOf(int column, int row, int* low, int* high) const {
     column = std::clamp(column, 0, (picture_.width - 1) / kCell);
     row = std::clamp(row, 0, (picture_.height - 1) / kCell);
@@ -66,9 +66,9 @@ class Gather {
     *high = INT32_MIN;
     for (int y = 0; y < kCell; ++y) {
       for (int x = 0; x < kCell; ++x) {
-        const int disparity =
-            picture_.disparities[picture_.At(std::min(kCell * column + x, picture_.width - 1),
-                                             std::min(kCell * row + y, picture_.height - 1))];
+        const size_t at = picture_.At(std::min(kCell * column + x, picture_.width - 1),
+                                      std::min(kCell * row + y, picture_.height - 1));
+        const int disparity = lens_.Closed(picture_.disparities[at]);
         *low = std::min(*low, disparity);
         *high = std::max(*high, disparity);
       }
@@ -77,7 +77,7 @@ class Gather {
 
   // Returns the signed radius at the upper left corner of a cell, in 1/1024 pixels of the picture.
   double Corner(int column, int row) const {
-    int64_t distance = -8 * int64_t{lens_.focus};
+    int64_t distance = -8 * int64_t{lens_.far};
     for (int k = 0; k < 4; ++k) {
       int low, high;
       DisparitiesOf(column - 1 + (k & 1), row - 1 + (k >> 1), &low, &high);
@@ -153,7 +153,7 @@ class Gather {
   void Flat(const GatheredCell& cell) {
     int low, high;
     DisparitiesOf(cell.x / kCell, cell.y / kCell, &low, &high);
-    const int distance = std::abs((low + high) / 2 - lens_.focus);
+    const int distance = std::abs((low + high) / 2 - lens_.far);
     const int radius = int(std::floor(lens_.radius * distance)) >> block_.layer;
     const double nearest = NearestRadius(radius);
     const Psf kernel = PsfOf(nearest, lens_.opening);

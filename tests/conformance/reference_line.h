@@ -62,15 +62,22 @@ struct Lens {
                             // each view is a point of the lens.
   double radius = 0;        // u_t.
   ApertureShape opening = 0.0;
-  int focus = 0;     // d_t in 1/64 pixel.
+  // d_t: smallest and largest disparity in focus, in 1/64 pixel.
+  int far = 0, near = 0;
   int64_t step = 0;  // u_t / 2^layer, in units of 2^-24.
   int layer = 0;     // L.
 
   // Returns the position u of view k, in units of 2^-24.
   int64_t Move(int k) const { return (2 * k * step + n) / (2 * n); }
+  // Returns the distance of a disparity from the range in focus, negative behind the range.
+  int Distance(int disparity) const {
+    return std::max(disparity - near, 0) - std::max(far - disparity, 0);
+  }
+  // Returns the disparity at the same distance from `far` alone.
+  int Closed(int disparity) const { return far + Distance(disparity); }
   // Returns the shift, in 1/256 pixels, of a point of `disparity` (in 1/64 pixel) in view k.
   int Shift(int k, int disparity) const {
-    return int(Rounded(Move(k) * (disparity - focus), 24 + 6 - 8));
+    return int(Rounded(Move(k) * Distance(disparity), 24 + 6 - 8));
   }
   // Returns the width of a subaperture in the picture: the shift r / N from view to view, but at
   // most one pixel.

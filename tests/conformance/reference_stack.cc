@@ -61,7 +61,7 @@ class RangeFinder {
     const int right = rect_.left + rect_.width - 1, bottom = rect_.top + rect_.height - 1;
     const int away = std::max({rect_.left - x, x - right, rect_.top - y, y - bottom, 1}) - 1;
     const int64_t least = (int64_t{away} << kUnitBits) / lens_.step;
-    return std::abs(disparity - lens_.focus) >= std::min(kMost, least);
+    return std::abs(lens_.Distance(disparity)) >= std::min(kMost, least);
   }
 
   // Returns the largest number of bins of disparity in a slice whose nearest bin is `bin`.
@@ -69,7 +69,7 @@ class RangeFinder {
     constexpr int64_t kSharp = 4 * 256;  // blur of 4 px, in 1/256
     const auto range = int64_t(256 * slicing_.range);
     const int64_t whole = std::min(kMost, (range << (kUnitBits - 8)) / lens_.step);
-    const auto rim = Rounded(lens_.step * (low_ + bin * bin_ - lens_.focus), kUnitBits - 8);
+    const auto rim = Rounded(lens_.step * lens_.Distance(low_ + bin * bin_), kUnitBits - 8);
     const int64_t wider = std::max(kSharp, std::abs(rim) - kSharp);
     return std::min(kMost, wider * whole / kSharp / bin_ * coarser);
   }
@@ -349,14 +349,20 @@ Picture CompositeRectangle(const LightField& field, const Picture& centre, const
                            const Rectangle& rectangle, const Slicing& slicing) {
   Picture extended = ExtendedRectangle(centre, rectangle);
   ExtendEdges(field, field.at({0, 0}), lens.layer, rectangle, &extended);
-  const SurfaceMap map = FindLayeredDepth(field, extended, lens, rectangle.x - rectangle.left,
-                                          rectangle.y - rectangle.top);
+  SurfaceMap map = FindLayeredDepth(field, extended, lens, rectangle.x - rectangle.left,
+                                    rectangle.y - rectangle.top);
+  // Surfaces inside the range in focus belong to one slice.
+  Lens closed = lens;
+  closed.near = lens.far;
+  for (auto& surfaces : map.pixels) {
+    for (Surface& surface : surfaces) surface.disparity = lens.Closed(surface.disparity);
+  }
   Picture picture(rectangle.width, rectangle.height);
   Rectangle tile = {};
   for (int y = 0; y < picture.height; y += tile.height) {
     for (int x = 0; x < picture.width; x += tile.width) {
       tile = TileAt(rectangle, x, y);
-      CompositeTile(map, extended, lens, tile, slicing, x, y, &picture);
+      CompositeTile(map, extended, closed, tile, slicing, x, y, &picture);
     }
   }
   return picture;

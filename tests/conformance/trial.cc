@@ -100,10 +100,19 @@ void SetLens(Trial* trial, test::Random* random) {
       random->Int(0, 3) == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
 }
 
+// Extends the focus of every third lens to a range, which may contain all disparities.
+void SetRange(Trial* trial, test::Random* random) {
+  if (random->Int(0, 2) != 0) return;
+  starfocus_lens& lens = trial->params.lens;
+  const double widest = 1 + 1.2 * std::max(trial->scene.disparity_max - lens.focus,
+                                           lens.focus - trial->scene.disparity_min);
+  lens.focus_nearer = random->Int(0, 2) == 0 ? 0 : random->Real(0, widest);
+  lens.focus_farther = random->Int(0, 2) == 0 ? 0 : random->Real(0, widest);
+}
+
 double RadiusOf(const Trial& trial) {
-  return trial.params.lens.aperture *
-         std::max(std::fabs(trial.scene.disparity_min - trial.params.lens.focus),
-                  std::fabs(trial.scene.disparity_max - trial.params.lens.focus));
+  return reference::LargestBlur(trial.params.lens, trial.scene.disparity_min,
+                                trial.scene.disparity_max);
 }
 
 void SetConfig(Trial* trial, test::Random* random) {
@@ -152,6 +161,7 @@ Trial MakeTrial(uint64_t seed, bool anywhere) {
   if (anywhere && trial.params.renderer != STARFOCUS_RENDERER_LINE_SCAN) {
     test::RandomViews(&trial.scene, &trial.config, &random);
   }
+  SetRange(&trial, &random);
   return trial;
 }
 

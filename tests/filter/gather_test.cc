@@ -32,7 +32,7 @@ constexpr int kOne = 1 << kDisparityBits;
 struct Cells {
   Cells(int width, int height, test::Random* random)
       : disparity(size_t(width) * size_t(height)),
-        scale({random->Int(-4 * kOne, 4 * kOne),
+        scale({MakeFocusRange(random->Int(-4 * kOne, 4 * kOne) / double(kOne)),
                int64_t(random->Real(0.2, 1) * double(1 << starfocus::kStepBits))}) {
     const int pieces = random->Int(0, 3), noise = random->Int(0, 40);
     for (int piece = 0; piece <= pieces; ++piece) {
@@ -59,7 +59,7 @@ struct Cells {
   // Returns the blur radius of the cell's nearest pixels plus half a pixel, rounded up to whole
   // pixels.
   int NearReach(const Cell& cell) const {
-    const double radius = std::ceil(double(scale.step) * std::abs(cell.high - scale.focus) /
+    const double radius = std::ceil(double(scale.step) * std::abs(cell.high - scale.focus.far) /
                                     double(int64_t{1} << starfocus::kStepBits));
     return int(std::ceil((radius + kOne / 2) / double(kOne)));
   }
@@ -83,7 +83,7 @@ struct Cells {
     }
     const double radius = double(scale.step) / (1 << starfocus::kStepBits);
     const double blur =
-        radius * std::max(std::abs(low - scale.focus), std::abs(high - scale.focus));
+        radius * std::max(std::abs(low - scale.focus.far), std::abs(high - scale.focus.far));
     const double of_step = std::max(std::floor(std::floor(blur) / 2) / kOne, 0.5);
     const auto within = [&](int disparities, double most) {
       return double(disparities) / kOne * radius <= most;

@@ -23,7 +23,7 @@ constexpr int kSide = 40;
 struct Plane {
   Plane(double middle, double across, double down, double aperture = 1)
       : disparity(size_t(kSide * kSide)),
-        scale({0, int64_t(aperture * double(1 << starfocus::kStepBits))}) {
+        scale({{}, int64_t(aperture * double(1 << starfocus::kStepBits))}) {
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         const double value = middle + across * (x - 19.5) + down * (y - 19.5);

@@ -108,6 +108,8 @@ void SetParams(const starfocus_config& config, Input* input, starfocus_params* g
   if (radius > config.max_blur && !input->Rarely()) {
     params.lens.aperture *= config.max_blur / radius * 0.999;
   }
+  if (input->Rarely()) params.lens.focus_nearer = input->Real(0, config.disparity_max);
+  if (input->Rarely()) params.lens.focus_farther = input->Real(0, config.disparity_max);
   if (input->Rarely()) {
     params.region = {input->Int(0, config.width), input->Int(0, config.height),
                      input->Int(0, config.width), input->Int(0, config.height)};

@@ -95,7 +95,8 @@ public final class RefocuserTest {
         "defaults of the configuration");
     final Parameters parameters = new Parameters();
     check(parameters.shape == Parameters.SHAPE_FALL_OFF && parameters.blades == 5
-            && parameters.ringInner == 0.5 && parameters.catsEye == 0,
+            && parameters.ringInner == 0.5 && parameters.catsEye == 0
+            && parameters.focusNearer == 0 && parameters.focusFarther == 0,
         "defaults of the lens");
     check(Math.abs(parameters.theta - 0.26 * Math.PI) < 1e-12, "default of theta");
     check(parameters.mode == Parameters.MODE_BLOCK && parameters.aperture == 1,
@@ -124,6 +125,26 @@ public final class RefocuserTest {
     try (Refocuser refocuser = new Refocuser(configuration())) {
       checkThrows(StarfocusException.class, "lens.cats_eye",
           () -> refocuser.refocus(field(picture()), parameters, out(plain)));
+    }
+  }
+
+  private static void disparitiesInsideTheRangeInFocusAreSharp() {
+    final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT), centre = bytes(3 * WIDTH * HEIGHT);
+    final Parameters parameters = new Parameters();
+    parameters.focus = 1;
+    try (Refocuser refocuser = new Refocuser(configuration())) {
+      parameters.aperture = 0;
+      refocuser.refocus(field(picture()), parameters, out(centre));
+      parameters.aperture = 1;
+      parameters.focusNearer = parameters.focusFarther = 9;
+      refocuser.refocus(field(picture()), parameters, out(pixels));
+      check(pixels.equals(centre), "if all disparities are in focus, the picture is the centre view");
+      parameters.focusFarther = 0;
+      refocuser.refocus(field(picture()), parameters, out(pixels));
+      check(!pixels.equals(centre), "the far side of the range ends at the focus");
+      parameters.focusFarther = -1;
+      checkThrows(StarfocusException.class, "lens.focus_farther",
+          () -> refocuser.refocus(field(picture()), parameters, out(pixels)));
     }
   }
 
@@ -435,6 +456,7 @@ public final class RefocuserTest {
   public static void main(String[] arguments) throws InterruptedException {
     defaultsAreTheLibrarys();
     theLensChangesItsShape();
+    disparitiesInsideTheRangeInFocusAreSharp();
     everyWayGivesTheSameBytes();
     viewsLieWhereTheyAreSaidTo();
     aPreviewHasItsOwnSizeAndRegion();

@@ -81,7 +81,7 @@ struct Recorder {
 inline ViewGrid MakeGrid(int n, double focus, double aperture) {
   starfocus::ViewWeights views;
   views.n = views.last = n;
-  return starfocus::MakeViewGrid(views, focus, aperture, 0, false);
+  return starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0, false);
 }
 
 inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direction direction,

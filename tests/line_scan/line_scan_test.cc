@@ -155,7 +155,8 @@ reference::Lens LensOf(const ViewGrid& grid, double aperture) {
   reference::Lens lens;
   lens.n = grid.n();
   lens.radius = aperture;
-  lens.focus = grid.focus;
+  lens.far = grid.focus.far;
+  lens.near = grid.focus.near;
   lens.step = grid.step;
   return lens;
 }

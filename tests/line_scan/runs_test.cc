@@ -33,7 +33,8 @@ using Runs = std::vector<Found>;
 ViewGrid MakeGrid(int n, double focus, int spread, double aperture = 1) {
   starfocus::ViewWeights views;
   views.n = views.last = n;
-  ViewGrid grid = starfocus::MakeViewGrid(views, focus, aperture, 0, false);
+  ViewGrid grid =
+      starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0, false);
   grid.spread = spread;
   return grid;
 }

@@ -65,7 +65,7 @@ struct Scene {
     starfocus::ViewWeights aperture;
     aperture.n = aperture.last = 4;
     window.layer = layer;
-    const ViewGrid grid = starfocus::MakeViewGrid(aperture, 0, 1, 0, false);
+    const ViewGrid grid = starfocus::MakeViewGrid(aperture, {}, 1, 0, false);
     starfocus::UnmixEdges(starfocus::simd::BestKernels(), window, grid, &field);
     std::vector<int> greys;
     for (int x = 0; x < kSize; ++x)

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 #include "lib/plan/partition.h"
@@ -28,7 +29,7 @@ struct Map {
   int width = 1, height = 1;
   std::vector<int16_t> disparity;
   std::vector<double> radius, right_edge, lower_edge;
-  BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
+  BlurScale scale = {{}, int64_t{1} << starfocus::kStepBits};
 
   int16_t& At(int x, int y) { return disparity[size_t(y) * size_t(width) + size_t(x)]; }
   // Computes the tables of radii from the disparities.
@@ -37,7 +38,7 @@ struct Map {
     right_edge.assign(disparity.size(), -1);
     lower_edge.assign(disparity.size(), -1);
     for (size_t i = 0; i < disparity.size(); ++i) {
-      const int distance = std::abs(disparity[i] - scale.focus);
+      const int distance = std::abs(scale.focus.Distance(disparity[i]));
       radius[i] = std::ldexp(double(scale.step), -starfocus::kStepBits) * distance / kDisparityOne;
     }
     const auto edge = [&](size_t a, size_t b) {
@@ -79,7 +80,7 @@ Map EmptyMap(int width, int height, double focus, double aperture) {
   map.width = width;
   map.height = height;
   map.disparity.assign(size_t(width) * size_t(height), 0);
-  map.scale.focus = int32_t(std::floor(focus * kDisparityOne + 0.5));
+  map.scale.focus = starfocus::MakeFocusRange(focus);
   map.scale.step = int64_t(std::ldexp(aperture, starfocus::kStepBits));
   return map;
 }
@@ -108,7 +109,7 @@ Map RandomMap(int width, int height, Content content, double amplitude, test::Ra
     return map;
   }
   const double dx = random->Real(-1, 1) * amplitude / 40, dy = random->Real(-1, 1) * amplitude / 40;
-  const double focus = double(map.scale.focus) / kDisparityOne;
+  const double focus = double(map.scale.focus.far) / kDisparityOne;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       double d = 0;
@@ -149,6 +150,17 @@ struct Cells {
   CellGrid grid;
   std::vector<Cell> cells;
 };
+
+// Returns true if two cells have equal statistics.
+bool AreEqual(const Cell& a, const Cell& b) {
+  const auto same = [](const auto& x, const auto& y) {
+    return std::equal(std::begin(x), std::end(x), std::begin(y));
+  };
+  return a.r_min == b.r_min && a.r_max == b.r_max && a.r_shown == b.r_shown &&
+         a.has_edge == b.has_edge && a.low == b.low && a.high == b.high && same(a.span, b.span) &&
+         same(a.inside, b.inside) && same(a.slopes, b.slopes) && same(a.edges, b.edges) &&
+         same(a.gaps, b.gaps);
+}
 
 // Returns true if a pixel may reach columns [x0, x1] and rows [y0, y1]. The pixel moves by up to
 // `radius` in any direction, rounded to a whole pixel.
@@ -299,6 +311,23 @@ void CheckMap(Map map, int superblock, Tallies* tallies) {
         }
       }
     }
+  }
+}
+
+TEST_CASE("cells: with a range in focus, cells equal those of the map whose range is closed") {
+  test::Random random(91);
+  for (int round = 0; round < 60; ++round) {
+    Map map =
+        RandomMap(random.Int(1, 70), random.Int(1, 70), Content(round % kContents), 12, &random);
+    map.scale.focus.near += random.Int(1, 10 * kDisparityOne);
+    Map closed = map;
+    closed.scale.focus.near = closed.scale.focus.far;
+    for (int16_t& disparity : closed.disparity) disparity = map.scale.focus.Closed(disparity);
+    std::vector<Cell> of_map, of_closed;
+    test::MeasureCells(map.disparity, map.width, map.height, map.scale, &of_map);
+    test::MeasureCells(closed.disparity, map.width, map.height, closed.scale, &of_closed);
+    CAPTURE(round);
+    CHECK(std::equal(of_map.begin(), of_map.end(), of_closed.begin(), of_closed.end(), AreEqual));
   }
 }
 

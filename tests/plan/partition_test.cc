@@ -182,7 +182,7 @@ TEST_CASE(
       test::Random random(1);
       Plan plan(3 * kMiddle, 3 * kMiddle, 128, 1, &random);
       std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(std::floor(r * 64)));
-      const BlurScale scale = {0, int64_t{1} << starfocus::kStepBits};
+      const BlurScale scale = {{}, int64_t{1} << starfocus::kStepBits};
       plan.rules.scale = scale;
       plan.grid = test::MeasureCells(plan.disparity, 3 * kMiddle, 3 * kMiddle, scale, &plan.cells);
       plan.around = test::BordersOf(r).cells;
@@ -232,7 +232,7 @@ TEST_CASE("partition: for constant blur, blocks read all rows of their stripe's 
   for (int r = 1; r <= 40; ++r) {
     test::Random random(1);
     Plan plan(192, 192, 64, 1, &random);
-    plan.rules.scale = {0, int64_t{1} << starfocus::kStepBits};
+    plan.rules.scale = {{}, int64_t{1} << starfocus::kStepBits};
     std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(64 * r));
     plan.grid = test::MeasureCells(plan.disparity, 192, 192, plan.rules.scale, &plan.cells);
     const starfocus::Borders borders = test::BordersOf(r);

@@ -26,8 +26,8 @@ struct Views {
 
 // Returns the number of pixels by which the slice of `disparity` exceeds a rectangle.
 int ReachOf(const Views& views, double focus, double aperture, int disparity) {
-  const starfocus::ViewGrid grid =
-      starfocus::MakeViewGrid(views.aperture, focus, aperture * views.aperture.extent, 0, false);
+  const starfocus::ViewGrid grid = starfocus::MakeViewGrid(
+      views.aperture, starfocus::MakeFocusRange(focus), aperture * views.aperture.extent, 0, false);
   starfocus::SlicePlane placed;
   starfocus::PlaceSlice(grid, int16_t(disparity), {0, 0, 64, 64}, &placed);
   return placed.reach;

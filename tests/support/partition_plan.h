@@ -72,7 +72,7 @@ struct Plan {
       }
     }
     const double focus = random->Real(-limit, limit);
-    const BlurScale scale = {int32_t(focus * kRadiusOne), int64_t{1} << starfocus::kStepBits};
+    const BlurScale scale = {starfocus::MakeFocusRange(focus), int64_t{1} << starfocus::kStepBits};
     rules.scale = scale;
     grid = MeasureCells(disparity, width, height, scale, &cells);
     around = BordersOf(2 * limit).cells;

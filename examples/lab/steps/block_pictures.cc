@@ -102,7 +102,7 @@ class BlockArtist {
     const ViewWeights& weights = view.weights();
     const starfocus_lens& lens = engine_.lens.params.lens;
     const ViewGrid grid =
-        MakeViewGrid(weights, lens.focus, lens.aperture * weights.extent, 0, false);
+        MakeViewGrid(weights, grid_.focus, lens.aperture * weights.extent, 0, false);
     RenderJob job = job_;
     job.grid = &grid;
     Render(job);
@@ -156,9 +156,9 @@ class BlockArtist {
     LightRow row = MakeRow(rect_.width);
     for (int32_t view = 0; view < count; ++view) {
       const ViewPosition& at = views.at[view];
-      const CapturedLine line = {rect_.x * kShiftOne - ScaledByView(at.u, grid_.focus, kBits),
-                                 (rect_.y + y) * kShiftOne - ScaledByView(at.v, grid_.focus, kBits),
-                                 1, 0};
+      const CapturedLine line = {
+          rect_.x * kShiftOne - ScaledByView(at.u, grid_.focus.far, kBits),
+          (rect_.y + y) * kShiftOne - ScaledByView(at.v, grid_.focus.far, kBits), 1, 0};
       ReadCaptured(window_, view, line, rect_.width, row.data());
       for (size_t k = 0; k < row.size(); ++k) sums[k] += row[k];
     }

@@ -66,8 +66,9 @@ class Lens(Structure):
     """starfocus_lens"""
 
     _fields_ = [
-        ("focus", c_double), ("aperture", c_double), ("shape", c_int32), ("blades", c_int32), ("theta", c_double),
-        ("rotation", c_double), ("curvature", c_double), ("ring_inner", c_double), ("cats_eye", c_double),
+        ("focus", c_double), ("focus_nearer", c_double), ("focus_farther", c_double), ("aperture", c_double),
+        ("shape", c_int32), ("blades", c_int32), ("theta", c_double), ("rotation", c_double), ("curvature", c_double),
+        ("ring_inner", c_double), ("cats_eye", c_double),
     ]
 
 

@@ -149,8 +149,8 @@ class Refocuser:
             progress: receives the number of finished rows and the number of rows. If `progress` returns a true value,
                 the call is cancelled and raises Cancelled. An exception in `progress` also cancels the call and is
                 raised again.
-            lens: other fields of starfocus_lens with their C names: `shape`, `blades`, `theta`, `rotation`,
-                `curvature`, `ring_inner`, `cats_eye`.
+            lens: other fields of starfocus_lens with their C names: `focus_nearer`, `focus_farther`, `shape`,
+                `blades`, `theta`, `rotation`, `curvature`, `ring_inner`, `cats_eye`.
 
         Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape. After
         Cancelled the contents of `out` are unspecified.

@@ -20,8 +20,8 @@ export const FIXED = {
 export const ENGINE = {threads: 'integer', worker: 'any'};
 
 export const LENS = {
-  focus: 'number', aperture: 'number', shape: 'integer', blades: 'integer', theta: 'number', rotation: 'number',
-  curvature: 'number', ringInner: 'number', catsEye: 'number'
+  focus: 'number', focusNearer: 'number', focusFarther: 'number', aperture: 'number', shape: 'integer',
+  blades: 'integer', theta: 'number', rotation: 'number', curvature: 'number', ringInner: 'number', catsEye: 'number'
 };
 
 export const PARAMS = {

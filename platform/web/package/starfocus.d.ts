@@ -160,6 +160,12 @@ export interface Progress {
 export interface Lens {
   /** Disparity in focus, in pixels, within +-1000000; default 0. */
   focus?: number;
+  /** Extent of the range in focus on the near side of `focus`: disparities up to focus + focusNearer are sharp, and blur
+   *  grows from there; [0, 1000000 - focus]; default 0. */
+  focusNearer?: number;
+  /** Extent of the range in focus on the far side of `focus`: disparities from focus - focusFarther are sharp;
+   *  [0, 1000000 + focus]; default 0. */
+  focusFarther?: number;
   /** Radius of the aperture, [0, 1]. 1, the default, reaches the outermost views; 0 gives the centre view. */
   aperture?: number;
   /** A value of Shape; default Shape.FALL_OFF. Shape.POLYGON requires Settings.shapes. */

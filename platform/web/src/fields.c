@@ -32,11 +32,12 @@ static const Field kConfigFields[] = {
 };
 
 static const Field kParamsFields[] = {
-    PARAMS(mode, kInt32),     PARAMS(renderer, kInt32),     PARAMS(region.x, kInt32),
-    PARAMS(region.y, kInt32), PARAMS(region.width, kInt32), PARAMS(region.height, kInt32),
-    LENS(focus, kDouble),     LENS(aperture, kDouble),      LENS(shape, kInt32),
-    LENS(blades, kInt32),     LENS(theta, kDouble),         LENS(rotation, kDouble),
-    LENS(curvature, kDouble), LENS(ring_inner, kDouble),    LENS(cats_eye, kDouble),
+    PARAMS(mode, kInt32),      PARAMS(renderer, kInt32),     PARAMS(region.x, kInt32),
+    PARAMS(region.y, kInt32),  PARAMS(region.width, kInt32), PARAMS(region.height, kInt32),
+    LENS(focus, kDouble),      LENS(focus_nearer, kDouble),  LENS(focus_farther, kDouble),
+    LENS(aperture, kDouble),   LENS(shape, kInt32),          LENS(blades, kInt32),
+    LENS(theta, kDouble),      LENS(rotation, kDouble),      LENS(curvature, kDouble),
+    LENS(ring_inner, kDouble), LENS(cats_eye, kDouble),
 };
 
 /* Returns `value`, or `wrong` if it is not an integer in [low, high]. `wrong` is outside the valid

@@ -71,6 +71,8 @@ constexpr Field kParamsFields[] = {
     {"mode", FieldType::kInt32, offsetof(starfocus_params, mode)},
     {"renderer", FieldType::kInt32, offsetof(starfocus_params, renderer)},
     {"focus", FieldType::kDouble, offsetof(starfocus_params, lens.focus)},
+    {"focusNearer", FieldType::kDouble, offsetof(starfocus_params, lens.focus_nearer)},
+    {"focusFarther", FieldType::kDouble, offsetof(starfocus_params, lens.focus_farther)},
     {"aperture", FieldType::kDouble, offsetof(starfocus_params, lens.aperture)},
     {"shape", FieldType::kInt32, offsetof(starfocus_params, lens.shape)},
     {"blades", FieldType::kInt32, offsetof(starfocus_params, lens.blades)},
