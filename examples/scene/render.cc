@@ -25,6 +25,7 @@ constexpr int kLensSamples = 256;  // Approximate number of samples per pixel of
 constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;
 constexpr double kStepCos = 0.9996988186962042, kStepSin = 0.024541228522912288;
 // Steps of the R2 low-discrepancy sequence.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kR2X = 0.7548776662466927, kR2Y = 0.5698402909980532;
 
 LensPoint Turn(LensPoint p, LensPoint by) {
@@ -79,9 +80,12 @@ void ProductRange(double a, double b, double c, double d, double* low, double* h
 struct RayTracer::Lens {
   double u = 0, v = 0;                   // Centre of the lens.
   double aperture = 0;                   // Radius of the lens; 0 for a pinhole.
-  double focus = 0;                      // Disparity in focus, in canvas units.
+  SceneFocus focus = {0, 0};             // In canvas units.
   std::vector<LensPoint> points, turns;  // Empty for a pinhole.
   const SceneOpening* opening = nullptr;
+
+  // Returns the distance of a disparity from the range in focus, negative behind the range.
+  double Distance(double d) const { return d - std::clamp(d, focus.far, focus.near); }
 };
 
 RayTracer::RayTracer(const Scene& scene, int width, int height, starfocus_transfer transfer,
@@ -108,7 +112,7 @@ std::vector<size_t> RayTracer::Candidates(const Lens& lens, int x0, int y0) cons
   std::vector<size_t> found;
   for (size_t i = 0; i < bounds_.size(); ++i) {
     const Bounds& box = bounds_[i];
-    const double near = box.d1 - lens.focus, far = box.d0 - lens.focus;
+    const double near = lens.Distance(box.d1), far = lens.Distance(box.d0);
     double low_x, high_x, low_y, high_y;
     ProductRange(far, near, lens.u - lens.aperture, lens.u + lens.aperture, &low_x, &high_x);
     ProductRange(far, near, lens.v - lens.aperture, lens.v + lens.aperture, &low_y, &high_y);
@@ -122,14 +126,14 @@ std::vector<size_t> RayTracer::Candidates(const Lens& lens, int x0, int y0) cons
   return found;
 }
 
-const Surface* RayTracer::Trace(const std::vector<size_t>& candidates, const Ray& ray,
+const Surface* RayTracer::Trace(const std::vector<size_t>& candidates, const Ray& ray, double most,
                                 Hit* hit) const {
   const Surface* found = nullptr;
-  hit->d = -std::numeric_limits<double>::infinity();
+  hit->d = -kInfinity;
   for (size_t i : candidates) {
     if (bounds_[i].d1 <= hit->d) break;
     Hit other;
-    if (Intersect(scene_.surfaces[i], ray, &other) && other.d > hit->d) {
+    if (Intersect(scene_.surfaces[i], ray, &other) && other.d > hit->d && other.d <= most) {
       *hit = other;
       found = &scene_.surfaces[i];
     }
@@ -147,13 +151,25 @@ Ray RayTracer::CentreRay(double x, double y) const {
   return {(x - 0.5 * (width_ - 1)) / scale_, (y - 0.5 * (height_ - 1)) / scale_, 0, 0};
 }
 
+const Surface* RayTracer::TraceLens(const Lens& lens, const std::vector<size_t>& candidates,
+                                    Point p, Point q, Hit* hit) const {
+  const auto [far, near] = lens.focus;
+  const auto through = [&](double focus) {
+    return Ray{p.x - q.x * focus, p.y - q.y * focus, q.x, q.y};
+  };
+  const Surface* found = Trace(candidates, through(near), kInfinity, hit);
+  if (far == near || (found != nullptr && hit->d >= near)) return found;
+  found = Trace(candidates, {p.x, p.y, 0, 0}, near, hit);
+  if (found != nullptr && hit->d >= far) return found;
+  return Trace(candidates, through(far), far, hit);
+}
+
 Color RayTracer::RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x,
                           double y, double u, double v) const {
   const double canvas_x = (x - 0.5 * (width_ - 1)) / scale_;
   const double canvas_y = (y - 0.5 * (height_ - 1)) / scale_;
-  const Ray ray = {canvas_x - u * lens.focus, canvas_y - v * lens.focus, u, v};
   Hit hit;
-  const Surface* surface = Trace(candidates, ray, &hit);
+  const Surface* surface = TraceLens(lens, candidates, {canvas_x, canvas_y}, {u, v}, &hit);
   return surface == nullptr ? Color() : curve_.Decode(surface->paint(*surface, hit));
 }
 
@@ -250,10 +266,10 @@ Image RayTracer::View(double u, double v, Progress* progress) const {
   return Render(lens, progress);
 }
 
-Image RayTracer::Truth(double focus, double aperture, const SceneOpening& opening,
+Image RayTracer::Truth(const SceneFocus& focus, double aperture, const SceneOpening& opening,
                        Progress* progress) const {
   Lens lens;
-  lens.focus = focus / scale_;
+  lens.focus = {focus.far / scale_, focus.near / scale_};
   lens.aperture = aperture;
   lens.opening = &opening;
   lens.points = LensPoints(opening);
@@ -268,7 +284,7 @@ FloatMap RayTracer::Disparity() const {
   map.values.resize(size_t(width_) * size_t(height_));
   ForCentrePixels(nullptr, 0, [&](const std::vector<size_t>& candidates, int x, int y) {
     Hit hit;
-    Trace(candidates, CentreRay(x, y), &hit);
+    Trace(candidates, CentreRay(x, y), kInfinity, &hit);
     map.values[size_t(y) * size_t(width_) + size_t(x)] = static_cast<float>(hit.d * scale_);
   });
   return map;
@@ -280,7 +296,8 @@ uint8_t RayTracer::CoverageOf(const std::vector<size_t>& candidates, int x, int 
   for (int k = 0; k < kSamples; ++k) {
     const Point offset = BoxSample(k, kCoverageGrid);
     Hit hit;
-    const Surface* surface = Trace(candidates, CentreRay(x + offset.x, y + offset.y), &hit);
+    const Surface* surface =
+        Trace(candidates, CentreRay(x + offset.x, y + offset.y), kInfinity, &hit);
     if (surface != nullptr && surface->foreground) ++covered;
   }
   return static_cast<uint8_t>((255 * covered + kSamples / 2) / kSamples);

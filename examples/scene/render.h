@@ -14,6 +14,11 @@
 
 namespace starfocus {
 
+// Smallest and largest disparity in focus, in pixels per unit of u. Both are equal for a thin lens.
+struct SceneFocus {
+  double far, near;
+};
+
 class RayTracer {
  public:
   // The colour of a pixel is the average linear light of its rays. `transfer` defines how codes
@@ -37,8 +42,12 @@ class RayTracer {
   // pixel's width and in a different 256th of the pixel's height.
   std::vector<uint8_t> Coverage(Progress* progress) const;
 
-  // Renders the picture of a lens with radius `aperture` and opening `opening`, focused at `focus`.
-  Image Truth(double focus, double aperture, const SceneOpening& opening, Progress* progress) const;
+  // Renders the picture of a lens with radius `aperture` and opening `opening`. With a range in
+  // focus, the rays of a pixel coincide inside the range and diverge from its ends. A set of
+  // strands must not extend beyond an end of the range, because only its nearest strand on each
+  // straight part of a ray is found.
+  Image Truth(const SceneFocus& focus, double aperture, const SceneOpening& opening,
+              Progress* progress) const;
 
   // Converts a point of the canvas to the coordinates of the nearest pixel.
   void ToPixel(double x, double y, int* pixel_x, int* pixel_y) const;
@@ -48,7 +57,12 @@ class RayTracer {
 
   // Returns the indices of the surfaces that may be visible in the tile at (x0, y0), nearest first.
   std::vector<size_t> Candidates(const Lens& lens, int x0, int y0) const;
-  const Surface* Trace(const std::vector<size_t>& candidates, const Ray& ray, Hit* hit) const;
+  // Finds the nearest surface on a ray whose disparity is at most `most`.
+  const Surface* Trace(const std::vector<size_t>& candidates, const Ray& ray, double most,
+                       Hit* hit) const;
+  // Finds the nearest surface that canvas position `p` shows through lens position `q`.
+  const Surface* TraceLens(const Lens& lens, const std::vector<size_t>& candidates, Point p,
+                           Point q, Hit* hit) const;
   // Returns the light at pixel position (x, y) through lens position (u, v).
   Color RayColor(const Lens& lens, const std::vector<size_t>& candidates, double x, double y,
                  double u, double v) const;

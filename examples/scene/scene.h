@@ -5,8 +5,9 @@
 // has 1024x768 units, its origin is the centre, y points downwards, and d is in canvas units per
 // unit of u. In a picture of another size, x, y and d are scaled equally. A ray consists of the
 // points that picture position p sees through lens position q. If the lens is focused at disparity
-// D, these points are (x, y) = p + q * (d - D). The surface with the largest d is visible. The
-// captured views are the rays with D = 0.
+// D, these points are (x, y) = p + q * (d - D). If the disparities from D0 to D1 are in focus, D is
+// the nearest of them to d. The surface with the largest d is visible. The captured views are the
+// rays with D = 0.
 #ifndef STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 #define STARFOCUS_EXAMPLES_SCENE_SCENE_H_
 

@@ -124,7 +124,7 @@ TEST_CASE("scene: with a pinhole aperture, the ray-traced picture is the centre 
     const RayTracer renderer(scene, kWidth / 2, kHeight / 2, STARFOCUS_TRANSFER_NONE, &runner);
     const std::vector<uint8_t> centre = renderer.View(0, 0, nullptr).pixels;
     const auto truth = [&, at = focus](double aperture) {
-      return renderer.Truth(at, aperture, DefaultOpening(), nullptr).pixels;
+      return renderer.Truth({at, at}, aperture, DefaultOpening(), nullptr).pixels;
     };
     CHECK(test::Psnr(centre, truth(1e-6)) > 38);
     CHECK(test::Psnr(centre, truth(1)) < 32);
@@ -137,7 +137,8 @@ TEST_CASE("scene: the surface in focus is sharp, and other surfaces are blurred"
   const RayTracer renderer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
   const FloatMap map = renderer.Disparity();
   const Image centre = renderer.View(0, 0, nullptr);
-  const Image truth = renderer.Truth(map.at(kWidth / 2, kHeight / 2), 1, DefaultOpening(), nullptr);
+  const double focus = map.at(kWidth / 2, kHeight / 2);
+  const Image truth = renderer.Truth({focus, focus}, 1, DefaultOpening(), nullptr);
   const auto band = [](const Image& image, int y) {
     Image rows(image.width, 1);
     std::copy(image.row(y), image.row(y) + image.stride(), rows.row(0));
@@ -145,6 +146,14 @@ TEST_CASE("scene: the surface in focus is sharp, and other surfaces are blurred"
   };
   CHECK(test::Psnr(band(centre, kHeight / 2).pixels, band(truth, kHeight / 2).pixels) > 33);
   CHECK(test::Psnr(band(centre, 2).pixels, band(truth, 2).pixels) < 28);
+
+  // The disparity of the ramp grows from the top of the picture to its bottom.
+  const Image lower = renderer.Truth({focus, 100}, 1, DefaultOpening(), nullptr);
+  CHECK(band(lower, 2).pixels == band(truth, 2).pixels);
+  for (const int y : {kHeight * 3 / 4, kHeight - 3}) {
+    CHECK(test::Psnr(band(centre, y).pixels, band(lower, y).pixels) > 33);
+    CHECK(test::Psnr(band(centre, y).pixels, band(truth, y).pixels) < 28);
+  }
 }
 
 TEST_CASE("scene: pictures depend on the seed, and not on the number of threads") {
@@ -157,8 +166,8 @@ TEST_CASE("scene: pictures depend on the seed, and not on the number of threads"
         b(again, kOdd, 47, STARFOCUS_TRANSFER_NONE, &three),
         c(other, kOdd, 47, STARFOCUS_TRANSFER_NONE, &three);
     CHECK(a.View(-0.5, 1, nullptr).pixels == b.View(-0.5, 1, nullptr).pixels);
-    CHECK(a.Truth(1, 0.8, DefaultOpening(), nullptr).pixels ==
-          b.Truth(1, 0.8, DefaultOpening(), nullptr).pixels);
+    CHECK(a.Truth({1, 1}, 0.8, DefaultOpening(), nullptr).pixels ==
+          b.Truth({1, 1}, 0.8, DefaultOpening(), nullptr).pixels);
     CHECK(a.Disparity().values == b.Disparity().values);
     const bool strands = scene.seeded;
     CHECK(strands == (std::string(name) == "hair" || std::string(name) == "grass"));

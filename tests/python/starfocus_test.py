@@ -51,6 +51,13 @@ class Bytes(unittest.TestCase):
         five = {"shape": starfocus.Shape.POLYGON, "blades": 5, "rotation": 18, "curvature": 0.3}
         np.testing.assert_array_equal(engine.refocus(VIEWS, DISPARITY, focus=1, **five), expected)
 
+    def test_a_range_in_focus_gives_the_program_s_bytes(self):
+        expected = by_program("--focus-range", "2,-0.5")
+        made = refocuser().refocus(VIEWS, DISPARITY, focus=1, focus_nearer=1, focus_farther=1.5)
+        np.testing.assert_array_equal(made, expected)
+        with self.assertRaisesRegex(starfocus.StarfocusError, "lens.focus_farther"):
+            refocuser().refocus(VIEWS, DISPARITY, focus=1, focus_farther=-1)
+
     def test_the_lens_of_a_refocuser_changes_its_shape(self):
         engine = refocuser(shapes=1)
         prepared = engine.prepare(VIEWS, DISPARITY)

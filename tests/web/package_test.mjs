@@ -52,6 +52,13 @@ test('changed settings give the bytes of the program', async () => {
                    refocusByProgram('--focus', '1', '--shape', 'polygon:5', '--highlights', '4'));
 });
 
+test('a range in focus gives the bytes of the program', async () => {
+  const picture = await refocuser.refocus({focus: 1, focusNearer: 0.75, focusFarther: 0.75});
+  assertSameBytes(dropAlpha(picture.data), refocusByProgram('--focus-range', '1.75,0.25'));
+  await assert.rejects(refocuser.refocus({focusNearer: -1}),
+                       error => error.field === 'focusNearer' && error.value === -1);
+});
+
 test('shapes of the lens that change from call to call give the bytes of the program', async () => {
   const lenses = {
     'fall-off': {}, 'polygon:7': {shape: Shape.POLYGON, blades: 7}, 'ring:0.25': {shape: Shape.RING, ringInner: 0.25},

@@ -80,13 +80,11 @@ std::string ReadSweep(const std::string& text, std::vector<double>* foci) {
 
 // Replaces the focus by the foci of a sweep.
 Error PlanSweep(const RefocusOptions& options, LensPlan* plan) {
-  const bool focus = bool(options.lens.focus), pixel = bool(options.lens.focus_at);
-  if (focus || pixel || options.stream || !options.map.empty()) {
-    return Error::Usage("--sweep", "no --focus, --focus-at, --stream or --map",
-                        focus            ? "--focus"
-                        : pixel          ? "--focus-at"
-                        : options.stream ? "--stream"
-                                         : "--map");
+  if (!plan->focus_option.empty() || options.stream || !options.map.empty()) {
+    return Error::Usage("--sweep", "no --focus, --focus-at, --focus-range, --stream or --map",
+                        !plan->focus_option.empty() ? plan->focus_option
+                        : options.stream            ? "--stream"
+                                                    : "--map");
   }
   plan->focus_option = "--sweep";
   plan->foci = options.sweep;

@@ -101,10 +101,12 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
   return aperture;
 }
 
-double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci) {
+double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci,
+                         const starfocus_lens& lens) {
   double range = 0;
   for (const double focus : foci) {
-    range = std::max({range, std::fabs(stats.min - focus), std::fabs(stats.max - focus)});
+    range = std::max(
+        {range, focus - lens.focus_farther - stats.min, stats.max - focus - lens.focus_nearer});
   }
   return range;
 }

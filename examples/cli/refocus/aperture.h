@@ -32,8 +32,10 @@ struct ApertureChoice {
 // 1.
 Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Capture& capture);
 
-// Returns the largest difference between a disparity of the map and any of the foci.
-double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci);
+// Returns the largest distance of a disparity of the map from any of the foci, in pixels. `lens`
+// extends each focus to a range; other fields of `lens` are ignored.
+double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci,
+                         const starfocus_lens& lens = {});
 
 // Fits the aperture to the blur limit. `range` is the largest distance of a disparity from the
 // focus, in pixels. If the blur exceeds the limit, reduces a default aperture, but returns an error

@@ -25,6 +25,18 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
   return "";
 }
 
+// Parses NEAR,FAR.
+std::string ReadFocusRange(const std::string& text, std::optional<FocusEnds>* range) {
+  const std::vector<double> ends = ReadNumbers(text, ',');
+  if (ends.size() != 2 || ends[0] < ends[1] || ends[0] > STARFOCUS_MAX_FOCUS ||
+      ends[1] < -STARFOCUS_MAX_FOCUS) {
+    return "NEAR,FAR, disparities from -" + Short(STARFOCUS_MAX_FOCUS) + " to " +
+           Short(STARFOCUS_MAX_FOCUS) + " with NEAR at least FAR";
+  }
+  *range = {ends[0], ends[1]};
+  return "";
+}
+
 // Adds the options of the lens: its focus and the shape of its aperture.
 void AddOpticsOptions(Command* command, LensOptions* options) {
   AddOptions(
@@ -38,6 +50,12 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
            "Pixel whose surface is in focus, counted from 0,0 at the top left; the focus "
            "is the median disparity of this surface; default: see --focus",
            Pair(',', &options->focus_at)},
+          {"--focus-range", "NEAR,FAR",
+           "Disparities between which everything is sharp, in the unit of --focus, NEAR at "
+           "least FAR; blur grows from the nearer end on; default: a single focus",
+           Target([range = &options->focus_range](const std::string& text) {
+             return ReadFocusRange(text, range);
+           })},
       },
       command);
   AddApertureOptions(command, &options->aperture);
@@ -66,6 +84,15 @@ std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
     return {};
   }
   return focus;
+}
+
+// Sets the focus to the middle of a range, and its extent to the ends of the range.
+void UseRange(const FocusEnds& range, LensPlan* plan) {
+  const double focus = 0.5 * (range.near + range.far);
+  plan->focus_option = "--focus-range";
+  plan->foci = {focus};
+  plan->lens.focus_nearer = range.near - focus;
+  plan->lens.focus_farther = focus - range.far;
 }
 
 Error CheckPixel(int width, int height, const LensPlan& plan) {
@@ -184,6 +211,10 @@ Result<LensPlan> PlanLens(const LensOptions& options) {
   if (options.focus && options.focus_at) {
     return Error::Usage("--focus", "either --focus D or --focus-at X,Y", "both");
   }
+  if (options.focus_range && (options.focus || options.focus_at)) {
+    const std::string other = options.focus ? "--focus" : "--focus-at";
+    return Error::Usage("--focus-range", "either --focus-range or " + other, "both");
+  }
   LensPlan plan;
   plan.options = options;
   if (options.focus_at) {
@@ -192,6 +223,7 @@ Result<LensPlan> PlanLens(const LensOptions& options) {
     UseFocus({false, 0, 0, *options.focus, ""}, &plan);
   }
   if (Error error = ParseShape(options.shape).MoveTo(&plan.lens)) return error;
+  if (options.focus_range) UseRange(*options.focus_range, &plan);
   if (plan.lens.shape == STARFOCUS_SHAPE_POLYGON || plan.lens.cats_eye > 0) {
     plan.config.features |= STARFOCUS_FEATURE_SHAPES;
   }
@@ -259,7 +291,7 @@ Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) 
     stats.min -= kRepairReach;
     stats.max += kRepairReach;
   }
-  return FitAperture(FarthestFromFocus(stats, foci), &plan->aperture);
+  return FitAperture(FarthestFromFocus(stats, foci, plan->lens), &plan->aperture);
 }
 
 Result<double> ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan) {
@@ -270,7 +302,7 @@ Result<double> ChooseBlur(const starfocus_disparity_stats& stats, LensPlan* plan
         "a disparity from -" + Short(STARFOCUS_MAX_FOCUS) + " to " + Short(STARFOCUS_MAX_FOCUS),
         Short(focus));
   }
-  const double range = FarthestFromFocus(stats, plan->foci);
+  const double range = FarthestFromFocus(stats, plan->foci, plan->lens);
   if (Error error = FitAperture(range, &plan->aperture)) return error;
   return std::max(1.0, std::ceil(plan->aperture.radius * range));
 }

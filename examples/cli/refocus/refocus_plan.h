@@ -20,8 +20,14 @@
 
 namespace starfocus {
 
+// Disparities in focus, near >= far.
+struct FocusEnds {
+  double near, far;
+};
+
 struct LensOptions {
   std::optional<double> focus;
+  std::optional<FocusEnds> focus_range;
   std::optional<Pixel> focus_at;
   ApertureOptions aperture;
   starfocus_mode mode = STARFOCUS_MODE_BLOCK;
@@ -49,10 +55,10 @@ struct LensPlan {
   ApertureChoice aperture;
   starfocus_region region = {};  // All 0: the whole picture.
   Config config;  // Timing, and features that the shape requires; other fields have defaults.
-  starfocus_lens lens = {};  // Shape of the aperture; other fields have defaults.
+  starfocus_lens lens = {};  // Shape of the aperture and extent of the focus.
 };
 
-// Checks --focus, --focus-at, the shape and the timing before a light field is read. The aperture
+// Checks the focus, the shape and the timing before a light field is read. The aperture
 // is not checked.
 Result<LensPlan> PlanLens(const LensOptions& options);
 void UseFocus(const DefaultFocus& focus, LensPlan* plan);

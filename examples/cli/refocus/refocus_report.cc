@@ -72,11 +72,16 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
     json->Set("region", Json::Array({region.x, region.y, region.width, region.height}));
   }
   json->Set("views", task.config.views);
-  json->Set("focus", task.params.lens.focus);
-  json->Set("aperture", task.params.lens.aperture);
+  const starfocus_lens& lens = task.params.lens;
+  json->Set("focus", lens.focus);
+  if (lens.focus_nearer > 0 || lens.focus_farther > 0) {
+    json->Set("focus_range",
+              Json::Array({lens.focus + lens.focus_nearer, lens.focus - lens.focus_farther}));
+  }
+  json->Set("aperture", lens.aperture);
   json->Set("highlights", task.config.highlights);
   json->Set("transfer", task.config.transfer == STARFOCUS_TRANSFER_NONE ? "none" : "srgb");
-  json->Set("shape", ShapeJson(task.params.lens));
+  json->Set("shape", ShapeJson(lens));
   json->Set("n_scale", task.config.tuning.n_scale);
   json->Set("r_max", result.report.r_max);
   json->Set("N", result.report.n);

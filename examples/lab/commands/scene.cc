@@ -31,7 +31,8 @@ constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
 constexpr char kCoverageFile[] = "coverage.png";
 
 struct Truth {
-  double focus = 0, aperture = 1;
+  SceneFocus focus;
+  double aperture;
 };
 
 struct SceneOptions {
@@ -53,15 +54,28 @@ struct Plan {
 
 Result<Truth> ParseTruth(const std::string& text) {
   const std::vector<double> numbers = ReadNumbers(text, ',');
-  if (numbers.size() != 2 || std::fabs(numbers[0]) > STARFOCUS_MAX_DISPARITY || !(numbers[1] > 0) ||
-      numbers[1] > 1) {
+  const bool complete = numbers.size() == 2 || numbers.size() == 3;
+  const double near = complete ? numbers[0] : 0;
+  const double far = complete ? numbers[numbers.size() - 2] : 0;
+  const double aperture = complete ? numbers.back() : 0;
+  if (near < far || std::fabs(near) > STARFOCUS_MAX_DISPARITY ||
+      std::fabs(far) > STARFOCUS_MAX_DISPARITY || !(aperture > 0) || aperture > 1) {
     return Error::Usage("--truth",
-                        "D,U with a disparity from -" + Short(STARFOCUS_MAX_DISPARITY) + " to " +
+                        "D,U or NEAR,FAR,U with disparities from -" +
+                            Short(STARFOCUS_MAX_DISPARITY) + " to " +
                             Short(STARFOCUS_MAX_DISPARITY) +
-                            " and an aperture above 0 and at most 1",
+                            ", NEAR at least FAR, and an aperture above 0 and at most 1",
                         "'" + text + "'");
   }
-  return Truth{numbers[0], numbers[1]};
+  return Truth{{far, near}, aperture};
+}
+
+// Returns the name of the file of a truth. Programs that compare pictures with a truth read the
+// focus and the aperture from this name, and ignore truths with a range in focus.
+std::string TruthName(const Truth& truth, const ShapeOptions& shape) {
+  const auto [far, near] = truth.focus;
+  return "truth_dt" + Short(near) + (far < near ? "_to" + Short(far) : "") + "_ut" +
+         Short(truth.aperture) + ShapeSuffix(shape) + ".png";
 }
 
 Result<Scene> ChooseScene(const SceneOptions& options) {
@@ -183,8 +197,7 @@ Error Run(const SceneOptions& options) {
   const Pictures pictures = Render(options, plan, renderer);
   Error error = SaveLightField(options.folder, pictures.light_field, &runner);
   for (size_t i = 0; i < pictures.truths.size() && !error; ++i) {
-    const std::string name = "truth_dt" + Short(plan.truths[i].focus) + "_ut" +
-                             Short(plan.truths[i].aperture) + ShapeSuffix(options.shape) + ".png";
+    const std::string name = TruthName(plan.truths[i], options.shape);
     error = WriteImage((fs::path(options.folder) / name).string(), pictures.truths[i]);
   }
   if (error) return error;
@@ -220,7 +233,8 @@ Command SceneCommand() {
            Views(&options->views), Use::kDefault},
           {"--truth", "D,U ...",
            "Also render the ground-truth picture of a lens focused at disparity D, -500 to 500, "
-           "with aperture U, above 0 and at most 1; may be repeated; default: none",
+           "with aperture U, above 0 and at most 1; NEAR,FAR,U instead of D,U focuses a range; "
+           "may be repeated; default: none",
            &options->truths},
           {"--transfer", "srgb|none",
            "srgb averages light and codes it as sRGB; none averages the values themselves",

@@ -20,8 +20,8 @@ const options: Options = {
   ...settings, ...workers
 };
 const lens: Lens = {
-  focus: 1, aperture: 1, shape: Shape.POLYGON, blades: 5, theta: 1, rotation: 0, curvature: 0, ringInner: 0.5,
-  catsEye: 0
+  focus: 1, focusNearer: 0.5, focusFarther: 2, aperture: 1, shape: Shape.POLYGON, blades: 5, theta: 1, rotation: 0,
+  curvature: 0, ringInner: 0.5, catsEye: 0
 };
 const params: Params = {
   ...lens, ...call, mode: Mode.BLOCK, renderer: Renderer.AUTO, region: {x: 0, y: 0, width: 4, height: 4}, blocks: true
