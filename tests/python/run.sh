@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD: tests the Python package as a wheel and as installed from the source tree. Runs the tests and the
-# example in a separate environment for each package. Uses Debian's Python and no network.
+# run.sh BUILD: tests the Python package as a wheel and as installed from the source tree, each in an environment of its
+# own, and checks the types of the package. Uses Debian's Python and no network.
 set -eu
 [ $# = 1 ] || { echo "usage: $0 BUILD" >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../.." && pwd)
@@ -36,6 +36,11 @@ quietly /usr/bin/python3 -m pip wheel --no-index --no-deps --no-build-isolation 
   "$sources/platform/python"
 install "$work"/wheels/starfocus-*-py3-none-*.whl 'Python, wheel'
 install "$sources/platform/python" 'Python, pip install of the tree'
+quietly "$python" "$sources/tests/python/quality_test.py"
+printf '%-40s %s\n' 'Python, quality' "$(grep '^Ran' "$work/log")"
+quietly /usr/bin/python3 -m mypy --config-file "$sources/platform/python/pyproject.toml" --cache-dir "$work/mypy" \
+  "$sources/platform/python/starfocus"
+printf '%-40s %s\n' 'Python, types' "$(tail -n 1 "$work/log")"
 quietly "$python" "$sources/examples/python/focal_stack.py" "$work/scene" "$work/plots"
 for plot in focal_stack time_and_error; do
   [ "$(stat -c %s "$work/plots/$plot.png")" -gt 20000 ] || { echo "python: no $plot.png" >&2; exit 1; }

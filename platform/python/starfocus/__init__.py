@@ -20,6 +20,7 @@ from .folder import read_light_field, read_pfm, read_picture
 from .images import DepthMap, Image
 from .maps import (DisparityMap, DisparityStats, aperture_of_f_stop, estimate_disparity, fill_disparity,
                    focus_at, measure_disparity, repair_disparity, view_positions)
+from .quality import Quality, evaluate
 from .refocuser import Prepared, Refocuser
 
 __version__: str = _library.starfocus_version().decode()
@@ -27,13 +28,14 @@ __version__: str = _library.starfocus_version().decode()
 
 def simd_target() -> str:
     """Returns the name of the SIMD target that the kernels use on this machine, for example "AVX2"."""
-    return _library.starfocus_simd_target().decode()
+    name: bytes = _library.starfocus_simd_target()
+    return name.decode()
 
 
 __all__ = [
     "ArgumentError", "Cancelled", "DepthMap", "DepthMeaning", "DisparityError", "DisparityMap",
-    "DisparityStats", "Format", "Image", "Matrix", "Mode", "OutOfMemory", "Prepared", "Range", "Refocuser",
-    "Renderer", "Shape", "StarfocusError", "Status", "Transfer", "aperture_of_f_stop", "estimate_disparity",
+    "DisparityStats", "Format", "Image", "Matrix", "Mode", "OutOfMemory", "Prepared", "Quality", "Range", "Refocuser",
+    "Renderer", "Shape", "StarfocusError", "Status", "Transfer", "aperture_of_f_stop", "estimate_disparity", "evaluate",
     "fill_disparity", "focus_at", "measure_disparity", "read_light_field", "read_pfm", "read_picture",
     "repair_disparity", "simd_target", "view_positions",
 ]

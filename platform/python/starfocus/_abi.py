@@ -214,9 +214,9 @@ def _load() -> ctypes.CDLL:
     for name, arguments in {**_ENGINE_CALLS, **_MAP_CALLS}.items():
         function = getattr(library, name)
         function.restype, function.argtypes = c_int, list(arguments)
-    for name, (result, *arguments) in _OTHERS.items():
+    for name, types in _OTHERS.items():
         function = getattr(library, name)
-        function.restype, function.argtypes = result, arguments
+        function.restype, function.argtypes = types[0], list(types[1:])
     if library.starfocus_abi_version() != ABI_VERSION:
         raise ImportError(f"libstarfocus_python.so: expected ABI version {ABI_VERSION}, found "
                           f"{library.starfocus_abi_version()}")

@@ -5,12 +5,14 @@ from __future__ import annotations
 import ctypes
 import operator
 import weakref
+from functools import partial
 from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _abi
 from ._abi import library
+from ._types import Array, Bytes
 from .constants import Status
 from .errors import ArgumentError, check
 
@@ -19,7 +21,7 @@ from .errors import ArgumentError, check
 ProgressFunction = Callable[[int, int], Any]
 #: An array of shape (views, height, width, 3), or a sequence whose items are arrays of shape (height, width, 3) or
 #: Images. A single array of shape (height, width, 3) is one view.
-Views = Union[np.ndarray, Sequence[Any]]
+Views = Union[Array, Sequence[Any]]
 #: A region of the picture: x, y, width and height in pixels.
 RegionOfPicture = Tuple[int, int, int, int]
 
@@ -63,20 +65,20 @@ def part_of(region: Optional[RegionOfPicture], width: int, height: int) -> Regio
     return x, y, columns, rows
 
 
-def rows_of(array: Any, dtype: Any, shape: Tuple[int, ...], what: str) -> np.ndarray:
+def rows_of(array: Any, dtype: Any, shape: Tuple[int, ...], what: str) -> Array:
     """Returns the array if the library can read it in place, otherwise a contiguous copy.
 
     Raises TypeError or ValueError if the array has another type or shape.
     """
-    array = np.asarray(array)
-    if array.dtype != dtype:
-        raise TypeError(f"{what}: expected {np.dtype(dtype)}, found {array.dtype}")
-    if array.shape != shape:
-        raise ValueError(f"{what}: expected the shape {shape}, found {array.shape}")
-    return array if has_rows(array) else np.ascontiguousarray(array)
+    given: Array = np.asarray(array)
+    if given.dtype != dtype:
+        raise TypeError(f"{what}: expected {np.dtype(dtype)}, found {given.dtype}")
+    if given.shape != shape:
+        raise ValueError(f"{what}: expected the shape {shape}, found {given.shape}")
+    return given if has_rows(given) else np.ascontiguousarray(given)
 
 
-def has_rows(array: np.ndarray) -> bool:
+def has_rows(array: Array) -> bool:
     """Returns True if the library can read or write the array in place: aligned, with contiguous rows."""
     inner = array.itemsize
     for size, stride in zip(array.shape[:0:-1], array.strides[:0:-1]):
@@ -87,12 +89,12 @@ def has_rows(array: np.ndarray) -> bool:
     return aligned and (array.shape[0] == 1 or array.strides[0] >= inner)
 
 
-def stride_of(array: np.ndarray) -> int:
+def stride_of(array: Array) -> int:
     """Returns the bytes from row to row: at least the size of a row, even if numpy reports less for a single row."""
     return max(array.strides[0], array.nbytes // array.shape[0])
 
 
-def output(out: Optional[np.ndarray], shape: Tuple[int, ...], what: str) -> np.ndarray:
+def output(out: Optional[Array], shape: Tuple[int, ...], what: str) -> Bytes:
     """Returns `out`, or a new picture if `out` is None. Raises an error if the library cannot write `out` in place."""
     if out is None:
         return np.empty(shape, np.uint8)
@@ -104,12 +106,12 @@ def output(out: Optional[np.ndarray], shape: Tuple[int, ...], what: str) -> np.n
     return out
 
 
-def as_list(views: Views) -> Union[np.ndarray, Sequence[np.ndarray]]:
+def as_list(views: Views) -> Views:
     """Returns the views as a sequence. A single array of shape (height, width, 3) becomes one view."""
     return [views] if isinstance(views, np.ndarray) and views.ndim == 3 else views
 
 
-def as_map(disparity: Any) -> np.ndarray:
+def as_map(disparity: Any) -> Array:
     """Returns a disparity map as float32. Maps of other floating-point types are converted."""
     disparity = np.asarray(disparity)
     if disparity.ndim != 2 or 0 in disparity.shape:
@@ -120,7 +122,7 @@ def as_map(disparity: Any) -> np.ndarray:
     return rows_of(disparity, np.float32, disparity.shape, "disparity")
 
 
-def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int) -> List[np.ndarray]:
+def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int) -> List[Array]:
     """Sets the coverage of a starfocus_light_field, unless it is None.
 
     Returns the arrays that must stay alive while the library may read the light field.
@@ -132,7 +134,7 @@ def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int)
     return [coverage]
 
 
-def as_image(array: np.ndarray) -> _abi.Image:
+def as_image(array: Array) -> _abi.Image:
     """Returns a starfocus_image for an array with rows of R, G, B."""
     image = _abi.Image()
     image.planes[0], image.strides[0] = array.ctypes.data, stride_of(array)
@@ -171,10 +173,10 @@ def positions_of(positions: Any, count: int) -> Any:
     places = np.asarray(positions, np.float64)
     if places.shape != (count, 2):
         raise ValueError(f"positions: expected the shape ({count}, 2), found {places.shape}")
-    return (_abi.Position * _abi.MAX_VIEWS)(*map(tuple, places[:_abi.MAX_VIEWS]))
+    return (_abi.Position * _abi.MAX_VIEWS)(*(_abi.Position(u, v) for u, v in places[:_abi.MAX_VIEWS]))
 
 
-def aligned(size: int) -> np.ndarray:
+def aligned(size: int) -> Array:
     """Allocates `size` bytes aligned to STARFOCUS_ALIGNMENT."""
     memory = np.empty(size + _abi.ALIGNMENT, np.uint8)
     first = -memory.ctypes.data % _abi.ALIGNMENT
@@ -208,13 +210,15 @@ class Watch:
     """
 
     def __init__(self, callback: Optional[ProgressFunction]):
-        self._callback = callback
         self._error: Optional[BaseException] = None
-        self.function = _abi.Progress(self._ask) if callback else _abi.Progress()
+        if callback is None:
+            self.function = ctypes.cast(0, _abi.Progress)
+        else:
+            self.function = _abi.Progress(partial(self._ask, callback))
 
-    def _ask(self, _data: Any, done: int, rows: int) -> int:
+    def _ask(self, callback: ProgressFunction, _data: Any, done: int, rows: int) -> int:
         try:
-            return 1 if self._callback(done, rows) else 0
+            return 1 if callback(done, rows) else 0
         except BaseException as error:  # pylint: disable=broad-except
             self._error = error
             return 1
@@ -226,6 +230,6 @@ class Watch:
         check(status, problem)
 
 
-def pointer(array: Optional[np.ndarray]) -> Optional[ctypes.c_void_p]:
+def pointer(array: Optional[Array]) -> Optional[ctypes.c_void_p]:
     """Returns the address of an array, or None if the array is None."""
     return None if array is None else ctypes.c_void_p(array.ctypes.data)

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import List, Optional, Sequence, Tuple, Union
+from typing import Any, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
+from ._types import Array, Bytes, Floats
 from .maps import view_positions
 
 _SETS = (17, 9, 5, 1)
 
 
 def read_light_field(folder: Union[str, Path], positions: Optional[Sequence[Tuple[float, float]]] = None
-                     ) -> Tuple[List[np.ndarray], Optional[np.ndarray]]:
+                     ) -> Tuple[List[Bytes], Optional[Floats]]:
     """Reads a light-field folder (docs/formats.md).
 
     Args:
@@ -34,17 +35,18 @@ def read_light_field(folder: Union[str, Path], positions: Optional[Sequence[Tupl
         missing = _view_name(*wanted[paths.index(None)])
         raise FileNotFoundError(f"{folder}: expected a view named {missing} (png, ppm or jpg)")
     disparity = folder / "disparity.pfm"
-    return [read_picture(path) for path in paths[:count]], read_pfm(disparity) if disparity.exists() else None
+    found = [path for path in paths[:count] if path is not None]
+    return [read_picture(path) for path in found], read_pfm(disparity) if disparity.exists() else None
 
 
-def read_picture(path: Union[str, Path]) -> np.ndarray:
+def read_picture(path: Union[str, Path]) -> Bytes:
     """Reads a picture as uint8 of shape (height, width, 3).
 
     Formats other than PPM require the package pillow. Raises ValueError for a malformed PPM.
     """
     path = Path(path)
     if path.suffix != ".ppm":
-        from PIL import Image  # pylint: disable=import-outside-toplevel
+        from PIL import Image  # type: ignore[import]  # pylint: disable=import-outside-toplevel
         with Image.open(path) as image:
             return np.asarray(image.convert("RGB"))
     data = path.read_bytes()
@@ -54,7 +56,7 @@ def read_picture(path: Union[str, Path]) -> np.ndarray:
     return _values(data, first, np.dtype(np.uint8), (int(height), int(width), 3), path)
 
 
-def read_pfm(path: Union[str, Path]) -> np.ndarray:
+def read_pfm(path: Union[str, Path]) -> Floats:
     """Reads a PFM with one channel as float32 of shape (height, width).
 
     The first row of the array is the top row of the map. Raises ValueError for a malformed PFM.
@@ -101,8 +103,8 @@ def _header(data: bytes, words: int, path: Path) -> Tuple[List[bytes], int]:
     return found, at
 
 
-def _values(data: bytes, first: int, kind: np.dtype, shape: Tuple[int, ...], path: Path) -> np.ndarray:
-    expected = int(np.prod(shape)) * kind.itemsize
+def _values(data: bytes, first: int, kind: Any, shape: Tuple[int, ...], path: Path) -> Array:
+    expected = int(np.prod(shape)) * np.dtype(kind).itemsize
     if len(data) - first < expected:
         raise ValueError(f"{path}: expected {expected} bytes of values, found {len(data) - first}")
     return np.frombuffer(data, kind, int(np.prod(shape)), first).reshape(shape)

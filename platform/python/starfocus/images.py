@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _abi
 from ._calls import has_rows, stride_of, whole
+from ._types import Array, Bytes
 from .constants import DepthMeaning, Format, Matrix, Range
 
 _PIXEL_BYTES = {Format.RGB: 3, Format.BGR: 3, Format.RGBX: 4, Format.BGRX: 4}
@@ -30,7 +31,7 @@ class Image:
     """
 
     format: Format
-    planes: Sequence[np.ndarray]
+    planes: Sequence[Bytes]
     matrix: Matrix = Matrix.BT601
     range: Range = Range.LIMITED
     pixel_stride: int = 0
@@ -80,13 +81,13 @@ class DepthMap:
             `fill_unknown=1` in the configuration.
     """
 
-    values: np.ndarray
+    values: Array
     meaning: DepthMeaning = DepthMeaning.LINEAR
     scale: float = 1.0
     offset: float = 0.0
     invalid: Optional[float] = None
 
-    def as_structure(self) -> Tuple[_abi.DepthMap, np.ndarray]:
+    def as_structure(self) -> Tuple[_abi.DepthMap, Array]:
         """Returns the starfocus_depth_map, and the array that it points to.
 
         Raises TypeError or ValueError if the values have the wrong type or shape.
@@ -118,7 +119,7 @@ def _plane_sizes(form: Format, pixel_stride: int, width: int, height: int) -> Se
     return [(height, width)] + [(rows, chroma)] * _CHROMA_PLANES[form]
 
 
-def _check_plane(plane: np.ndarray, rows: int, row_bytes: int, what: str, written: bool) -> None:
+def _check_plane(plane: Bytes, rows: int, row_bytes: int, what: str, written: bool) -> None:
     if plane.dtype != np.uint8:
         raise TypeError(f"{what}: expected uint8, found {plane.dtype}")
     if plane.ndim < 2 or 0 in plane.shape or not has_rows(plane):

@@ -12,6 +12,7 @@ from . import _abi
 from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, light_field, pointer,
                      positions_of, set_field, stride_of, whole)
 from ._abi import library
+from ._types import Array, Bytes, Floats
 from .errors import check
 
 
@@ -39,9 +40,9 @@ class DisparityMap(NamedTuple):
             were repaired from one view that shows hair.
     """
 
-    disparity: np.ndarray
-    confidence: np.ndarray
-    coverage: Optional[np.ndarray] = None
+    disparity: Floats
+    confidence: Bytes
+    coverage: Optional[Bytes] = None
 
 
 def view_positions(count: int = 17) -> List[Tuple[float, float]]:
@@ -58,7 +59,7 @@ def view_positions(count: int = 17) -> List[Tuple[float, float]]:
     return positions
 
 
-def measure_disparity(disparity: np.ndarray) -> DisparityStats:
+def measure_disparity(disparity: Array) -> DisparityStats:
     """Measures the range of a disparity map."""
     disparity = as_map(disparity)
     stats = _abi.DisparityStats()
@@ -66,7 +67,7 @@ def measure_disparity(disparity: np.ndarray) -> DisparityStats:
     return DisparityStats(stats.min, stats.max, stats.invalid)
 
 
-def fill_disparity(disparity: np.ndarray) -> np.ndarray:
+def fill_disparity(disparity: Array) -> Floats:
     """Returns a copy of a disparity map in which values that are NaN or infinite are filled.
 
     A missing value is replaced by the nearest finite value to its left or right. If finite values exist on both sides,
@@ -78,7 +79,7 @@ def fill_disparity(disparity: np.ndarray) -> np.ndarray:
     return filled
 
 
-def focus_at(disparity: np.ndarray, x: int, y: int) -> float:
+def focus_at(disparity: Array, x: int, y: int) -> float:
     """Returns the disparity to focus at for the pixel (x, y), for example where a user tapped.
 
     This disparity is the median of the disparities up to 3 pixels away that belong to the surface of the pixel. Raises
@@ -122,7 +123,7 @@ def estimate_disparity(views: Views, disparity_min: float, disparity_max: float,
                      (disparity_min, disparity_max), workers, progress, positions)
 
 
-def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optional[float] = None,
+def repair_disparity(views: Views, disparity: Array, disparity_min: Optional[float] = None,
                      disparity_max: Optional[float] = None, *, workers: int = 0,
                      progress: Optional[ProgressFunction] = None) -> DisparityMap:
     """Repairs a disparity map: noise, values that are not finite, and edges that are blurred or displaced.
@@ -147,7 +148,7 @@ def repair_disparity(views: Views, disparity: np.ndarray, disparity_min: Optiona
                      progress)
 
 
-def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray], span: Tuple[float, float],
+def _make_map(size_of: Any, make: Any, views: Views, given: Optional[Array], span: Tuple[float, float],
               workers: int, progress: Optional[ProgressFunction], positions: Any = None) -> DisparityMap:
     views = as_list(views)
     shape = np.asarray(views[0]).shape if len(views) > 0 else ()
@@ -179,6 +180,6 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[np.ndarray]
     return DisparityMap(disparity, confidence, coverage if made.has_coverage else None)
 
 
-def _rows(disparity: np.ndarray) -> Tuple[Any, int, int, int]:
+def _rows(disparity: Array) -> Tuple[Any, int, int, int]:
     """Returns the address, stride, width and height of a map, which many functions of the library take as arguments."""
     return pointer(disparity), stride_of(disparity), disparity.shape[1], disparity.shape[0]

@@ -15,6 +15,7 @@ from . import _abi
 from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_image, as_list, light_field,
                      output, part_of, pointer, positions_of, set_coverage, set_field, whole)
 from ._abi import library
+from ._types import Array
 from .constants import Mode, Renderer, Status
 from .errors import ArgumentError, check
 from .images import DepthMap, Image
@@ -22,9 +23,9 @@ from .maps import measure_disparity
 
 
 #: A disparity map as an array of shape (height, width), or a DepthMap for other formats.
-Disparity = Union[np.ndarray, DepthMap]
+Disparity = Union[Array, DepthMap]
 #: A picture as an array of shape (height, width, 3), or an Image for other formats.
-Picture = Union[np.ndarray, Image]
+Picture = Union[Array, Image]
 
 #: Keywords of `config` and the corresponding bits of starfocus_config.features.
 _FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
@@ -88,7 +89,7 @@ class Refocuser:
         self.report: Dict[str, Any] = {}
 
     @classmethod
-    def for_light_field(cls, views: Views, disparity: np.ndarray, *, workers: int = 0,
+    def for_light_field(cls, views: Views, disparity: Array, *, workers: int = 0,
                         **config: Any) -> "Refocuser":
         """Returns a refocuser for a light field. Other light fields may use it if they have the same size, number of
         views and disparity range.
@@ -111,12 +112,12 @@ class Refocuser:
     @property
     def width(self) -> int:
         """Width of the pictures in pixels."""
-        return self._config.width
+        return int(self._config.width)
 
     @property
     def height(self) -> int:
         """Height of the pictures in pixels."""
-        return self._config.height
+        return int(self._config.height)
 
     @property
     def workers(self) -> int:
@@ -124,7 +125,7 @@ class Refocuser:
         return self._pool.workers
 
     def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
-                coverage: Optional[np.ndarray] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
+                coverage: Optional[Array] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
                 region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
                 progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """Refocuses a light field. Returns the picture, uint8 of shape (height, width, 3).
@@ -161,7 +162,7 @@ class Refocuser:
         params = self._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
         return self._picture(params, out, (height, width), progress, library.starfocus_refocus, byref(field), keep=kept)
 
-    def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[np.ndarray] = None,
+    def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[Array] = None,
                 progress: Optional[ProgressFunction] = None) -> "Prepared":
         """Performs the work that does not depend on the lens, once for many pictures of one light field.
 
@@ -176,11 +177,12 @@ class Refocuser:
         `size` is the height and width of the picture. `scene` is the light field or prepared light field. `keep`
         contains the arrays that `scene` refers to.
         """
+        picture: Picture
         if isinstance(out, Image):
             picture, image = out, out.as_structure(size[1], size[0], "out", written=True)
         else:
-            picture = output(out, (*size, 3), "out")
-            image = as_image(picture)
+            picture = pixels = output(out, (*size, 3), "out")
+            image = as_image(pixels)
         self._call(Watch(progress), function, byref(params), scene, byref(image))
         del keep
         return picture
@@ -223,7 +225,7 @@ class Prepared:
     """
 
     def __init__(self, refocuser: Refocuser, views: Views, disparity: Disparity,
-                 progress: Optional[ProgressFunction], coverage: Optional[np.ndarray] = None):
+                 progress: Optional[ProgressFunction], coverage: Optional[Array] = None):
         # pylint: disable=protected-access
         config = refocuser._config
         self._refocuser = refocuser
