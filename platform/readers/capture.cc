@@ -184,7 +184,7 @@ Error LoadViews(const Positions& wanted, Capture* capture, ThreadRunner* runner)
       SelectViewFiles(capture->path, capture->files, wanted);
   if (!chosen) return chosen.error();
   if (capture->photo) {
-    FitMap(&capture->light_field);
+    FitMap(&capture->light_field, runner);
     return {};
   }
   if (!capture->light_field.views.empty()) {

@@ -38,6 +38,45 @@ std::vector<Between> Places(int from, int to) {
   return places;
 }
 
+// The jobs of a resizing, each of which fills kRows rows.
+struct ResizeTask {
+  static constexpr int kRows = 64;
+
+  const FloatMap& map;
+  std::vector<Between> columns, rows;
+  FloatMap* result;
+
+  static void Run(void* data, int32_t index, int32_t) {
+    const ResizeTask& task = *static_cast<const ResizeTask*>(data);
+    const int end = std::min((index + 1) * kRows, task.result->height);
+    for (int y = index * kRows; y < end; ++y) task.FillRow(y);
+  }
+  void FillRow(int y) const {
+    const Between& row = rows[size_t(y)];
+    const float* above = map.values.data() + size_t(row.first) * size_t(map.width);
+    const float* below = map.values.data() + size_t(row.second) * size_t(map.width);
+    float* to = result->values.data() + size_t(y) * size_t(result->width);
+    for (const Between& column : columns) {
+      float sum = 0, weights = 0, low = std::numeric_limits<float>::infinity(), high = -low;
+      const auto add = [&](float value, float weight) {
+        if (!std::isfinite(value)) return;
+        sum += weight * value;
+        weights += weight;
+        low = std::min(low, value);
+        high = std::max(high, value);
+      };
+      add(above[column.first], (1 - column.weight) * (1 - row.weight));
+      add(above[column.second], column.weight * (1 - row.weight));
+      add(below[column.first], (1 - column.weight) * row.weight);
+      add(below[column.second], column.weight * row.weight);
+      // Clamp the mean, because rounding errors may move a mean outside the range of the averaged
+      // values.
+      *to++ = weights > 0 ? std::clamp(sum / weights, low, high)
+                          : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+};
+
 std::string Rounded(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.3g", value);
@@ -106,33 +145,16 @@ void FillUnknown(DepthPhoto* photo) {
 
 }  // namespace
 
-FloatMap Resize(const FloatMap& map, int width, int height) {
+FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner) {
   if (map.width == width && map.height == height) return map;
-  const std::vector<Between> columns = Places(map.width, width), rows = Places(map.height, height);
-  FloatMap result;
-  result.width = width;
-  result.height = height;
-  result.values.reserve(size_t(width) * size_t(height));
-  for (const Between& row : rows) {
-    for (const Between& column : columns) {
-      float sum = 0, weights = 0, low = std::numeric_limits<float>::infinity(), high = -low;
-      const auto add = [&](int x, int y, float weight) {
-        const float value = map.at(x, y);
-        if (!std::isfinite(value)) return;
-        sum += weight * value;
-        weights += weight;
-        low = std::min(low, value);
-        high = std::max(high, value);
-      };
-      add(column.first, row.first, (1 - column.weight) * (1 - row.weight));
-      add(column.second, row.first, column.weight * (1 - row.weight));
-      add(column.first, row.second, (1 - column.weight) * row.weight);
-      add(column.second, row.second, column.weight * row.weight);
-      // Clamp the mean, because rounding errors may move a mean outside the range of the averaged
-      // values.
-      result.values.push_back(weights > 0 ? std::clamp(sum / weights, low, high)
-                                          : std::numeric_limits<float>::quiet_NaN());
-    }
+  FloatMap result = {width, height, {}};
+  result.values.resize(size_t(width) * size_t(height));
+  ResizeTask task = {map, Places(map.width, width), Places(map.height, height), &result};
+  const int jobs = (height + ResizeTask::kRows - 1) / ResizeTask::kRows;
+  if (runner != nullptr) {
+    ThreadRunner::Run(runner, ResizeTask::Run, &task, jobs);
+  } else {
+    for (int job = 0; job < jobs; ++job) ResizeTask::Run(&task, job, 0);
   }
   return result;
 }
@@ -161,11 +183,11 @@ Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo) {
   return light_field;
 }
 
-void FitMap(LightField* light_field) {
+void FitMap(LightField* light_field, ThreadRunner* runner) {
   const Image& picture = light_field->views[0];
   FloatMap& map = light_field->disparity;
   if (map.width == picture.width && map.height == picture.height) return;
-  map = Resize(map, picture.width, picture.height);
+  map = Resize(map, picture.width, picture.height, runner);
 }
 
 }  // namespace starfocus

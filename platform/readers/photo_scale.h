@@ -6,11 +6,14 @@
 #include "platform/light_field.h"
 #include "platform/readers/photo.h"
 #include "platform/result.h"
+#include "platform/runner.h"
 
 namespace starfocus {
 
-// Resizes a map by bilinear interpolation. Unknown values of the map (NaN) have no weight.
-FloatMap Resize(const FloatMap& map, int width, int height);
+// Resizes a map by bilinear interpolation. Unknown values of the map (NaN) have no weight. In all
+// functions of this header, the workers of `runner` resize parts of the map; if `runner` is null,
+// the calling thread resizes the map.
+FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner = nullptr);
 
 // Applies the EXIF orientation of the photo, and converts the map to disparities in pixels of the
 // picture. With the resulting disparities, an aperture of radius 1 is a lens of f/1 on full frame
@@ -19,7 +22,7 @@ FloatMap Resize(const FloatMap& map, int width, int height);
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo);
 
 // Resizes the disparity map of a one-view light field to the size of the view.
-void FitMap(LightField* light_field);
+void FitMap(LightField* light_field, ThreadRunner* runner = nullptr);
 
 }  // namespace starfocus
 

@@ -7,7 +7,9 @@
 
 namespace starfocus {
 
-Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality) {
+Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality,
+                               RowGate* rows) {
+  if (rows != nullptr) rows->WaitFor(image.height - 1);
   const StbMemory memory;
   Bytes jpeg;
   if (stbi_write_jpg_to_func(AppendStb, &jpeg, image.width, image.height, 3, image.pixels.data(),

@@ -36,7 +36,7 @@ struct Memory {
 
 // On failure, returns false and sets failure->reason. Local objects of Compress must not have
 // destructors, because longjmp on a libjpeg error skips destructors.
-bool Compress(const Image& image, int quality, Memory* memory, Failure* failure) {
+bool Compress(const Image& image, int quality, RowGate* rows, Memory* memory, Failure* failure) {
   jpeg_compress_struct info;
   info.err = jpeg_std_error(&failure->manager);
   failure->manager.error_exit = Fail;
@@ -57,7 +57,9 @@ bool Compress(const Image& image, int quality, Memory* memory, Failure* failure)
   if (quality >= 90) info.comp_info[0].h_samp_factor = info.comp_info[0].v_samp_factor = 1;
   jpeg_start_compress(&info, TRUE);
   while (info.next_scanline < info.image_height) {
-    JSAMPROW row = const_cast<JSAMPROW>(image.row(static_cast<int>(info.next_scanline)));
+    const int y = static_cast<int>(info.next_scanline);
+    if (rows != nullptr) rows->WaitFor(y);
+    JSAMPROW row = const_cast<JSAMPROW>(image.row(y));
     jpeg_write_scanlines(&info, &row, 1);
   }
   jpeg_finish_compress(&info);
@@ -67,10 +69,11 @@ bool Compress(const Image& image, int quality, Memory* memory, Failure* failure)
 
 }  // namespace
 
-Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality) {
+Result<Bytes> EncodeJpegPixels(const std::string& path, const Image& image, int quality,
+                               RowGate* rows) {
   Memory memory;
   const auto failure = std::make_unique<Failure>();
-  if (!Compress(image, quality, &memory, failure.get())) {
+  if (!Compress(image, quality, rows, &memory, failure.get())) {
     return failure->manager.msg_code == JERR_OUT_OF_MEMORY
                ? OutOfMemory(path, "write it")
                : Expected(path, "a picture that libjpeg can write", failure->reason);

@@ -39,15 +39,17 @@ bool IsPictureExtension(const std::string& extension) {
 }
 
 Result<Bytes> EncodePicture(const std::string& path, const Image& image,
-                            const PictureOptions& options) {
+                            const PictureOptions& options, RowGate* rows) {
   const std::string extension = FormatExtension(path);
+  const bool jpeg = extension == ".jpg" || extension == ".jpeg";
+  if (rows != nullptr && !jpeg) rows->WaitFor(image.height - 1);
   if (extension == ".ppm") return EncodePpm(image);
   if (Error error = CheckSize(path, image)) return error;
   if (extension == ".png") {
     return EncodePng(path, image, options.metadata, options.png_size);
   }
   if (extension == ".webp") return EncodeWebp(path, image, options);
-  return EncodeJpeg(path, image, options.quality, options.metadata, {});
+  return EncodeJpeg(path, image, options.quality, options.metadata, {}, rows);
 }
 
 }  // namespace starfocus

@@ -8,6 +8,7 @@
 #include "platform/image.h"
 #include "platform/metadata.h"
 #include "platform/result.h"
+#include "platform/row_gate.h"
 #include "platform/writers/png.h"
 
 namespace starfocus {
@@ -27,9 +28,10 @@ bool IsPictureExtension(const std::string& extension);
 
 // Encodes a picture in the format that the extension of `path` selects (standard_stream.h). `path`
 // selects the format and appears in error messages, but EncodePicture does not write a file. PPM
-// files contain no metadata.
+// files contain no metadata. If `rows` is not null, another thread computes the picture, and each
+// row is read after `rows` has declared it finished.
 Result<Bytes> EncodePicture(const std::string& path, const Image& image,
-                            const PictureOptions& options);
+                            const PictureOptions& options, RowGate* rows = nullptr);
 
 }  // namespace starfocus
 

@@ -14,6 +14,7 @@
 #include "examples/cli/refocus/refocus_output.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/refocus/refocus_report.h"
+#include "examples/cli/refocus/turns.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
@@ -37,6 +38,7 @@ struct RefocusOptions {
   LensOptions lens;
   MapOptions disparities;
   bool stream = false;
+  Turn* turn = nullptr;  // Turn of the input in a batch; null: a single input.
 };
 
 struct Loaded {
@@ -117,8 +119,10 @@ Error CheckRegion(const Image& picture, const starfocus_region& region) {
 }
 
 Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
-  Result<Capture> capture = OpenInput(options.input);
+  Result<Capture> capture = ReadInput(options.input);
+  if (options.turn != nullptr) options.turn->Begin();
   if (!capture) return capture;
+  TellNotes(*capture);
   Error error = CheckApart(ListOutputs(options),
                            {{}, CaptureFiles(*capture), GridsOf(options.input, *capture)});
   if (!error) error = PlanAperture(options.lens.aperture, *capture).MoveTo(&plan->aperture);
@@ -168,12 +172,17 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, const Len
   task.stream = options.stream;
   EngineRun run(task.threads, 1);
   EngineResult result;
+  result.picture = EngineRun::MakePicture(task);
+  PictureWriter writer(options.output, how, &result.picture, task.threads);
   Error error = run.Start(InputName(options.input.path), task);
-  if (!error) error = run.Refocus(InputName(options.input.path), task).MoveTo(&result);
+  if (!error) {
+    error = run.RefocusRows(InputName(options.input.path), task, writer.rows(), &result);
+  }
+  if (options.turn != nullptr) options.turn->End();
   if (!error) {
     Refocused refocused = {options.input.path, &task, &result.picture, plan.aperture.widest};
     if (plan.focus_option == "--focus-at") refocused.at = Pixel{plan.x, plan.y};
-    error = WriteRefocused(options.output, how, refocused);
+    error = writer.Write(refocused);
   }
   if (!error && !options.map.empty()) {
     const starfocus_region& region = task.params.region;
@@ -233,8 +242,14 @@ Error RunInputs(const RefocusOptions& options) {
   const Result<Batch> batch =
       PlanBatch(options.inputs, options.output.out, EstimatesDepth(options.input));
   if (!batch) return batch.error();
-  return RunBatch(*batch, options.jobs, [&options](const BatchItem& item) {
+  // One more input than options.jobs is in memory, so that files are read and written during the
+  // turns of other inputs.
+  const int ahead = options.lens.threads > 1 ? 1 : 0;
+  Turns turns(static_cast<size_t>(options.jobs));
+  return RunBatch(*batch, options.jobs + ahead, [&](const BatchItem& item) {
+    Turn turn(&turns, static_cast<size_t>(&item - batch->items.data()));
     RefocusOptions one = options;
+    one.turn = &turn;
     one.input.path = item.input;
     one.output.out = item.output;
     return RunInput(one);

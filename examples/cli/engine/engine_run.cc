@@ -50,14 +50,41 @@ Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
 }
 
 Result<EngineResult> EngineRun::Refocus(const std::string& where, const EngineTask& task) {
-  return Run(where, task, nullptr);
+  EngineResult result;
+  result.picture = MakePicture(task);
+  if (Error error = Run(where, task, nullptr, &result)) return error;
+  return result;
+}
+
+Image EngineRun::MakePicture(const EngineTask& task) {
+  const starfocus_region& region = task.params.region;
+  return region.width > 0 ? Image(region.width, region.height)
+                          : Image(task.config.width, task.config.height);
+}
+
+Error EngineRun::RefocusRows(const std::string& where, const EngineTask& task, RowGate* rows,
+                             EngineResult* result) {
+  // A stream reports rows before it has copied the rows into the picture.
+  rows_ = task.stream ? nullptr : rows;
+  const Error error = Run(where, task, nullptr, result);
+  rows_ = nullptr;
+  return error;
 }
 
 Result<EngineResult> EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
                                              const LightField& before, const Image& picture) {
   const starfocus_previous previous = {
       EngineRows(before), starfocus_image_rgb(picture.pixels.data(), picture.stride())};
-  return Run(where, task, &previous);
+  EngineResult result;
+  result.picture = MakePicture(task);
+  if (Error error = Run(where, task, &previous, &result)) return error;
+  return result;
+}
+
+int EngineRun::Tell(void* self, int32_t rows_done, int32_t rows) {
+  EngineRun* run = static_cast<EngineRun*>(self);
+  if (run->rows_ != nullptr) run->rows_->Finish(rows_done);
+  return PictureProgress::Tell(&run->progress_, rows_done, rows);
 }
 
 starfocus_status EngineRun::SetCallbacks(const EngineTask& task, bool is_picture) {
@@ -65,8 +92,8 @@ starfocus_status EngineRun::SetCallbacks(const EngineTask& task, bool is_picture
   callbacks.runner = ThreadRunner::Run;
   callbacks.runner_data = &runner_;
   if (is_picture) {
-    callbacks.progress = PictureProgress::Tell;
-    callbacks.progress_data = &progress_;
+    callbacks.progress = Tell;
+    callbacks.progress_data = this;
   }
   return engine_.SetCallbacks(callbacks);
 }
@@ -92,15 +119,11 @@ starfocus_status EngineRun::RunStream(const EngineTask& task, EngineResult* resu
   return status;
 }
 
-Result<EngineResult> EngineRun::Run(const std::string& where, const EngineTask& task,
-                                    const starfocus_previous* previous) {
-  const starfocus_region& region = task.params.region;
-  EngineResult result;
-  Image& out = result.picture;
-  out = region.width > 0 ? Image(region.width, region.height)
-                         : Image(task.config.width, task.config.height);
-  result.workspace_bytes = engine_.workspace_bytes();
-  result.prepared_bytes = prepared_bytes_;
+Error EngineRun::Run(const std::string& where, const EngineTask& task,
+                     const starfocus_previous* previous, EngineResult* result) {
+  Image& out = result->picture;
+  result->workspace_bytes = engine_.workspace_bytes();
+  result->prepared_bytes = prepared_bytes_;
   const starfocus_image to = starfocus_image_rgb(out.pixels.data(), out.stride());
   starfocus_params params = task.params;
   params.previous = previous;
@@ -108,15 +131,14 @@ Result<EngineResult> EngineRun::Run(const std::string& where, const EngineTask& 
   if (status != STARFOCUS_OK) return Outcome(where, status, engine_.problem());
   const double start = Seconds();
   if (task.stream) {
-    status = RunStream(task, &result);
+    status = RunStream(task, result);
   } else if (prepared_bytes_ > 0) {
-    status = engine_.RefocusPrepared(params, to, &result.report);
+    status = engine_.RefocusPrepared(params, to, &result->report);
   } else {
-    status = engine_.Refocus(params, EngineRows(*task.light_field), to, &result.report);
+    status = engine_.Refocus(params, EngineRows(*task.light_field), to, &result->report);
   }
-  result.seconds = Seconds() - start;
-  if (Error error = Outcome(where, status, engine_.problem())) return error;
-  return result;
+  result->seconds = Seconds() - start;
+  return Outcome(where, status, engine_.problem());
 }
 
 }  // namespace starfocus

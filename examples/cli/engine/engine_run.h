@@ -12,6 +12,7 @@
 #include "platform/light_field.h"
 #include "platform/progress.h"
 #include "platform/result.h"
+#include "platform/row_gate.h"
 #include "platform/runner.h"
 #include "starfocus/starfocus.hpp"
 
@@ -49,6 +50,14 @@ class EngineRun {
 
   Result<EngineResult> Refocus(const std::string& where, const EngineTask& task);
 
+  // Returns a picture of the size that the task computes.
+  static Image MakePicture(const EngineTask& task);
+
+  // Refocuses into result->picture, which MakePicture has made. Declares finished rows to `rows`,
+  // unless task.stream is true.
+  Error RefocusRows(const std::string& where, const EngineTask& task, RowGate* rows,
+                    EngineResult* result);
+
   // Refocuses a frame that follows the frame `before`. `picture` must have been computed from
   // `before` with the same params.
   Result<EngineResult> RefocusAfter(const std::string& where, const EngineTask& task,
@@ -63,11 +72,14 @@ class EngineRun {
   // picture, the progress line.
   starfocus_status SetCallbacks(const EngineTask& task, bool is_picture);
   starfocus_status RunStream(const EngineTask& task, EngineResult* result);
-  Result<EngineResult> Run(const std::string& where, const EngineTask& task,
-                           const starfocus_previous* previous);
+  Error Run(const std::string& where, const EngineTask& task, const starfocus_previous* previous,
+            EngineResult* result);
+  // A callback of type starfocus_progress, whose `self` points to an EngineRun.
+  static int Tell(void* self, int32_t rows_done, int32_t rows);
 
   ThreadRunner runner_;
   PictureProgress progress_;
+  RowGate* rows_ = nullptr;  // receives the finished rows of the current picture; may be null
   Engine engine_;
   size_t prepared_bytes_ = 0;  // size of the prepared light field; 0 if no light field is prepared
 };

@@ -71,7 +71,7 @@ Error Estimate(int threads, Capture* capture) {
 
 }  // namespace
 
-Result<Capture> OpenInput(const InputOptions& options) {
+Result<Capture> ReadInput(const InputOptions& options) {
   if (Error error = CheckRight(options)) return error;
   if (options.path == "-") {
     if (options.depth == "-") {
@@ -107,10 +107,19 @@ Result<Capture> OpenInput(const InputOptions& options) {
                              (capture->map_path.empty() ? "several views" : "depth"));
   }
   if (!options.coverage.empty()) capture->coverage_path = options.coverage;
-  for (const std::string& note : capture->notes) {
-    std::fprintf(stderr, "%s: %s\n", capture->path.c_str(), note.c_str());
-  }
   return capture;
+}
+
+Result<Capture> OpenInput(const InputOptions& options) {
+  Result<Capture> capture = ReadInput(options);
+  if (capture) TellNotes(*capture);
+  return capture;
+}
+
+void TellNotes(const Capture& capture) {
+  for (const std::string& note : capture.notes) {
+    std::fprintf(stderr, "%s: %s\n", capture.path.c_str(), note.c_str());
+  }
 }
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {

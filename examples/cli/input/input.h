@@ -13,8 +13,14 @@
 
 namespace starfocus {
 
-// Opens the input (OpenCapture) and prints notes about the input to stderr. If the input is a photo
-// without depth, runs the depth command. The map of a photo is not resized before LoadInput.
+// Opens the input (OpenCapture). If the input is a photo without depth, runs the depth command. The
+// map of a photo is not resized before LoadInput.
+Result<Capture> ReadInput(const InputOptions& options);
+
+// Prints notes about the input to stderr.
+void TellNotes(const Capture& capture);
+
+// Calls ReadInput and TellNotes.
 Result<Capture> OpenInput(const InputOptions& options);
 
 // Reads the map, and the views at the positions `views`, or all views if `views` is empty. A

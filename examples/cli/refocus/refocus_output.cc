@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <new>
+#include <system_error>
 
 #include "examples/cli/pictures/shrink.h"
 #include "examples/command_line/options.h"
@@ -155,18 +157,38 @@ Error PlanOutput(const OutputOptions& options, bool sweep, bool region) {
                                : options.out);
 }
 
-Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
-                     const Refocused& refocused) {
+PictureWriter::PictureWriter(const OutputOptions& options, const PictureOptions& how,
+                             const Image* picture, int threads)
+    : options_(options), how_(how), picture_(picture) {
+  if (threads < 2 || options.depth_photo || !IsJpeg(options.out)) return;
+  const auto encode = [this]() -> Result<Bytes> {
+    try {
+      return EncodePicture(options_.out, *picture_, how_, &rows_);
+    } catch (const std::bad_alloc&) {
+      return OutOfMemory(options_.out, "write it");
+    }
+  };
+  try {
+    encoded_ = std::async(std::launch::async, encode);
+  } catch (const std::system_error&) {
+    // If the thread cannot be created, Write encodes the picture.
+  }
+}
+
+Error PictureWriter::Write(const Refocused& refocused) {
+  rows_.FinishAll();
   Error error;
-  if (options.depth_photo) {
-    error = WriteDepthPhoto(options.out, how, refocused);
-  } else if (!options.out.empty()) {
-    error = WriteImage(options.out, *refocused.picture, how);
+  if (encoded_.valid()) {
+    error = WriteFile(options_.out, encoded_.get());
+  } else if (options_.depth_photo) {
+    error = WriteDepthPhoto(options_.out, how_, refocused);
+  } else if (!options_.out.empty()) {
+    error = WriteImage(options_.out, *picture_, how_);
   }
-  if (!error && !options.compare.empty()) {
-    error = WriteComparison(options.compare, refocused, how.metadata.icc);
+  if (!error && !options_.compare.empty()) {
+    error = WriteComparison(options_.compare, refocused, how_.metadata.icc);
   }
-  return error || !options.show ? error : Show(*refocused.picture);
+  return error || !options_.show ? error : Show(*picture_);
 }
 
 Error WritePair(const OutputOptions& options, const PictureOptions& how,

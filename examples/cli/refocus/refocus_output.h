@@ -3,6 +3,7 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,7 +12,9 @@
 #include "examples/cli/view/comparison.h"
 #include "examples/command_line/command.h"
 #include "examples/command_line/outputs.h"
+#include "platform/file.h"
 #include "platform/result.h"
+#include "platform/row_gate.h"
 #include "platform/runner.h"
 #include "platform/writers/picture.h"
 #include "platform/writers/webp.h"
@@ -34,9 +37,31 @@ std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
 // not check the output files. `region` is true if only part of the picture is computed.
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 
-// Writes a picture to the files and shows it on the terminal, as the options select.
-Error WriteRefocused(const OutputOptions& options, const PictureOptions& how,
-                     const Refocused& refocused);
+// Writes the picture of one refocusing. With several threads, a thread encodes finished rows of a
+// JPEG picture while the engine computes other rows.
+class PictureWriter {
+ public:
+  // @param picture the picture, whose rows may be computed later; must outlive the PictureWriter
+  PictureWriter(const OutputOptions& options, const PictureOptions& how, const Image* picture,
+                int threads);
+  ~PictureWriter() { rows_.FinishAll(); }
+  PictureWriter(const PictureWriter&) = delete;
+  PictureWriter& operator=(const PictureWriter&) = delete;
+
+  // Receives the rows that are finished before Write is called.
+  RowGate* rows() { return &rows_; }
+
+  // Writes the complete picture to the files and shows it on the terminal, as the options select.
+  // `refocused` describes the picture. If Write is not called, no file is written.
+  Error Write(const Refocused& refocused);
+
+ private:
+  const OutputOptions& options_;
+  const PictureOptions& how_;
+  const Image* const picture_;
+  RowGate rows_;
+  std::future<Result<Bytes>> encoded_;  // invalid: Write encodes the picture
+};
 
 // Writes the files that the options all_in_focus and focus_index request in place of a sweep. The
 // first file is the centre view, which is sharp everywhere. The second file contains the index of
