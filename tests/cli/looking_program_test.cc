@@ -85,7 +85,7 @@ TEST_CASE("compare: the page has the picture before and after, its depth, and th
   CHECK(Contains(page, "rgb(68 1 84), "));
   CHECK(Contains(page, ", rgb(253 231 37))"));
   CHECK(Contains(page, "<span>far -2.00</span><span>focus 6.00</span><span>near 6.00</span>"));
-  CHECK(Contains(page, "<span class=\"plane\" style=\"left: 100.00%\">"));
+  CHECK(Contains(page, "<span class=\"plane\" style=\"left: 100.00%; width: calc(0.00% + 5px)\">"));
   CHECK(Count(page, "<span class=\"mark\" style=\"left: 84.167%; top: 26.250%\">") == 2);
   CHECK(Contains(page, "<td>disparity 6.00, at pixel 50,10</td>"));
   CHECK(Contains(page, "<td>f/1.0, radius 1.000</td>"));
@@ -114,6 +114,19 @@ TEST_CASE("compare: large pictures are reduced, and their depth and focus stay a
   CHECK(red(404) > 90);
 }
 
+TEST_CASE("compare: a range in focus is a band in the legend, and all of it is in focus") {
+  TempFolder folder;
+  MakeField(folder);
+  const std::string page =
+      Call(folder, "refocus '<&>' --focus-range 9,-1 --aperture 0.5 --compare -").out;
+  CHECK(Contains(page, "style=\"left: 12.50%; width: calc(87.50% + 5px)\">"));
+  CHECK(Contains(page, "<span>focus -1.00 to 9.00</span>"));
+  CHECK(Contains(page, "<td>disparity -1.00 to 9.00</td>"));
+  CHECK(Contains(page, "<td>100.0 % of the pixels"));
+  CHECK(Contains(Call(folder, "refocus '<&>' --focus-range 7,5 --compare -").out,
+                 "<td>33.3 % of the pixels"));
+}
+
 TEST_CASE("compare: the page loads nothing, and its script is the one that the policy allows") {
   TempFolder folder;
   MakeField(folder);
@@ -137,7 +150,7 @@ TEST_CASE("compare: the page loads nothing, and its script is the one that the p
           Count(page, "</" + std::string(element) + ">"));
   }
   // The focus is halfway between the disparities -2 and 6, and nothing marks a pixel.
-  CHECK(Contains(page, "<span class=\"plane\" style=\"left: 50.00%\">"));
+  CHECK(Contains(page, "<span class=\"plane\" style=\"left: 50.00%; width: calc(0.00% + 5px)\">"));
   CHECK(Count(page, "class=\"mark\"") == 0);
   CHECK(Contains(page, "<td>radius 0.000</td>"));
   CHECK(Contains(page, "<td>100.0 % of the pixels"));

@@ -24,9 +24,15 @@ double SharpRadius(int width, int height) {
   return std::max(1.0, std::hypot(width, height) / 3000);
 }
 
+// Returns the disparities that a lens does not blur.
+FocusBand BandOf(const starfocus_lens& lens) {
+  return {lens.focus - lens.focus_farther, lens.focus + lens.focus_nearer};
+}
+
 // Returns true if a lens blurs a disparity by at most `radius` pixels.
 bool IsSharp(const starfocus_lens& lens, double disparity, double radius) {
-  return lens.aperture * std::fabs(disparity - lens.focus) <= radius;
+  const FocusBand band = BandOf(lens);
+  return lens.aperture * std::max(band.far - disparity, disparity - band.near) <= radius;
 }
 
 // Draws the picture in grey, with the pixels in focus tinted. `map` has the size of the picture.
@@ -46,7 +52,9 @@ void AddLens(const Refocused& refocused, double radius, Page* page) {
   const auto sharp = std::count_if(map.values.begin(), map.values.end(), [&](float disparity) {
     return IsSharp(lens, double(disparity), radius);
   });
-  std::string focus = "disparity " + Decimal(lens.focus, 2);
+  const FocusBand band = BandOf(lens);
+  std::string focus = "disparity " + Decimal(band.far, 2);
+  if (band.near > band.far) focus += " to " + Decimal(band.near, 2);
   if (refocused.at) {
     focus +=
         ", at pixel " + std::to_string(refocused.at->x) + "," + std::to_string(refocused.at->y);
@@ -83,7 +91,7 @@ Error WriteComparison(const std::string& path, const Refocused& refocused, const
   error = page.AddFigures(
       path, "Depth and focus",
       {{"The disparity map in colours", "Disparity in pixels" + ring, DrawDepth(map), mark,
-        LegendHtml(MeasureDisparity(light_field.disparity), lens.focus)},
+        LegendHtml(MeasureDisparity(light_field.disparity), BandOf(lens))},
        {"The picture in grey, with the pixels in focus in orange", "In focus: orange" + ring,
         DrawFocus(small, map, lens, radius), mark}},
       kFigureSide);

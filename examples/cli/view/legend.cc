@@ -23,20 +23,25 @@ std::string Gradient() {
 
 const char kLegendStyle[] =
     ".legend { margin-top: .6rem; } .bar { position: relative; height: 1rem; }\n"
-    ".plane { position: absolute; top: -.3rem; bottom: -.3rem; width: 5px; margin-left: -2.5px; "
-    "background: var(--text); box-shadow: 0 0 0 2px var(--ground); }\n"
+    ".plane { position: absolute; top: -.3rem; bottom: -.3rem; margin-left: -2.5px; "
+    "box-sizing: border-box; border: 2.5px solid var(--text); outline: 2px solid var(--ground); }\n"
     ".ends { display: flex; justify-content: space-between; gap: 1rem; padding-top: .4rem; "
     "font-variant-numeric: tabular-nums; }\n";
 
-std::string LegendHtml(const starfocus_disparity_stats& stats, std::optional<double> focus) {
+std::string LegendHtml(const starfocus_disparity_stats& stats, std::optional<FocusBand> focus) {
   const std::string far = "far " + Decimal(stats.min, 2), near = "near " + Decimal(stats.max, 2);
   std::string says = "Colours of disparity: " + far + ", " + near, plane, label;
   if (focus) {
     const double range = double(stats.max) - stats.min;
-    const double place = range > 0 ? std::clamp((*focus - stats.min) / range, 0.0, 1.0) : 0.5;
-    label = "focus " + Decimal(*focus, 2);
+    const auto place = [&](double disparity) {
+      return range > 0 ? 100 * std::clamp((disparity - stats.min) / range, 0.0, 1.0) : 50.0;
+    };
+    label = "focus " + Decimal(focus->far, 2);
+    if (focus->near > focus->far) label += " to " + Decimal(focus->near, 2);
     says += ", " + label;
-    plane = "<span class=\"plane\" style=\"left: " + Decimal(100 * place, 2) + "%\"></span>";
+    const double begin = place(focus->far), width = place(focus->near) - begin;
+    plane = "<span class=\"plane\" style=\"left: " + Decimal(begin, 2) + "%; width: calc(" +
+            Decimal(width, 2) + "% + 5px)\"></span>";
     label = "<span>" + label + "</span>";
   }
   return "<div class=\"legend\" role=\"img\" aria-label=\"" + EscapeXml(says) +

@@ -13,9 +13,14 @@ namespace starfocus {
 // CSS rules of the legend. The rules use the colours of the page (page.cc).
 extern const char kLegendStyle[];
 
+// Disparities in focus, far <= near.
+struct FocusBand {
+  double far = 0, near = 0;
+};
+
 // Returns HTML of a bar with the colours from the smallest disparity, far, to the largest, near.
-// The bar marks the disparity `focus`. A focus beyond the ends is marked at the nearer end.
-std::string LegendHtml(const starfocus_disparity_stats& stats, std::optional<double> focus);
+// The bar marks the disparities in focus. A focus beyond the ends is marked at the nearer end.
+std::string LegendHtml(const starfocus_disparity_stats& stats, std::optional<FocusBand> focus);
 
 }  // namespace starfocus
 
