@@ -108,49 +108,69 @@ inline uint32_t DepthToDisparity(const float* HWY_RESTRICT z, size_t count, cons
 #endif
 }
 
+// Returns a + (b - a) * share / kColumnOne, rounded, in lanes in which a and b differ by at most
+// kBlendStep, and the nearer of a and b in other lanes.
+template <class D, class V>
+HWY_INLINE V Blended(D d16, V a, V b, V share) {
+  const auto step = hn::Set(d16, kBlendStep), down = hn::Set(d16, int16_t{-kBlendStep});
+  const auto half = hn::Set(d16, int16_t{kColumnOne / 2});
+  const auto difference = hn::SaturatedSub(b, a);
+  const auto apart = hn::Or(hn::Gt(difference, step), hn::Lt(difference, down));
+  // The product overflows only in lanes in which `apart` is true, and these lanes do not use the
+  // product.
+  const auto product = hn::Mul(difference, share);
+  const auto between = hn::Add(a, hn::ShiftRight<kColumnBits>(hn::Add(product, half)));
+  return hn::IfThenElse(apart, hn::IfThenElse(hn::Lt(share, half), a, b), between);
+}
+
 inline void BlendRows(const int16_t* HWY_RESTRICT a, const int16_t* HWY_RESTRICT b, size_t count,
                       uint32_t share, int16_t* HWY_RESTRICT out) {
   const hn::ScalableTag<int16_t> d16;
-  const auto step = hn::Set(d16, kBlendStep), down = hn::Set(d16, int16_t{-kBlendStep});
   const auto weight = hn::Set(d16, static_cast<int16_t>(share));
-  const auto half = hn::Set(d16, int16_t{128});
-  const int16_t* nearer = share < kColumnOne / 2 ? a : b;
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
-    const auto from = hn::LoadU(d16, a + n);
-    const auto difference = hn::SaturatedSub(hn::LoadU(d16, b + n), from);
-    const auto apart = hn::Or(hn::Gt(difference, step), hn::Lt(difference, down));
-    // The product overflows only in lanes in which `apart` is true, and these lanes do not use the
-    // product.
-    const auto product = hn::Mul(difference, weight);
-    const auto between = hn::Add(from, hn::ShiftRight<8>(hn::Add(product, half)));
-    hn::StoreU(hn::IfThenElse(apart, hn::LoadU(d16, nearer + n), between), d16, out + n);
+    hn::StoreU(Blended(d16, hn::LoadU(d16, a + n), hn::LoadU(d16, b + n), weight), d16, out + n);
   });
   if (!done) reference::BlendRows(a, b, count, share, out);
 }
 
-inline void SpreadRow(const int32_t* HWY_RESTRICT pairs, const uint32_t* HWY_RESTRICT columns,
+#if HWY_TARGET == HWY_SCALAR
+using reference::SpreadRow;
+#else
+
+// The 8 pixels of a vector lie between at most 9 neighbouring elements, because positions increase
+// by at most one element per pixel. A shuffle of 8 loaded elements is faster than a gather.
+inline void SpreadRow(const int16_t* HWY_RESTRICT row, const uint32_t* HWY_RESTRICT columns,
                       size_t count, uint32_t first, int16_t* HWY_RESTRICT out) {
-  const hn::ScalableTag<int32_t> d32;
-  const hn::Rebind<int16_t, decltype(d32)> d16;
+  constexpr size_t kLanes = 8;
+  const hn::FixedTag<int16_t, kLanes> d16;
+  const hn::Repartition<uint8_t, decltype(d16)> d8;
+  const hn::FixedTag<int16_t, kLanes / 2> dhalf;
+  const hn::FixedTag<int32_t, kLanes / 2> d32;
   const hn::RebindToUnsigned<decltype(d32)> du32;
-  const auto start = hn::Set(d32, static_cast<int32_t>(first));
-  const auto step = hn::Set(d32, int32_t{kBlendStep}), half = hn::Set(d32, 128);
-  const bool done = ForVectors(count, hn::Lanes(d32), [&](size_t n) HWY_ATTR {
-    const auto column = hn::BitCast(d32, hn::LoadU(du32, columns + n));
-    const auto at = hn::Sub(hn::ShiftRight<kColumnBits>(column), start);
-    const auto share = hn::And(column, hn::Set(d32, int32_t{kColumnOne - 1}));
-    const auto pair = hn::GatherIndex(d32, pairs, at);
-    const auto left = hn::ShiftRight<16>(hn::ShiftLeft<16>(pair));
-    const auto right = hn::ShiftRight<16>(pair);
-    const auto difference = hn::Sub(right, left);
-    const auto product = hn::Add(hn::Mul(share, difference), half);
-    const auto between = hn::Add(left, hn::ShiftRight<8>(product));
-    const auto nearer = hn::IfThenElse(hn::Lt(share, half), left, right);
-    const auto apart = hn::Gt(hn::Abs(difference), step);
-    hn::StoreU(hn::DemoteTo(d16, hn::IfThenElse(apart, nearer, between)), d16, out + n);
+  const bool done = ForVectors(count, kLanes, [&](size_t n) HWY_ATTR {
+    const uint32_t left = columns[n] >> kColumnBits;
+    const auto start = hn::Set(d32, static_cast<int32_t>(left << kColumnBits));
+    // Positions relative to the element `left`, less than kLanes * kColumnOne.
+    const auto place = [&](size_t at) HWY_ATTR {
+      const auto column = hn::BitCast(d32, hn::LoadU(du32, columns + at));
+      return hn::DemoteTo(dhalf, hn::Sub(column, start));
+    };
+    const auto places = hn::Combine(d16, place(n + kLanes / 2), place(n));
+    const auto share = hn::And(places, hn::Set(d16, int16_t{kColumnOne - 1}));
+    // The low and the high byte of element k are bytes 2 k and 2 k + 1.
+    const auto twice = hn::ShiftLeft<1>(hn::ShiftRight<kColumnBits>(places));
+    const auto bytes = hn::Add(hn::Or(twice, hn::ShiftLeft<8>(twice)), hn::Set(d16, int16_t{256}));
+    const int16_t* const from = row + (left - first);
+    const auto pick = [&](const int16_t* at) HWY_ATTR {
+      const auto elements = hn::BitCast(d8, hn::LoadU(d16, at));
+      return hn::BitCast(d16, hn::TableLookupBytes(elements, hn::BitCast(d8, bytes)));
+    };
+    hn::StoreU(Blended(d16, pick(from), pick(from + 1), share), d16, out + n);
   });
-  if (!done) reference::SpreadRow(pairs, columns, count, first, out);
+  if (!done) reference::SpreadRow(row, columns, count, first, out);
 }
+
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd

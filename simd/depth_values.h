@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "simd/disparities.h"
 
@@ -30,6 +31,8 @@ inline constexpr int16_t kBlendStep = 96;
 // the index of the map column on the left, plus the share of the map column on the right.
 inline constexpr int kColumnBits = 8;
 inline constexpr uint32_t kColumnOne = 1u << kColumnBits;
+// Number of elements that SpreadRow may read after the elements of a row.
+inline constexpr int kSpreadSpare = 8;
 
 namespace reference {
 
@@ -39,10 +42,18 @@ void BytesToDepth(const uint8_t* values, size_t count, float* z);
 void WordsToDepth(const uint16_t* values, size_t count, float* z);
 void HalvesToDepth(const uint16_t* values, size_t count, float* z);
 
-// Computes the disparity of each z[n] according to `rule`, with each operation rounded to single
-// precision. Sets out[n] to disparity * 64, rounded half up. If z[n] is invalid or the disparity is
-// not finite, out[n] is kNoSurface. If the disparity lies outside [low, high], out[n] is
-// unspecified. Returns DepthFlags.
+// Returns the disparity of z according to `rule`, with each operation rounded to single precision.
+// The result is NaN if z is invalid or the disparity is not finite.
+inline float DisparityOf(float z, const DepthRule& rule) {
+  const float scaled = rule.reciprocal ? rule.scale / z : rule.scale * z;
+  const float disparity = scaled + rule.offset;
+  const bool known = z != rule.invalid && disparity - disparity == 0.0f;
+  return known ? disparity : std::numeric_limits<float>::quiet_NaN();
+}
+
+// Computes the disparity of each z[n] like DisparityOf. Sets out[n] to disparity * 64, rounded half
+// up. If the disparity is NaN, out[n] is kNoSurface. If the disparity lies outside [low, high],
+// out[n] is unspecified. Returns DepthFlags.
 uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, int16_t* out);
 
 // Interpolates between a[n] and b[n], where b has the weight `share` in [0, kColumnOne). If a[n]
@@ -50,10 +61,11 @@ uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, i
 // b[n] differ by more than kBlendStep, out[n] is a[n] if share < 128, and b[n] otherwise.
 void BlendRows(const int16_t* a, const int16_t* b, size_t count, uint32_t share, int16_t* out);
 
-// Interpolates along a row like BlendRows. Element columns[n] is the position of output pixel n in
-// the row. Each pair contains an element of the row in its low half, and the next element to the
-// right in its high half. The first pair starts at element `first`.
-void SpreadRow(const int32_t* pairs, const uint32_t* columns, size_t count, uint32_t first,
+// Interpolates along a row like BlendRows. columns[n] is the position of output pixel n, in a row
+// whose element `first` is row[0]. Positions increase by at most kColumnOne from pixel to pixel.
+// The element to the right of the last position must exist. kSpreadSpare elements after this
+// element may be read, but do not affect the result.
+void SpreadRow(const int16_t* row, const uint32_t* columns, size_t count, uint32_t first,
                int16_t* out);
 
 }  // namespace reference

@@ -47,9 +47,8 @@ void HalvesToDepth(const uint16_t* values, size_t count, float* z) {
 uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, int16_t* out) {
   uint32_t flags = 0;
   for (size_t n = 0; n < count; ++n) {
-    const float scaled = rule.reciprocal ? rule.scale / z[n] : rule.scale * z[n];
-    const float disparity = scaled + rule.offset;
-    if (z[n] == rule.invalid || !(disparity - disparity == 0.0f)) {
+    const float disparity = DisparityOf(z[n], rule);
+    if (std::isnan(disparity)) {
       flags |= kUnknownDepth;
       out[n] = kNoSurface;
     } else if (disparity >= rule.low && disparity <= rule.high) {
@@ -66,12 +65,11 @@ void BlendRows(const int16_t* a, const int16_t* b, size_t count, uint32_t share,
   for (size_t n = 0; n < count; ++n) out[n] = Blend(a[n], b[n], static_cast<int32_t>(share));
 }
 
-void SpreadRow(const int32_t* pairs, const uint32_t* columns, size_t count, uint32_t first,
+void SpreadRow(const int16_t* row, const uint32_t* columns, size_t count, uint32_t first,
                int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
-    const int32_t pair = pairs[columns[n] / kColumnOne - first];
-    const auto left = static_cast<int16_t>(static_cast<uint32_t>(pair) & 0xFFFF);
-    out[n] = Blend(left, pair >> 16, static_cast<int32_t>(columns[n] % kColumnOne));
+    const int16_t* const at = row + (columns[n] / kColumnOne - first);
+    out[n] = Blend(at[0], at[1], static_cast<int32_t>(columns[n] % kColumnOne));
   }
 }
 

@@ -26,6 +26,9 @@ struct Encoding {
   const int16_t* light;  // Light of each of the 256 codes; null if light is code << kLightBits.
   const uint16_t*
       entries;  // kEncodeEntries entries; null if the code is the light rounded half up.
+  // Light of each code in the format of layers (resample.h), rounded half up; null if `light` is
+  // null.
+  const int16_t* samples = nullptr;
 };
 
 namespace reference {

@@ -58,14 +58,11 @@ inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, const Enco
     ShiftPhases(in, pairs, even, odd);
     return;
   }
-  const int16_t* HWY_RESTRICT light = encoding.light;
-  const auto sample = [&](uint8_t code) {
-    return static_cast<int16_t>((light[code] + 1) >> (kLightBits - kLayerBits));
-  };
+  const int16_t* HWY_RESTRICT samples = encoding.samples;
   for (; pairs != 0; --pairs, in += 6, even += 3, odd += 3) {
     for (size_t c = 0; c < 3; ++c) {
-      even[c] = sample(in[c]);
-      odd[c] = sample(in[3 + c]);
+      even[c] = samples[in[c]];
+      odd[c] = samples[in[3 + c]];
     }
   }
 }

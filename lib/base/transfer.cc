@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/base/transfer.h"
 
+#include "simd/resample.h"
+
 namespace starfocus {
 namespace {
 
@@ -26,12 +28,15 @@ constexpr double LinearOf(double code) {
 
 struct CodeTables {
   int16_t srgb[kCodes] = {}, same[kCodes] = {};
+  int16_t srgb_samples[kCodes] = {}, same_samples[kCodes] = {};
   uint16_t entries[simd::kEncodeEntries] = {};
 
   constexpr CodeTables() {
     for (int code = 0; code < kCodes; ++code) {
       srgb[code] = static_cast<int16_t>(LinearOf(code) * kLightWhite + 0.5);
       same[code] = static_cast<int16_t>(code << kLightBits);
+      srgb_samples[code] = SampleOf(srgb[code]);
+      same_samples[code] = SampleOf(same[code]);
     }
     int32_t code = 0, next = FirstOf(1);
     for (int32_t entry = 0; entry < static_cast<int32_t>(simd::kEncodeEntries); ++entry) {
@@ -41,6 +46,12 @@ struct CodeTables {
       const int32_t ends = rest < simd::kEncodeStep ? (1 << simd::kEncodeBits) - rest : 0;
       entries[entry] = static_cast<uint16_t>((code << simd::kEncodeBits) + ends);
     }
+  }
+
+  // Returns the sample of a layer for light, rounded half up.
+  static constexpr int16_t SampleOf(int16_t light) {
+    static_assert(kLightBits - simd::kLayerBits == 1);
+    return static_cast<int16_t>((light + 1) >> 1);
   }
 
   // Returns the smallest light level whose nearest code, on the scale of codes, is `code` rather
@@ -53,8 +64,9 @@ struct CodeTables {
 };
 
 constexpr CodeTables kTables;
-constexpr Transfer kSrgb = {kTables.srgb, {kTables.srgb, kTables.entries}};
-constexpr Transfer kNone = {kTables.same, {nullptr, nullptr}};
+constexpr Transfer kSrgb = {
+    kTables.srgb, kTables.srgb_samples, {kTables.srgb, kTables.entries, kTables.srgb_samples}};
+constexpr Transfer kNone = {kTables.same, kTables.same_samples, {nullptr, nullptr}};
 
 }  // namespace
 

@@ -14,7 +14,8 @@ using simd::kLightBits;
 using simd::kLightWhite;
 
 struct Transfer {
-  const int16_t* light;  // Light of each of the 256 codes.
+  const int16_t* light;    // Light of each of the 256 codes.
+  const int16_t* samples;  // Light of each code in the format of layers, simd::kLayerBits.
   // Conversion in both directions for SIMD kernels, which avoid tables where possible.
   simd::Encoding encoding;
 };

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/convert/depth_rows.h"
 
-#include <limits>
-
-#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 
 namespace starfocus {
@@ -20,21 +17,19 @@ constexpr int32_t kPiece = 256, kPixels = kPiece - 1;
 // simd::DepthFlags.
 uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x,
                        int32_t y, int32_t count, int16_t* out) {
-  const starfocus_depth_map& map = depth.map;
   const auto values = static_cast<size_t>(count);
-  const uint8_t* row = static_cast<const uint8_t*>(map.data) +
-                       static_cast<size_t>(y - depth.first) * map.stride +
-                       static_cast<size_t>(x) * DepthBytes(map.type);
-  if (map.type == STARFOCUS_DEPTH_FLOAT) {
-    return kernels.DepthToDisparity(reinterpret_cast<const float*>(row), values, depth.rule, out);
+  const void* const row = ValueAt(depth.map, x, y - depth.first);
+  const int32_t type = depth.map.type;
+  if (type == STARFOCUS_DEPTH_FLOAT) {
+    return kernels.DepthToDisparity(static_cast<const float*>(row), values, depth.rule, out);
   }
   float z[kPiece];
-  if (map.type == STARFOCUS_DEPTH_U8) {
-    kernels.BytesToDepth(row, values, z);
-  } else if (map.type == STARFOCUS_DEPTH_U16) {
-    kernels.WordsToDepth(reinterpret_cast<const uint16_t*>(row), values, z);
+  if (type == STARFOCUS_DEPTH_U8) {
+    kernels.BytesToDepth(static_cast<const uint8_t*>(row), values, z);
+  } else if (type == STARFOCUS_DEPTH_U16) {
+    kernels.WordsToDepth(static_cast<const uint16_t*>(row), values, z);
   } else {
-    kernels.HalvesToDepth(reinterpret_cast<const uint16_t*>(row), values, z);
+    kernels.HalvesToDepth(static_cast<const uint16_t*>(row), values, z);
   }
   return kernels.DepthToDisparity(z, values, depth.rule, out);
 }
@@ -47,29 +42,73 @@ uint32_t PlaceOf(int64_t k, int64_t size, int64_t small) {
   return static_cast<uint32_t>(place < 0 ? 0 : place > last ? last : place);
 }
 
-// Writes `count` <= kPixels pixels of a row, starting at column x. `place` is the vertical position
-// of the row in the map.
-uint32_t ReadPiece(const simd::ImageKernels& kernels, const DepthSource& depth, uint32_t place,
-                   int32_t x, int32_t count, int16_t* out) {
-  const uint32_t* columns = depth.columns + x;
-  const uint32_t first = columns[0] >> simd::kColumnBits;
-  const uint32_t last = columns[count - 1] >> simd::kColumnBits;
-  const auto left = static_cast<int32_t>(first),
-             upper = static_cast<int32_t>(place >> simd::kColumnBits);
-  const int32_t values = Min(static_cast<int32_t>(last) + 2, depth.map.width) - left;
-  const uint32_t share = place % simd::kColumnOne;
-  int16_t rows[2][kPiece], row[kPiece + 1];
-  uint32_t flags = ConvertValues(kernels, depth, left, upper, values, rows[0]);
-  if (share != 0) flags |= ConvertValues(kernels, depth, left, upper + 1, values, rows[1]);
-  kernels.BlendRows(rows[0], rows[share != 0 ? 1 : 0], static_cast<size_t>(values), share, row);
-  row[values] = row[values - 1];
-  int32_t pairs[kPiece];
-  for (int32_t k = 0; k < values; ++k) {
-    pairs[k] = static_cast<int32_t>(uint32_t{static_cast<uint16_t>(row[k])} |
-                                    uint32_t{static_cast<uint16_t>(row[k + 1])} << 16);
+// Position of a row of the picture in the map: index of the map row above, and share of the map row
+// below.
+struct RowPlace {
+  int32_t upper;
+  uint32_t share;
+};
+
+RowPlace RowPlaceOf(const DepthSource& depth, int32_t y) {
+  const uint32_t place = PlaceOf(y, depth.height, depth.map.height);
+  return {static_cast<int32_t>(place >> simd::kColumnBits), place % simd::kColumnOne};
+}
+
+// Interpolates `count` <= kPixels columns of a picture, starting at column x. Keeps the last two
+// converted rows of the map, which neighbouring rows of the picture share.
+class PieceReader {
+ public:
+  PieceReader(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x, int32_t count)
+      : kernels_(kernels),
+        depth_(depth),
+        columns_(depth.columns + x),
+        count_(count),
+        left_(static_cast<int32_t>(columns_[0] >> simd::kColumnBits)) {
+    const auto last = static_cast<int32_t>(columns_[count - 1] >> simd::kColumnBits);
+    values_ = Min(last + 2, depth.map.width) - left_;
   }
-  kernels.SpreadRow(pairs, columns, static_cast<size_t>(count), first, out);
-  return flags;
+
+  void Read(const RowPlace& place, int16_t* out) {
+    const int16_t* row = Row(place.upper);
+    int16_t blended[kRoom];
+    if (place.share != 0) {
+      // The copy of the last value is blended, too.
+      kernels_.BlendRows(row, Row(place.upper + 1), static_cast<size_t>(values_) + 1, place.share,
+                         blended);
+      row = blended;
+    }
+    kernels_.SpreadRow(row, columns_, static_cast<size_t>(count_), static_cast<uint32_t>(left_),
+                       out);
+  }
+
+  uint32_t flags() const { return flags_; }
+
+ private:
+  // Number of values, a copy of the last value, and what SpreadRow may read.
+  static constexpr int32_t kRoom = kPiece + 1 + simd::kSpreadSpare;
+
+  // Returns the converted values of row y of the map, followed by a copy of the last value. The
+  // result is valid until another row with the same parity is read.
+  const int16_t* Row(int32_t y) {
+    int16_t* const row = rows_[y % 2];
+    if (held_[y % 2] == y) return row;
+    held_[y % 2] = y;
+    flags_ |= ConvertValues(kernels_, depth_, left_, y, values_, row);
+    row[values_] = row[values_ - 1];
+    return row;
+  }
+
+  const simd::ImageKernels& kernels_;
+  const DepthSource& depth_;
+  const uint32_t* const columns_;
+  const int32_t count_, left_;
+  int32_t values_, held_[2] = {-1, -1};
+  int16_t rows_[2][kRoom];
+  uint32_t flags_ = 0;
+};
+
+bool HasPictureSize(const DepthSource& depth) {
+  return depth.map.width == depth.width && depth.map.height == depth.height;
 }
 
 }  // namespace
@@ -78,37 +117,35 @@ void FillColumns(int32_t width, int32_t map_width, uint32_t* columns) {
   for (int32_t x = 0; x < width; ++x) columns[x] = PlaceOf(x, width, map_width);
 }
 
-DepthSource MakeDepthSource(const starfocus_config& config, const starfocus_depth_map& map,
-                            const uint32_t* columns) {
-  const float invalid = map.has_invalid != 0 ? static_cast<float>(map.invalid)
-                                             : std::numeric_limits<float>::quiet_NaN();
-  const simd::DepthRule rule = {static_cast<float>(map.scale),
-                                static_cast<float>(map.offset),
-                                invalid,
-                                map.meaning == STARFOCUS_DEPTH_RECIPROCAL,
-                                RangeOf(config).min,
-                                RangeOf(config).max};
-  return {map, rule, config.width, config.height, columns};
-}
-
-size_t DepthBytes(int32_t type) {
-  return type == STARFOCUS_DEPTH_FLOAT ? sizeof(float)
-         : type == STARFOCUS_DEPTH_U8  ? 1
-                                       : sizeof(uint16_t);
-}
-
-uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
-                      int16_t* out) {
-  const uint32_t place = PlaceOf(y, depth.height, depth.map.height);
-  const bool is_row = depth.map.width == depth.width && place % simd::kColumnOne == 0;
-  const int32_t most = is_row ? kPiece : kPixels;
+uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& rect,
+                   const Plane<int16_t>& out) {
+  const int32_t bottom = rect.y + rect.height;
   uint32_t flags = 0;
-  for (int32_t x = 0; x < depth.width; x += most) {
-    const int32_t count = Min(most, depth.width - x);
-    flags |= is_row
-                 ? ConvertValues(kernels, depth, x,
-                                 static_cast<int32_t>(place >> simd::kColumnBits), count, out + x)
-                 : ReadPiece(kernels, depth, place, x, count, out + x);
+  for (int32_t x = 0; x < rect.width; x += kPixels) {
+    const int32_t count = Min(kPixels, rect.width - x);
+    if (HasPictureSize(depth)) {
+      for (int32_t y = rect.y; y < bottom; ++y) {
+        flags |= ConvertValues(kernels, depth, rect.x + x, y, count, out.Row(y) + x);
+      }
+      continue;
+    }
+    PieceReader piece(kernels, depth, rect.x + x, count);
+    for (int32_t y = rect.y; y < bottom; ++y) piece.Read(RowPlaceOf(depth, y), out.Row(y) + x);
+    flags |= piece.flags();
+  }
+  return flags;
+}
+
+uint32_t CheckDepth(const simd::ImageKernels& kernels, const DepthSource& depth,
+                    const RowRange& rows) {
+  const RowPlace first = RowPlaceOf(depth, rows.first), last = RowPlaceOf(depth, rows.last - 1);
+  const int32_t end = last.upper + (last.share != 0 ? 2 : 1);
+  uint32_t flags = 0;
+  for (int32_t y = first.upper; y < end; ++y) {
+    for (int32_t x = 0; x < depth.map.width; x += kPiece) {
+      int16_t unused[kPiece];
+      flags |= ConvertValues(kernels, depth, x, y, Min(kPiece, depth.map.width - x), unused);
+    }
   }
   return flags;
 }

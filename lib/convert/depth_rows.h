@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/geometry.h"
+#include "lib/convert/depth_values.h"
 #include "simd/image_kernels.h"
 #include "starfocus/starfocus.h"
 
@@ -26,18 +28,16 @@ struct DepthSource {
 // Computes the position in the map for each column of a picture.
 void FillColumns(int32_t width, int32_t map_width, uint32_t* columns);
 
-// Returns a source that converts `map` to the picture size of `config`. `columns` is the result of
-// FillColumns.
-DepthSource MakeDepthSource(const starfocus_config& config, const starfocus_depth_map& map,
-                            const uint32_t* columns);
+// Writes the disparities of a rectangle of the picture in fixed point (kDisparityBits). Unknown
+// disparities are set to kNoSurface. out.Row(y) receives row y, starting with column rect.x.
+// Converts each value of the map at most twice, so a call for several rows takes less time than one
+// call for each row. Returns simd::DepthFlags of the source values.
+uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& rect,
+                   const Plane<int16_t>& out);
 
-// Returns the number of bytes per value of a depth map of type `type`.
-size_t DepthBytes(int32_t type);
-
-// Writes the disparities of row y of the picture in fixed point (kDisparityBits). Unknown
-// disparities are set to kNoSurface. Returns simd::DepthFlags of the source values.
-uint32_t ReadDepthRow(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t y,
-                      int16_t* out);
+// Returns simd::DepthFlags of the values of the map that ReadDepth reads for whole rows.
+uint32_t CheckDepth(const simd::ImageKernels& kernels, const DepthSource& depth,
+                    const RowRange& rows);
 
 }  // namespace starfocus
 

@@ -19,21 +19,35 @@ struct RowsJob {
   const EngineState* engine;
   RowRange rows;
   int32_t jobs;
-  Plane<int16_t> disparity;  // output: disparities of the rows
+  Plane<int16_t> disparity;  // Output of LoadPart: disparities of the rows.
 };
 
-void ReadMap(const RowsJob& job, int32_t y, int16_t* row, Counts* counts) {
-  counts->depth_flags |= job.source->map(job.source->self, y, row);
+// Number of rows that are read together. Rows of a group share values of a map that is smaller than
+// the picture. With groups of 8 rows, a superblock still has several jobs for all workers.
+constexpr int32_t kGroupRows = 8;
+
+// Returns the number of jobs that read a number of rows.
+int32_t JobsOf(const RowRange& rows, const starfocus_config& config) {
+  return Min(MaxJobs(config), (rows.last - rows.first + kGroupRows - 1) / kGroupRows);
 }
 
-// Checks part `index` of the rows of the disparity map. Each job reads all of its map rows into a
-// single row of the ring.
-void CheckPart(const RowsJob& job, int32_t index, Scratch* scratch) {
+// Calls act(rows) for groups of rows of part `index`. Stops after cancellation.
+template <class Act>
+void ForGroups(const RowsJob& job, int32_t index, Scratch* scratch, const Act& act) {
   const RowRange rows = PartOf(job.rows, index, job.jobs);
-  for (int32_t y = rows.first; y < rows.last; ++y) {
-    if (!scratch->cancel.Spend(job.engine->config.width)) return;
-    ReadMap(job, y, job.disparity.Row(index), &scratch->counts);
+  for (int32_t y = rows.first; y < rows.last; y += kGroupRows) {
+    const RowRange part = {y, Min(y + kGroupRows, rows.last)};
+    const int64_t pixels = int64_t{job.engine->config.width} * (part.last - part.first);
+    if (!scratch->cancel.Spend(4 * pixels)) return;
+    act(part);
   }
+}
+
+// Checks part `index` of the rows of the disparity map.
+void CheckPart(const RowsJob& job, int32_t index, Scratch* scratch) {
+  ForGroups(job, index, scratch, [&](const RowRange& rows) {
+    scratch->counts.depth_flags |= job.source->check_map(job.source->self, rows);
+  });
 }
 
 // Copies the 8-bit codes of row y of a view to `to`.
@@ -42,26 +56,30 @@ void CopyCodes(const RowSource& source, int view, int32_t y, int32_t width, uint
   if (codes != to) std::memcpy(to, codes, 3 * static_cast<size_t>(width));
 }
 
-// Fills the unknown disparities of a row if the configuration enables it.
-void FinishMapRow(const EngineState& engine, int16_t* row, Counts* counts) {
-  if (Has(engine.config.features, STARFOCUS_FEATURE_FILL_UNKNOWN)) {
-    counts->unknown_pixels +=
-        static_cast<uint64_t>(FillUnknown(engine.config, *engine.kernels, row));
+// Fills the unknown disparities of converted rows of the map if the configuration enables it.
+void FillRows(const EngineState& engine, const RowRange& rows, const Plane<int16_t>& disparity,
+              Counts* counts) {
+  for (int32_t y = rows.first; y < rows.last; ++y) {
+    int16_t* const row = disparity.Row(y);
+    if (Has(engine.config.features, STARFOCUS_FEATURE_FILL_UNKNOWN)) {
+      counts->unknown_pixels +=
+          static_cast<uint64_t>(FillUnknown(engine.config, *engine.kernels, row));
+    }
+    CheckAll(ranges::kDisparity, row, static_cast<size_t>(engine.config.width));
   }
-  CheckAll(ranges::kDisparity, row, static_cast<size_t>(engine.config.width));
 }
 
 void LoadPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   const EngineState& engine = *job.engine;
-  const int32_t width = engine.config.width;
-  const RowRange rows = PartOf(job.rows, index, job.jobs);
-  for (int32_t y = rows.first; y < rows.last; ++y) {
-    if (!scratch->cancel.Spend(4 * int64_t{width})) return;
-    if (job.source->converts_centre) CopyCodes(*job.source, 0, y, width, engine.rings[0].Row(y));
-    if (job.source->map == nullptr) continue;
-    ReadMap(job, y, job.disparity.Row(y), &scratch->counts);
-    FinishMapRow(engine, job.disparity.Row(y), &scratch->counts);
-  }
+  const RowSource& source = *job.source;
+  ForGroups(job, index, scratch, [&](const RowRange& rows) {
+    for (int32_t y = rows.first; source.converts_centre && y < rows.last; ++y) {
+      CopyCodes(source, 0, y, engine.config.width, engine.rings[0].Row(y));
+    }
+    if (source.map == nullptr) return;
+    scratch->counts.depth_flags |= source.map(source.self, rows, job.disparity);
+    FillRows(engine, rows, job.disparity, &scratch->counts);
+  });
 }
 
 starfocus_status StatusOf(uint32_t flags, const starfocus_config& config) {
@@ -102,29 +120,27 @@ RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts) {
 }
 
 starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine) {
-  if (source.map == nullptr) return STARFOCUS_OK;
-  const Plane<int16_t>& ring = engine->row_store.disparity;
-  const int32_t jobs = Min(Min(MaxJobs(engine->config), ring.rows), rows.last - rows.first);
-  return RunRows<CheckPart>({&source, engine, rows, jobs, ring}, engine);
+  if (source.check_map == nullptr) return STARFOCUS_OK;
+  const int32_t jobs = JobsOf(rows, engine->config);
+  return RunRows<CheckPart>({&source, engine, rows, jobs, {}}, engine);
 }
 
 starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
                           const Plane<int16_t>& disparity, EngineState* engine) {
   if (rows.first >= rows.last || (source.map == nullptr && !source.converts_centre))
     return STARFOCUS_OK;
-  const int32_t jobs = Min(MaxJobs(engine->config), rows.last - rows.first);
+  const int32_t jobs = JobsOf(rows, engine->config);
   return RunRows<LoadPart>({&source, engine, rows, jobs, disparity}, engine);
 }
 
 starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
   const starfocus_config& config = engine->config;
-  int16_t* const row = engine->row_store.disparity.Row(y);
-  Counts& counts = engine->workers.scratch[0].counts;
-  counts.depth_flags = source.map(source.self, y, row);
-  const starfocus_status status = StatusOf(counts.depth_flags, config);
-  if (status == STARFOCUS_OK) FinishMapRow(*engine, row, &counts);
-  TakeCounts(engine);
+  const RowRange row = {y, y + 1};
+  const Plane<int16_t>& disparity = engine->row_store.disparity;
+  const starfocus_status status = StatusOf(source.map(source.self, row, disparity), config);
   if (status != STARFOCUS_OK) return status;
+  FillRows(*engine, row, disparity, &engine->workers.scratch[0].counts);
+  TakeCounts(engine);
   for (int view = 0; view < config.views; ++view) {
     CopyCodes(source, view, y, config.width, engine->rings[view].Row(y));
   }

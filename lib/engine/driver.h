@@ -20,10 +20,12 @@ namespace starfocus {
 struct RowSource {
   ViewReader views;  // If the reader's functions are null, the engine reads the views in place.
   bool converts_centre = false;  // True if the engine copies rows of the centre view to its ring.
-  // Writes row y of the disparity map to `out`, in kDisparityBits; unknown disparities are
-  // kNoSurface. Returns simd::DepthFlags. A null function means that the disparity map is in
-  // memory.
-  uint32_t (*map)(const void* self, int32_t y, int16_t* out) = nullptr;
+  // Returns simd::DepthFlags of the values of the disparity map on which `rows` depend. A null
+  // function means that the disparity map is in memory.
+  uint32_t (*check_map)(const void* self, const RowRange& rows) = nullptr;
+  // Writes rows of the disparity map to `out`, in kDisparityBits; unknown disparities are
+  // kNoSurface. Returns simd::DepthFlags. The function is null if check_map is null.
+  uint32_t (*map)(const void* self, const RowRange& rows, const Plane<int16_t>& out) = nullptr;
   // Writes row y of the coverage to `out`. Only streams call this function. A null function means
   // that the light field has no coverage.
   void (*coverage)(const void* self, int32_t y, uint8_t* out) = nullptr;

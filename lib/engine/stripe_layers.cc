@@ -11,6 +11,7 @@ struct LayerJob {
   const starfocus_config* config;
   const simd::Kernels* kernels;
   const Window* picture;         // Layer 0.
+  const LayerPlane* layer_one;   // Source of layer 2; null: the picture.
   const uint8_t* const* needed;  // ColumnNeed of the columns of each layer.
   const LayerPlane* layers;      // Output: planes of the layers.
 };
@@ -24,12 +25,21 @@ void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* 
   const int32_t side = job.config->superblock >> layer, begin = index * side;
   // The last column of superblocks includes the pixels of a layer that lie beyond the picture.
   const int32_t end = index + 1 == Columns(*job.config) ? missing.width : begin + side;
-  DownsamplePicture(*job.kernels, *job.picture, scratch->resample, {layer, begin, end, &missing});
+  const LayerTarget to = {layer, begin, end, &missing};
+  if (job.layer_one != nullptr) {
+    DownsampleLayer(*job.kernels, *job.layer_one, scratch->resample, to);
+  } else {
+    DownsamplePicture(*job.kernels, *job.picture, scratch->resample, to);
+  }
 }
 
 void DownsampleColumn(const LayerJob& job, int32_t index, Scratch* scratch) {
   for (int32_t layer = 1; layer < STARFOCUS_LAYERS; ++layer)
     DownsampleInto(job, layer, index, scratch);
+}
+
+void DownsampleColumnTwo(const LayerJob& job, int32_t index, Scratch* scratch) {
+  DownsampleInto(job, 2, index, scratch);
 }
 
 bool AnyColumn(const uint8_t* needed, int32_t columns) {
@@ -97,9 +107,15 @@ starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels&
   if (!AnyColumn(row_store->needed[1], columns) && !AnyColumn(row_store->needed[2], columns)) {
     return STARFOCUS_OK;
   }
-  const LayerJob job = {&config, &kernels, &row_store->windows[0], row_store->needed,
-                        row_store->layers};
+  const LayerJob job = {&config, &kernels,          &row_store->windows[0],
+                        nullptr, row_store->needed, row_store->layers};
   return RunJobs<LayerJob, DownsampleColumn>(job, columns, workers);
+}
+
+starfocus_status FillLayerTwo(const starfocus_config& config, const simd::Kernels& kernels,
+                              const LayerPlane& from, Workers* workers, RowStore* row_store) {
+  const LayerJob job = {&config, &kernels, nullptr, &from, row_store->needed, row_store->layers};
+  return RunJobs<LayerJob, DownsampleColumnTwo>(job, Columns(config), workers);
 }
 
 }  // namespace starfocus

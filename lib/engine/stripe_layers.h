@@ -31,6 +31,11 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* r
 starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels& kernels,
                             Workers* workers, RowStore* row_store);
 
+// Computes the marked columns of layer 2 from the whole layer 1 `from`, whose samples must contain
+// all rows that the filter reads. Returns the same statuses as FillLayers.
+starfocus_status FillLayerTwo(const starfocus_config& config, const simd::Kernels& kernels,
+                              const LayerPlane& from, Workers* workers, RowStore* row_store);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_

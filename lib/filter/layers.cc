@@ -27,9 +27,7 @@ struct CodeRow {
     kernels.WidenPhases(codes + 6 * first, static_cast<size_t>(pairs), transfer.encoding, even,
                         odd);
   }
-  int16_t Sample(int32_t n) const {
-    return static_cast<int16_t>((transfer.light[codes[n]] + 1) >> (kLightBits - simd::kLayerBits));
-  }
+  int16_t Sample(int32_t n) const { return transfer.samples[codes[n]]; }
 };
 
 // A row of samples of a layer.
@@ -71,6 +69,10 @@ struct LayerPart {
 
   size_t RowSamples() const { return 3 * static_cast<size_t>(end - begin); }
 };
+
+LayerPart PartOf(const LayerTarget& to) {
+  return {to.begin, to.end, to.plane->rows, to.plane->samples};
+}
 
 // Filters along columns. `half` contains packed rows that start at row 2 * rows.first - 3 of the
 // source. Rows outside the source repeat the edge rows.
@@ -134,9 +136,15 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 
 }  // namespace
 
+void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const ResampleScratch& scratch,
+                     const LayerTarget& to) {
+  const auto row = [&](int32_t y) { return SampleRow{from.samples.Row(y)}; };
+  Downsample(kernels, row, from.width, from.height, scratch, PartOf(to));
+}
+
 void DownsamplePicture(const Kernels& kernels, const Window& picture,
                        const ResampleScratch& scratch, const LayerTarget& to) {
-  const LayerPart part = {to.begin, to.end, to.plane->rows, to.plane->samples};
+  const LayerPart part = PartOf(to);
   if (to.layer == 1) {
     DownsampleOnce(kernels, picture, scratch, part);
   } else {

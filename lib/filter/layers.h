@@ -62,6 +62,11 @@ struct LayerTarget {
 void DownsamplePicture(const simd::Kernels& kernels, const Window& picture,
                        const ResampleScratch& scratch, const LayerTarget& to);
 
+// Computes the pixels of `to`, in layer 2, from the whole layer 1. The result is the same as with
+// DownsamplePicture.
+void DownsampleLayer(const simd::Kernels& kernels, const LayerPlane& from,
+                     const ResampleScratch& scratch, const LayerTarget& to);
+
 // Samples of a rectangle of a layer.
 struct LayerRect {
   int16_t* samples;       // Packed rows of 3 * width samples.

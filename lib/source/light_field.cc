@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "lib/base/features.h"
 #include "lib/base/rows.h"
 
 namespace starfocus {
@@ -36,9 +37,15 @@ void WindowLight(const void* self, int view, int32_t x, int32_t y, int32_t count
   }
 }
 
-uint32_t ReadMap(const void* self, int32_t y, int16_t* out) {
+uint32_t CheckMap(const void* self, const RowRange& rows) {
   const LightField& field = FieldOf(self);
-  return ReadDepthRow(*field.kernels, field.depth, y, out);
+  return CheckDepth(*field.kernels, field.depth, rows);
+}
+
+uint32_t ReadMap(const void* self, const RowRange& rows, const Plane<int16_t>& out) {
+  const LightField& field = FieldOf(self);
+  const Rect rect = {0, rows.first, field.depth.width, rows.last - rows.first};
+  return ReadDepth(*field.kernels, field.depth, rect, out);
 }
 
 void ReadCoverage(const void* self, int32_t y, uint8_t* out) {
@@ -81,10 +88,13 @@ void MakeLightField(const starfocus_light_field& given, int32_t first, EngineSta
     memory.map_width = given.depth.width;
     FillColumns(engine->config.width, memory.map_width, memory.columns);
   }
-  field->depth = MakeDepthSource(engine->config, given.depth, memory.columns);
+  const starfocus_config& config = engine->config;
+  const DisparityRange range = RangeOf(config);
+  field->depth = {given.depth, RuleOf(given.depth, range.min, range.max), config.width,
+                  config.height, memory.columns};
   // If the map has fewer rows than the picture, the caller always passes all rows of the map, so
   // the first row is 0.
-  if (given.depth.height == engine->config.height) field->depth.first = first;
+  if (given.depth.height == config.height) field->depth.first = first;
   field->coverage = {given.coverage, given.coverage_stride, 0, first};
 }
 
@@ -92,6 +102,7 @@ RowSource SourceOf(const LightField& field) {
   RowSource source;
   source.views = field.in_place ? ReaderOf(field.planes) : ViewReader{nullptr, ReadView, &field};
   source.converts_centre = !field.in_place;
+  source.check_map = CheckMap;
   source.map = ReadMap;
   if (field.coverage.data != nullptr) source.coverage = ReadCoverage;
   if (field.views[0].has_alpha) source.alpha = ReadAlpha;

@@ -129,23 +129,21 @@ void BlendRows(Draw* draw, ImageCall* call) {
 }
 
 void SpreadRow(Draw* draw, ImageCall* call) {
-  const size_t count = draw->Length(1, kLongestDepths, 1024),
-               small = draw->Size(1, int(count), 256);
+  const size_t count = draw->Length(1, kLongestDepths, 1024);
   const auto first = uint32_t(draw->Int(0, 5000));
-  const std::vector<int16_t> row = Row(small + 1, draw);
-  std::vector<int32_t> both(small);
-  for (size_t k = 0; k < small; ++k) {
-    both[k] = int32_t(uint32_t(uint16_t(row[k])) | uint32_t(uint16_t(row[k + 1])) << 16);
-  }
+  const int most = draw->Int(0, 2) == 0 ? int(kColumnOne) : draw->Int(0, int(kColumnOne));
+  uint32_t place = first * kColumnOne + uint32_t(draw->Int(0, 3 * kColumnOne));
   const auto places = Filled<uint32_t>(count, [&] {
-    return (first + uint32_t(draw->Int(0, int(small) - 1))) * kColumnOne +
-           uint32_t(draw->Int(0, kColumnOne - 1));
+    const uint32_t here = place;
+    place += uint32_t(draw->Int(0, 1) == 0 ? most : draw->Int(0, most));
+    return here;
   });
-  const int32_t* pairs = call->Input("pairs", both);
+  const size_t used = places.back() / kColumnOne - first + 2;
+  const int16_t* row = call->Input("row", Row(used + kSpreadSpare, draw));
   const uint32_t* columns = call->Input("columns", places);
   auto* out = call->Results<int16_t>("out", count);
   call->Runs(
-      [=](const ImageKernels& kernels) { kernels.SpreadRow(pairs, columns, count, first, out); });
+      [=](const ImageKernels& kernels) { kernels.SpreadRow(row, columns, count, first, out); });
 }
 
 }  // namespace test::image_cases

@@ -69,9 +69,9 @@ TEST_CASE("image kernels: BlendRows and SpreadRow return values computed by hand
   CheckValues("a quarter", out, {24, 0, -24, kNoSurface});
   kernels.BlendRows(a, b, 4, 128, out);
   CheckValues("half", out, {48, 97, -48, 5});
-  const int32_t pairs[] = {0 | 80 << 16, 80 | 1000 << 16};
+  const int16_t row[] = {0, 80, 1000};
   const uint32_t columns[] = {7 * 256, 7 * 256 + 128, 8 * 256 + 127, 8 * 256 + 128};
-  kernels.SpreadRow(pairs, columns, 4, 7, out);
+  kernels.SpreadRow(row, columns, 4, 7, out);
   CheckValues("columns", out, {0, 40, 80, 1000});
 }
 

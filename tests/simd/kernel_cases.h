@@ -70,7 +70,11 @@ inline starfocus::simd::Encoding AnyEncoding(Draw* draw, KernelCall* call) {
     entry = uint16_t((code << kEncodeBits) + (inside ? (1 << kEncodeBits) - from : 0));
     if (inside) ++code;
   }
-  return {call->Input("light of codes", Light(256, draw)), call->Input("entries", entries)};
+  const std::vector<int16_t> light = Light(256, draw);
+  std::vector<int16_t> samples;
+  for (const int16_t value : light) samples.push_back(int16_t((value + 1) >> 1));
+  return {call->Input("light of codes", light), call->Input("entries", entries),
+          call->Input("samples of codes", samples)};
 }
 
 // Returns disparities with runs and edges. A few of the disparities are arbitrary.

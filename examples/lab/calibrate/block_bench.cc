@@ -52,13 +52,14 @@ void BlockBench::HoldDisparity() {
   const FloatMap& map = light_field_->disparity;
   disparity_.resize(map.values.size() + simd::kPadding);
   engine_->row_store.disparity = {disparity_.data(), size_t(map.width), 0, 0};
+  // Disparities cannot be out of range, because the configuration has the range of the map.
+  const starfocus_config& config = engine_->config;
   const starfocus_depth_map given =
       starfocus_depth_float(map.values.data(), map.stride(), map.width, map.height);
-  const DepthSource source = MakeDepthSource(engine_->config, given, nullptr);
-  for (int y = 0; y < map.height; ++y) {
-    // Disparities cannot be out of range, because the configuration has the range of the map.
-    ReadDepthRow(simd::BestImageKernels(), source, y, engine_->row_store.disparity.Row(y));
-  }
+  const simd::DepthRule rule =
+      RuleOf(given, float(config.disparity_min), float(config.disparity_max));
+  ReadDepth(simd::BestImageKernels(), {given, rule, map.width, map.height, nullptr},
+            {0, 0, map.width, map.height}, engine_->row_store.disparity);
   views_.kernels = engine_->kernels;
   views_.transfer = &TransferOf(engine_->config.transfer);
   for (size_t i = 0; i < light_field_->views.size(); ++i) {
