@@ -81,9 +81,14 @@ void ConfigureViews(const LightField& light_field, starfocus_config* config) {
   std::copy(light_field.positions.begin(), light_field.positions.end(), config->positions);
 }
 
+starfocus_depth_map EngineMap(const FloatMap& map) {
+  return starfocus_depth_float(map.values.data(), map.stride(), map.width, map.height);
+}
+
 starfocus_disparity_stats MeasureDisparity(const FloatMap& map) {
   starfocus_disparity_stats stats = {};
-  starfocus_measure_disparity(map.values.data(), map.stride(), map.width, map.height, &stats);
+  const starfocus_depth_map depth = EngineMap(map);
+  starfocus_measure_disparity(&depth, &stats);
   return stats;
 }
 

@@ -30,6 +30,9 @@ struct LightField {
 // Sets the number and the positions of views in a configuration.
 void ConfigureViews(const LightField& light_field, starfocus_config* config);
 
+// Returns a starfocus_depth_map that points to the values of a map.
+starfocus_depth_map EngineMap(const FloatMap& map);
+
 // Measures a map. All fields of the result are 0 if the map is empty.
 starfocus_disparity_stats MeasureDisparity(const FloatMap& map);
 

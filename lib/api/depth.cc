@@ -2,14 +2,14 @@
 // C API: estimates and repairs disparity maps. This file checks arguments and lays out memory.
 #include "starfocus/depth.h"
 
-#include <cmath>
-#include <cstring>
-
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
-#include "lib/base/rows.h"
+#include "lib/base/features.h"
+#include "lib/base/gaps.h"
 #include "lib/base/view_set.h"
+#include "lib/convert/depth_values.h"
 #include "lib/depth/colour_repair.h"
+#include "lib/depth/converted_field.h"
 #include "lib/depth/repair.h"
 
 namespace starfocus {
@@ -28,6 +28,8 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
              {"at least 2 views, or 1 view for a repair"});
   check.Need(views.star || !repairs, STARFOCUS_ERROR_RANGE, {"positions[]"},
              {"the positions of starfocus_view_position for a repair"});
+  check.Need((config.features & ~STARFOCUS_FEATURE_IMAGES) == 0, STARFOCUS_ERROR_RANGE,
+             {"features", double(config.features)}, {"STARFOCUS_FEATURE_IMAGES or 0"});
   return check.status();
 }
 
@@ -41,8 +43,7 @@ starfocus_status CheckOverlap(const starfocus_depth_config& config,
   for (int view = 0; view < config.views; ++view) {
     AddImage(light_field.views[view], {config.width, height}, &taken);
   }
-  const starfocus_depth_map& depth = light_field.depth;
-  if (repairs) taken.AddRows(depth.data, depth.stride, height, floats);
+  if (repairs) AddDepthMap(light_field.depth, &taken);
   const Extent written[] = {workspace,
                             ExtentOf(map.disparity, map.disparity_stride, height, floats),
                             ExtentOf(map.confidence, map.confidence_stride, height, width),
@@ -57,21 +58,26 @@ starfocus_status CheckOverlap(const starfocus_depth_config& config,
   return status;
 }
 
-// Checks the map to repair: at least one value is finite, and all finite values lie in the
+// Checks the map to repair: at least one disparity is known, and all known disparities lie in the
 // configured range.
-starfocus_status CheckGiven(const starfocus_depth_config& config,
-                            const starfocus_light_field& light_field) {
+starfocus_status CheckGiven(const starfocus_depth_config& config, const starfocus_depth_map& map) {
+  constexpr int32_t kPiece = 256;
   const auto low = static_cast<float>(config.disparity_min);
   const auto high = static_cast<float>(config.disparity_max);
   Checker check(config.problem);
   bool any = false;
-  for (int32_t y = 0; y < config.height; ++y) {
-    const float* row = RowsOf(light_field.depth).Row(y);
-    for (int32_t x = 0; x < config.width; ++x) {
-      if (!std::isfinite(row[x])) continue;
-      any = true;
-      check.Need(row[x] >= low && row[x] <= high, STARFOCUS_ERROR_DISPARITY, {"disparity", row[x]},
-                 {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
+  for (int32_t y = 0; y < map.height; ++y) {
+    for (int32_t x = 0; x < map.width; x += kPiece) {
+      float piece[kPiece];
+      const int32_t count = Min(kPiece, map.width - x);
+      ReadDisparities(map, x, y, count, piece);
+      for (int32_t k = 0; k < count; ++k) {
+        if (!IsFinite(piece[k])) continue;
+        any = true;
+        check.Need(piece[k] >= low && piece[k] <= high, STARFOCUS_ERROR_DISPARITY,
+                   {"disparity", piece[k]},
+                   {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
+      }
     }
   }
   check.Need(any, STARFOCUS_ERROR_ALL_INVALID, {"disparity"}, {"a finite value"});
@@ -91,20 +97,40 @@ EstimatePlan PlanOf(const starfocus_depth_config& config, bool repairs) {
   return plan;
 }
 
+bool Converts(const starfocus_depth_config& config) {
+  return Has(config.features, STARFOCUS_FEATURE_IMAGES);
+}
+
+// Sizes of the two parts of a workspace: the memory of an estimate or repair, followed by the
+// memory of the converted light field.
+struct WorkspaceParts {
+  size_t made, converted;
+};
+
+// Computes the sizes for a valid configuration.
+starfocus_status FindParts(const starfocus_depth_config& config, bool repairs,
+                           WorkspaceParts* parts) {
+  const EstimatePlan plan = PlanOf(config, repairs);
+  EstimateMemory* counted = nullptr;
+  ColourMemory* of_colour = nullptr;
+  ConvertedMemory converted;
+  const size_t made = config.views == 1
+                          ? LayOutColourRepair(plan, config.max_workers, nullptr, &of_colour)
+                          : LayOutEstimate(plan, config.max_workers, nullptr, &counted);
+  *parts = {made, Converts(config) ? LayOutConverted(config, repairs, nullptr, &converted) : 0};
+  const bool fits =
+      made != kTooLarge && parts->converted != kTooLarge && made <= PTRDIFF_MAX - parts->converted;
+  return fits ? STARFOCUS_OK : TellStatus(STARFOCUS_ERROR_TOO_LARGE, config.problem);
+}
+
 starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size_t* bytes) {
   starfocus_depth_config full = DefaultDepthConfig();
   starfocus_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
   if (status == STARFOCUS_OK) status = CheckDepthConfig(full, repairs);
-  if (status != STARFOCUS_OK) return status;
-  const EstimatePlan plan = PlanOf(full, repairs);
-  EstimateMemory* counted = nullptr;
-  ColourMemory* of_colour = nullptr;
-  const size_t needed = full.views == 1
-                            ? LayOutColourRepair(plan, full.max_workers, nullptr, &of_colour)
-                            : LayOutEstimate(plan, full.max_workers, nullptr, &counted);
-  if (needed == kTooLarge) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
-  *bytes = needed;
-  return STARFOCUS_OK;
+  WorkspaceParts parts;
+  if (status == STARFOCUS_OK) status = FindParts(full, repairs, &parts);
+  if (status == STARFOCUS_OK) *bytes = parts.made + parts.converted;
+  return status;
 }
 
 // Arguments of an API call that estimates or repairs a map.
@@ -141,28 +167,42 @@ starfocus_status CheckCall(const DepthCall& call, bool repairs,
   const starfocus_light_field& light_field = *call.light_field;
   const int32_t width = config.width, height = config.height;
   status = CheckViews(light_field, config.views, {width, height}, problem);
-  if (status == STARFOCUS_OK) status = CheckInPlace(light_field, config.views, problem);
+  const bool in_place = !Converts(config);
+  if (status == STARFOCUS_OK && in_place) status = CheckInPlace(light_field, config.views, problem);
   if (status == STARFOCUS_OK)
     status = CheckMap({map.disparity, map.disparity_stride}, width, height, problem);
   if (status == STARFOCUS_OK && repairs)
     status = CheckDepthMap(light_field.depth, {width, height}, problem);
-  if (status == STARFOCUS_OK && repairs)
+  if (status == STARFOCUS_OK && repairs && in_place)
     status = CheckInPlace(light_field.depth, {width, height}, problem);
   if (status == STARFOCUS_OK) status = CheckStrides(config, map);
   if (status != STARFOCUS_OK) return status;
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);
   status = CheckOverlap(config, light_field, repairs, map, {begin, begin + needed});
-  return status == STARFOCUS_OK && repairs ? CheckGiven(config, light_field) : status;
+  return status == STARFOCUS_OK && repairs ? CheckGiven(config, light_field.depth) : status;
 }
 
-// Computes a map with the caller's runner and progress function.
+// Converts the light field if necessary, and calls make(light_field) with the caller's runner and
+// progress function.
 template <class Make>
-starfocus_status Watched(const starfocus_depth_config& config, JobSet* jobs, const Make& make) {
+starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, JobSet* jobs,
+                         const Make& make) {
+  const starfocus_depth_config& config = *call.config;
   jobs->runner = {config.runner, config.runner_data};
   CallProgress* const call_progress = &jobs->call_progress;
   call_progress->SetProgress(config.progress, config.progress_data);
   call_progress->Begin(0, config.height);
-  const starfocus_status status = make();
+  starfocus_light_field field = *call.light_field;
+  starfocus_status status = STARFOCUS_OK;
+  if (Converts(config)) {
+    WorkspaceParts parts;
+    FindParts(config, plan.repairs, &parts);
+    ConvertedMemory memory;
+    LayOutConverted(config, plan.repairs, static_cast<uint8_t*>(call.workspace) + parts.made,
+                    &memory);
+    status = ConvertField(config, memory, plan.columns * plan.rows, jobs, &field);
+  }
+  if (status == STARFOCUS_OK) status = make(field);
   if (status != STARFOCUS_OK) return status;
   call_progress->SetRows(config.height);
   return call_progress->Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
@@ -175,9 +215,10 @@ starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
   const EstimatePlan plan = PlanOf(*call.config, true);
   ColourMemory* memory = nullptr;
   LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
-  const starfocus_status status = Watched(*call.config, &memory->jobs, [&] {
-    return RepairByColour(plan, *call.light_field, simd::BestDepthKernels(), output, memory);
-  });
+  const starfocus_status status =
+      Watched(call, plan, &memory->jobs, [&](const starfocus_light_field& field) {
+        return RepairByColour(plan, field, simd::BestDepthKernels(), output, memory);
+      });
   *has_coverage = status == STARFOCUS_OK && memory->has_coverage ? 1 : 0;
   return status;
 }
@@ -189,9 +230,9 @@ starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput
   EstimateMemory* memory = nullptr;
   LayOutEstimate(plan, call.config->max_workers, call.workspace, &memory);
   const EstimateZones zones(plan, call.config->max_workers, call.workspace);
-  return Watched(*call.config, &memory->jobs, [&] {
-    return repairs ? Repair(plan, *call.light_field, kernels, output, memory)
-                   : Estimate(plan, *call.light_field, kernels, output, memory);
+  return Watched(call, plan, &memory->jobs, [&](const starfocus_light_field& field) {
+    return repairs ? Repair(plan, field, kernels, output, memory)
+                   : Estimate(plan, field, kernels, output, memory);
   });
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: measures disparity maps and fills their gaps. The functions for disparity maps require no
 // engine.
+#include <limits>
+
 #include "lib/api/validate.h"
+#include "lib/api/validate_image.h"
 #include "lib/base/gaps.h"
+#include "lib/convert/depth_values.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -24,37 +28,39 @@ void FillLine(const MapLine& line) { FillGaps(line, line.length, IsFinite); }
 
 using namespace starfocus;
 
-starfocus_status starfocus_measure_disparity(const float* disparity, size_t stride, int32_t width,
-                                             int32_t height, starfocus_disparity_stats* stats) {
-  if (stats == nullptr) return STARFOCUS_ERROR_NULL;
-  const starfocus_status status = CheckMap({disparity, stride}, width, height, nullptr);
+starfocus_status starfocus_measure_disparity(const starfocus_depth_map* depth,
+                                             starfocus_disparity_stats* stats) {
+  if (depth == nullptr || stats == nullptr) return STARFOCUS_ERROR_NULL;
+  const starfocus_status status = CheckLoneMap(*depth, {STARFOCUS_MAX_SIZE, STARFOCUS_MAX_SIZE});
   if (status != STARFOCUS_OK) return status;
-  starfocus_disparity_stats found = {0, 0, 0};
-  bool any = false;
-  for (int32_t y = 0; y < height; ++y) {
-    const float* row = disparity + static_cast<size_t>(y) * (stride / sizeof(float));
-    for (int32_t x = 0; x < width; ++x) {
-      const double d = row[x];
-      if (!IsFinite(row[x])) {
-        ++found.invalid;
-      } else if (!any) {
-        found.min = found.max = d;
-        any = true;
-      } else {
-        found.min = d < found.min ? d : found.min;
-        found.max = d > found.max ? d : found.max;
+  constexpr int32_t kPiece = 256;  // number of values that are converted at once, on the stack
+  float least = std::numeric_limits<float>::infinity(), most = -least;
+  int64_t known = 0;
+  for (int32_t y = 0; y < depth->height; ++y) {
+    for (int32_t x = 0; x < depth->width; x += kPiece) {
+      float piece[kPiece];
+      const int32_t count = Min(kPiece, depth->width - x);
+      ReadDisparities(*depth, x, y, count, piece);
+      for (int32_t k = 0; k < count; ++k) {
+        if (!IsFinite(piece[k])) continue;
+        ++known;
+        least = piece[k] < least ? piece[k] : least;
+        most = piece[k] > most ? piece[k] : most;
       }
     }
   }
-  *stats = found;
+  *stats = {known != 0 ? least : 0.0, known != 0 ? most : 0.0,
+            int64_t{depth->width} * depth->height - known};
   return STARFOCUS_OK;
 }
 
 starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32_t width,
                                           int32_t height) {
   starfocus_disparity_stats stats;
-  const starfocus_status status =
-      starfocus_measure_disparity(disparity, stride, width, height, &stats);
+  starfocus_status status = CheckMap({disparity, stride}, width, height, nullptr);
+  if (status != STARFOCUS_OK) return status;
+  const starfocus_depth_map map = starfocus_depth_float(disparity, stride, width, height);
+  status = starfocus_measure_disparity(&map, &stats);
   if (status != STARFOCUS_OK || stats.invalid == 0) return status;
   const size_t row_step = stride / sizeof(float);
   if (stats.invalid == int64_t{width} * height) return STARFOCUS_ERROR_ALL_INVALID;

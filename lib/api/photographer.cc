@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// C API: converts a tapped pixel to a focus, and an f-stop to an aperture.
+// C API: computes the focus of a tapped pixel, and the aperture of an f-stop.
 #include <cmath>
 
 #include "lib/api/validate.h"
+#include "lib/api/validate_image.h"
 #include "lib/base/fixed.h"
+#include "lib/base/gaps.h"
+#include "lib/convert/depth_values.h"
+#include "lib/engine/engine.h"
+#include "lib/engine/lens.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
 
-// Number of pixels to read on each side of the tapped pixel (docs/constants.md).
+// Number of values to read on each side of the tapped pixel (docs/constants.md).
 constexpr int32_t kAround = 3;
 constexpr int32_t kSide = 2 * kAround + 1;
 
@@ -18,19 +23,35 @@ constexpr int32_t kSide = 2 * kAround + 1;
 // pixels.
 constexpr double kNear = kSurfaceStep / 2.0 / (1 << kDisparityBits);
 
-struct Map {
-  const float* data;
-  size_t row_step;  // distance between rows, in floats
-  int32_t width, height;
+// The value of a map that contains the middle of the tapped pixel, and the values around it.
+struct Place {
+  const starfocus_depth_map& map;
+  int32_t x, y;
 
-  float At(int32_t x, int32_t y) const {
-    return data[static_cast<size_t>(y) * row_step + static_cast<size_t>(x)];
+  // Calls act(disparity) for each known disparity up to `reach` values away, row by row.
+  template <class Act>
+  void ForKnown(int32_t reach, const Act& act) const {
+    const int32_t left = Max(0, x - reach), right = Min(map.width - 1, x + reach);
+    for (int32_t row = Max(0, y - reach); row <= Min(map.height - 1, y + reach); ++row) {
+      float disparities[kSide];
+      const int32_t count = right + 1 - left;
+      ReadDisparities(map, left, row, count, disparities);
+      for (int32_t k = 0; k < count; ++k) {
+        if (IsFinite(disparities[k])) act(disparities[k]);
+      }
+    }
+  }
+  // Returns the disparity at the place; NaN if the disparity is unknown.
+  double Own() const {
+    float disparity;
+    ReadDisparities(map, x, y, 1, &disparity);
+    return disparity;
   }
 };
 
-// Disparities of the pixels around a pixel, in ascending order.
+// Known disparities around a place, in ascending order.
 struct Sorted {
-  float values[kSide * kSide];  // in ascending order
+  float values[kSide * kSide];
   int32_t count = 0;
 
   void Insert(float value) {
@@ -39,20 +60,6 @@ struct Sorted {
     values[k] = value;
   }
 };
-
-// Sorts the disparities of the 7 x 7 pixels around pixel (x, y). Returns false if one of these
-// disparities is not finite.
-bool SortAround(const Map& map, int32_t x, int32_t y, Sorted* sorted) {
-  for (int32_t row = Max(0, y - kAround); row <= Min(map.height - 1, y + kAround); ++row) {
-    for (int32_t column = Max(0, x - kAround); column <= Min(map.width - 1, x + kAround);
-         ++column) {
-      const float value = map.At(column, row);
-      if (!std::isfinite(value)) return false;
-      sorted->Insert(value);
-    }
-  }
-  return true;
-}
 
 // Indices [first, last).
 struct SortedPart {
@@ -77,17 +84,12 @@ double Median(const Sorted& sorted, const SortedPart& part) {
   return part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
 }
 
-// Returns true if a neighbour of the pixel is on the same surface. The result is true for a pixel
-// of a wire one pixel wide, but false for a single wrong pixel.
-bool HasNeighbour(const Map& map, int32_t x, int32_t y) {
-  const double disparity = map.At(x, y);
-  for (int32_t row = Max(0, y - 1); row <= Min(map.height - 1, y + 1); ++row) {
-    for (int32_t column = Max(0, x - 1); column <= Min(map.width - 1, x + 1); ++column) {
-      const bool itself = column == x && row == y;
-      if (!itself && std::fabs(map.At(column, row) - disparity) <= kNear) return true;
-    }
-  }
-  return false;
+// Returns true if the place is known and a neighbour is on the same surface. The result is true for
+// a pixel of a wire one pixel wide, but false for a single wrong pixel.
+bool HasNeighbour(const Place& place, double disparity) {
+  int32_t near = 0;
+  place.ForKnown(1, [&](double value) { near += std::fabs(value - disparity) <= kNear ? 1 : 0; });
+  return near > 1;  // the place itself is near
 }
 
 // Returns the disparity that has the most other disparities within kNear. If several disparities
@@ -103,27 +105,46 @@ double MostCommon(const Sorted& sorted) {
   return sorted.values[best];
 }
 
+// Returns the value of a line of `values` values that contains the middle of pixel k, where the
+// line is as long as `pixels` pixels.
+int32_t ValueOf(int32_t k, int32_t pixels, int32_t values) {
+  return static_cast<int32_t>((2 * int64_t{k} + 1) * values / (2 * int64_t{pixels}));
+}
+
 }  // namespace
 }  // namespace starfocus
 
 using namespace starfocus;
 
-starfocus_status starfocus_focus_at(const float* disparity, size_t stride, int32_t width,
-                                    int32_t height, int32_t x, int32_t y, double* focus) {
-  if (focus == nullptr) return STARFOCUS_ERROR_NULL;
-  const starfocus_status status = CheckMap({disparity, stride}, width, height, nullptr);
+starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t width, int32_t height,
+                                    int32_t x, int32_t y, double* focus) {
+  if (depth == nullptr || focus == nullptr) return STARFOCUS_ERROR_NULL;
+  const starfocus_status status = CheckLoneMap(*depth, {width, height});
   if (status != STARFOCUS_OK) return status;
   if (x < 0 || x >= width || y < 0 || y >= height) return STARFOCUS_ERROR_RANGE;
-  const Map map = {disparity, stride / sizeof(float), width, height};
+  const Place place = {*depth, ValueOf(x, width, depth->width), ValueOf(y, height, depth->height)};
   Sorted sorted;
-  if (!SortAround(map, x, y, &sorted)) return STARFOCUS_ERROR_NOT_FINITE;
-  double surface = HasNeighbour(map, x, y) ? double{map.At(x, y)} : MostCommon(sorted);
+  place.ForKnown(kAround, [&](float disparity) { sorted.Insert(disparity); });
+  if (sorted.count == 0) return STARFOCUS_ERROR_NOT_FINITE;
+  const double own = place.Own();
+  double surface = HasNeighbour(place, own) ? own : MostCommon(sorted);
   // Taking the median twice makes the focus less dependent on the noise of the tapped pixel.
   for (int round = 0; round < 2; ++round) {
     surface = Median(sorted, PartNear(sorted, surface));
   }
   *focus = surface;
   return STARFOCUS_OK;
+}
+
+starfocus_status starfocus_largest_aperture(starfocus_engine* engine, const starfocus_lens* lens,
+                                            double* aperture) {
+  const starfocus_status status = EnterEngine(engine, {{"lens", lens}, {"aperture", aperture}});
+  if (status != STARFOCUS_OK) return status;
+  const starfocus_config& config = reinterpret_cast<EngineState*>(engine)->config;
+  Checker check(config.problem);
+  CheckFocus(*lens, &check);
+  if (check.status() == STARFOCUS_OK) *aperture = LargestAperture(config, *lens);
+  return check.status();
 }
 
 starfocus_status starfocus_aperture_of_f_stop(double f_stop, double widest, double* aperture) {

@@ -9,12 +9,7 @@ namespace {
 
 // Checks all fields, including fields that the shape does not use.
 void CheckLens(const starfocus_config& config, const starfocus_lens& lens, Checker* check) {
-  check->In({"lens.focus", lens.focus},
-            STARFOCUS_FROM_TO(-STARFOCUS_MAX_FOCUS, STARFOCUS_MAX_FOCUS));
-  check->In({"lens.focus_nearer", lens.focus_nearer},
-            {"at least 0 and at most 1000000 - lens.focus", 0, STARFOCUS_MAX_FOCUS - lens.focus});
-  check->In({"lens.focus_farther", lens.focus_farther},
-            {"at least 0 and at most 1000000 + lens.focus", 0, STARFOCUS_MAX_FOCUS + lens.focus});
+  CheckFocus(lens, check);
   check->In({"lens.aperture", lens.aperture}, STARFOCUS_FROM_TO(0, 1));
   check->In({"lens.shape", double(lens.shape)}, {"a starfocus_shape", 0, STARFOCUS_SHAPE_RING});
   check->In({"lens.blades", double(lens.blades)},
@@ -87,6 +82,15 @@ void CheckPictureRange(const PictureRange& picture, Checker* check) {
             {"at least disparity_min", picture.disparity_min, STARFOCUS_MAX_DISPARITY});
   check->In({"max_workers", double(picture.max_workers)},
             STARFOCUS_FROM_TO(1, STARFOCUS_MAX_WORKERS));
+}
+
+void CheckFocus(const starfocus_lens& lens, Checker* check) {
+  check->In({"lens.focus", lens.focus},
+            STARFOCUS_FROM_TO(-STARFOCUS_MAX_FOCUS, STARFOCUS_MAX_FOCUS));
+  check->In({"lens.focus_nearer", lens.focus_nearer},
+            {"at least 0 and at most 1000000 - lens.focus", 0, STARFOCUS_MAX_FOCUS - lens.focus});
+  check->In({"lens.focus_farther", lens.focus_farther},
+            {"at least 0 and at most 1000000 + lens.focus", 0, STARFOCUS_MAX_FOCUS + lens.focus});
 }
 
 starfocus_status CheckConfig(const starfocus_config& config) {

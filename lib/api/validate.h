@@ -45,6 +45,9 @@ struct PictureRange {
 };
 void CheckPictureRange(const PictureRange& picture, Checker* check);
 
+// Checks the fields of a lens that determine which disparities are in focus.
+void CheckFocus(const starfocus_lens& lens, Checker* check);
+
 // CheckConfig and CheckParams report a rejected field to config.problem, which may be null.
 starfocus_status CheckConfig(const starfocus_config& config);
 starfocus_status CheckParams(const starfocus_config& config, const starfocus_params& params);

@@ -5,7 +5,7 @@
 #include "lib/base/features.h"
 #include "lib/base/gaps.h"
 #include "lib/base/rows.h"
-#include "lib/convert/depth_rows.h"
+#include "lib/convert/depth_values.h"
 #include "lib/convert/image_planes.h"
 
 namespace starfocus {
@@ -115,6 +115,14 @@ starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize
   return check.status();
 }
 
+starfocus_status CheckLoneMap(const starfocus_depth_map& map, const PictureSize& size) {
+  Checker check(nullptr);
+  const Allowed allowed = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
+  check.In({"width", double(size.width)}, allowed);
+  check.In({"height", double(size.height)}, allowed);
+  return check.status() == STARFOCUS_OK ? CheckDepthMap(map, size, nullptr) : check.status();
+}
+
 starfocus_status CheckInPlace(const starfocus_light_field& light_field, int32_t count,
                               starfocus_problem* problem) {
   Checker check(problem);
@@ -147,11 +155,14 @@ starfocus_status CheckLightField(const starfocus_config& config,
   return status == STARFOCUS_OK ? CheckInPlace(light_field.depth, size, problem) : status;
 }
 
-void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
-                   Extents* extents) {
-  const starfocus_depth_map& map = light_field.depth;
+void AddDepthMap(const starfocus_depth_map& map, Extents* extents) {
   extents->AddRows(map.data, map.stride, map.height,
                    DepthBytes(map.type) * static_cast<size_t>(map.width));
+}
+
+void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
+                   Extents* extents) {
+  AddDepthMap(light_field.depth, extents);
   extents->AddCoverage(config, light_field.coverage, light_field.coverage_stride);
   for (int view = 0; view < config.views; ++view) {
     AddImage(light_field.views[view], {config.width, config.height}, extents);

@@ -20,6 +20,9 @@ starfocus_status CheckViews(const starfocus_light_field& light_field, int32_t co
 starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize& size,
                                starfocus_problem* problem);
 
+// Checks a depth map and the size of its picture, which no configuration has checked.
+starfocus_status CheckLoneMap(const starfocus_depth_map& map, const PictureSize& size);
+
 // Checks that `count` views have formats that are read in place.
 starfocus_status CheckInPlace(const starfocus_light_field& light_field, int32_t count,
                               starfocus_problem* problem);
@@ -31,6 +34,9 @@ starfocus_status CheckInPlace(const starfocus_depth_map& map, const PictureSize&
 // Checks a light field for an engine of `config`.
 starfocus_status CheckLightField(const starfocus_config& config,
                                  const starfocus_light_field& light_field);
+
+// Adds the address range of a depth map to *extents.
+void AddDepthMap(const starfocus_depth_map& map, Extents* extents);
 
 // Adds the address ranges of all planes of a light field to *extents.
 void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,

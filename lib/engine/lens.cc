@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/lens.h"
 
+#include <cmath>
+
 #include "lib/base/problem.h"
 #include "lib/base/rules.h"
 #include "lib/base/view_grid.h"
@@ -9,6 +11,14 @@
 
 namespace starfocus {
 namespace {
+
+// Returns the largest distance of a configured disparity from the range in focus.
+double LargestDistance(const starfocus_config& config, const starfocus_lens& lens) {
+  const double nearer = config.disparity_max - (lens.focus + lens.focus_nearer);
+  const double farther = lens.focus - lens.focus_farther - config.disparity_min;
+  const double distance = nearer > farther ? nearer : farther;
+  return distance > 0 ? distance : 0;
+}
 
 // Returns the renderer of a lens. By default, one view is rendered with slices, because line scans
 // of one view show a halo as wide as the blur.
@@ -44,19 +54,23 @@ Rect RegionOf(const starfocus_config& config, const starfocus_params& params) {
 int32_t LastGatherStep(const Lens& lens) { return BlurStepCount(LargestGather(lens.r_max)) - 1; }
 
 double LargestBlur(const starfocus_config& config, const starfocus_params& params) {
-  const starfocus_lens& lens = params.lens;
-  const double nearer = config.disparity_max - (lens.focus + lens.focus_nearer);
-  const double farther = lens.focus - lens.focus_farther - config.disparity_min;
-  const double distance = nearer > farther ? nearer : farther;
-  return distance > 0 ? lens.aperture * distance : 0;
+  return params.lens.aperture * LargestDistance(config, params.lens);
+}
+
+double LargestAperture(const starfocus_config& config, const starfocus_lens& lens) {
+  const double distance = LargestDistance(config, lens), most = config.max_blur;
+  double aperture = distance <= most ? 1 : most / distance;
+  // The rounded quotient may be too large by one unit in the last place.
+  if (aperture * distance > most) aperture = std::nextafter(aperture, 0);
+  return aperture;
 }
 
 starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params) {
-  const double r_max = LargestBlur(config, params), aperture = params.lens.aperture;
   Checker check(config.problem);
-  check.Need(r_max <= config.max_blur, STARFOCUS_ERROR_BLUR, {"lens.aperture", aperture},
+  check.Need(LargestBlur(config, params) <= config.max_blur, STARFOCUS_ERROR_BLUR,
+             {"lens.aperture", params.lens.aperture},
              {"at most max_blur over the largest distance of a configured disparity from the focus",
-              0, aperture * config.max_blur / r_max});
+              0, LargestAperture(config, params.lens)});
   return check.status();
 }
 

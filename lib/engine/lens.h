@@ -67,6 +67,9 @@ inline bool IsDeblocking(const starfocus_config& config, const Lens& lens) {
 // Returns the largest blur radius in pixels for the configured range of disparities.
 double LargestBlur(const starfocus_config& config, const starfocus_params& params);
 
+// Returns the largest aperture, at most 1, whose largest blur radius is at most max_blur.
+double LargestAperture(const starfocus_config& config, const starfocus_lens& lens);
+
 // Returns STARFOCUS_ERROR_BLUR if the largest blur radius exceeds max_blur, otherwise STARFOCUS_OK.
 starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params);
 

@@ -11,9 +11,9 @@
 namespace starfocus {
 
 // List of address ranges. The capacity suffices for all planes of one light field in any format, or
-// of two in-place light fields, plus four more ranges.
+// of two in-place light fields, plus six more ranges.
 struct Extents {
-  Extent of[3 * kMaxViews + 4];
+  Extent of[3 * kMaxViews + 6];
   int count = 0;
 
   void Add(const Extent& extent) { of[count++] = extent; }

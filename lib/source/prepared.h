@@ -14,6 +14,9 @@
 namespace starfocus {
 
 struct Prepared {
+  // Allocator and size of the memory; `release` is null if the memory belongs to the caller.
+  starfocus_allocator allocator = {};
+  size_t bytes = 0;
   starfocus_config config;  // configuration of the engine that prepared the light field
   starfocus_light_field light_field;
   bool covers = false;       // True if the light field has coverage.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests starfocus_create and starfocus_destroy: each engine allocates one piece of memory and later
-// releases this memory.
+// Tests starfocus_create, starfocus_prepare and the functions that destroy their results: each
+// result is one piece of memory from the allocator, which is released later.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/prepared_memory.h"
+#include "tests/support/rgb_calls.h"
 #include "tests/support/test_scene.h"
 
 namespace create_test {
@@ -23,11 +25,13 @@ struct Counter {
   std::vector<uint8_t> memory;
   void* given = nullptr;
   size_t bytes = 0;
+  Counter* next = nullptr;  // if not null, receives the calls for other memory
 
   starfocus_allocator Allocator() { return {this, Allocate, Release}; }
 
   static void* Allocate(void* data, size_t bytes, size_t alignment) {
     Counter& self = *static_cast<Counter*>(data);
+    if (self.next != nullptr) return Allocate(self.next, bytes, alignment);
     ++self.allocations;
     if (alignment != STARFOCUS_ALIGNMENT) ++self.wrong;
     if (self.empty) return nullptr;
@@ -39,6 +43,7 @@ struct Counter {
   }
   static void Release(void* data, void* memory, size_t bytes) {
     Counter& self = *static_cast<Counter*>(data);
+    if (self.next != nullptr) return Release(self.next, memory, bytes);
     ++self.releases;
     if (memory != self.given || bytes != self.bytes) ++self.wrong;
     self.memory.assign(self.memory.size(), 0xEE);
@@ -171,6 +176,86 @@ TEST_CASE(
     CHECK(field() == (half.allocate == nullptr ? "allocator.allocate" : "allocator.release"));
   }
   CHECK(counter.allocations == 2);
+}
+
+TEST_CASE("prepare: without memory, the allocator of the engine provides the memory") {
+  const Fixture f;
+  Counter workspace, counter;
+  starfocus_engine* engine = nullptr;
+  const starfocus_allocator allocator = workspace.Allocator();
+  REQUIRE(starfocus_create(&f.config, &allocator, &engine) == STARFOCUS_OK);
+  // The memory of the engine stays, and `counter` provides the memory of prepared light fields.
+  workspace.next = &counter;
+  size_t bytes = 0;
+  REQUIRE(starfocus_prepared_size(&f.config, &bytes) == STARFOCUS_OK);
+  const starfocus_light_field field = f.scene.Field();
+  starfocus_prepared* prepared = nullptr;
+  REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
+  CHECK(counter.bytes == bytes);
+  test::Output out(70, 50);
+  CHECK(test::RefocusPreparedRgb(engine, &f.params, prepared, out.bytes.data(), out.stride,
+                                 nullptr) == STARFOCUS_OK);
+  CHECK(out.bytes == f.expected.bytes);
+  starfocus_destroy_prepared(prepared);
+  CHECK(counter.allocations == 1);
+  CHECK(counter.releases == 1);
+
+  // After an error, the memory is released.
+  starfocus_prepared* const poison = prepared;
+  test::Scene wrong = f.scene;
+  wrong.Disparity(3, 4) = 100;
+  const starfocus_light_field bad = wrong.Field();
+  CHECK(starfocus_prepare(engine, &bad, nullptr, 0, &prepared) == STARFOCUS_ERROR_DISPARITY);
+  CHECK(prepared == nullptr);
+  CHECK(counter.allocations == 2);
+  CHECK(counter.releases == 2);
+  counter.empty = true;
+  prepared = poison;
+  CHECK(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_ERROR_MEMORY);
+  CHECK(starfocus_engine_problem(engine)->status == STARFOCUS_ERROR_MEMORY);
+  CHECK(prepared == nullptr);
+  CHECK(counter.releases == 2);
+  CHECK(counter.wrong == 0);
+  workspace.next = nullptr;
+  starfocus_destroy(engine);
+  CHECK(workspace.allocations == 1);
+  CHECK(workspace.releases == 1);
+  CHECK(workspace.wrong == 0);
+}
+
+TEST_CASE("prepare: a prepared light field from the heap may outlive its engine") {
+  const Fixture f;
+  starfocus_engine* engine = nullptr;
+  REQUIRE(starfocus_create(&f.config, nullptr, &engine) == STARFOCUS_OK);
+  const starfocus_light_field field = f.scene.Field();
+  starfocus_prepared* prepared = nullptr;
+  REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
+  CHECK(reinterpret_cast<uintptr_t>(prepared) % STARFOCUS_ALIGNMENT == 0);
+  starfocus_destroy(engine);
+  test::Engine other(f.config);
+  test::Output out(70, 50);
+  CHECK(test::RefocusPreparedRgb(other.get(), &f.params, prepared, out.bytes.data(), out.stride,
+                                 nullptr) == STARFOCUS_OK);
+  CHECK(out.bytes == f.expected.bytes);
+  starfocus_destroy_prepared(prepared);
+}
+
+TEST_CASE("prepare: an engine in memory of the caller requires memory of the caller") {
+  const Fixture f;
+  test::Engine engine(f.config);
+  const starfocus_light_field field = f.scene.Field();
+  starfocus_prepared* prepared = reinterpret_cast<starfocus_prepared*>(&engine);
+  CHECK(starfocus_prepare(engine.get(), &field, nullptr, 0, &prepared) == STARFOCUS_ERROR_NULL);
+  CHECK(std::string(starfocus_engine_problem(engine.get())->field) == "memory");
+  CHECK(prepared == nullptr);
+  test::PreparedMemory memory(f.config);
+  prepared = memory.Prepare(engine.get(), field);
+  starfocus_destroy_prepared(prepared);
+  starfocus_destroy_prepared(nullptr);
+  test::Output out(70, 50);
+  CHECK(test::RefocusPreparedRgb(engine.get(), &f.params, prepared, out.bytes.data(), out.stride,
+                                 nullptr) == STARFOCUS_OK);
+  CHECK(out.bytes == f.expected.bytes);
 }
 
 TEST_CASE("destroy: null pointers are ignored, and memory of the caller is not released") {

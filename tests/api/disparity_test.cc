@@ -60,13 +60,19 @@ TEST_CASE("disparity: illegal arguments are rejected") {
   std::memset(&stats, test::kPoison, sizeof stats);
   const starfocus_disparity_stats poison = stats;
   const auto measure = [&](const float* d, size_t stride, int w, int h) {
-    return starfocus_measure_disparity(d, stride, w, h, &stats);
+    const starfocus_depth_map depth = starfocus_depth_float(d, stride, w, h);
+    return starfocus_measure_disparity(&depth, &stats);
   };
   const auto fill = [&](float* d, size_t stride, int w, int h) {
     return starfocus_fill_disparity(d, stride, w, h);
   };
   CHECK(measure(nullptr, 20, 5, 4) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_measure_disparity(map.values.data(), 20, 5, 4, nullptr) == STARFOCUS_ERROR_NULL);
+  const starfocus_depth_map good = starfocus_depth_float(map.values.data(), 20, 5, 4);
+  CHECK(starfocus_measure_disparity(&good, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_measure_disparity(nullptr, &stats) == STARFOCUS_ERROR_NULL);
+  starfocus_depth_map flat = good;
+  flat.scale = 0;
+  CHECK(starfocus_measure_disparity(&flat, &stats) == STARFOCUS_ERROR_RANGE);
   CHECK(fill(nullptr, 20, 5, 4) == STARFOCUS_ERROR_NULL);
   for (int size : {0, -1, STARFOCUS_MAX_SIZE + 1, INT32_MAX, INT32_MIN}) {
     CHECK(measure(map.values.data(), size_t{1} << 30, size, 4) == STARFOCUS_ERROR_RANGE);
@@ -89,23 +95,49 @@ TEST_CASE("disparity: smallest, largest and non-finite values are measured") {
     for (int x = 0; x < 5; ++x) map.At(x, y) = float(x - y);
   }
   starfocus_disparity_stats stats;
-  REQUIRE(starfocus_measure_disparity(map.values.data(), 28, 5, 3, &stats) == STARFOCUS_OK);
+  const starfocus_depth_map depth = starfocus_depth_float(map.values.data(), 28, 5, 3);
+  REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
   CHECK(stats.min == -2);
   CHECK(stats.max == 4);
   CHECK(stats.invalid == 0);
   map.At(0, 2) = kNan;
   map.At(4, 0) = kInf;
   map.At(2, 1) = -kInf;
-  REQUIRE(starfocus_measure_disparity(map.values.data(), 28, 5, 3, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
   CHECK(stats.min == -1);
   CHECK(stats.max == 3);
   CHECK(stats.invalid == 3);
   Map none(2, 2);
   none.values.assign(4, kNan);
-  REQUIRE(starfocus_measure_disparity(none.values.data(), 8, 2, 2, &stats) == STARFOCUS_OK);
+  const starfocus_depth_map unknown = starfocus_depth_float(none.values.data(), 8, 2, 2);
+  REQUIRE(starfocus_measure_disparity(&unknown, &stats) == STARFOCUS_OK);
   CHECK(stats.min == 0);
   CHECK(stats.max == 0);
   CHECK(stats.invalid == 4);
+}
+
+TEST_CASE("disparity: distances of 16 bits are measured as disparities") {
+  const uint16_t millimetres[2][300] = {{0, 500, 4000}, {1000}};
+  starfocus_depth_map depth = {};
+  depth.data = millimetres;
+  depth.stride = sizeof millimetres[0];
+  depth.width = 3;
+  depth.height = 2;
+  depth.type = STARFOCUS_DEPTH_U16;
+  depth.meaning = STARFOCUS_DEPTH_RECIPROCAL;
+  depth.scale = 8000;
+  depth.offset = -1;
+  starfocus_disparity_stats stats;
+  REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
+  CHECK(stats.min == 1);
+  CHECK(stats.max == 15);
+  CHECK(stats.invalid == 3);  // 8000 / 0 is infinite
+  depth.has_invalid = 1;
+  depth.invalid = 500;
+  depth.width = 300;  // more values than are converted at once
+  REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
+  CHECK(stats.max == 7);
+  CHECK(stats.invalid == 598);
 }
 
 TEST_CASE("disparity: a map without finite values cannot be filled") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the functions that return the focus at a pixel and the aperture of an f-stop.
+// Tests the functions that return the focus at a pixel, the largest aperture of an engine and the
+// aperture of an f-stop.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,10 +23,13 @@ struct Map {
   Map(int w, int h, float value, int padding = 0)
       : width(w), height(h), row(size_t(w + padding)), values(row * size_t(h), value) {}
   float& At(int x, int y) { return values[size_t(y) * row + size_t(x)]; }
+  starfocus_depth_map Depth() const {
+    return starfocus_depth_float(values.data(), 4 * row, width, height);
+  }
   double Focus(int x, int y) const {
     double focus = -77;
-    REQUIRE(starfocus_focus_at(values.data(), 4 * row, width, height, x, y, &focus) ==
-            STARFOCUS_OK);
+    const starfocus_depth_map depth = Depth();
+    REQUIRE(starfocus_focus_at(&depth, width, height, x, y, &focus) == STARFOCUS_OK);
     return focus;
   }
 
@@ -38,11 +42,19 @@ TEST_CASE("focus at: illegal arguments are rejected") {
   Map map(5, 4, 1, 2);
   double focus = -77;
   const auto at = [&](const float* d, size_t stride, int w, int h, int x, int y) {
-    return starfocus_focus_at(d, stride, w, h, x, y, &focus);
+    const starfocus_depth_map depth = starfocus_depth_float(d, stride, w, h);
+    return starfocus_focus_at(&depth, 5, 4, x, y, &focus);
   };
   const float* const d = map.values.data();
   CHECK(at(nullptr, 28, 5, 4, 0, 0) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_focus_at(d, 28, 5, 4, 0, 0, nullptr) == STARFOCUS_ERROR_NULL);
+  const starfocus_depth_map depth = map.Depth();
+  CHECK(starfocus_focus_at(&depth, 5, 4, 0, 0, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_focus_at(nullptr, 5, 4, 0, 0, &focus) == STARFOCUS_ERROR_NULL);
+  // The map must not be larger than the picture.
+  CHECK(starfocus_focus_at(&depth, 4, 4, 0, 0, &focus) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_focus_at(&depth, 5, 3, 0, 0, &focus) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_focus_at(&depth, STARFOCUS_MAX_SIZE + 1, 4, 0, 0, &focus) ==
+        STARFOCUS_ERROR_RANGE);
   CHECK(at(d, 28, 0, 4, 0, 0) == STARFOCUS_ERROR_RANGE);
   CHECK(at(d, 28, 5, STARFOCUS_MAX_SIZE + 1, 0, 0) == STARFOCUS_ERROR_RANGE);
   for (const size_t stride : {size_t{0}, size_t{16}, size_t{22}}) {
@@ -56,21 +68,100 @@ TEST_CASE("focus at: illegal arguments are rejected") {
   CHECK(focus == -77);
 }
 
-TEST_CASE("focus at: values that are not finite are rejected only near the pixel") {
+TEST_CASE("focus at: unknown values are ignored, unless all values near the pixel are unknown") {
   for (const float bad : {kNan, float(kInf), float(-kInf)}) {
     Map map(30, 20, 2, 3);
     for (int y = 0; y < 20; ++y) std::fill_n(&map.At(0, y) + 30, 3, bad);  // padding
     map.At(12, 9) = bad;
     for (int y = 0; y < 20; ++y) {
-      for (int x = 0; x < 30; ++x) {
-        const bool read = std::abs(x - 12) <= 3 && std::abs(y - 9) <= 3;
-        double focus = -77;
-        CHECK(starfocus_focus_at(map.values.data(), 4 * map.row, 30, 20, x, y, &focus) ==
-              (read ? STARFOCUS_ERROR_NOT_FINITE : STARFOCUS_OK));
-        CHECK(focus == (read ? -77 : 2));
-      }
+      for (int x = 0; x < 30; ++x) CHECK(map.Focus(x, y) == 2);
+    }
+    for (int y = 6; y <= 12; ++y) std::fill_n(&map.At(9, y), 7, bad);
+    const starfocus_depth_map depth = map.Depth();
+    double focus = -77;
+    CHECK(starfocus_focus_at(&depth, 30, 20, 12, 9, &focus) == STARFOCUS_ERROR_NOT_FINITE);
+    CHECK(focus == -77);
+    map.At(9, 12) = 5;
+    CHECK(map.Focus(12, 9) == 5);
+  }
+}
+
+TEST_CASE("focus at: distances of 16 bits with unknown values are read") {
+  // Map of 4 x 2 distances for a picture of 18 x 5 pixels.
+  const uint16_t distances[2][4] = {{100, 200, 400, 0}, {50, 0, 25, 10}};
+  starfocus_depth_map depth = {};
+  depth.data = distances;
+  depth.stride = sizeof distances[0];
+  depth.width = 4;
+  depth.height = 2;
+  depth.type = STARFOCUS_DEPTH_U16;
+  depth.meaning = STARFOCUS_DEPTH_RECIPROCAL;
+  depth.scale = 800;
+  depth.has_invalid = 1;
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 18; ++x) {
+      // All surfaces consist of one value, so the focus is the smallest disparity, 800 / 400.
+      double focus = -77;
+      REQUIRE(starfocus_focus_at(&depth, 18, 5, x, y, &focus) == STARFOCUS_OK);
+      CHECK(focus == 2);
     }
   }
+}
+
+TEST_CASE("focus at: the focus of a small map is the focus of the value at the pixel") {
+  Map small(20, 15, 0);
+  for (int y = 0; y < 15; ++y) {
+    for (int x = 0; x < 20; ++x) small.At(x, y) = x < 10 ? float(y) / 4 : 9 - float(x) / 8;
+  }
+  const starfocus_depth_map depth = small.Depth();
+  for (int y = 0; y < 61; ++y) {
+    for (int x = 0; x < 79; ++x) {
+      double focus = -77;
+      REQUIRE(starfocus_focus_at(&depth, 79, 61, x, y, &focus) == STARFOCUS_OK);
+      CHECK(focus == small.Focus((2 * x + 1) * 20 / 158, (2 * y + 1) * 15 / 122));
+    }
+  }
+}
+
+TEST_CASE("largest aperture: the engine accepts it, and no larger aperture") {
+  starfocus_config config;
+  starfocus_config_init(&config);
+  config.width = config.height = 16;
+  config.views = 1;
+  config.disparity_min = -3;
+  config.disparity_max = 10;
+  config.max_blur = 7;
+  starfocus_engine* engine = nullptr;
+  REQUIRE(starfocus_create(&config, nullptr, &engine) == STARFOCUS_OK);
+  const std::vector<uint8_t> view(16 * 48, 100);
+  std::vector<uint8_t> out(view.size());
+  const std::vector<float> map(16 * 16, 1);
+  starfocus_light_field field = {};
+  field.views[0] = starfocus_image_rgb(view.data(), 48);
+  field.depth = starfocus_depth_float(map.data(), 64, 16, 16);
+  const starfocus_image picture = starfocus_image_rgb(out.data(), 48);
+  starfocus_params params;
+  starfocus_params_init(&params);
+  for (double focus = -20; focus <= 20; focus += 0.37) {
+    params.lens.focus = focus;
+    REQUIRE(starfocus_largest_aperture(engine, &params.lens, &params.lens.aperture) ==
+            STARFOCUS_OK);
+    const double farthest = std::max(10 - focus, focus + 3);
+    CHECK(params.lens.aperture == doctest::Approx(std::min(1.0, 7 / farthest)).epsilon(1e-14));
+    CHECK(starfocus_refocus(engine, &params, &field, &picture, nullptr) == STARFOCUS_OK);
+    if (params.lens.aperture == 1) continue;
+    params.lens.aperture *= 1 + 1e-14;
+    CHECK(starfocus_refocus(engine, &params, &field, &picture, nullptr) == STARFOCUS_ERROR_BLUR);
+  }
+  double aperture = -77;
+  params.lens.focus = 2 * STARFOCUS_MAX_FOCUS;
+  CHECK(starfocus_largest_aperture(engine, &params.lens, &aperture) == STARFOCUS_ERROR_RANGE);
+  CHECK(std::strcmp(starfocus_engine_problem(engine)->field, "lens.focus") == 0);
+  CHECK(starfocus_largest_aperture(engine, nullptr, &aperture) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_largest_aperture(engine, &params.lens, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_largest_aperture(nullptr, &params.lens, &aperture) == STARFOCUS_ERROR_NULL);
+  CHECK(aperture == -77);
+  starfocus_destroy(engine);
 }
 
 TEST_CASE(
@@ -146,7 +237,7 @@ TEST_CASE("focus at: the focus is a median, which reduces noise") {
 // Returns the focus as starfocus.h defines the focus, computed from sorted lists of the neighbours.
 double Expected(Map map, int x0, int y0) {
   std::vector<double> around;
-  bool alone = true;
+  bool alone = true;  // also if the disparity of the pixel is unknown
   const double tapped = map.At(x0, y0);
   const auto near = [&](double surface) {
     std::vector<double> part;
@@ -157,6 +248,7 @@ double Expected(Map map, int x0, int y0) {
   };
   for (int y = std::max(0, y0 - 3); y <= std::min(map.height - 1, y0 + 3); ++y) {
     for (int x = std::max(0, x0 - 3); x <= std::min(map.width - 1, x0 + 3); ++x) {
+      if (!std::isfinite(map.At(x, y))) continue;
       around.push_back(map.At(x, y));
       const bool beside = std::max(std::abs(x - x0), std::abs(y - y0)) == 1;
       alone = alone && !(beside && std::fabs(map.At(x, y) - tapped) <= 0.75);
@@ -181,8 +273,14 @@ TEST_CASE("focus at: for random maps, the focus equals the focus computed by the
     // The disparities are multiples of 1/8, so that ties and values at the limit occur.
     const int steps = random.Int(1, 40);
     for (float& value : map.values) value = float(random.Int(0, steps)) / 8;
+    for (int at = 0; round % 2 == 0 && at < map.width * map.height; ++at) {
+      const int x = at % map.width, y = at / map.width;
+      if ((x + y) % 3 == 0) map.At(x, y) = kNan;
+    }
     for (int y = 0; y < map.height; ++y) {
-      for (int x = 0; x < map.width; ++x) CHECK(map.Focus(x, y) == Expected(map, x, y));
+      for (int x = 0; x < map.width; ++x) {
+        if (map.width * map.height > 1) CHECK(map.Focus(x, y) == Expected(map, x, y));
+      }
     }
   }
 }

@@ -295,14 +295,13 @@ TEST_CASE("measuring, filling and focusing with disparity maps make no heap call
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (int x = 0; x < 40; ++x) scene.Disparity(x, 11) = nan;
   scene.Disparity(4, 4) = nan;
+  const starfocus_depth_map depth = starfocus_depth_float(scene.disparity.data(), 160, 40, 30);
   HeapWatch watch;
   starfocus_disparity_stats stats;
-  const starfocus_status measured =
-      starfocus_measure_disparity(scene.disparity.data(), 160, 40, 30, &stats);
+  const starfocus_status measured = starfocus_measure_disparity(&depth, &stats);
   const starfocus_status filled = starfocus_fill_disparity(scene.disparity.data(), 160, 40, 30);
   double focus = 0;
-  const starfocus_status tapped =
-      starfocus_focus_at(scene.disparity.data(), 160, 40, 30, 4, 4, &focus);
+  const starfocus_status tapped = starfocus_focus_at(&depth, 40, 30, 4, 4, &focus);
   CHECK(watch.Stop() == 0);
   CHECK(tapped == STARFOCUS_OK);
   CHECK(measured == STARFOCUS_OK);

@@ -410,12 +410,39 @@ public final class RefocuserTest {
     check(closed.rowsDone() == 0, "rowsDone() is 0 after close()");
     checkThrows(IllegalStateException.class, "closed",
         () -> closed.refocus(field(picture()), new Parameters(), out(bytes(3 * WIDTH * HEIGHT))));
-    check(Refocuser.focusAt(depth(ramp()), WIDTH / 2, 10) < 0.5, "focus at a pixel");
-    checkThrows(StarfocusException.class, "", () -> Refocuser.focusAt(depth(ramp()), WIDTH, 10));
-    final DepthMap holes = depth(ramp());
-    holes.hasInvalid = 1;
-    checkThrows(IllegalArgumentException.class, "without an invalid value",
-        () -> Refocuser.focusAt(holes, WIDTH / 2, 10));
+    checkThrows(
+        IllegalStateException.class, "closed", () -> closed.focusAt(depth(ramp()), WIDTH / 2, 10));
+    checkThrows(
+        IllegalStateException.class, "closed", () -> closed.largestAperture(new Parameters()));
+  }
+
+  private static void smallMapsAreMeasuredAndTapped() {
+    final ByteBuffer distances = bytes(2 * 40 * 30); // 4000 in the left half, 500 in the right half
+    for (int i = 0; i < 40 * 30; ++i) distances.putShort(2 * i, (short) (i % 40 < 20 ? 4000 : 500));
+    distances.putShort(0, (short) 0);
+    final DepthMap depth = new DepthMap(DepthMap.U16, distances, 80, 40, 30);
+    depth.meaning = DepthMap.RECIPROCAL;
+    depth.scale = 8000;
+    depth.hasInvalid = 1;
+    final double[] range = Refocuser.measureDisparity(depth);
+    check(range.length == 2 && range[0] == 2 && range[1] == 16, "range of a map of distances");
+    final Configuration configuration = configuration();
+    configuration.disparityMin = range[0];
+    configuration.disparityMax = range[1];
+    configuration.maxBlur = 7;
+    try (Refocuser refocuser = new Refocuser(configuration)) {
+      check(refocuser.focusAt(depth, WIDTH / 2 - 1, 10) == 2, "focus at the left half");
+      check(refocuser.focusAt(depth, WIDTH / 2, 10) == 16, "focus at the right half");
+      check(refocuser.focusAt(depth, 0, 0) == 2, "focus at an unknown value");
+      checkThrows(StarfocusException.class, "", () -> refocuser.focusAt(depth, WIDTH, 10));
+      final Parameters parameters = new Parameters();
+      parameters.focus = 2;
+      check(refocuser.largestAperture(parameters) == 0.5, "the largest aperture");
+      parameters.focus = 1e9;
+      checkThrows(StarfocusException.class, "focus", () -> refocuser.largestAperture(parameters));
+    }
+    depth.scale = 0;
+    checkThrows(StarfocusException.class, "", () -> Refocuser.measureDisparity(depth));
   }
 
   private static void anotherThreadCallsOff() throws InterruptedException {
@@ -464,6 +491,7 @@ public final class RefocuserTest {
     buffersAreChecked();
     randomArgumentsWriteNothingBeyondTheOutput();
     configurationsAndStatesAreChecked();
+    smallMapsAreMeasuredAndTapped();
     anotherThreadCallsOff();
     if (failures == 0)
       System.out.println(checks + " checks");

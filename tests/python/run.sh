@@ -38,6 +38,8 @@ install "$work"/wheels/starfocus-*-py3-none-*.whl 'Python, wheel'
 install "$sources/platform/python" 'Python, pip install of the tree'
 quietly "$python" "$sources/tests/python/quality_test.py"
 printf '%-40s %s\n' 'Python, quality' "$(grep '^Ran' "$work/log")"
+quietly "$python" "$sources/tests/python/depth_map_test.py"
+printf '%-40s %s\n' 'Python, depth maps' "$(grep '^Ran' "$work/log")"
 quietly /usr/bin/python3 -m mypy --config-file "$sources/platform/python/pyproject.toml" --cache-dir "$work/mypy" \
   "$sources/platform/python/starfocus"
 printf '%-40s %s\n' 'Python, types' "$(tail -n 1 "$work/log")"

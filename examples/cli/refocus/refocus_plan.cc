@@ -76,11 +76,12 @@ std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
       part.values.push_back(map.at(column, row));
     }
   }
-  float* const values = part.values.data();
+  const starfocus_depth_map depth = EngineMap(part);
   double focus = 0;
-  if (starfocus_fill_disparity(values, part.stride(), part.width, part.height) != STARFOCUS_OK ||
-      starfocus_focus_at(values, part.stride(), part.width, part.height, x - left, y - top,
-                         &focus) != STARFOCUS_OK) {
+  if (starfocus_fill_disparity(part.values.data(), part.stride(), part.width, part.height) !=
+          STARFOCUS_OK ||
+      starfocus_focus_at(&depth, part.width, part.height, x - left, y - top, &focus) !=
+          STARFOCUS_OK) {
     return {};
   }
   return focus;
@@ -266,8 +267,8 @@ Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   double focus = 0;
   if (Error error = CheckPixel(map.width, map.height, *plan)) return error;
   // starfocus_focus_at cannot fail, because PrepareDisparity has checked the map.
-  starfocus_focus_at(map.values.data(), map.stride(), map.width, map.height, plan->x, plan->y,
-                     &focus);
+  const starfocus_depth_map depth = EngineMap(map);
+  starfocus_focus_at(&depth, map.width, map.height, plan->x, plan->y, &focus);
   plan->foci = {focus};
   return {};
 }

@@ -54,8 +54,7 @@ void BlockBench::HoldDisparity() {
   engine_->row_store.disparity = {disparity_.data(), size_t(map.width), 0, 0};
   // Disparities cannot be out of range, because the configuration has the range of the map.
   const starfocus_config& config = engine_->config;
-  const starfocus_depth_map given =
-      starfocus_depth_float(map.values.data(), map.stride(), map.width, map.height);
+  const starfocus_depth_map given = EngineMap(map);
   const simd::DepthRule rule =
       RuleOf(given, float(config.disparity_min), float(config.disparity_max));
   ReadDepth(simd::BestImageKernels(), {given, rule, map.width, map.height, nullptr},

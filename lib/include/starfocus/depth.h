@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
  * Estimation of disparity maps from the views of a light field, and repair of given maps. Programs
- * that already have maps do not need this header. The conventions of starfocus.h apply. All views
- * are packed RGB.
+ * that already have maps do not need this header. The conventions of starfocus.h apply.
  *
  * @code
  * #include <starfocus/depth.h>
@@ -58,7 +57,12 @@ typedef struct starfocus_depth_config {
    *  one pixel or more. The number of steps is at most 128. Disparities between two steps are
    *  interpolated. */
   double disparity_max;
-  int32_t max_workers;     /**< Number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1. */
+  int32_t max_workers; /**< Number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1. */
+  /** STARFOCUS_FEATURE_IMAGES or 0, the default. Without this feature, views are packed RGB, and a
+   *  map to repair is a map of starfocus_depth_float in the size of the picture. With this feature,
+   *  views and maps may have any format: the function first converts them in the workspace, which
+   *  takes 3 more bytes per pixel of each view, and 4 bytes per pixel to repair a map. */
+  uint32_t features;
   starfocus_runner runner; /**< Runs jobs; default null: the calling thread runs them. */
   void* runner_data;       /**< Passed to `runner`. */
   /** Receives finished rows of the map after each tile, which takes up to 50 ms; default null.
@@ -159,9 +163,8 @@ STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_d
  *  this case, the disparities of the hair are not changed, and their confidence is 255 minus the
  *  change of coverage. Outside hair, coverage is 0 or 255, as the map alone implies.
  *  @param config configuration
- *  @param light_field views, and in `depth` the map to repair, as starfocus_depth_float describes
- *         it. The finite values of the map must lie in the configured range, which may be wider
- *         than the range of the map
+ *  @param light_field views, and in `depth` the map to repair. The known disparities of the map
+ *         must lie in the configured range, which may be wider than the range of the map
  *  @param map output planes
  *  @param workspace memory aligned to STARFOCUS_ALIGNMENT
  *  @param bytes size of the workspace, at least starfocus_repair_workspace_size

@@ -55,9 +55,10 @@
  * STARFOCUS_ERROR_STRUCTURE.
  *
  * **Memory.** The engine lives in one block of memory, its workspace, and allocates no other
- * memory. Either starfocus_create allocates the workspace and starfocus_destroy frees it, or the
- * caller allocates starfocus_workspace_size bytes and calls starfocus_init. An engine that
- * starfocus_init creates requires no destructor.
+ * memory, except for starfocus_prepare without memory of the caller. Either starfocus_create
+ * allocates the workspace and starfocus_destroy frees it, or the caller allocates
+ * starfocus_workspace_size bytes and calls starfocus_init. An engine that starfocus_init creates
+ * requires no destructor.
  *
  * **Threads.** One call at a time may use an engine, from any thread. Different engines are
  * independent. The engine starts no threads; it passes jobs to the runner of
@@ -95,7 +96,7 @@ extern "C" {
 
 /** Version of the ABI. The version grows when a public structure or the meaning of a function
  *  changes. */
-#define STARFOCUS_ABI_VERSION 1u
+#define STARFOCUS_ABI_VERSION 2u
 /** Alignment of workspaces and prepared light fields in bytes: the size of the widest vector
  *  (AVX-512). */
 #define STARFOCUS_ALIGNMENT 64
@@ -278,7 +279,7 @@ STARFOCUS_API const starfocus_problem* starfocus_engine_problem(const starfocus_
 STARFOCUS_API starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
                                                        const starfocus_callbacks* callbacks);
 
-/** Allocator of starfocus_create. */
+/** Allocator of starfocus_create, which starfocus_prepare also uses. */
 typedef struct starfocus_allocator {
   void* data; /**< Passed to `allocate` and `release`. */
   /** Returns `bytes` bytes aligned to `alignment` (STARFOCUS_ALIGNMENT), or null on failure. */
@@ -445,7 +446,7 @@ STARFOCUS_API starfocus_status starfocus_refocus(starfocus_engine* engine,
                                                  const starfocus_image* out,
                                                  starfocus_report* report);
 
-/** A light field that was converted for refocusing with any lens, in memory of the caller. */
+/** A light field that was converted for refocusing with any lens. */
 typedef struct starfocus_prepared starfocus_prepared;
 
 /** Computes the size of a prepared light field. Disparities take 2 bytes per pixel, and layers 1
@@ -465,15 +466,22 @@ STARFOCUS_API starfocus_status starfocus_prepared_size(const starfocus_config* c
  *  @param engine engine
  *  @param light_field light field
  *  @param memory memory aligned to STARFOCUS_ALIGNMENT, which must not overlap the light field or
- *         the workspace
- *  @param bytes size of `memory`, at least starfocus_prepared_size
- *  @param prepared receives the prepared light field, which lies in `memory`, or null on error
- *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_CANCELLED or
+ *         the workspace; null: memory from the allocator of starfocus_create, until
+ *         starfocus_destroy_prepared
+ *  @param bytes size of `memory`, at least starfocus_prepared_size; ignored if `memory` is null
+ *  @param prepared receives the prepared light field, or null on error
+ *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_NULL if `memory` is null and
+ *          starfocus_init created the engine; STARFOCUS_ERROR_MEMORY; STARFOCUS_ERROR_CANCELLED or
  *          STARFOCUS_ERROR_RUNNER (`memory` is unspecified) */
 STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
                                                  const starfocus_light_field* light_field,
                                                  void* memory, size_t bytes,
                                                  starfocus_prepared** prepared);
+
+/** Frees a prepared light field that starfocus_prepare allocated. The engine may already be
+ *  destroyed. No call with the prepared light field may be running.
+ *  @param prepared prepared light field; no-op for a null pointer and in memory of the caller */
+STARFOCUS_API void starfocus_destroy_prepared(starfocus_prepared* prepared);
 
 /** Refocuses a prepared light field. The output bytes are the same as with starfocus_refocus.
  *
@@ -553,21 +561,19 @@ STARFOCUS_API starfocus_status starfocus_stream_pull(starfocus_engine* engine,
                                                      const starfocus_image* out, int32_t rows,
                                                      int32_t* written, starfocus_report* report);
 
-/** Range of a disparity map. */
+/** Range of the disparities of a depth map. */
 typedef struct starfocus_disparity_stats {
-  double min;      /**< Smallest finite value; 0 if no value is finite. */
-  double max;      /**< Largest finite value; 0 if no value is finite. */
-  int64_t invalid; /**< Number of values that are NaN or infinite. */
+  double min;      /**< Smallest known disparity; 0 if no disparity is known. */
+  double max;      /**< Largest known disparity; 0 if no disparity is known. */
+  int64_t invalid; /**< Number of values whose disparity is unknown. */
 } starfocus_disparity_stats;
 
-/** Measures the range of a disparity map.
- *  @param disparity map, aligned to 4 bytes
- *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
- *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
+/** Measures the range of the disparities of a depth map. Engines with disparity_min and
+ *  disparity_max of this range accept the map.
+ *  @param depth map of any format, whose size is [1, STARFOCUS_MAX_SIZE]
  *  @param stats receives the range
  *  @return STARFOCUS_OK, or an error of the arguments */
-STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparity, size_t stride,
-                                                           int32_t width, int32_t height,
+STARFOCUS_API starfocus_status starfocus_measure_disparity(const starfocus_depth_map* depth,
                                                            starfocus_disparity_stats* stats);
 
 /** Fills the values of a disparity map that are NaN or infinite, in place. Between two finite
@@ -583,21 +589,32 @@ STARFOCUS_API starfocus_status starfocus_measure_disparity(const float* disparit
 STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t stride,
                                                         int32_t width, int32_t height);
 
-/** Finds the focus for a pixel, for example for a pixel that a user tapped. The focus is the median
- *  of the disparities up to 3 pixels away that differ from the pixel's disparity by at most 0.75.
- *  If the disparities of all 8 neighbours differ by more than 0.75, the pixel is an outlier. For an
- *  outlier, the function uses the surface to which most of the surrounding 7 x 7 pixels belong. The
- *  function reads only the 7 x 7 pixels around the pixel.
- *  @param disparity map, aligned to 4 bytes
- *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
- *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
- *  @param x,y pixel inside the map
+/** Finds the focus for a pixel of the picture, for example for a pixel that a user tapped. The
+ *  function reads the value of the map that contains the middle of the pixel, and the known values
+ *  up to 3 values away. The focus is the median of the disparities that differ from the disparity
+ * of the pixel by at most 0.75. If the disparity of the pixel is unknown, or the disparities of all
+ * 8 neighbours differ by more than 0.75, the function uses the surface to which most of the
+ *  surrounding 7 x 7 values belong.
+ *  @param depth map of any format
+ *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
+ *  @param x,y pixel inside the picture
  *  @param focus receives the disparity to focus at
- *  @return STARFOCUS_OK, an error of the arguments, or STARFOCUS_ERROR_NOT_FINITE if one of the 7 x
- *  7 disparities is NaN or infinite */
-STARFOCUS_API starfocus_status starfocus_focus_at(const float* disparity, size_t stride,
-                                                  int32_t width, int32_t height, int32_t x,
-                                                  int32_t y, double* focus);
+ *  @return STARFOCUS_OK, an error of the arguments, or STARFOCUS_ERROR_NOT_FINITE if all 7 x 7
+ *          disparities are unknown */
+STARFOCUS_API starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t width,
+                                                  int32_t height, int32_t x, int32_t y,
+                                                  double* focus);
+
+/** Computes the largest aperture that an engine accepts: the aperture at which the largest blur
+ *  radius of the configured range of disparities is max_blur, but at most 1.
+ *  @param engine engine
+ *  @param lens lens, of which the aperture is ignored
+ *  @param aperture receives the aperture; may point to lens->aperture
+ *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL, or STARFOCUS_ERROR_RANGE if the focus is out of
+ *          range */
+STARFOCUS_API starfocus_status starfocus_largest_aperture(starfocus_engine* engine,
+                                                          const starfocus_lens* lens,
+                                                          double* aperture);
 
 /** Computes the aperture of an f-stop: widest / f_stop.
  *  @param f_stop f-stop of the requested lens, finite, >= widest

@@ -13,7 +13,9 @@ from pathlib import Path
 
 MAX_VIEWS = 17
 ALIGNMENT = 64
-ABI_VERSION = 1
+ABI_VERSION = 2
+#: Names and bits of STARFOCUS_FEATURE_*, which are keywords of Refocuser.
+FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
 
 Progress = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32)
 
@@ -145,8 +147,8 @@ class DepthConfig(Structure):
     _fields_ = [
         ("size", c_uint32), ("width", c_int32), ("height", c_int32), ("views", c_int32),
         ("disparity_min", c_double), ("disparity_max", c_double), ("max_workers", c_int32),
-        ("runner", c_void_p), ("runner_data", c_void_p), ("progress", Progress), ("progress_data", c_void_p),
-        ("problem", c_void_p), ("positions", Position * MAX_VIEWS),
+        ("features", c_uint32), ("runner", c_void_p), ("runner_data", c_void_p), ("progress", Progress),
+        ("progress_data", c_void_p), ("problem", c_void_p), ("positions", Position * MAX_VIEWS),
     ]
 
 
@@ -175,12 +177,13 @@ _ENGINE_CALLS = {
     "starfocus_prepared_size": (POINTER(Config), POINTER(c_size_t)),
     "starfocus_refocus": (c_void_p, POINTER(Params), POINTER(LightField), POINTER(Image), POINTER(Report)),
     "starfocus_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, POINTER(c_void_p)),
+    "starfocus_largest_aperture": (c_void_p, POINTER(Lens), POINTER(c_double)),
     "starfocus_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, POINTER(Image), POINTER(Report)),
 }
 _MAP_CALLS = {
-    "starfocus_measure_disparity": (c_void_p, c_size_t, c_int32, c_int32, POINTER(DisparityStats)),
+    "starfocus_measure_disparity": (POINTER(DepthMap), POINTER(DisparityStats)),
     "starfocus_fill_disparity": (c_void_p, c_size_t, c_int32, c_int32),
-    "starfocus_focus_at": (c_void_p, c_size_t, c_int32, c_int32, c_int32, c_int32, POINTER(c_double)),
+    "starfocus_focus_at": (POINTER(DepthMap), c_int32, c_int32, c_int32, c_int32, POINTER(c_double)),
     "starfocus_aperture_of_f_stop": (c_double, c_double, POINTER(c_double)),
     "starfocus_estimate_workspace_size": (POINTER(DepthConfig), POINTER(c_size_t)),
     "starfocus_repair_workspace_size": (POINTER(DepthConfig), POINTER(c_size_t)),

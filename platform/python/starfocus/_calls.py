@@ -158,14 +158,22 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
             view = rows_of(view, np.uint8, (height, width, 3), f"view {i}")
             field.views[i] = as_image(view)
         kept.append(view)
-    if hasattr(disparity, "as_structure"):
-        field.depth, values = disparity.as_structure()
+    if disparity is not None:
+        if not hasattr(disparity, "as_structure"):
+            disparity = rows_of(as_map(disparity), np.float32, (height, width), "disparity")
+        field.depth, values = depth_map(disparity)
         kept.append(values)
-    elif disparity is not None:
-        disparity = rows_of(as_map(disparity), np.float32, (height, width), "disparity")
-        field.depth = _abi.DepthMap(disparity.ctypes.data, stride_of(disparity), width, height, scale=1)
-        kept.append(disparity)
     return field, kept
+
+
+def depth_map(disparity: Any) -> Tuple[_abi.DepthMap, Array]:
+    """Returns a starfocus_depth_map for a DepthMap or an array, and the array that must stay alive while it is read."""
+    if hasattr(disparity, "as_structure"):
+        structure, kept = disparity.as_structure()
+        return structure, kept
+    values = as_map(disparity)
+    height, width = values.shape
+    return _abi.DepthMap(values.ctypes.data, stride_of(values), width, height, scale=1), values
 
 
 def positions_of(positions: Any, count: int) -> Any:

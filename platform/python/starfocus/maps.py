@@ -4,24 +4,28 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref
-from typing import Any, List, NamedTuple, Optional, Tuple
+from typing import Any, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _abi
-from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, light_field, pointer,
+from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, depth_map, light_field, pointer,
                      positions_of, set_field, stride_of, whole)
 from ._abi import library
 from ._types import Array, Bytes, Floats
 from .errors import check
+from .images import DepthMap
+
+#: A disparity map: an array of floats of shape (height, width), or a DepthMap.
+Disparity = Union[Array, DepthMap]
 
 
 class DisparityStats(NamedTuple):
     """Range of a disparity map.
 
     Attributes:
-        min, max: smallest and largest finite value; 0 if no value is finite.
-        invalid: number of values that are NaN or infinite.
+        min, max: smallest and largest known disparity; 0 if no disparity is known.
+        invalid: number of unknown disparities, which are NaN, infinite, or the invalid value of a DepthMap.
     """
 
     min: float
@@ -59,11 +63,12 @@ def view_positions(count: int = 17) -> List[Tuple[float, float]]:
     return positions
 
 
-def measure_disparity(disparity: Array) -> DisparityStats:
-    """Measures the range of a disparity map."""
-    disparity = as_map(disparity)
+def measure_disparity(disparity: Disparity) -> DisparityStats:
+    """Measures the range of the disparities of an array or a DepthMap."""
+    depth, kept = depth_map(disparity)
     stats = _abi.DisparityStats()
-    check(library.starfocus_measure_disparity(*_rows(disparity), byref(stats)))
+    check(library.starfocus_measure_disparity(byref(depth), byref(stats)))
+    del kept
     return DisparityStats(stats.min, stats.max, stats.invalid)
 
 
@@ -75,18 +80,28 @@ def fill_disparity(disparity: Array) -> Floats:
     the rows above and below in the same way. Raises DisparityError if no value is finite.
     """
     filled = np.array(as_map(disparity), order="C")
-    check(library.starfocus_fill_disparity(*_rows(filled)))
+    height, width = filled.shape
+    check(library.starfocus_fill_disparity(pointer(filled), stride_of(filled), width, height))
     return filled
 
 
-def focus_at(disparity: Array, x: int, y: int) -> float:
-    """Returns the disparity to focus at for the pixel (x, y), for example where a user tapped.
+def focus_at(disparity: Disparity, x: int, y: int, size: Optional[Tuple[int, int]] = None) -> float:
+    """Returns the disparity to focus at for the pixel (x, y) of the picture, for example where a user tapped.
 
-    This disparity is the median of the disparities up to 3 pixels away that belong to the surface of the pixel. Raises
-    ArgumentError if the pixel lies outside the map, and DisparityError if one of the 7 x 7 disparities is not finite.
+    This disparity is the median of the known disparities up to 3 values away that belong to the surface of the pixel.
+
+    Args:
+        disparity: array or DepthMap.
+        x, y: pixel of the picture.
+        size: width and height of the picture; None: the size of the map.
+
+    Raises ArgumentError if the pixel lies outside the picture, and DisparityError if all 7 x 7 disparities are unknown.
     """
+    depth, kept = depth_map(disparity)
+    width, height = (depth.width, depth.height) if size is None else (whole(length, "size") for length in size)
     focus = ctypes.c_double()
-    check(library.starfocus_focus_at(*_rows(as_map(disparity)), whole(x, "x"), whole(y, "y"), byref(focus)))
+    check(library.starfocus_focus_at(byref(depth), width, height, whole(x, "x"), whole(y, "y"), byref(focus)))
+    del kept
     return focus.value
 
 
@@ -123,14 +138,15 @@ def estimate_disparity(views: Views, disparity_min: float, disparity_max: float,
                      (disparity_min, disparity_max), workers, progress, positions)
 
 
-def repair_disparity(views: Views, disparity: Array, disparity_min: Optional[float] = None,
+def repair_disparity(views: Views, disparity: Disparity, disparity_min: Optional[float] = None,
                      disparity_max: Optional[float] = None, *, workers: int = 0,
                      progress: Optional[ProgressFunction] = None) -> DisparityMap:
     """Repairs a disparity map: noise, values that are not finite, and edges that are blurred or displaced.
 
     Args:
         views: 1, 5, 9 or 17 views at the positions of `view_positions`, each uint8 of shape (height, width, 3).
-        disparity: map to repair, of shape (height, width). The function does not change this map.
+        disparity: map to repair: an array of shape (height, width), or a DepthMap that may be smaller than the views.
+            The function does not change this map.
         disparity_min, disparity_max: range of the result in pixels per unit of u, within +-500. The range must contain
             all finite values of the map. None: the smallest and the largest finite value of the map.
         workers: number of threads; 0: one for each big core of the machine.
@@ -148,7 +164,7 @@ def repair_disparity(views: Views, disparity: Array, disparity_min: Optional[flo
                      progress)
 
 
-def _make_map(size_of: Any, make: Any, views: Views, given: Optional[Array], span: Tuple[float, float],
+def _make_map(size_of: Any, make: Any, views: Views, given: Optional[Disparity], span: Tuple[float, float],
               workers: int, progress: Optional[ProgressFunction], positions: Any = None) -> DisparityMap:
     views = as_list(views)
     shape = np.asarray(views[0]).shape if len(views) > 0 else ()
@@ -164,6 +180,7 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[Array], spa
     if positions is not None:
         config.positions = positions_of(positions, len(views))
     config.disparity_min, config.disparity_max = span
+    config.features = _abi.FEATURES["images"] if isinstance(given, DepthMap) else 0
     config.max_workers, config.progress = pool.workers, watch.function
     config.runner, config.runner_data = pool.runner, pool.handle
     check(size_of(byref(config), byref(size)), problem)
@@ -178,8 +195,3 @@ def _make_map(size_of: Any, make: Any, views: Views, given: Optional[Array], spa
     del kept
     watch.check(status, problem)
     return DisparityMap(disparity, confidence, coverage if made.has_coverage else None)
-
-
-def _rows(disparity: Array) -> Tuple[Any, int, int, int]:
-    """Returns the address, stride, width and height of a map, which many functions of the library take as arguments."""
-    return pointer(disparity), stride_of(disparity), disparity.shape[1], disparity.shape[0]

@@ -18,17 +18,12 @@ from ._abi import library
 from ._types import Array
 from .constants import Mode, Renderer, Status
 from .errors import ArgumentError, check
-from .images import DepthMap, Image
-from .maps import measure_disparity
+from .images import Image
+from .maps import Disparity, measure_disparity
 
 
-#: A disparity map as an array of shape (height, width), or a DepthMap for other formats.
-Disparity = Union[Array, DepthMap]
 #: A picture as an array of shape (height, width, 3), or an Image for other formats.
 Picture = Union[Array, Image]
-
-#: Keywords of `config` and the corresponding bits of starfocus_config.features.
-_FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
 
 
 class Refocuser:
@@ -66,8 +61,9 @@ class Refocuser:
         tuning = {field[0] for field in _abi.Tuning._fields_}
         for name, value in {**config, "width": width, "height": height, "views": views,
                             "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
-            if name in _FEATURES:
-                self._config.features = self._config.features & ~_FEATURES[name] | (_FEATURES[name] if value else 0)
+            if name in _abi.FEATURES:
+                bit = _abi.FEATURES[name]
+                self._config.features = self._config.features & ~bit | (bit if value else 0)
             elif name in tuning:
                 set_field(self._config.tuning, name, value)
             elif name in known:
@@ -161,6 +157,14 @@ class Refocuser:
         *_, width, height = part_of(region, self.width, self.height)
         params = self._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
         return self._picture(params, out, (height, width), progress, library.starfocus_refocus, byref(field), keep=kept)
+
+    def largest_aperture(self, focus: float) -> float:
+        """Returns the largest aperture, at most 1, whose blur radius never exceeds `max_blur` at this focus."""
+        lens, aperture = _abi.Lens(focus=focus), ctypes.c_double()
+        with self._lock:
+            check(library.starfocus_largest_aperture(self._engine, byref(lens), byref(aperture)),
+                  library.starfocus_engine_problem(self._engine).contents)
+        return aperture.value
 
     def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[Array] = None,
                 progress: Optional[ProgressFunction] = None) -> "Prepared":

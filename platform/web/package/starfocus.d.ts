@@ -305,7 +305,7 @@ export interface Refocuser extends Disposables {
   /** Returns the disparity to focus at for a point of the picture, for example where a user tapped: the median
    *  disparity of the surface there.
    *  @param point position in pixels of the picture, 0 <= x < width and 0 <= y < height
-   *  @throws StarfocusError if the point is outside the picture, or a disparity up to 3 pixels away is unknown */
+   *  @throws StarfocusError if the point is outside the picture, or all disparities up to 3 pixels away are unknown */
   focusAt(point: Point): Promise<number>;
 
   /** Returns a copy of the disparity map of the light field, after a repair. */

@@ -305,13 +305,12 @@ EXPORT(blocks) const starfocus_block* Blocks(void) { return blocks; }
 EXPORT(block_count) int32_t BlockCount(void) { return block_count; }
 EXPORT(shared) void* Shared(void) { return &shared; }
 
-/* Finds the focus for a pixel of the depth map, and writes it to `text` as a double. */
+/* Finds the focus for a pixel of the picture, and writes it to `text` as a double. */
 EXPORT(focus_at) starfocus_status FocusAt(int32_t x, int32_t y) {
   double focus = 0;
   refused = NULL;
   const starfocus_status status =
-      starfocus_focus_at((const float*)field.depth.data, field.depth.stride, field.depth.width,
-                         field.depth.height, x, y, &focus);
+      starfocus_focus_at(&field.depth, config.width, config.height, x, y, &focus);
   memcpy(text, &focus, sizeof(focus));
   return status;
 }

@@ -167,8 +167,7 @@ const calls = {
 
   focusAt({x, y}) {
     expectPrepared('focusAt');
-    const {width, height} = prepared;
-    check(engine.focus_at(Math.floor(x * width / config.width), Math.floor(y * height / config.height)));
+    check(engine.focus_at(Math.floor(x), Math.floor(y)));
     return new DataView(memory.buffer).getFloat64(engine.text(), true);
   },
 

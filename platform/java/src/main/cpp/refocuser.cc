@@ -158,6 +158,15 @@ starfocus_status Start(Session* session) {
   return starfocus_set_callbacks(session->engine, &callbacks);
 }
 
+// Returns an array of two numbers, or null if an exception is pending.
+jdoubleArray NewPair(JNIEnv* env, double first, double second) {
+  if (env->ExceptionCheck()) return nullptr;
+  const double pair[2] = {first, second};
+  const jdoubleArray array = env->NewDoubleArray(2);
+  if (array != nullptr) env->SetDoubleArrayRegion(array, 0, 2, pair);
+  return array;
+}
+
 // Prepares a light field. The first call of a session allocates the memory for prepared light
 // fields.
 starfocus_status Prepare(Session* session, const starfocus_light_field& field) {
@@ -282,31 +291,42 @@ STARFOCUS_NATIVE(jint, rowsDone)(JNIEnv*, jclass, jlong handle) {
   return From(handle)->rows_done.load(std::memory_order_relaxed);
 }
 
-STARFOCUS_NATIVE(jdouble, focusAt)(JNIEnv* env, jclass, jobject disparity, jint x, jint y) {
+STARFOCUS_NATIVE(jdouble, focusAt)
+(JNIEnv* env, jclass, jlong handle, jobject depth, jint x, jint y) {
+  const starfocus_config& config = From(handle)->config;
   starfocus_depth_map map;
-  if (!ReadDepthMap(env, disparity, &map)) return 0;
-  if (map.type != STARFOCUS_DEPTH_FLOAT || map.meaning != STARFOCUS_DEPTH_LINEAR ||
-      map.scale != 1 || map.offset != 0 || map.has_invalid != 0) {
-    ThrowArgument(env,
-                  "focusAt: expected a map of FLOAT, LINEAR of scale 1 and offset 0, without an "
-                  "invalid value");
-    return 0;
-  }
   double focus = 0;
-  ThrowStatus(env, starfocus_focus_at(static_cast<const float*>(map.data), map.stride, map.width,
-                                      map.height, x, y, &focus));
+  if (ReadDepthMap(env, depth, &map)) {
+    ThrowStatus(env, starfocus_focus_at(&map, config.width, config.height, x, y, &focus));
+  }
   return focus;
 }
 
-STARFOCUS_NATIVE(jdoubleArray, viewPosition)(JNIEnv* env, jclass, jint index) {
-  double place[2] = {};
-  if (!starfocus_view_position(index, &place[0], &place[1])) {
-    ThrowStatus(env, STARFOCUS_ERROR_RANGE);
-    return nullptr;
+STARFOCUS_NATIVE(jdouble, largestAperture)
+(JNIEnv* env, jclass, jlong handle, jobject parameters) {
+  starfocus_engine* const engine = From(handle)->engine;
+  starfocus_params params;
+  starfocus_params_init(&params);
+  double aperture = 0;
+  if (ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), &params)) {
+    ThrowStatus(env, starfocus_largest_aperture(engine, &params.lens, &aperture),
+                starfocus_engine_problem(engine));
   }
-  const jdoubleArray array = env->NewDoubleArray(2);
-  if (array != nullptr) env->SetDoubleArrayRegion(array, 0, 2, place);
-  return array;
+  return aperture;
+}
+
+STARFOCUS_NATIVE(jdoubleArray, measureDisparity)(JNIEnv* env, jclass, jobject depth) {
+  starfocus_depth_map map;
+  starfocus_disparity_stats stats = {};
+  if (!ReadDepthMap(env, depth, &map)) return nullptr;
+  ThrowStatus(env, starfocus_measure_disparity(&map, &stats));
+  return NewPair(env, stats.min, stats.max);
+}
+
+STARFOCUS_NATIVE(jdoubleArray, viewPosition)(JNIEnv* env, jclass, jint index) {
+  double u = 0, v = 0;
+  if (!starfocus_view_position(index, &u, &v)) ThrowStatus(env, STARFOCUS_ERROR_RANGE);
+  return NewPair(env, u, v);
 }
 
 STARFOCUS_NATIVE(jstring, version)(JNIEnv* env, jclass) {

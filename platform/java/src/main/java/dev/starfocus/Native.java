@@ -33,7 +33,11 @@ final class Native {
 
   static native int rowsDone(long session);
 
-  static native double focusAt(DepthMap disparity, int x, int y);
+  static native double focusAt(long session, DepthMap depth, int x, int y);
+
+  static native double largestAperture(long session, Parameters parameters);
+
+  static native double[] measureDisparity(DepthMap depth);
 
   static native double[] viewPosition(int index);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 package dev.starfocus;
 
+import java.io.Closeable;
 import java.util.Objects;
 
 /**
@@ -16,7 +17,7 @@ import java.util.Objects;
  *
  * <p>The bytes of pictures depend neither on the machine nor on the number of workers.
  */
-public final class Refocuser implements AutoCloseable {
+public final class Refocuser implements Closeable {
   /**
    * Prevents {@link #close} from freeing the session while {@link #cancel} or {@link #rowsDone}
    * uses it.
@@ -135,20 +136,42 @@ public final class Refocuser implements AutoCloseable {
 
   /**
    * Returns the focus for the surface at a pixel, for example at the pixel that a user tapped. The
-   * focus is the median of the disparities of the surface within 3 pixels of the given pixel.
+   * focus is the median of the disparities of the surface, up to 3 values of the map away from the
+   * pixel.
    *
-   * @param disparity map of type FLOAT and meaning LINEAR, with scale 1, offset 0 and no invalid
-   *     value
-   * @param x column of the map, 0 to its width - 1
-   * @param y row of the map, 0 to its height - 1
+   * @param depth map of any format
+   * @param x column of the picture, 0 to width - 1
+   * @param y row of the picture, 0 to height - 1
    * @return the disparity to focus at
-   * @throws StarfocusException if the pixel lies outside the map, or a disparity up to 3 pixels
-   *     away is not finite
-   * @throws IllegalArgumentException if the map has another type, meaning, scale or offset, or an
-   *     invalid value
+   * @throws StarfocusException if the pixel lies outside the picture, or all disparities up to 3
+   *     values away are unknown
    */
-  public static double focusAt(DepthMap disparity, int x, int y) {
-    return Native.focusAt(disparity, x, y);
+  public synchronized double focusAt(DepthMap depth, int x, int y) {
+    return Native.focusAt(open(), depth, x, y);
+  }
+
+  /**
+   * Returns the largest aperture, at most 1, whose blur radius never exceeds {@link
+   * Configuration#maxBlur}.
+   *
+   * @param parameters lens, of which the aperture is ignored
+   * @throws StarfocusException if the focus is out of range
+   */
+  public synchronized double largestAperture(Parameters parameters) {
+    return Native.largestAperture(open(), Objects.requireNonNull(parameters, "parameters"));
+  }
+
+  /**
+   * Measures the range of the disparities of a depth map, for {@link Configuration#disparityMin}
+   * and
+   * {@link Configuration#disparityMax}.
+   *
+   * @param depth map of any format
+   * @return an array of the smallest and the largest known disparity; 0 and 0 if no disparity is
+   *     known
+   */
+  public static double[] measureDisparity(DepthMap depth) {
+    return Native.measureDisparity(depth);
   }
 
   /**

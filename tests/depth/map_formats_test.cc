@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that estimates and repairs of light fields in any format give the bytes that they give for
+// the converted light field.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "starfocus/depth.h"
+#include "tests/depth/depth_scene.h"
+#include "tests/support/image_field.h"
+
+namespace map_formats_test {
+namespace {
+
+using test::ImageField;
+using test::ImageKind;
+
+// All outputs of a call, and the problem that the call reported.
+struct Made {
+  starfocus_status status = STARFOCUS_OK;
+  std::vector<float> disparity;
+  std::vector<uint8_t> confidence;
+  starfocus_problem problem = {};
+};
+
+Made Make(const ImageField& field, bool repairs, uint32_t features) {
+  const test::Scene& scene = field.converted;
+  Made made;
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
+  config.width = scene.width;
+  config.height = scene.height;
+  config.views = scene.views();
+  config.disparity_min = scene.disparity_min;
+  config.disparity_max = scene.disparity_max;
+  config.features = features;
+  config.problem = &made.problem;
+  size_t bytes = 0;
+  REQUIRE((repairs ? starfocus_repair_workspace_size : starfocus_estimate_workspace_size)(
+              &config, &bytes) == STARFOCUS_OK);
+  const test::Memory memory(bytes);
+  const auto width = size_t(scene.width), pixels = width * size_t(scene.height);
+  made.disparity.assign(pixels, -77);
+  made.confidence.assign(pixels, 77);
+  starfocus_disparity_output map = {
+      made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, {}, {}, {}};
+  const starfocus_light_field images = features != 0 ? field.Field() : scene.Field();
+  made.status = (repairs ? starfocus_repair_disparity : starfocus_estimate_disparity)(
+      &config, &images, &map, memory.data, memory.bytes);
+  return made;
+}
+
+// Returns views in different formats, and a map of a type in about a quarter of the size, in which
+// some values are unknown.
+ImageField Field(int views, starfocus_depth_type type, starfocus_depth_meaning meaning,
+                 test::Random* random) {
+  const test::Scene scene = test::LayeredScene(101, 67, views, 7, 5);
+  std::vector<ImageKind> kinds;
+  for (int k = 0; k < views; ++k) {
+    kinds.push_back(test::AnyKind((STARFOCUS_FORMAT_NV12 + k) % 8, random));
+  }
+  test::DepthMemory depth = test::MakeDepth(scene, 26, 17, type, meaning, 3);
+  depth.map.has_invalid = 1;
+  depth.map.invalid = depth.Get(8, 9);
+  return test::MakeImageField(scene, kinds, std::move(depth), random);
+}
+
+TEST_CASE("maps of any format: the result is that of the converted light field") {
+  test::Random random(3);
+  for (const int views : {1, 5}) {
+    for (const auto type : {STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_HALF}) {
+      for (const auto meaning : {STARFOCUS_DEPTH_LINEAR, STARFOCUS_DEPTH_RECIPROCAL}) {
+        const ImageField field = Field(views, type, meaning, &random);
+        for (const bool repairs : {true, false}) {
+          if (views == 1 && !repairs) continue;
+          CAPTURE(views);
+          CAPTURE(type);
+          CAPTURE(meaning);
+          CAPTURE(repairs);
+          const Made expected = Make(field, repairs, 0);
+          const Made found = Make(field, repairs, STARFOCUS_FEATURE_IMAGES);
+          REQUIRE(expected.status == STARFOCUS_OK);
+          REQUIRE(found.status == STARFOCUS_OK);
+          CHECK((found.disparity == expected.disparity));
+          CHECK((found.confidence == expected.confidence));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("maps of any format: without the feature, other formats are rejected") {
+  test::Random random(4);
+  const ImageField field = Field(1, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, &random);
+  const test::Scene& scene = field.converted;
+  starfocus_problem problem = {};
+  starfocus_depth_config config;
+  starfocus_depth_config_init(&config);
+  config.width = scene.width;
+  config.height = scene.height;
+  config.views = 1;
+  config.disparity_min = scene.disparity_min;
+  config.disparity_max = scene.disparity_max;
+  config.problem = &problem;
+  size_t bytes = 0, with = 0;
+  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
+  const test::Memory memory(bytes);
+  std::vector<float> map(size_t(scene.width * scene.height), -77);
+  starfocus_disparity_output out = {};
+  out.disparity = map.data();
+  out.disparity_stride = sizeof(float) * size_t(scene.width);
+  const starfocus_light_field images = field.Field();
+  const auto run = [&](const starfocus_light_field& given) {
+    return starfocus_repair_disparity(&config, &given, &out, memory.data, memory.bytes);
+  };
+  CHECK(run(images) == STARFOCUS_ERROR_FEATURE);
+  CHECK(std::string(problem.field) == "views[].format");
+  starfocus_light_field mixed = images;
+  mixed.views[0] = scene.Field().views[0];
+  CHECK(run(mixed) == STARFOCUS_ERROR_FEATURE);
+  CHECK(std::string(problem.field) == "depth");
+  config.features = STARFOCUS_FEATURE_IMAGES;
+  CHECK(run(images) == STARFOCUS_ERROR_WORKSPACE);
+  REQUIRE(starfocus_repair_workspace_size(&config, &with) == STARFOCUS_OK);
+  const double more = double(with - bytes) / (scene.width * scene.height);
+  CHECK(more == doctest::Approx(7).epsilon(0.2));
+  config.features = STARFOCUS_FEATURE_COVERAGE;
+  CHECK(run(images) == STARFOCUS_ERROR_RANGE);
+  CHECK(std::string(problem.field) == "features");
+  CHECK(map == std::vector<float>(map.size(), -77));
+}
+
+TEST_CASE("maps of any format: values of the map are checked before the map is converted") {
+  test::Random random(5);
+  ImageField field = Field(1, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, &random);
+  field.converted.disparity_max = field.converted.disparity_min + 1;
+  const Made outside = Make(field, true, STARFOCUS_FEATURE_IMAGES);
+  CHECK(outside.status == STARFOCUS_ERROR_DISPARITY);
+  CHECK(outside.problem.value > outside.problem.high);
+  for (int y = 0; y < field.depth.map.height; ++y) {
+    for (int x = 0; x < field.depth.map.width; ++x) field.depth.Put(x, y, field.depth.map.invalid);
+  }
+  const Made unknown = Make(field, true, STARFOCUS_FEATURE_IMAGES);
+  CHECK(unknown.status == STARFOCUS_ERROR_ALL_INVALID);
+  CHECK(unknown.confidence == std::vector<uint8_t>(unknown.confidence.size(), 77));
+}
+
+}  // namespace
+}  // namespace map_formats_test

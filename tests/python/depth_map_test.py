@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests functions for maps that are smaller than the picture and contain distances or 16-bit values."""
+import unittest
+
+import numpy as np
+
+import starfocus
+
+
+class DepthMaps(unittest.TestCase):
+    """Maps are measured, tapped and repaired as they come."""
+
+    def test_maps_of_distances_are_measured_and_tapped(self):
+        distances = np.where(np.arange(40) < 20, 4000, 500).astype(np.uint16) * np.ones((30, 1), np.uint16)
+        distances[0, 0] = 0
+        depth = starfocus.DepthMap(distances, starfocus.DepthMeaning.RECIPROCAL, 8000, invalid=0)
+        self.assertEqual(starfocus.measure_disparity(depth), (2, 16, 1))
+        self.assertEqual(starfocus.focus_at(depth, 79, 0, size=(160, 120)), 2)
+        self.assertEqual(starfocus.focus_at(depth, 80, 0, size=(160, 120)), 16)
+        self.assertEqual(starfocus.focus_at(depth, 0, 0), 2)
+        with self.assertRaises(starfocus.ArgumentError):
+            starfocus.focus_at(depth, 40, 0)
+        with self.assertRaises(starfocus.DisparityError):
+            starfocus.focus_at(np.full((9, 9), np.nan, np.float32), 4, 4)
+
+    def test_the_largest_aperture_is_accepted(self):
+        engine = starfocus.Refocuser(8, 8, 1, disparity_min=2, disparity_max=16, max_blur=7)
+        self.assertEqual(engine.largest_aperture(2), 0.5)
+        with self.assertRaises(starfocus.ArgumentError):
+            engine.largest_aperture(1e9)
+
+    def test_a_small_map_is_repaired(self):
+        columns = np.arange(96)
+        picture = np.where(columns < 40, 60, 200).astype(np.uint8)[None, :, None] * np.ones((64, 1, 3), np.uint8)
+        truth = np.where(columns < 40, 5.0, -3.0)
+        values = np.round((truth[2::4] + 10) * 64).astype(np.uint16) * np.ones((16, 1), np.uint16)
+        small = starfocus.DepthMap(values, scale=1 / 64, offset=-10)
+        made = starfocus.repair_disparity(picture, small)
+        self.assertEqual(made.disparity.shape, (64, 96))
+        self.assertLess(np.abs(made.disparity - truth).mean(), 0.2)
+
+
+if __name__ == "__main__":
+    unittest.main()
