@@ -111,6 +111,7 @@ has() {
     emscripten) command -v emcc ;;
     nodejs) command -v node ;;
     openjdk-*) command -v javac && command -v jar ;;
+    kotlin) command -v kotlinc ;;
     g++-*-linux-*) command -v "${1#g++-}-g++" ;;
     libhwy-dev) has_header hwy/highway.h ;;
     libstb-dev) has_header stb/stb_image.h ;;
@@ -279,8 +280,8 @@ consumers() {
         targets="$targets starfocus_python"
         ;;
       java*)
-        PACKAGES="$PACKAGES openjdk-17-jdk-headless python3 zip android-platform-frameworks-native-headers"
-        targets="$targets starfocus_jni"
+        PACKAGES="$PACKAGES openjdk-17-jdk-headless kotlin python3 zip android-platform-frameworks-native-headers"
+        targets="$targets starfocus_jni starfocus_phone"
         ;;
       swift) PACKAGES="$PACKAGES clang" ;;
     esac

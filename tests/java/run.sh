@@ -75,6 +75,32 @@ android_routes() {
   run AndroidTest "$work/libdouble.so"
 }
 
+# phone PROGRAM...: runs a program of examples/phone with the frame and the taps below. Writes one picture for each tap.
+phone() {
+  for tap in 10 100; do
+    quietly "$@" "$work/frame" "$work/depth" 128 64 $tap 32 "$work/$tap.nv12"
+  done
+}
+
+# Compiles tap to focus in Kotlin against the classes of the AAR, and compares its pictures with those of the C program.
+kotlin() {
+  command -v kotlinc >/dev/null || { echo "SKIPPED: Kotlin, for which there is no kotlinc"; return; }
+  python3 - "$work/frame" "$work/depth" <<'TEXT'
+import array, sys
+with open(sys.argv[1], "wb") as frame:
+    frame.write(bytes(40 + 7 * (x * y % 23) for y in range(64) for x in range(128)) + bytes([120, 140]) * 2048)
+with open(sys.argv[2], "wb") as depth:
+    depth.write(array.array("H", [0 if x == 9 else 4000 if x < 16 else 500 for y in range(16) for x in range(32)]))
+TEXT
+  quietly kotlinc "$sources/examples/phone/TapToFocus.kt" -cp "$work/classes.jar" -include-runtime -d "$work/tap.jar"
+  phone java -Xcheck:jni -cp "$work/tap.jar:$work/classes.jar" "-Djava.library.path=$(dirname "$library")" TapToFocusKt
+  mv "$work/10.nv12" "$work/far" && mv "$work/100.nv12" "$work/near"
+  phone "$build/phone"
+  cmp "$work/far" "$work/10.nv12" && cmp "$work/near" "$work/100.nv12" || fail "Kotlin's pictures are not those of C"
+  ! cmp -s "$work/far" "$work/near" || fail "the pictures of two taps are equal"
+  printf '%-40s %s\n' "$name" "tap to focus in Kotlin: the bytes of C"
+}
+
 # Checks the parts of the AAR that Gradle and prefab require.
 archive() {
   case "$preset" in aarch64) abi=arm64-v8a ;; *) abi=x86_64 ;; esac
@@ -118,4 +144,5 @@ for focus in -2.5 1.5; do
 done
 rm "$work"/classes/dev/starfocus/RefocuserTest*
 archive
+[ -n "$preset" ] || kotlin
 android_routes
