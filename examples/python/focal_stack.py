@@ -17,7 +17,8 @@ import starfocus
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "demo/portrait")
 output = Path(sys.argv[2] if len(sys.argv) > 2 else "plots")
 output.mkdir(parents=True, exist_ok=True)
-views, disparity = starfocus.read_light_field(folder)
+scene = starfocus.read_light_field(folder)
+views, disparity = scene.views, scene.disparity
 height, width = disparity.shape
 print(f"{len(views)} views of {width} x {height}, disparities {disparity.min():.2f} to {disparity.max():.2f}, "
       f"starfocus {starfocus.__version__} on {starfocus.simd_target()}")

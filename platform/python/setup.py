@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the Python package: the Python files, and a shared library that CMake builds from this source tree.
+"""Builds the Python package: the Python files, and the shared library and the program that CMake builds from this tree.
 
 Environment variables:
     STARFOCUS_BUILD: a build folder that CMake has already configured for this tree (default: build/python, which
         this script configures).
-    CMAKE_ARGS: additional arguments for configuring build/python.
+    CMAKE_ARGS: additional arguments for configuring build/python. With -DSTARFOCUS_PROGRAMS=OFF, the package lacks the
+        program, and cannot read light fields and photos.
 """
 import os
 import re
@@ -24,6 +25,7 @@ except ImportError:  # setuptools before 70
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 LIBRARY = "libstarfocus_python.so"
+PROGRAM = "starfocus"
 
 
 def version() -> str:
@@ -33,26 +35,36 @@ def version() -> str:
     return ".".join(part.group(1) for part in parts)
 
 
-def build_library() -> Path:
-    """Builds the library and returns its path."""
+def build() -> Path:
+    """Builds the library, and the program if the build folder is configured for it. Returns the build folder."""
     given = os.environ.get("STARFOCUS_BUILD")
     folder = Path(given) if given else ROOT / "build/python"
     if not given:
         subprocess.run(
-            ["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DSTARFOCUS_PROGRAMS=OFF",
+            ["cmake", "-S", ROOT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DSTARFOCUS_PROGRAMS=ON",
              "-DSTARFOCUS_TESTS=OFF", *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
-    subprocess.run(["cmake", "--build", folder, "--target", "starfocus_python", "--parallel",
-                    str(os.cpu_count() or 1)], check=True)
-    return folder / "lib" / LIBRARY
+    targets = ["starfocus_python", PROGRAM] if has_program(folder) else ["starfocus_python"]
+    subprocess.run(["cmake", "--build", folder, "--parallel", str(os.cpu_count() or 1), "--target", *targets],
+                   check=True)
+    return folder
+
+
+def has_program(build_folder: Path) -> bool:
+    """Returns True if the build folder is configured for the program."""
+    return "STARFOCUS_PROGRAMS:BOOL=ON" in (build_folder / "CMakeCache.txt").read_text(encoding="utf-8")
 
 
 class BuildPackage(build_py):
-    """Builds the package: the Python files and the shared library."""
+    """Builds the package: the Python files, the shared library and the program."""
 
     def run(self):
         super().run()
         folder = HERE if getattr(self, "editable_mode", False) else Path(self.build_lib)
-        shutil.copy2(build_library(), folder / "starfocus" / LIBRARY)
+        build_folder = build()
+        shutil.copy2(build_folder / "lib" / LIBRARY, folder / "starfocus" / LIBRARY)
+        if has_program(build_folder):
+            (folder / "starfocus" / "bin").mkdir(exist_ok=True)
+            shutil.copy2(build_folder / PROGRAM, folder / "starfocus" / "bin" / PROGRAM)
 
 
 class BuildWheel(bdist_wheel):

@@ -36,6 +36,8 @@ quietly /usr/bin/python3 -m pip wheel --no-index --no-deps --no-build-isolation 
   "$sources/platform/python"
 install "$work"/wheels/starfocus-*-py3-none-*.whl 'Python, wheel'
 install "$sources/platform/python" 'Python, pip install of the tree'
+quietly "$python" "$sources/tests/python/reader_test.py" "$build/starfocus" "$work/scene"
+printf '%-40s %s\n' 'Python, reader' "$(grep '^Ran' "$work/log")"
 quietly "$python" "$sources/tests/python/quality_test.py"
 printf '%-40s %s\n' 'Python, quality' "$(grep '^Ran' "$work/log")"
 quietly "$python" "$sources/tests/python/depth_map_test.py"
@@ -50,5 +52,5 @@ done
 printf '%-40s %s\n' 'Python, example' "$(tail -n 1 "$work/log")"
 quietly "$python" "$sources/tests/python/batch_dask_test.py" "$build/starfocus" "$work/scene" "$work/batch"
 printf '%-40s %s\n' 'Python, batch with Dask' "$(tail -n 1 "$work/log")"
-left=$(find "$sources/platform/python" -name '*.so' -o -name build -o -name '*.egg-info')
+left=$(find "$sources/platform/python" -name '*.so' -o -name bin -o -name build -o -name '*.egg-info')
 [ -z "$left" ] || { echo "python: installing left in the source tree" $left >&2; exit 1; }

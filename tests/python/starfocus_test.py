@@ -18,7 +18,8 @@ import starfocus
 from starfocus import _abi, _calls, constants
 
 PROGRAM, FOLDER, HEADERS = (Path(argument).resolve() for argument in sys.argv[1:4])
-VIEWS, DISPARITY = starfocus.read_light_field(FOLDER)
+SCENE = starfocus.read_light_field(FOLDER)
+VIEWS, DISPARITY = SCENE.views, SCENE.disparity
 HEIGHT, WIDTH = DISPARITY.shape
 
 
@@ -90,10 +91,11 @@ class Bytes(unittest.TestCase):
 
     def test_a_pair_and_an_l_give_the_program_s_bytes(self):
         for positions in ([(0, 0), (1, 0)], [(0, 0), (0, -1), (-1, 0)]):
-            views, disparity = starfocus.read_light_field(FOLDER, positions)
-            engine = starfocus.Refocuser.for_light_field(views, disparity, positions=np.array(positions))
+            scene = starfocus.read_light_field(FOLDER, views=positions)
+            self.assertEqual(scene.positions, positions)
+            engine = starfocus.Refocuser.for_light_field(scene.views, scene.disparity, positions=np.array(positions))
             expected = by_program("--focus", "1", "--views", ":".join(f"{u},{v}" for u, v in positions))
-            np.testing.assert_array_equal(engine.refocus(views, disparity, focus=1), expected)
+            np.testing.assert_array_equal(engine.refocus(scene.views, scene.disparity, focus=1), expected)
 
     def test_the_focus_at_a_pixel_is_the_program_s(self):
         focus = starfocus.focus_at(DISPARITY, WIDTH // 2, HEIGHT // 2)
@@ -463,23 +465,6 @@ class Headers(unittest.TestCase):
             names = [one for line in body.split(";")
                      for one in re.findall(r"(\w+)(?:\[\w+\])?\s*(?:,|$)", line.strip())]
             self.assertEqual([field[0] for field in structure._fields_], names, name)
-
-
-class Files(unittest.TestCase):
-    """Light-field folders can be read."""
-
-    def test_maps_of_either_byte_order(self):
-        values = np.arange(6, dtype=np.float32).reshape(2, 3)
-        with tempfile.TemporaryDirectory() as folder:
-            for kind, scale in (("<f4", "-1.0"), (">f4", "1.0")):
-                path = Path(folder) / "map.pfm"
-                path.write_bytes(f"Pf\n3 2\n{scale}\n".encode() + values[::-1].astype(kind).tobytes())
-                np.testing.assert_array_equal(starfocus.read_pfm(path), values)
-            path.write_bytes(b"Pf\n3 2\n-1.0\n" + bytes(23))
-            with self.assertRaisesRegex(ValueError, "expected 24 bytes of values, found 23"):
-                starfocus.read_pfm(path)
-            with self.assertRaisesRegex(FileNotFoundError, "expected a view"):
-                starfocus.read_light_field(folder)
 
 
 if __name__ == "__main__":

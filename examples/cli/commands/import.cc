@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "examples/cli/commands.h"
+#include "examples/cli/input/describe.h"
 #include "examples/cli/input/input.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
@@ -20,6 +21,7 @@ struct ImportOptions {
   std::string folder;
   Positions views;
   int threads = 1;
+  bool json = false;
 };
 
 // Rejects folders that already contain light-field files, because old and new files would mix.
@@ -29,6 +31,10 @@ Error CheckFolder(const std::string& folder) {
 }
 
 void Tell(const ImportOptions& options, const Capture& capture) {
+  if (options.json) {
+    std::printf("%s\n", Describe(capture).Text().c_str());
+    return;
+  }
   const LightField& light_field = capture.light_field;
   std::printf("%s: %s\n", capture.path.c_str(), capture.format.c_str());
   for (const auto& fact : capture.facts) {
@@ -90,6 +96,7 @@ Command ImportCommand() {
            Views(&options->views)},
           {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
            Use::kDefault},
+          {"--json", nullptr, "Print JSON instead of text, as starfocus info does", &options->json},
       },
       &command);
   return command;

@@ -9,6 +9,7 @@
 #include "examples/cli/commands.h"
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/disparity/map_figures.h"
+#include "examples/cli/input/describe.h"
 #include "examples/cli/input/input.h"
 #include "examples/cli/json/json.h"
 #include "examples/command_line/options.h"
@@ -67,21 +68,8 @@ void PrintText(const Capture& capture, const starfocus_disparity_stats& stats,
 
 void PrintJson(const Capture& capture, const starfocus_disparity_stats& stats,
                const std::vector<int64_t>& counts) {
-  const LightField& light_field = capture.light_field;
-  Json json;
-  json.Set("format", capture.format);
-  Json facts;
-  for (const auto& fact : capture.facts) facts.Set(fact.first, fact.second);
-  if (!capture.facts.empty()) json.Set("facts", std::move(facts));
-  if (capture.widest > 0) json.Set("widest_f_stop", capture.widest);
-  json.Set("width", light_field.views[0].width);
-  json.Set("height", light_field.views[0].height);
-  json.Set("views", light_field.views.size());
-  Json positions;
-  for (const starfocus_position& at : light_field.positions)
-    positions.Add(Json::Array({at.u, at.v}));
-  if (!light_field.positions.empty()) json.Set("positions", std::move(positions));
-  if (!light_field.disparity.values.empty()) {
+  Json json = Describe(capture);
+  if (!capture.light_field.disparity.values.empty()) {
     json.Set("disparity_min", stats.min);
     json.Set("disparity_max", stats.max);
     json.Set("invalid", stats.invalid);

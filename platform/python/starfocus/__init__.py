@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """starfocus: refocusing of sparse light fields.
 
-    views, disparity = starfocus.read_light_field("demo/portrait")
-    refocuser = starfocus.Refocuser.for_light_field(views, disparity)
-    picture = refocuser.refocus(views, disparity, focus=starfocus.focus_at(disparity, 422, 414))
+    scene = starfocus.read_light_field("demo/portrait")
+    refocuser = starfocus.Refocuser.for_light_field(scene.views, scene.disparity)
+    focus = starfocus.focus_at(scene.disparity, 422, 414)
+    picture = refocuser.refocus(scene.views, scene.disparity, focus=focus)
 
 A light field consists of 1 to 17 rectified views and the disparity map of the centre view. Views and pictures
 are arrays of uint8 with the shape (height, width, 3). Disparity maps are arrays of float32 with the shape (height,
@@ -16,11 +17,11 @@ documentation of the C headers (starfocus/starfocus.h) applies to all fields tha
 from ._abi import library as _library
 from .constants import (DepthMeaning, Format, Matrix, Mode, Range, Renderer, Shape, Status, Transfer)
 from .errors import ArgumentError, Cancelled, DisparityError, OutOfMemory, StarfocusError
-from .folder import read_light_field, read_pfm, read_picture
 from .images import DepthMap, Image
 from .maps import (DisparityMap, DisparityStats, aperture_of_f_stop, estimate_disparity, fill_disparity,
                    focus_at, measure_disparity, repair_disparity, view_positions)
 from .quality import Quality, evaluate
+from .reader import InputError, LightField, read_light_field, read_pfm, read_picture
 from .refocuser import Prepared, Refocuser
 
 __version__: str = _library.starfocus_version().decode()
@@ -33,9 +34,9 @@ def simd_target() -> str:
 
 
 __all__ = [
-    "ArgumentError", "Cancelled", "DepthMap", "DepthMeaning", "DisparityError", "DisparityMap",
-    "DisparityStats", "Format", "Image", "Matrix", "Mode", "OutOfMemory", "Prepared", "Quality", "Range", "Refocuser",
-    "Renderer", "Shape", "StarfocusError", "Status", "Transfer", "aperture_of_f_stop", "estimate_disparity", "evaluate",
-    "fill_disparity", "focus_at", "measure_disparity", "read_light_field", "read_pfm", "read_picture",
-    "repair_disparity", "simd_target", "view_positions",
+    "ArgumentError", "Cancelled", "DepthMap", "DepthMeaning", "DisparityError", "DisparityMap", "DisparityStats",
+    "Format", "Image", "InputError", "LightField", "Matrix", "Mode", "OutOfMemory", "Prepared", "Quality", "Range",
+    "Refocuser", "Renderer", "Shape", "StarfocusError", "Status", "Transfer", "aperture_of_f_stop",
+    "estimate_disparity", "evaluate", "fill_disparity", "focus_at", "measure_disparity", "read_light_field",
+    "read_pfm", "read_picture", "repair_disparity", "simd_target", "view_positions",
 ]

@@ -106,11 +106,10 @@ def _near_silhouettes(disparity: Array, distance: int, step: float) -> NDArray[n
     finite = np.isfinite(disparity)
     values = np.where(finite, disparity, 0)
     for axis in (0, 1):
-        known = np.take(finite, range(1, finite.shape[axis]), axis) & np.take(finite, range(finite.shape[axis] - 1), axis)
-        edges = known & (np.abs(np.diff(values, axis=axis)) > step)
-        first = np.swapaxes(near, 0, axis)
-        first[1:] |= np.swapaxes(edges, 0, axis)
-        first[:-1] |= np.swapaxes(edges, 0, axis)
+        lines, known, depths = (np.swapaxes(array, 0, axis) for array in (near, finite, values))
+        edges = known[1:] & known[:-1] & (np.abs(np.diff(depths, axis=0)) > step)
+        lines[1:] |= edges
+        lines[:-1] |= edges
     for axis in (0, 1):
         lines = np.swapaxes(near, 0, axis)
         counts = np.concatenate([np.zeros((1, lines.shape[1]), int), np.cumsum(lines, axis=0)])

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads light fields and photos by the program `starfocus`, which is a part of the package, and reads pictures."""
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import tempfile
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from ._types import Bytes, Floats
+from .maps import view_positions
+
+_PROGRAM = Path(__file__).parent / "bin" / "starfocus"
+#: Value of an option of `starfocus import`. True sets an option without a value. None and False do not set an option.
+Option = Union[str, int, float, bool, Path, None]
+
+
+class InputError(ValueError):
+    """A file or folder cannot be read as a light field. The message is that of the program `starfocus`."""
+
+
+@dataclass(frozen=True)
+class LightField:
+    """A light field from a file or folder.
+
+    Attributes:
+        views: views, each uint8 of shape (height, width, 3). The first one is the centre view.
+        disparity: disparity map of the centre view in pixels per unit of u, float32 of shape (height, width); None if
+            the input has no map.
+        coverage: alpha of the foreground, uint8 of shape (height, width), for `Refocuser.refocus`; None if neither the
+            input nor the repair of its map has coverage.
+        positions: positions (u, v) of the views, each from -1 to 1, for `Refocuser.for_light_field`.
+        format: name of the format of the input.
+        facts: other facts in the files of the input, by name.
+        widest_f_stop: f-stop of a lens with aperture 1, for `aperture_of_f_stop`; None if unknown.
+    """
+
+    views: List[Bytes]
+    disparity: Optional[Floats]
+    coverage: Optional[Bytes]
+    positions: List[Tuple[float, float]]
+    format: str
+    facts: Dict[str, str]
+    widest_f_stop: Optional[float]
+
+
+def read_light_field(path: Union[str, "os.PathLike[str]"], *,
+                     views: Union[int, Sequence[Tuple[float, float]], None] = None, estimate: bool = False,
+                     **options: Option) -> LightField:
+    """Reads a light field, or a photo with depth, in any format that the program `starfocus` reads (docs/formats.md).
+
+    Args:
+        path: folder of views, or photo.
+        views: views to read: 1, 5, 9 or 17 for a star, or positions (u, v) that begin with (0, 0). None: all views.
+        estimate: True estimates the disparity map of an input without a map, which must have several views.
+        options: other options of `starfocus import`, with underscores for hyphens; `starfocus help import` describes
+            them. For example, `depth="depth.png", near="white"` reads a photo and its depth picture, and
+            `right="right.jpg"` reads a stereo pair. As in the program, maps of photos are repaired by default;
+            `no_repair=True` returns them unchanged. `threads=4` uses 4 threads.
+
+    The function writes the light field to a temporary folder. Notes of the program are issued as warnings.
+
+    Raises InputError if the input cannot be read or an option is wrong, and RuntimeError if the package was built
+    without the program.
+    """
+    source = os.fspath(path)
+    source = os.path.join(os.curdir, source) if source.startswith("-") else source
+    if views is None or isinstance(views, int):
+        wanted: Option = views
+    else:
+        wanted = ":".join(f"{u},{v}" for u, v in views)
+    with tempfile.TemporaryDirectory(prefix="starfocus-") as temporary:
+        folder = Path(temporary) / "light_field"
+        described = json.loads(_run(["import", source, str(folder)], {**options, "views": wanted, "json": True}))
+        if estimate and not (folder / "disparity.pfm").exists():
+            _run(["disparity", folder.name], {"threads": options.get("threads")}, temporary)
+        return _read_folder(folder, described)
+
+
+def read_picture(path: Union[str, "os.PathLike[str]"]) -> Bytes:
+    """Reads a picture as uint8 of shape (height, width, 3) with the package pillow, which raises its own errors."""
+    from PIL import Image  # type: ignore[import]  # pylint: disable=import-outside-toplevel
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGB"))
+
+
+def read_pfm(path: Union[str, "os.PathLike[str]"]) -> Floats:
+    """Reads a PFM with one channel as float32 of shape (height, width).
+
+    The first row of the array is the top row of the map. Raises ValueError for a malformed PFM.
+    """
+    data = Path(path).read_bytes()
+    (magic, width, height, scale), first = _header(data, 4, path)
+    if magic != b"Pf":
+        raise ValueError(f"{path}: expected a PFM of one channel")
+    shape = int(height), int(width)
+    expected = 4 * shape[0] * shape[1]
+    if len(data) - first < expected:
+        raise ValueError(f"{path}: expected {expected} bytes of values, found {len(data) - first}")
+    kind = "<f4" if float(scale) < 0 else ">f4"
+    values = np.frombuffer(data, kind, shape[0] * shape[1], first).reshape(shape)
+    return np.ascontiguousarray(values[::-1], np.float32)
+
+
+def _run(command: List[str], options: Dict[str, Option], working_folder: Optional[str] = None) -> str:
+    """Runs a command of the program, and returns its output. Issues its notes as warnings."""
+    if not _PROGRAM.exists():
+        raise RuntimeError("read_light_field: expected a package with the program starfocus, found one that was built "
+                           "without it (STARFOCUS_PROGRAMS=OFF)")
+    arguments = [str(_PROGRAM), *command]
+    for name, value in options.items():
+        if value is not None and value is not False:
+            flag = "--" + name.replace("_", "-")
+            arguments.append(flag if value is True else f"{flag}={value}")
+    done = subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
+                          cwd=working_folder, check=False)
+    notes = done.stderr.strip()
+    if done.returncode != 0:
+        raise InputError(notes.removeprefix("starfocus: ") or f"starfocus {command[0]}: expected exit code 0, found {done.returncode}")
+    for note in notes.splitlines():
+        warnings.warn(note, stacklevel=3)
+    return done.stdout
+
+
+def _read_folder(folder: Path, described: Dict[str, Any]) -> LightField:
+    """Reads a light-field folder that `starfocus import` has written with the description `described`."""
+    if "positions" in described:
+        positions = [(u, v) for u, v in described["positions"]]
+    else:
+        positions = view_positions(described["views"])
+    disparity, coverage = folder / "disparity.pfm", folder / "coverage.png"
+    return LightField([read_picture(folder / f"view_{_coordinate(u)}_{_coordinate(v)}.png") for u, v in positions],
+                      read_pfm(disparity) if disparity.exists() else None,
+                      np.ascontiguousarray(read_picture(coverage)[:, :, 0]) if coverage.exists() else None,
+                      positions, described["format"], described.get("facts", {}), described.get("widest_f_stop"))
+
+
+def _coordinate(value: float) -> str:
+    """Returns a coordinate as in the names of views."""
+    text = f"{round(value, 4) + 0.0:+.4f}".rstrip("0")
+    return text + "0" if text.endswith(".") else text
+
+
+def _header(data: bytes, words: int, path: Any) -> Tuple[List[bytes], int]:
+    """Returns the first `words` words of a file without comments, and the offset of the data behind them."""
+    found: List[bytes] = []
+    at = 0
+    while len(found) < words:
+        end = at
+        while end < len(data) and not data[end:end + 1].isspace():
+            end += 1
+        if end == len(data):
+            raise ValueError(f"{path}: its header ends too early")
+        if data[at:at + 1] == b"#":
+            end = data.find(b"\n", at)
+        elif end > at:
+            found.append(data[at:end])
+        at = end + 1
+    return found, at

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests starfocus.read_light_field: reader_test.py PROGRAM FOLDER. FOLDER is a light field of five views."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+from PIL import Image
+
+import starfocus
+from starfocus import reader
+
+PROGRAM, FOLDER = (Path(argument).resolve() for argument in sys.argv[1:3])
+NAMES = ("view_+0.0_+0.0", "view_+1.0_+0.0", "view_-1.0_+0.0", "view_+0.0_+1.0", "view_+0.0_-1.0")
+VIEWS = [starfocus.read_picture(FOLDER / f"{name}.png") for name in NAMES]
+DISPARITY = starfocus.read_pfm(FOLDER / "disparity.pfm")
+
+
+class Reader(unittest.TestCase):
+    """Each test starts in an empty folder, which is also the folder of temporary files."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+        os.mkdir("temporary")
+        for patch in (mock.patch.object(tempfile, "tempdir", os.path.abspath("temporary")),
+                      mock.patch.dict(os.environ, TMPDIR=os.path.abspath("temporary")), warnings.catch_warnings()):
+            patch.__enter__()
+            self.addCleanup(patch.__exit__, None, None, None)
+        warnings.simplefilter("error")
+
+    def tearDown(self):
+        self.assertEqual(os.listdir("temporary"), [])
+
+    def test_a_folder_of_views(self):
+        scene = starfocus.read_light_field(FOLDER)
+        np.testing.assert_array_equal(scene.views, VIEWS)
+        np.testing.assert_array_equal(scene.disparity, DISPARITY)
+        self.assertEqual(scene.positions, starfocus.view_positions(5))
+        self.assertEqual((scene.format, scene.coverage, scene.widest_f_stop), ("light-field folder", None, None))
+        self.assertEqual((scene.views[0].dtype, scene.disparity.dtype), (np.uint8, np.float32))
+        engine, star = (starfocus.Refocuser.for_light_field(VIEWS, DISPARITY, positions=positions)
+                        for positions in (None, scene.positions))
+        np.testing.assert_array_equal(engine.refocus(VIEWS, DISPARITY, focus=1), star.refocus(VIEWS, DISPARITY, focus=1))
+
+    def test_some_views_of_a_folder(self):
+        scene = starfocus.read_light_field(str(FOLDER), views=np.array([(0, 0), (0, 1)]))
+        np.testing.assert_array_equal(scene.views, [VIEWS[0], VIEWS[3]])
+        self.assertEqual(scene.positions, [(0, 0), (0, 1)])
+        self.assertEqual(len(starfocus.read_light_field(FOLDER, views=1, threads=2).views), 1)
+
+    def test_a_photo_with_depth(self):
+        subprocess.run([PROGRAM, "refocus", FOLDER, "-o", "-photo.jpg", "--aperture", "0.01", "--focus", "1",
+                        "--depth-photo"], check=True, stdout=subprocess.DEVNULL)
+        given = starfocus.read_light_field(Path("-photo.jpg"))
+        self.assertEqual((given.positions, given.widest_f_stop), ([(0, 0)], 1))
+        self.assertIn("map", given.facts)
+        repaired = starfocus.read_light_field("-photo.jpg", repair=True)
+        self.assertTrue((given.disparity != repaired.disparity).any())
+        self.assertEqual(given.disparity.shape, DISPARITY.shape)
+
+    def test_a_picture_and_its_depth(self):
+        Image.fromarray(VIEWS[0]).save("photo.png")
+        np.save("depth.npy", DISPARITY)
+        Image.fromarray(DISPARITY).save("depth.tiff")
+        scenes = [starfocus.read_light_field("photo.png", depth=depth, depth_unit="disparity", no_repair=True)
+                  for depth in ("depth.npy", Path("depth.tiff"))]
+        for scene in scenes:
+            np.testing.assert_array_equal(scene.views, VIEWS[:1])
+            np.testing.assert_array_equal(scene.disparity, DISPARITY)
+        Image.fromarray(np.arange(DISPARITY.size, dtype=np.uint8).reshape(DISPARITY.shape)).save("coverage.png")
+        covered = starfocus.read_light_field("photo.png", depth="depth.npy", coverage="coverage.png",
+                                              depth_unit="disparity", no_repair=True)
+        np.testing.assert_array_equal(covered.coverage.ravel(), np.arange(DISPARITY.size, dtype=np.uint8))
+
+    def test_a_stereo_photo_without_a_map(self):
+        Image.fromarray(VIEWS[0]).save("pair.mpo", save_all=True, append_images=[Image.fromarray(VIEWS[1])])
+        scene = starfocus.read_light_field("pair.mpo")
+        self.assertEqual((len(scene.views), scene.disparity), (2, None))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            estimated = starfocus.read_light_field("pair.mpo", estimate=True)
+        self.assertLess(np.median(np.abs(estimated.disparity - DISPARITY)), 1)
+
+    def test_notes_are_warnings(self):
+        with self.assertWarnsRegex(UserWarning, "not run, because the input has depth"):
+            starfocus.read_light_field(FOLDER, depth_command="false {input} {output}")
+
+    def test_wrong_inputs_and_options(self):
+        os.mkdir("one")
+        Image.fromarray(VIEWS[0]).save("one/view_+0.0_+0.0.png")
+        for path, options, message in (("missing.jpg", {}, "^cannot read missing.jpg: no such file"),
+                                       (FOLDER, {"views": 3}, "--views: expected "),
+                                       (FOLDER, {"near": "grey"}, "--near: expected "),
+                                       (FOLDER, {"no_such": 1}, "--no-such: expected an option"),
+                                       ("one", {"estimate": True}, "single view")):
+            with self.assertRaisesRegex(starfocus.InputError, message):
+                starfocus.read_light_field(path, **options)
+
+    def test_a_package_without_the_program(self):
+        with mock.patch.object(reader, "_PROGRAM", Path("absent")):
+            with self.assertRaisesRegex(RuntimeError, "built without it"):
+                starfocus.read_light_field(FOLDER)
+
+    def test_maps_of_either_byte_order(self):
+        values = np.arange(6, dtype=np.float32).reshape(2, 3)
+        for kind, scale in (("<f4", "-1.0"), (">f4", "1.0")):
+            Path("map.pfm").write_bytes(f"Pf\n3 2\n{scale}\n".encode() + values[::-1].astype(kind).tobytes())
+            np.testing.assert_array_equal(starfocus.read_pfm("map.pfm"), values)
+        Path("map.pfm").write_bytes(b"Pf\n3 2\n-1.0\n" + bytes(23))
+        with self.assertRaisesRegex(ValueError, "expected 24 bytes of values, found 23"):
+            starfocus.read_pfm("map.pfm")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
