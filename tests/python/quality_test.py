@@ -32,22 +32,24 @@ class Quality(unittest.TestCase):
         self.assertEqual(starfocus.evaluate(TRUTH, TRUTH, disparity), (math.inf, 1.0, math.inf))
 
     def test_errors_near_silhouettes_alone_count_for_silhouettes(self):
-        disparity = np.zeros((40, 60), np.float32)
-        disparity[20:, 30:] = 3
+        disparity = np.full((40, 60), 2, np.float32)
+        disparity[20:, 30:] = 5
         disparity[5, 5] = np.nan
         truth = np.full((40, 60, 3), 100, np.uint8)
         near = np.zeros(disparity.shape, bool)
-        near[17:, 27:33] = near[17:23, 27:] = True  # two pixels from rows 19 and 20, and from columns 29 and 30
+        near[18:, 27:33] = near[17:23, 28:] = True  # two pixels from columns 29 and 30, and from rows 19 and 20
         result = truth.copy()
-        result[near] = 110
-        expected = 10 * math.log10(255**2 / 10**2)
+        result[near] = RANDOM.integers(0, 256, (near.sum(), 3))
+        expected = peak_signal_noise_ratio(truth[near], result[near])
         made = starfocus.evaluate(result, truth, disparity, distance=2)
         self.assertAlmostEqual(made.silhouette_psnr, expected, 9)
         self.assertEqual(starfocus.evaluate(np.where(near[..., None], truth, 0).astype(np.uint8), truth, disparity,
                                             distance=2).silhouette_psnr, math.inf)
         self.assertIsNone(starfocus.evaluate(result, truth, disparity, step=3).silhouette_psnr)
+        near[:] = False
+        near[20:, 29:31] = near[19:21, 30:] = True
         narrow = starfocus.evaluate(result, truth, disparity, distance=0, step=2.9)
-        self.assertAlmostEqual(narrow.silhouette_psnr, expected, 9)
+        self.assertAlmostEqual(narrow.silhouette_psnr, peak_signal_noise_ratio(truth[near], result[near]), 9)
 
     def test_wrong_arguments(self):
         for arguments, message in (((RESULT[1:], TRUTH), "result: expected the shape"),

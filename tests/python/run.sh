@@ -38,6 +38,8 @@ install "$work"/wheels/starfocus-*-py3-none-*.whl 'Python, wheel'
 install "$sources/platform/python" 'Python, pip install of the tree'
 quietly "$python" "$sources/tests/python/reader_test.py" "$build/starfocus" "$work/scene"
 printf '%-40s %s\n' 'Python, reader' "$(grep '^Ran' "$work/log")"
+quietly "$python" "$sources/tests/python/frames_test.py" "$work/scene"
+printf '%-40s %s\n' 'Python, streams and frames' "$(grep '^Ran' "$work/log")"
 quietly "$python" "$sources/tests/python/quality_test.py"
 printf '%-40s %s\n' 'Python, quality' "$(grep '^Ran' "$work/log")"
 quietly "$python" "$sources/tests/python/depth_map_test.py"

@@ -15,7 +15,7 @@ MAX_VIEWS = 17
 ALIGNMENT = 64
 ABI_VERSION = 2
 #: Names and bits of STARFOCUS_FEATURE_*, which are keywords of Refocuser.
-FEATURES = {"line_scan": 1, "coverage": 2, "images": 8, "fill_unknown": 16, "shapes": 32}
+FEATURES = {"line_scan": 1, "coverage": 2, "streaming": 4, "images": 8, "fill_unknown": 16, "shapes": 32}
 
 Progress = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32)
 
@@ -118,6 +118,12 @@ class LightField(Structure):
                 ("coverage_stride", c_size_t)]
 
 
+class Previous(Structure):
+    """starfocus_previous"""
+
+    _fields_ = [("light_field", LightField), ("out", Image)]
+
+
 class LayerReport(Structure):
     """starfocus_layer_report"""
 
@@ -165,7 +171,7 @@ class Map(Structure):
 STRUCTURES = {
     "starfocus_problem": Problem, "starfocus_timing": Timing, "starfocus_tuning": Tuning, "starfocus_position": Position, "starfocus_config": Config,
     "starfocus_region": Region, "starfocus_lens": Lens, "starfocus_params": Params, "starfocus_light_field": LightField,
-    "starfocus_layer_report": LayerReport,
+    "starfocus_previous": Previous, "starfocus_layer_report": LayerReport,
     "starfocus_report": Report, "starfocus_disparity_stats": DisparityStats,
     "starfocus_depth_config": DepthConfig, "starfocus_image": Image,
     "starfocus_depth_map": DepthMap, "starfocus_disparity_output": Map, "starfocus_callbacks": Callbacks,
@@ -178,6 +184,9 @@ _ENGINE_CALLS = {
     "starfocus_refocus": (c_void_p, POINTER(Params), POINTER(LightField), POINTER(Image), POINTER(Report)),
     "starfocus_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, POINTER(c_void_p)),
     "starfocus_largest_aperture": (c_void_p, POINTER(Lens), POINTER(c_double)),
+    "starfocus_stream_begin": (c_void_p, POINTER(Params)),
+    "starfocus_stream_push": (c_void_p, POINTER(LightField), c_int32, POINTER(c_int32)),
+    "starfocus_stream_pull": (c_void_p, POINTER(Image), c_int32, POINTER(c_int32), POINTER(Report)),
     "starfocus_refocus_prepared": (c_void_p, POINTER(Params), c_void_p, POINTER(Image), POINTER(Report)),
 }
 _MAP_CALLS = {

@@ -122,7 +122,8 @@ def _run(command: List[str], options: Dict[str, Option], working_folder: Optiona
                           cwd=working_folder, check=False)
     notes = done.stderr.strip()
     if done.returncode != 0:
-        raise InputError(notes.removeprefix("starfocus: ") or f"starfocus {command[0]}: expected exit code 0, found {done.returncode}")
+        unexplained = f"starfocus {command[0]}: expected the exit code 0, found {done.returncode}"
+        raise InputError(notes.removeprefix("starfocus: ") or unexplained)
     for note in notes.splitlines():
         warnings.warn(note, stacklevel=3)
     return done.stdout

@@ -7,15 +7,15 @@ import math
 import threading
 import weakref
 from ctypes import byref
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _abi
-from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_image, as_list, light_field,
-                     output, part_of, pointer, positions_of, set_coverage, set_field, whole)
+from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_image, as_list, as_map,
+                     light_field, output, part_of, pointer, positions_of, set_coverage, set_field, whole)
 from ._abi import library
-from ._types import Array
+from ._types import Array, Bytes
 from .constants import Mode, Renderer, Status
 from .errors import ArgumentError, check
 from .images import Image
@@ -24,6 +24,12 @@ from .maps import Disparity, measure_disparity
 
 #: A picture as an array of shape (height, width, 3), or an Image for other formats.
 Picture = Union[Array, Image]
+
+
+#: A light field: views, disparity map, and optionally coverage.
+Scene = Union[Tuple[Views, Array], Tuple[Views, Array, Optional[Array]]]
+#: Largest number of rows that `Refocuser.stream` yields at once.
+_PULLED_ROWS = 64
 
 
 class Refocuser:
@@ -40,7 +46,8 @@ class Refocuser:
         config: other fields of starfocus_config and starfocus_tuning with their C names, for example `max_blur`
             (default 32 pixels), `transfer`, `highlights`, or `previews=3` for `Prepared.preview` down to 1/8 of the
             size. Features are fields with the value 0 or 1: `shapes` for lenses that are polygons or have cat's eyes,
-            `images` for formats other than RGB, `fill_unknown`, `line_scan` (default 1) and `coverage` (default 1).
+            `images` for formats other than RGB, `streaming` for `stream`, `fill_unknown`, `line_scan` (default 1) and
+            `coverage` (default 1).
 
     Attributes:
         report: dictionary with the fields of starfocus_report of the last refocusing.
@@ -174,6 +181,86 @@ class Refocuser:
         """
         return Prepared(self, views, disparity, progress, coverage)
 
+    def stream(self, bands: Iterable[Scene], *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+               renderer: Renderer = Renderer.AUTO, progress: Optional[ProgressFunction] = None,
+               **lens: Any) -> Iterator[Bytes]:
+        """Refocuses a light field that arrives in bands of rows. Yields the rows of the picture in bands.
+
+        Requires `streaming=1` in the configuration. The memory of the engine does not grow with the height. The yielded
+        bands are new arrays, uint8 of shape (rows, width, 3), which together have the bytes of `refocus`. Their heights
+        differ from the heights of the input bands.
+
+        Args:
+            bands: bands from top to bottom, each with any number of rows: tuples (views, disparity) or (views,
+                disparity, coverage) of arrays as for `refocus`, with the height of the band. Either all bands have
+                coverage or none.
+
+        The other arguments and exceptions are those of `refocus`. Errors are raised when the iterator reaches them:
+        ValueError if the bands have more or fewer rows than the picture, and StarfocusError if another call of this
+        refocuser has ended the stream.
+        """
+        watch = Watch(progress)
+        params = self._params(mode, renderer, None, focus=focus, aperture=aperture, **lens)
+        self._run(watch, library.starfocus_stream_begin, byref(params))
+        left, consumed = self.height, ctypes.c_int32()
+        for views, disparity, coverage in map(_with_coverage, bands):
+            rows = len(disparity)
+            if rows > left:
+                found = self.height - left + rows
+                raise ValueError(f"bands: expected {self.height} rows in all, found at least {found}")
+            left -= rows
+            field, kept = light_field(views, as_map(disparity), self._config.views, rows, self.width)
+            kept += set_coverage(field, coverage, rows, self.width)
+            field.depth.height = self.height
+            while rows > 0:
+                self._run(watch, library.starfocus_stream_push, byref(field), rows, byref(consumed))
+                rows -= consumed.value
+                _skip_rows(field, self._config.views, consumed.value)
+                yield from self._finished_rows(watch)
+            del kept
+        if left > 0:
+            raise ValueError(f"bands: expected {self.height} rows in all, found {self.height - left}")
+
+    def _finished_rows(self, watch: Watch) -> Iterator[Bytes]:
+        """Yields the rows of the stream that are finished."""
+        written = ctypes.c_int32(1)
+        while written.value > 0:
+            rows = np.empty((_PULLED_ROWS, self.width, 3), np.uint8)
+            image = as_image(rows)
+            self._call(watch, library.starfocus_stream_pull, byref(image), _PULLED_ROWS, byref(written))
+            if written.value > 0:
+                yield rows[:written.value]
+
+    def frames(self, frames: Iterable[Scene], *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+               renderer: Renderer = Renderer.AUTO, progress: Optional[ProgressFunction] = None,
+               **lens: Any) -> Iterator[Bytes]:
+        """Refocuses the frames of a video with one lens. Yields the picture of each frame, with the bytes of `refocus`.
+
+        Superblocks that did not change since the previous frame are copied from the previous picture. The field
+        `reused_blocks` of `report` counts these superblocks. The pictures are new arrays, uint8 of shape (height,
+        width, 3).
+
+        Args:
+            frames: light fields: tuples (views, disparity) or (views, disparity, coverage) of arrays as for `refocus`.
+                The function copies the arrays, so the caller may reuse them for the next frame.
+
+        The other arguments and the exceptions are those of `refocus`.
+        """
+        watch = Watch(progress)
+        params = self._params(mode, renderer, None, focus=focus, aperture=aperture, **lens)
+        last: List[Any] = []  # structure and arrays of the previous frame, which the engine reads
+        for views, disparity, coverage in map(_with_coverage, frames):
+            field, kept = light_field([np.array(view) for view in as_list(views)], np.array(as_map(disparity)),
+                                      self._config.views, self.height, self.width)
+            kept += set_coverage(field, None if coverage is None else np.array(coverage), self.height, self.width)
+            picture = np.empty((self.height, self.width, 3), np.uint8)
+            image = as_image(picture)
+            self._call(watch, library.starfocus_refocus, byref(params), byref(field), byref(image))
+            previous = _abi.Previous(field, image)
+            params.previous = ctypes.addressof(previous)
+            last[:] = [previous, picture, kept]
+            yield picture.copy()
+
     def _picture(self, params: _abi.Params, out: Optional[Picture], size: Tuple[int, int],
                  progress: Optional[ProgressFunction], function: Any, scene: Any, *, keep: List[Any]) -> Picture:
         """Calls starfocus_refocus or a similar function, and returns its picture.
@@ -273,6 +360,22 @@ class Prepared:
         params.preview_shift = shift
         return self._refocuser._picture(params, out, size, progress, library.starfocus_refocus_prepared, self._handle,
                                         keep=self._kept)
+
+
+def _with_coverage(scene: Sequence[Any]) -> Tuple[Views, Array, Optional[Array]]:
+    """Returns views, disparity map and coverage. The coverage is None if the scene has none."""
+    if not 2 <= len(scene) <= 3:
+        raise ValueError(f"expected views, disparity map and optionally coverage, found a tuple of {len(scene)}")
+    return scene[0], scene[1], scene[2] if len(scene) == 3 else None
+
+
+def _skip_rows(field: _abi.LightField, views: int, rows: int) -> None:
+    """Makes a starfocus_light_field of arrays point to a later row."""
+    for view in field.views[:views]:
+        view.planes[0] += rows * view.strides[0]
+    field.depth.data += rows * field.depth.stride
+    if field.coverage:
+        field.coverage += rows * field.coverage_stride
 
 
 def _as_dict(structure: ctypes.Structure) -> Dict[str, Any]:
