@@ -47,11 +47,9 @@ printf '%-40s %s\n' 'Python, depth maps' "$(grep '^Ran' "$work/log")"
 quietly /usr/bin/python3 -m mypy --config-file "$sources/platform/python/pyproject.toml" --cache-dir "$work/mypy" \
   "$sources/platform/python/starfocus"
 printf '%-40s %s\n' 'Python, types' "$(tail -n 1 "$work/log")"
-quietly "$python" "$sources/examples/python/focal_stack.py" "$work/scene" "$work/plots"
-for plot in focal_stack time_and_error; do
-  [ "$(stat -c %s "$work/plots/$plot.png")" -gt 20000 ] || { echo "python: no $plot.png" >&2; exit 1; }
-done
-printf '%-40s %s\n' 'Python, example' "$(tail -n 1 "$work/log")"
+quietly "$python" "$sources/tests/python/notebook_test.py" "$sources/examples/python/tour.ipynb" "$work/scene" \
+  "$work/notebook"
+printf '%-40s %s\n' 'Python, notebook' "$(tail -n 1 "$work/log")"
 quietly "$python" "$sources/tests/python/batch_dask_test.py" "$build/starfocus" "$work/scene" "$work/batch"
 printf '%-40s %s\n' 'Python, batch with Dask' "$(tail -n 1 "$work/log")"
 left=$(find "$sources/platform/python" -name '*.so' -o -name bin -o -name build -o -name '*.egg-info')
