@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/lens.h"
 
-#include <cmath>
+#include <limits>
 
 #include "lib/base/problem.h"
 #include "lib/base/rules.h"
@@ -61,7 +61,8 @@ double LargestAperture(const starfocus_config& config, const starfocus_lens& len
   const double distance = LargestDistance(config, lens), most = config.max_blur;
   double aperture = distance <= most ? 1 : most / distance;
   // The rounded quotient may be too large by one unit in the last place.
-  if (aperture * distance > most) aperture = std::nextafter(aperture, 0);
+  constexpr double kLess = 1 - std::numeric_limits<double>::epsilon();
+  while (aperture * distance > most) aperture *= kLess;
   return aperture;
 }
 
