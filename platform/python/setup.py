@@ -58,8 +58,10 @@ class BuildPackage(build_py):
     """Builds the package: the Python files, the shared library and the program."""
 
     def run(self):
+        shutil.rmtree(Path(self.build_lib) / "starfocus", ignore_errors=True)  # files of an earlier build
         super().run()
         folder = HERE if getattr(self, "editable_mode", False) else Path(self.build_lib)
+        shutil.rmtree(folder / "starfocus" / "bin", ignore_errors=True)
         build_folder = build()
         shutil.copy2(build_folder / "lib" / LIBRARY, folder / "starfocus" / LIBRARY)
         if has_program(build_folder):
