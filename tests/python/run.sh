@@ -45,7 +45,7 @@ printf '%-40s %s\n' 'Python, quality' "$(grep '^Ran' "$work/log")"
 quietly "$python" "$sources/tests/python/depth_map_test.py"
 printf '%-40s %s\n' 'Python, depth maps' "$(grep '^Ran' "$work/log")"
 quietly /usr/bin/python3 -m mypy --config-file "$sources/platform/python/pyproject.toml" --cache-dir "$work/mypy" \
-  "$sources/platform/python/starfocus"
+  "$sources/platform/python/starfocus" "$sources/tests/python/typed_calls.py"
 printf '%-40s %s\n' 'Python, types' "$(tail -n 1 "$work/log")"
 quietly "$python" "$sources/tests/python/notebook_test.py" "$sources/examples/python/tour.ipynb" "$work/scene" \
   "$work/notebook"

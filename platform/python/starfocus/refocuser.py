@@ -7,7 +7,7 @@ import math
 import threading
 import weakref
 from ctypes import byref
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 
@@ -126,6 +126,18 @@ class Refocuser:
     def workers(self) -> int:
         """Number of threads, including the calling thread."""
         return self._pool.workers
+
+    @overload
+    def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
+                coverage: Optional[Array] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
+                region: Optional[RegionOfPicture] = None, out: Image,
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> Image: ...
+
+    @overload
+    def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
+                coverage: Optional[Array] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
+                region: Optional[RegionOfPicture] = None, out: Optional[Array] = None,
+                progress: Optional[ProgressFunction] = None, **lens: Any) -> Bytes: ...
 
     def refocus(self, views: Views, disparity: Disparity, *, focus: float, aperture: float = 1.0,
                 coverage: Optional[Array] = None, mode: Mode = Mode.BLOCK, renderer: Renderer = Renderer.AUTO,
@@ -329,9 +341,19 @@ class Prepared:
         refocuser._run(Watch(progress), library.starfocus_prepare, byref(field), pointer(self._memory), size.value,
                        byref(self._handle))
 
+    @overload
     def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
-                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
-                progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
+                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
+                out: Image, progress: Optional[ProgressFunction] = None, **lens: Any) -> Image: ...
+
+    @overload
+    def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
+                out: Optional[Array] = None, progress: Optional[ProgressFunction] = None, **lens: Any) -> Bytes: ...
+
+    def refocus(self, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
+                out: Optional[Picture] = None, progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """Refocuses the light field. Returns the same picture as `Refocuser.refocus`, which describes the arguments."""
         # pylint: disable=protected-access
         *_, width, height = part_of(region, self._refocuser.width, self._refocuser.height)
@@ -339,9 +361,19 @@ class Prepared:
         return self._refocuser._picture(params, out, (height, width), progress, library.starfocus_refocus_prepared,
                                         self._handle, keep=self._kept)
 
+    @overload
     def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
-                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None, out: Optional[Picture] = None,
-                progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
+                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
+                out: Image, progress: Optional[ProgressFunction] = None, **lens: Any) -> Image: ...
+
+    @overload
+    def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
+                out: Optional[Array] = None, progress: Optional[ProgressFunction] = None, **lens: Any) -> Bytes: ...
+
+    def preview(self, shift: int, *, focus: float, aperture: float = 1.0, mode: Mode = Mode.BLOCK,
+                renderer: Renderer = Renderer.AUTO, region: Optional[RegionOfPicture] = None,
+                out: Optional[Picture] = None, progress: Optional[ProgressFunction] = None, **lens: Any) -> Picture:
         """Refocuses the light field at 1 / 2**shift of its size, in about 1 / 4**shift of the time.
 
         Args:

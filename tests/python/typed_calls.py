@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Calls of the package that mypy must accept in its strict mode. The file is not run."""
+from pathlib import Path
+from typing import Iterator, List, Tuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+import starfocus
+
+scene: starfocus.LightField = starfocus.read_light_field(Path("photo.png"), depth="depth.npy", threads=2)
+assert scene.disparity is not None
+disparity: NDArray[np.float32] = scene.disparity
+refocuser = starfocus.Refocuser.for_light_field(scene.views, disparity, positions=scene.positions, streaming=1)
+picture: NDArray[np.uint8] = refocuser.refocus(scene.views, disparity, focus=1, blades=5, shape=starfocus.Shape.POLYGON)
+image: starfocus.Image = starfocus.Image.empty(starfocus.Format.NV12, 640, 480)
+image = refocuser.refocus(scene.views, starfocus.DepthMap(disparity), focus=1, out=image)
+prepared = refocuser.prepare(scene.views, disparity)
+picture = prepared.refocus(focus=starfocus.focus_at(disparity, 1, 2), out=picture)
+picture = prepared.preview(1, focus=1, region=(0, 0, 2, 2))
+estimate: starfocus.DisparityMap = starfocus.estimate_disparity(np.stack(scene.views), -1, 1.5)
+quality: starfocus.Quality = starfocus.evaluate(picture, scene.views[0], estimate.disparity)
+bands: List[Tuple[List[NDArray[np.uint8]], NDArray[np.float32]]] = [(scene.views, disparity)]
+rows: Iterator[NDArray[np.uint8]] = refocuser.stream(bands, focus=1)
+frames: Iterator[NDArray[np.uint8]] = refocuser.frames([(scene.views, disparity, scene.coverage)], focus=1)
