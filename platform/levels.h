@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the grey levels of depth pictures (PNG, PGM, PPM and JPEG) at full precision, for the
-// readers of depth photos. Rejects colour pictures, because colours do not define an order of
+// Decodes the grey levels of depth pictures (PNG, PGM, PPM, JPEG and WebP) at full precision, for
+// the readers of depth photos. Rejects colour pictures, because colours do not define an order of
 // depth.
 #ifndef STARFOCUS_PLATFORM_LEVELS_H_
 #define STARFOCUS_PLATFORM_LEVELS_H_

@@ -8,8 +8,9 @@
 namespace starfocus {
 namespace {
 
-// Hidden strips are at most as wide as the largest movement, plus pixels that are wrong beside
-// them. The limit kMostReach bounds the time in pictures in which no pixel is seen.
+// A hidden strip is at most as wide as the largest movement. kMoreReach is the number of pixels
+// beside a hidden strip that may be wrong. The limit kMostReach bounds the time in pictures in
+// which no pixel is seen.
 constexpr int32_t kMoreReach = 16, kMostReach = 128;
 
 // Returns true if a side view shows pixel (x, y) at disparity d.
@@ -29,7 +30,7 @@ constexpr int32_t kDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                        {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
 // Returns the disparity of the nearest pixel in a direction from pixel (x, y) that a side view
-// shows, or kNoSurface if there is none within `reach` pixels.
+// shows, or kNoSurface if no side view shows a pixel within `reach` pixels.
 int16_t SeenBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int32_t y,
                    const int32_t* direction) {
   const int32_t reach = Min(plan.reach + kMoreReach, kMostReach);
@@ -42,8 +43,9 @@ int16_t SeenBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int
   return simd::kNoSurface;
 }
 
-// Returns the second smallest disparity of the nearest seen pixels in eight directions, or the only
-// disparity, or kNoSurface. A single wrong disparity has no effect on the second smallest.
+// Returns the second smallest disparity of the nearest seen pixels in eight directions. If only one
+// pixel is found, returns the disparity of this pixel. If no pixel is found, returns kNoSurface.
+// The second smallest disparity is robust to a single disparity that is too small.
 int16_t FarBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int32_t y) {
   int32_t least = INT32_MAX, second = INT32_MAX;
   for (const auto& direction : kDirections) {

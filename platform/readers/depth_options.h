@@ -40,7 +40,8 @@ struct DepthOptions {
   bool has_unknown = false;
   std::vector<double> unknown;
   bool use_alpha = true;  // True: transparent pixels have unknown depth.
-  // Computes a depth picture of an upright photo for which no depth is found; null: nothing does.
+  // Computes a depth picture of an upright photo for which no depth is found; null: such a photo is
+  // an error.
   // If `estimate` is set, the other options do not apply to a depth map in the file of a photo.
   std::function<Result<Samples>(const Image& photo)> estimate = nullptr;
 };

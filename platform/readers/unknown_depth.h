@@ -12,7 +12,7 @@ namespace starfocus {
 // Values that are not finite and values in options.unknown are always unknown. If
 // options.has_unknown is false, 0 and 65535 may mean unknown depth in maps of more than 8 bits. The
 // other values of the map decide, and a note reports the decision. `largest` is the sample value of
-// white, or 0 for PFM files.
+// white, or 0 for floats.
 void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo);
 
 // Replaces NaN by the background in a map in which larger values are nearer. For each unknown

@@ -60,8 +60,9 @@ typedef struct starfocus_depth_config {
   int32_t max_workers; /**< Number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1. */
   /** STARFOCUS_FEATURE_IMAGES or 0, the default. Without this feature, views are packed RGB, and a
    *  map to repair is a map of starfocus_depth_float in the size of the picture. With this feature,
-   *  views and maps may have any format: the function first converts them in the workspace, which
-   *  takes 3 more bytes per pixel of each view, and 4 bytes per pixel to repair a map. */
+   *  views and maps may have any format. The function first converts views and maps in the
+   *  workspace. The conversion takes 3 more bytes per pixel of each view and, for a repair, 4 more
+   *  bytes per pixel of the picture. */
   uint32_t features;
   starfocus_runner runner; /**< Runs jobs; default null: the calling thread runs them. */
   void* runner_data;       /**< Passed to `runner`. */
@@ -104,9 +105,11 @@ static inline void starfocus_depth_config_init(starfocus_depth_config* config) {
 }
 
 /** Computes the workspace size of starfocus_estimate_disparity: 5 bytes per pixel of the picture,
- *  plus memory for each worker. Each worker takes up to 1.2 MB per pixel of the disparity range. In
- *  addition, each worker takes about 10, 20 or 45 MB with 5, 9 or 17 views at the positions of
- *  starfocus_view_position, and up to 14 MB for each other view that moves along both axes.
+ *  plus memory for each worker. If all side views lie on one side of the centre, the workspace
+ *  contains 2 more bytes per pixel for each side view. Each worker takes up to 1.2 MB per pixel of
+ *  the disparity range. In addition, each worker takes about 10, 20 or 45 MB with 5, 9 or 17 views
+ *  at the positions of starfocus_view_position. At other positions, each worker takes up to 14 MB
+ *  for each view that moves along both axes.
  *  @param config configuration
  *  @param bytes receives the size in bytes
  *  @return STARFOCUS_OK, or an error of the configuration */
@@ -121,9 +124,9 @@ starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* 
  *  of the result. Costs are in quarters of a code, summed over R, G and B. The confidence is 0 if
  *  another disparity fits equally well, for example on a wall of one colour, and at most 255.
  *
- *  If the views have other positions than those of starfocus_view_position, some pixels may be
- *  hidden in all side views. If all side views lie on one side of the centre, such a pixel gets the
- *  disparity of the background beside it, and confidence 0.
+ *  Some pixels may be hidden in all side views, for example in a stereo pair. If all side views lie
+ *  on one side of the centre, such a pixel gets confidence 0 and the disparity of the adjacent
+ *  background.
  *  @param config configuration
  *  @param light_field views; `depth` is ignored
  *  @param map output planes

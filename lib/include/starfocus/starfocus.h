@@ -55,7 +55,7 @@
  * STARFOCUS_ERROR_STRUCTURE.
  *
  * **Memory.** The engine lives in one block of memory, its workspace, and allocates no other
- * memory, except for starfocus_prepare without memory of the caller. Either starfocus_create
+ * memory, except in starfocus_prepare if the caller passes no memory. Either starfocus_create
  * allocates the workspace and starfocus_destroy frees it, or the caller allocates
  * starfocus_workspace_size bytes and calls starfocus_init. An engine that starfocus_init creates
  * requires no destructor.
@@ -279,7 +279,7 @@ STARFOCUS_API const starfocus_problem* starfocus_engine_problem(const starfocus_
 STARFOCUS_API starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
                                                        const starfocus_callbacks* callbacks);
 
-/** Allocator of starfocus_create, which starfocus_prepare also uses. */
+/** Allocator of starfocus_create and of starfocus_prepare. */
 typedef struct starfocus_allocator {
   void* data; /**< Passed to `allocate` and `release`. */
   /** Returns `bytes` bytes aligned to `alignment` (STARFOCUS_ALIGNMENT), or null on failure. */
@@ -466,8 +466,8 @@ STARFOCUS_API starfocus_status starfocus_prepared_size(const starfocus_config* c
  *  @param engine engine
  *  @param light_field light field
  *  @param memory memory aligned to STARFOCUS_ALIGNMENT, which must not overlap the light field or
- *         the workspace; null: memory from the allocator of starfocus_create, until
- *         starfocus_destroy_prepared
+ *         the workspace; null: the function allocates memory with the allocator of
+ *         starfocus_create, and starfocus_destroy_prepared frees the memory
  *  @param bytes size of `memory`, at least starfocus_prepared_size; ignored if `memory` is null
  *  @param prepared receives the prepared light field, or null on error
  *  @return STARFOCUS_OK, or an error of the arguments; STARFOCUS_ERROR_NULL if `memory` is null and
@@ -480,7 +480,7 @@ STARFOCUS_API starfocus_status starfocus_prepare(starfocus_engine* engine,
 
 /** Frees a prepared light field that starfocus_prepare allocated. The engine may already be
  *  destroyed. No call with the prepared light field may be running.
- *  @param prepared prepared light field; no-op for a null pointer and in memory of the caller */
+ *  @param prepared prepared light field; no-op if null, or if the caller provided its memory */
 STARFOCUS_API void starfocus_destroy_prepared(starfocus_prepared* prepared);
 
 /** Refocuses a prepared light field. The output bytes are the same as with starfocus_refocus.
@@ -592,8 +592,8 @@ STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t
 /** Finds the focus for a pixel of the picture, for example for a pixel that a user tapped. The
  *  function reads the value of the map that contains the middle of the pixel, and the known values
  *  up to 3 values away. The focus is the median of the disparities that differ from the disparity
- * of the pixel by at most 0.75. If the disparity of the pixel is unknown, or the disparities of all
- * 8 neighbours differ by more than 0.75, the function uses the surface to which most of the
+ *  of the pixel by at most 0.75. If the disparity of the pixel is unknown, or the disparities of
+ *  all 8 neighbours differ by more than 0.75, the function uses the surface to which most of the
  *  surrounding 7 x 7 values belong.
  *  @param depth map of any format
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
