@@ -32,7 +32,7 @@ TEST_CASE("view grid: the focus is rounded to 1/64, half up") {
   CHECK(MakeGrid(4, -STARFOCUS_MAX_FOCUS, 1).focus.far == -64000000);
 }
 
-TEST_CASE("view grid: shifts grow from the nearer end of a range in focus, and are 0 inside") {
+TEST_CASE("view grid: shifts grow with the distance from a range in focus, and are 0 inside") {
   ViewGrid grid = MakeGrid(8, 0, 0.7);
   grid.focus = starfocus::MakeFocusRange(0.5, 3, 2);
   const ViewGrid far = MakeGrid(8, -1.5, 0.7), near = MakeGrid(8, 3.5, 0.7);

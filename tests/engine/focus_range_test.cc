@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests lenses with a range in focus: surfaces inside the range are sharp, and other surfaces are
-// blurred as by a lens that is focused at the nearer end of the range.
+// blurred as by a lens that is focused at the adjacent end of the range.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ TEST_CASE("focus range: if all disparities are in focus, the picture is the cent
   }
 }
 
-TEST_CASE("focus range: outside the range, the blur is that of a lens focused at its nearer end") {
+TEST_CASE("focus range: outside, the blur is that of a lens focused at the adjacent end") {
   const test::Scene scene = test::LayeredScene(kSide, kSide, 5, 4, 8);
   struct {
     double far, near, focus;

@@ -19,7 +19,7 @@ struct FocusBand {
 };
 
 // Returns HTML of a bar with the colours from the smallest disparity, far, to the largest, near.
-// The bar marks the disparities in focus. A focus beyond the ends is marked at the nearer end.
+// The bar marks the disparities in focus. A focus beyond an end of the bar is marked at this end.
 std::string LegendHtml(const starfocus_disparity_stats& stats, std::optional<FocusBand> focus);
 
 }  // namespace starfocus

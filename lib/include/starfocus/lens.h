@@ -37,12 +37,12 @@ typedef enum starfocus_shape {
  *  all fields, including the fields that the shape does not use. */
 typedef struct starfocus_lens {
   double focus; /**< Disparity in focus (d_t), |focus| <= STARFOCUS_MAX_FOCUS; default 0. */
-  /** Extent of the range in focus on the near side of `focus`. Disparities up to focus +
-   *  focus_nearer are sharp, and blur grows from there. Range [0, STARFOCUS_MAX_FOCUS - focus];
-   *  default 0. */
+  /** Extent of the range in focus on the near side of `focus`. Disparities from focus to focus +
+   *  focus_nearer are sharp. The blur of larger disparities grows with their distance from focus +
+   *  focus_nearer. Range [0, STARFOCUS_MAX_FOCUS - focus]; default 0. */
   double focus_nearer;
-  /** Extent of the range in focus on the far side of `focus`: disparities from focus -
-   *  focus_farther are sharp. Range [0, STARFOCUS_MAX_FOCUS + focus]; default 0. */
+  /** Extent of the range in focus on the far side of `focus`. Disparities from focus -
+   *  focus_farther to focus are sharp. Range [0, STARFOCUS_MAX_FOCUS + focus]; default 0. */
   double focus_farther;
   double aperture; /**< Radius of the aperture (u_t), [0, 1]; at 0 the result is the centre view,
                       byte for byte; default 1. */

@@ -160,10 +160,10 @@ export interface Progress {
 export interface Lens {
   /** Disparity in focus, in pixels, within +-1000000; default 0. */
   focus?: number;
-  /** Extent of the range in focus on the near side of `focus`: disparities up to focus + focusNearer are sharp, and blur
-   *  grows from there; [0, 1000000 - focus]; default 0. */
+  /** Extent of the range in focus on the near side of `focus`: disparities from focus to focus + focusNearer are sharp,
+   *  and the blur of larger disparities grows with the distance from the range; [0, 1000000 - focus]; default 0. */
   focusNearer?: number;
-  /** Extent of the range in focus on the far side of `focus`: disparities from focus - focusFarther are sharp;
+  /** Extent of the range in focus on the far side of `focus`: disparities from focus - focusFarther to focus are sharp;
    *  [0, 1000000 + focus]; default 0. */
   focusFarther?: number;
   /** Radius of the aperture, [0, 1]. 1, the default, reaches the outermost views; 0 gives the centre view. */

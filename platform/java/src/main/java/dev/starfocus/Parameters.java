@@ -38,8 +38,9 @@ public final class Parameters {
   public double focus;
   /**
    * Extents of the range in focus on the near and on the far side of {@link #focus}. Disparities
-   * from focus - focusFarther to focus + focusNearer are sharp, and blur grows from the nearer end
-   * of this range. Both are at least 0, and both ends of the range are within +-1000000. Default 0.
+   * from focus - focusFarther to focus + focusNearer are sharp, and blur grows with the distance
+   * from this range. Both extents are at least 0, and both ends of the range are within +-1000000.
+   * Default 0.
    */
   public double focusNearer, focusFarther;
   /** Radius of the aperture, 0 to 1. 0 gives the centre view. Default 1. */

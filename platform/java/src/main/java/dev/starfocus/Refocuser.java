@@ -163,8 +163,7 @@ public final class Refocuser implements Closeable {
 
   /**
    * Measures the range of the disparities of a depth map, for {@link Configuration#disparityMin}
-   * and
-   * {@link Configuration#disparityMax}.
+   * and {@link Configuration#disparityMax}.
    *
    * @param depth map of any format
    * @return an array of the smallest and the largest known disparity; 0 and 0 if no disparity is
