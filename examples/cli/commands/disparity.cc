@@ -237,8 +237,8 @@ Command DisparityCommand() {
            "closed outline in the map; default: none",
            &options->coverage},
           {"--repair", nullptr,
-           "Repair the map of SRC by the views instead of estimating a new one: "
-           "displaced and blurred edges, and noise; needs --output; always done for photos",
+           "Repair the map of SRC instead of estimating a new one: displaced and blurred "
+           "edges, and noise; needs --output; this is the default for depth photos",
            &options->repair},
           {"--range", "MIN:MAX",
            "Disparities to search, in pixels per unit of u, from -500 to 500; default: "

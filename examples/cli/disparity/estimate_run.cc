@@ -19,8 +19,9 @@ namespace {
 constexpr int kSmallWidth = 256;      // Largest width of pictures for finding the disparity range.
 constexpr int kLeastConfidence = 48;  // Excludes outliers at edges and on flat walls.
 constexpr double kStrays = 0.0005;    // Fraction of values discarded at each end of the range.
-// Views on few sides of the centre also confirm false matches. Without a star of views, a disparity
-// counts only if at least kLeastAgreeing of the 3x3 pixels around it have about the same disparity.
+// If the views lie on few sides of the centre, false matches may have a high confidence. Without a
+// star of views, a disparity counts only if at least kLeastAgreeing of the 3x3 pixels centred on it
+// have about the same disparity.
 constexpr int kLeastAgreeing = 6;
 
 using Images = std::vector<Image>;

@@ -26,7 +26,7 @@ void AddDepthPictureOptions(Command* command, DepthOptions* options) {
   AddOptions(
       {
           {"--near", "white|black",
-           "Shade that is near in a depth picture; default: white in a .pfm file, "
+           "Shade that is near in a depth picture; default: white in a PFM file, "
            "otherwise guessed from the lower part of the picture",
            Choice<Near>({{"white", Near::kWhite}, {"black", Near::kBlack}}, &options->near)},
           {"--depth-unit", "m|mm|disparity",
@@ -44,9 +44,10 @@ void AddDepthPictureOptions(Command* command, DepthOptions* options) {
                {{"photo", DepthOrientation::kPhoto}, {"upright", DepthOrientation::kUpright}},
                &options->orientation)},
           {"--unknown", "none|V,V,...",
-           "Values of a depth picture that mean an unknown depth; none means that all "
-           "pixels are known, also transparent ones; default: 0 and 65535 in 16-bit "
-           "pictures, unless other values show that these are depths",
+           "Values of a depth picture that mean an unknown depth, in addition to transparent "
+           "pixels; none means that all finite values are known, also those of transparent "
+           "pixels; default: 0 and 65535 in pictures with more than 8 bits, unless the other "
+           "values show that 0 and 65535 are depths",
            Target([options](const std::string& text) { return ReadUnknown(text, options); })},
       },
       command);
@@ -67,9 +68,9 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
                        "depth photos; - reads a photo from standard input",
                        several, Use::kRequired},
           {"--depth", "FILE",
-           "Depth picture of the photo (PNG, PGM, JPEG, PFM, TIFF or NPY); default: the map "
-           "in the photo, or the file NAME-depth, NAME_depth or NAME.depth in the folder of "
-           "the photo",
+           "Depth picture of the photo (PNG, PGM, PPM, JPEG, WebP, PFM, TIFF or NPY); default: "
+           "the map in the photo, or the file NAME-depth, NAME_depth or NAME.depth in the "
+           "folder of the photo",
            &options->depth},
           {"--depth-command", "CMD",
            "Shell command that estimates the depth of a photo without depth: it reads the "
@@ -77,7 +78,7 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
            Target(
                [options](const std::string& text) { return ReadCommand(text, &options->command); }),
            Use::kOptional, "--depth"},
-          {"--depth-timeout", "S", "Seconds after which --depth-command is ended, 1 to 86400",
+          {"--depth-timeout", "S", "Time limit of --depth-command in seconds, 1 to 86400",
            Whole(1, kMostSeconds, &options->command.seconds), Use::kDefault},
       },
       command);
@@ -88,8 +89,8 @@ void AddRightOption(Command* command, InputOptions* options) {
   AddOptions(
       {
           {"--right", "FILE",
-           "Right picture of a stereo pair, whose left picture is SRC; the disparities are "
-           "estimated; default: SRC is complete",
+           "Right picture of a stereo pair whose left picture is SRC; the disparities are "
+           "estimated; default: none",
            &options->right},
       },
       command);

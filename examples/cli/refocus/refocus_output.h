@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the output of `refocus`: a picture, a depth photo, or the pictures of a sweep.
+// Writes the output of `refocus`: a picture, a depth photo, the pictures of a sweep, or the page of
+// --compare. Shows pictures on the terminal.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 

@@ -52,7 +52,7 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
            Pair(',', &options->focus_at)},
           {"--focus-range", "NEAR,FAR",
            "Disparities between which everything is sharp, in the unit of --focus, NEAR at "
-           "least FAR; blur grows from the nearer end on; default: a single focus",
+           "least FAR; blur grows with the distance from this range; default: a single focus",
            Target([range = &options->focus_range](const std::string& text) {
              return ReadFocusRange(text, range);
            })},

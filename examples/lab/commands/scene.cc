@@ -233,8 +233,8 @@ Command SceneCommand() {
            Views(&options->views), Use::kDefault},
           {"--truth", "D,U ...",
            "Also render the ground-truth picture of a lens focused at disparity D, -500 to 500, "
-           "with aperture U, above 0 and at most 1; NEAR,FAR,U instead of D,U focuses a range; "
-           "may be repeated; default: none",
+           "with aperture U, above 0 and at most 1; NEAR,FAR,U instead of D,U keeps disparities "
+           "from FAR to NEAR in focus; may be repeated; default: none",
            &options->truths},
           {"--transfer", "srgb|none",
            "srgb averages light and codes it as sRGB; none averages the values themselves",
