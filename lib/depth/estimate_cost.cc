@@ -22,10 +22,10 @@ void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
   row.rings = static_cast<size_t>(plan.rings);
   row.one_side = seeing == Seeing::kOneSide;
   row.ends = views.ends;
-  // If a pixel moves beyond the edge of a view, the opposite view replaces this view. In an
-  // estimate, the opposite view replaces each view in which a nearer surface hides the pixel. In a
-  // repair, such a hidden view remains in use with a limited cost, because the map of a repair may
-  // be wrong.
+  // If the views form a star and a pixel moves beyond the edge of a view, the opposite view
+  // replaces this view. In an estimate from a star, the opposite view also replaces each view in
+  // which a nearer surface hides the pixel. In a repair, such a hidden view remains in use with a
+  // limited cost, because the map of a repair may be wrong.
   row.limits = plan.repairs && seeing == Seeing::kAll;
   for (int32_t y = region.y; y < region.y + region.height; ++y) {
     uint8_t* cost =

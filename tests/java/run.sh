@@ -84,7 +84,7 @@ phone() {
 
 # Compiles tap to focus in Kotlin against the classes of the AAR, and compares its pictures with those of the C program.
 kotlin() {
-  command -v kotlinc >/dev/null || { echo "SKIPPED: Kotlin, for which there is no kotlinc"; return; }
+  command -v kotlinc >/dev/null || { echo "SKIPPED: Kotlin, because kotlinc is not installed"; return; }
   python3 - "$work/frame" "$work/depth" <<'TEXT'
 import array, sys
 with open(sys.argv[1], "wb") as frame:
