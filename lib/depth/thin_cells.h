@@ -64,7 +64,7 @@ CellRanges TakeCellRanges(const ThinGrid& grid, Arena* arena);
 void MeasureCells(const ThinGrid& grid, const int16_t* map, int32_t index,
                   const CellRanges& ranges);
 
-// Returns false if no two disparities in cell `number` and the eight cells around it differ by more
+// Returns true if two disparities in cell `number` and the eight cells around it differ by more
 // than `step`.
 bool MayHaveStep(const ThinGrid& grid, const CellRanges& ranges, int32_t number, int32_t step);
 

@@ -216,13 +216,11 @@ Command VideoCommand() {
       [options] { return Run(*options); },
       {"starfocus video frames -o out --focus 2",
        "starfocus video lf0 lf1 lf2 -o out --focus-at 320,240 --report report.json"},
-      "Frames must have the same size and are taken in the order of SRC. If SRC is one folder that "
-      "is\n"
-      "not a light field, the frames are the light fields or photos in this folder, sorted by "
-      "name.\n"
-      "The first frame sets the focus of all frames: at the pixel of --focus-at, or by default if "
-      "no\n"
-      "option sets it. Modes frame and benchmark choose one number of views for all frames."};
+      "Frames must have the same size and are taken in the order of SRC. If SRC is one folder\n"
+      "that is not a light field, the frames are the light fields or photos in this folder,\n"
+      "sorted by name. Unless --focus or --focus-range is given, the first frame determines the\n"
+      "focus of all frames: the focus at the pixel of --focus-at, or else the default focus.\n"
+      "Modes frame and benchmark choose one number of views for all frames."};
   AddInputOptions(&command, &options->input, &options->inputs);
   AddOptions(
       {
