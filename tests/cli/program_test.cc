@@ -156,7 +156,7 @@ TEST_CASE("program: the manual and the completion have every option") {
   };
   if (std::system("command -v bash >/dev/null") != 0) return;
   CHECK(complete("refo") == "refocus\n");
-  CHECK(complete("refocus --focus-") == "--focus-index --focus-at\n");
+  CHECK(complete("refocus --focus-") == "--focus-index --focus-at --focus-range\n");
   CHECK(complete("refocus lf --mode be") == "benchmark\n");
   CHECK(complete("refocus lf --focus ''") == "\n");
   CHECK(complete("refocus lf --views ''") == "17 9 5 1\n");
