@@ -152,7 +152,7 @@ TEST_CASE("scene: the surface in focus is sharp, and other surfaces are blurred"
   CHECK(band(lower, 2).pixels == band(truth, 2).pixels);
   for (const int y : {kHeight * 3 / 4, kHeight - 3}) {
     CHECK(test::Psnr(band(centre, y).pixels, band(lower, y).pixels) > 33);
-    CHECK(test::Psnr(band(centre, y).pixels, band(truth, y).pixels) < 28);
+    CHECK(test::Psnr(band(centre, y).pixels, band(truth, y).pixels) < 30);
   }
 }
 
