@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -52,11 +54,13 @@ class Shell {
     posix_spawnattr_setflags(
         &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     posix_spawnattr_setpgroup(&attributes, 0);
-    // The program ignores SIGPIPE, which the command must not inherit.
-    sigset_t pipe;
-    sigemptyset(&pipe);
-    sigaddset(&pipe, SIGPIPE);
-    posix_spawnattr_setsigdefault(&attributes, &pipe);
+    // The command must not inherit ignored signals: the program ignores SIGPIPE, and a caller may
+    // ignore SIGCHLD.
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGPIPE);
+    sigaddset(&signals, SIGCHLD);
+    posix_spawnattr_setsigdefault(&attributes, &signals);
     const char* arguments[] = {"sh", "-c", command.c_str(), nullptr};
     const SignalCleanup::Turn turn;
     posix_spawnattr_setsigmask(&attributes, &turn.before());
@@ -68,16 +72,21 @@ class Shell {
     return failure;
   }
 
-  // Waits until the shell ends, but does not release its process id. Returns false if the shell
-  // still runs after `seconds`.
-  bool Wait(int seconds, siginfo_t* end) const {
+  // Waits until the shell ends, but does not release its process id. Returns 0 on success,
+  // ETIMEDOUT if the shell still runs after `seconds`, or another errno value.
+  int Wait(int seconds, siginfo_t* end) {
     constexpr timespec kStep = {0, 20'000'000};  // 20 ms
     for (const double start = Seconds(); Seconds() - start < seconds; nanosleep(&kStep, nullptr)) {
       *end = {};
-      waitid(P_PID, static_cast<id_t>(pid_), end, WEXITED | WNOHANG | WNOWAIT);
-      if (end->si_pid == pid_) return true;
+      const int failed = waitid(P_PID, static_cast<id_t>(pid_), end, WEXITED | WNOHANG | WNOWAIT);
+      if (failed == 0 && end->si_pid == pid_) return 0;
+      if (failed == 0 || errno == EINTR) continue;
+      const int reason = errno;
+      // The system may have given the process id to another process, which must not be killed.
+      cleanup_.Remove(SignalCleanup::Turn());
+      return reason;
     }
-    return false;
+    return ETIMEDOUT;
   }
 
  private:
@@ -85,16 +94,31 @@ class Shell {
   SignalCleanup cleanup_;
 };
 
+// Shortens a line to at most 300 bytes. Does not split a character of UTF-8.
+std::string Shortened(const std::string& line) {
+  constexpr size_t kMostBytes = 300;
+  if (line.size() <= kMostBytes) return line;
+  size_t size = kMostBytes - 3;
+  while (size > 0 && (line[size] & 0xc0) == 0x80) --size;
+  return line.substr(0, size) + "...";
+}
+
 // Returns the last lines of a log, with a colon in front, or an empty string if the log is empty.
 std::string LastLines(const std::string& path) {
   constexpr std::streamoff kMostBytes = 4096;
   constexpr size_t kMostLines = 3;
   std::ifstream log(path, std::ios::ate | std::ios::binary);
-  const std::streamoff size = log.tellg();
-  log.seekg(std::max<std::streamoff>(0, size - kMostBytes));
+  const std::streamoff begin = std::max<std::streamoff>(0, log.tellg() - kMostBytes);
+  log.seekg(begin);
+  std::string text(std::istreambuf_iterator<char>(log), {});
+  std::replace(text.begin(), text.end(), '\r', '\n');  // progress bars overwrite their line
+  // The first line may be incomplete if bytes before it were not read.
+  const size_t next = text.find('\n') + 1;
+  if (begin > 0 && next < text.size()) text.erase(0, next);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(log, line);) {
-    if (line.find_first_not_of(" \t\r") != std::string::npos) lines.push_back(line);
+  std::istringstream rows(text);
+  for (std::string line; std::getline(rows, line);) {
+    if (line.find_first_not_of(" \t") != std::string::npos) lines.push_back(Shortened(line));
   }
   std::string last;
   for (size_t k = lines.size() - std::min(kMostLines, lines.size()); k < lines.size(); ++k) {
@@ -125,10 +149,12 @@ Error RunShellCommand(const std::string& where, const std::string& command, int 
     return Cannot("run", "/bin/sh", {failure, std::generic_category()});
   }
   siginfo_t end = {};
-  if (!shell.Wait(seconds, &end)) {
+  const int failure = shell.Wait(seconds, &end);
+  if (failure == ETIMEDOUT) {
     return Expected(where, "a command that ends within " + std::to_string(seconds) + " s",
                     "one that still runs" + LastLines(log));
   }
+  if (failure != 0) return Cannot("wait for", "/bin/sh", {failure, std::generic_category()});
   if (end.si_code == CLD_EXITED && end.si_status == 0) return {};
   return Expected(where, "a command that succeeds", EndOf(end) + LastLines(log));
 }

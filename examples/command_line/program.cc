@@ -45,6 +45,7 @@ std::string VersionText(const std::string& name) {
 
 int RunProgram(const char* name, const std::function<Error()>& run) {
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGCHLD, SIG_DFL);  // if the parent ignores it, the ends of child processes are lost
   SignalCleanup::Install();
   try {
     Error error = run();

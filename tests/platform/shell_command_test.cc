@@ -58,7 +58,14 @@ TEST_CASE("shell_command: a failure is reported with its end and the last lines 
   CHECK(Contains(ErrorOf(folder, "no-such-command-here"),
                  "found exit code 127 (command not found): "));
   CHECK(Contains(ErrorOf(folder, "kill -9 $$"), "found signal Killed"));
-  CHECK(ErrorOf(folder, "head -c 100000 /dev/zero | tr '\\0' x; exit 1").size() < 5000);
+  const std::string found = "tool: expected a command that succeeds, found exit code 1: ";
+  CHECK(ErrorOf(folder, "printf '10%%\\r90%%\\r\\nno model\\n'; exit 1") ==
+        found + "10% / 90% / no model");
+  const std::string fill = "head -c 100000 /dev/zero | tr '\\0' x; ";
+  CHECK(ErrorOf(folder, fill + "exit 1") == found + std::string(297, 'x') + "...");
+  CHECK(ErrorOf(folder, fill + "echo; echo end; exit 1") == found + "end");
+  CHECK(ErrorOf(folder, "yes \303\244 | tr -d '\\n' | head -c 400; exit 1").size() ==
+        found.size() + 296 + 3);
 }
 
 TEST_CASE("shell_command: the time limit and the end of the shell end all processes of the group") {
@@ -70,6 +77,13 @@ TEST_CASE("shell_command: the time limit and the end of the shell end all proces
   CHECK(Await([&] { return HasEnded(folder.file("id")); }));
   CHECK(ErrorOf(folder, background) == "");
   CHECK(Await([&] { return HasEnded(folder.file("id")); }));
+}
+
+TEST_CASE("shell_command: the loss of the end of the shell is reported") {
+  TempFolder folder;
+  const auto before = signal(SIGCHLD, SIG_IGN);
+  CHECK(ErrorOf(folder, "true", 5) == "cannot wait for /bin/sh: no child processes");
+  signal(SIGCHLD, before);
 }
 
 TEST_CASE("shell_command: a signal ends the command and removes its folder") {
