@@ -14,6 +14,7 @@
 #include "platform/base64.h"
 #include "platform/clock.h"
 #include "platform/file.h"
+#include "platform/signal_cleanup.h"
 #include "platform/writers/png.h"
 #include "platform/writers/sixel.h"
 
@@ -27,25 +28,36 @@ constexpr size_t kMostAnswer = 4096;  // More bytes than terminals send as answe
 constexpr int kCellWidth = 10, kCellHeight = 20;
 constexpr size_t kKittyChunk = 4096;  // Largest payload of one escape sequence of the protocol.
 
-// Reads keys without echo and without waiting for the end of a line, until the object is destroyed.
+void SetTerminal(const void* mode) {
+  tcsetattr(STDIN_FILENO, TCSANOW, static_cast<const termios*>(mode));
+}
+
+// Reads keys without echo and without waiting for the end of a line, until the object is destroyed
+// or a signal ends the program.
 class KeyMode {
  public:
-  KeyMode() : is_set_(tcgetattr(STDIN_FILENO, &old_) == 0) {
+  KeyMode() {
+    if (tcgetattr(STDIN_FILENO, &old_) != 0) return;
     termios keys = old_;
     keys.c_lflag &= ~tcflag_t(ICANON | ECHO);
     keys.c_cc[VMIN] = 0;
     keys.c_cc[VTIME] = 0;
-    is_set_ = is_set_ && tcsetattr(STDIN_FILENO, TCSADRAIN, &keys) == 0;
+    const SignalCleanup::Turn turn;
+    cleanup_.Add(turn, SetTerminal, &old_);
+    SetTerminal(&keys);
   }
   ~KeyMode() {
-    if (is_set_) tcsetattr(STDIN_FILENO, TCSADRAIN, &old_);
+    if (!cleanup_.is_listed()) return;
+    const SignalCleanup::Turn turn;
+    SetTerminal(&old_);
+    cleanup_.Remove(turn);
   }
   KeyMode(const KeyMode&) = delete;
   KeyMode& operator=(const KeyMode&) = delete;
 
  private:
   termios old_ = {};
-  bool is_set_;
+  SignalCleanup cleanup_;
 };
 
 TerminalAnswers AskTerminal() {

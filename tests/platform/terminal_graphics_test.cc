@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests how the answers of terminals are read.
+// Tests how the answers of terminals are read, and that a signal restores the terminal.
 #include "platform/terminal_graphics.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <termios.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <string>
+#include <thread>
+
+#include "platform/signal_cleanup.h"
+#include "tests/support/child.h"
 
 namespace starfocus::terminal_graphics_test {
 namespace {
@@ -23,6 +31,34 @@ TEST_CASE("terminal: an answer is complete when the device attributes have arriv
   CHECK(answers.height == 600);
   CHECK(answers.sixel_width == 1000);
   CHECK(answers.sixel_height == 900);
+}
+
+TEST_CASE("terminal: a signal during the query restores the echo") {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  REQUIRE(terminal >= 0);
+  REQUIRE(grantpt(terminal) == 0);
+  REQUIRE(unlockpt(terminal) == 0);
+  const int program = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+  REQUIRE(program >= 0);
+  const auto echoes = [program] {
+    termios mode = {};
+    return tcgetattr(program, &mode) == 0 && (mode.c_lflag & ECHO) != 0;
+  };
+  REQUIRE(echoes());
+  const int status = EndBySignal(SIGINT, [&](const auto& begun) {
+    SignalCleanup::Install();
+    dup2(program, STDIN_FILENO);
+    dup2(program, STDOUT_FILENO);
+    std::thread query([] { (void)FindGraphicsTerminal("--show"); });
+    for (int i = 0; i < 1000 && echoes(); ++i) usleep(1000);
+    const bool is_quiet = !echoes();
+    if (begun()) query.join();
+    if (!is_quiet) _exit(1);
+  });
+  CHECK(WIFSIGNALED(status));
+  CHECK(echoes());
+  close(program);
+  close(terminal);
 }
 
 TEST_CASE("terminal: sixels need attribute 4, and kitty graphics need the answer OK") {
