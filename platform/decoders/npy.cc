@@ -2,7 +2,9 @@
 #include "platform/decoders/npy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <regex>
 #include <vector>
@@ -42,6 +44,8 @@ float LoadFloat64(const uint8_t* data) {
   const uint64_t bits = LoadLittle(data, 8);
   double value;
   std::memcpy(&value, &bits, sizeof(value));
+  constexpr float kMost = std::numeric_limits<float>::max(), kInfinity = HUGE_VALF;
+  if (std::fabs(value) > double{kMost}) return value > 0 ? kInfinity : -kInfinity;
   return static_cast<float>(value);
 }
 

@@ -17,7 +17,8 @@ bool IsNpy(const Bytes& bytes);
 
 // Decodes an array in C order with two dimensions, rows and columns. Further dimensions before or
 // after these two must be 1. The values are little-endian: 32-bit or 64-bit floats, or integers of
-// type u1, u2 or i2. `where` appears only in error messages.
+// type u1, u2 or i2. 64-bit floats beyond the range of float become infinite. `where` appears only
+// in error messages.
 Result<Samples> DecodeNpy(const std::string& where, const Bytes& npy);
 
 }  // namespace starfocus

@@ -99,6 +99,22 @@ struct Layout {
   bool is_float() const { return format == SAMPLEFORMAT_IEEEFP; }
 };
 
+// Describes samples that are not grey levels with white as the largest value.
+std::string DescribeMeaning(const Layout& layout) {
+  if (layout.samples != 1) return std::to_string(layout.samples) + " samples for each pixel";
+  if (layout.photometric == PHOTOMETRIC_MINISWHITE) return "black as the largest value";
+  if (layout.photometric == PHOTOMETRIC_PALETTE) return "palette colours";
+  return "photometric interpretation " + std::to_string(layout.photometric);
+}
+
+std::string DescribeType(const Layout& layout) {
+  const char* type = layout.is_float()                    ? "-bit floats"
+                     : layout.format == SAMPLEFORMAT_UINT ? "-bit unsigned integers"
+                     : layout.format == SAMPLEFORMAT_INT  ? "-bit signed integers"
+                                                          : "-bit samples of another type";
+  return std::to_string(layout.bits) + type;
+}
+
 // Returns an error unless the program reads pictures of this layout.
 Error CheckLayout(const std::string& where, const Layout& layout) {
   const auto reject = [&where](const std::string& expected, const std::string& found) {
@@ -110,14 +126,13 @@ Error CheckLayout(const std::string& where, const Layout& layout) {
                                         COMPRESSION_PACKBITS};
   if (layout.samples != 1 || layout.photometric != PHOTOMETRIC_MINISBLACK) {
     return reject("a TIFF of one value for each pixel, white as the largest value",
-                  std::to_string(layout.samples) + " samples of another meaning");
+                  DescribeMeaning(layout));
   }
   const bool is_integer =
       layout.format == SAMPLEFORMAT_UINT && (layout.bits == 8 || layout.bits == 16);
   if (!is_integer && !(layout.is_float() && layout.bits == 32)) {
-    return reject(
-        "a TIFF of unsigned integers of 8 or 16 bits, or floats of 32 bits",
-        std::to_string(layout.bits) + (layout.is_float() ? "-bit floats" : "-bit integers"));
+    return reject("a TIFF of unsigned integers of 8 or 16 bits, or floats of 32 bits",
+                  DescribeType(layout));
   }
   if (layout.is_tiled) return reject("a TIFF of strips", "tiles");
   if (layout.orientation != ORIENTATION_TOPLEFT) {

@@ -97,6 +97,10 @@ TEST_CASE("npy: floats and integers of all shapes for one map are read") {
   const Result<Samples> gap = Decode(Npy("<f4", "1, 2", BytesOf(std::vector<float>{NAN, 1})));
   REQUIRE(gap == "");
   CHECK(std::isnan(gap->map.at(0, 0)));
+  const std::vector<double> large = {1e39, -1e300, 3e38};
+  const Result<Samples> most = Decode(Npy("<f8", "1, 3", BytesOf(large)));
+  REQUIRE(most == "");
+  CHECK(most->map.values == std::vector<float>{HUGE_VALF, -HUGE_VALF, 3e38F});
 }
 
 TEST_CASE("npy: other arrays are rejected with the found property and a conversion") {
@@ -159,9 +163,11 @@ TEST_CASE("tiff: other layouts and damaged files are rejected with a conversion"
   };
   for (const auto& [tag, value, found] :
        {std::tuple{258U, 64U, "found 64-bit floats (convert the map to PFM or NPY"},
-        std::tuple{339U, 2U, "found 32-bit integers"},
-        std::tuple{262U, 0U, "found 1 samples of another meaning"},
-        std::tuple{277U, 3U, "found 3 samples"},
+        std::tuple{339U, 2U, "found 32-bit signed integers"},
+        std::tuple{339U, 6U, "found 32-bit samples of another type"},
+        std::tuple{262U, 0U, "found black as the largest value"},
+        std::tuple{262U, 2U, "found photometric interpretation 2"},
+        std::tuple{277U, 3U, "found 3 samples for each pixel"},
         std::tuple{259U, 50000U, "found compression 50000"},
         std::tuple{256U, 70000U, "found 70000x2"},
         std::tuple{257U, 60000U, "an undamaged TIFF file"},
