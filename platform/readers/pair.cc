@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <optional>
 #include <system_error>
 #include <tuple>
 
@@ -50,18 +49,19 @@ struct Candidate {
   }
 };
 
-// Returns a Candidate if the name `file` is the name of a depth picture of `photo`, otherwise
-// nullopt.
-std::optional<Candidate> Fit(const std::string& photo, const std::string& file) {
-  const fs::path path(file);
-  const std::string stem = path.stem().string(), name = NameBefore(stem);
-  const auto* extension =
-      std::find(std::begin(kExtensions), std::end(kExtensions), Lower(path.extension().string()));
-  if (name.empty() || Lower(name) != Lower(photo) || extension == std::end(kExtensions)) {
-    return {};
-  }
-  return Candidate{name != photo, std::string(kSeparators).find(stem[name.size()]),
-                   static_cast<size_t>(extension - std::begin(kExtensions)), file};
+// Returns the name of a photo without its extension and without "-image".
+std::string PhotoName(const std::string& file) {
+  const std::string ending = "-image";
+  std::string name = fs::path(file).stem().string();
+  if (EndsIn(Lower(name), ending)) name.erase(name.size() - ending.size());
+  return name;
+}
+
+// Returns the position of the extension of a file in kExtensions, or the size of kExtensions.
+size_t ExtensionIndex(const std::string& file) {
+  const std::string extension = Lower(fs::path(file).extension().string());
+  return static_cast<size_t>(std::find(std::begin(kExtensions), std::end(kExtensions), extension) -
+                             std::begin(kExtensions));
 }
 
 // Sets the meaning of the map's values according to the options.
@@ -88,31 +88,54 @@ bool IsDepthPictureName(const std::string& name) {
   return !NameBefore(fs::path(name).stem().string()).empty();
 }
 
-Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo) {
-  const fs::path file(path);
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  const std::string ending = "-image";
-  std::string name = file.stem().string();
-  if (EndsIn(Lower(name), ending)) name.erase(name.size() - ending.size());
-  std::vector<Candidate> found;
+void DepthPictures::Add(const std::string& name) {
+  const std::string photo = NameBefore(fs::path(name).stem().string());
+  if (photo.empty() || ExtensionIndex(name) == std::size(kExtensions)) return;
+  names_[Lower(photo)].push_back(name);
+}
+
+std::vector<std::string> DepthPictures::Of(const std::string& name) const {
+  const std::string photo = PhotoName(name);
+  const auto found = names_.find(Lower(photo));
+  if (found == names_.end()) return {};
+  std::vector<Candidate> candidates;
+  for (const std::string& file : found->second) {
+    const std::string stem = fs::path(file).stem().string();
+    candidates.push_back({NameBefore(stem) != photo,
+                          std::string(kSeparators).find(stem[photo.size()]), ExtensionIndex(file),
+                          file});
+  }
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<std::string> names;
+  for (const Candidate& candidate : candidates) names.push_back(candidate.name);
+  return names;
+}
+
+Result<DepthPictures> ListDepthPictures(const std::string& folder) {
+  DepthPictures pictures;
   std::error_code error, ignored;
   fs::directory_iterator at(folder, error);
   for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
-    const std::string beside = at->path().filename().string();
-    const std::optional<Candidate> candidate = Fit(name, beside);
-    if (candidate && beside != file.filename().string() && at->is_regular_file(ignored)) {
-      found.push_back(*candidate);
-    }
+    const std::string name = at->path().filename().string();
+    if (IsDepthPictureName(name) && at->is_regular_file(ignored)) pictures.Add(name);
   }
-  if (error) return Cannot("read folder", folder.string(), error);
+  if (error) return Cannot("read folder", folder, error);
+  return pictures;
+}
+
+Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo) {
+  const fs::path file(path);
+  const Result<DepthPictures> pictures =
+      ListDepthPictures(file.has_parent_path() ? file.parent_path().string() : ".");
+  if (!pictures) return pictures.error();
+  const std::vector<std::string> found = pictures->Of(file.filename().string());
   if (found.empty()) return std::string();
-  std::sort(found.begin(), found.end());
   if (found.size() > 1) {
     photo->notes.push_back("found " + std::to_string(found.size()) +
-                           " depth pictures in the folder of the photo, using " + found[0].name +
+                           " depth pictures in the folder of the photo, using " + found[0] +
                            " (--depth FILE chooses another)");
   }
-  return (file.parent_path() / found[0].name).string();
+  return (file.parent_path() / found[0]).string();
 }
 
 Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {

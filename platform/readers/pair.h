@@ -3,7 +3,9 @@
 #ifndef STARFOCUS_PLATFORM_READERS_PAIR_H_
 #define STARFOCUS_PLATFORM_READERS_PAIR_H_
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "platform/levels.h"
 #include "platform/readers/photo.h"
@@ -15,10 +17,26 @@ namespace starfocus {
 // depth picture ends in -depth, _depth or .depth, in upper or lower case.
 bool IsDepthPictureName(const std::string& name);
 
-// Finds the depth picture next to a photograph NAME.jpg or NAME-image.jpg. The depth picture is
+// The depth pictures in a folder. The depth picture of a photograph NAME.jpg or NAME-image.jpg is
 // named NAME-depth, NAME_depth or NAME.depth, with .png, .pgm, .pfm, .jpg, .jpeg, .tif, .tiff or
-// .npy, in upper or lower case. Returns "" if no depth picture is found. If the folder has several
-// depth pictures of the photograph, a note names the depth picture that is used.
+// .npy, in upper or lower case.
+class DepthPictures {
+ public:
+  // Adds a file of the folder. Ignores a file that has not the name of a depth picture.
+  void Add(const std::string& name);
+  // Returns the names of the depth pictures of the photograph `name`, the best match first.
+  std::vector<std::string> Of(const std::string& name) const;
+
+ private:
+  // Names of files by the name of the photograph in lower case, without extension.
+  std::map<std::string, std::vector<std::string>> names_;
+};
+
+// Lists the depth pictures in a folder. Returns an error if the folder cannot be read.
+Result<DepthPictures> ListDepthPictures(const std::string& folder);
+
+// Finds the depth picture next to a photograph. Returns "" if no depth picture is found. If the
+// folder has several depth pictures of the photograph, a note names the depth picture that is used.
 Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo);
 
 // Reads the depth picture (depth_file.h). The caller must have set photo->picture. By default,

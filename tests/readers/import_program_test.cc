@@ -73,6 +73,17 @@ TEST_CASE("photos: every session of the tables succeeds") {
   if (CanReadXmp()) RunSessions("readers/sessions.txt", {{"GDepth photo", write_photo}});
 }
 
+TEST_CASE("photos: the depth command runs if the parent of the program ignores SIGCHLD") {
+  TempFolder folder;
+  MakePhotoAndMap(folder);
+  std::filesystem::remove(folder.file("a-depth.png"));
+  CHECK(std::system(("cd '" + folder.path() +
+                     "' && env --ignore-signal=CHLD '" STARFOCUS_PROGRAM
+                     "' refocus a.png -o x.png --near white --depth-timeout 5 "
+                     "--depth-command 'cp map.png {output}; : {input}'")
+                        .c_str()) == 0);
+}
+
 TEST_CASE("photos: import without repair keeps the map unchanged") {
   if (!CanReadXmp()) return;
   TempFolder folder;

@@ -119,6 +119,8 @@ Error CheckRegion(const Image& picture, const starfocus_region& region) {
 }
 
 Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
+  // The depth command runs in the turn of its input, so that --jobs limits the number of commands.
+  if (options.turn != nullptr && EstimatesDepth(options.input)) options.turn->Begin();
   Result<Capture> capture = ReadInput(options.input);
   if (options.turn != nullptr) options.turn->Begin();
   if (!capture) return capture;
@@ -206,7 +208,7 @@ Error RunSweep(const RefocusOptions& options, const PictureOptions& how,
     EngineResult result;
     error = run.Refocus(InputName(options.input.path), task).MoveTo(&result);
     if (!error) error = stack.Add(std::move(result.picture)).MoveTo(&out);
-    report.Add(out, task, result);
+    if (!error) report.Add(out, task, result);
   }
   if (!error) error = stack.Finish();
   if (error || options.report.empty()) return error;

@@ -16,26 +16,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string DepthPictureOf(const std::string& photo) {
-  DepthPhoto unused;
-  return *FindDepthPicture(photo, &unused);
-}
-
-bool IsDepthPicture(const std::string& path) {
-  return IsDepthPictureName(fs::path(path).filename().string());
-}
-
 // Returns the reason why a file is no photo, or an empty string if the file is a photo. Judges a
-// file by its name only.
-std::string ReasonToSkip(const std::string& path, bool estimates_depth) {
-  const std::string extension = LowerExtension(path);
-  if (IsDepthPicture(path)) return "a depth picture that no photo uses";
-  if (extension == ".png" || extension == ".webp") {
-    const bool has_depth = estimates_depth || !DepthPictureOf(path).empty();
-    return has_depth ? "" : "a PNG or WebP picture without a depth picture next to it";
+// file by its name only. `has_depth` states that the file has a depth picture next to it, or that a
+// depth command estimates its depth.
+std::string ReasonToSkip(const std::string& name, bool has_depth) {
+  const std::string extension = LowerExtension(name);
+  if (IsDepthPictureName(name)) return "a depth picture that no photo uses";
+  if (extension == ".png" || extension == ".webp" || extension == ".ppm") {
+    return has_depth ? "" : "a PNG, WebP or PPM picture without a depth picture next to it";
   }
-  const bool is_photo = extension == ".jpg" || extension == ".jpeg" || extension == ".heic" ||
-                        extension == ".heif" || extension == ".avif";
+  const bool is_photo = extension == ".jpg" || extension == ".jpeg" || extension == ".mpo" ||
+                        extension == ".heic" || extension == ".heif" || extension == ".avif";
   return is_photo ? "" : "a file of another type";
 }
 
@@ -63,18 +54,21 @@ Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
   if (!fs::is_directory(path, ignored) || IsLightField(path, estimates_depth)) {
     return FoundInputs{{path}, {}};
   }
+  const Result<DepthPictures> pictures = ListDepthPictures(path);
+  if (!pictures) return pictures.error();
   FoundInputs found;
-  std::set<std::string> depth_pictures;  // of the photos that were found
+  std::set<std::string> used;  // depth pictures of the photos that were found
   for (const auto& entry : fs::directory_iterator(path, ignored)) {
     const std::string one = entry.path().string();
-    const bool is_hidden = entry.path().filename().string()[0] == '.';
-    if (is_hidden || fs::equivalent(entry.path(), out, ignored)) continue;
+    const std::string name = entry.path().filename().string();
+    if (name[0] == '.' || fs::equivalent(entry.path(), out, ignored)) continue;
     std::string reason;
     if (entry.is_directory(ignored)) {
       if (!IsLightField(one, estimates_depth)) reason = "a folder that is not a light field";
     } else {
-      reason = ReasonToSkip(one, estimates_depth);
-      if (reason.empty()) depth_pictures.insert(DepthPictureOf(one));
+      const std::vector<std::string> depth = pictures->Of(name);
+      reason = ReasonToSkip(name, estimates_depth || !depth.empty());
+      if (reason.empty() && !depth.empty()) used.insert((fs::path(path) / depth[0]).string());
     }
     if (reason.empty()) {
       found.paths.push_back(one);
@@ -82,7 +76,7 @@ Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
       found.skipped.push_back({one, reason});
     }
   }
-  const auto is_used = [&](const SkippedPath& one) { return depth_pictures.count(one.path) != 0; };
+  const auto is_used = [&](const SkippedPath& one) { return used.count(one.path) != 0; };
   found.skipped.erase(std::remove_if(found.skipped.begin(), found.skipped.end(), is_used),
                       found.skipped.end());
   std::sort(found.paths.begin(), found.paths.end());

@@ -27,7 +27,7 @@ bool IsLightField(const std::string& folder, bool estimates_depth);
 
 // Returns the inputs that `path` stands for. If `path` is a folder but not a light field, these are
 // the photos and light fields in the folder, without the folder `out`. Otherwise the only input is
-// `path`. A PNG or WebP file is a photo if it has a depth picture next to it, or if
+// `path`. A PNG, WebP or PPM file is a photo if it has a depth picture next to it, or if
 // `estimates_depth` is true. Returns an error if the folder contains no input.
 Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
                                const std::string& out);

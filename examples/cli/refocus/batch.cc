@@ -101,8 +101,9 @@ bool IsBatch(const std::vector<std::string>& inputs, const std::string& out, boo
 
 Result<Batch> PlanBatch(const std::vector<std::string>& inputs, const std::string& folder,
                         bool estimates_depth) {
-  if (IsPictureExtension(FormatExtension(folder))) {
-    return Error::Usage("--output", "a folder for the pictures of several inputs", folder);
+  if (folder.empty() || IsPictureExtension(FormatExtension(folder))) {
+    return Error::Usage("--output", "a folder for the pictures of several inputs",
+                        folder.empty() ? "none" : folder);
   }
   Batch batch;
   std::vector<Output> outputs;
