@@ -92,15 +92,17 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   return photo;
 }
 
-// Returns an error if an option would override a property that the map in the photo states.
-Error CheckOptions(const std::string& path, const DepthOptions& options) {
+// Returns an error if an option would override a property that the map in the photo states. No
+// option applies to a stereo pair, because its map is estimated.
+Error CheckOptions(const std::string& path, const DepthOptions& options, bool is_pair) {
   const char* option = options.unit != DepthUnit::kNone                    ? "--depth-unit"
                        : options.has_unknown                               ? "--unknown"
                        : options.orientation != DepthOrientation::kUnknown ? "--depth-orientation"
+                       : is_pair && options.near != Near::kUnknown         ? "--near"
                                                                            : nullptr;
   if (option == nullptr || options.estimate) return {};
   return Expected(path, std::string("a separate depth picture (--depth FILE) for ") + option,
-                  "a depth map in the photo");
+                  is_pair ? "a stereo pair, whose map is estimated" : "a depth map in the photo");
 }
 
 // Reads the map from extended XMP that no packet refers to. Editors that rewrite the XMP packet
@@ -192,7 +194,7 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   if (!decoded) return decoded;
   DepthPhoto& photo = *decoded;
   if (depth.empty() && !photo.map.values.empty()) {
-    if (Error error = CheckOptions(where, options)) return error;
+    if (Error error = CheckOptions(where, options, false)) return error;
     return decoded;
   }
   photo.depth_path = depth;
@@ -200,7 +202,11 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
     if (Error error = FindDepthPicture(path, &photo).MoveTo(&photo.depth_path)) return error;
   }
   if (photo.depth_path.empty()) {
-    if (ReadStrayMap(file, near, &photo) || ReadStereoPair(path, file, &photo)) return decoded;
+    const bool has_map = ReadStrayMap(file, near, &photo);
+    if (has_map || ReadStereoPair(path, file, &photo)) {
+      if (Error error = CheckOptions(where, options, !has_map)) return error;
+      return decoded;
+    }
     if (!options.estimate) return NoMap(where, photo.map_problem);
   }
   NoteProblem(&photo);

@@ -17,7 +17,8 @@ namespace starfocus {
 // stereo pair; in this case, `right` of the result is the right picture. The function ignores
 // damaged optional data and adds a note. For a photograph without depth, options.estimate computes
 // the depth picture if it is set. `options` apply to a separate depth picture. If the map is in the
-// file of the photograph, any option except `near` and `estimate` is an error.
+// file of the photograph, any option except `near` and `estimate` is an error. For a stereo pair,
+// `near` is an error, too.
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth);
 

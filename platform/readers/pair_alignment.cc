@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int kSmallWidth = 400;     // Largest width of the pictures that are compared.
+constexpr int kSmallSide = 400;      // Longest side of the pictures that are compared.
 constexpr int kHalf = 5;             // Patches of 11x11 pixels are compared.
 constexpr int kStep = 9;             // Distance between patches in rows and columns.
 constexpr int kLeastContrast = 480;  // Least sum of differences of a patch in each direction.
@@ -193,7 +193,7 @@ bool PairAlignment::contradicts() const {
 }
 
 PairAlignment MeasureAlignment(const Image& left, const Image& right) {
-  const int factor = (left.width + kSmallWidth - 1) / kSmallWidth;
+  const int factor = (std::max(left.width, left.height) + kSmallSide - 1) / kSmallSide;
   const Detail from = DetailOf(Reduce(left, factor)), to = DetailOf(Reduce(right, factor));
   PairAlignment alignment;
   std::vector<Match> matches;

@@ -113,6 +113,12 @@ TEST_CASE("extended XMP that no packet names is used if there is no other map") 
     const std::string file = Insert(Photo(), XmpSegment(packet) + other);
     Capture capture = OpenRamp(file, kPortrait, kPortrait / 8);
     CHECK(HasNote(capture, "no XMP packet refers to"));
+    CaptureOptions metres;
+    metres.map.unit = DepthUnit::kMetres;
+    TempFolder folder;
+    Write(folder.file("a.jpg"), file);
+    CHECK(Contains(OpenCapture(folder.file("a.jpg"), metres),
+                   "for --depth-unit, found a depth map in the photo"));
     REQUIRE(OpenBeside(file, &capture) == "");
     CheckRamp(capture, 0, kPortrait);
     CHECK(!capture.notes.empty());

@@ -105,6 +105,11 @@ TEST_CASE("stereo pair: pictures of different scenes and large rotations are rej
   }
 }
 
+TEST_CASE("stereo pair: the time does not depend on the height") {
+  const Image tall = Noise(300, 3000);
+  CHECK(MeasureAlignment(tall, tall).corners < 2000);
+}
+
 TEST_CASE("stereo pair: two files are the views at (0, 0) and (1, 0)") {
   TempFolder folder;
   const std::string left = folder.file("a.png"), right = folder.file("b.png");

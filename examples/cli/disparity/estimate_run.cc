@@ -225,7 +225,10 @@ Result<DisparityRange> FindRange(const std::string& where, const LightField& lig
   // discarded outliers.
   const float low = std::max(sure[strays] - 1, -most);
   const float high = std::min(sure[sure.size() - 1 - strays] + 1, most);
-  return DisparityRange{low * static_cast<float>(factor), high * static_cast<float>(factor)};
+  // If `factor` is not a power of 2, factor * (limit / factor) can exceed the limit by rounding.
+  constexpr float kLimit = STARFOCUS_MAX_DISPARITY;
+  return DisparityRange{std::max(low * static_cast<float>(factor), -kLimit),
+                        std::min(high * static_cast<float>(factor), kLimit)};
 }
 
 Result<DisparityEstimate> EstimateDisparity(const std::string& where, const LightField& light_field,
