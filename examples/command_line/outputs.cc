@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/command_line/outputs.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <system_error>
+#include <utility>
 
 #include "platform/file.h"
 #include "platform/light_field.h"
@@ -26,10 +28,16 @@ fs::path NameOf(const fs::path& path) {
   return name.has_filename() ? name : name.parent_path();  // "folder/"
 }
 
-// Returns true if `a` and `b` are names of the same file, for example hard links.
-bool AreOneFile(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return fs::equivalent(a, b, ignored);
+using FileId = std::pair<dev_t, ino_t>;
+
+// Returns a value that all names of a file have in common, for example hard links. Returns nullopt
+// if the file does not exist, or if it is neither a regular file nor a folder.
+std::optional<FileId> IdOf(const std::string& path) {
+  struct stat info = {};
+  if (stat(path.c_str(), &info) != 0 || !(S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))) {
+    return {};
+  }
+  return FileId{info.st_dev, info.st_ino};
 }
 
 // Returns the files of a light-field folder that are symbolic links.
@@ -46,13 +54,16 @@ std::vector<std::string> FindLinks(const std::string& folder) {
 
 Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
   std::set<fs::path> folders, files, grids, names;
+  std::set<std::optional<FileId>> ids;
   for (const std::string& folder : inputs.grids) grids.insert(NameOf(folder));
   for (const std::string& folder : inputs.folders) {
     folders.insert(NameOf(folder));
     for (const std::string& path : FindLinks(folder)) files.insert(NameOf(path));
   }
   for (const std::string& path : inputs.files) {
-    if (!path.empty()) files.insert(NameOf(path));
+    if (path.empty()) continue;
+    files.insert(NameOf(path));
+    ids.insert(IdOf(path));
   }
   for (const Output& output : outputs) {
     // All names of standard output refer to the same stream. Standard input is a different stream.
@@ -62,10 +73,8 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
       return Error::Usage(output.option, "a separate file",
                           output.path + ", which another output uses");
     }
-    const bool is_input = std::any_of(
-        inputs.files.begin(), inputs.files.end(),
-        [&](const std::string& path) { return !stream && AreOneFile(path, output.path); });
-    if (is_input || files.count(name) != 0) {
+    const std::optional<FileId> id = stream ? std::nullopt : IdOf(output.path);
+    if ((id && ids.count(id) != 0) || files.count(name) != 0) {
       return Error::Usage(output.option, "a separate file", output.path + ", which is an input");
     }
     const bool beside_views =

@@ -105,6 +105,8 @@ TEST_CASE("writers: compare draws the differences and does not overwrite its inp
   }
   CHECK(Call(folder, "compare a.png b.png --map a.png").code == 2);
   CHECK(Call(folder, "compare a.png b.png --map -").code == 2);
+  fs::create_hard_link(folder.file("b.png"), folder.file("c.png"));
+  CHECK(Call(folder, "compare a.png b.png --map c.png").code == 2);
 }
 
 TEST_CASE("writers: the page of `starfocus view` is self-contained and describes its pictures") {
