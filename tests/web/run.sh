@@ -19,17 +19,18 @@ STARFOCUS_SCREENSHOTS=$web/screenshots
 export STARFOCUS_PROGRAM STARFOCUS_FIELD STARFOCUS_SITE STARFOCUS_GOLDEN_FILE STARFOCUS_SERVER STARFOCUS_SCREENSHOTS
 
 # quietly COMMAND...: runs a command. Prints the end of the output only if the command fails.
+log=$work/log
 quietly() {
-  "$@" >"$work/log" 2>&1 || { tail -n 60 "$work/log" >&2; echo "web: failed: $*" >&2; exit 1; }
+  "$@" >"$log" 2>&1 || { tail -n 60 "$log" >&2; echo "web: failed: $*" >&2; exit 1; }
 }
 
 # run NAME: runs a test in the project, and prints the number of passed cases and the measured times.
 run() {
-  start=$(date +%s)
+  start=$(date +%s) log=$work/$1.log
   quietly node --test --test-reporter=tap "$1"
-  printf '%-40s %s tests passed (%d s)\n' "$1" "$(sed -n 's/^# pass //p' "$work/log")" $(($(date +%s) - start))
-  sed -n -E 's/^[# \\]*((slow phone|12 megapixels|renderer): .*)/  \1/p' "$work/log"
-  sed -n 's/^ok [0-9]* - \(.*\) # SKIP/  skipped: \1:/p' "$work/log"
+  printf '%-40s %s tests passed (%d s)\n' "$1" "$(sed -n 's/^# pass //p' "$log")" $(($(date +%s) - start))
+  sed -n -E 's/^[# \\]*((slow phone|12 megapixels|renderer): .*)/  \1/p' "$log"
+  sed -n 's/^ok [0-9]* - \(.*\) # SKIP/  skipped: \1:/p' "$log"
 }
 
 quietly "$STARFOCUS_PROGRAM-lab" scene "$work/field" --name portrait --size 320x240 --views 5
@@ -38,7 +39,7 @@ STARFOCUS_PACKAGE=$(echo "$work"/starfocus-*.tgz)
 export STARFOCUS_PACKAGE
 size=$(stat -c %s "$STARFOCUS_PACKAGE")
 printf '%-40s %d bytes\n' 'the npm package' "$size"
-[ "$size" -le 225000 ] || { echo "web: package too large (expected at most 225000 bytes, found $size)" >&2; exit 1; }
+[ "$size" -le 235000 ] || { echo "web: package too large (expected at most 235000 bytes, found $size)" >&2; exit 1; }
 mkdir -p "$work/project" "$STARFOCUS_SCREENSHOTS"
 cd "$work/project"
 cp "$sources"/tests/web/*.mjs .
@@ -54,11 +55,15 @@ run photo_test.mjs
 ! grep -n :// "$sources/tests/web/bundlers/package-lock.json" || exit 1
 cp "$sources"/tests/web/bundlers/package*.json "$work"
 (cd "$work" && quietly npm ci --prefer-offline --no-audit --no-fund)
-run page_test.mjs
 mkdir "$work/node_modules/starfocus"
 tar -xzf "$STARFOCUS_PACKAGE" -C "$work/node_modules/starfocus" --strip-components=1
 cp -r "$sources/tests/web/bundlers" "$work"
-cd "$work/bundlers"
-rm package*.json
-run bundlers_test.mjs
-run types_test.mjs
+rm "$work"/bundlers/package*.json
+
+# The page uses one core for most of its time, and the bundlers use the other core.
+run page_test.mjs &
+page=$! result=0
+(cd "$work/bundlers" && run bundlers_test.mjs && run types_test.mjs) &
+wait $page || result=1
+wait $! || result=1
+exit $result
