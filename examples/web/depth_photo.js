@@ -3,6 +3,7 @@
 // Apple's depth (an auxiliary picture behind the photo). platform/readers does the same for the programs.
 
 import {isJpeg, readFurtherPictures} from './jpeg.js';
+import {isPng} from './problem.js';
 import {readXmp, valueOf, Xmp} from './xmp.js';
 
 const GOOGLE = 'http://ns.google.com/photos/1.0/', DYNAMIC = 'http://ns.google.com/photos/dd/1.0/';
@@ -10,9 +11,7 @@ const DEPTH = `${GOOGLE}depthmap/`, IMAGE = `${GOOGLE}image/`, MAP = `${DYNAMIC}
 const ITEMS = [`${DYNAMIC}item/`, `${GOOGLE}container/item/`];
 const PIXELS = 'http://ns.apple.com/pixeldatainfo/1.0/', APPLE = 'http://ns.apple.com/depthData/1.0/';
 const METRES = {m: 1, meters: 1, mm: 0.001, millimeters: 0.001};
-const PNG = [0x89, 0x50, 0x4E, 0x47];
 
-const isPng = (bytes, at) => PNG.every((byte, i) => bytes[at + i] === byte);
 const toNumber = value => value === undefined || value === '' ? NaN : Number(value.replace(/^\+?inf(inity)?$/i, 'Infinity'));
 
 /** Meaning of the levels of a map, 0 to 1. `first` and `last` are the values of the levels 0 and 1: distances if
@@ -77,7 +76,7 @@ function findItem(bytes, end, items, index) {
   }
   if (items[index].mime === 'image/png') {
     let at = end - 1;
-    do at = bytes.indexOf(PNG[0], at + 1); while (at >= 0 && !isPng(bytes, at));
+    do at = bytes.indexOf(0x89, at + 1); while (at >= 0 && !isPng(bytes, at));
     return at;
   }
   const jpegs = items.slice(1, index).filter(({mime}) => mime === 'image/jpeg').length;

@@ -2,12 +2,13 @@
 // Splits JPEG files into segments, finds the pictures that follow the first picture in a file, and copies EXIF and the
 // colour profile of a photo to another JPEG file.
 
-const START = 0xD8, END = 0xD9, SCAN = 0xDA, APP1 = 0xE1, APP2 = 0xE2;
+export const APP1 = 0xE1;  // marker of segments with EXIF or XMP
+const START = 0xD8, END = 0xD9, SCAN = 0xDA, APP2 = 0xE2;
 const MOST_PICTURES = 64;  // a start code without a picture makes the search read the rest of the file
 const EXIF = 'Exif\0\0', PROFILE = 'ICC_PROFILE\0';
 const ORIENTATION = 0x0112;
 
-const latin = bytes => new TextDecoder('latin1').decode(bytes);
+export const latin = bytes => new TextDecoder('latin1').decode(bytes);
 
 export const isJpeg = (bytes, at = 0) => bytes[at] === 0xFF && bytes[at + 1] === START && bytes[at + 2] === 0xFF;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controls of the lens: their values, their texts, and their form in the address of the page.
 
+import {get} from './page.js';
+
 const PHOTO_F_STOP = 1.8, LIGHT_FIELD_F_STOP = 1;  // defaults
 // Lenses of Photo.refocus. The numbers are values of Shape; this module does not import the engine, which loads later.
 const SHAPES = {
@@ -14,7 +16,6 @@ const SHAPES = {
 // Words for the focus, from far to near.
 const WORDS = ['farthest', 'far', 'rather far', 'in the middle', 'rather near', 'near', 'nearest'];
 
-const get = id => document.getElementById(id);
 const number = id => Number(get(id).value);
 const fStop = () => Math.max(smallestFStop, 2 ** (number('f-stop') / 2));
 let smallestFStop = 1;  // of the open photo

@@ -17,23 +17,11 @@ const POSITIONS = [
   [.5, 0], [-.5, 0], [0, .5], [0, -.5], [.5, .5], [-.5, .5], [.5, -.5], [-.5, -.5]
 ];
 const SETS = [17, 9, 5, 1];
-const LARGEST_DISPARITY = 500;
 const HELP = 'Open a depth photo (a file with photo and depth map), or a picture together with its depth picture.';
 
 const signed = value => (value < 0 ? '-' : '+') + Math.abs(value).toFixed(1);
 const viewName = ([u, v]) => `view_${signed(u)}_${signed(v)}`;
 const stemOf = name => name.replace(/\.\w+$/, '');
-
-function checkDisparities(name, depth) {
-  let low = Infinity, high = -Infinity;
-  for (const value of depth.data) {
-    if (value < low) low = value;
-    if (value > high) high = value;
-  }
-  if (low >= -LARGEST_DISPARITY && high <= LARGEST_DISPARITY) return depth;
-  throw new Error(low > high ? `${name} contains no known disparities.` :
-                               `${name} contains disparities from ${low} to ${high}; expected -500 to 500 pixels.`);
-}
 
 function checkSize(name, image, {width, height}) {
   if (width <= image.width && height <= image.height) return;
@@ -67,7 +55,7 @@ async function openFolder(files, find) {
   return {
     name: set > 1 ? `light field of ${set} views` : 'picture with its disparities',
     stem: files[0].webkitRelativePath?.split('/')[0] || 'light-field',
-    images, bitmap, depth: checkDisparities(map.name, depth), options: {disparity: true}, distances: null, kept: []
+    images, bitmap, depth, options: {disparity: true}, distances: null, kept: []
   };
 }
 
@@ -153,7 +141,7 @@ async function openPair(files) {
   const map = files.find(file => /\.pfm$/i.test(file.name));
   if (map) {
     const photo = files.find(file => file !== map), bitmap = await checkPicture(photo);
-    const depth = checkDisparities(map.name, parsePfm(await map.arrayBuffer(), map.name));
+    const depth = parsePfm(await map.arrayBuffer(), map.name);
     checkSize(photo.name, bitmap, depth);
     return {
       name: `${photo.name} with ${map.name}`, stem: stemOf(photo.name), images: [photo], bitmap,

@@ -12,6 +12,11 @@ function start() {
     if (error === undefined) resolve(result);
     else reject(new Error(error));
   };
+  worker.onerror = () => {
+    for (const {reject} of waiting.values()) reject(new Error('A part of the page could not be loaded. Reload the page.'));
+    waiting.clear();
+    worker = null;
+  };
 }
 
 /** Calls the function `name` of the worker, and resolves with its result. `transfer` are objects that move to the

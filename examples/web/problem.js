@@ -2,11 +2,10 @@
 // Finds out why a file cannot be opened, and writes the messages of the page. Messages never contain the names of
 // options or functions.
 
-import {isJpeg, readJpeg} from './jpeg.js';
+import {isJpeg, latin, readJpeg} from './jpeg.js';
 
 const HEIF_BRANDS = /^(hei[cxms]|hev[cxms]|mif1|msf1)$/;
 const DEPTH_TYPE = /urn:mpeg:(hevc:2015:auxid:2|mpegB:cicp:systems:auxiliary:depth)\0/;
-const latin = bytes => new TextDecoder('latin1').decode(bytes);
 
 /** Returns true if the bytes start a HEIC file. */
 export const isHeif = bytes => latin(bytes.subarray(4, 8)) === 'ftyp' && HEIF_BRANDS.test(latin(bytes.subarray(8, 12)));
@@ -14,7 +13,9 @@ export const isHeif = bytes => latin(bytes.subarray(4, 8)) === 'ftyp' && HEIF_BR
 /** Returns true if a HEIC file names the type of auxiliary pictures with depth. */
 export const namesDepth = bytes => DEPTH_TYPE.test(latin(bytes));
 
-const isPng = bytes => latin(bytes.subarray(1, 4)) === 'PNG';
+/** Returns true if a PNG file starts at this position. */
+export const isPng = (bytes, at = 0) => bytes[at] === 0x89 && latin(bytes.subarray(at + 1, at + 4)) === 'PNG';
+
 const isWebp = bytes => latin(bytes.subarray(0, 4)) === 'RIFF' && latin(bytes.subarray(8, 12)) === 'WEBP';
 
 function isCutOff(bytes) {
@@ -48,10 +49,11 @@ export async function checkPicture(file, name = file.name) {
 }
 
 const SENTENCES = {
-  NOT_FINITE: name => `The depth of ${name} is the same everywhere, so there is nothing to focus on.`,
-  DISPARITY: name => `The depth of ${name} is out of range.`,
+  NOT_FINITE: name => `The depth of ${name} is unknown or the same everywhere, so there is nothing to focus on.`,
+  DISPARITY: name => `The depth of ${name} is out of range: expected disparities from -499 to 499 pixels.`,
   MEMORY: name => `There is not enough memory for ${name}.`,
-  WORKER: () => 'The engine could not be started. Reload the page, or check that it may start workers.'
+  WORKER: () => 'The engine could not be started. Reload the page, or check that it may start workers.',
+  UNSUPPORTED: () => 'This browser cannot run the engine. Use a newer browser.'
 };
 
 /** Returns the message for an error of the engine while `name` was opened or refocused. */

@@ -84,9 +84,9 @@ export class Viewer {
     this.#draw();
   }
 
-  /** Sets the disparity map, {data, width, height, low, high}, that is shown as depth. */
+  /** Sets the disparity map, {data, width, height, low, high}, that is shown as depth, or null for an unknown map. */
   setDepth(map) {
-    this.#open.depth = drawDepth(map, this.canvas);
+    this.#open.depth = map && drawDepth(map, this.canvas);
     this.#draw();
   }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the XMP of JPEG files: the packet, and the extended XMP to which the packet refers.
 
-import {hasName} from './jpeg.js';
+import {APP1, hasName} from './jpeg.js';
 
-const APP1 = 0xE1;
 const PACKET = 'http://ns.adobe.com/xap/1.0/\0', EXTENSION = 'http://ns.adobe.com/xmp/extension/\0';
 const NOTE = 'http://ns.adobe.com/xmp/note/';
 const GUID = 32, HEADER = GUID + 4 + 4;  // bytes of the name, the total length, and the offset of this part

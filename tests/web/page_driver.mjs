@@ -171,3 +171,15 @@ export async function load(url, options = {}) {
   await driver.page.goto(url);
   await waitFor(/^Opened: the demo/);
 }
+
+/** Opens the page in a new context, performs an action, and closes the context. */
+export async function visit(options, action) {
+  const before = driver.page;
+  try {
+    await load(driver.address, options);
+    await action(driver.page);
+  } finally {
+    await driver.page.context().close();
+    driver.page = before;
+  }
+}

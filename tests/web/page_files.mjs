@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import {existsSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
-import {deflateSync} from 'node:zlib';
+import sharp from 'sharp';
 
 import {makeGDepth} from './gdepth_photo.mjs';
 import {
@@ -40,30 +40,12 @@ function makeExif() {
   return Buffer.concat([Buffer.from([0xFF, 0xE1, 0, body.length + 2]), body]);
 }
 
-function pngChunk(name, data) {
-  const body = Buffer.concat([Buffer.from(name, 'latin1'), data]), length = Buffer.alloc(4), check = Buffer.alloc(4);
-  let crc = ~0;
-  for (const byte of body) {
-    crc ^= byte;
-    for (let bit = 0; bit < 8; ++bit) crc = crc >>> 1 ^ (crc & 1 ? 0xEDB88320 : 0);
-  }
-  length.writeUInt32BE(data.length);
-  check.writeUInt32BE(~crc >>> 0);
-  return Buffer.concat([length, body, check]);
-}
-
 /** Returns a grey PNG of 64 x 48 pixels with 16 bits, whose values differ only in the low 8 bits. */
-function makePng16() {
-  const header = Buffer.from([0, 0, 0, 64, 0, 0, 0, 48, 16, 0, 0, 0, 0]);
-  const row = Buffer.from([0, ...Array.from({length: 64}, (_, x) => [0x10, 4 * x]).flat()]);
-  return Buffer.concat([
-    Buffer.from('\x89PNG\r\n\x1A\n', 'latin1'), pngChunk('IHDR', header),
-    pngChunk('IDAT', deflateSync(Buffer.concat(Array(48).fill(row)))), pngChunk('IEND', Buffer.alloc(0))
-  ]);
-}
+const makePng16 = () => sharp(Uint16Array.from({length: 64 * 48}, (_, i) => 0x1000 + 4 * (i % 64)),
+                              {raw: {width: 64, height: 48, channels: 1}}).toColourspace('grey16').png().toBuffer();
 
 test('a depth picture with 16 bits keeps its bits', async () => {
-  await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', makePng16()));
+  await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', await makePng16()));
   await choose('depth');
   await driver.page.waitForTimeout(500);
   const depth = await shown(), row = depth.subarray(0, 3 * 320);
@@ -108,6 +90,10 @@ test('opens depth photos of phones, with distances where they are known', async 
     dispatchEvent(new DragEvent('drop', {dataTransfer: transfer, cancelable: true}));
   }, [...phone]), /^Opened: depth photo phone\.jpg, 64 x 48/);
   assert.deepEqual(await focusTexts(), ['10 m away', '1 m away']);
+  for (const texts of [['farthest', 'nearest'], ['10 m away', '1 m away']]) {
+    await andFull(() => driver.page.click('#swap'));
+    assert.deepEqual(await focusTexts(), texts);
+  }
   await opened(/^Opened: depth photo no-unit\.jpg/, file('no-unit.jpg', makeGDepth(jpeg, png)));
   assert.deepEqual(await focusTexts(), ['farthest', 'nearest']);
   await opened(/^Opened: depth photo linear\.jpg/, file('linear.jpg', makeGDepth(jpeg, png, {format: 'RangeLinear', units: 'm', far: 5})));

@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test, {after, before} from 'node:test';
+import sharp from 'sharp';
 
 import {
   andFull, choose, driver, end, error, full, launch, load, makeDemoFolder, place, refocusByProgram, screenshot, serve,
@@ -87,21 +88,26 @@ test('shows depth, blocks, and the original beside the picture', async () => {
   await setSlider('wipe', 0);
 });
 
-test('pulls the focus, and stops when asked', async () => {
+test('pulls the focus and returns, and stops when asked', async () => {
+  const focus = await driver.page.inputValue('#focus');
   await andFull(() => driver.page.click('#pull'));
+  assert.equal(await driver.page.inputValue('#focus'), focus);
   await driver.page.click('#pull');
   await driver.page.waitForTimeout(300);
   assert.equal(await driver.page.getAttribute('#pull', 'aria-pressed'), 'true');
+  assert.notEqual(await driver.page.inputValue('#focus'), focus);
   await andFull(() => driver.page.click('#pull'));
   assert.equal(await driver.page.getAttribute('#pull', 'aria-pressed'), 'false');
 });
 
-test('gives a JPEG', async () => {
+test('gives a JPEG of the picture', async () => {
   const [download] = await Promise.all([driver.page.waitForEvent('download'), driver.page.click('#download')]);
   assert.equal(download.suggestedFilename(), 'demo-refocused.jpg');
-  const bytes = readFileSync(await download.path());
-  assert.deepEqual([...bytes.subarray(0, 3)], [0xFF, 0xD8, 0xFF]);
-  assert.ok(bytes.length > 50000);
+  const path = await download.path(), {data} = await sharp(path).raw().toBuffer({resolveWithObject: true});
+  assert.deepEqual([...readFileSync(path).subarray(0, 3)], [0xFF, 0xD8, 0xFF]);
+  const expected = await shown(), error = expected.reduce((sum, byte, i) => sum + Math.abs(byte - data[i]), 0);
+  assert.equal(data.length, expected.length);
+  assert.ok(error < 2 * data.length, `the mean error is ${error / data.length}`);
 });
 
 test('keys focus, and every control says what it is', async () => {
@@ -127,6 +133,7 @@ test('keys focus, and every control says what it is', async () => {
 
 await import('./page_files.mjs');
 await import('./page_visit.mjs');
+await import('./page_races.mjs');
 
 test('50 refocusings leak nothing', async () => {
   await driver.page.close();

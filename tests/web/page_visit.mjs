@@ -9,23 +9,12 @@ import test from 'node:test';
 
 import {makeGDepth} from './gdepth_photo.mjs';
 import {
-  andFull, andWait, drawPhoto, driver, file, full, load, openFiles, place, screenshot, setSlider, shown, site, tap, waitFor
+  andFull, andWait, drawPhoto, driver, file, full, openFiles, place, screenshot, setSlider, shown, site, tap, visit,
+  waitFor
 } from './page_driver.mjs';
 import {assertSameBytes} from './pictures.mjs';
 
 const PHONE = {viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true, deviceScaleFactor: 2};
-
-/** Opens the page in a new context, performs an action, and closes the context. */
-async function visit(options, action) {
-  const before = driver.page;
-  try {
-    await load(driver.address, options);
-    await action(driver.page);
-  } finally {
-    await driver.page.context().close();
-    driver.page = before;
-  }
-}
 
 test('fits a phone, in light and dark colours', async () => {
   for (const colorScheme of ['light', 'dark']) {

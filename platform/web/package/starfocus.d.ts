@@ -215,8 +215,8 @@ export interface Block {
 
 /** A refocused picture. The caller owns the picture, and the package keeps no reference to it. */
 export interface Picture {
-  /** Rows of R, G, B, A without gaps. A is the alpha of the centre view, or 255 if the views have no alpha. In
-   *  previews, A is 255. */
+  /** Rows of R, G, B, A without gaps. A is the alpha of the centre view. A is 255 in previews, if the views have no alpha,
+   *  and if the depth was repaired. */
   readonly data: Bytes;
   /** Width in pixels. */
   readonly width: number;
@@ -252,7 +252,7 @@ export type ErrorCode = 'ARGUMENT' | 'RANGE' | 'FEATURE' | 'BLUR' | 'DISPARITY' 
     'MEMORY' | 'DECODE' | 'UNSUPPORTED' | 'WORKER' | 'INTERNAL';
 export declare const ErrorCode: {readonly [Code in ErrorCode]: Code};
 
-/** Every error of the package, except the reason of an aborted signal. */
+/** Every error of the package, except the reason of an aborted signal and values that onProgress throws. */
 export declare class StarfocusError extends Error {
   /** Kind of the error. */
   readonly code: ErrorCode;
@@ -351,8 +351,8 @@ export interface PhotoOptions extends WorkerOptions, Call, Progress {
   /** Blur radius at f/1 of the farthest point if the nearest point is in focus, divided by the diagonal of the picture,
    *  (0, 1]. The default, 0.0193, is the blur of a 50 mm lens on full frame if the nearest point is 1.5 m away. */
   blur?: number;
-  /** True: depth values are disparities in pixels, as in light fields, and `near` and `blur` do not apply. Default
-   *  false: depth values have any unit. */
+  /** True: depth values are disparities in pixels, as in light fields, within +-499, and `near` and `blur` do not apply.
+   *  Default false: depth values have any unit. */
   disparity?: boolean;
   /** True: the depth is repaired (see Refocuser.prepare). Default: true unless `disparity` is true. */
   repair?: boolean;
@@ -362,8 +362,8 @@ export interface PhotoOptions extends WorkerOptions, Call, Progress {
 export interface PhotoLens extends Lens {
   /** Disparity in focus, from Photo.focusMin (far) to Photo.focusMax (near), or up to one pixel beyond. */
   focus: number;
-  /** f-stop, at least Photo.fStopMin; default 1.8, 1 for light fields, or fStopMin if that is larger. Replaced by `aperture`, which is
-   *  1 / fStop, if `aperture` is present. */
+  /** f-stop, at least Photo.fStopMin. The default is 1.8, or 1 if PhotoOptions.disparity is true, or Photo.fStopMin if
+   *  that is larger. The aperture is 1 / fStop, unless `aperture` is present. */
   fStop?: number;
   /** Brightness of clipped lamps relative to white, [1, 64]; default 1. */
   highlights?: number;
@@ -397,7 +397,8 @@ export interface Photo extends Disposables {
   readonly version: string;
   /** Number of threads. */
   readonly threads: number;
-  /** Returns the focus for a point of the picture, as Refocuser.focusAt. */
+  /** Returns the focus for a point of the picture, as Refocuser.focusAt. The call waits for earlier requests. A signal
+   *  can cancel a running request, so that the focus is known at once. */
   focusAt(point: Point): Promise<number>;
   /** Requests a picture. A new request cancels the previous one.
    *  @throws StarfocusError for a missing focus and values out of range */

@@ -12,13 +12,11 @@ async function drawPixels(source, what) {
   if (typeof OffscreenCanvas !== 'function') {
     fail('UNSUPPORTED', what, 'picture files cannot be decoded here; pass {data, width, height}.');
   }
-  let bitmap;
-  try {
-    bitmap = await createImageBitmap(source, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
-  } catch {
-    fail('DECODE', what, `${source.name ? `${source.name} is` : 'this is'} not a picture that this browser can decode.`);
+  let bitmap = source;
+  if (source instanceof Blob) {
+    bitmap = await createImageBitmap(source, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'}).catch(() =>
+      fail('DECODE', what, `${source.name ? `${source.name} is` : 'this is'} not a picture that this browser can decode.`));
   }
-  source.close?.();
   const {width, height} = bitmap, canvas = new OffscreenCanvas(width, height);
   const context = canvas.getContext('2d', {willReadFrequently: true});
   context.drawImage(bitmap, 0, 0);

@@ -35,28 +35,28 @@ export function measure(data, channels = 1) {
   return {low, high};
 }
 
-const OUTLIERS = 1000;   // one of this number of values may be an outlier, at each end
-const SORTED = 1 << 20;  // largest number of values that are sorted
+const OUTLIERS = 1000;  // one of this number of values may be an outlier, at each end
 
-/** Returns all finite values of a map, or of a large map a part, in ascending order. */
-function sortValues(data, channels) {
-  const step = channels * Math.max(1, Math.floor(data.length / channels / SORTED));
-  const values = data instanceof Float32Array ? new Float32Array(Math.ceil(data.length / step))
-                                              : new Uint16Array(Math.ceil(data.length / step));
-  let count = 0;
-  for (let i = 0; i < data.length; i += step) {
-    if (Number.isFinite(data[i])) values[count++] = data[i];
-  }
-  return values.subarray(0, count).sort();
+/** Returns a function from ranks to the finite floats of a map in ascending order, and the number of these floats. */
+function rankFloats(data) {
+  const values = data.filter(Number.isFinite).sort();
+  return {valueAt: rank => values[rank], count: values.length};
+}
+
+/** Returns the same for integers, each `channels` apart, which are counted instead of sorted. */
+function rankIntegers(data, channels) {
+  const counts = new Uint32Array(data instanceof Uint16Array ? 65536 : 256);
+  for (let i = 0; i < data.length; i += channels) ++counts[data[i]];
+  return {valueAt: rank => counts.findIndex(count => (rank -= count) < 0), count: data.length / channels};
 }
 
 /** Returns the quantiles of 0.1 % and 99.9 % of the finite values, {low, high}, and low > high if no value is
  *  finite. */
 export function measureRobustly({data, channels}) {
-  const values = sortValues(data, channels);
-  if (values.length === 0) return {low: Infinity, high: -Infinity};
-  const beyond = Math.trunc((values.length - 1) / OUTLIERS);
-  return {low: values[beyond], high: values[values.length - 1 - beyond]};
+  const {valueAt, count} = data instanceof Float32Array ? rankFloats(data) : rankIntegers(data, channels);
+  if (count === 0) return {low: Infinity, high: -Infinity};
+  const beyond = Math.trunc((count - 1) / OUTLIERS);
+  return {low: valueAt(beyond), high: valueAt(count - 1 - beyond)};
 }
 
 function meanOfRows({data, width, channels}, from, to) {

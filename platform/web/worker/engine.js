@@ -47,12 +47,14 @@ function unsupported(message) {
   throw Object.assign(new Error(message), {code: 'UNSUPPORTED'});
 }
 
-/** Compiles the engine from the text of its module. The module is linked for shared memory, which a flag of the imported memory declares. If
- *  `shared` is false, this function clears the flag, so that the module accepts memory that is not shared. */
+/** Compiles the engine from the text of its module. The module is linked for shared memory, which a flag of the imported
+ *  memory declares. If `shared` is false, this function clears the flag, so that the module accepts memory that is not
+ *  shared. */
 export async function compile(deflated, shared) {
   if (typeof WebAssembly !== 'object') unsupported('WebAssembly is not available here.');
   if (typeof DecompressionStream !== 'function') {
-    unsupported('starfocus needs Chrome 91, Firefox 113, Safari 16.4, node 18 or newer.');
+    unsupported('DecompressionStream is not available here (expected Chrome 91, Firefox 113, Safari 16.4, node 18 or ' +
+                'newer).');
   }
   const bytes = await inflate(deflated);
   if (!shared) bytes[findMemoryFlags(bytes)] = 1;

@@ -97,9 +97,7 @@ const calls = {
     engine.begin();
     setFields(engine.configure, given);
     check(engine.accept(count), {...given, threads: count});
-    for (let worker = 1; worker < count; ++worker) {
-      await startHelper({id: 0, name: 'help', values: {module, memory, worker, stack: engine.stack()}});
-    }
+    for (let worker = 1; worker < count; ++worker) await addHelper(module, worker);
     return {
       version: readText(memory, engine.version()), module,
       shared: shared ? {memory, address: engine.shared()} : null
@@ -212,11 +210,25 @@ function readBlocks() {
   });
 }
 
-/** Runs jobs of the engine of another worker. Never returns. */
+/** Starts the helper with this number. */
+async function addHelper(module, worker) {
+  const stack = engine.stack();
+  if (!stack) throw new RangeError('There is not enough memory for the threads.');
+  const problem = await startHelper({id: 0, name: 'help', values: {module, memory, worker, stack}});
+  if (problem) throw new Error(`A thread could not be started: ${problem}`);
+}
+
+/** Runs jobs of the engine of another worker. Does not return, unless this helper cannot be started. Answers with the
+ *  problem, or with null. */
 async function help({module, memory: shared, worker, stack}) {
-  const helper = await instantiate(module, shared);
+  let helper;
+  try {
+    helper = await instantiate(module, shared);
+  } catch (error) {
+    return post(error.message);
+  }
   helper.__stack_pointer.value = stack;
-  post('ready');
+  post(null);
   helper.help(worker);
 }
 

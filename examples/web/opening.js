@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens the demo and files, and replaces the open photo. The engine and the readers of files are loaded after the first
+// picture is visible.
+
+import {openDemo} from './demo.js';
+import {keepFiles} from './files.js';
+import {resetLens, setRanges} from './lens.js';
+import {chosen, fail, get, say, state, viewer} from './page.js';
+import {focusAt, refocus, showDepth, showLens, stop} from './pictures.js';
+import {keepState} from './visit.js';
+
+const LARGE = 4e6;  // pixels of a photo that can be refocused before its depth is repaired
+
+let repairing = null;  // AbortController of the repair of a large photo, or null
+
+// ?threads=N in the address sets the number of threads, for tests and measurements.
+const query = new URLSearchParams(location.search);
+const threads = query.has('threads') ? Number(query.get('threads')) : undefined;
+
+/** Recognizes files, as open() of open.js. */
+export async function recognize(files) {
+  const {open} = await import('./open.js');
+  return open(files);
+}
+
+/** Loads the engine. */
+const engine = () => import('./starfocus/starfocus.js');
+
+/** Starts the engine for the photo `found`. */
+async function start(found, options, signal) {
+  const {openPhoto} = await engine();
+  const image = found.images.length > 1 ? found.images : found.images[0];
+  return openPhoto(image, found.depth, {
+    ...found.options, threads, signal,
+    onProgress: (done, total) => say(`Preparing the depth: ${Math.round(100 * done / total)} %`, true), ...options
+  });
+}
+
+/** Shows the version of the engine, the number of threads, and a sentence about the depth. */
+function showEngine({version, threads: count}, depth = '') {
+  get('engine').textContent = `starfocus ${version}, ${count} ${count === 1 ? 'thread' : 'threads'}.${depth}`;
+}
+
+/** Replaces the open photo. `isRough` is true if its depth is not repaired yet. */
+function take(photo, found, isRough = false) {
+  state.current?.photo.close();
+  state.current = {photo, found, isRough, view: null};
+  setRanges(photo);
+  showLens();
+  get('swap').disabled = Boolean(found.options.disparity);
+  showEngine(photo, isRough ? ' The depth is being repaired.' : '');
+  viewer.setDepth(null);
+  if (chosen('show') === 'depth') showDepth();
+}
+
+/** Repairs the depth of the open photo, and then replaces the photo. */
+async function repair() {
+  const {photo: rough, found} = state.current, {signal} = repairing = new AbortController();
+  try {
+    take(await start(found, {onProgress: undefined}, signal), found);
+    if (!state.isSharp) refocus();
+  } catch (error) {
+    if (signal.aborted) return;
+    console.warn(error);  // for developers
+    showEngine(rough, ' The depth could not be repaired.');
+  }
+}
+
+/** Opens the photo that `find` returns, and then calls `afterwards`. `find` receives a signal, which is aborted if
+ *  another photo is opened meanwhile. On failure, the previous photo remains open. */
+export async function openWith(find, afterwards = () => {}) {
+  stop();
+  const {current, isSharp} = state;
+  if (!state.opening && current) current.view = {state: viewer.state, isSharp};
+  state.opening?.abort();
+  repairing?.abort();
+  const {signal} = state.opening = new AbortController();
+  let name;
+  say('Opening.', true);
+  try {
+    const found = await find(signal);
+    signal.throwIfAborted();
+    name = found.name;
+    if (found.bitmap) viewer.showPhoto(found.bitmap);
+    else viewer.showSharp();
+    const isLarge = !found.options.disparity && viewer.width * viewer.height > LARGE;
+    const photo = await start(found, isLarge ? {repair: false} : {}, signal);
+    Object.assign(state, {opening: null, isFull: false, isSharp: true});
+    get('error').hidden = true;
+    take(photo, found, isLarge);
+    finish(found, afterwards);
+  } catch (error) {
+    if (!signal.aborted) stay(error, name);
+  }
+}
+
+/** Sets the lens of a photo that was opened, and focuses on a point that was tapped meanwhile. */
+function finish(found, afterwards) {
+  const {photo, isRough} = state.current, {tapped} = state;
+  if (!found.isAgain) resetLens(found.options.disparity);
+  showLens();
+  say(`Opened: ${found.name}, ${photo.width} x ${photo.height}. Tap to focus.`);
+  afterwards();
+  if (isRough) repair();
+  keepState();
+  state.tapped = null;
+  if (tapped) focusAt(tapped);
+}
+
+/** Shows the reason of a failure, and shows the previous photo again. */
+function stay(error, name) {
+  state.opening = state.tapped = null;
+  fail(error, name);
+  const {current} = state;
+  if (!current) return say('Nothing is open.');
+  viewer.state = current.view.state;
+  state.isSharp = current.view.isSharp;
+  if (chosen('show') === 'depth') showDepth();
+  if (current.isRough) repair();
+  say(`Still open: ${current.found.name}.`);
+}
+
+/** Opens the demo. */
+export const demo = afterwards => openWith(signal => openDemo(bitmap => {
+  signal.throwIfAborted();
+  viewer.showPhoto(bitmap);
+  say('Loading the rest of the demo.', true);
+  engine().catch(() => {});  // start() reports failures
+}), afterwards);
+
+/** Opens files of the user, and keeps them for the return to the page. */
+export function openFiles(files) {
+  const key = `${Date.now()}-${Math.random()}`;
+  return openWith(async () => ({...await recognize(await files), key}), async () => keepFiles(key, await files));
+}
+
+/** Returns `found` with this near end. Its distances are known only for the near end that the file states. */
+export function withNear(found, near) {
+  const {options, distances, stated = {near: options.near, distances}} = found;
+  return {...found, stated, options: {...options, near}, distances: near === stated.near ? stated.distances : null};
+}
+
+/** Opens the photo again with the other end of its depth as the near end. */
+export async function swap() {
+  if (!state.current || state.opening) return;
+  const {found, photo} = state.current, near = photo.near === 'bright' ? 'dark' : 'bright', {isSharp} = state;
+  await openWith(() => ({...withNear(found, near), bitmap: null, isAgain: true}), () => isSharp || refocus());
+}
