@@ -275,7 +275,7 @@ consumers() {
       m32) PACKAGES="$PACKAGES libc6-dev-i386 lib32stdc++-12-dev qemu-user" ;;
       wasm) PACKAGES="$PACKAGES emscripten nodejs" ;;
       python)
-        for target in numpy pip venv setuptools wheel pil matplotlib distributed mypy skimage; do python="$python python3-$target"; done
+        for target in numpy pip venv setuptools wheel pil matplotlib distributed mypy; do python="$python python3-$target"; done
         PACKAGES="$PACKAGES $python"
         targets="$targets starfocus_python"
         ;;
