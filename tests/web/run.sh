@@ -45,6 +45,7 @@ cd "$work/project"
 cp "$sources"/tests/web/*.mjs .
 echo '{"private": true, "type": "module"}' >package.json
 quietly npm install --offline --no-audit --no-fund "$STARFOCUS_PACKAGE"
+run depth_test.mjs
 run golden_test.mjs
 run package_test.mjs
 run photo_test.mjs

@@ -37,17 +37,44 @@ export function measure(data, channels = 1) {
 
 const OUTLIERS = 1000;  // one of this number of values may be an outlier, at each end
 
-/** Returns a function from ranks to the finite floats of a map in ascending order, and the number of these floats. */
-function rankFloats(data) {
-  const values = data.filter(Number.isFinite).sort();
-  return {valueAt: rank => values[rank], count: values.length};
+/** Returns the index of the bin that contains the value with this rank, and the rank of the value within the bin. */
+function find(counts, rank) {
+  let bin = 0;
+  while (rank >= counts[bin]) rank -= counts[bin++];
+  return {bin, rank};
 }
 
-/** Returns the same for integers, each `channels` apart, which are counted instead of sorted. */
+const BINS = 65536;  // 2 ** 16: keys of floats are counted by their upper and lower 16 bits
+
+/** Returns a function from ranks to the finite floats of a map in ascending order, and the number of these floats. The
+ *  floats are counted, because sorting 12 megapixels takes seconds. */
+function rankFloats(data) {
+  const floats = new Int32Array(data.buffer, data.byteOffset, data.length), upper = new Uint32Array(BINS);
+  const toKey = bits => bits < 0 ? ~bits : bits | 0x80000000;  // as unsigned integers, keys are ordered like the floats
+  let count = 0;
+  for (let i = 0; i < floats.length; ++i) {
+    const bits = floats[i];
+    if ((bits & 0x7f800000) === 0x7f800000) continue;  // infinity or NaN
+    ++upper[toKey(bits) >>> 16];
+    ++count;
+  }
+  const valueAt = wanted => {
+    const {bin, rank} = find(upper, wanted), lower = new Uint32Array(BINS);
+    for (let i = 0; i < floats.length; ++i) {
+      const key = toKey(floats[i]);
+      if (key >>> 16 === bin) ++lower[key & 0xffff];
+    }
+    const key = bin << 16 | find(lower, rank).bin;
+    return new Float32Array(Int32Array.of(key < 0 ? key & 0x7fffffff : ~key).buffer)[0];
+  };
+  return {valueAt, count};
+}
+
+/** Returns the same for integers, each `channels` apart. */
 function rankIntegers(data, channels) {
   const counts = new Uint32Array(data instanceof Uint16Array ? 65536 : 256);
   for (let i = 0; i < data.length; i += channels) ++counts[data[i]];
-  return {valueAt: rank => counts.findIndex(count => (rank -= count) < 0), count: data.length / channels};
+  return {valueAt: rank => find(counts, rank).bin, count: data.length / channels};
 }
 
 /** Returns the quantiles of 0.1 % and 99.9 % of the finite values, {low, high}, and low > high if no value is
