@@ -23,7 +23,7 @@ fun tapToFocus(frame: Image, depth: DepthMap, width: Int, height: Int, x: Int, y
   Refocuser(configuration).use { refocuser ->
     refocuser.prepare(LightField(arrayOf(frame), depth))
     val lens = Parameters()
-    lens.focus = refocuser.focusAt(depth, x, y)
+    lens.focus = Refocuser.focusAt(depth, width, height, x, y)
     lens.aperture = refocuser.largestAperture(lens)
     refocuser.refocusPrepared(lens, out)
   }

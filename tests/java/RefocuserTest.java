@@ -411,9 +411,11 @@ public final class RefocuserTest {
     checkThrows(IllegalStateException.class, "closed",
         () -> closed.refocus(field(picture()), new Parameters(), out(bytes(3 * WIDTH * HEIGHT))));
     checkThrows(
-        IllegalStateException.class, "closed", () -> closed.focusAt(depth(ramp()), WIDTH / 2, 10));
-    checkThrows(
         IllegalStateException.class, "closed", () -> closed.largestAperture(new Parameters()));
+  }
+
+  private static double focusAt(DepthMap depth, int x, int y) {
+    return Refocuser.focusAt(depth, WIDTH, HEIGHT, x, y);
   }
 
   private static void smallMapsAreMeasuredAndTapped() {
@@ -430,11 +432,14 @@ public final class RefocuserTest {
     configuration.disparityMin = range[0];
     configuration.disparityMax = range[1];
     configuration.maxBlur = 7;
+    check(focusAt(depth, WIDTH / 2 - 1, 10) == 2, "focus at the left half");
+    check(focusAt(depth, WIDTH / 2, 10) == 16, "focus at the right half");
+    check(focusAt(depth, 0, 0) == 2, "focus at an unknown value");
+    check(focusAt(depth, WIDTH - 1, HEIGHT - 1) == 16, "focus at the last pixel");
+    checkThrows(StarfocusException.class, "", () -> focusAt(depth, WIDTH, 10));
+    checkThrows(StarfocusException.class, "", () -> focusAt(depth, 10, HEIGHT));
+    checkThrows(StarfocusException.class, "", () -> Refocuser.focusAt(depth, 0, HEIGHT, 0, 0));
     try (Refocuser refocuser = new Refocuser(configuration)) {
-      check(refocuser.focusAt(depth, WIDTH / 2 - 1, 10) == 2, "focus at the left half");
-      check(refocuser.focusAt(depth, WIDTH / 2, 10) == 16, "focus at the right half");
-      check(refocuser.focusAt(depth, 0, 0) == 2, "focus at an unknown value");
-      checkThrows(StarfocusException.class, "", () -> refocuser.focusAt(depth, WIDTH, 10));
       final Parameters parameters = new Parameters();
       parameters.focus = 2;
       check(refocuser.largestAperture(parameters) == 0.5, "the largest aperture");

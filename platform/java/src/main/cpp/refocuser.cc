@@ -292,12 +292,11 @@ STARFOCUS_NATIVE(jint, rowsDone)(JNIEnv*, jclass, jlong handle) {
 }
 
 STARFOCUS_NATIVE(jdouble, focusAt)
-(JNIEnv* env, jclass, jlong handle, jobject depth, jint x, jint y) {
-  const starfocus_config& config = From(handle)->config;
+(JNIEnv* env, jclass, jobject depth, jint width, jint height, jint x, jint y) {
   starfocus_depth_map map;
   double focus = 0;
   if (ReadDepthMap(env, depth, &map)) {
-    ThrowStatus(env, starfocus_focus_at(&map, config.width, config.height, x, y, &focus));
+    ThrowStatus(env, starfocus_focus_at(&map, width, height, x, y, &focus));
   }
   return focus;
 }

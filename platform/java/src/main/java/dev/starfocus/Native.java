@@ -33,7 +33,7 @@ final class Native {
 
   static native int rowsDone(long session);
 
-  static native double focusAt(long session, DepthMap depth, int x, int y);
+  static native double focusAt(DepthMap depth, int width, int height, int x, int y);
 
   static native double largestAperture(long session, Parameters parameters);
 

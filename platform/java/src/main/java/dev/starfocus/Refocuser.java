@@ -137,17 +137,19 @@ public final class Refocuser implements Closeable {
   /**
    * Returns the focus for the surface at a pixel, for example at the pixel that a user tapped. The
    * focus is the median of the disparities of the surface, up to 3 values of the map away from the
-   * pixel.
+   * pixel. Does not wait for calls of a Refocuser.
    *
    * @param depth map of any format
+   * @param width width of the picture in pixels, 1 to 65535
+   * @param height height of the picture in pixels, 1 to 65535
    * @param x column of the picture, 0 to width - 1
    * @param y row of the picture, 0 to height - 1
    * @return the disparity to focus at
    * @throws StarfocusException if the pixel lies outside the picture, or all disparities up to 3
    *     values away are unknown
    */
-  public synchronized double focusAt(DepthMap depth, int x, int y) {
-    return Native.focusAt(open(), depth, x, y);
+  public static double focusAt(DepthMap depth, int width, int height, int x, int y) {
+    return Native.focusAt(depth, width, height, x, y);
   }
 
   /**
