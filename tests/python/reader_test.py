@@ -93,6 +93,9 @@ class Reader(unittest.TestCase):
     def test_notes_are_warnings(self):
         with self.assertWarnsRegex(UserWarning, "not run, because the input has depth"):
             starfocus.read_light_field(FOLDER, depth_command="false {input} {output}")
+        with self.assertWarnsRegex(UserWarning, "not run, because the input has depth"):
+            with self.assertRaisesRegex(starfocus.InputError, "^[^\n]*: expected 17 views, found no [^\n]*$"):
+                starfocus.read_light_field(FOLDER, depth_command="false {input} {output}", views=17)
 
     def test_wrong_inputs_and_options(self):
         os.mkdir("one")
@@ -115,8 +118,19 @@ class Reader(unittest.TestCase):
         for kind, scale in (("<f4", "-1.0"), (">f4", "1.0")):
             Path("map.pfm").write_bytes(f"Pf\n3 2\n{scale}\n".encode() + values[::-1].astype(kind).tobytes())
             np.testing.assert_array_equal(starfocus.read_pfm("map.pfm"), values)
+        Path("map.pfm").write_bytes(b"Pf # a comment\n#\n# another\n1\t1 -.5e0\n" + np.float32(7).tobytes())
+        np.testing.assert_array_equal(starfocus.read_pfm("map.pfm"), [[7]])
         Path("map.pfm").write_bytes(b"Pf\n3 2\n-1.0\n" + bytes(23))
         with self.assertRaisesRegex(ValueError, "expected 24 bytes of values, found 23"):
+            starfocus.read_pfm("map.pfm")
+        for header in (b"", b"Pf", b"PF\n3 2\n-1.0\n", b"Pf\n3 2\n-1.0", b"Pf\n0 2\n-1.0\n", b"Pf\n3 -2\n-1.0\n",
+                       b"Pf\n3 2\nnan\n", b"Pf\n3 2\n1.2.3\n", b"Pf\n3 1234567890\n-1.0\n", b"# a comment",
+                       b"Pf # a comment"):
+            Path("map.pfm").write_bytes(header)
+            with self.assertRaisesRegex(ValueError, "^map.pfm: expected the header of a PFM with one channel, found b"):
+                starfocus.read_pfm("map.pfm")
+        Path("map.pfm").write_bytes(b"Pf 123456789 123456789 -1.0\n")
+        with self.assertRaisesRegex(ValueError, "expected 60966315000762084 bytes of values, found 0"):
             starfocus.read_pfm("map.pfm")
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import warnings
@@ -16,6 +17,10 @@ import numpy as np
 from ._types import Bytes, Floats
 from .maps import view_positions
 
+_GAP = rb"\s(?:\s|#[^\n]*\n)*"  # white space and comments
+#: Width, height and scale, whose sign is the byte order. One byte separates the header from the values.
+_PFM_HEADER = re.compile(rb"Pf%b([1-9]\d{0,8})%b([1-9]\d{0,8})%b([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s"
+                         % (_GAP, _GAP, _GAP))
 _PROGRAM = Path(__file__).parent / "bin" / "starfocus"
 #: Value of an option of `starfocus import`. True sets an option without a value. None and False do not set an option.
 Option = Union[str, int, float, bool, Path, None]
@@ -96,20 +101,22 @@ def read_pfm(path: Union[str, "os.PathLike[str]"]) -> Floats:
     The first row of the array is the top row of the map. Raises ValueError for a malformed PFM.
     """
     data = Path(path).read_bytes()
-    (magic, width, height, scale), first = _header(data, 4, path)
-    if magic != b"Pf":
-        raise ValueError(f"{path}: expected a PFM of one channel")
-    shape = int(height), int(width)
-    expected = 4 * shape[0] * shape[1]
-    if len(data) - first < expected:
-        raise ValueError(f"{path}: expected {expected} bytes of values, found {len(data) - first}")
-    kind = "<f4" if float(scale) < 0 else ">f4"
-    values = np.frombuffer(data, kind, shape[0] * shape[1], first).reshape(shape)
+    header = _PFM_HEADER.match(data)
+    if header is None:
+        raise ValueError(f"{path}: expected the header of a PFM with one channel, found {data[:32]!r}")
+    width, height, scale = int(header[1]), int(header[2]), float(header[3])
+    expected, found = 4 * width * height, len(data) - header.end()
+    if found < expected:
+        raise ValueError(f"{path}: expected {expected} bytes of values, found {found}")
+    values = np.frombuffer(data, "<f4" if scale < 0 else ">f4", width * height, header.end()).reshape(height, width)
     return np.ascontiguousarray(values[::-1], np.float32)
 
 
 def _run(command: List[str], options: Dict[str, Option], working_folder: Optional[str] = None) -> str:
-    """Runs a command of the program, and returns its output. Issues its notes as warnings."""
+    """Runs a command of the program, and returns its output. Issues its notes as warnings.
+
+    If the program fails, its error is the last line that starts with the name of the program.
+    """
     if not _PROGRAM.exists():
         raise RuntimeError("read_light_field: expected a package with the program starfocus, found one that was built "
                            "without it (STARFOCUS_PROGRAMS=OFF)")
@@ -120,12 +127,16 @@ def _run(command: List[str], options: Dict[str, Option], working_folder: Optiona
             arguments.append(flag if value is True else f"{flag}={value}")
     done = subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
                           cwd=working_folder, check=False)
-    notes = done.stderr.strip()
+    notes = done.stderr.strip().splitlines()
+    error = ""
     if done.returncode != 0:
+        at = max((at for at, note in enumerate(notes) if note.startswith("starfocus: ")), default=None)
         unexplained = f"starfocus {command[0]}: expected the exit code 0, found {done.returncode}"
-        raise InputError(notes.removeprefix("starfocus: ") or unexplained)
-    for note in notes.splitlines():
+        error = unexplained if at is None else notes.pop(at)
+    for note in notes:
         warnings.warn(note, stacklevel=3)
+    if error:
+        raise InputError(error.removeprefix("starfocus: "))
     return done.stdout
 
 
@@ -146,21 +157,3 @@ def _coordinate(value: float) -> str:
     """Returns a coordinate as in the names of views."""
     text = f"{round(value, 4) + 0.0:+.4f}".rstrip("0")
     return text + "0" if text.endswith(".") else text
-
-
-def _header(data: bytes, words: int, path: Any) -> Tuple[List[bytes], int]:
-    """Returns the first `words` words of a file without comments, and the offset of the data behind them."""
-    found: List[bytes] = []
-    at = 0
-    while len(found) < words:
-        end = at
-        while end < len(data) and not data[end:end + 1].isspace():
-            end += 1
-        if end == len(data):
-            raise ValueError(f"{path}: its header ends too early")
-        if data[at:at + 1] == b"#":
-            end = data.find(b"\n", at)
-        elif end > at:
-            found.append(data[at:end])
-        at = end + 1
-    return found, at
