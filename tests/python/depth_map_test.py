@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests functions for maps that are smaller than the picture and contain distances or 16-bit values."""
+import math
 import unittest
 
 import numpy as np
@@ -28,6 +29,15 @@ class DepthMaps(unittest.TestCase):
         self.assertEqual(engine.largest_aperture(2), 0.5)
         with self.assertRaises(starfocus.ArgumentError):
             engine.largest_aperture(1e9)
+        with self.assertRaisesRegex(TypeError, "'no_such'"):
+            engine.largest_aperture(2, no_such=1)
+        views, disparity = np.zeros((1, 8, 8, 3), np.uint8), np.full((8, 8), 2, np.float32)
+        for focus, lens, expected in ((2, {}, 0.5), (4, {"focus_nearer": 2, "focus_farther": 1}, 0.7)):
+            aperture = engine.largest_aperture(focus, **lens)
+            self.assertEqual(aperture, expected)
+            engine.refocus(views, disparity, focus=focus, aperture=aperture, **lens)
+            with self.assertRaisesRegex(starfocus.ArgumentError, "lens.aperture"):
+                engine.refocus(views, disparity, focus=focus, aperture=math.nextafter(aperture, 1), **lens)
 
     def test_a_small_map_is_repaired(self):
         columns = np.arange(96)

@@ -73,6 +73,13 @@ class Stream(unittest.TestCase):
         engine.refocus(VIEWS, DISPARITY, focus=0)
         with self.assertRaises(starfocus.StarfocusError):
             list(stream)
+        older, newer = (engine.stream(bands(8), focus=focus) for focus in (1, 2))
+        next(older)
+        made = [next(newer)]
+        with self.assertRaisesRegex(starfocus.StarfocusError, "^stream: .*later stream"):
+            next(older)
+        made += newer
+        np.testing.assert_array_equal(np.concatenate(made), engine.refocus(VIEWS, DISPARITY, focus=2))
         with self.assertRaises(starfocus.Cancelled):
             list(engine.stream(bands(8), focus=1, progress=lambda done, rows: done > HEIGHT // 2))
 

@@ -17,7 +17,7 @@ from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, alig
 from ._abi import library
 from ._types import Array, Bytes
 from .constants import Mode, Renderer, Status
-from .errors import ArgumentError, check
+from .errors import ArgumentError, StarfocusError, check
 from .images import Image
 from .maps import Disparity, measure_disparity
 
@@ -88,6 +88,7 @@ class Refocuser:
         self._engine = engine.value
         weakref.finalize(self, library.starfocus_destroy, self._engine)
         self._lock = threading.Lock()
+        self._stream: Optional[Watch] = None  # watch of the stream that began last
         #: Fields of the starfocus_report of the last refocus call, by name.
         self.report: Dict[str, Any] = {}
 
@@ -177,12 +178,16 @@ class Refocuser:
         params = self._params(mode, renderer, region, focus=focus, aperture=aperture, **lens)
         return self._picture(params, out, (height, width), progress, library.starfocus_refocus, byref(field), keep=kept)
 
-    def largest_aperture(self, focus: float) -> float:
-        """Returns the largest aperture, at most 1, whose blur radius never exceeds `max_blur` at this focus."""
-        lens, aperture = _abi.Lens(focus=focus), ctypes.c_double()
-        with self._lock:
-            check(library.starfocus_largest_aperture(self._engine, byref(lens), byref(aperture)),
-                  library.starfocus_engine_problem(self._engine).contents)
+    def largest_aperture(self, focus: float, **lens: Any) -> float:
+        """Returns the largest aperture, at most 1, whose blur radius never exceeds `max_blur`.
+
+        Args:
+            focus: disparity in focus, in pixels per unit of u.
+            lens: other fields of starfocus_lens, as for `refocus`. `focus_nearer` and `focus_farther` increase the
+                result.
+        """
+        params, aperture = self._params(Mode.BLOCK, Renderer.AUTO, None, focus=focus, **lens), ctypes.c_double()
+        self._run(Watch(None), library.starfocus_largest_aperture, byref(params.lens), byref(aperture))
         return aperture.value
 
     def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[Array] = None,
@@ -209,7 +214,7 @@ class Refocuser:
 
         The other arguments and exceptions are those of `refocus`. Errors are raised when the iterator reaches them:
         ValueError if the bands have more or fewer rows than the picture, and StarfocusError if another call of this
-        refocuser has ended the stream.
+        refocuser, such as a second stream, has ended the stream.
         """
         watch = Watch(progress)
         params = self._params(mode, renderer, None, focus=focus, aperture=aperture, **lens)
@@ -314,6 +319,10 @@ class Refocuser:
         """Calls the function with the engine and the arguments, and reports its progress to `watch`."""
         callbacks = _abi.Callbacks(self._pool.runner, self._pool.handle, watch.function)
         with self._lock:
+            if function is library.starfocus_stream_begin:
+                self._stream = watch
+            elif function in (library.starfocus_stream_push, library.starfocus_stream_pull) and watch is not self._stream:
+                raise StarfocusError(Status.STATE, _abi.Problem(Status.STATE, 0, b"stream", b"no later stream", math.nan))
             status = library.starfocus_set_callbacks(self._engine, byref(callbacks))
             if status == Status.OK:
                 status = function(self._engine, *arguments)
