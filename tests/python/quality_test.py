@@ -63,6 +63,8 @@ class Quality(unittest.TestCase):
                 starfocus.evaluate(*arguments)
         with self.assertRaisesRegex(TypeError, "result: expected uint8, found float64"):
             starfocus.evaluate(RESULT / 1.0, TRUTH)
+        with self.assertRaisesRegex(TypeError, "distance: expected a whole number, found 2.5"):
+            starfocus.evaluate(RESULT, TRUTH, np.zeros(TRUTH.shape[:2]), distance=2.5)
         for name in ("distance", "step"):
             with self.assertRaisesRegex(ValueError, f"{name}: expected at least 0, found -1"):
                 starfocus.evaluate(RESULT, TRUTH, **{name: -1})

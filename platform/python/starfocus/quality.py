@@ -7,7 +7,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from ._calls import as_map, rows_of
+from ._calls import as_map, rows_of, whole
 from ._types import Array, Bytes
 
 _TAPS = 11
@@ -43,17 +43,18 @@ def evaluate(result: Array, truth: Array, disparity: Optional[Array] = None, *, 
 
     PSNR is 10 log10(255**2 / mean squared difference). SSIM is the index of Wang et al. (2004) with a Gaussian window
     of 11 x 11 pixels, a standard deviation of 1.5 pixels, K1 = 0.01 and K2 = 0.03. The mean SSIM covers all windows
-    inside the picture. The luma is 0.299 R + 0.587 G + 0.114 B. `./do bench` uses the same definitions, and the largest
-    blur radius as `distance`.
+    inside the picture. The luma is 0.299 R + 0.587 G + 0.114 B. `./do bench` uses the same definitions, with the largest
+    blur radius as `distance`, and limits PSNR to 99 dB.
 
     Both pixels at a step of disparity are pixels of a silhouette. Steps to values that are not finite are ignored.
 
-    Raises TypeError or ValueError for arrays of a wrong type or shape, and ValueError for numbers out of range.
+    Raises TypeError or ValueError for arrays of a wrong type or shape, and for numbers of a wrong type or out of range.
     """
     truth = np.asarray(truth)
     if truth.ndim != 3 or truth.shape[2] != 3 or min(truth.shape[:2]) < _TAPS:
         raise ValueError(f"truth: expected the shape (height, width, 3) of at least {_TAPS} x {_TAPS} pixels, found "
                          f"{truth.shape}")
+    distance = whole(distance, "distance")
     for name, value in (("distance", distance), ("step", step)):
         if not value >= 0:
             raise ValueError(f"{name}: expected at least 0, found {value}")
