@@ -15,7 +15,9 @@ from pathlib import Path
 
 from distributed import Client, LocalCluster, as_completed
 
-ATTEMPTS = 3  # a task is given up after this number of workers or programs were killed while they ran it
+# Largest number of times that the program is started for one input, if it is killed each time. The setting
+# distributed.scheduler.allowed-failures limits the number of workers that are killed.
+ATTEMPTS = 3
 
 
 def refocus(source: str, picture: str, options: list[str]) -> str:
@@ -41,10 +43,11 @@ def name_pictures(sources: list[str], folder: Path) -> dict[str, str]:
     return pictures
 
 
-def run(client: Client, sources: list[str], folder: Path, options: list[str]) -> dict[str, str]:
-    """Refocuses all inputs whose pictures do not exist yet. Returns the problem of each input that failed."""
-    folder.mkdir(parents=True, exist_ok=True)
-    pictures = name_pictures(sources, folder)
+def run(client: Client, pictures: dict[str, str], options: list[str]) -> dict[str, str]:
+    """Refocuses all inputs whose pictures do not exist yet. Returns the problem of each input that failed.
+
+    `pictures` contains the input of each picture, and the folder of the pictures exists.
+    """
     # The program writes a picture under its final name only when it is complete.
     missing = {picture: source for picture, source in pictures.items() if not Path(picture).exists()}
     print(f"{len(pictures) - len(missing)} of {len(pictures)} pictures exist.", flush=True)
@@ -63,7 +66,7 @@ def run(client: Client, sources: list[str], folder: Path, options: list[str]) ->
 
 
 def main() -> int:
-    """Reads the arguments, and refocuses on the cluster. Returns the exit code."""
+    """Reads the arguments, and refocuses on the cluster. Returns the exit code, or exits with an error message."""
     arguments = sys.argv[1:]
     at = arguments.index("--") if "--" in arguments else len(arguments)
     parser = argparse.ArgumentParser(description=__doc__.split(":")[0])
@@ -72,9 +75,14 @@ def main() -> int:
     parser.add_argument("input", nargs="+", help="photos and light-field folders")
     given = parser.parse_args(arguments[:at])
     sources = [str(Path(source).absolute()) for source in given.input]
-    cluster = given.scheduler or LocalCluster(threads_per_worker=1, dashboard_address=None)
-    with Client(cluster) as client:
-        problems = run(client, sources, given.folder.absolute(), arguments[at + 1:])
+    try:
+        pictures = name_pictures(sources, given.folder.absolute())
+        given.folder.mkdir(parents=True, exist_ok=True)
+        client = Client(given.scheduler or LocalCluster(threads_per_worker=1, dashboard_address=None))
+    except (OSError, ValueError) as error:
+        sys.exit(f"batch_dask.py: {error}")
+    with client:
+        problems = run(client, pictures, arguments[at + 1:])
     for source, problem in problems.items():
         print(f"{source}: {problem}", file=sys.stderr)
     print(f"{len(sources) - len(problems)} of {len(sources)} pictures exist, {len(problems)} inputs failed.")

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests examples/python/batch_dask.py on a local cluster: batch_dask_test.py PROGRAM LIGHT-FIELD FOLDER."""
 import os
+import re
 import signal
 import subprocess
 import sys
 import threading
 import time
 from pathlib import Path
+from unittest import mock
 
+import dask
 from distributed import Client, LocalCluster
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "examples/python"))
@@ -24,6 +27,16 @@ def kill_worker(pids: list[int], folder: Path) -> None:
     os.kill(pids[0], signal.SIGKILL)
 
 
+def check_error(arguments: list[str], message: str) -> None:
+    """Checks that the script exits with an error message that matches a regular expression."""
+    try:
+        with mock.patch.object(sys, "argv", ["batch_dask.py", *arguments]):
+            code = batch_dask.main()
+    except SystemExit as error:
+        code = error.code
+    assert isinstance(code, str) and re.search("^batch_dask.py: .*" + message, code), code
+
+
 def main() -> None:
     """Runs the test, and raises AssertionError if it fails."""
     program, light_field, work = Path(sys.argv[1]), Path(sys.argv[2]).absolute(), Path(sys.argv[3]).absolute()
@@ -37,14 +50,16 @@ def main() -> None:
     bad = work / "bad.jpg"
     bad.write_text("no picture")
     folder, expected = work / "out", work / "expected.jpg"
+    folder.mkdir()
     subprocess.run([program, "refocus", sources[0], "-o", expected, *OPTIONS], check=True)
     names = [str(path) for path in [*sources, bad]]
     with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
         pids = list(client.run(os.getpid).values())
-        killer = threading.Thread(target=kill_worker, args=(pids, folder))
+        killer = threading.Thread(target=kill_worker, args=(pids, folder), daemon=True)
         killer.start()
-        problems = batch_dask.run(client, names, folder, OPTIONS)
-        killer.join()
+        problems = batch_dask.run(client, batch_dask.name_pictures(names, folder), OPTIONS)
+        killer.join(60)
+        assert not killer.is_alive(), "no picture was written"
         assert pids[0] not in client.run(os.getpid).values(), "the worker was not killed"
         assert list(problems) == [str(bad)], problems
         assert "bad.jpg" in problems[str(bad)], problems
@@ -54,14 +69,14 @@ def main() -> None:
         # A second run writes only the missing picture.
         times = {path: path.stat().st_mtime_ns for path in pictures[1:]}
         pictures[0].unlink()
-        assert batch_dask.run(client, names[:-1], folder, OPTIONS) == {}
+        assert batch_dask.run(client, batch_dask.name_pictures(names[:-1], folder), OPTIONS) == {}
         assert pictures[0].read_bytes() == expected.read_bytes()
         assert times == {path: path.stat().st_mtime_ns for path in pictures[1:]}, "pictures were written again"
-    try:
-        batch_dask.name_pictures(["a/x.jpg", "b/x.png"], folder)
-        raise AssertionError("two inputs with one name were accepted")
-    except ValueError as error:
-        assert "a/x.jpg and b/x.png" in str(error)
+    check_error([str(folder), "a/x.jpg", "b/x.png"], "x.jpg: expected one input, found .*/a/x.jpg and .*/b/x.png$")
+    check_error([str(bad), "x.jpg"], "File exists: .*bad.jpg")
+    with dask.config.set({"distributed.comm.timeouts.connect": "1s"}):
+        check_error(["--scheduler", "tcp://127.0.0.1:1", str(folder), "x.jpg"], "Timed out .* tcp://127.0.0.1:1")
+    check_error(["--scheduler", "node1", str(folder), "x.jpg"], "missing port number in address 'node1'")
     print(f"{INPUTS} inputs, one worker killed")
 
 
