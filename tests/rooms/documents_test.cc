@@ -157,10 +157,9 @@ TEST_CASE("documents: all commands and options that documents name exist") {
   const std::string sources = ReadAll({"examples", "tests"}, {".cc", ".h"});
   const std::string scripts = Read(kRoot / "do") + ReadAll({"toolchains"}, {".sh", ".cmake"});
   const std::set<std::string> of_others = {
-      "--preset",       "--build",   "--install",       "--prefix", "--target",
-      "--libs",         "--cflags",  "--static",        "--joblog", "--resume-failed",
-      "--sshloginfile", "--workdir", "--cpus-per-task", "--mem",    "--time",
-      "--requeue",      "--array",   "--state",         "--format", "--scheduler"};
+      "--preset", "--build",   "--install",      "--prefix",  "--target",        "--libs",
+      "--cflags", "--static",  "--sshloginfile", "--workdir", "--cpus-per-task", "--mem",
+      "--time",   "--requeue", "--array",        "--state",   "--format",        "--scheduler"};
   for (const fs::path& document : Documents()) {
     const std::string text = Read(document);
     for (const std::string& command : Find(Code(document), "\nstarfocus ([a-z]+) ")) {
