@@ -414,10 +414,6 @@ public final class RefocuserTest {
         IllegalStateException.class, "closed", () -> closed.largestAperture(new Parameters()));
   }
 
-  private static double focusAt(DepthMap depth, int x, int y) {
-    return Refocuser.focusAt(depth, WIDTH, HEIGHT, x, y);
-  }
-
   private static void smallMapsAreMeasuredAndTapped() {
     final ByteBuffer distances = bytes(2 * 40 * 30); // 4000 in the left half, 500 in the right half
     for (int i = 0; i < 40 * 30; ++i) distances.putShort(2 * i, (short) (i % 40 < 20 ? 4000 : 500));
@@ -432,13 +428,12 @@ public final class RefocuserTest {
     configuration.disparityMin = range[0];
     configuration.disparityMax = range[1];
     configuration.maxBlur = 7;
-    check(focusAt(depth, WIDTH / 2 - 1, 10) == 2, "focus at the left half");
-    check(focusAt(depth, WIDTH / 2, 10) == 16, "focus at the right half");
-    check(focusAt(depth, 0, 0) == 2, "focus at an unknown value");
-    check(focusAt(depth, WIDTH - 1, HEIGHT - 1) == 16, "focus at the last pixel");
-    checkThrows(StarfocusException.class, "", () -> focusAt(depth, WIDTH, 10));
-    checkThrows(StarfocusException.class, "", () -> focusAt(depth, 10, HEIGHT));
-    checkThrows(StarfocusException.class, "", () -> Refocuser.focusAt(depth, 0, HEIGHT, 0, 0));
+    check(Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH / 2 - 1, 10) == 2, "focus at the left");
+    check(Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH / 2, 10) == 16, "focus at the right half");
+    check(Refocuser.focusAt(depth, WIDTH, HEIGHT, 0, 0) == 2, "focus at an unknown value");
+    checkThrows(
+        StarfocusException.class, "", () -> Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH, 10));
+    checkThrows(StarfocusException.class, "", () -> Refocuser.focusAt(depth, 10, 0, 5, 5));
     try (Refocuser refocuser = new Refocuser(configuration)) {
       final Parameters parameters = new Parameters();
       parameters.focus = 2;

@@ -292,11 +292,13 @@ STARFOCUS_NATIVE(jint, rowsDone)(JNIEnv*, jclass, jlong handle) {
 }
 
 STARFOCUS_NATIVE(jdouble, focusAt)
-(JNIEnv* env, jclass, jobject depth, jint width, jint height, jint x, jint y) {
+(JNIEnv* env, jclass, jobject depth, jintArray place) {
+  jint at[4] = {};  // width, height, x, y
+  env->GetIntArrayRegion(place, 0, 4, at);
   starfocus_depth_map map;
   double focus = 0;
   if (ReadDepthMap(env, depth, &map)) {
-    ThrowStatus(env, starfocus_focus_at(&map, width, height, x, y, &focus));
+    ThrowStatus(env, starfocus_focus_at(&map, at[0], at[1], at[2], at[3], &focus));
   }
   return focus;
 }

@@ -33,7 +33,8 @@ final class Native {
 
   static native int rowsDone(long session);
 
-  static native double focusAt(DepthMap depth, int width, int height, int x, int y);
+  /** {@code place} is the width and height of the picture, and x and y of the pixel. */
+  static native double focusAt(DepthMap depth, int[] place);
 
   static native double largestAperture(long session, Parameters parameters);
 

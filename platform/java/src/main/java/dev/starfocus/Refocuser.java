@@ -149,7 +149,7 @@ public final class Refocuser implements Closeable {
    *     values away are unknown
    */
   public static double focusAt(DepthMap depth, int width, int height, int x, int y) {
-    return Native.focusAt(depth, width, height, x, y);
+    return Native.focusAt(depth, new int[] {width, height, x, y});
   }
 
   /**
