@@ -170,7 +170,7 @@ const heicSample = () => readFileSync(join(sources, 'tests', 'fuzz', 'corpus', '
 
 test('opens a portrait of a phone in HEIC', {skip: noPug}, async () => {
   const {page} = driver;
-  await load(driver.address);  // a page of its own, whose memory is freed
+  await load(driver.address);  // a new page, and the memory of the old page is freed
   await opened(/^Opened: depth photo pug\.heic, 4032 x 3024/, file('pug.heic', readFileSync(join(photos, 'pug.heic'))));
   await choose('depth');
   await driver.page.waitForTimeout(500);
