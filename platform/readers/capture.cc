@@ -69,11 +69,11 @@ Result<Capture> OpenArray(const std::string& folder, const Names& pictures) {
   const bool stanford = IsStanford(pictures[0]) && array.rows > 1;
   Capture capture;
   capture.format = stanford ? "Stanford light field" : "rows and columns of views";
-  capture.is_row = array.rows == 1 || array.columns == 1;
   if (stanford) OrderStanford(&array);
   Result<Star> star = ChooseStar(folder, array, &capture.facts);
   if (!star) return star.error();
   capture.files = std::move(star->views);
+  if (array.rows == 1 || array.columns == 1) capture.row = std::move(array.paths);
   if (HasDisparity(folder)) capture.map_path = DisparityPath(folder);
   return capture;
 }

@@ -26,9 +26,9 @@ struct CaptureOptions {
 struct Capture {
   std::string path, format;
   bool photo = false;  // True if the input is one file with one view.
-  // True if the views are one row or column of pictures with numbers in their names. Such pictures
-  // may instead be separate photos.
-  bool is_row = false;
+  // Paths of all pictures if the views are chosen from one row or column of pictures with numbers
+  // in their names, otherwise empty. Such pictures may instead be separate photos.
+  std::vector<std::string> row;
   std::vector<ViewFile> files;  // Files of the views, the centre first.
   std::string map_path;         // File of the map, for reading and for errors; empty: no map.
   std::string coverage_path;    // File of the coverage; empty: no coverage.

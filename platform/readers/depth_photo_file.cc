@@ -122,6 +122,17 @@ bool ReadStrayMap(Span file, Near near, DepthPhoto* photo) {
   return true;
 }
 
+bool JpegStoresDepth(const std::string& path, Span file) {
+  const Result<JpegParts> parts = ReadJpegParts(path, file);
+  if (!parts) return false;
+  DepthPhoto photo;
+  ReadMap(file, *parts, ReadXmp(*parts, false, &photo), Near::kUnknown, &photo);
+  if (!photo.map.values.empty() || ReadStrayMap(file, Near::kUnknown, &photo)) return true;
+  if (!MayBeStereoPair(path, file)) return false;
+  if (ReadJpegPicture(path, file, *parts).MoveTo(&photo)) return false;
+  return ReadStereoPair(path, file, &photo);
+}
+
 Error NoMap(const std::string& path, const std::string& problem) {
   std::string found = "a picture without one";
   if (!CanReadXmp()) found += " that is read (this build has no expat)";
@@ -179,6 +190,16 @@ Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool wi
   CheckProfile(&photo);
   KeepCaptions(&photo);
   return photo;
+}
+
+bool StoresDepth(const std::string& path) {
+  const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
+  if (!bytes) return false;
+  const Span file = {bytes->data(), bytes->size()};
+  if (IsJpeg(file)) return JpegStoresDepth(path, file);
+  if (!IsHeif(file)) return false;
+  Result<DepthPhoto> photo = ReadHeif(path, file, Near::kUnknown);
+  return photo && (!photo->map.values.empty() || ReadStereoPair(path, file, &*photo));
 }
 
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,

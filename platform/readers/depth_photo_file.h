@@ -22,6 +22,10 @@ namespace starfocus {
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth);
 
+// Returns true if the file of a photograph stores a readable depth map or a stereo pair. Reads a
+// depth map in a JPEG file without the picture.
+bool StoresDepth(const std::string& path);
+
 // Decodes a photograph in memory, and its depth map if `with_map` is true. The map is empty if the
 // file has no readable map.
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,20 @@ bool IsAuxiliary(const MultiPicture& picture) {
   });
 }
 
+// Finds the picture of a JPEG file that may be the right picture of a stereo pair.
+std::optional<MultiPicture> FindRight(const std::string& path, Span file) {
+  if (!IsJpeg(file)) return std::nullopt;
+  const Result<JpegParts> parts = ReadJpegParts(path, file);
+  if (!parts || (parts->multi_picture.empty() && LowerExtension(path) != ".mpo")) {
+    return std::nullopt;
+  }
+  std::vector<MultiPicture> pictures = ListMultiPictures(file, *parts).pictures;
+  if (pictures.empty() || IsAuxiliary(pictures[0])) return std::nullopt;
+  const uint32_t type = pictures[0].type;
+  if (type != kUndefined && type != kStereo) return std::nullopt;
+  return std::move(pictures[0]);
+}
+
 // Reads a photo, without its depth map, and turns it upright.
 Result<DepthPhoto> ReadUpright(const std::string& path) {
   if (Error error = CheckPlainFile(path)) return error;
@@ -49,26 +64,25 @@ Result<DepthPhoto> ReadUpright(const std::string& path) {
 
 }  // namespace
 
+bool MayBeStereoPair(const std::string& path, Span file) {
+  return FindRight(path, file).has_value();
+}
+
 bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo) {
   if (IsHeif(file)) {
     if (!ReadHeifPair(path, file, photo)) return false;
     photo->format = "stereo pair (HEIF)";
     return true;
   }
-  if (!IsJpeg(file)) return false;
-  const Result<JpegParts> parts = ReadJpegParts(path, file);
-  if (!parts || (parts->multi_picture.empty() && LowerExtension(path) != ".mpo")) return false;
-  const std::vector<MultiPicture> pictures = ListMultiPictures(file, *parts).pictures;
-  if (pictures.empty() || IsAuxiliary(pictures[0])) return false;
-  const uint32_t type = pictures[0].type;
-  if (type != kUndefined && type != kStereo) return false;
-  const Span second = pictures[0].file;
-  Result<DecodedPicture> right = DecodeImage(path, Bytes(second.data, second.data + second.size));
+  const std::optional<MultiPicture> second = FindRight(path, file);
+  if (!second) return false;
+  const Span its = second->file;
+  Result<DecodedPicture> right = DecodeImage(path, Bytes(its.data, its.data + its.size));
   if (!right || right->image.width != photo->picture.width ||
       right->image.height != photo->picture.height) {
     return false;
   }
-  if (!pictures[0].indexed) {
+  if (!second->indexed) {
     photo->notes.push_back(
         "the multi-picture index is wrong or absent: the right picture was found behind the left "
         "one");

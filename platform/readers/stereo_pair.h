@@ -18,6 +18,10 @@ namespace starfocus {
 // second picture has the size of the first picture. Returns false if the file is not a stereo pair.
 bool ReadStereoPair(const std::string& path, Span file, DepthPhoto* photo);
 
+// Returns true if a JPEG file contains a picture that ReadStereoPair accepts as the right picture,
+// if its size is that of the first picture. Decodes no picture.
+bool MayBeStereoPair(const std::string& path, Span file);
+
 // Reads a stereo pair from two files. The pictures are turned upright, and must then have the same
 // size. Depth maps in the files are ignored.
 Result<DepthPhoto> ReadPictureFiles(const std::string& left, const std::string& right);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -229,7 +230,7 @@ Error RunInput(const RefocusOptions& options) {
                                : RunSweep(options, how, plan->foci, task, start);
 }
 
-Error RunInputs(const RefocusOptions& options) {
+Error RunInputs(const RefocusOptions& options, const Batch& batch) {
   for (const auto& [name, typed] : {std::pair{"--map", !options.map.empty()},
                                     {"--report", !options.report.empty()},
                                     {"--compare", !options.output.compare.empty()},
@@ -241,15 +242,13 @@ Error RunInputs(const RefocusOptions& options) {
       return Error::Usage(name, "a single input and a file for --output",
                           "several inputs or a folder");
   }
-  const Result<Batch> batch =
-      PlanBatch(options.inputs, options.output.out, EstimatesDepth(options.input));
-  if (!batch) return batch.error();
+  if (Error error = MakeBatchFolder(batch)) return error;
   // One more input than options.jobs is in memory, so that files are read and written during the
   // turns of other inputs.
   const int ahead = options.lens.threads > 1 ? 1 : 0;
   Turns turns(static_cast<size_t>(options.jobs));
-  return RunBatch(*batch, options.jobs + ahead, [&](const BatchItem& item) {
-    Turn turn(&turns, static_cast<size_t>(&item - batch->items.data()));
+  return RunBatch(batch, options.jobs + ahead, [&](const BatchItem& item) {
+    Turn turn(&turns, static_cast<size_t>(&item - batch.items.data()));
     RefocusOptions one = options;
     one.turn = &turn;
     one.input.path = item.input;
@@ -259,9 +258,10 @@ Error RunInputs(const RefocusOptions& options) {
 }
 
 Error Run(const RefocusOptions& options) {
-  if (IsBatch(options.inputs, options.output.out, EstimatesDepth(options.input))) {
-    return RunInputs(options);
-  }
+  const Result<std::optional<Batch>> batch =
+      PlanBatch(options.inputs, options.output.out, EstimatesDepth(options.input));
+  if (!batch) return batch.error();
+  if (*batch) return RunInputs(options, **batch);
   RefocusOptions one = options;
   one.input.path = options.inputs[0];
   return RunInput(one);

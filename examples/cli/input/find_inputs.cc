@@ -9,6 +9,7 @@
 
 #include "platform/file.h"
 #include "platform/readers/capture.h"
+#include "platform/readers/depth_photo_file.h"
 #include "platform/readers/pair.h"
 
 namespace starfocus {
@@ -40,13 +41,20 @@ Error NothingFound(const std::string& path, const std::vector<SkippedPath>& skip
                   skipped.empty() ? "an empty folder" : Text(skipped[0]));
 }
 
-}  // namespace
-
+// Returns true if the folder is one light field. A row of pictures with numbers in their names is
+// not a light field if one of the pictures has depth, or if `estimates_depth` states that a depth
+// command estimates the depth of each picture.
 bool IsLightField(const std::string& folder, bool estimates_depth) {
   const Result<Capture> capture = OpenCapture(folder, {});
-  if (!capture || !capture->is_row || !capture->map_path.empty()) return bool(capture);
-  return !estimates_depth && !OpenCapture(capture->files[0].path, {});
+  if (!capture || capture->row.empty() || !capture->map_path.empty()) return bool(capture);
+  const Result<DepthPictures> pictures = ListDepthPictures(folder);
+  if (estimates_depth || !pictures) return false;
+  return std::none_of(capture->row.begin(), capture->row.end(), [&](const std::string& path) {
+    return !pictures->Of(fs::path(path).filename().string()).empty() || StoresDepth(path);
+  });
 }
+
+}  // namespace
 
 Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
                                const std::string& out) {

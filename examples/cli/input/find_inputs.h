@@ -20,15 +20,12 @@ struct FoundInputs {
   std::vector<SkippedPath> skipped;  // sorted by path; without hidden files
 };
 
-// Returns true if the folder is one light field. A row of pictures with numbers in their names is
-// not a light field if the pictures are photos with depth, or if `estimates_depth` states that a
-// depth command estimates the depth of each picture.
-bool IsLightField(const std::string& folder, bool estimates_depth);
-
 // Returns the inputs that `path` stands for. If `path` is a folder but not a light field, these are
 // the photos and light fields in the folder, without the folder `out`. Otherwise the only input is
 // `path`. A PNG, WebP or PPM file is a photo if it has a depth picture next to it, or if
-// `estimates_depth` is true. Returns an error if the folder contains no input.
+// `estimates_depth` is true, which means that a depth command estimates the depth of photos without
+// depth. A row of pictures with numbers in their names is a light field unless one of the pictures
+// has depth or `estimates_depth` is true. Returns an error if the folder contains no input.
 Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
                                const std::string& out);
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -90,42 +91,47 @@ std::vector<std::string> RunItems(const std::vector<BatchItem>& items, int jobs,
 
 }  // namespace
 
-bool IsBatch(const std::vector<std::string>& inputs, const std::string& out, bool estimates_depth) {
+Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
+                                       const std::string& out, bool estimates_depth) {
   std::error_code ignored;
-  if (inputs.size() > 1 || fs::is_directory(out, ignored)) return true;
-  if (out.empty() || out.back() == '/') return !out.empty();
+  const bool to_folder =
+      inputs.size() > 1 || (!out.empty() && out.back() == '/') || fs::is_directory(out, ignored);
   // A folder of photographs counts as several inputs.
-  return inputs.size() == 1 && fs::is_directory(inputs[0], ignored) &&
-         FormatExtension(out).empty() && !IsLightField(inputs[0], estimates_depth);
-}
-
-Result<Batch> PlanBatch(const std::vector<std::string>& inputs, const std::string& folder,
-                        bool estimates_depth) {
-  if (folder.empty() || IsPictureExtension(FormatExtension(folder))) {
+  const bool may_be_photos =
+      !out.empty() && FormatExtension(out).empty() && fs::is_directory(inputs[0], ignored);
+  if (!to_folder && !may_be_photos) return std::optional<Batch>();
+  if (out.empty() || IsPictureExtension(FormatExtension(out))) {
     return Error::Usage("--output", "a folder for the pictures of several inputs",
-                        folder.empty() ? "none" : folder);
+                        out.empty() ? "none" : out);
   }
   Batch batch;
-  std::vector<Output> outputs;
-  Inputs read;
+  batch.folder = out;
   for (const std::string& input : inputs) {
     if (input == "-") {
       return Error::Usage("SRC", "files as inputs, or a file for --output", "- (standard input)");
     }
-    const Result<FoundInputs> found = FindInputs(input, estimates_depth, folder);
+    Result<FoundInputs> found = FindInputs(input, estimates_depth, out);
     if (!found) return found.error();
-    batch.skipped.insert(batch.skipped.end(), found->skipped.begin(), found->skipped.end());
+    if (!to_folder && found->paths == inputs) return std::optional<Batch>();
     for (const std::string& part : found->paths) {
-      std::error_code ignored;
-      batch.items.push_back({part, OutputOf(part, folder)});
-      outputs.push_back({"--output", batch.items.back().output});
-      (fs::is_directory(part, ignored) ? read.folders : read.files).push_back(part);
+      batch.items.push_back({part, OutputOf(part, out)});
     }
+    std::move(found->skipped.begin(), found->skipped.end(), std::back_inserter(batch.skipped));
   }
-  if (Error error = CheckFolderApart({"--output", folder}, read.folders)) return error;
+  return std::optional<Batch>(std::move(batch));
+}
+
+Error MakeBatchFolder(const Batch& batch) {
+  std::vector<Output> outputs;
+  Inputs read;
+  for (const BatchItem& item : batch.items) {
+    std::error_code ignored;
+    outputs.push_back({"--output", item.output});
+    (fs::is_directory(item.input, ignored) ? read.folders : read.files).push_back(item.input);
+  }
+  if (Error error = CheckFolderApart({"--output", batch.folder}, read.folders)) return error;
   if (Error error = CheckApart(outputs, read)) return error;
-  if (Error error = MakeFolder(folder)) return error;
-  return batch;
+  return MakeFolder(batch.folder);
 }
 
 Error RunBatch(const Batch& batch, int jobs, const std::function<Error(const BatchItem&)>& run) {

@@ -4,6 +4,7 @@
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_BATCH_H_
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,22 +18,24 @@ struct BatchItem {
 };
 
 struct Batch {
+  std::string folder;  // of the outputs
   std::vector<BatchItem> items;
   std::vector<SkippedPath> skipped;
 };
 
-// Returns true if the command writes pictures to a folder. The output is a folder if there are
-// several inputs, or if `out` is an existing folder or ends with "/". `estimates_depth` is true if
-// a depth command estimates missing depth (find_inputs.h).
-bool IsBatch(const std::vector<std::string>& inputs, const std::string& out, bool estimates_depth);
+// Chooses the inputs and the output file of each input if the command writes pictures to the folder
+// `out`. This is the case if there are several inputs, if `out` is an existing folder or ends with
+// "/", or if the input is a folder of photographs and `out` has no extension. Otherwise returns
+// nullopt. An output file has the name of its input. Inputs of the formats .jpg, .png, .ppm and
+// .webp keep their format. Inputs of other file formats get the output format .jpg, and light
+// fields get the output format .png. A folder that is not a light field is replaced by the
+// photographs and light fields in it. `estimates_depth` is true if a depth command estimates
+// missing depth (find_inputs.h).
+Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
+                                       const std::string& out, bool estimates_depth);
 
-// Chooses the output file of each input. An output file has the name of its input. Inputs of the
-// formats .jpg, .png, .ppm and .webp keep their format. Inputs of other file formats get the output
-// format .jpg, and light fields get the output format .png. A folder that is not a light field is
-// replaced by the photographs and light fields in it. Returns an error if outputs coincide with
-// each other or with inputs. If all outputs are valid, creates the output folder.
-Result<Batch> PlanBatch(const std::vector<std::string>& inputs, const std::string& folder,
-                        bool estimates_depth);
+// Creates the output folder. Returns an error if outputs coincide with each other or with inputs.
+Error MakeBatchFolder(const Batch& batch);
 
 // Runs all items, `jobs` at a time, and shows progress. Prints the skipped paths, each error
 // immediately, and finally the numbers of finished, skipped and failed inputs to stderr. The
