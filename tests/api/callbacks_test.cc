@@ -2,9 +2,13 @@
 // Tests how long the engine uses the functions that starfocus_set_callbacks sets.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <thread>
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/layered_scene.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
 #include "tests/support/stream_steps.h"
@@ -96,6 +100,60 @@ TEST_CASE("callbacks: null pointers are rejected, and the previous functions rem
   CHECK(starfocus_set_callbacks(engine.get(), nullptr) == STARFOCUS_ERROR_NULL);
   REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
   CHECK(f.calls.Take());
+}
+
+// Copies the finished rows of a picture whenever the progress callback runs.
+struct FinishedRows {
+  const test::Output* out;
+  std::vector<std::vector<uint8_t>> copies;
+
+  static int Copy(void* data, int32_t rows_done, int32_t) {
+    FinishedRows* self = static_cast<FinishedRows*>(data);
+    const auto begin = self->out->bytes.begin();
+    const auto size = ptrdiff_t(self->out->stride) * rows_done;
+    if (self->copies.empty() || self->copies.back().size() < size_t(size)) {
+      self->copies.emplace_back(begin, begin + size);
+    }
+    return 0;
+  }
+};
+
+// Runs jobs with even indices as worker 0 and jobs with odd indices as worker 1.
+int RunOnTwo(void*, starfocus_job job, void* data, int32_t count) {
+  std::thread other([=] {
+    for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
+  });
+  for (int32_t i = 0; i < count; i += 2) job(data, i, 0);
+  other.join();
+  return 0;
+}
+
+TEST_CASE("callbacks: rows that are reported as finished are complete and do not change") {
+  constexpr int kSide = 32;
+  test::Scene scene = test::LayeredScene(100, 170, 5, 12, 5);
+  // Blocks of different layers are adjacent, so that rows above a superblock are deblocked late.
+  test::SetDisparity(&scene,
+                     [](int x, int y) { return (x / kSide + y / kSide) % 2 == 0 ? 0.0f : 11.0f; });
+  starfocus_config config = test::ConfigFor(scene, 13);
+  config.superblock = kSide;
+  config.max_workers = 2;
+  config.tuning.deblocking = 255;
+  test::Engine engine(config);
+  for (const starfocus_region region : {starfocus_region{0, 0, 0, 0}, {5, 21, 70, 120}}) {
+    starfocus_params params = test::Params(-1, 1, STARFOCUS_MODE_BLOCK);
+    params.region = region;
+    test::Output out(region.width > 0 ? region.width : 100, region.width > 0 ? region.height : 170);
+    FinishedRows rows = {&out, {}};
+    starfocus_callbacks callbacks = {};
+    callbacks.runner = RunOnTwo;
+    callbacks.progress = FinishedRows::Copy;
+    callbacks.progress_data = &rows;
+    REQUIRE(test::Refocus(&engine, params, scene, &out, callbacks, nullptr) == STARFOCUS_OK);
+    REQUIRE(rows.copies.size() > 3);
+    for (const std::vector<uint8_t>& copy : rows.copies) {
+      CHECK(std::equal(copy.begin(), copy.end(), out.bytes.begin()));
+    }
+  }
 }
 
 TEST_CASE("callbacks: the functions of a stream may change between two pulls") {

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <future>
 #include <string>
 
@@ -17,18 +17,20 @@ namespace {
 using starfocus::Image;
 using starfocus::RowGate;
 
+// Returns true if a result is not available after 50 ms. A correct program always passes.
+template <class T>
+bool IsWaiting(const std::future<T>& result) {
+  return result.wait_for(std::chrono::milliseconds(50)) == std::future_status::timeout;
+}
+
 TEST_CASE("RowGate: WaitFor returns after the row is finished") {
   RowGate gate;
-  std::atomic<int> finished{0};
-  auto seen = std::async(std::launch::async, [&] {
-    gate.WaitFor(6);
-    return finished.load();
-  });
-  for (const int end : {3, 6, 7}) {
-    finished = end;
-    gate.Finish(end);
-  }
-  CHECK(seen.get() == 7);
+  auto seen = std::async(std::launch::async, [&] { gate.WaitFor(6); });
+  CHECK(IsWaiting(seen));
+  gate.Finish(6);
+  CHECK(IsWaiting(seen));
+  gate.Finish(7);
+  seen.get();
   gate.Finish(2);  // finished rows stay finished
   gate.WaitFor(6);
   gate.FinishAll();
@@ -38,13 +40,14 @@ TEST_CASE("RowGate: WaitFor returns after the row is finished") {
 TEST_CASE("EncodePicture: a row is read after it is finished") {
   Image whole(40, 33), made(40, 33);
   for (size_t k = 0; k < whole.pixels.size(); ++k) whole.pixels[k] = uint8_t(k * k / 7);
-  for (const std::string path : {"a.jpg", "a.png", "a.ppm"}) {
+  for (const std::string path : {"a.jpg", "a.png"}) {
     CAPTURE(path);
     std::fill(made.pixels.begin(), made.pixels.end(), uint8_t{0});
     RowGate gate;
     auto encoded = std::async(std::launch::async,
                               [&] { return starfocus::EncodePicture(path, made, {}, &gate); });
     for (int y = 0; y < whole.height; ++y) {
+      if (y == 0 || y == whole.height - 1) CHECK(IsWaiting(encoded));
       std::copy_n(whole.row(y), whole.stride(), made.row(y));
       gate.Finish(y + 1);
     }

@@ -43,7 +43,9 @@ typedef int (*starfocus_runner)(void* runner_data, starfocus_job job, void* job_
  *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output of a cancelled call is
  *  unspecified, and the engine can be used again. For streams, see starfocus_stream_pull.
  *  @param data starfocus_callbacks.progress_data
- *  @param rows_done number of finished rows, which never decreases within a call and ends at `rows`
+ *  @param rows_done number of finished rows, which never decreases within a call and ends at
+ *         `rows`. In functions that write a picture, except streams, the first `rows_done` rows of
+ *         the output are complete and do not change again
  *  @param rows number of all rows
  *  @return 0 to continue; another value cancels the call */
 typedef int (*starfocus_progress)(void* data, int32_t rows_done, int32_t rows);
