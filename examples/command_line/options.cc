@@ -182,6 +182,12 @@ std::string Short(double value) {
   return text;
 }
 
+std::string Decimal(double value, int decimals) {
+  char text[400];  // The largest double has 309 digits.
+  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
+  return text;
+}
+
 std::string OneOf(const std::vector<std::string>& words) {
   std::string text = words[0];
   for (size_t i = 1; i < words.size(); ++i) {

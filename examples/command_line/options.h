@@ -40,6 +40,11 @@ struct Pixel {
 Target Pair(char separator, Pixel* value);
 Target Pair(char separator, std::optional<Pixel>* value);
 
+// Disparities in focus, far <= near.
+struct FocusBand {
+  double far = 0, near = 0;
+};
+
 // Target for X,Y,W,H, a rectangle of integers with W and H above 0.
 Target Region(starfocus_region* value);
 
@@ -53,6 +58,9 @@ std::vector<double> ReadNumbers(const std::string& text, char separator);
 
 // Formats `value` with %g.
 std::string Short(double value);
+
+// Formats `value` with a fixed number of decimals.
+std::string Decimal(double value, int decimals);
 
 // Formats words as "a, b or c".
 std::string OneOf(const std::vector<std::string>& words);

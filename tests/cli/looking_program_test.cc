@@ -114,6 +114,27 @@ TEST_CASE("compare: large pictures are reduced, and their depth and focus stay a
   CHECK(red(404) > 90);
 }
 
+TEST_CASE("compare, view: the legend and the colours have the same ends in a reduced map") {
+  TempFolder folder;
+  MakeField(folder, 1800, 24);
+  const std::string path = folder.file("<&>/disparity.pfm");
+  FloatMap map = ValueOf(ReadPfm(path));
+  map.values[0] = 14;  // The reduced map does not contain this pixel.
+  REQUIRE(WritePfm(path, map) == "");
+  for (const char* call :
+       {"refocus '<&>' --focus 6 --aperture 0.2 --compare -", "view '<&>' --aperture 0.2 -o -"}) {
+    CAPTURE(call);
+    const std::string page = Call(folder, call).out;
+    CHECK(Contains(page, "<span>near 14.00</span>"));
+    const std::vector<Image> pictures = PicturesIn(page);
+    const Image& depth = pictures[Contains(call, "view") ? 1 : 2];
+    CHECK(depth.width == 600);
+    CHECK(IsNear(depth, 200, 4, {68, 1, 84}, 20));
+    // The disparity 6 is in the middle between -2 and 14.
+    CHECK(IsNear(depth, 500, 4, {33, 145, 140}, 20));
+  }
+}
+
 TEST_CASE("compare: a range in focus is a band in the legend, and all of it is in focus") {
   TempFolder folder;
   MakeField(folder);
@@ -165,7 +186,7 @@ TEST_CASE("compare: the page loads nothing, and its script is the one that the p
   CHECK(page.substr(hash, page.find('\'', hash) - hash) == EncodeBase64(digest));
 }
 
-TEST_CASE("compare: a page needs one whole picture and a file of its own") {
+TEST_CASE("compare: a page needs one whole picture and a separate file") {
   TempFolder folder;
   MakeField(folder);
   const std::string call = "refocus '<&>' --focus 1 ";

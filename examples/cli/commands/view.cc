@@ -93,15 +93,16 @@ Error WritePage(const ViewOptions& options, const Capture& capture,
                                    " pixels; larger is nearer"},
                  {"Unknown disparities", std::to_string(stats.invalid)}});
   const std::string& out = options.out;
-  Error error =
-      page.AddFigures(out, "Photograph and disparity map",
-                      {{"The photograph, sharp everywhere", "Centre view", light_field.views[0]},
-                       {"The disparity map in colours",
-                        "Disparity in pixels",
-                        DrawDepth(light_field.disparity),
-                        {},
-                        LegendHtml(stats, {})}},
-                      kLarge / 2);
+  const Image centre = Shrink(light_field.views[0], kLarge / 2);
+  const FloatMap map = SampleMap(light_field.disparity, centre.width, centre.height);
+  Error error = page.AddFigures(out, "Photograph and disparity map",
+                                {{"The photograph, sharp everywhere", "Centre view", centre},
+                                 {"The disparity map in colours",
+                                  "Disparity in pixels",
+                                  DrawDepth(map, stats),
+                                  {},
+                                  LegendHtml(stats, {})}},
+                                kLarge / 2);
   if (!error) error = page.AddFigures(out, "Refocused", contents.strip, kSmall);
   page.AddHistogram("Histogram of disparity", Histogram(light_field.disparity, stats, kBins),
                     stats);

@@ -33,10 +33,9 @@ Image DrawDisparity(const FloatMap& map) {
   return picture;
 }
 
-Image DrawDepth(const FloatMap& map) {
+Image DrawDepth(const FloatMap& map, const starfocus_disparity_stats& stats) {
   constexpr int kSteps = static_cast<int>(std::size(kDepthColors)) - 1;
-  const auto ends = std::minmax_element(map.values.begin(), map.values.end());
-  const float low = *ends.first, range = *ends.second - low;
+  const float low = stats.min, range = stats.max - low;
   Image picture(map.width, map.height);
   for (size_t i = 0; i < map.values.size(); ++i) {
     const float place = range > 0 ? (map.values[i] - low) / range * kSteps : 0;

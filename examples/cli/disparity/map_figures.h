@@ -26,8 +26,9 @@ inline constexpr uint8_t kDepthColors[9][3] = {{68, 1, 84},    {71, 45, 123},  {
                                                {44, 114, 142}, {33, 145, 140}, {40, 174, 128},
                                                {94, 201, 98},  {173, 220, 48}, {253, 231, 37}};
 
-// Draws a finite map in the colours kDepthColors.
-Image DrawDepth(const FloatMap& map);
+// Draws a finite map in the colours kDepthColors, of which the first means stats.min and the last
+// stats.max. All values must be in this range. `map` may be a sample of the map that was measured.
+Image DrawDepth(const FloatMap& map, const starfocus_disparity_stats& stats);
 
 // Reduces a map to `width` x `height` pixels. Every pixel of the result has the disparity at its
 // centre, so that edges stay sharp.

@@ -26,14 +26,14 @@ std::string FirstInvalid(const FloatMap& map, int64_t count) {
 }
 
 // Parses NEAR,FAR.
-std::string ReadFocusRange(const std::string& text, std::optional<FocusEnds>* range) {
+std::string ReadFocusRange(const std::string& text, std::optional<FocusBand>* range) {
   const std::vector<double> ends = ReadNumbers(text, ',');
   if (ends.size() != 2 || ends[0] < ends[1] || ends[0] > STARFOCUS_MAX_FOCUS ||
       ends[1] < -STARFOCUS_MAX_FOCUS) {
     return "NEAR,FAR, disparities from -" + Short(STARFOCUS_MAX_FOCUS) + " to " +
            Short(STARFOCUS_MAX_FOCUS) + " with NEAR at least FAR";
   }
-  *range = {ends[0], ends[1]};
+  *range = {ends[1], ends[0]};
   return "";
 }
 
@@ -88,7 +88,7 @@ std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
 }
 
 // Sets the focus to the middle of a range, and its extent to the ends of the range.
-void UseRange(const FocusEnds& range, LensPlan* plan) {
+void UseRange(const FocusBand& range, LensPlan* plan) {
   const double focus = 0.5 * (range.near + range.far);
   plan->focus_option = "--focus-range";
   plan->foci = {focus};

@@ -20,14 +20,9 @@
 
 namespace starfocus {
 
-// Disparities in focus, near >= far.
-struct FocusEnds {
-  double near, far;
-};
-
 struct LensOptions {
   std::optional<double> focus;
-  std::optional<FocusEnds> focus_range;
+  std::optional<FocusBand> focus_range;
   std::optional<Pixel> focus_at;
   ApertureOptions aperture;
   starfocus_mode mode = STARFOCUS_MODE_BLOCK;

@@ -74,6 +74,7 @@ Error WriteComparison(const std::string& path, const Refocused& refocused, const
   const LightField& light_field = *refocused.task->light_field;
   const starfocus_lens& lens = refocused.task->params.lens;
   const Image& before = light_field.views[0];
+  const starfocus_disparity_stats stats = MeasureDisparity(light_field.disparity);
   const double radius = SharpRadius(before.width, before.height);
   const Image small = Shrink(before, kFigureSide, kFigureSide);
   const FloatMap map = SampleMap(light_field.disparity, small.width, small.height);
@@ -84,17 +85,17 @@ Error WriteComparison(const std::string& path, const Refocused& refocused, const
   }
   const std::string ring = mark ? "; the ring marks the focused pixel" : "";
   Page page(refocused.input, icc);
-  Error error = page.AddSlider(path, {"The picture before, sharp everywhere", "", before},
-                               {"The refocused picture", "", *refocused.picture}, kSliderSide);
+  Error error = page.AddSlider(
+      path, {"The picture before, sharp everywhere", "", Shrink(before, kSliderSide, kSliderSide)},
+      {"The refocused picture", "", Shrink(*refocused.picture, kSliderSide, kSliderSide)});
   if (error) return error;
   AddLens(refocused, radius, &page);
-  error = page.AddFigures(
-      path, "Depth and focus",
-      {{"The disparity map in colours", "Disparity in pixels" + ring, DrawDepth(map), mark,
-        LegendHtml(MeasureDisparity(light_field.disparity), BandOf(lens))},
-       {"The picture in grey, with the pixels in focus in orange", "In focus: orange" + ring,
-        DrawFocus(small, map, lens, radius), mark}},
-      kFigureSide);
+  error = page.AddFigures(path, "Depth and focus",
+                          {{"The disparity map in colours", "Disparity in pixels" + ring,
+                            DrawDepth(map, stats), mark, LegendHtml(stats, BandOf(lens))},
+                           {"The picture in grey, with the pixels in focus in orange",
+                            "In focus: orange" + ring, DrawFocus(small, map, lens, radius), mark}},
+                          kFigureSide);
   return error ? error : WriteText(path, page.Html());
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "examples/cli/disparity/map_figures.h"
-#include "examples/cli/view/page.h"
 #include "platform/text.h"
 
 namespace starfocus {

@@ -6,17 +6,13 @@
 #include <optional>
 #include <string>
 
+#include "examples/command_line/options.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
 // CSS rules of the legend. The rules use the colours of the page (page.cc).
 extern const char kLegendStyle[];
-
-// Disparities in focus, far <= near.
-struct FocusBand {
-  double far = 0, near = 0;
-};
 
 // Returns HTML of a bar with the colours from the smallest disparity, far, to the largest, near.
 // The bar marks the disparities in focus. A focus beyond an end of the bar is marked at this end.

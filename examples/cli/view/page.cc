@@ -74,12 +74,6 @@ std::string Mark(const std::optional<PagePlace>& place) {
 
 }  // namespace
 
-std::string Decimal(double value, int decimals) {
-  char text[400];  // The largest double has 309 digits.
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
-}
-
 Page::Page(const std::string& path, const Bytes& icc)
     : title_(EscapeXml(
           std::filesystem::path(InputName(path) + "/").parent_path().filename().string())),
@@ -110,16 +104,14 @@ Error Page::AddFigures(const std::string& path, const std::string& heading,
   return {};
 }
 
-Error Page::AddSlider(const std::string& path, const PageFigure& before, const PageFigure& after,
-                      int side) {
-  const Image small = Shrink(before.picture, side, side);
-  const Result<std::string> one = Embed(path, before.says, small, icc_);
+Error Page::AddSlider(const std::string& path, const PageFigure& before, const PageFigure& after) {
+  const Result<std::string> one = Embed(path, before.says, before.picture, icc_);
   if (!one) return one.error();
-  const Result<std::string> two = Embed(path, after.says, Shrink(after.picture, side, side), icc_);
+  const Result<std::string> two = Embed(path, after.says, after.picture, icc_);
   if (!two) return two.error();
   style_ += kSliderStyle;
   script_ = kSliderScript;
-  body_ += SliderHtml(*one, *two, small.width, small.height);
+  body_ += SliderHtml(*one, *two, before.picture.width, before.picture.height);
   return {};
 }
 

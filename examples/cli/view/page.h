@@ -16,9 +16,6 @@
 
 namespace starfocus {
 
-// Formats `value` with a fixed number of decimals.
-std::string Decimal(double value, int decimals);
-
 // A place in a picture, as fractions of the width and the height of the picture.
 struct PagePlace {
   double x = 0, y = 0;
@@ -46,11 +43,9 @@ class Page {
   Error AddFigures(const std::string& path, const std::string& heading,
                    const std::vector<PageFigure>& figures, int width);
 
-  // Adds two pictures of the same size with a divider (slider.h), reduced to at most `side` pixels
-  // on a side. A page has at most one slider. Error messages start with `path`, which is the file
-  // of the page.
-  Error AddSlider(const std::string& path, const PageFigure& before, const PageFigure& after,
-                  int side);
+  // Adds two pictures of the same size with a divider (slider.h). A page has at most one slider.
+  // Error messages start with `path`, which is the file of the page.
+  Error AddSlider(const std::string& path, const PageFigure& before, const PageFigure& after);
 
   // Adds a histogram of bars, and a collapsible table of the numbers.
   void AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,
