@@ -240,6 +240,7 @@ TEST_CASE("show: a terminal with the kitty protocol gets the pixels, reduced if 
   CHECK(run.code == 0);
   CHECK(run.restored);
   CHECK(Text(folder.file("errors")) == "");
+  CHECK(Count(run.out, kQuery) == 1);
   CHECK(Contains(run.out, ",q=2,"));  // Answers would appear as typed text.
   CHECK(ReadKitty(run.out).pixels == ValueOf(ReadImage(folder.file("out.png"))).pixels);
   // The last of 10 rows is for the prompt: 20 - 2 = 18 pixels remain, and 60 * 18 / 40 = 27.

@@ -10,6 +10,7 @@
 #include "examples/cli/commands.h"
 #include "examples/cli/engine/engine_run.h"
 #include "examples/cli/input/input.h"
+#include "examples/cli/pictures/shrink.h"
 #include "examples/cli/refocus/batch.h"
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_output.h"
@@ -21,6 +22,7 @@
 #include "platform/clock.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
+#include "platform/terminal_graphics.h"
 
 namespace starfocus {
 namespace {
@@ -164,8 +166,9 @@ Result<Loaded> Load(const RefocusOptions& options, LensPlan* plan) {
   return loaded;
 }
 
+// Computes and writes one picture. Shows the picture on `terminal`, unless this is nullopt.
 Error RunOne(const RefocusOptions& options, const PictureOptions& how, const LensPlan& plan,
-             const EngineTask& one, double start) {
+             const EngineTask& one, const std::optional<GraphicsTerminal>& terminal, double start) {
   EngineTask task = one;
   std::vector<starfocus_block> blocks;
   if (!options.map.empty()) {
@@ -174,18 +177,20 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, const Len
   }
   task.stream = options.stream;
   EngineRun run(task.threads, 1);
+  if (Error error = run.Start(InputName(options.input.path), task)) return error;
   EngineResult result;
   result.picture = EngineRun::MakePicture(task);
   PictureWriter writer(options.output, how, &result.picture, task.threads);
-  Error error = run.Start(InputName(options.input.path), task);
-  if (!error) {
-    error = run.RefocusRows(InputName(options.input.path), task, writer.rows(), &result);
-  }
+  Error error = run.RefocusRows(InputName(options.input.path), task, writer.rows(), &result);
   if (options.turn != nullptr) options.turn->End();
   if (!error) {
     Refocused refocused = {options.input.path, &task, &result.picture, plan.aperture.widest};
     if (plan.focus_option == "--focus-at") refocused.at = Pixel{plan.x, plan.y};
     error = writer.Write(refocused);
+  }
+  if (!error && terminal) {
+    error = ShowOnTerminal("--show", *terminal,
+                           Shrink(result.picture, terminal->width, terminal->height));
   }
   if (!error && !options.map.empty()) {
     const starfocus_region& region = task.params.region;
@@ -220,13 +225,19 @@ Error RunInput(const RefocusOptions& options) {
   const double start = Seconds();
   Result<LensPlan> plan = MakePlan(options);
   if (!plan) return plan.error();
+  std::optional<GraphicsTerminal> terminal;
+  if (options.output.show) {
+    const Result<GraphicsTerminal> found = FindGraphicsTerminal("--show");
+    if (!found) return found.error();
+    terminal = *found;
+  }
   const Result<Loaded> loaded = Load(options, &*plan);
   if (!loaded) return loaded.error();
   const PictureOptions how = {options.output.quality, loaded->capture.metadata,
                               options.output.small_png ? PngSize::kSmall : PngSize::kQuick};
   const EngineTask task = MakeTask(*plan, loaded->capture.light_field, loaded->stats,
                                    loaded->max_blur, !options.report.empty());
-  return options.sweep.empty() ? RunOne(options, how, *plan, task, start)
+  return options.sweep.empty() ? RunOne(options, how, *plan, task, terminal, start)
                                : RunSweep(options, how, plan->foci, task, start);
 }
 

@@ -9,11 +9,9 @@
 #include <new>
 #include <system_error>
 
-#include "examples/cli/pictures/shrink.h"
 #include "examples/command_line/options.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
-#include "platform/terminal_graphics.h"
 #include "platform/writers/depth_photo.h"
 #include "platform/writers/png.h"
 
@@ -59,7 +57,7 @@ Error PlanLooking(const OutputOptions& options, bool sweep, bool region) {
   if (!options.compare.empty() && region) {
     return Error::Usage("--compare", "a whole picture", "--region");
   }
-  return options.show ? FindGraphicsTerminal("--show").error() : Error();
+  return {};
 }
 
 Error WriteDepthPhoto(const std::string& path, const PictureOptions& how,
@@ -73,13 +71,6 @@ Error WriteDepthPhoto(const std::string& path, const PictureOptions& how,
   photo.widest = refocused.widest;
   return WriteFile(path,
                    EncodeDepthPhoto(path, *refocused.picture, photo, how.quality, how.metadata));
-}
-
-// Shows a picture on the terminal, reduced to the size of the terminal.
-Error Show(const Image& picture) {
-  const Result<GraphicsTerminal> terminal = FindGraphicsTerminal("--show");
-  if (!terminal) return terminal.error();
-  return ShowOnTerminal("--show", *terminal, Shrink(picture, terminal->width, terminal->height));
 }
 
 }  // namespace
@@ -188,7 +179,7 @@ Error PictureWriter::Write(const Refocused& refocused) {
   if (!error && !options_.compare.empty()) {
     error = WriteComparison(options_.compare, refocused, how_.metadata.icc);
   }
-  return error || !options_.show ? error : Show(*picture_);
+  return error;
 }
 
 Error WritePair(const OutputOptions& options, const PictureOptions& how,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the output of `refocus`: a picture, a depth photo, the pictures of a sweep, or the page of
-// --compare. Shows pictures on the terminal.
+// --compare.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_REFOCUS_OUTPUT_H_
 
@@ -34,8 +34,8 @@ void AddOutputOptions(Command* command, OutputOptions* options);
 // Lists the output files of a refocusing, or of a sweep of `pictures` pictures (0: no sweep).
 std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
 
-// Checks the options before any file is read, and whether the terminal can show the picture. Does
-// not check the output files. `region` is true if only part of the picture is computed.
+// Checks the options before any file is read. Does not check the output files or the terminal.
+// `region` is true if only part of the picture is computed.
 Error PlanOutput(const OutputOptions& options, bool sweep, bool region);
 
 // Writes the picture of one refocusing. With several threads, a thread encodes finished rows of a
@@ -52,8 +52,8 @@ class PictureWriter {
   // Receives the rows that are finished before Write is called.
   RowGate* rows() { return &rows_; }
 
-  // Writes the complete picture to the files and shows it on the terminal, as the options select.
-  // `refocused` describes the picture. If Write is not called, no file is written.
+  // Writes the complete picture to the files that the options select. `refocused` describes the
+  // picture. If Write is not called, no file is written.
   Error Write(const Refocused& refocused);
 
  private:
