@@ -354,12 +354,18 @@ bool ReadHeifPair(const std::string& where, Span file, DepthPhoto* photo) {
   try {
     const Result<Context> context = OpenContext(where, file);
     if (!context) return false;
-    Result<Image> left = ReadPicture(where, context->get(), ids[0], file.size);
-    Result<Image> right = ReadPicture(where, context->get(), ids[1], file.size);
-    if (!left || !right || left->width != right->width || left->height != right->height) {
+    heif_item_id primary = 0;
+    const heif_error failure = heif_context_get_primary_image_ID(context->get(), &primary);
+    // The caller has already decoded the primary picture, which usually is the left picture.
+    const bool has_left = failure.code == heif_error_Ok && primary == ids[0];
+    Image decoded;
+    if (!has_left && ReadPicture(where, context->get(), ids[0], file.size).MoveTo(&decoded)) {
       return false;
     }
-    photo->picture = std::move(*left);
+    const Image& left = has_left ? photo->picture : decoded;
+    Result<Image> right = ReadPicture(where, context->get(), ids[1], file.size);
+    if (!right || left.width != right->width || left.height != right->height) return false;
+    if (!has_left) photo->picture = std::move(decoded);
     photo->right = std::move(*right);
     return true;
   } catch (const std::bad_alloc&) {

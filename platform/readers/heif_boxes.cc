@@ -214,7 +214,8 @@ std::vector<uint32_t> HeifStereoPair(Span file) {
   group.Whole(4);  // identifier of the group
   if (group.Whole32(4) != 2) return {};
   const uint32_t left = group.Whole32(4), right = group.Whole32(4);
-  return group.good() ? std::vector<uint32_t>{left, right} : std::vector<uint32_t>();
+  if (!group.good() || left == right) return {};
+  return {left, right};
 }
 
 std::vector<std::string> HeifBrands(Span file) {

@@ -31,7 +31,8 @@ using HeifItems = std::map<uint32_t, HeifItem>;  // Items by their identifiers.
 std::optional<HeifItems> ReadHeifItems(Span file);
 
 // Returns the identifiers of the left and the right picture of the first stereo pair (the entity
-// group 'ster', ISO/IEC 23008-12, 6.8.5). The result is empty if the file has no stereo pair.
+// group 'ster', ISO/IEC 23008-12, 6.8.5). The result is empty if the file has no stereo pair, or if
+// both identifiers are equal.
 std::vector<uint32_t> HeifStereoPair(Span file);
 
 // Returns the brands of a HEIF file, the major brand first. The result is empty if the file does

@@ -411,6 +411,21 @@ TEST_CASE("HEIF: sizes are read from the headers of the codecs") {
   CHECK(av1.height == 16);
 }
 
+#ifdef STARFOCUS_HAS_HEIF
+TEST_CASE("HEIF: a picture of more than 8 bits is read, and a note states the lost bits") {
+  const DepthPhoto photo =
+      ValueOf(ReadHeif("a.heic", SpanOf(Seed("heif/ten_bits.heic")), Near::kUnknown));
+  REQUIRE(photo.notes.size() == 1);
+  CHECK(Contains(photo.notes[0], "the pixels have 10 bits for each colour"));
+  // The levels of the file increase from 100 to 856 of 1023.
+  CHECK(photo.picture.width == 64);
+  CHECK(std::abs(photo.picture.row(9)[0] - 25) < 10);
+  CHECK(std::abs(photo.picture.row(9)[3 * 63] - 213) < 10);
+  const std::string eight_bits = Seed("heif/plain.avif");
+  CHECK(ValueOf(ReadHeif("a.avif", SpanOf(eight_bits), Near::kUnknown)).notes.empty());
+}
+#endif
+
 // Returns a seed file in which `bytes` are written `behind` bytes after the end of `text`.
 std::string Changed(const std::string& name, const std::string& text, size_t behind,
                     const std::string& bytes) {

@@ -136,6 +136,13 @@ TEST_CASE("stereo pair: a spatial photo has the pictures of its stereo group") {
     const std::vector<uint32_t> ids = HeifStereoPair({bytes.data(), size});
     CHECK((ids.empty() || ids.size() == 2));
   }
+  // A group of two equal pictures is not a pair.
+  Bytes equal = bytes;
+  const std::string type = "ster";
+  const auto group = std::search(equal.begin(), equal.end(), type.begin(), type.end());
+  REQUIRE(equal.end() - group >= 24);
+  std::copy_n(group + 16, 4, group + 20);
+  CHECK(HeifStereoPair({equal.data(), equal.size()}).empty());
 #ifdef STARFOCUS_HAS_HEIF
   const Capture capture = ValueOf(OpenCapture(kSpatial, {}));
   CHECK(capture.format == "stereo pair (HEIF)");
