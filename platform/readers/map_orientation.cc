@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "platform/readers/brightness.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/photo_scale.h"
 #include "platform/readers/robust_range.h"
@@ -12,32 +13,8 @@
 namespace starfocus {
 namespace {
 
-// Limit in pixels on the longer side of pictures whose edges are compared. Larger pictures are
-// reduced by an integer factor, because averages over different numbers of pixels would produce
-// artificial edges.
+// Limit in pixels on the longer side of pictures whose edges are compared.
 constexpr int kSmall = 512;
-
-// Divides a picture into width x height rectangles and returns the mean brightness of each
-// rectangle.
-FloatMap ShrinkPicture(const Image& picture, int width, int height) {
-  FloatMap small = {width, height, {}};
-  small.values.reserve(size_t(width) * size_t(height));
-  for (int y = 0; y < height; ++y) {
-    const auto top = static_cast<int>(int64_t{picture.height} * y / height);
-    const auto bottom = static_cast<int>(int64_t{picture.height} * (y + 1) / height);
-    for (int x = 0; x < width; ++x) {
-      const auto left = static_cast<int>(int64_t{picture.width} * x / width);
-      const auto right = static_cast<int>(int64_t{picture.width} * (x + 1) / width);
-      double sum = 0;
-      for (int row = top; row < bottom; ++row) {
-        const uint8_t* at = picture.row(row) + 3 * size_t(left);
-        for (int k = 0; k < 3 * (right - left); ++k) sum += at[k];
-      }
-      small.values.push_back(static_cast<float>(sum / (3.0 * (right - left) * (bottom - top))));
-    }
-  }
-  return small;
-}
 
 struct Slope {
   double x, y;
@@ -75,13 +52,13 @@ Uprightness JudgeByEdges(const DepthPhoto& photo) {
   const Image& picture = photo.picture;
   const int longer = std::max(picture.width, picture.height);
   const int factor = (longer + kSmall - 1) / kSmall;
-  const auto scaled = [&](int size) { return std::max(1, size / factor); };
+  FloatMap small = Brightness(picture, factor);
+  if (small.values.empty()) return {false, false};
   FloatMap map = photo.map;
   const RobustRange range = RobustRangeOf(map.values);
   for (float& value : map.values) {
     if (std::isfinite(value)) value = std::clamp(value, range.low, range.high);
   }
-  FloatMap small = ShrinkPicture(picture, scaled(picture.width), scaled(picture.height));
   const double turned = Agreement(small, Resize(map, small.width, small.height));
   TurnMap(photo.orientation, &small);
   const double upright = Agreement(small, Resize(map, small.width, small.height));

@@ -11,8 +11,12 @@ namespace starfocus {
 
 // Vertical differences between corresponding points of two pictures.
 struct PairAlignment {
+  // Least number of points from which a pair is judged.
+  static constexpr int kLeastPoints = 40;
+
   int corners = 0;     // Number of points that can be recognized in the left picture.
   int matches = 0;     // Number of these points that were found in the right picture.
+  int repeated = 0;    // Number of these points that resemble several points of the right picture.
   int consistent = 0;  // Number of matches within a pixel of the reduced pictures from the plane.
   // Point (x, y) of the left picture is at height y + offset + across * x + down * y in the right
   // picture, in pixels.
@@ -20,9 +24,9 @@ struct PairAlignment {
 
   double At(double x, double y) const { return offset + across * x + down * y; }
   // True if there are enough matches to judge the pair.
-  bool known() const { return matches >= 40; }
-  // True if most corners have no match, most matches contradict each other, or the pictures are
-  // rotated by more than 3 degrees or scaled by more than 5 %.
+  bool known() const { return matches >= kLeastPoints; }
+  // True if most corners that are not repeated have no match, most matches contradict each other,
+  // or the pictures are rotated by more than 3 degrees or scaled by more than 5 %.
   bool contradicts() const;
 };
 

@@ -119,8 +119,16 @@ Error AlignPair(const std::string& where, DepthPhoto* photo) {
                     std::to_string(alignment.consistent) + " common points of " +
                         std::to_string(alignment.corners));
   }
+  if (!alignment.known()) {
+    if (alignment.repeated < PairAlignment::kLeastPoints) return {};
+    photo->notes.push_back("the heights of the two pictures are taken to be equal, because " +
+                           std::to_string(alignment.repeated) + " of " +
+                           std::to_string(alignment.corners) +
+                           " points of the left picture resemble several points of the right one");
+    return {};
+  }
   const double largest = LargestDifference(alignment, photo->right);
-  if (!alignment.known() || largest < kLeastDifference) return {};
+  if (largest < kLeastDifference) return {};
   photo->right = AlignedPicture(alignment, photo->right);
   char note[120];
   std::snprintf(note, sizeof(note),

@@ -27,7 +27,8 @@ bool MayBeStereoPair(const std::string& path, Span file);
 Result<DepthPhoto> ReadPictureFiles(const std::string& left, const std::string& right);
 
 // Measures how the heights of points differ in the two pictures of a pair, and moves the points of
-// photo->right accordingly. Adds a note about a movement. Returns an error if the pictures show
+// photo->right accordingly. Adds a note about a movement, or if the heights cannot be measured
+// because the pictures consist of a repeated pattern. Returns an error if the pictures show
 // different scenes or differ by more than small movements and rotations.
 Error AlignPair(const std::string& where, DepthPhoto* photo);
 

@@ -105,6 +105,25 @@ TEST_CASE("stereo pair: pictures of different scenes and large rotations are rej
   }
 }
 
+TEST_CASE("stereo pair: a repeated pattern is not rejected, and a note states the uncertainty") {
+  // Returns a chessboard whose columns are moved by `dx`.
+  const auto board = [](int dx) {
+    Image image(kSide, kSide);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const bool white = ((x + dx) / 8 + y / 8) % 2 == 0;
+        std::fill_n(image.row(y) + 3 * x, 3, static_cast<uint8_t>(white ? 200 : 50));
+      }
+    }
+    return image;
+  };
+  DepthPhoto photo = PairOf(board(0), board(3));
+  CHECK(AlignPair("x", &photo) == "");
+  CHECK(photo.right.pixels == board(3).pixels);
+  REQUIRE(photo.notes.size() == 1);
+  CHECK(Contains(photo.notes[0], "resemble several points of the right one"));
+}
+
 TEST_CASE("stereo pair: the time does not depend on the height") {
   const Image tall = Noise(300, 3000);
   CHECK(MeasureAlignment(tall, tall).corners < 2000);
