@@ -18,7 +18,6 @@ constexpr char kInputName[] = "photo.png", kLogName[] = "log.txt";
 // Part of the name of the depth picture before its extension, and the name that the command
 // receives. OpenCV and Pillow choose the format by the extension; numpy.save adds .npy.
 constexpr char kOutputStem[] = "depth", kOutputName[] = "depth.png";
-constexpr char kWhere[] = "depth command";
 
 void ReplaceAll(const std::string& part, const std::string& by, std::string* text) {
   for (size_t at = text->find(part); at != std::string::npos; at = text->find(part, at)) {
@@ -29,7 +28,7 @@ void ReplaceAll(const std::string& part, const std::string& by, std::string* tex
 
 // Returns the path of the file that the command wrote: the file of the given name, or the only file
 // whose name starts with the same stem.
-Result<std::string> FindOutput(const std::string& folder) {
+Result<std::string> FindOutput(const std::string& where, const std::string& folder) {
   const Result<std::vector<std::string>> names = ListFolder(folder);
   if (!names) return names.error();
   std::vector<std::string> found;
@@ -38,7 +37,7 @@ Result<std::string> FindOutput(const std::string& folder) {
     if (name.rfind(kOutputStem, 0) == 0) found.push_back(name);
   }
   if (found.size() == 1) return folder + "/" + found[0];
-  return Expected(kWhere, "a depth picture in the file {output}",
+  return Expected(where, "a depth picture in the file {output}",
                   found.empty() ? "no file after the command succeeded"
                                 : std::to_string(found.size()) + " files, such as " + found[0] +
                                       " and " + found[1]);
@@ -52,7 +51,9 @@ std::string CheckDepthCommand(const std::string& text) {
   return complete ? "" : "a command with {input} and {output}";
 }
 
-Result<Samples> RunDepthCommand(const DepthCommand& command, bool use_alpha, const Image& photo) {
+Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& command,
+                                bool use_alpha, const Image& photo) {
+  const std::string where = name + " (depth command)";
   TemporaryFolder folder;
   if (Error error = folder.Create()) return error;
   const std::string beginning = folder.path() + "/", input = beginning + kInputName;
@@ -60,15 +61,17 @@ Result<Samples> RunDepthCommand(const DepthCommand& command, bool use_alpha, con
   std::string line = command.command;
   ReplaceAll(kInput, ShellQuoted(input), &line);
   ReplaceAll(kOutput, ShellQuoted(beginning + kOutputName), &line);
-  if (Error error = RunShellCommand(kWhere, line, command.seconds, beginning + kLogName)) {
+  if (Error error = RunShellCommand(where, line, command.seconds, beginning + kLogName)) {
     return error;
   }
-  const Result<std::string> output = FindOutput(folder.path());
+  const Result<std::string> output = FindOutput(where, folder.path());
   if (!output) return output.error();
-  if (Error error = CheckPlainFile(*output)) return error;
+  if (CheckPlainFile(*output)) {
+    return Expected(where, "a depth picture in the file {output}", "a device or pipe");
+  }
   const Result<Bytes> bytes = ReadFile(*output);
   if (!bytes) return bytes.error();
-  return DecodeDepthFile("depth picture of the depth command", use_alpha, *bytes);
+  return DecodeDepthFile(name + " (depth picture of the depth command)", use_alpha, *bytes);
 }
 
 }  // namespace starfocus

@@ -22,9 +22,11 @@ std::string CheckDepthCommand(const std::string& text);
 // Writes `photo` to a PNG file in a temporary folder, and runs the command with the paths of the
 // PNG file and of the depth picture in place of {input} and {output}. Reads the depth picture
 // (depth_file.h) and removes the folder. The command may add text to the name of the depth picture.
-// If `use_alpha` is true, transparent pixels of the depth picture are NaN. Several threads may call
-// the function at the same time.
-Result<Samples> RunDepthCommand(const DepthCommand& command, bool use_alpha, const Image& photo);
+// If `use_alpha` is true, transparent pixels of the depth picture are NaN. Error messages start
+// with `name`, which is the name of the photo. Several threads may call the function at the same
+// time.
+Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& command,
+                                bool use_alpha, const Image& photo);
 
 }  // namespace starfocus
 

@@ -97,7 +97,8 @@ Result<Capture> ReadInput(const InputOptions& options) {
   if (EstimatesDepth(options)) {
     wanted.map.estimate = [&](const Image& photo) {
       estimates = true;
-      return RunDepthCommand(options.command, options.map.use_alpha, photo);
+      return RunDepthCommand(InputName(options.path), options.command, options.map.use_alpha,
+                             photo);
     };
   }
   Result<Capture> capture = OpenCapture(options.path, wanted);
