@@ -20,13 +20,15 @@ struct Samples {
 };
 
 // Decodes the samples of a depth picture. `where` appears only in error messages. If `use_alpha` is
-// true, pixels that are less than half opaque (alpha channel or tRNS) are NaN.
+// true, the samples of pixels that are less than half opaque (alpha channel or tRNS) are NaN.
 Result<Samples> DecodeSamples(const std::string& where, bool use_alpha, const Bytes& bytes);
 
-// Decodes coverage: the alpha channel of a PNG file, or the grey levels of a picture without alpha.
+// Decodes coverage, which is the alpha channel of a PNG file, or the grey levels of a picture
+// without alpha channel.
 Result<Samples> DecodeCoverage(const std::string& where, const Bytes& bytes);
 
-// Decodes the grey levels of a depth picture, scaled to 0 to 1; transparent pixels are NaN.
+// Decodes the grey levels of a depth picture and scales them to the range from 0 (black) to 1
+// (white). The levels of transparent pixels are NaN.
 Result<FloatMap> DecodeLevels(const std::string& where, const Bytes& bytes);
 
 }  // namespace starfocus

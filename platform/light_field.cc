@@ -167,12 +167,6 @@ Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files, ThreadRunne
   return result;
 }
 
-Result<LightField> LoadCaptured(const std::string& folder, const Positions& wanted,
-                                ThreadRunner* runner) {
-  const Result<std::vector<ViewFile>> files = ChooseViewFiles(folder, wanted);
-  return files ? LoadViewFiles(*files, runner) : files.error();
-}
-
 Error LoadMap(const std::string& path, LightField* light_field) {
   if (Error error = CheckPlainFile(path)) return error;
   Result<FloatMap> map = ReadPfm(path);
@@ -209,7 +203,9 @@ Error LoadCoverage(const std::string& path, LightField* light_field) {
 
 Result<LightField> LoadLightField(const std::string& folder, const Positions& wanted,
                                   ThreadRunner* runner) {
-  Result<LightField> result = LoadCaptured(folder, wanted, runner);
+  const Result<std::vector<ViewFile>> files = ChooseViewFiles(folder, wanted);
+  if (!files) return files.error();
+  Result<LightField> result = LoadViewFiles(*files, runner);
   if (!result) return result;
   if (Error error = LoadMap(DisparityPath(folder), &*result)) return error;
   const std::string coverage = CoveragePath(folder);

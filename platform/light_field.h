@@ -55,14 +55,9 @@ Result<FloatMap> ReadDisparity(const std::string& folder);
 // Returns true if the folder has a disparity map, which may be invalid.
 bool HasDisparity(const std::string& folder);
 
-// Loads the views at the positions `wanted`, or all views of the folder if `wanted` is empty.
-// LoadCaptured does not load the disparity map. All views must have the same size. In all functions
-// of this header, `runner` decodes several views at a time; if `runner` is null, the calling thread
-// decodes all views.
-Result<LightField> LoadCaptured(const std::string& folder, const Positions& wanted,
-                                ThreadRunner* runner = nullptr);
-
-// Loads the views in `files`, but no disparity map. All views must have the same size.
+// Loads the views in `files`, but no disparity map. All views must have the same size. In all
+// functions of this header, `runner` decodes several views at a time; if `runner` is null, the
+// calling thread decodes all views.
 Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files,
                                  ThreadRunner* runner = nullptr);
 

@@ -52,28 +52,6 @@ Result<Header> ParseHeader(const std::string& path, TextHeader* header) {
   return Header{size.width, size.height, factor < 0 ? ByteOrder::kLittle : ByteOrder::kBig};
 }
 
-Result<FloatMap> Decode(const std::string& path, const Bytes& bytes) {
-  TextHeader header(bytes);
-  const Result<Header> parsed = ParseHeader(path, &header);
-  if (!parsed) return parsed.error();
-  if (!FitsMemory(parsed->width, parsed->height, sizeof(float))) {
-    return OutOfMemory(path, "read it");
-  }
-  FloatMap result = {parsed->width, parsed->height, {}};
-  const size_t width = size_t(result.width), height = size_t(result.height);
-  if (header.remaining() != 4 * width * height) {
-    return Expected(path, std::to_string(4 * width * height) + " bytes of data",
-                    std::to_string(header.remaining()));
-  }
-  result.values.resize(width * height);
-  const uint8_t* data = header.data();
-  for (size_t y = height; y-- > 0;) {
-    float* row = result.values.data() + y * width;
-    for (size_t x = 0; x < width; ++x, data += 4) row[x] = LoadFloat(data, parsed->order);
-  }
-  return result;
-}
-
 Bytes Encode(const FloatMap& map, ByteOrder order) {
   const std::string header = "Pf\n" + std::to_string(map.width) + " " + std::to_string(map.height) +
                              "\n" + (order == ByteOrder::kLittle ? "-1.0" : "1.0") + "\n";
@@ -87,17 +65,35 @@ Bytes Encode(const FloatMap& map, ByteOrder order) {
 
 }  // namespace
 
+Result<FloatMap> DecodePfm(const std::string& where, const Bytes& pfm) {
+  TextHeader header(pfm);
+  const Result<Header> parsed = ParseHeader(where, &header);
+  if (!parsed) return parsed.error();
+  if (!FitsMemory(parsed->width, parsed->height, sizeof(float))) {
+    return OutOfMemory(where, "read it");
+  }
+  FloatMap result = {parsed->width, parsed->height, {}};
+  const size_t width = size_t(result.width), height = size_t(result.height);
+  if (header.remaining() != 4 * width * height) {
+    return Expected(where, std::to_string(4 * width * height) + " bytes of data",
+                    std::to_string(header.remaining()));
+  }
+  result.values.resize(width * height);
+  const uint8_t* data = header.data();
+  for (size_t y = height; y-- > 0;) {
+    float* row = result.values.data() + y * width;
+    for (size_t x = 0; x < width; ++x, data += 4) row[x] = LoadFloat(data, parsed->order);
+  }
+  return result;
+}
+
 Result<FloatMap> ReadPfm(const std::string& path) {
   try {
     const Result<Bytes> bytes = ReadFile(path);
-    return bytes ? Decode(path, *bytes) : bytes.error();
+    return bytes ? DecodePfm(path, *bytes) : bytes.error();
   } catch (const std::bad_alloc&) {
     return OutOfMemory(path, "read it");
   }
-}
-
-Result<FloatMap> DecodePfm(const std::string& where, const Bytes& pfm) {
-  return Decode(where, pfm);
 }
 
 Error WritePfm(const std::string& path, const FloatMap& map, ByteOrder order) {

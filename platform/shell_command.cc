@@ -26,7 +26,7 @@ namespace {
 
 void KillGroup(const void* group) { kill(-*static_cast<const pid_t*>(group), SIGKILL); }
 
-// A running shell, which leads a process group of its own.
+// A running shell. The shell is the leader of a new process group.
 class Shell {
  public:
   // Kills the process group. The shell must not have been waited for, because its process id, which

@@ -17,12 +17,12 @@ namespace starfocus {
 // depth picture ends in -depth, _depth or .depth, in upper or lower case.
 bool IsDepthPictureName(const std::string& name);
 
-// The depth pictures in a folder. The depth picture of a photograph NAME.jpg or NAME-image.jpg is
+// Finds the depth pictures of photographs among the files of a folder. The depth picture of a photograph NAME.jpg or NAME-image.jpg is
 // named NAME-depth, NAME_depth or NAME.depth, with .png, .pgm, .pfm, .jpg, .jpeg, .tif, .tiff or
 // .npy, in upper or lower case.
 class DepthPictures {
  public:
-  // Adds a file of the folder. Ignores a file that has not the name of a depth picture.
+  // Adds a file of the folder. Ignores files whose names are not names of depth pictures.
   void Add(const std::string& name);
   // Returns the names of the depth pictures of the photograph `name`, the best match first.
   std::vector<std::string> Of(const std::string& name) const;

@@ -48,8 +48,8 @@ GreyImage Levels(const FloatMap& map, const Range& range) {
   GreyImage grey = {map.width, map.height, {}};
   grey.levels.reserve(map.values.size());
   for (const float d : map.values) {
-    grey.levels.push_back(static_cast<uint16_t>(
-        std::lround(255 * (range.high - double(d)) / (range.high - range.low))));
+    const double level = 255 * (range.high - double(d)) / (range.high - range.low);
+    grey.levels.push_back(static_cast<uint16_t>(level + 0.5));
   }
   return grey;
 }

@@ -71,7 +71,7 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   const std::filesystem::file_status status = std::filesystem::status(input, ignored);
   if (options.out.empty() && (input == "-" || std::filesystem::exists(status)) &&
       !std::filesystem::is_directory(status)) {
-    return Error::Usage("--output", "--output FILE, because SRC is no folder", "none");
+    return Error::Usage("--output", "--output FILE, because SRC is not a folder", "none");
   }
   Plan plan = {options.out.empty() ? DisparityPath(input) : options.out, ""};
   if (std::filesystem::path(plan.map).extension() != ".pfm") {

@@ -96,7 +96,10 @@ Command ImportCommand() {
            Views(&options->views)},
           {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
            Use::kDefault},
-          {"--json", nullptr, "Print JSON instead of text, as starfocus info does", &options->json},
+          {"--json", nullptr,
+           "Print the format, the facts, the size and the views of the input as JSON instead of "
+           "text",
+           &options->json},
       },
       &command);
   return command;

@@ -37,8 +37,7 @@ struct VideoOptions {
 struct Video {
   std::vector<std::string> inputs;
   FrameFolders converted;
-  std::vector<std::string> folders;  // light-field folders of the frames, some of them temporary
-  std::vector<std::string> wheres;   // names of the maps for error messages
+  std::vector<FrameFiles> frames;  // frames that are open, in the order of `inputs`
   int width = 0, height = 0;
   Positions views;
   starfocus_disparity_stats stats = {};  // over all frames
@@ -107,7 +106,7 @@ Result<Frame> OpenFrame(const VideoOptions& options, const std::string& input, L
   one.path = input;
   Result<Capture> capture = OpenInput(one);
   if (!capture) return capture.error();
-  const bool is_first = video->folders.empty();
+  const bool is_first = video->frames.empty();
   if (is_first) {
     Error error = PlanAperture(options.lens.aperture, *capture).MoveTo(&plan->aperture);
     if (error) return error;
@@ -115,7 +114,8 @@ Result<Frame> OpenFrame(const VideoOptions& options, const std::string& input, L
   Result<Frame> frame = video->converted.Open(
       options.map, is_first ? plan->options.views : video->views, plan->options.threads, &*capture);
   if (!frame) return frame;
-  const auto chosen = ChooseViewFiles(frame->folder, is_first ? plan->options.views : video->views);
+  const auto chosen =
+      ChooseViewFiles(frame->files.folder, is_first ? plan->options.views : video->views);
   if (!chosen) return chosen.error();
   if (!is_first) return frame;
   for (const ViewFile& file : *chosen) video->views.push_back(file.position);
@@ -126,10 +126,10 @@ Result<Frame> OpenFrame(const VideoOptions& options, const std::string& input, L
 // Adds a frame. The first frame sets the size and the focus of all frames.
 Error AddFrame(const VideoOptions& options, const std::string& input, Frame frame, LensPlan* plan,
                Video* video) {
-  const bool is_first = video->folders.empty();
+  const bool is_first = video->frames.empty();
   if (is_first) video->width = frame.map.width, video->height = frame.map.height;
   if (Error error = CheckSize(input, frame.map, *video)) return error;
-  const Result<starfocus_disparity_stats> stats = Prepare(options, frame.where, &frame.map);
+  const Result<starfocus_disparity_stats> stats = Prepare(options, frame.files.where, &frame.map);
   if (!stats) return stats.error();
   if (is_first) {
     if (plan->focus_option.empty()) {
@@ -141,8 +141,7 @@ Error AddFrame(const VideoOptions& options, const std::string& input, Frame fram
   }
   video->stats.min = std::min(video->stats.min, stats->min);
   video->stats.max = std::max(video->stats.max, stats->max);
-  video->folders.push_back(frame.folder);
-  video->wheres.push_back(frame.where);
+  video->frames.push_back(std::move(frame.files));
   return {};
 }
 
@@ -159,20 +158,21 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
 }
 
 Result<LightField> LoadFrame(const VideoOptions& options, const Video& video, size_t index) {
-  Result<LightField> frame = LoadLightField(video.folders[index], video.views);
+  Result<LightField> frame = LoadLightField(video.frames[index].folder, video.views);
   if (!frame) return frame;
   if (Error error = CheckSize(video.inputs[index], frame->disparity, video)) return error;
-  if (Error error = Prepare(options, video.wheres[index], &frame->disparity).error()) return error;
+  if (Error error = Prepare(options, video.frames[index].where, &frame->disparity).error())
+    return error;
   return frame;
 }
 
 Result<SeriesReport> RefocusFrames(const VideoOptions& options, const LensPlan& plan,
                                    const Video& video) {
   SeriesReport report;
-  EngineRun run(plan.options.threads, static_cast<int>(video.folders.size()));
+  EngineRun run(plan.options.threads, static_cast<int>(video.frames.size()));
   LightField now, before;
   Image picture;
-  for (size_t i = 0; i < video.folders.size(); ++i) {
+  for (size_t i = 0; i < video.frames.size(); ++i) {
     const std::string &input = video.inputs[i], out = FramePath(options.out, i);
     before = std::move(now);
     if (Error error = LoadFrame(options, video, i).MoveTo(&now)) return error;

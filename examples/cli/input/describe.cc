@@ -20,7 +20,7 @@ Json Describe(const Capture& capture) {
   for (const starfocus_position& at : light_field.positions) {
     positions.Add(Json::Array({at.u, at.v}));
   }
-  if (!light_field.positions.empty()) json.Set("positions", std::move(positions));
+  json.Set("positions", std::move(positions));
   return json;
 }
 

@@ -31,8 +31,8 @@ void AddDepthPictureOptions(Command* command, DepthOptions* options) {
            Choice<Near>({{"white", Near::kWhite}, {"black", Near::kBlack}}, &options->near)},
           {"--depth-unit", "m|mm|disparity",
            "Unit of the values of a depth picture: distances in metres (m) or millimetres "
-           "(mm), or disparities in pixels of the photo; default: no unit, only their "
-           "order counts",
+           "(mm), or disparities in pixels of the photo; default: no unit, so that only "
+           "the order of the values matters",
            Choice<DepthUnit>({{"m", DepthUnit::kMetres},
                               {"mm", DepthUnit::kMillimetres},
                               {"disparity", DepthUnit::kDisparity}},

@@ -42,9 +42,9 @@ Result<Frame> FrameFolders::Open(const MapOptions& options, const Positions& vie
     if (Error error = Convert(options, views, threads, capture, &frame)) return error;
     return frame;
   }
-  frame.folder = capture->path;
-  frame.where = capture->map_path;
-  if (Error error = ReadDisparity(frame.folder).MoveTo(&frame.map)) return error;
+  frame.files.folder = capture->path;
+  frame.files.where = capture->map_path;
+  if (Error error = ReadDisparity(frame.files.folder).MoveTo(&frame.map)) return error;
   frame.focus = FindSurface(frame.map);
   return frame;
 }
@@ -52,8 +52,8 @@ Result<Frame> FrameFolders::Open(const MapOptions& options, const Positions& vie
 Error FrameFolders::Convert(const MapOptions& options, const Positions& views, int threads,
                             Capture* capture, Frame* frame) {
   Error error = folder_.path().empty() ? folder_.Create() : Error();
-  frame->folder = folder_.path() + "/" + std::to_string(count_++);
-  frame->where = MapName(*capture);
+  frame->files.folder = folder_.path() + "/" + std::to_string(count_++);
+  frame->files.where = MapName(*capture);
   // The default focus must not depend on the repair of a photo's map, as in the command refocus.
   if (!error && capture->photo) frame->focus = FindDefaultFocus(*capture);
   if (!error) error = LoadInput(views, threads, capture);
@@ -61,7 +61,7 @@ Error FrameFolders::Convert(const MapOptions& options, const Positions& views, i
   if (!error) error = CareForMap(options, threads, capture);
   if (error) return error;
   ThreadRunner runner(threads);
-  error = SaveLightField(frame->folder, capture->light_field, &runner);
+  error = SaveLightField(frame->files.folder, capture->light_field, &runner);
   frame->map = std::move(capture->light_field.disparity);
   return error;
 }

@@ -19,9 +19,13 @@ namespace starfocus {
 Result<std::vector<std::string>> FindFrames(const std::vector<std::string>& inputs,
                                             const InputOptions& options, const std::string& out);
 
-struct Frame {
+struct FrameFiles {
   std::string folder;  // light-field folder, which may be temporary
   std::string where;   // name of the map for error messages
+};
+
+struct Frame {
+  FrameFiles files;
   FloatMap map;
   DefaultFocus focus;
 };
