@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "lib/base/jobs.h"
+#include "lib/depth/cell_ranges.h"
 #include "lib/depth/colour_choices.h"
 #include "lib/depth/colour_smooth.h"
 #include "lib/depth/estimate.h"

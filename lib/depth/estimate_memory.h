@@ -85,6 +85,11 @@ struct EstimateMemory {
   TileMemory* workers;
 };
 
+// Returns the map of side view k in memory.side_maps.
+inline int16_t* SideMap(const EstimatePlan& plan, const EstimateMemory& memory, int32_t k) {
+  return memory.side_maps + ptrdiff_t{k} * plan.width * plan.height;
+}
+
 // Lays out the memory at `base`, which must be aligned to STARFOCUS_ALIGNMENT. If `base` is null,
 // only computes the size. Returns the number of bytes used, or kTooLarge.
 size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,

@@ -9,17 +9,12 @@
 namespace starfocus {
 namespace {
 
-// Directions from the centre view to side views, in the order of their angles. Every second
-// direction lies along an axis.
-constexpr int8_t kDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
-                                      {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-
 void OrderStar(int32_t views, EstimatePlan* plan) {
   plan->arms = views == 5 ? 4 : 8;
   plan->rings = views == 17 ? 2 : 1;
   for (int32_t k = 0; k < plan->side_views; ++k) {
     const bool half = k >= plan->arms;
-    const int8_t* direction = kDirections[(k % plan->arms) * (8 / plan->arms)];
+    const int8_t* direction = kEightDirections[(k % plan->arms) * (8 / plan->arms)];
     const int index = CapturedView(direction[0], direction[1], half);
     plan->side[k] = {index, StarPosition(index)};
   }
@@ -39,7 +34,7 @@ uint16_t SideTowards(const EstimatePlan& plan, const int8_t* direction) {
 // Adds the sides of the views. A side whose views all belong to another side is left out.
 void FindSides(EstimatePlan* plan) {
   uint16_t masks[kMostSides];
-  for (int32_t k = 0; k < kMostSides; ++k) masks[k] = SideTowards(*plan, kDirections[k]);
+  for (int32_t k = 0; k < kMostSides; ++k) masks[k] = SideTowards(*plan, kEightDirections[k]);
   for (int32_t k = 0; k < kMostSides; ++k) {
     bool needed = masks[k] != 0;
     for (int32_t other = 0; other < kMostSides; ++other) {
@@ -57,14 +52,6 @@ void TakeViews(const ViewSet& views, EstimatePlan* plan) {
   FindSides(plan);
 }
 
-// Returns -position * d, rounded to quarter pixels. Halves are rounded away from zero.
-int32_t QuarterMove(int32_t position, int32_t d) {
-  constexpr int kBits = kViewBits + kDisparityBits - 2;
-  const int64_t move = int64_t{-position} * d;
-  const auto quarters = static_cast<int32_t>(RoundShift(move < 0 ? -move : move, kBits));
-  return move < 0 ? -quarters : quarters;
-}
-
 }  // namespace
 
 int32_t TilesAlong(int32_t length, int32_t side) {
@@ -79,8 +66,9 @@ int32_t TileBegin(int32_t length, int32_t count, int32_t k) {
 }
 
 LabelMove EstimatePlan::MoveOf(const SideView& view, int32_t l) const {
-  const int32_t across = QuarterMove(view.at.u, l * step), down = QuarterMove(view.at.v, l * step);
-  constexpr int32_t kQuarter = 128 / 4;
+  constexpr int32_t kQuarterBits = 2, kQuarter = 128 >> kQuarterBits;
+  const int32_t across = MoveBy(view.at.u, l * step, kQuarterBits);
+  const int32_t down = MoveBy(view.at.v, l * step, kQuarterBits);
   return {MoveAcross(view, low) + kQuarter * across, MoveDown(view, low) + kQuarter * down,
           (across & 3) + 4 * (down & 3)};
 }

@@ -51,6 +51,11 @@ struct ViewPhases {
   LabelMove move[kMostPhases] = {};  // One label's shift for each slot.
 };
 
+// The eight directions between neighbouring pixels or views, in the order of their angles. Every
+// second direction lies along an axis.
+inline constexpr int8_t kEightDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                                  {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+
 // Largest number of sides (EstimatePlan::sides).
 inline constexpr int32_t kMostSides = 8;
 
@@ -111,25 +116,26 @@ Rect RegionOf(const EstimatePlan& plan, int32_t index);
 // Returns the rectangle enlarged by `margin` on all sides and clipped to the picture.
 Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin);
 
-// Returns -position * d, in 1/128 pixel. Halves are rounded away from zero.
-inline int32_t MoveBy(int32_t position, int32_t d) {
-  constexpr int32_t kBits = kViewBits + kDisparityBits - 7;
+// Returns -position * d in pixels with `fraction_bits` fractional bits, by default in 1/128 pixel.
+// Halves are rounded away from zero.
+inline int32_t MoveBy(int32_t position, int32_t d, int32_t fraction_bits = 7) {
+  const int32_t bits = kViewBits + kDisparityBits - fraction_bits;
   const int32_t move = -position * d;
-  return (move + (1 << (kBits - 1)) - (move < 0 ? 1 : 0)) >> kBits;
+  return (move + (1 << (bits - 1)) - (move < 0 ? 1 : 0)) >> bits;
 }
 // Returns the horizontal or vertical movement of a point of disparity d from the centre view to a
 // side view, in 1/128 pixel.
 inline int32_t MoveAcross(const SideView& view, int32_t d) { return MoveBy(view.at.u, d); }
 inline int32_t MoveDown(const SideView& view, int32_t d) { return MoveBy(view.at.v, d); }
-// Returns -position * d in whole pixels. Halves are rounded towards zero, as by WholeMove.
-inline int32_t WholeMoveBy(int32_t position, int32_t d) {
-  constexpr int32_t kBits = kViewBits + kDisparityBits;
-  const int32_t move = -position * d;
-  return (move + (1 << (kBits - 1)) - 1 + (move < 0 ? 1 : 0)) >> kBits;
+// Rounds a movement with `fraction_bits` fractional bits, by default in 1/128 pixel, to whole
+// pixels. Halves are rounded towards zero, so that mirrored movements stay mirrored.
+inline int32_t WholeMove(int32_t move, int32_t fraction_bits = 7) {
+  return (move + (1 << (fraction_bits - 1)) - 1 + (move < 0 ? 1 : 0)) >> fraction_bits;
 }
-// Rounds a movement in 1/128 pixel to whole pixels. Halves are rounded towards zero, so that
-// mirrored movements stay mirrored.
-inline int32_t WholeMove(int32_t move) { return (move + 63 + (move < 0 ? 1 : 0)) >> 7; }
+// Returns -position * d, rounded to whole pixels by WholeMove.
+inline int32_t WholeMoveBy(int32_t position, int32_t d) {
+  return WholeMove(-position * d, kViewBits + kDisparityBits);
+}
 
 }  // namespace starfocus
 

@@ -9,7 +9,7 @@ namespace starfocus {
 namespace {
 
 // A hidden strip is at most as wide as the largest movement. kMoreReach is the number of pixels
-// beside a hidden strip that may be wrong. The limit kMostReach bounds the time in pictures in
+// next to a hidden strip that may be wrong. The limit kMostReach bounds the time in pictures in
 // which no pixel is seen.
 constexpr int32_t kMoreReach = 16, kMostReach = 128;
 
@@ -26,13 +26,10 @@ bool IsSeen(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, i
   return false;
 }
 
-constexpr int32_t kDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
-                                       {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-
 // Returns the disparity of the nearest pixel in a direction from pixel (x, y) that a side view
 // shows, or kNoSurface if no side view shows a pixel within `reach` pixels.
 int16_t SeenBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int32_t y,
-                   const int32_t* direction) {
+                   const int8_t* direction) {
   const int32_t reach = Min(plan.reach + kMoreReach, kMostReach);
   for (int32_t k = 1; k <= reach; ++k) {
     const int32_t column = x + k * direction[0], row = y + k * direction[1];
@@ -48,7 +45,7 @@ int16_t SeenBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int
 // The second smallest disparity is robust to a single disparity that is too small.
 int16_t FarBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int32_t y) {
   int32_t least = INT32_MAX, second = INT32_MAX;
-  for (const auto& direction : kDirections) {
+  for (const auto& direction : kEightDirections) {
     const int16_t d = SeenBeside(plan, seen, x, y, direction);
     if (d == simd::kNoSurface) continue;
     second = Min(second, Max(least, d));
@@ -71,10 +68,6 @@ SideReference MakeSideReference(const EstimatePlan& plan, const starfocus_light_
                             {static_cast<int16_t>(-view.at.u), static_cast<int16_t>(-view.at.v)}};
   reference.plan.sides[0] = 1;
   return reference;
-}
-
-int16_t* SideMap(const EstimatePlan& plan, const EstimateMemory& memory, int32_t k) {
-  return memory.side_maps + ptrdiff_t{k} * plan.width * plan.height;
 }
 
 void FindUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memory) {

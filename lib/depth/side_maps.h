@@ -20,9 +20,6 @@ struct SideReference {
 SideReference MakeSideReference(const EstimatePlan& plan, const starfocus_light_field& light_field,
                                 int32_t k);
 
-// Returns the map of side view k in memory->side_maps.
-int16_t* SideMap(const EstimatePlan& plan, const EstimateMemory& memory, int32_t k);
-
 // Copies memory->second to memory->first for the pixels of `tile`. Pixels that no side view shows
 // are set to kNoSurface.
 void FindUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memory);

@@ -22,7 +22,7 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker)
   if (first) {
     MarkOutside(plan, &tile.views);
   } else if (plan.one_sided()) {
-    MarkHiddenInMaps(plan, memory.side_maps, &tile.views);
+    MarkHiddenInMaps(plan, memory, &tile.views);
   } else {
     MarkHidden(plan, memory.first, region, &tile.views);
   }

@@ -23,8 +23,7 @@ struct Sweep {
 void SweepOneSide(const void* data, int32_t index, int32_t worker);
 // Fills memory->second, the certainty and, for a repair, the costs for tile `index`. Uses the views
 // that see each pixel according to memory->side_maps if the views lie on one side, otherwise
-// according to memory->first. SweepAllViews is a JobFunction; `data` is a
-// Sweep.
+// according to memory->first. SweepAllViews is a JobFunction; `data` is a Sweep.
 void SweepAllViews(const void* data, int32_t index, int32_t worker);
 
 }  // namespace starfocus

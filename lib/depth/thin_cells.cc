@@ -10,24 +10,12 @@
 namespace starfocus {
 namespace {
 
-// Sides of cells are between 0.5 and 1.5 times kCellSide.
-constexpr int32_t kCellSide = 16;
 // Largest step of disparity between pixels of one surface, in fixed point (kDisparityBits).
 // lib/coverage uses an equal value.
 constexpr int32_t kStep = 5 << kDisparityBits;
 // All cells within kReach cells of a dense cell are marked as thin, because the rim of a thin
 // structure has fewer strands.
 constexpr int32_t kReach = 6;
-
-// Calls act(column, row, number) for each cell within `reach` cells of cell (column, row).
-template <class Act>
-void ForAround(const ThinGrid& grid, int32_t column, int32_t row, int32_t reach, const Act& act) {
-  const int32_t right = Min(column + reach, grid.columns - 1);
-  const int32_t bottom = Min(row + reach, grid.rows - 1);
-  for (int32_t y = Max(row - reach, 0); y <= bottom; ++y) {
-    for (int32_t x = Max(column - reach, 0); x <= right; ++x) act(x, y, y * grid.columns + x);
-  }
-}
 
 // Marks the pixels of row y of a tile that are next to much nearer pixels of the tile.
 void MarkBeside(const ThinGrid& grid, const int16_t* map, const Rect& tile, int32_t y,
@@ -120,40 +108,6 @@ void FindThin(const ThinGrid& grid, int32_t percent, const ThinCells& cells) {
               [&](int32_t, int32_t, int32_t other) { thin |= cells.dense[other]; });
     cells.thin[cell] = thin;
   });
-}
-
-CellRanges TakeCellRanges(const ThinGrid& grid, Arena* arena) {
-  const auto cells = static_cast<size_t>(grid.Cells());
-  CellRanges ranges;
-  ranges.low = arena->Take<int16_t>(cells);
-  ranges.high = arena->Take<int16_t>(cells);
-  return ranges;
-}
-
-void MeasureCells(const ThinGrid& grid, const int16_t* map, int32_t index,
-                  const CellRanges& ranges) {
-  ForCells(grid, index, [&](const Rect& cell, int32_t number) {
-    int16_t low = INT16_MAX, high = INT16_MIN;
-    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      const int16_t* row = map + static_cast<ptrdiff_t>(y) * grid.width + cell.x;
-      for (int32_t x = 0; x < cell.width; ++x) {
-        low = std::min(low, row[x]);
-        high = std::max(high, row[x]);
-      }
-    }
-    ranges.low[number] = low;
-    ranges.high[number] = high;
-  });
-}
-
-bool MayHaveStep(const ThinGrid& grid, const CellRanges& ranges, int32_t number, int32_t step) {
-  int16_t low = INT16_MAX, high = INT16_MIN;
-  ForAround(grid, number % grid.columns, number / grid.columns, 1,
-            [&](int32_t, int32_t, int32_t other) {
-              low = std::min(low, ranges.low[other]);
-              high = std::max(high, ranges.high[other]);
-            });
-  return high - low > step;
 }
 
 }  // namespace starfocus

@@ -12,12 +12,14 @@
 
 namespace starfocus {
 
-// Largest width and height of a cell in pixels. Cells beside other cells have at least
-// kLeastCellSide pixels in this direction.
-inline constexpr int32_t kMostCellSide = 25, kLeastCellSide = 8;
+// Sides of cells are between 0.5 and 1.5 times kCellSide pixels. Cells next to other cells have at
+// least kLeastCellSide pixels in this direction. No cell has a larger width or height than
+// kMostCellSide.
+inline constexpr int32_t kCellSide = 16, kLeastCellSide = kCellSide / 2;
+inline constexpr int32_t kMostCellSide = 3 * kCellSide / 2 + 1;
 
-// Grid of cells over a map. Each tile is divided into cells of about 16 x 16 pixels. A mirrored
-// picture has mirrored cells.
+// Grid of cells over a map. Each tile is divided into cells of about kCellSide x kCellSide pixels.
+// A mirrored picture has mirrored cells.
 struct ThinGrid {
   int32_t width, height;          // Size of the picture.
   int32_t columns, rows;          // Numbers of cells.
@@ -54,20 +56,6 @@ inline constexpr int32_t kThinGiven = 24, kThinFound = 17;
 // Fills cells.dense and cells.thin. Call FindThin after CountBeside has been called for all tiles.
 void FindThin(const ThinGrid& grid, int32_t percent, const ThinCells& cells);
 
-// Smallest and largest disparity of each cell of a map, row by row.
-struct CellRanges {
-  int16_t *low, *high;
-};
-CellRanges TakeCellRanges(const ThinGrid& grid, Arena* arena);
-
-// Fills the ranges of the cells of tile `index` of a map.
-void MeasureCells(const ThinGrid& grid, const int16_t* map, int32_t index,
-                  const CellRanges& ranges);
-
-// Returns true if two disparities in cell `number` and the eight cells around it differ by more
-// than `step`.
-bool MayHaveStep(const ThinGrid& grid, const CellRanges& ranges, int32_t number, int32_t step);
-
 // Calls act(rectangle, number) for each cell of tile `index`.
 template <class Act>
 void ForCells(const ThinGrid& grid, int32_t index, const Act& act) {
@@ -77,6 +65,16 @@ void ForCells(const ThinGrid& grid, int32_t index, const Act& act) {
     for (int32_t column = left; column < left + grid.tile_width; ++column) {
       act(grid.CellAt(column, row), row * grid.columns + column);
     }
+  }
+}
+
+// Calls act(column, row, number) for each cell within `reach` cells of cell (column, row).
+template <class Act>
+void ForAround(const ThinGrid& grid, int32_t column, int32_t row, int32_t reach, const Act& act) {
+  const int32_t right = Min(column + reach, grid.columns - 1);
+  const int32_t bottom = Min(row + reach, grid.rows - 1);
+  for (int32_t y = Max(row - reach, 0); y <= bottom; ++y) {
+    for (int32_t x = Max(column - reach, 0); x <= right; ++x) act(x, y, y * grid.columns + x);
   }
 }
 

@@ -165,14 +165,13 @@ void MarkOutside(const EstimatePlan& plan, TileViews* views) {
   }
 }
 
-void MarkHiddenInMaps(const EstimatePlan& plan, const int16_t* side_maps, TileViews* views) {
+void MarkHiddenInMaps(const EstimatePlan& plan, const EstimateMemory& memory, TileViews* views) {
   MarkOutside(plan, views);
   views->all_seen = false;
   const Rect inside = PartInside(plan, *views);
   const auto width = static_cast<size_t>(plan.width);
   for (int32_t k = 0; k < plan.side_views; ++k) {
-    const int16_t* map =
-        side_maps + static_cast<size_t>(k) * width * static_cast<size_t>(plan.height);
+    const int16_t* map = SideMap(plan, memory, k);
     uint8_t* hidden = views->hidden + static_cast<size_t>(k) * views->plane;
     for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
       const int16_t* disparity = map + static_cast<size_t>(y) * width + inside.x;

@@ -25,9 +25,8 @@ void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove*
 // The first sweep uses MarkOutside.
 void MarkOutside(const EstimatePlan& plan, TileViews* views);
 
-// Marks the labels that the surfaces in the maps of the side views hide. `side_maps` contains one
-// map of the size of the picture for each side view.
-void MarkHiddenInMaps(const EstimatePlan& plan, const int16_t* side_maps, TileViews* views);
+// Marks the labels that the surfaces in the maps of the side views (SideMap) hide.
+void MarkHiddenInMaps(const EstimatePlan& plan, const EstimateMemory& memory, TileViews* views);
 
 // Marks the labels that the pixels of a map hide in the views, at all positions to which pixels of
 // the region can move. `map` has width * height disparities.

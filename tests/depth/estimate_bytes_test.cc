@@ -56,7 +56,7 @@ TEST_CASE("estimate: in a pair, pixels hidden in the side view get the far dispa
     const PlaneField field = RenderPlanes(scene);
     const MadeMap found = MakeMap(field, ConfigOf(field, -6, 8));
     // The near plane moves by 8 pixels relative to the far plane, and hides as many pixels of the
-    // far plane beside its left or right edge. Three columns at an end of the picture move out of
+    // far plane next to its left or right edge. Three columns at an end of the picture move out of
     // the side view. The first and the last hidden column may be wrong by a pixel.
     const int hidden = u > 0 ? 30 - 8 : 62, outside = u > 0 ? scene.width - 2 : 0;
     int pixels = 0, right = 0;

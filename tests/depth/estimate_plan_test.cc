@@ -77,7 +77,9 @@ EstimatePlan PlanAt(const std::vector<starfocus_position>& positions, float low,
   return MakePlan(config);
 }
 
-TEST_CASE("estimate plan: sides are the largest sets of views within a half plane") {
+TEST_CASE(
+    "estimate plan: sides are the largest sets of views within a half plane around one of eight "
+    "directions") {
   const auto sides = [](const std::vector<starfocus_position>& positions) {
     const EstimatePlan plan = PlanAt(positions, 0, 1);
     return std::vector<uint16_t>(plan.sides, plan.sides + plan.side_count);
@@ -95,7 +97,6 @@ TEST_CASE("estimate plan: shifts of views at any position differ by quarter pixe
   const EstimatePlan plan = PlanAt({{0, 0}, {0.3, -0.7}}, -3.1F, 9);
   const starfocus::SideView& view = plan.side[0];
   const starfocus::ViewPhases phases = plan.PhasesOf(view);
-  CHECK(phases.count <= starfocus::kMostPhases);
   for (int32_t l = 0; l < plan.labels; ++l) {
     const starfocus::LabelMove move = plan.MoveOf(view, l);
     CAPTURE(l);
