@@ -28,6 +28,14 @@ struct RowRange {
   int32_t first, last;
 };
 
+// Returns part `index` when `rows` are divided into `parts` parts. The sizes of the parts differ by
+// at most one row.
+constexpr RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts) {
+  const int64_t count = rows.last - rows.first;
+  return {rows.first + static_cast<int32_t>(count * index / parts),
+          rows.first + static_cast<int32_t>(count * (index + 1) / parts)};
+}
+
 // Rows of T, starting at row `first`. A ring (rows > 0) stores row y at index y modulo `rows`.
 template <class T>
 struct Plane {

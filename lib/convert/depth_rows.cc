@@ -9,9 +9,9 @@ namespace {
 static_assert(simd::kBlendStep == kSurfaceStep,
               "kernels and library use the same largest step within a surface");
 
-// Largest numbers of map values and of pixels that are converted at once, in arrays on the stack.
-// No map is larger than the picture, so interpolating n pixels reads at most n + 1 values.
-constexpr int32_t kPiece = 256, kPixels = kPiece - 1;
+// Largest number of map values that are converted at once. No map is larger than the picture, so
+// interpolating kDepthPiece pixels reads at most kDepthPiece + 1 values.
+constexpr int32_t kPiece = kDepthPiece + 1;
 
 // Converts `count` <= kPiece values of row y of the map, starting at column x. Returns
 // simd::DepthFlags.
@@ -54,8 +54,8 @@ RowPlace RowPlaceOf(const DepthSource& depth, int32_t y) {
   return {static_cast<int32_t>(place >> simd::kColumnBits), place % simd::kColumnOne};
 }
 
-// Interpolates `count` <= kPixels columns of a picture, starting at column x. Keeps the last two
-// converted rows of the map, which neighbouring rows of the picture share.
+// Interpolates `count` <= kDepthPiece columns of a picture, starting at column x. Keeps the last
+// two converted rows of the map, which neighbouring rows of the picture share.
 class PieceReader {
  public:
   PieceReader(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x, int32_t count)
@@ -121,8 +121,8 @@ uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, 
                    const Plane<int16_t>& out) {
   const int32_t bottom = rect.y + rect.height;
   uint32_t flags = 0;
-  for (int32_t x = 0; x < rect.width; x += kPixels) {
-    const int32_t count = Min(kPixels, rect.width - x);
+  for (int32_t x = 0; x < rect.width; x += kDepthPiece) {
+    const int32_t count = Min(kDepthPiece, rect.width - x);
     if (HasPictureSize(depth)) {
       for (int32_t y = rect.y; y < bottom; ++y) {
         flags |= ConvertValues(kernels, depth, rect.x + x, y, count, out.Row(y) + x);

@@ -13,6 +13,10 @@
 
 namespace starfocus {
 
+// Largest number of columns that ReadDepth converts at once, in arrays on the stack. Wider
+// rectangles are divided into pieces of this width.
+inline constexpr int32_t kDepthPiece = 255;
+
 // A depth map and the size of its picture.
 struct DepthSource {
   starfocus_depth_map map;

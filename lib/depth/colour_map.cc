@@ -189,14 +189,9 @@ bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int3
 
 }  // namespace
 
-RowBand BandOf(const EstimatePlan& plan, int32_t index) {
-  const int32_t bands = plan.columns * plan.rows;
-  return {TileBegin(plan.height, bands, index), TileBegin(plan.height, bands, index + 1)};
-}
-
 void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field,
-              const RowBand& band, int16_t* disparity) {
-  for (int32_t y = band.first; y < band.end; ++y) {
+              const RowRange& rows, int16_t* disparity) {
+  for (int32_t y = rows.first; y < rows.last; ++y) {
     int16_t* row = disparity + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
     const float* given = GivenAt(light_field, y);
     bool unknown = false;
@@ -222,10 +217,10 @@ void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity) {
   FillRows(plan, plan.height - unknown, plan.height, disparity);
 }
 
-void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const RowBand& band,
+void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const RowRange& rows,
                 NoiseCounts* noise) {
   const ptrdiff_t width = plan.width;
-  for (int32_t y = Max(band.first, 1); y < Min(band.end, plan.height - 1); ++y) {
+  for (int32_t y = Max(rows.first, 1); y < Min(rows.last, plan.height - 1); ++y) {
     const int16_t* row = disparity + y * width;
     for (ptrdiff_t x = 1; x + 1 < width; ++x) {
       const int16_t* d = row + x;

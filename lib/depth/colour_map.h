@@ -70,22 +70,15 @@ void ForDoubtful(const uint8_t* doubt, int32_t count, const Act& act) {
   }
 }
 
-// A band of whole rows of the picture, from row `first` to row `end` - 1.
-struct RowBand {
-  int32_t first, end;
-};
-// Returns band `index` of the picture, which has as many bands as tiles.
-RowBand BandOf(const EstimatePlan& plan, int32_t index);
-
-// Converts a band of light_field.depth to fixed point. A pixel that is not finite gets the
+// Converts rows of light_field.depth to fixed point. A pixel that is not finite gets the
 // disparity of the nearest finite pixel in its row. If two finite pixels are equally near, the
 // smaller disparity is copied. Rows without a finite pixel remain unknown.
 void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field,
-              const RowBand& band, int16_t* disparity);
+              const RowRange& rows, int16_t* disparity);
 
 // Copies rows without a finite pixel from the nearest row with a finite pixel. If two rows are
 // equally near, the smaller disparities are copied. At least one row must have a finite pixel. Call
-// FillUnknownRows after ReadRows has read all bands.
+// FillUnknownRows after ReadRows has read all rows.
 void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity);
 
 // Numbers of pixels by the absolute difference between four times the pixel's disparity and the sum
@@ -100,8 +93,8 @@ struct NoiseCounts {
   }
 };
 
-// Adds the pixels of a band to `noise`, except the pixels at the edges of the picture.
-void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const RowBand& band,
+// Adds the pixels of `rows` to `noise`, except the pixels at the edges of the picture.
+void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const RowRange& rows,
                 NoiseCounts* noise);
 
 // Returns the standard deviation of the map's noise in kDisparityBits, or 0 if the noise is

@@ -43,14 +43,20 @@ struct ColourJob {
 
 const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>(data); }
 
-void ReadBand(const void* data, int32_t index, int32_t) {
-  const ColourJob& job = JobOf(data);
-  ReadRows(job.map.plan, job.map.light_field, BandOf(job.map.plan, index), job.to);
+// Returns the rows of job `index` of a phase that divides the picture into as many ranges of rows
+// as the plan has tiles.
+RowRange RowsOfJob(const EstimatePlan& plan, int32_t index) {
+  return PartOf({0, plan.height}, index, plan.columns * plan.rows);
 }
 
-void CountBand(const void* data, int32_t index, int32_t worker) {
+void ReadPart(const void* data, int32_t index, int32_t) {
   const ColourJob& job = JobOf(data);
-  CountNoise(job.map.plan, job.map.disparity, BandOf(job.map.plan, index),
+  ReadRows(job.map.plan, job.map.light_field, RowsOfJob(job.map.plan, index), job.to);
+}
+
+void CountPart(const void* data, int32_t index, int32_t worker) {
+  const ColourJob& job = JobOf(data);
+  CountNoise(job.map.plan, job.map.disparity, RowsOfJob(job.map.plan, index),
              job.memory->workers[worker].noise);
 }
 
@@ -307,12 +313,12 @@ starfocus_status ReadMap(const ColourMap& given, const MapOutput& output,
                          const simd::DepthKernels& kernels, Phases* phases, ColourMemory* memory) {
   const Smoothing unused = {};
   const ColourJob job = {given, output, unused, memory->maps[0], nullptr, memory, kernels};
-  starfocus_status status = phases->Run(ReadBand, &job);
+  starfocus_status status = phases->Run(ReadPart, &job);
   if (status != STARFOCUS_OK) return status;
   FillUnknownRows(given.plan, memory->maps[0]);
   const int32_t workers = memory->jobs.max_workers;
   for (int32_t k = 0; k < workers; ++k) *memory->workers[k].noise = {};
-  status = phases->Run(CountBand, &job);
+  status = phases->Run(CountPart, &job);
   NoiseCounts* all = memory->workers[0].noise;
   for (int32_t k = 1; k < workers; ++k) all->Add(*memory->workers[k].noise);
   memory->noise = NoiseOf(*all);

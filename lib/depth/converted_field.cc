@@ -25,44 +25,56 @@ struct ConvertJob {
 
 const ConvertJob& JobOf(const void* data) { return *static_cast<const ConvertJob*>(data); }
 
-// Calls convert(y) for each row of a job.
+// Number of rows that are converted together. ReadDepth converts values that these rows share once.
+constexpr int32_t kGroupRows = 8;
+
+// Calls convert(rows) for groups of rows of a job. Stops after cancellation.
 template <class Convert>
-void ForRows(const ConvertJob& job, int32_t index, const Convert& convert) {
+void ForGroups(const ConvertJob& job, int32_t index, const Convert& convert) {
   CancelToken cancel(job.progress);
-  const int64_t height = job.height;
-  const auto last = static_cast<int32_t>(height * (index + 1) / job.jobs);
-  for (auto y = static_cast<int32_t>(height * index / job.jobs); y < last; ++y) {
-    if (!cancel.Spend(job.width)) return;
-    convert(y);
+  const RowRange part = PartOf({0, job.height}, index, job.jobs);
+  for (int32_t y = part.first; y < part.last; y += kGroupRows) {
+    const RowRange rows = {y, Min(y + kGroupRows, part.last)};
+    if (!cancel.Spend(int64_t{job.width} * (rows.last - rows.first))) return;
+    convert(rows);
   }
 }
 
 void ConvertImage(const void* data, int32_t index, int32_t) {
   const ConvertJob& job = JobOf(data);
   const size_t stride = 3 * static_cast<size_t>(job.width);
-  ForRows(job, index, [&](int32_t y) {
-    ReadCodes(job.kernels, job.image, 0, y, job.width, job.rgb + static_cast<size_t>(y) * stride);
+  ForGroups(job, index, [&](const RowRange& rows) {
+    for (int32_t y = rows.first; y < rows.last; ++y) {
+      ReadCodes(job.kernels, job.image, 0, y, job.width, job.rgb + static_cast<size_t>(y) * stride);
+    }
   });
 }
 
-void ConvertMap(const void* data, int32_t index, int32_t) {
+// Converts `count` fixed-point disparities to pixels, limited to the range of the rule.
+void WriteDisparities(const simd::DepthRule& rule, const int16_t* fixed, int32_t count,
+                      float* out) {
   constexpr float kPixel = 1.0F / (1 << kDisparityBits);
-  constexpr int32_t kPiece = 256;
+  for (int32_t k = 0; k < count; ++k) {
+    const float disparity = static_cast<float>(fixed[k]) * kPixel;
+    const float inside = disparity < rule.low    ? rule.low
+                         : disparity > rule.high ? rule.high
+                                                 : disparity;
+    out[k] = fixed[k] == simd::kNoSurface ? std::numeric_limits<float>::quiet_NaN() : inside;
+  }
+}
+
+void ConvertMap(const void* data, int32_t index, int32_t) {
   const ConvertJob& job = JobOf(data);
-  const simd::DepthRule& rule = job.depth.rule;
-  ForRows(job, index, [&](int32_t y) {
-    float* const row = job.disparity + static_cast<size_t>(y) * static_cast<size_t>(job.width);
-    for (int32_t x = 0; x < job.width; x += kPiece) {
-      int16_t fixed[kPiece];
-      const int32_t count = Min(kPiece, job.width - x);
-      ReadDepth(job.kernels, job.depth, {x, y, count, 1}, {fixed, 0, 0, 0});
-      for (int32_t k = 0; k < count; ++k) {
-        const float disparity = static_cast<float>(fixed[k]) * kPixel;
-        const float inside = disparity < rule.low    ? rule.low
-                             : disparity > rule.high ? rule.high
-                                                     : disparity;
-        row[x + k] =
-            fixed[k] == simd::kNoSurface ? std::numeric_limits<float>::quiet_NaN() : inside;
+  ForGroups(job, index, [&](const RowRange& rows) {
+    for (int32_t x = 0; x < job.width; x += kDepthPiece) {
+      int16_t fixed[kGroupRows * kDepthPiece];
+      const Plane<int16_t> piece = {fixed, kDepthPiece, 0, rows.first};
+      const int32_t count = Min(kDepthPiece, job.width - x);
+      ReadDepth(job.kernels, job.depth, {x, rows.first, count, rows.last - rows.first}, piece);
+      for (int32_t y = rows.first; y < rows.last; ++y) {
+        WriteDisparities(
+            job.depth.rule, piece.Row(y), count,
+            job.disparity + static_cast<size_t>(y) * static_cast<size_t>(job.width) + x);
       }
     }
   });

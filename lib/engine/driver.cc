@@ -113,12 +113,6 @@ RowRange StripeRows(const EngineState& engine) {
           Min(engine.config.height, region.y + region.height + reach)};
 }
 
-RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts) {
-  const int64_t count = rows.last - rows.first;
-  return {rows.first + static_cast<int32_t>(count * index / parts),
-          rows.first + static_cast<int32_t>(count * (index + 1) / parts)};
-}
-
 starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine) {
   if (source.check_map == nullptr) return STARFOCUS_OK;
   const int32_t jobs = JobsOf(rows, engine->config);

@@ -61,10 +61,6 @@ starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine
 // of the superblock size.
 RowRange StripeRows(const EngineState& engine);
 
-// Returns part `index` when `rows` are divided into `parts` parts. The sizes of the parts differ by
-// at most one row.
-RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts);
-
 // Refocuses the stripes that affect the region of the lens, and stores the rows of the region.
 // Checks all input rows before it stores the first output row. Returns STARFOCUS_OK,
 // STARFOCUS_ERROR_CANCELLED, STARFOCUS_ERROR_RUNNER or an error of the disparity map.
