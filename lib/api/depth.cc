@@ -5,9 +5,7 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/base/features.h"
-#include "lib/base/gaps.h"
 #include "lib/base/view_set.h"
-#include "lib/convert/depth_values.h"
 #include "lib/depth/colour_repair.h"
 #include "lib/depth/converted_field.h"
 #include "lib/depth/repair.h"
@@ -61,26 +59,18 @@ starfocus_status CheckOverlap(const starfocus_depth_config& config,
 // Checks the map to repair: at least one disparity is known, and all known disparities lie in the
 // configured range.
 starfocus_status CheckGiven(const starfocus_depth_config& config, const starfocus_depth_map& map) {
-  constexpr int32_t kPiece = 256;
+  starfocus_disparity_stats stats;
+  const starfocus_status status = starfocus_measure_disparity(&map, &stats);
+  if (status != STARFOCUS_OK) return TellStatus(status, config.problem);
+  Checker check(config.problem);
+  check.Need(stats.invalid < int64_t{map.width} * map.height, STARFOCUS_ERROR_ALL_INVALID,
+             {"disparity"}, {"a finite value"});
   const auto low = static_cast<float>(config.disparity_min);
   const auto high = static_cast<float>(config.disparity_max);
-  Checker check(config.problem);
-  bool any = false;
-  for (int32_t y = 0; y < map.height; ++y) {
-    for (int32_t x = 0; x < map.width; x += kPiece) {
-      float piece[kPiece];
-      const int32_t count = Min(kPiece, map.width - x);
-      ReadDisparities(map, x, y, count, piece);
-      for (int32_t k = 0; k < count; ++k) {
-        if (!IsFinite(piece[k])) continue;
-        any = true;
-        check.Need(piece[k] >= low && piece[k] <= high, STARFOCUS_ERROR_DISPARITY,
-                   {"disparity", piece[k]},
-                   {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
-      }
-    }
-  }
-  check.Need(any, STARFOCUS_ERROR_ALL_INVALID, {"disparity"}, {"a finite value"});
+  const double outside = stats.min < low ? stats.min : stats.max;
+  check.Need(stats.min >= low && stats.max <= high, STARFOCUS_ERROR_DISPARITY,
+             {"disparity", outside},
+             {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
   return check.status();
 }
 
@@ -101,36 +91,25 @@ bool Converts(const starfocus_depth_config& config) {
   return Has(config.features, STARFOCUS_FEATURE_IMAGES);
 }
 
-// Sizes of the two parts of a workspace: the memory of an estimate or repair, followed by the
-// memory of the converted light field.
-struct WorkspaceParts {
-  size_t made, converted;
-};
-
-// Computes the sizes for a valid configuration.
-starfocus_status FindParts(const starfocus_depth_config& config, bool repairs,
-                           WorkspaceParts* parts) {
-  const EstimatePlan plan = PlanOf(config, repairs);
-  EstimateMemory* counted = nullptr;
-  ColourMemory* of_colour = nullptr;
-  ConvertedMemory converted;
-  const size_t made = config.views == 1
-                          ? LayOutColourRepair(plan, config.max_workers, nullptr, &of_colour)
-                          : LayOutEstimate(plan, config.max_workers, nullptr, &counted);
-  *parts = {made, Converts(config) ? LayOutConverted(config, repairs, nullptr, &converted) : 0};
-  const bool fits =
-      made != kTooLarge && parts->converted != kTooLarge && made <= PTRDIFF_MAX - parts->converted;
-  return fits ? STARFOCUS_OK : TellStatus(STARFOCUS_ERROR_TOO_LARGE, config.problem);
-}
-
+// Computes the size of a workspace, which contains the memory of an estimate or repair, followed by
+// the memory of the converted light field.
 starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size_t* bytes) {
   starfocus_depth_config full = DefaultDepthConfig();
   starfocus_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
   if (status == STARFOCUS_OK) status = CheckDepthConfig(full, repairs);
-  WorkspaceParts parts;
-  if (status == STARFOCUS_OK) status = FindParts(full, repairs, &parts);
-  if (status == STARFOCUS_OK) *bytes = parts.made + parts.converted;
-  return status;
+  if (status != STARFOCUS_OK) return status;
+  const EstimatePlan plan = PlanOf(full, repairs);
+  EstimateMemory* counted = nullptr;
+  ColourMemory* of_colour = nullptr;
+  ConvertedMemory memory;
+  const size_t made = full.views == 1
+                          ? LayOutColourRepair(plan, full.max_workers, nullptr, &of_colour)
+                          : LayOutEstimate(plan, full.max_workers, nullptr, &counted);
+  const size_t converted = Converts(full) ? LayOutConverted(full, repairs, nullptr, &memory) : 0;
+  const bool fits = made != kTooLarge && converted != kTooLarge && made <= PTRDIFF_MAX - converted;
+  if (!fits) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
+  *bytes = made + converted;
+  return STARFOCUS_OK;
 }
 
 // Arguments of an API call that estimates or repairs a map.
@@ -183,9 +162,9 @@ starfocus_status CheckCall(const DepthCall& call, bool repairs,
 }
 
 // Converts the light field if necessary, and calls make(light_field) with the caller's runner and
-// progress function.
+// progress function. The converted light field lies `made` bytes after the start of the workspace.
 template <class Make>
-starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, JobSet* jobs,
+starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, size_t made, JobSet* jobs,
                          const Make& make) {
   const starfocus_depth_config& config = *call.config;
   jobs->runner = {config.runner, config.runner_data};
@@ -195,11 +174,8 @@ starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, JobSet
   starfocus_light_field field = *call.light_field;
   starfocus_status status = STARFOCUS_OK;
   if (Converts(config)) {
-    WorkspaceParts parts;
-    FindParts(config, plan.repairs, &parts);
     ConvertedMemory memory;
-    LayOutConverted(config, plan.repairs, static_cast<uint8_t*>(call.workspace) + parts.made,
-                    &memory);
+    LayOutConverted(config, plan.repairs, static_cast<uint8_t*>(call.workspace) + made, &memory);
     status = ConvertField(config, memory, plan.columns * plan.rows, jobs, &field);
   }
   if (status == STARFOCUS_OK) status = make(field);
@@ -214,9 +190,9 @@ starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
                                int32_t* has_coverage) {
   const EstimatePlan plan = PlanOf(*call.config, true);
   ColourMemory* memory = nullptr;
-  LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
+  const size_t made = LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
   const starfocus_status status =
-      Watched(call, plan, &memory->jobs, [&](const starfocus_light_field& field) {
+      Watched(call, plan, made, &memory->jobs, [&](const starfocus_light_field& field) {
         return RepairByColour(plan, field, simd::BestDepthKernels(), output, memory);
       });
   *has_coverage = status == STARFOCUS_OK && memory->has_coverage ? 1 : 0;
@@ -228,9 +204,9 @@ starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput
   const EstimatePlan plan = PlanOf(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
   EstimateMemory* memory = nullptr;
-  LayOutEstimate(plan, call.config->max_workers, call.workspace, &memory);
+  const size_t made = LayOutEstimate(plan, call.config->max_workers, call.workspace, &memory);
   const EstimateZones zones(plan, call.config->max_workers, call.workspace);
-  return Watched(call, plan, &memory->jobs, [&](const starfocus_light_field& field) {
+  return Watched(call, plan, made, &memory->jobs, [&](const starfocus_light_field& field) {
     return repairs ? Repair(plan, field, kernels, output, memory)
                    : Estimate(plan, field, kernels, output, memory);
   });

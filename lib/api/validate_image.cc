@@ -76,9 +76,9 @@ void CheckImage(const starfocus_image& image, const PictureSize& size, const Ima
 
 void NeedInPlace(const starfocus_image& image, const ImageNames& names, int32_t index,
                  Checker* check) {
-  check->Need(IsInPlace(image), STARFOCUS_ERROR_FEATURE,
-              {names.format, double(image.format), index},
-              {"STARFOCUS_FORMAT_RGB without gaps, or an engine with STARFOCUS_FEATURE_IMAGES"});
+  check->Need(
+      IsInPlace(image), STARFOCUS_ERROR_FEATURE, {names.format, double(image.format), index},
+      {"STARFOCUS_FORMAT_RGB without gaps, or STARFOCUS_FEATURE_IMAGES in config.features"});
 }
 
 }  // namespace
@@ -135,9 +135,10 @@ starfocus_status CheckInPlace(const starfocus_light_field& light_field, int32_t 
 starfocus_status CheckInPlace(const starfocus_depth_map& map, const PictureSize& size,
                               starfocus_problem* problem) {
   Checker check(problem);
-  check.Need(IsInPlace(map, size.width, size.height), STARFOCUS_ERROR_FEATURE, {"depth"},
-             {"a map of starfocus_depth_float in the size of the picture, or an engine with "
-              "STARFOCUS_FEATURE_IMAGES"});
+  check.Need(
+      IsInPlace(map, size.width, size.height), STARFOCUS_ERROR_FEATURE, {"depth"},
+      {"a map of starfocus_depth_float in the size of the picture, or STARFOCUS_FEATURE_IMAGES "
+       "in config.features"});
   return check.status();
 }
 

@@ -4,11 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "starfocus/depth.h"
 #include "tests/depth/depth_scene.h"
+#include "tests/properties/operations.h"
 #include "tests/support/image_field.h"
 
 namespace map_formats_test {
@@ -25,7 +27,8 @@ struct Made {
   starfocus_problem problem = {};
 };
 
-Made Make(const ImageField& field, bool repairs, uint32_t features) {
+Made Make(const ImageField& field, bool repairs, uint32_t features, int workers = 1,
+          const starfocus_callbacks& callbacks = {}) {
   const test::Scene& scene = field.converted;
   Made made;
   starfocus_depth_config config;
@@ -36,6 +39,11 @@ Made Make(const ImageField& field, bool repairs, uint32_t features) {
   config.disparity_min = scene.disparity_min;
   config.disparity_max = scene.disparity_max;
   config.features = features;
+  config.max_workers = workers;
+  config.runner = callbacks.runner;
+  config.runner_data = callbacks.runner_data;
+  config.progress = callbacks.progress;
+  config.progress_data = callbacks.progress_data;
   config.problem = &made.problem;
   size_t bytes = 0;
   REQUIRE((repairs ? starfocus_repair_workspace_size : starfocus_estimate_workspace_size)(
@@ -91,6 +99,40 @@ TEST_CASE("maps of any format: the result is that of the converted light field")
   }
 }
 
+// Repairs the map of a picture of three tiles, whose view and map are converted by three jobs each.
+properties::Operation OperationOnImages() {
+  constexpr int kWidth = 400, kHeight = 40;
+  test::Random random(6);
+  test::ImageKind kind;
+  kind.format = STARFOCUS_FORMAT_NV12;
+  const test::Scene scene = test::LayeredScene(kWidth, kHeight, 1, 4, 5);
+  test::DepthMemory depth = test::MakeDepth(scene, kWidth / 4, kHeight / 4, STARFOCUS_DEPTH_U16,
+                                            STARFOCUS_DEPTH_LINEAR, 0);
+  // Images contain pointers to their memory, so they are shared instead of copied.
+  const auto field = std::make_shared<const ImageField>(
+      test::MakeImageField(scene, {kind}, std::move(depth), &random));
+  // The view, the map, and each of the 6 phases of a repair by colours are a set of three jobs.
+  return {"repair of images", kHeight, 3 * (2 + 6),
+          [field](const properties::Setup& setup) -> properties::Run {
+            return [field, setup](const starfocus_callbacks& callbacks, properties::Bytes* out) {
+              const Made made =
+                  Make(*field, true, STARFOCUS_FEATURE_IMAGES, setup.workers, callbacks);
+              *out = made.confidence;
+              const size_t bytes = made.disparity.size() * sizeof(float);
+              out->resize(out->size() + bytes);
+              std::memcpy(out->data() + made.confidence.size(), made.disparity.data(), bytes);
+              return made.status;
+            };
+          }};
+}
+
+TEST_CASE("maps of any format: workers, cancelling and failed runners") {
+  const properties::Operation operation = OperationOnImages();
+  properties::CheckWorkers(operation);
+  properties::CheckFailingRunner(operation);
+  properties::CheckCancelling(operation);
+}
+
 TEST_CASE("maps of any format: without the feature, other formats are rejected") {
   test::Random random(4);
   const ImageField field = Field(1, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, &random);
@@ -117,10 +159,13 @@ TEST_CASE("maps of any format: without the feature, other formats are rejected")
   };
   CHECK(run(images) == STARFOCUS_ERROR_FEATURE);
   CHECK(std::string(problem.field) == "views[].format");
+  const std::string feature = ", or STARFOCUS_FEATURE_IMAGES in config.features";
+  CHECK(std::string(problem.expected).find(feature) != std::string::npos);
   starfocus_light_field mixed = images;
   mixed.views[0] = scene.Field().views[0];
   CHECK(run(mixed) == STARFOCUS_ERROR_FEATURE);
   CHECK(std::string(problem.field) == "depth");
+  CHECK(std::string(problem.expected).find(feature) != std::string::npos);
   config.features = STARFOCUS_FEATURE_IMAGES;
   CHECK(run(images) == STARFOCUS_ERROR_WORKSPACE);
   REQUIRE(starfocus_repair_workspace_size(&config, &with) == STARFOCUS_OK);
@@ -139,6 +184,11 @@ TEST_CASE("maps of any format: values of the map are checked before the map is c
   const Made outside = Make(field, true, STARFOCUS_FEATURE_IMAGES);
   CHECK(outside.status == STARFOCUS_ERROR_DISPARITY);
   CHECK(outside.problem.value > outside.problem.high);
+  field.converted.disparity_min = static_cast<float>(outside.problem.value) + 1;
+  field.converted.disparity_max = field.converted.disparity_min + 1;
+  const Made below = Make(field, true, STARFOCUS_FEATURE_IMAGES);
+  CHECK(below.status == STARFOCUS_ERROR_DISPARITY);
+  CHECK(below.problem.value < below.problem.low);
   for (int y = 0; y < field.depth.map.height; ++y) {
     for (int x = 0; x < field.depth.map.width; ++x) field.depth.Put(x, y, field.depth.map.invalid);
   }

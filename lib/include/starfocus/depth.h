@@ -124,9 +124,9 @@ starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* 
  *  of the result. Costs are in quarters of a code, summed over R, G and B. The confidence is 0 if
  *  another disparity fits equally well, for example on a wall of one colour, and at most 255.
  *
- *  Some pixels may be hidden in all side views, for example in a stereo pair. If all side views lie
- *  on one side of the centre, such a pixel gets confidence 0 and the disparity of the adjacent
- *  background.
+ *  If all side views lie on one side of the centre, as in a stereo pair, a foreground hides the
+ *  background next to one of its edges from all side views. Such pixels get confidence 0 and the
+ *  disparity of the adjacent background.
  *  @param config configuration
  *  @param light_field views; `depth` is ignored
  *  @param map output planes

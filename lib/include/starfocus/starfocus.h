@@ -595,7 +595,7 @@ STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t
  *  of the pixel by at most 0.75. If the disparity of the pixel is unknown, or the disparities of
  *  all 8 neighbours differ by more than 0.75, the function uses the surface to which most of the
  *  surrounding 7 x 7 values belong.
- *  @param depth map of any format
+ *  @param depth map of any format, at most as wide and as high as the picture
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
  *  @param x,y pixel inside the picture
  *  @param focus receives the disparity to focus at
