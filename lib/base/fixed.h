@@ -6,7 +6,7 @@
 // |-------------------------|--------|----------|---------------------------|---------------------------|
 // | disparity d             | int16  | 2^6      | +-500 px per unit u       | 2.3 % below +-511.98      |
 // | focus d_t               | int32  | 2^6      | +-10^6 px per unit u      | 33 x                      |
-// | closed disparity        | int16  | 2^6      | +-500 px per unit u       | 2.3 % below +-511.98      |
+// | disparity without range | int16  | 2^6      | +-500 px per unit u       | 2.3 % below +-511.98      |
 // | view position (u, v)    | int16  | 2^14     | [-1, 1]                   | 1 below 2 x               |
 // | step u_t / 2^L          | int64  | 2^24     | (0, 1]                    | only in products below    |
 // | step * (d - d_t)        | int64  | 2^30     | blur radius, +-134 px     | 2^26 x                    |

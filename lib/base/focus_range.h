@@ -17,9 +17,9 @@ struct FocusRange {
   // Returns the distance of a disparity from the range: 0 inside the range, negative behind it.
   int32_t Distance(int32_t disparity) const { return disparity - Clamp(disparity, far, near); }
 
-  // Returns the disparity at the same distance from a lens that has only `far` in focus. Closing
-  // keeps the order of disparities, and changes nothing if the range is a single disparity.
-  int16_t Closed(int16_t disparity) const {
+  // Returns the disparity at the same distance from a lens that has only `far` in focus. The order
+  // of disparities is kept. If the range is a single disparity, the result is `disparity`.
+  int16_t WithoutRange(int16_t disparity) const {
     return static_cast<int16_t>(far + Distance(disparity));
   }
 
@@ -28,7 +28,7 @@ struct FocusRange {
 
 // Returns the range from focus - farther to focus + nearer, in pixels per unit of u. Both ends are
 // within +-10^6. The far end of a wider range is raised to the smallest possible disparity, so that
-// closed disparities fit in 16 bits.
+// results of WithoutRange fit in 16 bits.
 inline FocusRange MakeFocusRange(double focus, double nearer = 0, double farther = 0) {
   const auto rounded = [](double disparity) {
     return static_cast<int32_t>(

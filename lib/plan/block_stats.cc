@@ -126,8 +126,8 @@ class CellRow {
  private:
   static constexpr int32_t kRows = kCellSize + 2;
 
-  // Measures the closed disparities of the cell at column x of the picture. Pixels outside the
-  // picture repeat its edge.
+  // Measures the disparities without the range in focus of the cell at column x of the picture.
+  // Pixels outside the picture repeat its edge.
   simd::CellMeasure Find(int32_t x) const {
     const int16_t* rows[kRows];
     int16_t copies[kRows][kRows];
@@ -137,7 +137,7 @@ class CellRow {
       for (int32_t k = 0; k < kRows; ++k) {
         for (int32_t column = 0; column < kRows; ++column) {
           const int32_t from = Clamp(x + column - 1, 0, window_.width - 1);
-          copies[k][column] = scale_.focus.Closed(rows_[k][from]);
+          copies[k][column] = scale_.focus.WithoutRange(rows_[k][from]);
         }
         rows[k] = copies[k] + 1;
       }
@@ -153,7 +153,8 @@ class CellRow {
     const int32_t column = x / kCoverageTile, row = y_ / kCoverageTile;
     const CoverageTile& tile = map.Tile(column, row);
     if (tile.thin == 0 || tile.low > tile.high) return;
-    const int16_t far = scale_.focus.Closed(tile.low), near = scale_.focus.Closed(tile.high);
+    const int16_t far = scale_.focus.WithoutRange(tile.low);
+    const int16_t near = scale_.focus.WithoutRange(tile.high);
     const auto widen = [&](int16_t* low, int16_t* high) {
       *low = far < *low ? far : *low;
       *high = near > *high ? near : *high;

@@ -31,15 +31,16 @@ struct Content {
 };
 
 // Statistics of a cell. Blur radii have kDisparityBits fractional bits: 128 px are 8192. All
-// disparities are closed (FocusRange::Closed), so the blur radius depends on their distance from
-// the far end of the focus, and steps inside the range in focus are no depth edges.
+// disparities are disparities without the range in focus (FocusRange::WithoutRange), so the blur
+// radius depends on their distance from the far end of the focus, and steps inside the range in
+// focus are no depth edges.
 struct Cell {
   uint16_t r_min, r_max;  // smallest radius, rounded down; largest radius, rounded up
   // Smallest blur radius of all surfaces that the pixels show, rounded down. The nearer surface of
   // a depth edge is included, because the pixels next to the edge may show a part of this surface.
   uint16_t r_shown : 15;
   uint16_t has_edge : 1;  // 1: a depth edge lies inside the cell or at one of its sides.
-  int16_t low, high;      // Range of closed disparities, kDisparityBits.
+  int16_t low, high;      // Range of disparities without the range in focus, kDisparityBits.
   // Number of pixels that the cell splats to the left, right, top and bottom, measured from the
   // opposite edge of the cell. `inside` counts the pixels from each side to the innermost pixel
   // that splats beyond the side.

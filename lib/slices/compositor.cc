@@ -188,7 +188,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   }
   PartThin(*job.window, field, &scratch->surfaces);
   InpaintHidden(*job.kernels, job.window->layer, scratch->fill, &scratch->surfaces);
-  CloseSurfaces(job.grid->focus, &scratch->surfaces);
+  RemoveFocusRange(job.grid->focus, &scratch->surfaces);
   return inner;
 }
 
@@ -261,7 +261,7 @@ uint64_t CompositeRectangle(const RenderJob& given, void* scratch, uint32_t* acc
   auto* const memory = static_cast<CompositorScratch*>(scratch);
   SliceStack stack;
   stack.inner = LoadSurfaces(given, memory, accumulators);
-  // The disparities of the surfaces and of their slices are closed.
+  // The surfaces and their slices have disparities without the range in focus.
   ViewGrid grid = *given.grid;
   grid.focus.near = grid.focus.far;
   RenderJob job = given;

@@ -362,23 +362,23 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const 
   SurfaceFinder(kernels, window, field, surfaces).Find();
 }
 
-void CloseSurfaces(const FocusRange& focus, LayeredDepth* surfaces) {
+void RemoveFocusRange(const FocusRange& focus, LayeredDepth* surfaces) {
   if (focus.IsSingle()) return;
-  const auto close = [&](int16_t* disparity, int32_t count) {
-    for (int32_t k = 0; k < count; ++k) disparity[k] = focus.Closed(disparity[k]);
+  const auto remove = [&](int16_t* disparity, int32_t count) {
+    for (int32_t k = 0; k < count; ++k) disparity[k] = focus.WithoutRange(disparity[k]);
   };
   for (int32_t y = 0; y < surfaces->height; ++y) {
     const size_t row = surfaces->At(0, y);
-    close(surfaces->disparity[0] + row, surfaces->width);
+    remove(surfaces->disparity[0] + row, surfaces->width);
     for (int behind = 1; behind < simd::kSurfaces; ++behind) {
       int16_t* strip = surfaces->disparity[behind] + row;
       for (uint64_t rest = surfaces->hiding[y]; rest != 0; rest >>= 1, strip += kStripColumns) {
-        if ((rest & 1) != 0) close(strip, kStripColumns);
+        if ((rest & 1) != 0) remove(strip, kStripColumns);
       }
     }
   }
-  surfaces->low = focus.Closed(surfaces->low);
-  surfaces->high = focus.Closed(surfaces->high);
+  surfaces->low = focus.WithoutRange(surfaces->low);
+  surfaces->high = focus.WithoutRange(surfaces->high);
 }
 
 }  // namespace starfocus

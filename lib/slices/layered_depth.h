@@ -85,11 +85,11 @@ struct SurfaceBands {
 void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
                       LayeredDepth* surfaces);
 
-// Closes the disparities of all surfaces (FocusRange::Closed), so that the surfaces inside the
-// range in focus belong to one slice. Within a slice, the nearer surface of a pixel covers the
-// farther ones. The captured views show surfaces at their original disparities, so this is the last
-// step.
-void CloseSurfaces(const FocusRange& focus, LayeredDepth* surfaces);
+// Replaces the disparities of all surfaces by disparities without the range
+// (FocusRange::WithoutRange), so that the surfaces inside the range in focus belong to one slice.
+// Within a slice, the nearer surface of a pixel covers the farther ones. The captured views show
+// surfaces at their original disparities, so this is the last step.
+void RemoveFocusRange(const FocusRange& focus, LayeredDepth* surfaces);
 
 }  // namespace starfocus
 

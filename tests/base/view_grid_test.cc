@@ -43,7 +43,7 @@ TEST_CASE("view grid: shifts grow with the distance from a range in focus, and a
                          : before ? near.Shift(near.Move(5), disparity)
                                   : 0;
     CHECK(grid.Shift(grid.Move(5), disparity) == expected);
-    CHECK(grid.focus.Closed(int16_t(disparity)) ==
+    CHECK(grid.focus.WithoutRange(int16_t(disparity)) ==
           disparity - std::clamp(disparity + 96, 0, 224 + 96));
   }
 }

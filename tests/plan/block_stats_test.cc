@@ -314,20 +314,20 @@ void CheckMap(Map map, int superblock, Tallies* tallies) {
   }
 }
 
-TEST_CASE("cells: with a range in focus, cells equal those of the map whose range is closed") {
+TEST_CASE("cells: with a range in focus, cells equal those of the map without the range") {
   test::Random random(91);
   for (int round = 0; round < 60; ++round) {
     Map map =
         RandomMap(random.Int(1, 70), random.Int(1, 70), Content(round % kContents), 12, &random);
     map.scale.focus.near += random.Int(1, 10 * kDisparityOne);
-    Map closed = map;
-    closed.scale.focus.near = closed.scale.focus.far;
-    for (int16_t& disparity : closed.disparity) disparity = map.scale.focus.Closed(disparity);
-    std::vector<Cell> of_map, of_closed;
+    Map rest = map;
+    rest.scale.focus.near = rest.scale.focus.far;
+    for (int16_t& disparity : rest.disparity) disparity = map.scale.focus.WithoutRange(disparity);
+    std::vector<Cell> of_map, of_rest;
     test::MeasureCells(map.disparity, map.width, map.height, map.scale, &of_map);
-    test::MeasureCells(closed.disparity, map.width, map.height, closed.scale, &of_closed);
+    test::MeasureCells(rest.disparity, map.width, map.height, rest.scale, &of_rest);
     CAPTURE(round);
-    CHECK(std::equal(of_map.begin(), of_map.end(), of_closed.begin(), of_closed.end(), AreEqual));
+    CHECK(std::equal(of_map.begin(), of_map.end(), of_rest.begin(), of_rest.end(), AreEqual));
   }
 }
 
