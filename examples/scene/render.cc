@@ -25,8 +25,8 @@ constexpr int kLensSamples = 256;  // Approximate number of samples per pixel of
 constexpr double kGoldenCos = -0.7373688780783197, kGoldenSin = 0.6754902942615238;
 constexpr double kStepCos = 0.9996988186962042, kStepSin = 0.024541228522912288;
 // Steps of the R2 low-discrepancy sequence.
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kR2X = 0.7548776662466927, kR2Y = 0.5698402909980532;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 LensPoint Turn(LensPoint p, LensPoint by) {
   return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x};

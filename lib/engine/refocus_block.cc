@@ -191,7 +191,7 @@ Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>
 Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                       Scratch* scratch) {
   const Lens& lens = *in.lens;
-  const ViewGrid grid = GridOf(in, block, scratch->aperture_weights);
+  const ViewGrid grid = ViewGridOf(in, block, scratch->aperture_weights);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;
   const RenderJob job = {
@@ -220,7 +220,7 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
 
 }  // namespace
 
-ViewGrid GridOf(const BlockInputs& in, const Block& block, uint16_t* cats_eye) {
+ViewGrid ViewGridOf(const BlockInputs& in, const Block& block, uint16_t* weights) {
   const Lens& lens = *in.lens;
   const ViewWeights& aperture = WeightsOf(lens, block.n);
   // With N = 0 a block shows the centre view alone. To render the centre view, the weights of N = 1
@@ -232,7 +232,7 @@ ViewGrid GridOf(const BlockInputs& in, const Block& block, uint16_t* cats_eye) {
       opening.cats_eye > 0
           ? MakeCatsEye(whole, opening,
                         ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
-                        cats_eye)
+                        weights)
           : whole;
   ViewGrid grid =
       MakeViewGrid(rendered, lens.scale.focus, lens.params.lens.aperture * rendered.extent,

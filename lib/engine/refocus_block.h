@@ -30,9 +30,9 @@ struct BlockInputs {
   starfocus_clock clock;  // a null clock disables measuring the time of blocks
 };
 
-// Returns the grid of the views that the block is rendered from. `cats_eye` is memory for the
+// Returns the grid of the views that the block is rendered from. `weights` is memory for the
 // weights of an aperture with a cat's eye: FullApertureSize(N) elements.
-ViewGrid GridOf(const BlockInputs& in, const Block& block, uint16_t* cats_eye);
+ViewGrid ViewGridOf(const BlockInputs& in, const Block& block, uint16_t* weights);
 
 // Writes the rectangle of the block to `out` and adds the block to scratch->counts.
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,

@@ -13,9 +13,9 @@ namespace starfocus {
 
 void SetViews(const starfocus_config& config, const ViewReader& reader,
               const Plane<const uint8_t>& centre, RowStore* row_store) {
+  // Creating the engine has already validated the positions of the views.
   ViewSet set;
-  FindViews(ViewsOf(config),
-            &set);  // creating the engine has already validated the positions of the views
+  FindViews(ViewsOf(config), &set);
   const OcclusionViews occlusion_views = ChooseOcclusionViews(set);
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     Window& window = row_store->windows[layer];

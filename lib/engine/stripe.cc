@@ -69,7 +69,7 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   if (status == STARFOCUS_OK) status = PlanStripe(stripe, engine);
   if (status == STARFOCUS_OK && IsBlockMode(lens) && !engine->row_store.prepared) {
     PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->row_store);
-    status = FillLayers(config, *engine->kernels, &engine->workers, &engine->row_store);
+    status = FillLayers(config, *engine->kernels, kAllLayers, &engine->workers, &engine->row_store);
   }
   if (status != STARFOCUS_OK) return status;
   const StripePlan& plan = engine->stripe.plan;

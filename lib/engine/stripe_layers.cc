@@ -6,40 +6,34 @@
 namespace starfocus {
 namespace {
 
-// Subsamples columns of superblocks into layers 1 and 2. Job `index` processes column `index`.
+// Subsamples columns of superblocks into layers. Job `index` processes column `index`.
 struct LayerJob {
-  const starfocus_config* config;
-  const simd::Kernels* kernels;
-  const Window* picture;         // Layer 0.
-  const LayerPlane* layer_one;   // Source of layer 2; null: the picture.
-  const uint8_t* const* needed;  // ColumnNeed of the columns of each layer.
-  const LayerPlane* layers;      // Output: planes of the layers.
+  const starfocus_config& config;
+  const simd::Kernels& kernels;
+  const LayerInterval& interval;
+  const RowStore& row_store;  // The picture, the marked columns, and the planes of the layers.
 };
 
 void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* scratch) {
-  const int need = job.needed[layer][index];
+  const int need = job.row_store.needed[layer][index];
   if ((need & kNeeded) == 0) return;
-  LayerPlane missing = job.layers[layer];
+  LayerPlane missing = job.row_store.layers[layer];
   if ((need & kNeededBefore) != 0) missing.rows.first = missing.known;
   if (missing.rows.first == missing.rows.last) return;
-  const int32_t side = job.config->superblock >> layer, begin = index * side;
+  const int32_t side = job.config.superblock >> layer, begin = index * side;
   // The last column of superblocks includes the pixels of a layer that lie beyond the picture.
-  const int32_t end = index + 1 == Columns(*job.config) ? missing.width : begin + side;
+  const int32_t end = index + 1 == Columns(job.config) ? missing.width : begin + side;
   const LayerTarget to = {layer, begin, end, &missing};
-  if (job.layer_one != nullptr) {
-    DownsampleLayer(*job.kernels, *job.layer_one, scratch->resample, to);
+  if (job.interval.layer_one != nullptr) {
+    DownsampleLayer(job.kernels, *job.interval.layer_one, scratch->resample, to);
   } else {
-    DownsamplePicture(*job.kernels, *job.picture, scratch->resample, to);
+    DownsamplePicture(job.kernels, job.row_store.windows[0], scratch->resample, to);
   }
 }
 
 void DownsampleColumn(const LayerJob& job, int32_t index, Scratch* scratch) {
-  for (int32_t layer = 1; layer < STARFOCUS_LAYERS; ++layer)
+  for (int32_t layer = job.interval.first; layer <= job.interval.last; ++layer)
     DownsampleInto(job, layer, index, scratch);
-}
-
-void DownsampleColumnTwo(const LayerJob& job, int32_t index, Scratch* scratch) {
-  DownsampleInto(job, 2, index, scratch);
 }
 
 bool AnyColumn(const uint8_t* needed, int32_t columns) {
@@ -102,20 +96,15 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* r
 }
 
 starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels& kernels,
-                            Workers* workers, RowStore* row_store) {
+                            const LayerInterval& layers, Workers* workers, RowStore* row_store) {
   const int32_t columns = Columns(config);
-  if (!AnyColumn(row_store->needed[1], columns) && !AnyColumn(row_store->needed[2], columns)) {
-    return STARFOCUS_OK;
+  bool any = false;
+  for (int32_t layer = layers.first; layer <= layers.last; ++layer) {
+    any = any || AnyColumn(row_store->needed[layer], columns);
   }
-  const LayerJob job = {&config, &kernels,          &row_store->windows[0],
-                        nullptr, row_store->needed, row_store->layers};
+  if (!any) return STARFOCUS_OK;
+  const LayerJob job = {config, kernels, layers, *row_store};
   return RunJobs<LayerJob, DownsampleColumn>(job, columns, workers);
-}
-
-starfocus_status FillLayerTwo(const starfocus_config& config, const simd::Kernels& kernels,
-                              const LayerPlane& from, Workers* workers, RowStore* row_store) {
-  const LayerJob job = {&config, &kernels, nullptr, &from, row_store->needed, row_store->layers};
-  return RunJobs<LayerJob, DownsampleColumnTwo>(job, Columns(config), workers);
 }
 
 }  // namespace starfocus

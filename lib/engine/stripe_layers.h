@@ -26,15 +26,19 @@ void MarkLayerColumns(const starfocus_config& config, const Block& block, RowSto
 // `borders`. Rows of the layers that were computed for the previous stripe are kept.
 void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store);
 
-// Computes the marked columns of the subsampled layers. PlaceLayers must be called first. Returns
+// Layers `first` to `last` that FillLayers computes, 1 <= first <= last < STARFOCUS_LAYERS.
+struct LayerInterval {
+  int32_t first, last;
+  // Layer from which layer 2 is computed: layer 1, whose samples contain all rows that the filter
+  // reads. Null: the layers are computed from the picture.
+  const LayerPlane* layer_one = nullptr;
+};
+inline constexpr LayerInterval kAllLayers = {1, STARFOCUS_LAYERS - 1};
+
+// Computes the marked columns of subsampled layers. PlaceLayers must be called first. Returns
 // STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
 starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels& kernels,
-                            Workers* workers, RowStore* row_store);
-
-// Computes the marked columns of layer 2 from the whole layer 1 `from`, whose samples must contain
-// all rows that the filter reads. Returns the same statuses as FillLayers.
-starfocus_status FillLayerTwo(const starfocus_config& config, const simd::Kernels& kernels,
-                              const LayerPlane& from, Workers* workers, RowStore* row_store);
+                            const LayerInterval& layers, Workers* workers, RowStore* row_store);
 
 }  // namespace starfocus
 

@@ -38,13 +38,13 @@ starfocus_status MakeLayers(const Prepared& prepared, const PreparedStripe& stri
   }
   LayerPlane& second = store->layers[2];
   const LayerPlane& first = store->layers[1];
-  second.rows = {0, 0};  // FillLayers computes layer 1 only
-  starfocus_status status = FillLayers(config, *engine->kernels, &engine->workers, store);
+  const starfocus_status status =
+      FillLayers(config, *engine->kernels, {1, 1}, &engine->workers, store);
   // Row y of layer 2 depends on the rows of layer 1 before 2 * y + 4.
   *two = {two->last, stripe.is_last ? second.height : Max(two->last, first.rows.last / 2 - 1)};
   second.rows = *two;
   if (status != STARFOCUS_OK || most < 2) return status;
-  return FillLayerTwo(config, *engine->kernels, first, &engine->workers, store);
+  return FillLayers(config, *engine->kernels, {2, 2, &first}, &engine->workers, store);
 }
 
 // Converts the map and computes the layers and reduced light fields into the planes of `prepared`.

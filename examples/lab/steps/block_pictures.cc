@@ -71,8 +71,8 @@ class BlockArtist {
         window_(engine_.row_store.windows[0]),
         memory_(static_cast<CompositorScratch*>(
             engine_.workers.scratch[0].renderers[kSliceRenderer.index])),
-        grid_(
-            GridOf(InputsOf(engine_), planned_.block, engine_.workers.scratch[0].aperture_weights)),
+        grid_(ViewGridOf(InputsOf(engine_), planned_.block,
+                         engine_.workers.scratch[0].aperture_weights)),
         job_{&window_, &grid_,  engine_.kernels,    rect_, planned_.block.border,
              nullptr,  nullptr, engine_.lens.r_max, false},
         pictures_(*pictures) {}
