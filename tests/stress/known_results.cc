@@ -22,9 +22,9 @@ constexpr int kMostInversion = 2;
 // overshoots by 0.144. Blur removes most of the overshoot, and removes more from radius 4 than from
 // radius 3. Apertures steeper than the default are nearly pinholes, whose blur does not remove the
 // overshoot.
-double MostOvershoot(const Setup& setup, double radius) {
+double MostOvershoot(const Setup& setup) {
   const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
-  if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && radius >= 4)
+  if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && setup.Radius() >= 4)
     return steep ? 0.1 : 0.02;
   return steep ? 0.144 : 0.03;
 }
@@ -183,7 +183,8 @@ Outcome FarFocus(test::Random* random) {
   const Bounds bounds = {24, 6, 4, static_cast<float>(random->Int(0, 1) == 0 ? 2 : 100)};
   Setup setup = RandomSetup(bounds, random);
   const double distance = std::pow(10.0, random->Real(1, 5.9));
-  setup.params.lens.focus = random->Int(0, 1) == 0 ? distance : -distance;
+  const bool in_front = random->Int(0, 1) == 0;
+  SetFocus(in_front ? distance : -distance, in_front, &setup.params.lens, random);
   setup.params.lens.aperture = 1;
   setup.params.lens.aperture = std::min(1.0, random->Real(0.01, 6) / setup.Radius());
   FitBlur(&setup);
@@ -277,10 +278,8 @@ Outcome Steps(test::Random* random) {
     if (positive && k > 0 && at(k) < at(k - 1))
       return Fail(setup, "a blurred step is not monotone");
   }
-  const double radius =
-      setup.params.lens.aperture * std::fabs(scene.Disparity(0, 0) - setup.params.lens.focus);
   const double step = light(high) - light(low);
-  if (over > MostOvershoot(setup, radius) * step)
+  if (over > MostOvershoot(setup) * step)
     return Fail(setup, "a blurred step overshoots by " + std::to_string(over) + ", its height is " +
                            std::to_string(step));
   return {over / step, ""};

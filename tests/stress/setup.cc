@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/stress/setup.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/shapes.h"
@@ -14,6 +15,8 @@ constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr const char* kModes[] = {"frame", "benchmark", "block", "blur"};
 // Radii at which N changes by (9), or the layer L changes by (12).
 constexpr double kThresholds[] = {0.5, 1, 2, 3, 4, 4 / 0.787, 6, 8, 12};
+// Largest width of a range in focus, in 1/64 pixel per unit of u.
+constexpr int kWidestRange = 8 * 64;
 
 std::string Number(double value) {
   char text[32];
@@ -30,18 +33,22 @@ double OftenAnEnd(double low, double high, test::Random* random) {
 }  // namespace
 
 double Setup::Radius() const {
-  return params.lens.aperture * std::max(std::fabs(config.disparity_min - params.lens.focus),
-                                         std::fabs(config.disparity_max - params.lens.focus));
+  const starfocus_lens& lens = params.lens;
+  const double nearer = config.disparity_max - (lens.focus + lens.focus_nearer);
+  const double farther = lens.focus - lens.focus_farther - config.disparity_min;
+  return lens.aperture * std::max({0.0, nearer, farther});
 }
 
 std::string Setup::Text() const {
   return std::to_string(config.width) + "x" + std::to_string(config.height) + ", " +
          std::to_string(config.views) + " views, " + kModes[params.mode] + ", renderer " +
          std::to_string(params.renderer) + ", disparity [" + Number(config.disparity_min) + ", " +
-         Number(config.disparity_max) + "], focus " + Number(params.lens.focus) + ", aperture " +
-         Number(params.lens.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
-         std::to_string(config.superblock) + ", layers " + std::to_string(config.tuning.max_layer) +
-         ", deblocking " + std::to_string(config.tuning.deblocking) + ", transfer " +
+         Number(config.disparity_max) + "], focus " + Number(params.lens.focus) + " - " +
+         Number(params.lens.focus_farther) + " + " + Number(params.lens.focus_nearer) +
+         ", aperture " + Number(params.lens.aperture) + ", max_blur " + Number(config.max_blur) +
+         ", block " + std::to_string(config.superblock) + ", layers " +
+         std::to_string(config.tuning.max_layer) + ", deblocking " +
+         std::to_string(config.tuning.deblocking) + ", transfer " +
          std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
          ", theta " + Number(params.lens.theta) + ", n_scale " + Number(config.tuning.n_scale) +
          (config.tuning.gather != 0 ? "" : ", nothing gathered") +
@@ -138,6 +145,14 @@ void RandomMode(int modes, Setup* setup, test::Random* random) {
   }
 }
 
+void SetFocus(double end, bool in_front, starfocus_lens* lens, test::Random* random) {
+  const double width = (random->Int(0, 1) == 0 ? 0 : random->Int(1, kWidestRange)) / 64.0;
+  const double toward = 0.5 * random->Int(0, 2) * width, away = width - toward;
+  lens->focus = in_front ? end + toward : end - toward;
+  lens->focus_farther = in_front ? toward : away;
+  lens->focus_nearer = in_front ? away : toward;
+}
+
 void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   const test::Scene& scene = setup->scene;
   const double half = 0.5 * (double{scene.disparity_max} - scene.disparity_min);
@@ -145,8 +160,9 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   double aperture = random->Int(0, 1) == 0 ? 1 : random->Real(0.05, 1);
   if (aperture * half > radius) aperture = std::max(radius / half, 1e-6);
   const double offset = std::max(0.0, radius / aperture - half);
-  const double focus = centre + (random->Int(0, 1) == 0 ? offset : -offset);
-  setup->params = test::Params(focus, aperture);
+  const bool in_front = random->Int(0, 1) == 0;
+  setup->params = test::Params(0, aperture);
+  SetFocus(centre + (in_front ? offset : -offset), in_front, &setup->params.lens, random);
   setup->config = test::ConfigFor(scene);
   setup->config.superblock = kBlocks[std::min(random->Int(0, 3), random->Int(0, 3))];
   setup->config.tuning.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
@@ -167,7 +183,8 @@ Setup FlatSetup(int width, int height, double radius, test::Random* random) {
   setup.scene = test::EmptyScene(width, height, kViews[random->Int(0, 3)], 0, 0);
   RandomLens(radius, 4, &setup, random);
   setup.params.lens.aperture = 1;
-  setup.params.lens.focus = random->Int(0, 1) == 0 ? radius : -radius;
+  const bool in_front = random->Int(0, 1) == 0;
+  SetFocus(in_front ? radius : -radius, in_front, &setup.params.lens, random);
   FitBlur(&setup);
   RandomMode(4, &setup, random);
   return setup;

@@ -48,6 +48,10 @@ Setup FlatSetup(int width, int height, double radius, test::Random* random);
 // Makes any setup within the bounds.
 Setup RandomSetup(const Bounds& bounds, test::Random* random);
 
+// Sets the focus. Half of the lenses have a range in focus, which extends from `end` to larger
+// disparities if `in_front` is true, otherwise to smaller disparities.
+void SetFocus(double end, bool in_front, starfocus_lens* lens, test::Random* random);
+
 // Sets a random configuration for setup->scene, and a lens whose largest blur radius is
 // approximately `radius`.
 void RandomLens(double radius, int modes, Setup* setup, test::Random* random);
