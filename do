@@ -229,11 +229,16 @@ demo() {
 # ASAN_OPTIONS=malloc_context_size=30.
 sanitize() {
   export ASAN_OPTIONS=${ASAN_OPTIONS:-malloc_context_size=1}
+  build_sanitized all
+  ctest --test-dir build/sanitize --output-on-failure --parallel "$(nproc)" || exit 1
+}
+
+# build_sanitized TARGET...: builds these targets with clang, for sanitizers and libFuzzer.
+build_sanitized() {
   step configure-sanitize "configuring build/sanitize" \
     cmake --preset sanitize -DSTARFOCUS_DATA_DIR=
-  step build-sanitize "building everything in build/sanitize" \
-    cmake --build build/sanitize --parallel "$(nproc)"
-  ctest --test-dir build/sanitize --output-on-failure --parallel "$(nproc)" || exit 1
+  step build-sanitize "building in build/sanitize" \
+    cmake --build build/sanitize --parallel "$(nproc)" --target "$@"
 }
 
 run_tests() {
@@ -245,7 +250,7 @@ run_tests() {
 
 # Runs the tests under sanitizers with range checks, and a few cases under valgrind.
 check() {
-  PACKAGES="$PACKAGES valgrind"
+  PACKAGES="$PACKAGES $FUZZ_PACKAGES valgrind"
   install_missing
   build
   sanitize
@@ -314,7 +319,7 @@ fuzz_target() {
   local work=build/fuzz/inputs/$2 length=1024
   case "$2" in heif | layouts | photo | xmp) length=4096 ;; esac
   mkdir -p "$work"
-  LSAN_OPTIONS=suppressions=tests/fuzz/leaks.supp:print_suppressions=0 build/fuzz/tests/fuzz/fuzz_$2 -max_total_time="$1" -seed=1 -max_len=$length -timeout=30 \
+  LSAN_OPTIONS=suppressions=tests/fuzz/leaks.supp:print_suppressions=0 build/sanitize/tests/fuzz/fuzz_$2 -max_total_time="$1" -seed=1 -max_len=$length -timeout=30 \
     -rss_limit_mb=1024 -malloc_limit_mb=512 -print_final_stats=1 -artifact_prefix="$work-crash-" "$work" "tests/fuzz/corpus/$2" \
     >"$LOGS/fuzz-$2.log" 2>&1 && return
   tail -n 40 "$LOGS/fuzz-$2.log"
@@ -327,9 +332,7 @@ fuzz() {
   case "$1" in *[!0-9]* | '') fail "fuzz: expected a number of seconds, found '$1'" ;; esac
   PACKAGES="$PACKAGES $FUZZ_PACKAGES"
   install_missing
-  step configure-fuzz "configuring build/fuzz" cmake --preset fuzz
-  step build-fuzz "building the fuzz targets" \
-    cmake --build build/fuzz --parallel "$(nproc)" --target $(printf 'starfocus_fuzz_%s ' $FUZZ_TARGETS)
+  build_sanitized $(printf 'starfocus_fuzz_%s ' $FUZZ_TARGETS)
   step fuzz "fuzzing $FUZZ_TARGETS" side_by_side "fuzz_target $1" $FUZZ_TARGETS
   for target in $FUZZ_TARGETS; do
     printf '%s: %s inputs\n' "$target" \

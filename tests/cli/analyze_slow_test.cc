@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/cli/call_program.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::analyze_slow_test {
@@ -16,11 +17,7 @@ namespace fs = std::filesystem;
 
 // With sanitizers, the largest blur is just large enough for every layer by every rule. With this
 // blur, the test runs all code of analyze in a fraction of the usual time.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr const char* kMaxBlur = "25";
-#else
-constexpr const char* kMaxBlur = "40";
-#endif
+constexpr const char* kMaxBlur = test::kSanitized ? "25" : "40";
 
 TEST_CASE("cli: analyze agrees with the paper and writes its tables") {
   TempFolder folder;

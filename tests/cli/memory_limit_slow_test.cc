@@ -8,21 +8,12 @@
 
 #include "platform/image_io.h"
 #include "tests/cli/call_program.h"
+#include "tests/support/sanitizers.h"
 
 namespace starfocus::memory_limit_slow_test {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Sanitizers reserve large address ranges, which the limit would not allow.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitless = true;
-#elif defined(__has_feature)
-constexpr bool kLimitless = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||
-                            __has_feature(memory_sanitizer);
-#else
-constexpr bool kLimitless = false;
-#endif
 
 constexpr int kSteps = 25;
 
@@ -74,7 +65,7 @@ void CheckLimits(const TempFolder& folder, int start, const std::string& argumen
 }
 
 TEST_CASE("memory limits: under any limit, a program reports one error or writes the right output" *
-          doctest::skip(kLimitless)) {
+          doctest::skip(test::kSanitized)) {
   TempFolder folder;
   Succeed(folder, "scene lf --size 240x180 --views 5");
   Succeed(folder, "refocus lf --focus 2 -o right.png");

@@ -118,13 +118,15 @@ TEST_CASE("scene: views warped by the exact disparity equal the centre view") {
 TEST_CASE("scene: with a pinhole aperture, the ray-traced picture is the centre view") {
   ThreadRunner runner(2);
   const std::pair<const char*, double> foci[] = {{"portrait", 0.5}, {"hair", 9}, {"grass", 9}};
-  for (const auto& [name, focus] : foci) {
+  for (const auto& pair : foci) {
+    const char* const name = pair.first;
+    const double focus = pair.second;
     CAPTURE(std::string(name));
     const Scene scene = Made(name);
     const RayTracer renderer(scene, kWidth / 2, kHeight / 2, STARFOCUS_TRANSFER_NONE, &runner);
     const std::vector<uint8_t> centre = renderer.View(0, 0, nullptr).pixels;
-    const auto truth = [&, at = focus](double aperture) {
-      return renderer.Truth({at, at}, aperture, DefaultOpening(), nullptr).pixels;
+    const auto truth = [&](double aperture) {
+      return renderer.Truth({focus, focus}, aperture, DefaultOpening(), nullptr).pixels;
     };
     CHECK(test::Psnr(centre, truth(1e-6)) > 38);
     CHECK(test::Psnr(centre, truth(1)) < 32);

@@ -9,6 +9,7 @@
 
 #include "tests/conformance/trial.h"
 #include "tests/support/rounds.h"
+#include "tests/support/sanitizers.h"
 
 namespace trial_slow_test {
 namespace {
@@ -48,11 +49,7 @@ TEST_CASE("trials: seeds of earlier failures match the reference") {
 // seeds.
 TEST_CASE("trials: random light fields and lenses match the reference") {
   // With sanitizers, a few trials suffice.
-#if defined(__SANITIZE_ADDRESS__)
-  unsigned first = 1, count = 60;
-#else
-  unsigned first = 1, count = test::kSlow ? 120 : 400;
-#endif
+  unsigned first = 1, count = test::kSanitized ? 60 : test::kSlow ? 120 : 400;
   const char* asked = std::getenv("STARFOCUS_TRIALS");
   if (asked != nullptr) REQUIRE(std::sscanf(asked, "%u:%u", &first, &count) == 2);
   Distance all;

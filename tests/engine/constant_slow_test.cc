@@ -10,6 +10,7 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
@@ -112,11 +113,7 @@ TEST_CASE("constant: for every shape of the opening, a constant picture is uncha
   Trial t = {70, 41};
   t.color = {255, 127, 1};
   // With sanitizers, a quarter of the shapes suffices, since these shapes execute all of the code.
-#if defined(__SANITIZE_ADDRESS__)
-  constexpr uint64_t kShapes = 60;
-#else
-  constexpr uint64_t kShapes = 240;
-#endif
+  constexpr uint64_t kShapes = test::kSanitized ? 60 : 240;
   for (uint64_t shape = 1; shape <= kShapes; ++shape) {
     test::Random random(shape + 7000);
     t.shape = t.seed = shape;

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "platform/readers/heif_boxes.h"
+#include "tests/support/sanitizers.h"
 
 namespace starfocus::fuzz {
 
@@ -98,13 +99,8 @@ class MemoryBudget {
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
  private:
-#if defined(__SANITIZE_ADDRESS__)
-  static constexpr int64_t kShare = 4;  // AddressSanitizer keeps freed memory for a while
-#elif defined(__has_feature)
-  static constexpr int64_t kShare = __has_feature(address_sanitizer) ? 4 : 1;
-#else
-  static constexpr int64_t kShare = 1;
-#endif
+  // AddressSanitizer keeps freed memory for a while.
+  static constexpr int64_t kShare = test::kSanitized ? 4 : 1;
 
   const int64_t pixels_;
   int64_t before_ = 0;

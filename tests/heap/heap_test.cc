@@ -12,9 +12,10 @@
 
 #include "starfocus/starfocus.h"
 #include "tests/support/image_field.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/test_scene.h"
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(STARFOCUS_SANITIZED)
 
 namespace {
 

@@ -105,7 +105,7 @@ TEST_CASE("npy: floats and integers of all shapes for one map are read") {
 
 TEST_CASE("npy: other arrays are rejected with the found property and a conversion") {
   const std::string values = BytesOf(kFloats);
-  for (const auto& [file, found] :
+  for (const auto& pair :
        {std::pair{Npy("<f2", "2, 3", values), "<f2 (numpy.save(FILE, depth.astype('float32'))"},
         std::pair{Npy("<f4", "6,", values), "found the shape (6,) (numpy.save("},
         std::pair{Npy("<f4", "2, 3, 2", values), "found the shape (2, 3, 2)"},
@@ -117,8 +117,9 @@ TEST_CASE("npy: other arrays are rejected with the found property and a conversi
         std::pair{Npy("<f4', 'x': '", "2, 3", values), "found another header"},
         std::pair{Npy("<f4", "2, 3", values).substr(0, 40), "found another header"},
         std::pair{Npy("<f4", "2, 3", values, 4), "found another header"}}) {
+    const char* const found = pair.second;
     CAPTURE(found);
-    CHECK(Contains(Decode(file), found));
+    CHECK(Contains(Decode(pair.first), found));
   }
   std::string fortran = Npy("<f4", "2, 3", values);
   fortran.replace(fortran.find("False"), 5, "True ");
@@ -161,7 +162,7 @@ TEST_CASE("tiff: other layouts and damaged files are rejected with a conversion"
     SetTag(tag, value, &tags);
     return Decode(Tiff(tags, strip));
   };
-  for (const auto& [tag, value, found] :
+  for (const auto& row :
        {std::tuple{258U, 64U, "found 64-bit floats (convert the map to PFM or NPY"},
         std::tuple{339U, 2U, "found 32-bit signed integers"},
         std::tuple{339U, 6U, "found 32-bit samples of another type"},
@@ -172,9 +173,10 @@ TEST_CASE("tiff: other layouts and damaged files are rejected with a conversion"
         std::tuple{256U, 70000U, "found 70000x2"},
         std::tuple{257U, 60000U, "an undamaged TIFF file"},
         std::tuple{273U, 4000U, "an undamaged TIFF file"}}) {
+    const uint32_t tag = std::get<0>(row), value = std::get<1>(row);
     CAPTURE(tag);
     CAPTURE(value);
-    CHECK(Contains(changed(tag, value), found));
+    CHECK(Contains(changed(tag, value), std::get<2>(row)));
   }
   Tags huge = TagsOf(32, 3, 24);
   SetTag(256, 16384, &huge);

@@ -85,11 +85,11 @@ struct ShuffledRunner {
 inline void CheckWorkers(const Operation& operation) {
   CAPTURE(operation.name);
   const Bytes expected = Made(operation.set_up({}));
-  for (const auto& [workers, most] :
-       {std::pair(1, 1), {2, 2}, {7, 7}, {3, STARFOCUS_MAX_WORKERS}}) {
+  for (const auto& pair : {std::pair(1, 1), {2, 2}, {7, 7}, {3, STARFOCUS_MAX_WORKERS}}) {
+    const int workers = pair.first;
     CAPTURE(workers);
     Setup setup;
-    setup.workers = most;
+    setup.workers = pair.second;
     ShuffledRunner runner = {workers};
     const Run run = operation.set_up(setup);
     CHECK((Made(run, test::RunBy(ShuffledRunner::Run, &runner)) == expected));
