@@ -11,7 +11,8 @@ const ATTEMPTS = 3;
 async function load(name, attempt = 1) {
   try {
     const response = await fetch(`demo/${encodeURIComponent(name)}`);
-    if (response.ok) return await response.blob();
+    // In Chromium on a busy machine, blob() of a response that the page preloads may never end.
+    if (response.ok) return new Blob([await response.arrayBuffer()]);
     throw new Error(`Cannot load ${name} of the demo: the server returned status ${response.status}.`);
   } catch (error) {
     if (!(error instanceof TypeError)) throw error;
