@@ -315,7 +315,7 @@ typedef enum starfocus_mode {
   /** Blocks of different sizes, each with its own N and layer (section V). The half-band filters of
    *  layers 1 and 2 overshoot: the light of a pixel may lie outside the range of the surrounding
    *  light. The overshoot is up to 4 % of this range with slices, and up to 13 % with line scans.
-   *  With shapes other than the default, the overshoot is up to 4 % with slices, and up to 40 %
+   *  With shapes other than the default, the overshoot is up to 4 % with slices, and up to 50 %
    *  with line scans. With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
   STARFOCUS_MODE_BLOCK = 2,
   /** The centre view, blurred by the point-spread function (4) without other views.
