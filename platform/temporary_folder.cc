@@ -27,7 +27,8 @@ void RemoveFolder(const void* path) {
 
 Error TemporaryFolder::Create() {
   const char* parent = std::getenv("TMPDIR");
-  path_ = std::string(parent != nullptr && *parent != '\0' ? parent : "/tmp") + "/starfocus-XXXXXX";
+  const std::string beginning = parent != nullptr && *parent != '\0' ? parent : "/tmp";
+  path_ = beginning + "/starfocus-" + std::string(6, 'X');  // mkdtemp replaces each X
   const SignalCleanup::Turn turn;
   if (mkdtemp(path_.data()) == nullptr) {
     return Cannot("create folder", path_, {errno, std::generic_category()});

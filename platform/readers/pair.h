@@ -17,9 +17,9 @@ namespace starfocus {
 // depth picture ends in -depth, _depth or .depth, in upper or lower case.
 bool IsDepthPictureName(const std::string& name);
 
-// Finds the depth pictures of photographs among the files of a folder. The depth picture of a photograph NAME.jpg or NAME-image.jpg is
-// named NAME-depth, NAME_depth or NAME.depth, with .png, .pgm, .pfm, .jpg, .jpeg, .tif, .tiff or
-// .npy, in upper or lower case.
+// Finds the depth pictures of photographs among the files of a folder. The depth picture of a
+// photograph NAME.jpg or NAME-image.jpg is named NAME-depth, NAME_depth or NAME.depth, with .png,
+// .pgm, .pfm, .jpg, .jpeg, .tif, .tiff or .npy, in upper or lower case.
 class DepthPictures {
  public:
   // Adds a file of the folder. Ignores files whose names are not names of depth pictures.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells whether a program is compiled with a sanitizer that replaces the heap. Such programs are
-// slow and reserve large address ranges. gcc and clang report sanitizers in different ways.
+// Detects sanitizers that replace the heap. Programs with such sanitizers are slow and reserve
+// large address ranges. gcc and clang report sanitizers in different ways.
 #ifndef STARFOCUS_TESTS_SUPPORT_SANITIZERS_H_
 #define STARFOCUS_TESTS_SUPPORT_SANITIZERS_H_
 
