@@ -47,6 +47,8 @@ usage: ./do COMMAND
   web [PORT]  build the npm package and a page to tap, and serve it on the loopback (8080)
           build   only makes them: build/web/npm and build/web/site, a static folder
           test    tries the package in node and the page in Chromium
+  package [test]  build Debian packages of the last commit in build/packages, and check them with
+          lintian; test: also install, run and remove them in a bare Debian (as root)
   docs    make the HTML reference of the public headers: build/docs/html/index.html
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file, and name the licence in new ones
@@ -424,6 +426,7 @@ format() {
 
 . toolchains/commands.sh
 . toolchains/web.sh
+. toolchains/packaging/packages.sh
 
 case "${1:-help}" in
   demo) demo ;;
@@ -436,6 +439,7 @@ case "${1:-help}" in
   bench) bench "${2:-}" ;;
   cross) shift && cross "$@" ;;
   docs) docs ;;
+  package) package "${2:-}" ;;
   golden) golden ;;
   boot) boot ;;
   web) web "${2:-}" ;;

@@ -1,0 +1,40 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# usage: test_packages.sh FOLDER
+# Makes a bare Debian 12 with debootstrap, installs the packages of FOLDER with apt, runs the programs, compiles the C
+# example of docs/library.md against the packages, and removes the packages. After the removal, no file of starfocus
+# may remain. Requires root.
+set -eu
+[ $# = 1 ] || { echo "usage: $0 FOLDER" >&2; exit 2; }
+packages=$(cd "$1" && pwd)
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+trap 'exit 1' HUP INT TERM
+
+fail() { echo "test_packages: $*" >&2; exit 1; }
+inside() { chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@" >"$root/log" 2>&1 || {
+  tail -n 30 "$root/log" >&2
+  fail "failed: $*"
+}; }
+
+debootstrap --variant=minbase bookworm "$root" >/dev/null || fail "debootstrap failed"
+cp /etc/resolv.conf "$root/etc/"
+rm -f "$root/etc/apt/sources.list"
+cp -r /etc/apt/sources.list* /etc/apt/apt.conf.d "$root/etc/apt/"
+cp "$packages"/*.deb "$root/tmp/"
+inside apt-get update
+inside sh -c 'apt-get install -y --no-install-recommends /tmp/*.deb'
+inside starfocus --version
+inside starfocus-lab scene /tmp/field --size 160x120 --views 5
+inside starfocus refocus /tmp/field -o /tmp/program.png --focus 2
+inside sh -c 'cd /tmp && python3 -c "
+import numpy, starfocus
+from PIL import Image
+field = starfocus.read_light_field(\"field\")
+print(starfocus.__version__, field)"'
+inside sh -c 'apt-get install -y --no-install-recommends gcc libc6-dev pkg-config'
+cp "$(dirname "$0")/../../examples/minimal/minimal.c" "$root/tmp/example.c"
+inside sh -c 'cd /tmp && gcc example.c $(pkg-config --cflags --libs starfocus) -o example && ./example'
+inside sh -c 'apt-get purge -y starfocus starfocus-lab python3-starfocus libstarfocus0 libstarfocus-dev'
+find "$root/usr" "$root/etc" "$root/var/lib/dpkg/info" -name '*starfocus*' | grep . && fail "files remain"
+echo "installed, ran and removed in a bare Debian: $(cd "$packages" && ls -- *.deb | wc -l) packages"
