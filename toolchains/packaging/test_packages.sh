@@ -7,22 +7,10 @@
 set -eu
 [ $# = 1 ] || { echo "usage: $0 FOLDER" >&2; exit 2; }
 packages=$(cd "$1" && pwd)
-root=$(mktemp -d)
-trap 'rm -rf "$root"' EXIT
-trap 'exit 1' HUP INT TERM
+. "$(dirname "$0")/bare_debian.sh"
 
-fail() { echo "test_packages: $*" >&2; exit 1; }
-inside() { chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@" >"$root/log" 2>&1 || {
-  tail -n 30 "$root/log" >&2
-  fail "failed: $*"
-}; }
-
-debootstrap --variant=minbase bookworm "$root" >/dev/null || fail "debootstrap failed"
-cp /etc/resolv.conf "$root/etc/"
-rm -f "$root/etc/apt/sources.list"
-cp -r /etc/apt/sources.list* /etc/apt/apt.conf.d "$root/etc/apt/"
+make_bare_debian
 cp "$packages"/*.deb "$root/tmp/"
-inside apt-get update
 inside sh -c 'apt-get install -y --no-install-recommends /tmp/*.deb'
 inside starfocus --version
 inside starfocus-lab scene /tmp/field --size 160x120 --views 5
