@@ -79,10 +79,25 @@ TEST_CASE("documents: README.md has at most 110 lines") {
   CHECK(text.size() > 1000);
 }
 
-TEST_CASE("documents: CITATION.cff and CHANGELOG.md state the version of the library") {
+TEST_CASE("documents: files that name the version of the library name the right one") {
   const std::string version = STARFOCUS_VERSION_STRING;
-  CHECK(Find(Read(kRoot / "CITATION.cff"), "\nversion: (.+)\n").count(version) == 1);
+  const std::string major = std::to_string(STARFOCUS_VERSION_MAJOR);
+  const fs::path packaging = kRoot / "toolchains" / "packaging";
+  const auto only = [](const fs::path& file, const std::string& pattern) {
+    const std::set<std::string> found = Find(Read(file), pattern);
+    return found.size() == 1 ? *found.begin() : "none, or several";
+  };
+  CHECK(only(kRoot / "CITATION.cff", "\nversion: (.+)\n") == version);
   CHECK(Find(Read(kRoot / "CHANGELOG.md"), "\n## \\[([^\\]]+)\\]").count(version) == 1);
+  CHECK(only(kRoot / "platform/web/package/package.json", "\"version\": \"(.+)\"") == version);
+  CHECK(only(packaging / "vcpkg/vcpkg.json", "\"version\": \"(.+)\"") == version);
+  CHECK(fs::exists(packaging / "yocto" / ("starfocus_" + version + ".bb")));
+  // The newest version of the Debian packages is on the first line. The name of the library's
+  // package ends with the version of the ABI.
+  const std::string changelog = Read(packaging / "debian/changelog");
+  CHECK(changelog.substr(0, changelog.find(')') + 1) == "starfocus (" + version + ")");
+  CHECK(only(packaging / "debian/control", "\nPackage: libstarfocus([0-9]+)\n") == major);
+  CHECK(fs::exists(packaging / "debian" / ("libstarfocus" + major + ".symbols")));
 }
 
 TEST_CASE("documents: the targets of all links in documents exist") {
