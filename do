@@ -50,6 +50,8 @@ usage: ./do COMMAND
   package [test]  build Debian packages of the last commit in build/packages, and check them with
           lintian; test: also install, run and remove them in a bare Debian (as root)
   docs    make the HTML reference of the public headers: build/docs/html/index.html
+  site    make the static site build/site from the documents, the reference, a gallery and the page
+          to tap, and check its links
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file, and name the licence in new ones
   help    this text
@@ -426,6 +428,7 @@ format() {
 
 . toolchains/commands.sh
 . toolchains/web.sh
+. toolchains/site/site.sh
 . toolchains/packaging/packages.sh
 
 case "${1:-help}" in
@@ -439,6 +442,7 @@ case "${1:-help}" in
   bench) bench "${2:-}" ;;
   cross) shift && cross "$@" ;;
   docs) docs ;;
+  site) site ;;
   package) package "${2:-}" ;;
   golden) golden ;;
   boot) boot ;;

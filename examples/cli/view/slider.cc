@@ -29,12 +29,13 @@ const char kSliderStyle[] =
     "outline-offset: 2px; box-shadow: 0 0 0 2px #fff, 0 0 0 7px #fff; }\n";
 
 const char kSliderScript[] =
-    "const input = document.querySelector('.slider input');\n"
-    "const move = () => input.parentElement.style.setProperty('--at', input.value + '%');\n"
-    "input.addEventListener('input', move);\n"
-    "move();\n";
+    "for (const input of document.querySelectorAll('.slider input')) {\n"
+    "  const move = () => input.parentElement.style.setProperty('--at', input.value + '%');\n"
+    "  input.addEventListener('input', move);\n"
+    "  move();\n"
+    "}\n";
 
-const char kSliderScriptHash[] = "sha256-pzBMRUhdG5TfVILgRGFHmpsfA/5BGFvbm7Jsr+J8USE=";
+const char kSliderScriptHash[] = "sha256-zIS2m6OEF+AKdy0refatAylTp/9YswseUnOo2HqNM/Y=";
 
 std::string SliderHtml(const std::string& before, const std::string& after, int width, int height) {
   const std::string w = std::to_string(width), h = std::to_string(height);

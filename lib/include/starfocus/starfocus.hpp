@@ -113,6 +113,8 @@ class Engine {
   size_t workspace_bytes() const { return engine_.bytes; }
 
  private:
+  // Doxygen 1.9.4 links to a list of private structures that it does not write.
+  /// @cond
   struct Free {
     void operator()(void* memory) const {
       ::operator delete(memory, std::align_val_t(STARFOCUS_ALIGNMENT));
@@ -138,6 +140,7 @@ class Engine {
     Handle* handle = nullptr;
     size_t bytes = 0;
   };
+  /// @endcond
 
   Owned<starfocus_engine> engine_;
   Owned<starfocus_prepared> prepared_;

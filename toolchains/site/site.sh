@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+# Command of ./do that makes the site; sourced by ./do.
+
+# make_gallery FOLDER: runs the commands of docs/gallery.md in the folder.
+make_gallery() {
+  rm -rf "$1"
+  mkdir -p "$1" && PATH="$PWD/$BUILD:$PATH" python3 toolchains/site/gallery.py docs/gallery.md "$1"
+}
+
+# copy_part PART FOLDER: copies a part that another command has made to build/site.
+copy_part() {
+  mkdir -p "$2" && cp -r "$1/." "$2"
+}
+
+# site: makes the static folder build/site from the documents, the reference, the gallery and the page to tap. Fails if
+# a link of the site is broken.
+site() {
+  local site=build/site
+  require doxygen cmark-gfm python3
+  build starfocus starfocus_lab
+  docs
+  [ -f build/web/site/index.html ] || (./do web build) || exit 1
+  rm -rf $site
+  step gallery "making the pictures of docs/gallery.md" make_gallery build/gallery
+  step pages "making the pages in $site" python3 toolchains/site/pages.py $site build/gallery
+  step reference "copying the reference" copy_part build/docs/html $site/reference
+  step tap "copying the page to tap" copy_part build/web/site $site/tap
+  python3 toolchains/site/links.py $site || fail "$site has broken links"
+  echo "the site: $site/index.html"
+}
