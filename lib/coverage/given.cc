@@ -3,89 +3,15 @@
 
 #include <cstring>
 
-#include "lib/coverage/disparities_around.h"
 #include "lib/coverage/far_light.h"
+#include "lib/coverage/surface_search.h"
 
 namespace starfocus {
 namespace {
 
-// Radius in pixels of the search for the far and the near surface of a pixel. In disparity maps
-// computed by neural networks, outlines are misplaced by up to kGivenReach pixels.
-constexpr int32_t kGivenReach = 32;
-
-// A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours.
-// On a ramp, the steps to both neighbours are at least kLeastRamp, and the larger step is at most
-// kRampRatio times the smaller step.
-constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
-constexpr int32_t kRampRatio = 4;
-
-// Returns true if the middle of three adjacent pixels is on a ramp. The arguments are the
-// disparities of the pixels in kDisparityBits.
-bool IsRamp(int32_t before, int32_t here, int32_t after) {
-  const int32_t sign = after < before ? -1 : 1;
-  const int32_t a = sign * (here - before), b = sign * (after - here);
-  return Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b);
-}
-
-// Distance in pixels from a pixel to the neighbours that decide whether the pixel is on a ramp.
-constexpr int32_t kRampReach = 1;
-using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
-
 // A pixel is a mixture if its given coverage differs from the coverage implied by the disparity map
 // by more than kLeastMixed (kAlphaBits).
 constexpr int32_t kLeastMixed = kWhole / 16;
-
-// Marks the pixels in and around a tile that are on ramps. The outermost kRampReach pixels are
-// never marked.
-struct Ramps {
-  static constexpr int32_t kSide = GivenDisparities::kSide;
-  bool at[kSide * kSide] = {};
-
-  explicit Ramps(const GivenDisparities& around) {
-    for (int32_t y = kRampReach; y < kSide - kRampReach; ++y) {
-      for (int32_t x = kRampReach; x < kSide - kRampReach; ++x) {
-        at[y * kSide + x] = IsOnRamp(around, y * kSide + x);
-      }
-    }
-  }
-
- private:
-  static bool IsOnRamp(const GivenDisparities& around, int32_t at) {
-    constexpr int32_t kOpposite[] = {1, kSide - 1, kSide, kSide + 1};
-    for (const int32_t step : kOpposite) {
-      const int16_t* here = around.disparity + at;
-      if (IsRamp(here[-step], here[0], here[step])) return true;
-    }
-    return false;
-  }
-};
-
-// Result of a search for the nearest pixel of a surface. Among equally distant pixels, the search
-// prefers the pixel on the smallest square around the start, and then the first in row order.
-struct Found {
-  int32_t disparity;  // Disparity of the pixel found, or of the start if none is found.
-  int32_t distance;   // Squared distance in pixels; INT32_MAX if no pixel is found.
-};
-
-// Within kGivenReach of `at`, finds the nearest pixel that is not on a ramp and has a disparity in
-// [low, high].
-Found FindNearest(const GivenDisparities& around, const Ramps& ramps, int32_t at, int32_t low,
-                  int32_t high) {
-  Found found = {around.disparity[at], INT32_MAX};
-  for (int32_t r = 1; r <= kGivenReach && r * r < found.distance; ++r) {
-    for (int32_t y = -r; y <= r; ++y) {
-      const int32_t step = Abs(y) == r ? 1 : 2 * r;
-      for (int32_t x = -r; x <= r; x += step) {
-        const int32_t there = at + y * GivenDisparities::kSide + x,
-                      disparity = around.disparity[there];
-        if (ramps.at[there] || disparity < low || disparity > high) continue;
-        if (x * x + y * y >= found.distance) continue;
-        found = {disparity, x * x + y * y};
-      }
-    }
-  }
-  return found;
-}
 
 class GivenStarter {
  public:
@@ -95,7 +21,7 @@ class GivenStarter {
         left_(column * kCoverageTile),
         top_(row * kCoverageTile),
         around_(window_, column, row),
-        ramps_(around_),
+        search_(around_),
         tile_(map_.Tile(column, row)) {}
 
   void Start() {
@@ -122,13 +48,13 @@ class GivenStarter {
   // surface and the nearest other surface. Returns false if the search finds no second surface.
   bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
     const int32_t here = around_.disparity[at];
-    if (ramps_.at[at]) {
-      *high = FindNearest(around_, ramps_, at, here + 1, INT16_MAX).disparity;
-      *low = FindNearest(around_, ramps_, at, INT16_MIN, here - 1).disparity;
+    if (search_.IsOnRamp(at)) {
+      *high = search_.FindNearest(at, here + 1, INT16_MAX).disparity;
+      *low = search_.FindNearest(at, INT16_MIN, here - 1).disparity;
       if (*high - *low > kThinStep) return true;
     }
-    const Found nearer = FindNearest(around_, ramps_, at, here + kThinStep + 1, INT16_MAX);
-    const Found farther = FindNearest(around_, ramps_, at, INT16_MIN, here - kThinStep - 1);
+    const Found nearer = search_.FindNearest(at, here + kThinStep + 1, INT16_MAX);
+    const Found farther = search_.FindNearest(at, INT16_MIN, here - kThinStep - 1);
     const bool is_near = farther.distance <= nearer.distance;
     *high = is_near ? here : nearer.disparity;
     *low = is_near ? farther.disparity : here;
@@ -173,7 +99,7 @@ class GivenStarter {
   const CoverageMap& map_;
   const int32_t left_, top_;
   const GivenDisparities around_;
-  const Ramps ramps_;
+  const SurfaceSearch search_;
   CoverageTile& tile_;
 };
 

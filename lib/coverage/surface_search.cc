@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/coverage/surface_search.h"
+
+namespace starfocus {
+namespace {
+
+// On a ramp, the steps to both neighbours are at least kLeastRamp, and the larger step is at most
+// kRampRatio times the smaller step.
+constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
+constexpr int32_t kRampRatio = 4;
+
+// Returns true if the middle of three adjacent pixels is on a ramp. The arguments are the
+// disparities of the pixels in kDisparityBits.
+bool IsRamp(int32_t before, int32_t here, int32_t after) {
+  const int32_t sign = after < before ? -1 : 1;
+  const int32_t a = sign * (here - before), b = sign * (after - here);
+  return Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b);
+}
+
+bool IsBetweenNeighbours(const int16_t* here) {
+  constexpr int32_t kSide = GivenDisparities::kSide;
+  constexpr int32_t kOpposite[] = {1, kSide - 1, kSide, kSide + 1};
+  for (const int32_t step : kOpposite) {
+    if (IsRamp(here[-step], here[0], here[step])) return true;
+  }
+  return false;
+}
+
+// Rank of a pixel in a search: squared distance, square around the start, row, column. The lowest
+// rank wins. Scale: 12 bits for the squared distance, at most 2 kGivenReach^2 = 2048; 6 bits for
+// the square; 7 bits each for row and column.
+constexpr uint32_t kNotFound = UINT32_MAX;
+
+uint32_t RankOf(int32_t dx, int32_t dy) {
+  static_assert(kGivenReach == 32);
+  const int32_t ring = Max(Abs(dx), Abs(dy));
+  return static_cast<uint32_t>(dx * dx + dy * dy) << 20 | static_cast<uint32_t>(ring) << 14 |
+         static_cast<uint32_t>(dy + kGivenReach) << 7 | static_cast<uint32_t>(dx + kGivenReach);
+}
+int32_t DistanceOf(uint32_t rank) { return static_cast<int32_t>(rank >> 20); }
+
+// Returns the distance from `at` to the nearest of the positions first to last.
+int32_t DistanceTo(int32_t first, int32_t last, int32_t at) {
+  return Abs(at - Clamp(at, first, last));
+}
+
+}  // namespace
+
+SurfaceSearch::SurfaceSearch(const GivenDisparities& around) : around_(around) {
+  for (int32_t y = kRampReach; y < kSide - kRampReach; ++y) {
+    for (int32_t x = kRampReach; x < kSide - kRampReach; ++x) {
+      const int32_t at = y * kSide + x;
+      on_ramp_[at] = IsBetweenNeighbours(around.disparity + at);
+      if (on_ramp_[at]) continue;
+      Cell& cell = cells_[y / kCellSide * kCells + x / kCellSide];
+      if (around.disparity[at] < cell.least) cell.least = around.disparity[at];
+      if (around.disparity[at] > cell.greatest) cell.greatest = around.disparity[at];
+    }
+  }
+}
+
+uint32_t SurfaceSearch::LeastRank(const Target& target, int32_t column, int32_t row,
+                                  uint32_t rank) const {
+  const Cell& cell = cells_[row * kCells + column];
+  if (cell.greatest < target.low || cell.least > target.high) return rank;
+  const int32_t left = Max(column * kCellSide, target.x - kGivenReach),
+                right = Min(column * kCellSide + kCellSide - 1, target.x + kGivenReach),
+                top = Max(row * kCellSide, target.y - kGivenReach),
+                bottom = Min(row * kCellSide + kCellSide - 1, target.y + kGivenReach);
+  const int32_t nearest = DistanceTo(left, right, target.x);
+  for (int32_t y = top; y <= bottom; ++y) {
+    const int32_t dy = y - target.y;
+    if (nearest * nearest + dy * dy > DistanceOf(rank)) continue;
+    for (int32_t x = left; x <= right; ++x) {
+      const int32_t at = y * kSide + x, disparity = around_.disparity[at];
+      if (on_ramp_[at] || disparity < target.low || disparity > target.high) continue;
+      const uint32_t here = RankOf(x - target.x, dy);
+      if (here < rank) rank = here;
+    }
+  }
+  return rank;
+}
+
+Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
+  const Target target = {at % kSide, at / kSide, low, high};
+  const int32_t column = target.x / kCellSide, row = target.y / kCellSide;
+  uint32_t rank = kNotFound;
+  for (int32_t r = 0; r <= kGivenReach / kCellSide; ++r) {
+    const int32_t least = (r - 1) * kCellSide + 1;  // distance to the nearest cell of the square
+    if (r > 0 && least * least > DistanceOf(rank)) break;
+    for (int32_t y = Max(row - r, 0); y <= Min(row + r, kCells - 1); ++y) {
+      const int32_t step = Abs(y - row) == r ? 1 : 2 * r;
+      for (int32_t x = column - r; x <= column + r; x += step) {
+        if (x >= 0 && x < kCells) rank = LeastRank(target, x, y, rank);
+      }
+    }
+  }
+  if (rank == kNotFound) return {around_.disparity[at], INT32_MAX};
+  const int32_t dy = static_cast<int32_t>(rank >> 7 & 127) - kGivenReach,
+                dx = static_cast<int32_t>(rank & 127) - kGivenReach;
+  return {around_.disparity[at + dy * kSide + dx], DistanceOf(rank)};
+}
+
+}  // namespace starfocus

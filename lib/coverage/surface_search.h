@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the nearest pixel of a nearer or farther surface around a pixel of a tile.
+#ifndef STARFOCUS_LIB_COVERAGE_SURFACE_SEARCH_H_
+#define STARFOCUS_LIB_COVERAGE_SURFACE_SEARCH_H_
+
+#include "lib/coverage/disparities_around.h"
+
+namespace starfocus {
+
+// Radius in pixels of the search for the far and the near surface of a pixel. In disparity maps
+// computed by neural networks, outlines are misplaced by up to kGivenReach pixels.
+inline constexpr int32_t kGivenReach = 32;
+
+// Distance in pixels from a pixel to the neighbours that decide whether the pixel is on a ramp.
+inline constexpr int32_t kRampReach = 1;
+using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
+
+// Result of a search for the nearest pixel of a surface. Among equally distant pixels, the search
+// prefers the pixel on the smallest square around the start, and then the first in row order.
+struct Found {
+  int32_t disparity;  // Disparity of the pixel found, or of the start if none is found.
+  int32_t distance;   // Squared distance in pixels; INT32_MAX if no pixel is found.
+};
+
+// Searches a tile and its surroundings. A search reads only the cells of kCellSide x kCellSide
+// pixels that contain the surface. All positions are indices of GivenDisparities::disparity.
+class SurfaceSearch {
+ public:
+  explicit SurfaceSearch(const GivenDisparities& around);
+
+  // A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours.
+  bool IsOnRamp(int32_t at) const { return on_ramp_[at]; }
+
+  // Finds the nearest pixel in the square of radius kGivenReach around a pixel of the tile that is
+  // not on a ramp and has a disparity in [low, high].
+  Found FindNearest(int32_t at, int32_t low, int32_t high) const;
+
+ private:
+  static constexpr int32_t kSide = GivenDisparities::kSide;
+  static constexpr int32_t kCellSide = 8;
+  static constexpr int32_t kCells = (kSide + kCellSide - 1) / kCellSide;
+
+  // Range of the disparities of a cell, without pixels on ramps; empty if least > greatest.
+  struct Cell {
+    int16_t least = INT16_MAX, greatest = INT16_MIN;
+  };
+  struct Target {
+    int32_t x, y;  // column and row of the start
+    int32_t low, high;
+  };
+
+  // Returns the least of `rank` and the ranks of the pixels of a cell that match the target.
+  uint32_t LeastRank(const Target& target, int32_t column, int32_t row, uint32_t rank) const;
+
+  const GivenDisparities& around_;
+  bool on_ramp_[kSide * kSide] = {};  // false for the outermost kRampReach pixels
+  Cell cells_[kCells * kCells];
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_COVERAGE_SURFACE_SEARCH_H_
