@@ -51,6 +51,8 @@ cases 'Python, types' /usr/bin/python3 -m mypy --config-file "$sources/platform/
   --cache-dir "$work/mypy" "$sources/platform/python/starfocus" "$tests/typed_calls.py"
 cases 'Python, notebook' "$python" "$tests/notebook_test.py" "$sources/examples/python/tour.ipynb" "$work/scene" \
   "$work/notebook"
+cases 'Python, documents' "$python" "$tests/documents_test.py" "$work/scene" "$work/documents" \
+  "$sources/docs/bindings.md" "$sources/platform/python/README.md"
 cases 'Python, batch with Dask' "$python" "$tests/batch_dask_test.py" "$build/starfocus" "$work/scene" "$work/batch"
 left=$(find "$sources/platform/python" -name '*.so' -o -name bin -o -name build -o -name '*.egg-info')
 [ -z "$left" ] || { echo "python: installing left in the source tree" $left >&2; exit 1; }

@@ -106,7 +106,7 @@ class Site:
         title = html.unescape(re.sub(r'<[^>]*>', '', re.search(r'<h1[^>]*>(.*?)</h1>', body).group(1)))
         title = title if document == HOME else title + ' – starfocus'
         top = [('starfocus', 'index.html'), ('Gallery', target(GALLERY)), ('Try it', 'tap/index.html'),
-               ('Program', 'docs/program.html'), ('Library', 'docs/library.html'), ('C reference', 'reference/index.html')]
+               ('Program', 'docs/program.html'), ('Library', 'docs/library.html'), ('C reference', 'reference/files.html')]
         links = '\n'.join('<a href="{}"{}>{}</a>'.format(relative(path, page),
                                                          ' aria-current="page"' if path == page else '', name)
                           for name, path in top)

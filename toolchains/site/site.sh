@@ -7,9 +7,11 @@ make_gallery() {
   mkdir -p "$1" && PATH="$PWD/$BUILD:$PATH" python3 toolchains/site/gallery.py docs/gallery.md "$1"
 }
 
-# copy_part PART FOLDER: copies a part that another command has made to build/site.
-copy_part() {
-  mkdir -p "$2" && cp -r "$1/." "$2"
+# copy_reference FOLDER: copies the pages of doxygen, and links the name of the project to the start page.
+copy_reference() {
+  cp -r build/docs/html "$1" &&
+    sed -i 's|id="projectname">starfocus|id="projectname"><a href="../index.html">starfocus</a>|' "$1"/*.html &&
+    grep -q 'href="../index.html"' "$1/files.html"
 }
 
 # site: makes the static folder build/site from the documents, the reference, the gallery and the page to tap. Fails if
@@ -19,12 +21,12 @@ site() {
   require doxygen cmark-gfm python3
   build starfocus starfocus_lab
   docs
-  [ -f build/web/site/index.html ] || (./do web build) || exit 1
+  [ -f build/web/site/index.html ] || ./do web build || exit 1
   rm -rf $site
   step gallery "making the pictures of docs/gallery.md" make_gallery build/gallery
   step pages "making the pages in $site" python3 toolchains/site/pages.py $site build/gallery
-  step reference "copying the reference" copy_part build/docs/html $site/reference
-  step tap "copying the page to tap" copy_part build/web/site $site/tap
+  step reference "copying the reference" copy_reference $site/reference
+  step tap "copying the page to tap" cp -r build/web/site $site/tap
   python3 toolchains/site/links.py $site || fail "$site has broken links"
   echo "the site: $site/index.html"
 }

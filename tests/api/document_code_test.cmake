@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+# Usage: cmake -DSOURCE=… -DBUILD=… -DCC=… -DCXX=… -P document_code_test.cmake
+# Compiles the C and C++ code of README.md and docs/library.md as C11 and C++17. Each code block becomes the body of a
+# function, after declarations of the variables that the documents do not declare.
+set(of_readme [[
+static uint8_t view[320 * 200 * 3], out[320 * 200 * 3];
+static float disparity[320 * 200];
+]])
+set(of_library [[
+#include <starfocus/depth.h>
+#include <starfocus/pool.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+static starfocus_config config;
+static starfocus_engine* engine;
+static starfocus_params params;
+static starfocus_light_field field, light_field, next_rows;
+static starfocus_image out, small, next_out;
+static starfocus_prepared* prepared;
+static starfocus_status status;
+static int32_t width, height, x, y, written, rows_at_hand, rows_wanted;
+static size_t stride, luma_stride, chroma_stride;
+static float* better;
+static uint8_t *luma, *chroma;
+static uint16_t* millimetres;
+static double focal_length, baseline;
+static void* my_arena;
+void* take(void* arena, size_t bytes, size_t alignment);
+void give_back(void* arena, void* memory, size_t bytes);
+struct task { float share; atomic_int cancelled; };
+]])
+set(of_library_cpp [[
+#include <starfocus/starfocus.hpp>
+static starfocus_light_field light_field;
+static uint8_t out[1024 * 768 * 3];
+static const size_t out_stride = 3 * 1024;
+]])
+
+# Writes the code blocks of a document in a language to a file. Sets `count` to the number of blocks.
+function(write_code document language declarations file)
+  file(READ "${SOURCE}/${document}" text)
+  file(WRITE "${file}" "#include <starfocus/starfocus.h>\n#include <stdio.h>\n${declarations}")
+  set(blocks 0)
+  string(FIND "${text}" "\n```${language}\n" begin)
+  while(NOT begin EQUAL -1)
+    string(SUBSTRING "${text}" ${begin} -1 text)
+    string(FIND "${text}" "\n```\n" end)
+    string(LENGTH "\n```${language}\n" skipped)
+    math(EXPR length "${end} - ${skipped}")
+    string(SUBSTRING "${text}" ${skipped} ${length} code)
+    string(REPLACE "\n...\n" "\n" code "${code}")
+    math(EXPR blocks "${blocks} + 1")
+    if(code MATCHES "^[^\n]*[)] {")  # a function
+      file(APPEND "${file}" "${code}\n")
+    else()
+      file(APPEND "${file}" "void block_${blocks}(void);\nvoid block_${blocks}(void) {\n${code}\n}\n")
+    endif()
+    string(SUBSTRING "${text}" ${end} -1 text)
+    string(FIND "${text}" "\n```${language}\n" begin)
+  endwhile()
+  set(count ${blocks} PARENT_SCOPE)
+endfunction()
+
+# Compiles the code of a document with a compiler. The document must have `least` blocks or more.
+function(compile document language declarations least compiler)
+  string(MAKE_C_IDENTIFIER "${document}" name)
+  set(file "${BUILD}/tests/${name}.${language}")
+  write_code("${document}" ${language} "${declarations}" "${file}")
+  execute_process(COMMAND ${compiler} ${ARGN} -pedantic -Wall -Wextra -Werror -Wno-unused -Wno-uninitialized
+    -fsyntax-only "-I${SOURCE}/lib/include" "-I${SOURCE}/platform/pool/include" "${file}"
+    RESULT_VARIABLE result ERROR_VARIABLE output)
+  if(result OR count LESS least)
+    message(FATAL_ERROR "${document}: expected ${least} or more blocks of ${language} that compile, found ${count}:\n"
+      "${output}")
+  endif()
+endfunction()
+
+compile(README.md c "${of_readme}" 1 ${CC} -std=c11)
+compile(docs/library.md c "${of_library}" 10 ${CC} -std=c11)
+compile(docs/library.md cpp "${of_library_cpp}" 1 ${CXX} -std=c++17)
