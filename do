@@ -49,6 +49,9 @@ usage: ./do COMMAND
           test    tries the package in node and the page in Chromium
   package [test]  build Debian packages of the last commit in build/packages, and check them with
           lintian; test: also install, run and remove them in a bare Debian (as root)
+  release VERSION  make all files of a release from a clean clone in build/release-VERSION/files
+          VERSION twice  also in another folder, and compare all bytes
+          --dry-run      only the files that need no compilation, and the ABI
   docs    make the HTML reference of the public headers: build/docs/html/index.html
   site    make the static site build/site from the documents, the reference, a gallery and the page
           to tap, and check its links
@@ -430,6 +433,7 @@ format() {
 . toolchains/web.sh
 . toolchains/site/site.sh
 . toolchains/packaging/packages.sh
+. toolchains/packaging/release.sh
 
 case "${1:-help}" in
   demo) demo ;;
@@ -444,6 +448,7 @@ case "${1:-help}" in
   docs) docs ;;
   site) site ;;
   package) package "${2:-}" ;;
+  release) shift && release "$@" ;;
   golden) golden ;;
   boot) boot ;;
   web) web "${2:-}" ;;

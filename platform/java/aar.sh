@@ -4,7 +4,8 @@
 # Packs an Android archive (AAR) without Gradle. The AAR contains the Java classes, libstarfocus_jni.so for each ABI
 # (arm64-v8a, x86_64), and a prefab package with the C headers and the libraries. C and C++ projects find the prefab
 # package with find_package(starfocus CONFIG) and link starfocus::starfocus_jni. The script requires zip. The
-# environment variable ANDROID_NDK_MAJOR is the major version of the NDK that built the libraries; default 27.
+# environment variable ANDROID_NDK_MAJOR is the major version of the NDK that built the libraries; default 27. The files
+# in the archive have the time SOURCE_DATE_EPOCH (default: 1980), so that the archive depends on its contents only.
 set -eu
 [ $# -ge 3 ] || { echo "usage: $0 OUT.aar CLASSES.jar ABI=LIBRARY..." >&2; exit 2; }
 here=$(cd "$(dirname "$0")" && pwd)
@@ -40,4 +41,5 @@ for pair in "$@"; do
     "$abi" "$least" "${ANDROID_NDK_MAJOR:-27}" >"$module/libs/android.$abi/abi.json"
 done
 rm -f "$out"
-(cd "$work" && zip -q -r -X "$out" .)
+find "$work" -exec touch -d "@${SOURCE_DATE_EPOCH:-315532800}" {} +
+(cd "$work" && find . ! -name . | LC_ALL=C sort | TZ=UTC zip -q -X -@ "$out")

@@ -106,6 +106,8 @@ archive() {
   case "$preset" in aarch64) abi=arm64-v8a ;; *) abi=x86_64 ;; esac
   quietly jar cf "$work/classes.jar" -C "$work/classes" dev/starfocus
   quietly "$sources/platform/java/aar.sh" "$work/starfocus.aar" "$work/classes.jar" "$abi=$library"
+  quietly "$sources/platform/java/aar.sh" "$work/again.aar" "$work/classes.jar" "$abi=$library"
+  cmp "$work/starfocus.aar" "$work/again.aar" || fail "two archives of the same files differ"
   mkdir "$work/aar"
   (cd "$work/aar" && quietly jar xf "$work/starfocus.aar")
   module=prefab/modules/starfocus_jni
