@@ -52,6 +52,9 @@ usage: ./do COMMAND
   release VERSION  make all files of a release from a clean clone in build/release-VERSION/files
           VERSION twice  also in another folder, and compare all bytes
           --dry-run      only the files that need no compilation, and the ABI
+  wheel [test]  build a self-contained wheel and a source archive of the Python package in build/wheel;
+          test: also install both into a bare Debian 12, and the wheel into a bare Debian 13 with
+          numpy 2 (as root)
   docs    make the HTML reference of the public headers: build/docs/html/index.html
   site    make the static site build/site from the documents, the reference, a gallery and the page
           to tap, and check its links
@@ -434,6 +437,7 @@ format() {
 . toolchains/site/site.sh
 . toolchains/packaging/packages.sh
 . toolchains/packaging/release.sh
+. toolchains/packaging/wheel.sh
 
 case "${1:-help}" in
   demo) demo ;;
@@ -449,6 +453,7 @@ case "${1:-help}" in
   site) site ;;
   package) package "${2:-}" ;;
   release) shift && release "$@" ;;
+  wheel) wheel "${2:-}" ;;
   golden) golden ;;
   boot) boot ;;
   web) web "${2:-}" ;;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests starfocus.read_light_field: reader_test.py PROGRAM FOLDER. FOLDER is a light field of five views."""
+"""Tests starfocus.read_light_field: reader_test.py PROGRAM FOLDER [no-tiff]. FOLDER is a light field of five views. With
+`no-tiff`, the package must reject depth maps in TIFF."""
 import os
 import subprocess
 import sys
@@ -70,16 +71,23 @@ class Reader(unittest.TestCase):
     def test_a_picture_and_its_depth(self):
         Image.fromarray(VIEWS[0]).save("photo.png")
         np.save("depth.npy", DISPARITY)
-        Image.fromarray(DISPARITY).save("depth.tiff")
-        scenes = [starfocus.read_light_field("photo.png", depth=depth, depth_unit="disparity", no_repair=True)
-                  for depth in ("depth.npy", Path("depth.tiff"))]
-        for scene in scenes:
-            np.testing.assert_array_equal(scene.views, VIEWS[:1])
-            np.testing.assert_array_equal(scene.disparity, DISPARITY)
+        scene = starfocus.read_light_field("photo.png", depth="depth.npy", depth_unit="disparity", no_repair=True)
+        np.testing.assert_array_equal(scene.views, VIEWS[:1])
+        np.testing.assert_array_equal(scene.disparity, DISPARITY)
         Image.fromarray(np.arange(DISPARITY.size, dtype=np.uint8).reshape(DISPARITY.shape)).save("coverage.png")
         covered = starfocus.read_light_field("photo.png", depth="depth.npy", coverage="coverage.png",
                                               depth_unit="disparity", no_repair=True)
         np.testing.assert_array_equal(covered.coverage.ravel(), np.arange(DISPARITY.size, dtype=np.uint8))
+
+    def test_a_depth_map_in_tiff(self):
+        Image.fromarray(VIEWS[0]).save("photo.png")
+        Image.fromarray(DISPARITY).save("depth.tiff")
+        options = {"depth": Path("depth.tiff"), "depth_unit": "disparity", "no_repair": True}
+        if sys.argv[3:] == ["no-tiff"]:
+            with self.assertRaisesRegex(reader.InputError, "TIFF is not supported"):
+                starfocus.read_light_field("photo.png", **options)
+        else:
+            np.testing.assert_array_equal(starfocus.read_light_field("photo.png", **options).disparity, DISPARITY)
 
     def test_a_stereo_photo_without_a_map(self):
         Image.fromarray(VIEWS[0]).save("pair.mpo", save_all=True, append_images=[Image.fromarray(VIEWS[1])])

@@ -9,7 +9,7 @@ set -eu
 packages=$(cd "$1" && pwd)
 . "$(dirname "$0")/bare_debian.sh"
 
-make_bare_debian
+make_bare_debian bookworm
 cp "$packages"/*.deb "$root/tmp/"
 inside sh -c 'apt-get install -y --no-install-recommends /tmp/*.deb'
 inside starfocus --version
