@@ -323,6 +323,21 @@ TEST_CASE("image_io: bytes between the parts of a JPEG are ignored") {
   CHECK(ReadBytes(bytes) == "");
 }
 
+TEST_CASE("image_io: a JPEG of more than 500 scans is rejected") {
+  if (!HasLibjpeg()) return;
+  const Bytes seed = Seed("progressive.jpg");
+  const auto find = [&](uint8_t marker, size_t from) {
+    const uint8_t bytes[] = {0xff, marker};
+    return std::search(seed.begin() + ptrdiff_t(from), seed.end(), bytes, bytes + 2);
+  };
+  const auto scan = find(0xda, 0), next = find(0xc4, size_t(scan - seed.begin()));
+  REQUIRE(next != seed.end());
+  Bytes bytes(seed.begin(), next);
+  for (int i = 0; i < 501; ++i) bytes.insert(bytes.end(), scan, next);
+  bytes.insert(bytes.end(), next, seed.end());
+  CHECK(Contains(ReadBytes(bytes), "picture: expected at most 500 scans, found more"));
+}
+
 TEST_CASE("image_io: the errors for 12-bit JPEG and truncated JPEG name the cause") {
   if (!HasLibjpeg()) return;
   Bytes bytes = Seed("restart.jpg");
