@@ -10,7 +10,7 @@ PROGRAM=$BUILD/starfocus
 LAB=$BUILD/starfocus-lab
 PACKAGES="g++ cmake ninja-build pkg-config libhwy-dev libstb-dev doctest-dev libcli11-dev nlohmann-json3-dev
   libjpeg62-turbo-dev libpng-dev libdeflate-dev libtiff-dev libwebp-dev libexpat1-dev libexif-dev libheif-dev
-  libsixel-dev"
+  libsixel-dev libseccomp-dev"
 # Packages with programs that the tests use to check files written by starfocus.
 JUDGES="libimage-exiftool-perl webp libsixel-bin"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
@@ -139,6 +139,7 @@ has() {
     libexif-dev) has_header libexif/exif-data.h ;;
     libheif-dev) has_header libheif/heif.h ;;
     libsixel-dev) has_header sixel/sixel.h ;;
+    libseccomp-dev) has_header seccomp.h ;;
     libsixel-bin) command -v sixel2png ;;
     libbenchmark-dev) has_header benchmark/benchmark.h ;;
     lib*) false ;;

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "platform/folder.h"
+#include "platform/helper/helper.h"
 #include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/progress.h"
@@ -189,7 +190,8 @@ Error LoadCoverage(const std::string& path, LightField* light_field) {
   if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
-  const Result<Samples> samples = DecodeCoverage(path, *bytes);
+  const Result<Samples> samples =
+      Confined<Samples>(path, [&] { return DecodeCoverage(path, *bytes); });
   if (!samples) return samples.error();
   const FloatMap& map = samples->map;
   if (Error error = CheckSize(path, map.width, map.height, light_field->views[0])) return error;

@@ -76,4 +76,13 @@ void SignalCleanup::Install() {
   }
 }
 
+void SignalCleanup::Uninstall(const Turn&) {
+  first = nullptr;
+  for (const int number : kSignals) {
+    struct sigaction action = {};
+    if (sigaction(number, nullptr, &action) != 0 || action.sa_handler != CleanAllAndEnd) continue;
+    signal(number, SIG_DFL);
+  }
+}
+
 }  // namespace starfocus

@@ -37,6 +37,10 @@ class SignalCleanup {
   // the program. Signals that the process ignores remain ignored.
   static void Install();
 
+  // Restores the default handlers and empties the list, in a child process whose parent process
+  // cleans up.
+  static void Uninstall(const Turn&);
+
  private:
   static void CleanAllAndEnd(int signal);
 

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "platform/file.h"
+#include "platform/helper/helper.h"
 #include "platform/signal_cleanup.h"
 #include "starfocus/starfocus.h"
 
@@ -47,6 +48,7 @@ int RunProgram(const char* name, const std::function<Error()>& run) {
   signal(SIGPIPE, SIG_IGN);
   signal(SIGCHLD, SIG_DFL);  // if the parent ignores it, the ends of child processes are lost
   SignalCleanup::Install();
+  ConfineDecoders();
   try {
     Error error = run();
     if (!error) error = CheckPrinted();

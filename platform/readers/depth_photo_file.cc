@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "platform/container.h"
+#include "platform/helper/helper.h"
 #include "platform/image_io.h"
 #include "platform/readers/apple_depth.h"
+#include "platform/readers/confined_photo.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/dynamic_depth.h"
 #include "platform/readers/exif.h"
@@ -133,6 +135,20 @@ bool JpegStoresDepth(const std::string& path, Span file) {
   return ReadStereoPair(path, file, &photo);
 }
 
+bool HeifStoresDepth(const std::string& path, Span file) {
+  Result<DepthPhoto> photo = ReadHeif(path, file, Near::kUnknown);
+  return photo && (!photo->map.values.empty() || ReadStereoPair(path, file, &*photo));
+}
+
+// Searches a photo without a map for a stray map or the right picture of a stereo pair.
+Result<DepthPhoto> ReadStrayDepth(const std::string& path, Span file, Near near,
+                                  DepthPhoto* photo) {
+  return ConfinedPhoto(InputName(path), file, [&]() -> Result<DepthPhoto> {
+    if (!ReadStrayMap(file, near, photo)) ReadStereoPair(path, file, photo);
+    return std::move(*photo);
+  });
+}
+
 Error NoMap(const std::string& path, const std::string& problem) {
   std::string found = "a picture without one";
   if (!CanReadXmp()) found += " that is read (this build has no expat)";
@@ -196,10 +212,12 @@ bool StoresDepth(const std::string& path) {
   const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
   if (!bytes) return false;
   const Span file = {bytes->data(), bytes->size()};
-  if (IsJpeg(file)) return JpegStoresDepth(path, file);
-  if (!IsHeif(file)) return false;
-  Result<DepthPhoto> photo = ReadHeif(path, file, Near::kUnknown);
-  return photo && (!photo->map.values.empty() || ReadStereoPair(path, file, &*photo));
+  if (!IsJpeg(file) && !IsHeif(file)) return false;
+  if (IsHeif(file)) LoadHeifDecoders();
+  const Result<bool> stores = Confined<bool>(path, [&]() -> Result<bool> {
+    return IsJpeg(file) ? JpegStoresDepth(path, file) : HeifStoresDepth(path, file);
+  });
+  return stores && *stores;
 }
 
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
@@ -211,7 +229,8 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   if (stream && bytes->empty()) return Expected(where, "a photo", "nothing");
   const Span file = {bytes->data(), bytes->size()};
   const Near near = options.estimate ? Near::kUnknown : options.near;
-  Result<DepthPhoto> decoded = DecodeDepthPhoto(where, file, depth.empty(), near);
+  Result<DepthPhoto> decoded = ConfinedPhoto(
+      where, file, [&] { return DecodeDepthPhoto(where, file, depth.empty(), near); });
   if (!decoded) return decoded;
   DepthPhoto& photo = *decoded;
   if (depth.empty() && !photo.map.values.empty()) {
@@ -223,8 +242,9 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
     if (Error error = FindDepthPicture(path, &photo).MoveTo(&photo.depth_path)) return error;
   }
   if (photo.depth_path.empty()) {
-    const bool has_map = ReadStrayMap(file, near, &photo);
-    if (has_map || ReadStereoPair(path, file, &photo)) {
+    if (Error error = ReadStrayDepth(path, file, near, &photo).MoveTo(&photo)) return error;
+    const bool has_map = !photo.map.values.empty();
+    if (has_map || !photo.right.pixels.empty()) {
       if (Error error = CheckOptions(where, options, !has_map)) return error;
       return decoded;
     }

@@ -336,6 +336,13 @@ Result<DepthPhoto> Read(const std::string& where, Span file, Near near) {
 
 }  // namespace
 
+void LoadHeifDecoders() {
+#if LIBHEIF_HAVE_VERSION(1, 13, 0)
+  static const heif_error ignored = heif_init(nullptr);
+  static_cast<void>(ignored);
+#endif
+}
+
 Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near) {
   try {
     Result<DepthPhoto> photo = Read(where, file, near);
@@ -376,6 +383,8 @@ bool ReadHeifPair(const std::string& where, Span file, DepthPhoto* photo) {
 }
 
 #else
+
+void LoadHeifDecoders() {}
 
 Result<DepthPhoto> ReadHeif(const std::string& where, Span, Near) {
   return Unsupported(where, "HEIC", "libheif");

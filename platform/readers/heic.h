@@ -15,6 +15,10 @@ namespace starfocus {
 // Returns true if the bytes start with the file type box of a HEIF file.
 bool IsHeif(Span file);
 
+// Loads the decoders that newer versions of libheif keep in separate libraries. Otherwise libheif
+// loads these libraries when it reads the first file.
+void LoadHeifDecoders();
+
 // Reads the primary picture and its depth map, and applies the rotation that the file states. The
 // map of the result is empty if the file has no map. `near` applies only if the file does not state
 // which end of the grey range is near.

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "platform/helper/helper.h"
 #include "platform/levels.h"
 #include "platform/readers/key_values.h"
 
@@ -133,7 +134,8 @@ Error LoadGreyMap(Capture* capture) {
   if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
-  Result<Samples> samples = DecodeSamples(path, true, *bytes);
+  Result<Samples> samples =
+      Confined<Samples>(path, [&] { return DecodeSamples(path, true, *bytes); });
   if (!samples) return samples.error();
   std::replace(samples->map.values.begin(), samples->map.values.end(), 0.0F,
                std::numeric_limits<float>::quiet_NaN());

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "platform/depth_file.h"
+#include "platform/helper/helper.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/map_orientation.h"
 #include "platform/readers/unknown_depth.h"
@@ -144,7 +145,8 @@ Error ReadDepthPicture(const std::string& path, const DepthOptions& options, Dep
   if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
-  Result<Samples> samples = DecodeDepthFile(path, options.use_alpha, *bytes);
+  Result<Samples> samples =
+      Confined<Samples>(path, [&] { return DecodeDepthFile(path, options.use_alpha, *bytes); });
   if (!samples) return samples.error();
   TakeDepthPicture(options, std::move(*samples), photo);
   return {};

@@ -10,6 +10,7 @@
 
 #include "platform/file.h"
 #include "platform/image_io.h"
+#include "platform/readers/confined_photo.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/heic.h"
 #include "platform/readers/multi_picture.h"
@@ -54,8 +55,9 @@ Result<DepthPhoto> ReadUpright(const std::string& path) {
   if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
-  Result<DepthPhoto> photo =
-      DecodeDepthPhoto(path, {bytes->data(), bytes->size()}, false, Near::kUnknown);
+  const Span file = {bytes->data(), bytes->size()};
+  Result<DepthPhoto> photo = ConfinedPhoto(
+      path, file, [&] { return DecodeDepthPhoto(path, file, false, Near::kUnknown); });
   if (!photo) return photo;
   photo->map = {};
   ApplyOrientation(&*photo);

@@ -6,6 +6,7 @@
 #include "platform/depth_file.h"
 #include "platform/file.h"
 #include "platform/folder.h"
+#include "platform/helper/helper.h"
 #include "platform/image_io.h"
 #include "platform/shell_command.h"
 #include "platform/temporary_folder.h"
@@ -71,7 +72,8 @@ Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& com
   }
   const Result<Bytes> bytes = ReadFile(*output);
   if (!bytes) return bytes.error();
-  return DecodeDepthFile(name + " (depth picture of the depth command)", use_alpha, *bytes);
+  const std::string result = name + " (depth picture of the depth command)";
+  return Confined<Samples>(result, [&] { return DecodeDepthFile(result, use_alpha, *bytes); });
 }
 
 }  // namespace starfocus

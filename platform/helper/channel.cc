@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/helper/channel.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace starfocus {
+namespace {
+
+// Limit of a block: the values of a map of 2^28 pixels.
+constexpr uint64_t kMostBlock = uint64_t{1} << 30;
+// Values of at least this size are sent without a copy to the buffer.
+constexpr size_t kLargeValue = 4096;
+constexpr size_t kBuffer = 65536;
+
+// Sends a part of the data, and returns its size, or -1 on failure.
+ssize_t Send(int file, const uint8_t* data, size_t size) {
+#ifdef __linux__
+  // Pass the pages of large data without copying them. The helper process does not change a result
+  // that it sends.
+  if (size > kBuffer) {
+    const iovec pages = {const_cast<uint8_t*>(data), size};
+    return vmsplice(file, &pages, 1, 0);
+  }
+#endif
+  return write(file, data, size);
+}
+
+bool HasPixels(int width, int height, size_t samples, size_t found) {
+  if (width == 0 || height == 0) return width == 0 && height == 0 && found == 0;
+  return width > 0 && height > 0 && width <= kMaxPictureSize && height <= kMaxPictureSize &&
+         uint64_t(width) * uint64_t(height) * samples == found;
+}
+
+}  // namespace
+
+Channel::Channel(int file, Direction direction) : file_(file), direction_(direction) {
+  if (direction == Direction::kSend) buffer_.reserve(kBuffer + kLargeValue);
+}
+
+void Channel::Value(bool* value) {
+  uint8_t byte = *value ? 1 : 0;
+  Move(&byte, 1);
+  *value = byte != 0;
+}
+
+size_t Channel::Count(size_t count, size_t element) {
+  uint64_t number = count;
+  Value(&number);
+  Require(number <= kMostBlock / element);
+  return is_sound_ ? static_cast<size_t>(number) : 0;
+}
+
+void Channel::PreferLargePages(void* data, size_t size) {
+#ifdef MADV_HUGEPAGE
+  constexpr uintptr_t kPage = 4096;
+  const auto begin = (reinterpret_cast<uintptr_t>(data) + kPage - 1) / kPage * kPage;
+  const auto end = (reinterpret_cast<uintptr_t>(data) + size) / kPage * kPage;
+  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#endif
+}
+
+void Channel::Move(void* data, size_t size) {
+  auto* const bytes = static_cast<uint8_t*>(data);
+  if (direction_ == Direction::kReceive) return Read(bytes, size);
+  if (size >= kLargeValue) {
+    Flush();
+    return Write(bytes, size);
+  }
+  buffer_.insert(buffer_.end(), bytes, bytes + size);
+  if (buffer_.size() >= kBuffer) Flush();
+}
+
+void Channel::Flush() {
+  Write(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void Channel::Write(const uint8_t* data, size_t size) {
+  while (size > 0 && is_sound_) {
+    const ssize_t sent = Send(file_, data, size);
+    if (sent < 0 && errno == EINTR) continue;
+    Require(sent > 0);
+    if (!is_sound_) return;
+    data += sent;
+    size -= static_cast<size_t>(sent);
+  }
+}
+
+void Channel::Read(uint8_t* data, size_t size) {
+  while (size > 0 && is_sound_) {
+    const ssize_t got = read(file_, data, size);
+    if (got < 0 && errno == EINTR) continue;
+    Require(got > 0);
+    if (!is_sound_) return;
+    data += got;
+    size -= static_cast<size_t>(got);
+  }
+}
+
+// The structured bindings below fail to compile if a structure gets another field.
+void Pass(Channel* channel, bool* value) { channel->Value(value); }
+
+void Pass(Channel* channel, Image* image) {
+  auto& [width, height, pixels] = *image;
+  channel->Value(&width);
+  channel->Value(&height);
+  channel->Block(&pixels);
+  channel->Require(HasPixels(width, height, 3, pixels.size()));
+}
+
+void Pass(Channel* channel, FloatMap* map) {
+  auto& [width, height, values] = *map;
+  channel->Value(&width);
+  channel->Value(&height);
+  channel->Block(&values);
+  channel->Require(HasPixels(width, height, 1, values.size()));
+}
+
+void Pass(Channel* channel, Metadata* metadata) {
+  auto& [exif, icc, iptc, xmp] = *metadata;
+  for (Bytes* block : {&exif, &icc, &iptc}) channel->Block(block);
+  channel->Block(&xmp);
+}
+
+void Pass(Channel* channel, Samples* samples) {
+  auto& [map, largest, larger_is_nearer] = *samples;
+  Pass(channel, &map);
+  channel->Value(&largest);
+  channel->Value(&larger_is_nearer);
+  channel->Require(largest >= 0 && largest <= 65535);
+}
+
+void Pass(Channel* channel, Error* error) {
+  ErrorKind kind = error->kind();
+  std::string line = error->line();
+  channel->Value(&kind);
+  channel->Block(&line);
+  channel->Require(kind >= ErrorKind::kNone && kind <= ErrorKind::kInternal);
+  if (channel->direction() == Direction::kReceive) *error = Error(kind, line);
+}
+
+}  // namespace starfocus

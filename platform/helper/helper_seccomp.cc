@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <new>
+#include <system_error>
+
+#include "platform/helper/helper.h"
+#include "platform/helper/system_calls.h"
+#include "platform/signal_cleanup.h"
+
+namespace starfocus {
+namespace {
+
+bool confined = false;  // set once by ConfineDecoders, and cleared in helper processes
+
+// Exit code of a helper process whose memory does not suffice.
+constexpr int kNoMemory = 71;
+
+// Lowers a limit of this process. A lower limit that exists already stays.
+void Limit(int resource, uint64_t value) {
+  rlimit limit;
+  if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0) return;
+  limit.rlim_max = std::min(limit.rlim_max, static_cast<rlim_t>(value));
+  limit.rlim_cur = std::min(limit.rlim_cur, limit.rlim_max);
+  // At its limit of processor time, a process gets SIGXCPU, or SIGKILL if the limits are equal.
+  if (resource == RLIMIT_CPU) ++limit.rlim_max;
+  setrlimit(static_cast<__rlimit_resource_t>(resource), &limit);
+}
+
+// Returns the size of this process's address space in bytes.
+uint64_t MappedBytes() {
+  uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void CloseOthers(int file) {
+  if (file > 0) close_range(0, static_cast<unsigned>(file) - 1, 0);
+  close_range(static_cast<unsigned>(file) + 1, ~0U, 0);
+}
+
+// Gives up the rights of this process for good, except the right to write to `file`.
+void GiveUpRights(int file, const HelperLimits& limits) {
+  // 32-bit systems limit a process to 4 GiB anyway.
+  if (sizeof(size_t) > 4) Limit(RLIMIT_AS, MappedBytes() + limits.bytes);
+  CloseOthers(file);
+  Limit(RLIMIT_CPU, limits.seconds);
+  Limit(RLIMIT_FSIZE, 0);
+  Limit(RLIMIT_NOFILE, 0);  // prevents files and sockets, even if the kernel has no filters
+  RestrictSystemCalls();
+}
+
+// Runs in the helper process.
+[[noreturn]] void Serve(int file, const HelperLimits& limits, const std::function<void()>& work,
+                        const std::function<void(Channel*)>& pass) noexcept {
+  confined = false;
+  try {
+    Channel channel(file, Direction::kSend);
+    GiveUpRights(file, limits);
+    std::string problem;
+    try {
+      work();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& exception) {
+      problem = exception.what();
+    }
+    channel.Block(&problem);
+    if (problem.empty()) pass(&channel);
+    channel.Flush();
+    _exit(0);  // without the destructors and buffers of the program
+  } catch (const std::bad_alloc&) {
+    _exit(kNoMemory);
+  }
+}
+
+// Runs in the program. Returns the error that the helper process sends.
+Error Receive(const std::string& where, const std::function<void(Channel*)>& pass,
+              Channel* channel) {
+  try {
+    std::string problem;
+    channel->Block(&problem);
+    if (!problem.empty()) return Error::Internal(where, "no internal error", problem);
+    pass(channel);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return OutOfMemory(where, "read it");
+  }
+}
+
+int WaitFor(pid_t helper) {
+  int status = 0;
+  while (waitpid(helper, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+// Returns the reason why a helper process has sent no whole result.
+Error Failure(const std::string& where, const HelperLimits& limits, int status) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory) return OutOfMemory(where, "read it");
+  const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (number == SIGXCPU) {
+    return Expected(where,
+                    "a file that can be decoded within " + std::to_string(limits.seconds) +
+                        " seconds of processor time",
+                    "one that takes longer");
+  }
+  const std::string cause = number != 0 ? strsignal(number) : "it sent no whole result";
+  return Expected(where, "a file that can be decoded",
+                  "one that makes the decoder crash (" + cause + ")");
+}
+
+// Returns 0 in the helper process. The helper process ends if this thread ends.
+pid_t Fork() {
+  const pid_t program = getpid();
+  const SignalCleanup::Turn turn;
+  const pid_t helper = fork();
+  if (helper != 0) return helper;
+  SignalCleanup::Uninstall(turn);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != program) _exit(1);
+  return 0;
+}
+
+}  // namespace
+
+void ConfineDecoders() { confined = true; }
+
+bool DecodersAreConfined() { return confined; }
+
+Error RunHelper(const std::string& where, const HelperLimits& limits,
+                const std::function<void()>& work, const std::function<void(Channel*)>& pass) {
+  int ends[2];
+  const auto failed = [&] {
+    return Cannot("start a process to decode", where, {errno, std::generic_category()});
+  };
+  if (pipe2(ends, O_CLOEXEC) != 0) return failed();
+  fcntl(ends[1], F_SETPIPE_SZ, 1 << 20);  // fewer changes of the running process
+  const pid_t helper = Fork();
+  if (helper == 0) Serve(ends[1], limits, work, pass);
+  Error error = helper < 0 ? failed() : Error();
+  close(ends[1]);
+  Channel channel(ends[0], Direction::kReceive);
+  if (!error) error = Receive(where, pass, &channel);
+  close(ends[0]);
+  if (helper < 0) return error;
+  // The helper process must not outlive its result. If it has ended, its status does not change.
+  kill(helper, SIGKILL);
+  const int status = WaitFor(helper);
+  return channel.is_sound() ? error : Failure(where, limits, status);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/confined_photo.h"
+
+#include "platform/helper/helper.h"
+#include "platform/readers/heic.h"
+
+namespace starfocus {
+
+void Pass(Channel* channel, DepthPhoto* photo) {
+  // The structured binding fails to compile if DepthPhoto gets another field.
+  auto& [format, picture, map, map_problem, depth_path, right, meaning, orientation, focal_35mm,
+         is_blurred, has_focus, focus_x, focus_y, has_subject, subject_x, subject_y, is_ready,
+         focus_value, metadata, facts, notes] = *photo;
+  for (Image* image : {&picture, &right}) Pass(channel, image);
+  Pass(channel, &map);
+  Pass(channel, &metadata);
+  for (std::string* text : {&format, &map_problem, &depth_path}) channel->Block(text);
+  for (bool* value : {&is_blurred, &has_focus, &has_subject, &is_ready}) channel->Value(value);
+  for (double* value : {&focal_35mm, &focus_x, &focus_y, &subject_x, &subject_y, &focus_value}) {
+    channel->Value(value);
+  }
+  channel->Value(&meaning);
+  channel->Value(&orientation);
+  channel->Require(meaning >= MapMeaning::kInverseMetres && meaning <= MapMeaning::kDisparity);
+  channel->Require(orientation >= 1 && orientation <= 8);
+  channel->List(&facts, [&](Facts::value_type* fact) {
+    channel->Block(&fact->first);
+    channel->Block(&fact->second);
+  });
+  channel->List(&notes, [&](std::string* note) { channel->Block(note); });
+}
+
+Result<DepthPhoto> ConfinedPhoto(const std::string& where, Span file,
+                                 const std::function<Result<DepthPhoto>()>& decode) {
+  // A helper process cannot load decoders from files.
+  if (DecodersAreConfined() && IsHeif(file)) LoadHeifDecoders();
+  return Confined<DepthPhoto>(where, decode);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,33 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# usage: crash_test.sh PROGRAM LIBRARY PHOTOS
+# Checks that a photo that makes a decoder crash causes one error, that a batch continues, and that no partial file
+# remains. LIBRARY makes libjpeg crash on the file whose size is $CRASH_SIZE. PHOTOS is a folder with small depth photos.
+set -eu
+[ $# = 3 ] || { echo "usage: $0 PROGRAM LIBRARY PHOTOS" >&2; exit 2; }
+program=$1 library=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cp "$3/gdepth.jpg" "$folder/bad.jpg"
+cp "$3/dynamic.jpg" "$folder/good.jpg"
+cd "$folder"
+export LC_ALL=C CRASH_SIZE="$(wc -c <bad.jpg)"
+error='bad.jpg: expected a file that can be decoded, found one that makes the decoder crash (Aborted)'
+
+fail() {
+  echo "$*" >&2
+  cat log >&2
+  exit 1
+}
+
+status=0
+LD_PRELOAD=$library "$program" refocus bad.jpg -o out.jpg 2>log || status=$?
+[ $status = 1 ] || fail "expected exit code 1, found $status"
+[ "$(cat log)" = "starfocus: $error" ] || fail "expected the error: $error"
+[ ! -e out.jpg ] || fail "expected no output of a photo that cannot be decoded"
+
+status=0
+LD_PRELOAD=$library "$program" refocus bad.jpg good.jpg -o out 2>log || status=$?
+[ $status = 1 ] || fail "batch: expected exit code 1, found $status"
+grep -qxF "starfocus: $error" log || fail "batch: expected the error: $error"
+[ "$(ls -A out)" = good.jpg ] || fail "batch: expected good.jpg alone, found $(ls -A out)"
