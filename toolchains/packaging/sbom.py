@@ -30,6 +30,7 @@ LICENCES = {
     "libtiff": "libtiff",
     "LGPL-3-or-later": "LGPL-3.0-or-later",
     "LGPL-2.1-or-later": "LGPL-2.1-or-later",
+    "LGPL-2.1": "LGPL-2.1-only",
 }
 
 # Debian packages of the libraries in docs/third-party.md.
@@ -37,7 +38,8 @@ PACKAGES = {
     "Highway": "libhwy-dev", "stb_image, stb_image_write": "libstb-dev", "libjpeg-turbo": "libjpeg62-turbo-dev",
     "libpng": "libpng-dev", "libdeflate": "libdeflate-dev", "libwebp": "libwebp-dev", "libsixel": "libsixel-dev",
     "libtiff": "libtiff-dev", "libheif": "libheif-dev", "libexif": "libexif-dev", "Expat": "libexpat1-dev",
-    "CLI11": "libcli11-dev", "nlohmann-json": "nlohmann-json3-dev", "libgpiod": "libgpiod-dev",
+    "libseccomp": "libseccomp-dev", "CLI11": "libcli11-dev", "nlohmann-json": "nlohmann-json3-dev",
+    "libgpiod": "libgpiod-dev",
     "doctest": "doctest-dev", "Google Benchmark": "libbenchmark-dev",
 }
 
