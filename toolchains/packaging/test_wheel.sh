@@ -30,7 +30,7 @@ rm -rf "$root"
 make_bare_debian bookworm
 inside apt-get install -y --no-install-recommends python3-numpy python3-pil python3-venv
 try 'wheel in Debian 12' 'starfocus-*.whl'
-inside apt-get install -y --no-install-recommends g++ cmake ninja-build libhwy-dev libstb-dev libcli11-dev \
+inside apt-get install -y --no-install-recommends g++ cmake make libhwy-dev libstb-dev libcli11-dev \
   nlohmann-json3-dev libjpeg62-turbo-dev libpng-dev libdeflate-dev libwebp-dev libexpat1-dev libexif-dev \
   python3-setuptools python3-wheel
 try 'source archive in Debian 12' 'starfocus-*.tar.gz'
