@@ -11,7 +11,7 @@ folder=$(cd "$1" && pwd)
 cd "$(dirname "$0")/../.."
 # Debian packages whose code the wheel contains.
 linked="libc6-dev libstdc++-12-dev libhwy-dev libjpeg62-turbo-dev libpng-dev zlib1g-dev libdeflate-dev libwebp-dev
-  libexpat1-dev libexif-dev libsixel-dev libstb-dev libcli11-dev nlohmann-json3-dev"
+  libexpat1-dev libexif-dev libseccomp-dev libsixel-dev libstb-dev libcli11-dev nlohmann-json3-dev"
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct) PYTHONDONTWRITEBYTECODE=1 PIP_DISABLE_PIP_VERSION_CHECK=1
 export SOURCE_DATE_EPOCH PYTHONDONTWRITEBYTECODE PIP_DISABLE_PIP_VERSION_CHECK
 umask 022
