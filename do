@@ -47,8 +47,9 @@ usage: ./do COMMAND
   web [PORT]  build the npm package and a page to tap, and serve it on the loopback (8080)
           build   only makes them: build/web/npm and build/web/site, a static folder
           test    tries the package in node and the page in Chromium
-  package [test]  build Debian packages of the last commit in build/packages, and check them with
-          lintian; test: also install, run and remove them in a bare Debian (as root)
+  package [arm64|armhf] [test]  build Debian packages of the last commit in build/packages, and check
+          them with lintian; arm64 and armhf: for these machines, in build/packages-ARCH (as root);
+          test: also install, run and remove them in a bare Debian, emulated if necessary (as root)
   release VERSION  make all files of a release from a clean clone in build/release-VERSION/files
           VERSION twice  also in another folder, and compare all bytes
           --dry-run      only the files that need no compilation, and the ABI
@@ -452,7 +453,7 @@ case "${1:-help}" in
   cross) shift && cross "$@" ;;
   docs) docs ;;
   site) site ;;
-  package) package "${2:-}" ;;
+  package) shift && package "$@" ;;
   release) shift && release "$@" ;;
   wheel) wheel "${2:-}" ;;
   golden) golden ;;
