@@ -7,6 +7,7 @@
 
 #include "tests/support/image_field.h"
 #include "tests/support/prepared_memory.h"
+#include "tests/support/rounds.h"
 
 namespace images_bytes_test {
 namespace {
@@ -86,7 +87,7 @@ TEST_CASE(
   test::Random random(24);
   constexpr int kSizes[][2] = {{1, 1},   {2, 2},    {1, 77},   {131, 1}, {33, 31},
                                {64, 64}, {101, 67}, {150, 91}, {97, 130}};
-  for (int round = 0; round < 3 * kFormats; ++round) {
+  for (int round = 0; round < (test::kSlow ? 1 : 3) * kFormats; ++round) {
     CAPTURE(round);
     const auto& size = kSizes[round % 9];
     const test::Scene scene =
@@ -111,7 +112,7 @@ TEST_CASE(
     "images: regions with odd positions and sizes equal regions of pictures converted to R, G, B") {
   test::Random random(25);
   const test::Scene scene = test::LayeredScene(141, 163, 5, 7, 9);
-  for (int round = 0; round < 2 * kFormats; ++round) {
+  for (int round = 0; round < (test::kSlow ? 1 : 2) * kFormats; ++round) {
     CAPTURE(round);
     const ImageField field = AnyField(scene, round % kFormats, round, &random);
     starfocus_config config = test::ImageConfig(field);
