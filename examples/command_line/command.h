@@ -62,6 +62,9 @@ struct Command {
   std::function<Error()> run;
   std::vector<std::string> examples = {};  // Complete command lines, shown at the end of the help.
   const char* footer = "";                 // Notes between the options and the examples.
+  // Returns true if the parsed options make the command start other programs; null: never. Other
+  // commands give up the right to start programs.
+  std::function<bool()> starts_programs = nullptr;
 };
 
 struct Program {

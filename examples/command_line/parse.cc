@@ -11,6 +11,7 @@
 #include "examples/command_line/arguments.h"
 #include "examples/command_line/program.h"
 #include "platform/file.h"
+#include "platform/helper/helper.h"
 
 namespace starfocus {
 namespace {
@@ -205,6 +206,7 @@ Error RunCommandLine(const Program& program, int argc, char** argv) {
     return Error::Usage("command line", "a subcommand that `" + app.get_name() + " help` lists",
                         "none");
   }
+  if (!chosen.starts_programs || !chosen.starts_programs()) ConfineProgram();
   try {
     return chosen.run();
   } catch (const std::bad_alloc&) {

@@ -29,6 +29,11 @@ inline constexpr HelperLimits kDecoderLimits = {uint64_t{8} << 30, 300};
 void ConfineDecoders();
 bool DecodersAreConfined();
 
+// Gives up the right to use networks, to start other programs, and to access the memory of other
+// processes, until the program ends. Does nothing if decoders are not confined. Programs call the
+// function after ConfineDecoders and before they start threads.
+void ConfineProgram();
+
 // Runs `work` in a helper process, which ends afterwards, and `pass` in both processes to transfer
 // the result (channel.h). Returns an error, which starts with `where`, if the helper process
 // crashes, exceeds a limit, or does not send a whole result. Several threads may call the function

@@ -6,6 +6,8 @@ namespace starfocus {
 
 void ConfineDecoders() {}
 
+void ConfineProgram() {}
+
 bool DecodersAreConfined() { return false; }
 
 Error RunHelper(const std::string& where, const HelperLimits&, const std::function<void()>&,

@@ -29,6 +29,28 @@ constexpr int kPermitted[] = {
     SCMP_SYS(clock_gettime), SCMP_SYS(clock_gettime64), SCMP_SYS(gettimeofday),
     SCMP_SYS(clock_nanosleep), SCMP_SYS(nanosleep), SCMP_SYS(getrandom)};
 
+// System calls that a program which starts no other program does not need.
+constexpr int kForbidden[] = {
+    // networks
+    SCMP_SYS(socket), SCMP_SYS(socketpair), SCMP_SYS(socketcall), SCMP_SYS(io_uring_setup),
+    // programs
+    SCMP_SYS(execve), SCMP_SYS(execveat),
+    // other processes
+    SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv), SCMP_SYS(process_vm_writev),
+    SCMP_SYS(pidfd_getfd),
+    // the kernel
+    SCMP_SYS(bpf), SCMP_SYS(keyctl), SCMP_SYS(perf_event_open), SCMP_SYS(unshare),
+    SCMP_SYS(userfaultfd)};
+
+// Loads a filter for this process and its later threads, and frees the filter.
+bool Load(scmp_filter_ctx filter) {
+  // Older kernels otherwise slow down processes that have a filter (speculative store bypass).
+  seccomp_attr_set(filter, SCMP_FLTATR_CTL_SSB, 1);
+  const int failure = seccomp_load(filter);
+  seccomp_release(filter);
+  return failure == 0;
+}
+
 void Permit(scmp_filter_ctx filter, int call, const scmp_arg_cmp& condition) {
   seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, call, 1, &condition);
 }
@@ -52,15 +74,20 @@ void PermitPartly(scmp_filter_ctx filter) {
 bool RestrictSystemCalls() {
   const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
   if (filter == nullptr) return false;
-  // Older kernels otherwise slow down processes that have a filter (speculative store bypass).
-  seccomp_attr_set(filter, SCMP_FLTATR_CTL_SSB, 1);
   for (const int call : kPermitted) {
     seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, call, 0, nullptr);
   }
   PermitPartly(filter);
-  const int failure = seccomp_load(filter);
-  seccomp_release(filter);
-  return failure == 0;
+  return Load(filter);
+}
+
+bool ForbidSystemCalls() {
+  const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
+  if (filter == nullptr) return false;
+  for (const int call : kForbidden) {
+    seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(EPERM), call, 0, nullptr);
+  }
+  return Load(filter);
 }
 
 }  // namespace starfocus

@@ -10,6 +10,11 @@ namespace starfocus {
 // this process fail from now on. Returns false if the kernel does not support such filters.
 bool RestrictSystemCalls();
 
+// Forbids this process the system calls that connect to networks, start programs, access other
+// processes, or have often been used to attack the kernel. Returns false if the kernel does not
+// support such filters.
+bool ForbidSystemCalls();
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_PLATFORM_HELPER_SYSTEM_CALLS_H_

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # usage: crash_test.sh PROGRAM LIBRARY PHOTOS
 # Checks that a photo that makes a decoder crash causes one error, that a batch continues, and that no partial file
-# remains. LIBRARY makes libjpeg crash on the file whose size is $CRASH_SIZE. PHOTOS is a folder with small depth photos.
+# remains. Checks that commands that start no programs cannot connect to networks. LIBRARY makes libjpeg crash on the file
+# whose size is $CRASH_SIZE. PHOTOS is a folder with small depth photos.
 set -eu
 [ $# = 3 ] || { echo "usage: $0 PROGRAM LIBRARY PHOTOS" >&2; exit 2; }
 program=$1 library=$2
@@ -31,3 +32,11 @@ LD_PRELOAD=$library "$program" refocus bad.jpg good.jpg -o out 2>log || status=$
 [ $status = 1 ] || fail "batch: expected exit code 1, found $status"
 grep -qxF "starfocus: $error" log || fail "batch: expected the error: $error"
 [ "$(ls -A out)" = good.jpg ] || fail "batch: expected good.jpg alone, found $(ls -A out)"
+
+# The program itself decodes the views of light-field folders.
+export NO_NETWORK=1
+mkdir lf
+cp good.jpg lf/view_+0.0_+0.0.png
+LD_PRELOAD=$library "$program" info lf >log 2>&1 || fail "expected that a decoder cannot connect to a network"
+! (LD_PRELOAD=$library "$program" info lf --depth-command 'cp {input} {output}') >log 2>&1 ||
+  fail "expected that --depth-command keeps the network"

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -85,6 +86,23 @@ TEST_CASE("helper: files, networks, programs and other processes are out of reac
       [] { return unlink("/nonexistent/file") == 0 || errno == ENOENT; },
   });
   CHECK(codes == std::vector<int>(8, EPERM));
+}
+
+TEST_CASE("helper: a confined program reads files, but starts no programs and uses no networks") {
+  if (!HasHelpers()) return;
+  const pid_t child = fork();
+  if (child == 0) {
+    ConfineProgram();
+    const char* const arguments[] = {"/bin/true", nullptr};
+    bool right = open("/dev/null", O_RDONLY) >= 0;
+    right = right && socket(AF_INET, SOCK_STREAM, 0) < 0 && errno == EPERM;
+    right = right && execv("/bin/true", const_cast<char**>(arguments)) < 0 && errno == EPERM;
+    right = right && ErrorOf([] {}).empty();  // helper processes start as before
+    _exit(right ? 5 : 6);
+  }
+  int status = 0;
+  CHECK(waitpid(child, &status, 0) == child);
+  CHECK(WEXITSTATUS(status) == 5);
 }
 
 TEST_CASE("helper: no open file of the program is left but the channel") {

@@ -83,6 +83,7 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
       },
       command);
   AddDepthPictureOptions(command, &options->map);
+  command->starts_programs = [options] { return EstimatesDepth(*options); };
 }
 
 void AddRightOption(Command* command, InputOptions* options) {

@@ -74,7 +74,9 @@ Command AnalyzeCommand() {
            Whole(1, 128, &options->max_blur), Use::kDefault},
       },
       [options] { return Run(*options); },
-      {"starfocus-lab analyze", "starfocus-lab analyze -o analysis --max-blur 20"}};
+      {"starfocus-lab analyze", "starfocus-lab analyze -o analysis --max-blur 20"},
+      "",
+      [options] { return !options->folder.empty(); }};
 }
 
 }  // namespace starfocus
