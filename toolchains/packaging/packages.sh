@@ -23,9 +23,10 @@ make_cross_root() {
 }
 
 # build_packages FOLDER [ROOT ARCHITECTURE]: builds the packages next to FOLDER, which contains the source. With ROOT,
-# FOLDER is a path in the folder ROOT, which make_cross_root made. The packages have the date of the commit.
+# FOLDER is a path in the folder ROOT, which make_cross_root made. The packages have the date of the commit. No compiler
+# cache is used, because ccache changes paths in debug symbols if CCACHE_BASEDIR is set.
 build_packages() {
-  ${2:+chroot "$2"} sh -c "cd $1 && SOURCE_DATE_EPOCH=$(git log -1 --format=%ct) DEB_BUILD_OPTIONS=parallel=$(nproc) \
+  ${2:+chroot "$2"} env -u CMAKE_C_COMPILER_LAUNCHER -u CMAKE_CXX_COMPILER_LAUNCHER sh -c "cd $1 && SOURCE_DATE_EPOCH=$(git log -1 --format=%ct) DEB_BUILD_OPTIONS=parallel=$(nproc) \
     dpkg-buildpackage --build=binary --unsigned-changes --unsigned-source ${3:+--host-arch $3 --build-profiles=cross}"
 }
 
