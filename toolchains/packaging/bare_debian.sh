@@ -21,8 +21,9 @@ make_bare_debian() {
   quietly "$(dirname "$0")/debian_root.sh" "$root" "$1" "$architecture"
 }
 
-# inside COMMAND...: runs a command in the bare Debian. Prints the output only if the command fails.
+# inside COMMAND...: runs a command in the bare Debian, which lacks the compiler cache of this machine. Prints the output
+# only if the command fails.
 inside() {
-  quietly "$(dirname "$0")/emulate.sh" "$architecture" chroot "$root" env DEBIAN_FRONTEND=noninteractive \
-    LC_ALL=C.UTF-8 "$@"
+  quietly "$(dirname "$0")/emulate.sh" "$architecture" chroot "$root" env -u CMAKE_C_COMPILER_LAUNCHER \
+    -u CMAKE_CXX_COMPILER_LAUNCHER DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "$@"
 }
