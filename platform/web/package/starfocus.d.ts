@@ -2,13 +2,6 @@
 // Types of the npm package starfocus, which refocuses photos with depth, and light fields of 5, 9 or 17 views. The engine
 // runs in a worker, so all calls are asynchronous.
 //
-//   const photo = await openPhoto(image, depth);               // Blobs, ImageData, images, canvases
-//   const focus = await photo.focusAt({x, y});
-//   for await (const picture of photo.refocus({focus})) {      // a preview, then the full picture
-//     context.drawImage(await picture.toImageBitmap(), 0, 0, canvas.width, canvas.height);
-//   }
-//   photo.close();
-//
 // createRefocuser gives access to all settings of the engine. Its options, settings and parameters are the fields of
 // starfocus_config, starfocus_params and starfocus_lens in starfocus/starfocus.h, with JavaScript names: max_blur is
 // maxBlur. A field has the same meaning, range and default as in C, and pictures have the same bytes as pictures of the
