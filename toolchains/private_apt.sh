@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by scripts that download packages without changing the host. Defines private_apt, an apt with its own lists,
+# For scripts that download packages without changing the host. Defines private_apt, an apt with its own lists,
 # cache and package database in the new folder $work, which is removed when the script ends. The apt reads copies of the
 # host's package sources, keys and proxy settings. $architecture is the architecture of the packages.
 

@@ -23,10 +23,11 @@ make_cross_root() {
 }
 
 # build_packages FOLDER [ROOT ARCHITECTURE]: builds the packages next to FOLDER, which contains the source. With ROOT,
-# FOLDER is a path in the folder ROOT, which make_cross_root made. The packages have the date of the commit. No compiler
+# FOLDER is relative to the folder ROOT, which make_cross_root made. The packages have the date of the commit. No compiler
 # cache is used, because ccache changes paths in debug symbols if CCACHE_BASEDIR is set.
 build_packages() {
-  ${2:+chroot "$2"} env -u CMAKE_C_COMPILER_LAUNCHER -u CMAKE_CXX_COMPILER_LAUNCHER sh -c "cd $1 && SOURCE_DATE_EPOCH=$(git log -1 --format=%ct) DEB_BUILD_OPTIONS=parallel=$(nproc) \
+  ${2:+chroot "$2"} env -u CMAKE_C_COMPILER_LAUNCHER -u CMAKE_CXX_COMPILER_LAUNCHER \
+    "SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)" "DEB_BUILD_OPTIONS=parallel=$(nproc)" sh -c "cd $1 &&
     dpkg-buildpackage --build=binary --unsigned-changes --unsigned-source ${3:+--host-arch $3 --build-profiles=cross}"
 }
 
@@ -48,10 +49,10 @@ package() {
   rm -rf $folder && mkdir -p $folder
   if [ -n "$root" ]; then
     step cross-root "installing compilers and libraries for $architecture in $root" make_cross_root $root $architecture
-    rm -rf $root/work
-    step debian-source "copying HEAD to $root/work" make_debian_source $root/work/source
-    step packages "building packages" build_packages /work/source $root $architecture
-    mv $root/work/*.* $folder
+    rm -rf $root/packages
+    step debian-source "copying HEAD to $root/packages" make_debian_source $root/packages/source
+    step packages "building packages" build_packages packages/source $root $architecture
+    mv $root/packages/*.* $folder
   else
     step debian-source "copying HEAD to $folder/source" make_debian_source $folder/source
     step packages "building packages" build_packages $folder/source
