@@ -36,6 +36,15 @@ bool HasPixels(int width, int height, size_t samples, size_t found) {
          uint64_t(width) * uint64_t(height) * samples == found;
 }
 
+// Passes a picture or a map with `samples` samples for each pixel.
+template <class Values>
+void PassPixels(Channel* channel, int* width, int* height, size_t samples, Values* values) {
+  channel->Value(width);
+  channel->Value(height);
+  channel->Block(values);
+  channel->Require(HasPixels(*width, *height, samples, values->size()));
+}
+
 }  // namespace
 
 Channel::Channel(int file, Direction direction) : file_(file), direction_(direction) {
@@ -107,18 +116,12 @@ void Pass(Channel* channel, bool* value) { channel->Value(value); }
 
 void Pass(Channel* channel, Image* image) {
   auto& [width, height, pixels] = *image;
-  channel->Value(&width);
-  channel->Value(&height);
-  channel->Block(&pixels);
-  channel->Require(HasPixels(width, height, 3, pixels.size()));
+  PassPixels(channel, &width, &height, 3, &pixels);
 }
 
 void Pass(Channel* channel, FloatMap* map) {
   auto& [width, height, values] = *map;
-  channel->Value(&width);
-  channel->Value(&height);
-  channel->Block(&values);
-  channel->Require(HasPixels(width, height, 1, values.size()));
+  PassPixels(channel, &width, &height, 1, &values);
 }
 
 void Pass(Channel* channel, Metadata* metadata) {

@@ -145,8 +145,8 @@ double MedianOf(std::vector<double> values) {
   return *middle;
 }
 
-// Solves the normal equations of a plane by Gaussian elimination. The plane has the height
-// plane[0] + plane[1] * x + plane[2] * y. Returns false if the points do not define a plane.
+// Computes the plane whose normal equations are `rows`, by Gaussian elimination. The plane has the
+// height plane[0] + plane[1] * x + plane[2] * y. Returns false if the points do not define a plane.
 bool Solve(double (&rows)[3][4], double* plane) {
   constexpr double kLeastPivot = 1e-6;  // The pivots of points on a line are 0 up to rounding.
   for (int k = 0; k < 3; ++k) {
