@@ -4,7 +4,8 @@
 # wheel [test]: builds the source archive and the wheel of HEAD in build/wheel. With `test`, also runs the tests of the
 # Python package with the wheel, and installs both into bare Debians.
 wheel() {
-  local folder=build/wheel target
+  local folder=build/wheel
+  case "${1:-}" in test | '') ;; *) fail "usage: ./do wheel [test]" ;; esac
   require dpkg-dev python3-pip python3-setuptools python3-wheel
   step wheel "building the wheel and the source archive in $folder" toolchains/packaging/build_wheel.sh $folder
   tail -n 1 "$LOGS/wheel.log"
