@@ -73,6 +73,7 @@ void DoubtTile(const void* data, int32_t index, int32_t worker) {
 }
 
 // Chooses the disparity with the smallest sum for a doubtful pixel, and computes the pixel's gain.
+// On ramps, the map's disparity lies between two surfaces and is never chosen.
 // Returns the cost of the best other surface minus the cost of the chosen surface, divided by the
 // number of paths.
 uint8_t Choose(const ColourJob& job, size_t at, const Choices& choices) {
@@ -88,7 +89,8 @@ uint8_t Choose(const ColourJob& job, size_t at, const Choices& choices) {
     margin = Min(margin, choices.sum[k] - choices.sum[best]);
   }
   const bool same = Abs(choices.disparity[best] - given) <= kSameSurface;
-  job.chosen[at] = same ? static_cast<int16_t>(given) : choices.disparity[best];
+  const bool keeps = same && job.memory->doubt[at] != 0;
+  job.chosen[at] = keeps ? static_cast<int16_t>(given) : choices.disparity[best];
   job.memory->gain[at] =
       same ? int16_t{0} : static_cast<int16_t>(choices.cost[own] - choices.cost[best]);
   return static_cast<uint8_t>(margin / kPaths);
@@ -101,8 +103,10 @@ uint8_t* ConfidenceAt(const ColourJob& job, int32_t x, int32_t y) {
          static_cast<size_t>(x);
 }
 
-// Returns true if a doubtful pixel would change.
-bool Differs(const ColourJob& job, size_t at) { return job.chosen[at] != job.map.disparity[at]; }
+// Returns true if a doubtful pixel would move to another surface.
+bool Differs(const ColourJob& job, size_t at) {
+  return Abs(job.chosen[at] - job.map.disparity[at]) > kSameSurface;
+}
 
 TileCount CountTile(const ColourJob& job, const Rect& tile) {
   TileCount count = {};
@@ -193,7 +197,8 @@ float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
 void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
   const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
   const bool known = std::isfinite(GivenAt(job.map.light_field, y)[x]), differs = Differs(job, at);
-  const bool changes = !known || (differs && !keeps && IsGainsaid(job, x, y));
+  const bool moves = differs ? IsGainsaid(job, x, y) : job.chosen[at] != job.map.disparity[at];
+  const bool changes = !known || (moves && !keeps);
   if (changes) {
     const float written = job.output.Clamped(MeanOfSurface(job, x, y));
     job.output.disparity[row * job.output.stride + column] = written;
@@ -298,6 +303,12 @@ void EvenTile(const void* data, int32_t index, int32_t) {
     int16_t even[kMostMajority];
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       TakeMajority(job.map, {cell.x, y, cell.width, 1}, even);
+      const size_t at = job.map.At(cell.x, y);
+      ForDoubtful(job.memory->doubt + at, cell.width, [&](int32_t k) {
+        if (even[k] == job.map.disparity[at + static_cast<size_t>(k)]) {
+          even[k] = MedianOfSurface(job.map, cell.x + k, y);
+        }
+      });
       for (int32_t k = 0; k < cell.width; ++k) Change(job, cell.x + k, y, even[k]);
     }
   });

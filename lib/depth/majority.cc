@@ -15,6 +15,10 @@ constexpr int32_t kWidths[kRadius + 1] = {5, 4, 4, 4, 3, 0};
 // the difference between both colours.
 constexpr int32_t kNearWeight = 36, kColourWeight = 64;
 
+// A pixel moves to the median of its surface only if both differ by more than kRough, in fixed
+// point (kDisparityBits).
+constexpr int32_t kRough = (1 << kDisparityBits) / 4;
+
 // Range of the disparities around a pixel, or of the disparities in a column.
 struct MajorityRange {
   int32_t low = INT16_MAX, high = INT16_MIN;
@@ -49,6 +53,28 @@ struct ColumnRanges {
   }
 };
 
+// The disparities of a pixel and of those of its eight neighbours that are on the pixel's surface.
+struct SurfaceAround {
+  int16_t sorted[9];
+  int32_t count = 0;
+
+  SurfaceAround(const ColourMap& map, int32_t x, int32_t y) {
+    const int32_t own = map.disparity[map.At(x, y)];
+    const Rect around = Widened(map.plan, {x, y, 1, 1}, 1);
+    for (int32_t row = around.y; row < around.y + around.height; ++row) {
+      const int16_t* disparities = map.disparity + map.At(around.x, row);
+      for (int32_t k = 0; k < around.width; ++k) {
+        if (Abs(disparities[k] - own) <= kMajorityStep) Insert(disparities[k]);
+      }
+    }
+  }
+  void Insert(int16_t disparity) {
+    int32_t at = count++;
+    for (; at > 0 && sorted[at - 1] > disparity; --at) sorted[at] = sorted[at - 1];
+    sorted[at] = disparity;
+  }
+};
+
 int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const MajorityRange& range) {
   const int32_t own = map.disparity[map.At(x, y)], middle = (range.low + range.high) / 2;
   const uint8_t* colour = map.Pixel(x, y);
@@ -67,8 +93,14 @@ int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const MajorityRan
     }
   }
   const int own_side = own > middle ? 1 : 0, other = 1 - own_side;
-  if (votes[other] <= votes[own_side]) return static_cast<int16_t>(own);
-  return static_cast<int16_t>(sums[other] / votes[other]);
+  if (votes[other] > votes[own_side]) return static_cast<int16_t>(sums[other] / votes[other]);
+  constexpr int32_t kOwnVote = kNearWeight * kColourWeight;
+  // A pixel that is alone with its disparity joins the other pixels of its side.
+  if (votes[own_side] == kOwnVote || SurfaceAround(map, x, y).count > 1) {
+    return static_cast<int16_t>(own);
+  }
+  return static_cast<int16_t>((sums[own_side] - int64_t{kOwnVote} * own) /
+                              (votes[own_side] - kOwnVote));
 }
 
 }  // namespace
@@ -81,6 +113,13 @@ void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
     const MajorityRange range = columns.Around(row.x + k);
     if (!range.IsOneSurface()) disparity[k] = MajorityAt(map, row.x + k, row.y, range);
   }
+}
+
+int16_t MedianOfSurface(const ColourMap& map, int32_t x, int32_t y) {
+  const int16_t own = map.disparity[map.At(x, y)];
+  const SurfaceAround around(map, x, y);
+  const int16_t median = around.sorted[around.count / 2];
+  return Abs(median - own) > kRough ? median : own;
 }
 
 }  // namespace starfocus

@@ -100,6 +100,45 @@ TEST_CASE("colour repair: a ramp of disparity between two surfaces becomes a ste
   CHECK(CountWrong(Repair(photo).map, truth) < 20);
 }
 
+// Returns the map at a quarter of its size and interpolated bilinearly to full size, as network
+// maps are enlarged.
+std::vector<float> Enlarged(const Photo& photo) {
+  const int columns = photo.width / 4, rows = photo.height / 4;
+  std::vector<float> small(size_t(columns) * size_t(rows)), map;
+  for (int y = 0; y < 4 * rows; ++y) {
+    for (int x = 0; x < 4 * columns; ++x) {
+      small[size_t(y / 4 * columns + x / 4)] += photo.map[photo.At(x, y)] / 16;
+    }
+  }
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const float u = std::clamp((float(x) - 1.5F) / 4, 0.0F, float(columns - 1));
+      const float v = std::clamp((float(y) - 1.5F) / 4, 0.0F, float(rows - 1));
+      const int left = std::min(int(u), columns - 2), top = std::min(int(v), rows - 2);
+      const float* at = small.data() + top * columns + left;
+      const float right = u - float(left), down = v - float(top);
+      map.push_back((at[0] * (1 - right) + at[1] * right) * (1 - down) +
+                    (at[columns] * (1 - right) + at[columns + 1] * right) * down);
+    }
+  }
+  return map;
+}
+
+TEST_CASE("colour repair: no pixel within a surface keeps a part of the ramp of an enlarged map") {
+  const Photo truth = MakeDisc(0, 12, -4);
+  Photo photo = truth;
+  photo.map = Enlarged(truth);
+  const std::vector<float> map = Repair(photo).map;
+  int lower = 0;
+  for (int y = 0; y < photo.height; ++y) {
+    for (int x = 0; x < photo.width; ++x) {
+      const float d = map[photo.At(x, y)];
+      lower += std::hypot(x - 151.3, y - 66.2) < 38 && d < 11.25F;
+    }
+  }
+  CHECK(lower == 0);
+}
+
 TEST_CASE("colour repair: mixed pixels of a soft edge become part of the near surface") {
   Photo photo = MakeDisc(-3);
   const Photo wall = MakeDisc(-50), sharp = MakeDisc(0);

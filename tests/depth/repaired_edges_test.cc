@@ -112,5 +112,32 @@ TEST_CASE("repaired edges: TakeMajority moves displaced rows back to the edge of
   CHECK(left == 0);
 }
 
+TEST_CASE("repaired edges: a pixel alone between two surfaces joins one; two pixels stay") {
+  for (const int length : {1, 2}) {
+    Scene scene;
+    scene.Fill(
+        1, [](int) { return 48; }, 48);
+    const int16_t between = kNear * 5 / 8;
+    for (int y = 30; y < 30 + length; ++y) scene.map[size_t(y) * kWidth + 47] = between;
+    int16_t row[32];
+    starfocus::TakeMajority(scene.Map(), {32, 30, 32, 1}, row);
+    CHECK(row[15] == (length == 1 ? kNear : between));
+  }
+}
+
+TEST_CASE("repaired edges: MedianOfSurface ignores other surfaces and small differences") {
+  Scene scene;
+  scene.Fill(
+      1, [](int) { return 48; }, 48);
+  const auto set = [&](int x, int y, int below) {
+    scene.map[size_t(y) * kWidth + size_t(x)] = int16_t(kNear - below);
+  };
+  const int quarter = 1 << (starfocus::kDisparityBits - 2);
+  set(47, 20, quarter + 1);
+  set(47, 30, quarter);
+  CHECK(starfocus::MedianOfSurface(scene.Map(), 47, 20) == kNear);
+  CHECK(starfocus::MedianOfSurface(scene.Map(), 47, 30) == kNear - quarter);
+}
+
 }  // namespace
 }  // namespace repaired_edges_test
