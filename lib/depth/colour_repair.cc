@@ -296,16 +296,19 @@ void WidenTile(const void* data, int32_t index, int32_t) {
   });
 }
 
+// Assigns pixels near outlines to the surface of most surrounding pixels. Unless the map is assumed
+// to be right, also removes rests of ramps from the surfaces.
 void EvenTile(const void* data, int32_t index, int32_t) {
   static_assert(kMostCellSide <= kMostMajority, "rows of cells");
   const ColourJob& job = JobOf(data);
+  const bool right = job.memory->least_gain == kGains.right;
   ForSteps(job, index, kMajorityReach, kMajorityStep, true, [&](const Rect& cell) {
     int16_t even[kMostMajority];
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       TakeMajority(job.map, {cell.x, y, cell.width, 1}, even);
       const size_t at = job.map.At(cell.x, y);
       ForDoubtful(job.memory->doubt + at, cell.width, [&](int32_t k) {
-        if (even[k] == job.map.disparity[at + static_cast<size_t>(k)]) {
+        if (!right && even[k] == job.map.disparity[at + static_cast<size_t>(k)]) {
           even[k] = MedianOfSurface(job.map, cell.x + k, y);
         }
       });
