@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "platform/file.h"
+#include "platform/signal_cleanup.h"
 
 namespace starfocus {
 
@@ -29,6 +30,8 @@ Result<std::vector<std::string>> ListFolder(const std::string& folder) {
 
 Error MakeFolder(const std::string& folder) {
   std::error_code error;
+  // A signal handler that removes a temporary folder ends the program before it can come back.
+  const SignalCleanup::Turn turn;
   std::filesystem::create_directories(folder, error);
   if (error) return Cannot("create folder", folder, error);
   if (std::filesystem::is_directory(folder, error)) return {};

@@ -54,11 +54,12 @@ class Shell {
     posix_spawnattr_setflags(
         &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     posix_spawnattr_setpgroup(&attributes, 0);
-    // The command must not inherit ignored signals: the program ignores SIGPIPE, and a caller may
-    // ignore SIGCHLD.
+    // The command must not inherit ignored signals: the program ignores SIGPIPE and SIGXFSZ, and a
+    // caller may ignore SIGCHLD.
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGPIPE);
+    sigaddset(&signals, SIGXFSZ);
     sigaddset(&signals, SIGCHLD);
     posix_spawnattr_setsigdefault(&attributes, &signals);
     const char* arguments[] = {"sh", "-c", command.c_str(), nullptr};

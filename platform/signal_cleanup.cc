@@ -9,10 +9,11 @@
 namespace starfocus {
 namespace {
 
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+// Signals of users and systems that end a program. Profilers need SIGPROF for themselves.
+constexpr int kSignals[] = {SIGHUP, SIGINT, SIGQUIT, SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU};
 
 std::atomic<bool> taken{false};  // Spin lock of the list.
-SignalCleanup* first = nullptr;  // Head of the list.
+SignalCleanup* entries = nullptr;  // head of the list
 
 void Take() {
   while (taken.exchange(true)) sched_yield();
@@ -37,13 +38,13 @@ SignalCleanup::Turn::~Turn() {
 void SignalCleanup::Add(const Turn&, void (*clean)(const void*), const void* data) {
   clean_ = clean;
   data_ = data;
-  next_ = first;
+  next_ = entries;
   if (next_ != nullptr) next_->previous_ = this;
-  first = this;
+  entries = this;
 }
 
 void SignalCleanup::Remove(const Turn&) {
-  (previous_ != nullptr ? previous_->next_ : first) = next_;
+  (previous_ != nullptr ? previous_->next_ : entries) = next_;
   if (next_ != nullptr) next_->previous_ = previous_;
   *this = {};
 }
@@ -52,7 +53,7 @@ void SignalCleanup::Remove(const Turn&) {
 // blocked until the program ends.
 void SignalCleanup::CleanAllAndEnd(int number) {
   Take();
-  for (const SignalCleanup* entry = first; entry != nullptr; entry = entry->next_) {
+  for (const SignalCleanup* entry = entries; entry != nullptr; entry = entry->next_) {
     entry->clean_(entry->data_);
   }
   signal(number, SIG_DFL);
@@ -77,7 +78,7 @@ void SignalCleanup::Install() {
 }
 
 void SignalCleanup::Uninstall(const Turn&) {
-  first = nullptr;
+  entries = nullptr;
   for (const int number : kSignals) {
     struct sigaction action = {};
     if (sigaction(number, nullptr, &action) != 0 || action.sa_handler != CleanAllAndEnd) continue;

@@ -33,8 +33,9 @@ class SignalCleanup {
   void Remove(const Turn&);
   bool is_listed() const { return clean_ != nullptr; }
 
-  // Installs handlers for SIGINT, SIGTERM and SIGHUP, which run the cleanups of all threads and end
-  // the program. Signals that the process ignores remain ignored.
+  // Installs handlers for SIGINT, SIGTERM and other signals that end a program. The handlers run
+  // the cleanups of all threads and end the program. Signals that the process ignores remain
+  // ignored.
   static void Install();
 
   // Restores the default handlers and empties the list, in a child process whose parent process

@@ -46,6 +46,7 @@ std::string VersionText(const std::string& name) {
 
 int RunProgram(const char* name, const std::function<Error()>& run) {
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit of file sizes then fails with an error
   signal(SIGCHLD, SIG_DFL);  // if the parent ignores it, the ends of child processes are lost
   SignalCleanup::Install();
   ConfineDecoders();

@@ -4,6 +4,8 @@
 #include "examples/command_line/program.h"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -14,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/file.h"
 #include "platform/light_field.h"
 #include "platform/temporary_file.h"
 #include "tests/cli/call_program.h"
@@ -45,6 +48,23 @@ TEST_CASE("program: a program that a signal ends leaves no temporary file") {
     });
   });
   CHECK(WIFSIGNALED(status));
+  CHECK(folder.count() == 0);
+}
+
+TEST_CASE("program: a limit of file sizes causes one error and leaves no file") {
+  TempFolder folder;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    constexpr rlimit kSmall = {1000, 1000}, kNoCore = {};
+    setrlimit(RLIMIT_CORE, &kNoCore);
+    setrlimit(RLIMIT_FSIZE, &kSmall);
+    _exit(RunProgram("test", [&] { return WriteFile(folder.file("out"), Bytes(100000)); }));
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 1);
   CHECK(folder.count() == 0);
 }
 

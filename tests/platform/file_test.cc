@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -184,9 +185,11 @@ TEST_CASE("file: WriteFile returns an error if the device is full") {
 }
 
 TEST_CASE("file: signals that end the program leave no temporary file") {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU}) {
     TempFolder folder;
     const int status = EndBySignal(signal, [&](const auto& begun) {
+      constexpr rlimit kNoCore = {};
+      setrlimit(RLIMIT_CORE, &kNoCore);
       SignalCleanup::Install();
       TemporaryFile one(folder.path()), other(folder.path());
       if (folder.count() == 2 && begun()) {

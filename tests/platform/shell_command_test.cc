@@ -4,14 +4,17 @@
 
 #include <doctest/doctest.h>
 #include <signal.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 
 #include "platform/clock.h"
 #include "platform/file.h"
+#include "platform/helper/helper.h"
 #include "platform/signal_cleanup.h"
 #include "platform/temporary_folder.h"
 #include "tests/support/child.h"
@@ -107,6 +110,43 @@ TEST_CASE("shell_command: a signal ends the command and removes its folder") {
     CHECK(WTERMSIG(status) == signal);
     CHECK(folder.count() == 1);
     CHECK(Await([&] { return HasEnded(folder.file("id")); }));
+  }
+}
+
+TEST_CASE("temporary_folder: every signal removes the whole folder of a program without exec") {
+  namespace fs = std::filesystem;
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU}) {
+    CAPTURE(signal);
+    TempFolder folder, other;
+    REQUIRE(WriteText(other.file("kept"), "text") == "");
+    setenv("TMPDIR", folder.path().c_str(), 1);
+    const int status = EndBySignal(signal, [&](const auto& begun) {
+      constexpr rlimit kNoCore = {};
+      setrlimit(RLIMIT_CORE, &kNoCore);
+      ConfineDecoders();
+      ConfineProgram();
+      SignalCleanup::Install();
+      TemporaryFolder own;
+      if (own.Create() != "") _exit(1);
+      std::string deep = own.path();
+      for (int level = 0; level < 12; ++level) {
+        deep += "/" + std::string(50, 'd');
+        fs::create_directories(deep + "/empty");
+        std::ofstream(deep + "/file") << "text";
+      }
+      for (int k = 0; k < 100; ++k) {  // more entries than fit into the buffer of the handler
+        std::ofstream(own.path() + "/" + std::to_string(k)) << "text";
+      }
+      fs::create_directory_symlink(other.path(), own.path() + "/link");
+      if (begun()) {
+        for (;;) pause();
+      }
+    });
+    unsetenv("TMPDIR");
+    CHECK(WIFSIGNALED(status));
+    CHECK(WTERMSIG(status) == signal);
+    CHECK(folder.count() == 0);
+    CHECK(other.count() == 1);
   }
 }
 
