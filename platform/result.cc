@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/result.h"
 
+#include "platform/text.h"
+
 namespace starfocus {
 namespace {
 
@@ -10,11 +12,7 @@ std::string Line(const std::string& where, const std::string& expected, const st
 
 }  // namespace
 
-Error::Error(ErrorKind kind, std::string line) : kind_(kind), line_(std::move(line)) {
-  for (char& c : line_) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-}
+Error::Error(ErrorKind kind, std::string line) : kind_(kind), line_(Printable(std::move(line))) {}
 
 Error Error::Usage(const std::string& option, const std::string& expected,
                    const std::string& found) {

@@ -18,6 +18,10 @@ std::string SizeText(int64_t width, int64_t height);
 // Converts the letters A to Z to lower case.
 std::string Lower(std::string text);
 
+// Replaces control characters by spaces: the characters below U+0020, U+007F, and U+0080 to U+009F,
+// which terminals interpret, in UTF-8 or as single bytes. Other characters of UTF-8 are unchanged.
+std::string Printable(std::string text);
+
 // Escapes a text for XML and HTML: replaces markup characters and line breaks by character
 // references.
 std::string EscapeXml(const std::string& text);
