@@ -7,12 +7,15 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <utility>
+
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
 
-// Limit of a block: the values of a map of 2^28 pixels.
-constexpr uint64_t kMostBlock = uint64_t{1} << 30;
+constexpr int64_t kMostPixels = int64_t{1} << 28;  // the limit of all decoders
+constexpr size_t kMostText = 65536;
 // Values of at least this size are sent without a copy to the buffer.
 constexpr size_t kLargeValue = 4096;
 constexpr size_t kBuffer = 65536;
@@ -30,24 +33,26 @@ ssize_t Send(int file, const uint8_t* data, size_t size) {
   return write(file, data, size);
 }
 
-bool HasPixels(int width, int height, size_t samples, size_t found) {
-  if (width == 0 || height == 0) return width == 0 && height == 0 && found == 0;
-  return width > 0 && height > 0 && width <= kMaxPictureSize && height <= kMaxPictureSize &&
-         uint64_t(width) * uint64_t(height) * samples == found;
-}
-
-// Passes a picture or a map with `samples` samples for each pixel.
+// Passes a picture or a map with `samples` samples for each pixel. The size is checked before
+// memory for the samples is allocated.
 template <class Values>
 void PassPixels(Channel* channel, int* width, int* height, size_t samples, Values* values) {
   channel->Value(width);
   channel->Value(height);
-  channel->Block(values);
-  channel->Require(HasPixels(*width, *height, samples, values->size()));
+  const int64_t pixels = int64_t{*width} * *height;
+  channel->Require(*width >= 0 && *height >= 0 && (*width == 0) == (*height == 0) &&
+                   *width <= kMaxPictureSize && *height <= kMaxPictureSize &&
+                   pixels <= kMostPixels);
+  if (!channel->is_sound()) return;
+  const size_t count = static_cast<size_t>(pixels) * samples;
+  channel->Block(values, count);
+  channel->Require(values->size() == count);
 }
 
 }  // namespace
 
-Channel::Channel(int file, Direction direction) : file_(file), direction_(direction) {
+Channel::Channel(int file, Direction direction, Wait wait)
+    : file_(file), direction_(direction), wait_(std::move(wait)) {
   if (direction == Direction::kSend) buffer_.reserve(kBuffer + kLargeValue);
 }
 
@@ -57,10 +62,16 @@ void Channel::Value(bool* value) {
   *value = byte != 0;
 }
 
-size_t Channel::Count(size_t count, size_t element) {
+void Channel::Text(std::string* text) {
+  if (text->size() > kMostText) text->resize(kMostText);
+  Block(text, kMostText);
+  if (direction_ == Direction::kReceive) *text = Printable(std::move(*text));
+}
+
+size_t Channel::Count(size_t count, uint64_t most) {
   uint64_t number = count;
   Value(&number);
-  Require(number <= kMostBlock / element);
+  Require(number <= most);
   return is_sound_ ? static_cast<size_t>(number) : 0;
 }
 
@@ -102,12 +113,17 @@ void Channel::Write(const uint8_t* data, size_t size) {
 
 void Channel::Read(uint8_t* data, size_t size) {
   while (size > 0 && is_sound_) {
+    Require(wait_(received_));
+    received_ = 0;
+    if (!is_sound_) return;
     const ssize_t got = read(file_, data, size);
     if (got < 0 && errno == EINTR) continue;
+    is_closed_ = got == 0;
     Require(got > 0);
     if (!is_sound_) return;
+    received_ = static_cast<size_t>(got);
     data += got;
-    size -= static_cast<size_t>(got);
+    size -= received_;
   }
 }
 
@@ -142,7 +158,7 @@ void Pass(Channel* channel, Error* error) {
   ErrorKind kind = error->kind();
   std::string line = error->line();
   channel->Value(&kind);
-  channel->Block(&line);
+  channel->Text(&line);
   channel->Require(kind >= ErrorKind::kNone && kind <= ErrorKind::kInternal);
   if (channel->direction() == Direction::kReceive) *error = Error(kind, line);
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -22,12 +23,18 @@ namespace starfocus {
 
 enum class Direction { kSend, kReceive };
 
-// One end of a pipe. The receiver does not trust the sender: sizes are limited, and after the first
-// wrong or missing byte the channel ignores all further calls.
+// One end of a pipe. The receiver does not trust the sender: sizes are limited, control characters
+// are removed from texts, and after the first wrong or missing byte the channel ignores all further
+// calls.
 class Channel {
  public:
-  // `file` is an open descriptor, which the caller closes.
-  Channel(int file, Direction direction);
+  // Waits until a read does not block, or returns false to end the transfer. The argument is the
+  // number of bytes that have been received since the last call.
+  using Wait = std::function<bool(size_t received)>;
+
+  // `file` is an open descriptor, which the caller closes. The receiver calls `wait` before each
+  // read.
+  Channel(int file, Direction direction, Wait wait = nullptr);
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
@@ -39,11 +46,11 @@ class Channel {
   }
   void Value(bool* value);
 
-  // Sends or receives the bytes of a vector or a text.
+  // Sends or receives a vector or the bytes of a text, with at most `most` elements.
   template <class T>
-  void Block(T* block) {
+  void Block(T* block, uint64_t most = kMostElements) {
     constexpr size_t kElement = sizeof(*block->data());
-    size_t count = Count(block->size(), kElement);
+    const size_t count = Count(block->size(), most);
     // Receive in parts that fit into the cache, because the vector sets new elements to zero.
     for (size_t begin = 0; begin < count && is_sound_;) {
       const size_t end = std::min(count, begin + kPart / kElement);
@@ -61,12 +68,14 @@ class Channel {
     if (count == 0) block->clear();
   }
 
-  // Sends or receives a vector whose elements `pass(element)` passes. At most kMostElements.
+  // Sends or receives a text that programs print. Longer texts than 64 KiB are cut off.
+  void Text(std::string* text);
+
+  // Sends or receives a vector whose elements `pass(element)` passes. At most 1000.
   template <class T, class F>
   void List(std::vector<T>* list, F pass) {
-    constexpr size_t kMostElements = 1000;
-    const size_t count = Count(list->size(), 1);
-    Require(count <= kMostElements);
+    constexpr uint64_t kMostOfList = 1000;
+    const size_t count = Count(list->size(), kMostOfList);
     if (direction_ == Direction::kReceive) list->assign(is_sound_ ? count : 0, T());
     for (T& element : *list) pass(&element);
   }
@@ -79,22 +88,28 @@ class Channel {
 
   // Returns true if all calls succeeded so far.
   bool is_sound() const { return is_sound_; }
+  // Returns true if the sender has closed the pipe before the end of the transfer.
+  bool is_closed() const { return is_closed_; }
   Direction direction() const { return direction_; }
 
  private:
   static constexpr size_t kPart = size_t{1} << 18;
+  // Limit of a block of metadata. Pictures and maps have as many elements as their sizes state.
+  static constexpr uint64_t kMostElements = uint64_t{1} << 30;
 
   // Asks the system for large pages, which take a fraction of the time of small ones to map.
   static void PreferLargePages(void* data, size_t size);
   void Move(void* data, size_t size);
-  // Sends or receives the number of elements of a block, and checks it against the limits.
-  size_t Count(size_t count, size_t element);
+  // Sends or receives a number of elements, and requires that it is at most `most`.
+  size_t Count(size_t count, uint64_t most);
   void Write(const uint8_t* data, size_t size);
   void Read(uint8_t* data, size_t size);
 
   int file_;
   Direction direction_;
-  bool is_sound_ = true;
+  Wait wait_;
+  size_t received_ = 0;  // bytes since the last call of wait_
+  bool is_sound_ = true, is_closed_ = false;
   std::vector<uint8_t> buffer_;  // small values that will be sent together
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes files from strangers in a helper process without rights. The helper process cannot open
 // files, connect to a network, start programs or signal other processes, and its memory and its
-// processor time are limited. The decoders of this program and of the libraries it uses run there:
-// if a file makes a decoder crash or loop, the program reports an error and continues.
+// time are limited. The decoders of this program and of the libraries it uses run there: if a file
+// makes a decoder crash, loop or wait forever, the program reports an error and continues.
 #ifndef STARFOCUS_PLATFORM_HELPER_HELPER_H_
 #define STARFOCUS_PLATFORM_HELPER_HELPER_H_
 
@@ -16,13 +16,17 @@
 namespace starfocus {
 
 struct HelperLimits {
-  uint64_t bytes;    // memory in addition to that of the program
-  unsigned seconds;  // processor time, summed over the threads of the helper
+  uint64_t bytes;       // memory in addition to that of the program
+  unsigned seconds;     // processor time, summed over the threads of the helper
+  double wall_seconds;  // time for which the program waits for the result (watch.h)
+  double idle_seconds;  // time for which it waits without progress of the helper (watch.h)
 };
 
 // A picture of 2^28 pixels, the limit of all decoders, takes less than 6 GiB: a progressive JPEG
 // file needs 2 GiB for the file, 1.6 GiB for coefficients and 0.8 GiB each for up to two pictures.
-inline constexpr HelperLimits kDecoderLimits = {uint64_t{8} << 30, 300};
+// A decoder either computes or sends its result. The limit of the whole time stops decoders that
+// only pretend to make progress.
+inline constexpr HelperLimits kDecoderLimits = {uint64_t{8} << 30, 300, 600, 10};
 
 // Lets Confined start helper processes, if this build supports them. Programs call the function
 // once, before they start threads. Without this call, Confined decodes in the calling process.

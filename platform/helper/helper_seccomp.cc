@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -13,10 +15,13 @@
 #include <exception>
 #include <fstream>
 #include <new>
+#include <sstream>
 #include <system_error>
 
+#include "platform/helper/decoder_threads.h"
 #include "platform/helper/helper.h"
 #include "platform/helper/system_calls.h"
+#include "platform/helper/watch.h"
 #include "platform/signal_cleanup.h"
 
 namespace starfocus {
@@ -61,11 +66,26 @@ void GiveUpRights(int file, const HelperLimits& limits) {
   RestrictSystemCalls();
 }
 
+// Ends a helper process that crashes or is told to end. If less memory is left than a thread needs,
+// the lack of memory is the cause: libraries wait forever for threads that they could not start,
+// and end the process if an allocation fails.
+void EndOnSignal(int number) {
+  constexpr size_t kThread = size_t{64} << 20;
+  if (mmap(nullptr, kThread, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED) {
+    _exit(kNoMemory);
+  }
+  signal(number, SIG_DFL);
+  raise(number);
+}
+
 // Runs in the helper process.
 [[noreturn]] void Serve(int file, const HelperLimits& limits, const std::function<void()>& work,
-                        const std::function<void(Channel*)>& pass) noexcept {
+                        const std::function<void(Channel*)>& pass, unsigned turn) noexcept {
   confined = false;
+  std::set_new_handler([] { _exit(kNoMemory); });
+  for (const int number : {SIGABRT, SIGSEGV, SIGBUS}) signal(number, EndOnSignal);
   try {
+    UseDecoderThreads(turn);
     Channel channel(file, Direction::kSend);
     GiveUpRights(file, limits);
     std::string problem;
@@ -105,22 +125,52 @@ bool RunsUnderValgrind() {
   return preloaded != nullptr && std::strstr(preloaded, "/vgpreload_") != nullptr;
 }
 
-int WaitFor(pid_t helper) {
-  int status = 0;
-  while (waitpid(helper, &status, 0) < 0 && errno == EINTR) {
+// Waits up to half a second for the end of the helper process. Returns true if it has ended.
+bool Ends(pid_t helper, int* status) {
+  constexpr timespec kStep = {0, 10'000'000};  // 10 ms
+  for (int k = 0; k < 50; ++k) {
+    if (waitpid(helper, status, WNOHANG) == helper) return true;
+    nanosleep(&kStep, nullptr);
   }
-  return status;
+  return false;
+}
+
+// Ends the helper process, which must not outlive its result. Returns its status, or 0 if it has
+// not ended by itself. A helper process that exceeds a limit can report that its memory does not
+// suffice (EndOnSignal).
+int Finish(pid_t helper, const Channel& channel, Watch::End end) {
+  int status = 0;
+  if (end != Watch::End::kNone) kill(helper, SIGABRT);
+  if ((end != Watch::End::kNone || channel.is_closed()) && Ends(helper, &status)) return status;
+  kill(helper, SIGKILL);
+  while (waitpid(helper, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  return 0;
+}
+
+std::string SecondsText(double seconds) {
+  std::ostringstream text;
+  text << seconds << " seconds";
+  return text.str();
+}
+
+Error TooSlow(const std::string& where, const std::string& limit) {
+  return Expected(where, "a file that can be decoded within " + limit, "one that takes longer");
 }
 
 // Returns the reason why a helper process has sent no whole result.
-Error Failure(const std::string& where, const HelperLimits& limits, int status) {
+Error Failure(const std::string& where, const HelperLimits& limits, Watch::End end, int status) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory) return OutOfMemory(where, "read it");
+  if (end == Watch::End::kNoProgress) {
+    return Expected(where, "a file that can be decoded",
+                    "one whose decoder makes no progress for " + SecondsText(limits.idle_seconds));
+  }
+  if (end == Watch::End::kTooLong) {
+    return TooSlow(where, SecondsText(limits.wall_seconds));
+  }
   const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (number == SIGXCPU) {
-    return Expected(where,
-                    "a file that can be decoded within " + std::to_string(limits.seconds) +
-                        " seconds of processor time",
-                    "one that takes longer");
+    return TooSlow(where, SecondsText(limits.seconds) + " of processor time");
   }
   const std::string cause = number != 0 ? strsignal(number) : "it sent no whole result";
   return Expected(where, "a file that can be decoded",
@@ -151,24 +201,26 @@ bool DecodersAreConfined() { return confined; }
 
 Error RunHelper(const std::string& where, const HelperLimits& limits,
                 const std::function<void()>& work, const std::function<void(Channel*)>& pass) {
+  static std::atomic<unsigned> turn{0};
   int ends[2];
   const auto failed = [&] {
     return Cannot("start a process to decode", where, {errno, std::generic_category()});
   };
   if (pipe2(ends, O_CLOEXEC) != 0) return failed();
   fcntl(ends[1], F_SETPIPE_SZ, 1 << 20);  // fewer changes of the running process
+  const unsigned its_turn = turn++;
   const pid_t helper = Fork();
-  if (helper == 0) Serve(ends[1], limits, work, pass);
+  if (helper == 0) Serve(ends[1], limits, work, pass, its_turn);
   Error error = helper < 0 ? failed() : Error();
   close(ends[1]);
-  Channel channel(ends[0], Direction::kReceive);
+  Watch watch(ends[0], helper, limits);
+  Channel channel(ends[0], Direction::kReceive,
+                  [&](size_t received) { return watch.Wait(received); });
   if (!error) error = Receive(where, pass, &channel);
   close(ends[0]);
   if (helper < 0) return error;
-  // The helper process must not outlive its result. If it has ended, its status does not change.
-  kill(helper, SIGKILL);
-  const int status = WaitFor(helper);
-  return channel.is_sound() ? error : Failure(where, limits, status);
+  const int status = Finish(helper, channel, watch.end());
+  return channel.is_sound() ? error : Failure(where, limits, watch.end(), status);
 }
 
 }  // namespace starfocus

@@ -7,27 +7,32 @@
 namespace starfocus {
 
 void Pass(Channel* channel, DepthPhoto* photo) {
-  // The structured binding fails to compile if DepthPhoto gets another field.
-  auto& [format, picture, map, map_problem, depth_path, right, meaning, orientation, focal_35mm,
+  // The structured binding fails to compile if DepthPhoto gets another field. A helper process must
+  // not choose files, so that depth_path is not passed.
+  auto& [format, picture, map, map_problem, unused_path, right, meaning, orientation, focal_35mm,
          is_blurred, has_focus, focus_x, focus_y, has_subject, subject_x, subject_y, is_ready,
          focus_value, metadata, facts, notes] = *photo;
   for (Image* image : {&picture, &right}) Pass(channel, image);
   Pass(channel, &map);
   Pass(channel, &metadata);
-  for (std::string* text : {&format, &map_problem, &depth_path}) channel->Block(text);
+  static_cast<void>(unused_path);
+  for (std::string* text : {&format, &map_problem}) channel->Text(text);
   for (bool* value : {&is_blurred, &has_focus, &has_subject, &is_ready}) channel->Value(value);
-  for (double* value : {&focal_35mm, &focus_x, &focus_y, &subject_x, &subject_y, &focus_value}) {
+  for (double* value : {&focus_x, &focus_y, &subject_x, &subject_y}) {
     channel->Value(value);
+    channel->Require(*value >= 0 && *value <= 1);
   }
+  for (double* value : {&focal_35mm, &focus_value}) channel->Value(value);
+  channel->Require(focal_35mm >= 0 && focal_35mm <= 65535);
   channel->Value(&meaning);
   channel->Value(&orientation);
   channel->Require(meaning >= MapMeaning::kInverseMetres && meaning <= MapMeaning::kDisparity);
   channel->Require(orientation >= 1 && orientation <= 8);
   channel->List(&facts, [&](Facts::value_type* fact) {
-    channel->Block(&fact->first);
-    channel->Block(&fact->second);
+    channel->Text(&fact->first);
+    channel->Text(&fact->second);
   });
-  channel->List(&notes, [&](std::string* note) { channel->Block(note); });
+  channel->List(&notes, [&](std::string* note) { channel->Text(note); });
 }
 
 Result<DepthPhoto> ConfinedPhoto(const std::string& where, Span file,

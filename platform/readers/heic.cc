@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #ifdef STARFOCUS_HAS_HEIF
 #include <libheif/heif.h>
 
+#include "platform/helper/decoder_threads.h"
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
@@ -292,6 +294,17 @@ bool EndsWithinBox(Span file) {
   return at < file.size;
 }
 
+// Limits the threads that decode tiles at the same time. libheif decodes in the calling thread if
+// the limit is 0. In all cases the decoder for HEVC has one thread for which the caller waits.
+void LimitThreads(heif_context* context) {
+#if LIBHEIF_HAVE_VERSION(1, 13, 0)
+  const int threads = DecoderThreads();
+  if (threads > 0) heif_context_set_max_decoding_threads(context, threads == 1 ? 0 : threads);
+#else
+  static_cast<void>(context);
+#endif
+}
+
 // Opens a file whose boxes are within the limits. libheif reads from `file`, which the caller
 // keeps.
 Result<Context> OpenContext(const std::string& where, Span file) {
@@ -299,6 +312,7 @@ Result<Context> OpenContext(const std::string& where, Span file) {
   Context context(heif_context_alloc());
   if (context == nullptr) return OutOfMemory(where, "read it");
   heif_context_set_maximum_image_size_limit(context.get(), kMostSide);
+  LimitThreads(context.get());
   const heif_error failure =
       heif_context_read_from_memory_without_copy(context.get(), file.data, file.size, nullptr);
   if (failure.code != heif_error_Ok) return Broken(where, failure);
@@ -350,6 +364,8 @@ Result<DepthPhoto> ReadHeif(const std::string& where, Span file, Near near) {
     return photo;
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const std::system_error&) {
+    return OutOfMemory(where, "start a thread");
   } catch (const std::exception& failure) {  // C functions of libheif may throw C++ exceptions
     return Expected(where, "a HEIF file that libheif can read", failure.what());
   }

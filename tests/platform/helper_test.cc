@@ -3,24 +3,31 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cmath>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 #include <thread>
+#include <tuple>
 
+#include "platform/clock.h"
+#include "platform/helper/decoder_threads.h"
 #include "tests/support/error_line.h"
 
 namespace starfocus::helper_test {
 namespace {
 
-constexpr HelperLimits kLimits = {uint64_t{1} << 30, 1};
+constexpr HelperLimits kLimits = {uint64_t{1} << 30, 1, 20, 10};
 
 bool HasHelpers() {
   ConfineDecoders();
@@ -126,6 +133,11 @@ TEST_CASE("helper: a decoder that crashes or exceeds a limit causes one error") 
   CHECK(ErrorOf([] { std::abort(); }) == crash + "Aborted)");
   CHECK(ErrorOf([] { raise(SIGKILL); }) == crash + "Killed)");
   CHECK(ErrorOf([] { _exit(0); }) == crash + "it sent no whole result)");
+  const auto close_all = [] {
+    for (int file = 0; file < 1024; ++file) close(file);
+    sleep(100);
+  };
+  CHECK(ErrorOf(close_all) == crash + "it sent no whole result)");
   volatile bool forever = true;
   CHECK(ErrorOf([&] {
           while (forever) continue;
@@ -136,6 +148,189 @@ TEST_CASE("helper: a decoder that crashes or exceeds a limit causes one error") 
         "photo.jpg: out of memory, cannot read it");
   CHECK(ErrorOf([] { throw std::length_error("length"); }) ==
         "photo.jpg: expected no internal error, found length");
+}
+
+// Runs `misbehave` with the channel of a helper process. Returns the error, and stores the seconds
+// that it took in `*seconds`. No process may remain.
+std::string SlowError(const HelperLimits& limits, const std::function<void(Channel*)>& misbehave,
+                      double* seconds) {
+  const double start = Seconds();
+  const Error error = RunHelper(
+      "photo.jpg", limits, [] {},
+      [&](Channel* channel) {
+        if (channel->direction() == Direction::kSend) return misbehave(channel);
+        Image picture;
+        Pass(channel, &picture);
+      });
+  *seconds = Seconds() - start;
+  CHECK(waitpid(-1, nullptr, WNOHANG) == -1);
+  CHECK(errno == ECHILD);
+  return error.line();
+}
+
+// Sends a picture at 100 bytes a second after its size.
+void Trickle(Channel* channel) {
+  int size = 1000;
+  uint64_t count = 3000000;
+  channel->Value(&size);
+  channel->Value(&size);
+  channel->Value(&count);
+  for (char byte = 0;; usleep(10000)) {
+    channel->Value(&byte);
+    channel->Flush();
+  }
+}
+
+TEST_CASE("helper: a decoder without progress causes one error within the limit") {
+  if (!HasHelpers()) return;
+  constexpr HelperLimits kImpatient = {uint64_t{1} << 30, 5, 20, 0.2};
+  const std::vector<std::pair<const char*, std::function<void(Channel*)>>> kinds = {
+      {"sleeps", [](Channel*) { sleep(100); }},
+      {"waits for a lock",
+       [](Channel*) {
+         std::mutex mutex;
+         mutex.lock();
+         std::thread([&] { mutex.lock(); }).join();
+       }},
+      {"stops itself", [](Channel*) { raise(SIGSTOP); }},
+      {"ignores signals and sleeps",
+       [](Channel*) {
+         sigset_t all;
+         sigfillset(&all);
+         pthread_sigmask(SIG_SETMASK, &all, nullptr);
+         for (;;) sleep(100);
+       }},
+      {"trickles", Trickle}};
+  for (const auto& [kind, misbehave] : kinds) {
+    CAPTURE(kind);
+    double seconds = 0;
+    CHECK(
+        SlowError(kImpatient, misbehave, &seconds) ==
+        "photo.jpg: expected a file that can be decoded, found one whose decoder makes no progress "
+        "for 0.2 seconds");
+    CHECK(seconds >= 0.2);
+    CHECK(seconds < 5);
+  }
+}
+
+TEST_CASE("helper: a decoder that pretends to work is limited by the wall clock") {
+  if (!HasHelpers()) return;
+  double seconds = 0;
+  const auto pretend = [](Channel* channel) {
+    for (;; usleep(5000)) {
+      for (const double end = ThreadNanoseconds() + 3e6; ThreadNanoseconds() < end;) continue;
+      channel->Flush();
+    }
+  };
+  CHECK(SlowError({uint64_t{1} << 30, 5, 0.3, 0.2}, pretend, &seconds) ==
+        "photo.jpg: expected a file that can be decoded within 0.3 seconds, found one that takes "
+        "longer");
+  CHECK(seconds < 6);
+}
+
+TEST_CASE("helper: a decoder that computes or sends for longer than the idle limit succeeds") {
+  if (!HasHelpers()) return;
+  double seconds = 0;
+  const auto work = [](Channel* channel) {
+    for (const double end = ThreadNanoseconds() + 3e8; ThreadNanoseconds() < end;) continue;
+    Image picture(3000, 100);
+    Pass(channel, &picture);
+  };
+  CHECK(SlowError({uint64_t{1} << 30, 5, 20, 0.1}, work, &seconds) == "");
+  CHECK(seconds >= 0.3);
+}
+
+TEST_CASE("helper: time in which the program is stopped or busy does not count") {
+  if (!HasHelpers()) return;
+  const Error error = RunHelper(
+      "photo.jpg", {uint64_t{1} << 30, 5, 0.4, 0.2}, [] {},
+      [](Channel* channel) {
+        Image first(2000, 2000), second(2000, 2000);
+        Pass(channel, &first);
+        if (channel->direction() == Direction::kReceive) usleep(500000);
+        Pass(channel, &second);
+      });
+  CHECK(error.line() == "");
+}
+
+TEST_CASE("helper: a decoder that waits because its memory is used up runs out of memory") {
+  if (!HasHelpers()) return;
+  double seconds = 0;
+  const auto wait = [](Channel*) {
+    while (mmap(nullptr, size_t{1} << 24, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=
+           MAP_FAILED) {
+    }
+    sleep(100);
+  };
+  CHECK(SlowError({uint64_t{1} << 28, 5, 20, 0.1}, wait, &seconds) ==
+        "photo.jpg: out of memory, cannot read it");
+  const auto crash = [](Channel*) {
+    while (mmap(nullptr, size_t{1} << 24, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=
+           MAP_FAILED) {
+    }
+    std::abort();
+  };
+  CHECK(SlowError({uint64_t{1} << 28, 5, 20, 0.1}, crash, &seconds) ==
+        "photo.jpg: out of memory, cannot read it");
+}
+
+TEST_CASE("helper: a size is rejected before memory for it is allocated") {
+  if (!HasHelpers()) return;
+  const auto lie = [](int width, int height, uint64_t count) {
+    double seconds = 0;
+    return SlowError(
+        {uint64_t{1} << 30, 5, 20, 5},
+        [=](Channel* channel) {
+          int sizes[] = {width, height};
+          uint64_t number = count;
+          channel->Value(&sizes[0]);
+          channel->Value(&sizes[1]);
+          channel->Value(&number);
+          std::vector<uint8_t> flood(1 << 20);
+          while (channel->is_sound()) channel->Value(&(flood[0] = 0)), channel->Block(&flood);
+        },
+        &seconds);
+  };
+  rusage before, after;
+  getrusage(RUSAGE_SELF, &before);
+  for (const auto& [width, height, count] : {std::tuple{65535, 65535, uint64_t{1} << 30},
+                                             {-1, -1, 3},
+                                             {0, 5, 0},
+                                             {1, 0, 0},
+                                             {20000, 20000, uint64_t{1200000000}},
+                                             {10, 10, uint64_t{1} << 30},
+                                             {10, 10, ~uint64_t{0}},
+                                             {10, 10, 299},
+                                             {INT_MIN, INT_MIN, 0},
+                                             {INT_MAX, INT_MAX, 1}}) {
+    CAPTURE(width);
+    CAPTURE(height);
+    CHECK(lie(width, height, count) ==
+          "photo.jpg: expected a file that can be decoded, found one that makes the decoder crash "
+          "(it sent no whole result)");
+  }
+  getrusage(RUSAGE_SELF, &after);
+  CHECK(after.ru_maxrss - before.ru_maxrss < 64 * 1024);
+}
+
+TEST_CASE("helper: a decoder uses no more processors than threads") {
+  if (!HasHelpers()) return;
+  const int before = DecoderThreads();
+  for (const int threads : {1, 2}) {
+    SetDecoderThreads(threads);
+    int processors = 0;
+    const Error error = RunHelper(
+        "photo.jpg", kLimits,
+        [&] {
+          cpu_set_t set;
+          processors = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : -1;
+        },
+        [&](Channel* channel) { channel->Value(&processors); });
+    CHECK(error.line() == "");
+    CHECK(processors >= 1);
+    CHECK(processors <= threads);
+  }
+  SetDecoderThreads(before);
 }
 
 TEST_CASE("helper: results that contradict themselves are rejected") {

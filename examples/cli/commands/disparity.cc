@@ -15,6 +15,7 @@
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
+#include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "starfocus/starfocus.h"
 
@@ -183,6 +184,7 @@ Error WriteMap(const DisparityOptions& options, const Plan& plan, const Image& c
 }
 
 Error Run(const DisparityOptions& options) {
+  SetDecoderThreads(options.threads);
   const Result<Plan> plan = MakePlan(options);
   if (!plan) return plan.error();
   ThreadRunner runner(options.threads);

@@ -9,6 +9,7 @@
 #include "examples/cli/input/input.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
+#include "platform/helper/decoder_threads.h"
 #include "platform/light_field.h"
 #include "platform/runner.h"
 
@@ -53,6 +54,7 @@ void Tell(const ImportOptions& options, const Capture& capture) {
 }
 
 Error Run(const ImportOptions& options) {
+  SetDecoderThreads(options.threads);
   if (Error error = CheckFolderApart({"DIR", options.folder}, {options.input.path})) return error;
   if (Error error = CheckFolderOutput(options.folder)) return error;
   if (Error error = CheckFolder(options.folder)) return error;

@@ -20,6 +20,7 @@
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
+#include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
 #include "platform/terminal_graphics.h"
@@ -269,6 +270,7 @@ Error RunInputs(const RefocusOptions& options, const Batch& batch) {
 }
 
 Error Run(const RefocusOptions& options) {
+  SetDecoderThreads(options.lens.threads);
   const Result<std::optional<Batch>> batch =
       PlanBatch(options.inputs, options.output.out, EstimatesDepth(options.input));
   if (!batch) return batch.error();

@@ -17,6 +17,7 @@
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
 #include "platform/folder.h"
+#include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "platform/text.h"
 
@@ -189,6 +190,7 @@ Result<SeriesReport> RefocusFrames(const VideoOptions& options, const LensPlan& 
 }
 
 Error Run(const VideoOptions& options) {
+  SetDecoderThreads(options.lens.threads);
   const double start = Seconds();
   Video video;
   Result<LensPlan> plan = PlanLens(options.lens);

@@ -17,6 +17,7 @@
 #include "examples/cli/view/strip.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
+#include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "starfocus/pool.h"
 
@@ -170,6 +171,7 @@ Result<Opened> Open(const ViewOptions& options) {
 }
 
 Error Run(const ViewOptions& options) {
+  SetDecoderThreads(options.threads);
   Result<Opened> opened = Open(options);
   if (!opened) return opened.error();
   Capture& capture = opened->capture;
