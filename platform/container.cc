@@ -17,7 +17,8 @@ bool StartsWith(const Bytes& bytes, const uint8_t (&signature)[kSize]) {
   return bytes.size() >= kSize && std::equal(signature, signature + kSize, bytes.begin());
 }
 
-// Table for the CRC of PNG chunks (PNG specification, annex D): x^32 + x^26 + ... + 1, reflected.
+// Table for the CRC of PNG chunks and ZIP archives (PNG specification, annex D): x^32 + x^26 + ...
+// + 1, reflected.
 struct CrcTable {
   uint32_t of[256] = {};
   constexpr CrcTable() {
@@ -29,12 +30,6 @@ struct CrcTable {
 };
 constexpr CrcTable kCrc;
 
-uint32_t Crc(const uint8_t* bytes, size_t size) {
-  uint32_t crc = 0xffffffffu;
-  for (size_t n = 0; n < size; ++n) crc = kCrc.of[(crc ^ bytes[n]) & 0xff] ^ crc >> 8;
-  return ~crc;
-}
-
 // Checks the lengths and checksums of PNG chunks. The library stb_image allocates the declared size
 // of a chunk before it checks that the data exists, and never verifies checksums.
 Container CheckPng(const Bytes& bytes, bool checksums) {
@@ -42,7 +37,7 @@ Container CheckPng(const Bytes& bytes, bool checksums) {
     const uint8_t* chunk = &bytes[at];
     const size_t length = ReadBigEndian32(chunk);
     if (length > bytes.size() - at - 12) return Container::kTruncated;
-    if (checksums && Crc(chunk + 4, length + 4) != ReadBigEndian32(chunk + 8 + length)) {
+    if (checksums && Crc32(chunk + 4, length + 4) != ReadBigEndian32(chunk + 8 + length)) {
       return Container::kBroken;
     }
     if (std::equal(chunk + 4, chunk + 8, "IEND")) return Container::kWhole;
@@ -151,6 +146,12 @@ std::optional<JpegSegment> NextJpegSegment(const uint8_t* jpeg, size_t size, siz
 
 uint32_t ReadBigEndian32(const uint8_t* bytes) {
   return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
+}
+
+uint32_t Crc32(const uint8_t* bytes, size_t size) {
+  uint32_t crc = 0xffffffffu;
+  for (size_t n = 0; n < size; ++n) crc = kCrc.of[(crc ^ bytes[n]) & 0xff] ^ crc >> 8;
+  return ~crc;
 }
 
 bool MayBePicture(const Bytes& beginning) {

@@ -50,6 +50,9 @@ constexpr uint8_t kJpegEndOfImage = 0xd9;  // JPEG marker that no length field f
 // restart marker.
 std::optional<JpegSegment> NextJpegSegment(const uint8_t* jpeg, size_t size, size_t at);
 
+// Computes the 32-bit CRC of PNG chunks and of files in ZIP archives.
+uint32_t Crc32(const uint8_t* bytes, size_t size);
+
 // Returns a big-endian 32-bit integer.
 uint32_t ReadBigEndian32(const uint8_t* bytes);
 

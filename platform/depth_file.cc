@@ -2,17 +2,45 @@
 #include "platform/depth_file.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "platform/container.h"
 #include "platform/decoders/npy.h"
+#include "platform/decoders/npz.h"
 #include "platform/decoders/tiff.h"
 #include "platform/decoders/webp.h"
+#include "platform/decoders/zip.h"
 
 namespace starfocus {
 namespace {
 
-bool IsPfm(const Bytes& bytes) {
-  return bytes.size() >= 2 && bytes[0] == 'P' && (bytes[1] == 'f' || bytes[1] == 'F');
+// Returns true if the bytes start with `beginning`.
+bool StartsWith(const Bytes& bytes, const std::string& beginning) {
+  return bytes.size() >= beginning.size() &&
+         std::equal(beginning.begin(), beginning.end(), bytes.begin(),
+                    [](char a, uint8_t b) { return static_cast<uint8_t>(a) == b; });
+}
+
+// Returns true if the bytes start with a magic number of two letters and white space or a comment,
+// as PFM, PGM and PPM files do. A text may start with the same letters.
+bool HasMagic(const Bytes& bytes, const std::string& magic) {
+  return StartsWith(bytes, magic) && bytes.size() > 2 &&
+         (bytes[2] == '#' || std::isspace(bytes[2]) != 0);
+}
+
+bool IsPfm(const Bytes& bytes) { return HasMagic(bytes, "Pf") || HasMagic(bytes, "PF"); }
+
+bool IsPicture(const Bytes& bytes) {
+  return IsPng(bytes) || StartsWith(bytes, "\xff\xd8") || IsWebp(bytes) || HasMagic(bytes, "P5") ||
+         HasMagic(bytes, "P6");
+}
+
+// Returns how to convert a file to a format that can be read.
+std::string Conversion(const Bytes& bytes) {
+  if (!StartsWith(bytes, "v/1\x01")) {
+    return " (convert the map to PFM or NPY, or to PNG of 16 bits)";
+  }
+  return " (oiiotool FILE --ch Z -d float -o map.tif writes its channel Z as TIFF)";
 }
 
 }  // namespace
@@ -25,10 +53,11 @@ Result<Samples> DecodeDepthFile(const std::string& where, bool use_alpha, const 
     return samples;
   }
   if (IsNpy(bytes)) return DecodeNpy(where, bytes);
+  if (IsZip(bytes)) return DecodeNpz(where, bytes);
   if (IsTiff(bytes)) return DecodeTiff(where, bytes);
-  if (MayBePicture(bytes)) return DecodeSamples(where, use_alpha, bytes);
-  return Expected(where, "a depth picture (PFM, NPY, TIFF, PNG, PGM, PPM, JPEG or WebP)",
-                  DescribeFile(bytes) + " (convert the map to PFM or NPY, or to PNG of 16 bits)");
+  if (IsPicture(bytes)) return DecodeSamples(where, use_alpha, bytes);
+  return Expected(where, "a depth picture (PFM, TIFF, NPY, NPZ, PNG, PGM, PPM, JPEG or WebP)",
+                  DescribeFile(bytes) + Conversion(bytes));
 }
 
 }  // namespace starfocus

@@ -12,9 +12,9 @@
 
 namespace starfocus {
 
-// Decodes a depth map: PFM, NPY (decoders/npy.h), TIFF (decoders/tiff.h), or a picture (levels.h).
-// If `use_alpha` is true, pixels that are less than half opaque are NaN. `where` appears only in
-// error messages, which state how to convert files of other formats.
+// Decodes a depth map: PFM, NPY (decoders/npy.h), NPZ (decoders/npz.h), TIFF (decoders/tiff.h), or
+// a picture (levels.h). If `use_alpha` is true, pixels that are less than half opaque are NaN.
+// `where` appears only in error messages, which state how to convert files of other formats.
 Result<Samples> DecodeDepthFile(const std::string& where, bool use_alpha, const Bytes& bytes);
 
 }  // namespace starfocus

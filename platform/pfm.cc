@@ -11,17 +11,6 @@
 namespace starfocus {
 namespace {
 
-float LoadFloat(const uint8_t* data, ByteOrder order) {
-  uint32_t bits = 0;
-  for (int i = 0; i < 4; ++i) {
-    const int shift = order == ByteOrder::kLittle ? 8 * i : 24 - 8 * i;
-    bits |= uint32_t(data[i]) << shift;
-  }
-  float value;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
-}
-
 void AppendFloat(float value, ByteOrder order, Bytes* bytes) {
   uint32_t bits;
   std::memcpy(&bits, &value, sizeof(bits));
@@ -79,10 +68,10 @@ Result<FloatMap> DecodePfm(const std::string& where, const Bytes& pfm) {
                     std::to_string(header.remaining()));
   }
   result.values.resize(width * height);
+  const NumberType type = {NumberKind::kFloat, 4, parsed->order};
   const uint8_t* data = header.data();
-  for (size_t y = height; y-- > 0;) {
-    float* row = result.values.data() + y * width;
-    for (size_t x = 0; x < width; ++x, data += 4) row[x] = LoadFloat(data, parsed->order);
+  for (size_t y = height; y-- > 0; data += result.stride()) {
+    ReadNumbers(type, data, width, result.values.data() + y * width);
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/decoders/numbers.h"
 #include "platform/file.h"
 #include "platform/result.h"
 
@@ -22,8 +23,6 @@ struct FloatMap {
   size_t stride() const { return sizeof(float) * size_t(width); }
   float at(int x, int y) const { return values[size_t(y) * size_t(width) + size_t(x)]; }
 };
-
-enum class ByteOrder { kLittle, kBig };
 
 // Reads a map. Values of the map may be NaN or infinite. ReadPfm ignores the magnitude of the scale
 // in the header, which states a unit that disparities do not use.

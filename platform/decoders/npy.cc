@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/decoders/npy.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
-#include <optional>
 #include <regex>
-#include <vector>
+#include <utility>
 
 #include "platform/decoders/limits.h"
 
@@ -27,63 +23,24 @@ Error Reject(const std::string& where, const std::string& expected, const std::s
 }
 
 // Loads a little-endian integer.
-uint64_t LoadLittle(const uint8_t* data, size_t size) {
-  uint64_t value = 0;
-  for (size_t k = 0; k < size; ++k) value |= uint64_t{data[k]} << 8 * k;
+size_t LoadLittle(const uint8_t* data, size_t size) {
+  size_t value = 0;
+  for (size_t k = 0; k < size; ++k) value |= size_t{data[k]} << 8 * k;
   return value;
 }
 
-float LoadFloat32(const uint8_t* data) {
-  const auto bits = static_cast<uint32_t>(LoadLittle(data, 4));
-  float value;
-  std::memcpy(&value, &bits, sizeof(value));
-  return value;
-}
-
-float LoadFloat64(const uint8_t* data) {
-  const uint64_t bits = LoadLittle(data, 8);
-  double value;
-  std::memcpy(&value, &bits, sizeof(value));
-  constexpr float kMost = std::numeric_limits<float>::max(), kInfinity = HUGE_VALF;
-  if (std::fabs(value) > double{kMost}) return value > 0 ? kInfinity : -kInfinity;
-  return static_cast<float>(value);
-}
-
-// A type of values in NPY files.
-struct ValueType {
-  const char* name;
-  size_t bytes;
-  int largest;  // largest integer; 0 for floats
-  float (*load)(const uint8_t* data);
-};
-constexpr ValueType kTypes[] = {
-    {"<f4", 4, 0, LoadFloat32},
-    {"<f8", 8, 0, LoadFloat64},
-    {"|u1", 1, 255, [](const uint8_t* data) { return float(data[0]); }},
-    {"<u2", 2, 65535, [](const uint8_t* data) { return float(LoadLittle(data, 2)); }},
-    {"<i2", 2, 32767, [](const uint8_t* data) { return float(int16_t(LoadLittle(data, 2))); }},
-};
-
-struct Header {
-  std::string type, shape;
-  bool is_fortran_order;
-  size_t end;  // position of the values in the file
-};
-
-// Parses a header as NumPy writes it. Returns nullopt for any other header.
-std::optional<Header> ParseHeader(const Bytes& npy) {
-  if (npy.size() < kSignatureSize + 6) return {};
-  const int version = npy[kSignatureSize];
-  if (version < 1 || version > 3) return {};
-  const size_t length_bytes = version == 1 ? 2 : 4, begin = kSignatureSize + 2 + length_bytes;
-  const auto length = static_cast<size_t>(LoadLittle(&npy[kSignatureSize + 2], length_bytes));
-  if (length > kMostHeaderBytes || length > npy.size() - begin) return {};
-  const std::string text(npy.begin() + ptrdiff_t(begin), npy.begin() + ptrdiff_t(begin + length));
-  static const std::regex form(
-      R"(\{'descr': '([^']*)', 'fortran_order': (True|False), 'shape': \(([0-9, ]*)\),? *\} *\n?)");
-  std::smatch match;
-  if (!std::regex_match(text, match, form)) return {};
-  return Header{match[1], match[3], match[2] == "True", begin + length};
+// Parses NumPy's name of a type: a byte order, a kind and a number of bytes.
+std::optional<NumberType> ParseType(const std::string& text) {
+  if (text.size() != 3 || text[2] < '0') return {};
+  const auto bytes = static_cast<size_t>(text[2] - '0');
+  const ByteOrder order = text[0] == '>' ? ByteOrder::kBig : ByteOrder::kLittle;
+  const bool is_bool = text[1] == 'b' && bytes == 1;
+  if (text[1] != 'f' && text[1] != 'i' && text[1] != 'u' && !is_bool) return {};
+  const NumberKind kind = text[1] == 'f'   ? NumberKind::kFloat
+                          : text[1] == 'i' ? NumberKind::kSigned
+                                           : NumberKind::kUnsigned;
+  const NumberType type = {kind, bytes, order};
+  return CanReadNumbers(type) ? std::optional(type) : std::nullopt;
 }
 
 // Returns the dimensions of an array without dimensions of 1 before and after rows and columns.
@@ -100,6 +57,34 @@ std::vector<int64_t> DimensionsOf(const std::string& shape) {
   return sizes;
 }
 
+// Converts a map that stores one column after another to rows.
+FloatMap Transposed(const FloatMap& columns) {
+  FloatMap map = {columns.height, columns.width, {}};
+  map.values.reserve(columns.values.size());
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) map.values.push_back(columns.at(y, x));
+  }
+  return map;
+}
+
+// Returns an error unless the array is a map of a supported type and size whose file has `bytes`
+// bytes.
+Error CheckMap(const std::string& where, const NpyHeader& header, uint64_t bytes) {
+  if (!header.numbers) {
+    return Reject(where, "an array of floats of 16, 32 or 64 bits, integers or booleans",
+                  "the type " + header.type);
+  }
+  if (!header.is_map()) {
+    return Reject(where, "an array of rows and columns", "the shape (" + header.shape + ")");
+  }
+  if (Error error = CheckPictureSize(where, header.sizes[1], header.sizes[0])) return error;
+  const uint64_t expected =
+      static_cast<uint64_t>(header.sizes[0] * header.sizes[1]) * header.numbers->bytes;
+  if (bytes == header.end + expected) return {};
+  return Expected(where, std::to_string(expected) + " bytes of values",
+                  std::to_string(bytes - header.end));
+}
+
 }  // namespace
 
 bool IsNpy(const Bytes& bytes) {
@@ -107,34 +92,40 @@ bool IsNpy(const Bytes& bytes) {
          std::memcmp(bytes.data(), kSignature, kSignatureSize) == 0;
 }
 
+std::optional<NpyHeader> ParseNpyHeader(const Bytes& npy) {
+  if (!IsNpy(npy) || npy.size() < kSignatureSize + 6) return {};
+  const int version = npy[kSignatureSize];
+  if (version < 1 || version > 3) return {};
+  const size_t length_bytes = version == 1 ? 2 : 4, begin = kSignatureSize + 2 + length_bytes;
+  const size_t length = LoadLittle(&npy[kSignatureSize + 2], length_bytes);
+  if (length > kMostHeaderBytes || length > npy.size() - begin) return {};
+  const auto first = npy.begin() + static_cast<ptrdiff_t>(begin);
+  const std::string text(first, first + static_cast<ptrdiff_t>(length));
+  static const std::regex form(
+      R"(\{'descr': '([^']*)', 'fortran_order': (True|False), 'shape': \(([0-9, ]*)\),? *\} *\n?)");
+  std::smatch match;
+  if (!std::regex_match(text, match, form)) return {};
+  NpyHeader header;
+  header.type = match[1];
+  header.shape = match[3];
+  header.numbers = ParseType(header.type);
+  header.sizes = DimensionsOf(header.shape);
+  header.is_fortran_order = match[2] == "True";
+  header.end = begin + length;
+  return header;
+}
+
 Result<Samples> DecodeNpy(const std::string& where, const Bytes& npy) {
-  const std::optional<Header> header = ParseHeader(npy);
+  const std::optional<NpyHeader> header = ParseNpyHeader(npy);
   if (!header) return Reject(where, "an NPY file of one array of numbers", "another header");
-  const auto* type =
-      std::find_if(std::begin(kTypes), std::end(kTypes),
-                   [&header](const ValueType& one) { return header->type == one.name; });
-  if (type == std::end(kTypes)) {
-    return Reject(where, "an array of type <f4, <f8, |u1, <u2 or <i2", header->type);
-  }
-  if (header->is_fortran_order) return Reject(where, "an array in C order", "Fortran order");
-  const std::vector<int64_t> sizes = DimensionsOf(header->shape);
-  if (sizes.size() != 2) {
-    return Reject(where, "an array of rows and columns", "the shape (" + header->shape + ")");
-  }
-  if (Error error = CheckPictureSize(where, sizes[1], sizes[0])) return error;
-  const auto count = static_cast<size_t>(sizes[0] * sizes[1]);
-  const size_t bytes = npy.size() - header->end;
-  if (bytes != count * type->bytes) {
-    return Expected(where, std::to_string(count * type->bytes) + " bytes of values",
-                    std::to_string(bytes));
-  }
-  Samples samples = {{static_cast<int>(sizes[1]), static_cast<int>(sizes[0]), {}}, type->largest};
-  samples.map.values.resize(count);
-  const uint8_t* data = npy.data() + header->end;
-  for (float& value : samples.map.values) {
-    value = type->load(data);
-    data += type->bytes;
-  }
+  if (Error error = CheckMap(where, *header, npy.size())) return error;
+  auto width = static_cast<int>(header->sizes[1]), height = static_cast<int>(header->sizes[0]);
+  if (header->is_fortran_order) std::swap(width, height);
+  Samples samples = {{width, height, {}}, LargestNumber(*header->numbers)};
+  FloatMap& map = samples.map;
+  map.values.resize(size_t(width) * size_t(height));
+  ReadNumbers(*header->numbers, npy.data() + header->end, map.values.size(), map.values.data());
+  if (header->is_fortran_order) map = Transposed(map);
   return samples;
 }
 

@@ -4,21 +4,39 @@
 #ifndef STARFOCUS_PLATFORM_DECODERS_NPY_H_
 #define STARFOCUS_PLATFORM_DECODERS_NPY_H_
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "platform/decoders/numbers.h"
 #include "platform/file.h"
 #include "platform/levels.h"
 #include "platform/result.h"
 
 namespace starfocus {
 
+// Header of an array.
+struct NpyHeader {
+  std::string type, shape;            // As the file states them, for example "<f4" and "480, 640".
+  std::optional<NumberType> numbers;  // Type of the values; nullopt: a type that is not supported.
+  std::vector<int64_t> sizes;         // Dimensions without dimensions of 1 before and after others.
+  bool is_fortran_order = false;      // True: columns follow each other, not rows.
+  size_t end = 0;                     // Position of the values in the file.
+
+  bool is_map() const { return sizes.size() == 2; }
+};
+
 // Returns true if the bytes start with the signature of NPY files.
 bool IsNpy(const Bytes& bytes);
 
-// Decodes an array in C order with two dimensions, rows and columns. Further dimensions before or
-// after these two must be 1. The values are little-endian: 32-bit or 64-bit floats, or integers of
-// type u1, u2 or i2. 64-bit floats beyond the range of float become infinite. `where` appears only
-// in error messages.
+// Parses the header of a file as NumPy writes it. Returns nullopt for any other header.
+std::optional<NpyHeader> ParseNpyHeader(const Bytes& npy);
+
+// Decodes an array with two dimensions, rows and columns, in C or Fortran order. Further dimensions
+// before or after these two must be 1. The values are floats of 16, 32 or 64 bits, integers, or
+// booleans. `where` appears only in error messages.
 Result<Samples> DecodeNpy(const std::string& where, const Bytes& npy);
 
 }  // namespace starfocus

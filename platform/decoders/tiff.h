@@ -15,9 +15,9 @@ namespace starfocus {
 bool IsTiff(const Bytes& bytes);
 
 // Decodes the first picture of a TIFF file. The picture must have one sample for each pixel: an
-// integer of 8 or 16 bits, or a float of 32 bits. The picture must consist of strips that are
-// stored uncompressed or compressed by LZW, Deflate or PackBits. Requires libtiff. `where` appears
-// only in error messages.
+// integer of 8, 16, 32 or 64 bits, or a float of 16, 32 or 64 bits. The picture must consist of
+// strips that are stored uncompressed or compressed by LZW, Deflate or PackBits. Requires libtiff.
+// `where` appears only in error messages.
 Result<Samples> DecodeTiff(const std::string& where, const Bytes& tiff);
 
 }  // namespace starfocus

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "platform/decoders/limits.h"
+#include "platform/decoders/numbers.h"
 
 namespace starfocus {
 namespace {
@@ -96,7 +97,15 @@ struct Layout {
     TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
   }
 
-  bool is_float() const { return format == SAMPLEFORMAT_IEEEFP; }
+  // Type of the samples in memory, after libtiff has swapped their bytes. The type is not supported
+  // if samples are of an unknown type or shorter than a byte.
+  NumberType type() const {
+    const NumberKind kind = format == SAMPLEFORMAT_IEEEFP ? NumberKind::kFloat
+                            : format == SAMPLEFORMAT_INT  ? NumberKind::kSigned
+                                                          : NumberKind::kUnsigned;
+    const bool known = kind != NumberKind::kUnsigned || format == SAMPLEFORMAT_UINT;
+    return {kind, known && bits % 8 == 0 ? bits / 8U : 0U, kOwnByteOrder};
+  }
 };
 
 // Describes samples that are not grey levels with white as the largest value.
@@ -108,7 +117,7 @@ std::string DescribeMeaning(const Layout& layout) {
 }
 
 std::string DescribeType(const Layout& layout) {
-  const char* type = layout.is_float()                    ? "-bit floats"
+  const char* type = layout.format == SAMPLEFORMAT_IEEEFP ? "-bit floats"
                      : layout.format == SAMPLEFORMAT_UINT ? "-bit unsigned integers"
                      : layout.format == SAMPLEFORMAT_INT  ? "-bit signed integers"
                                                           : "-bit samples of another type";
@@ -128,10 +137,8 @@ Error CheckLayout(const std::string& where, const Layout& layout) {
     return reject("a TIFF of one value for each pixel, white as the largest value",
                   DescribeMeaning(layout));
   }
-  const bool is_integer =
-      layout.format == SAMPLEFORMAT_UINT && (layout.bits == 8 || layout.bits == 16);
-  if (!is_integer && !(layout.is_float() && layout.bits == 32)) {
-    return reject("a TIFF of unsigned integers of 8 or 16 bits, or floats of 32 bits",
+  if (!CanReadNumbers(layout.type())) {
+    return reject("a TIFF of integers of 8, 16, 32 or 64 bits, or floats of 16, 32 or 64 bits",
                   DescribeType(layout));
   }
   if (layout.is_tiled) return reject("a TIFF of strips", "tiles");
@@ -154,22 +161,6 @@ bool CanHold(const Bytes& tiff, const Layout& layout) {
          tiff.size();
 }
 
-void AppendRow(const Layout& layout, const std::vector<uint8_t>& row, std::vector<float>* values) {
-  for (size_t x = 0; x < layout.width; ++x) {
-    if (layout.is_float()) {
-      float value;
-      std::memcpy(&value, &row[4 * x], sizeof(value));
-      values->push_back(value);
-    } else if (layout.bits == 16) {
-      uint16_t value;  // in the byte order of this machine
-      std::memcpy(&value, &row[2 * x], sizeof(value));
-      values->push_back(value);
-    } else {
-      values->push_back(row[x]);
-    }
-  }
-}
-
 }  // namespace
 
 Result<Samples> DecodeTiff(const std::string& where, const Bytes& bytes) {
@@ -186,15 +177,16 @@ Result<Samples> DecodeTiff(const std::string& where, const Bytes& bytes) {
     source.problem = "it is too small for its pixels";
     return damaged();
   }
-  const int largest = layout.is_float() ? 0 : (1 << layout.bits) - 1;
+  const NumberType type = layout.type();
   Samples samples = {{static_cast<int>(layout.width), static_cast<int>(layout.height), {}},
-                     largest};
-  samples.map.values.reserve(size_t{layout.width} * layout.height);
+                     LargestNumber(type)};
+  samples.map.values.resize(size_t{layout.width} * layout.height);
   std::vector<uint8_t> row(
-      std::max(static_cast<size_t>(TIFFScanlineSize(tiff.get())), size_t{layout.width} * 4));
-  for (uint32_t y = 0; y < layout.height; ++y) {
+      std::max(static_cast<size_t>(TIFFScanlineSize(tiff.get())), layout.width * type.bytes));
+  float* values = samples.map.values.data();
+  for (uint32_t y = 0; y < layout.height; ++y, values += layout.width) {
     if (TIFFReadScanline(tiff.get(), row.data(), y, 0) != 1) return damaged();
-    AppendRow(layout, row, &samples.map.values);
+    ReadNumbers(type, row.data(), layout.width, values);
   }
   return samples;
 }

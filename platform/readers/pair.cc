@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr char kSeparators[] = "-_.", kDepth[] = "depth";
 constexpr size_t kDepthLength = sizeof(kDepth) - 1;
-constexpr const char* kExtensions[] = {".png",  ".pgm", ".pfm",  ".jpg",
-                                       ".jpeg", ".tif", ".tiff", ".npy"};
+constexpr const char* kExtensions[] = {".png", ".pgm",  ".pfm", ".jpg", ".jpeg",
+                                       ".tif", ".tiff", ".npy", ".npz", ".exr"};
 
 bool EndsIn(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;

@@ -19,7 +19,8 @@ bool IsDepthPictureName(const std::string& name);
 
 // Finds the depth pictures of photographs among the files of a folder. The depth picture of a
 // photograph NAME.jpg or NAME-image.jpg is named NAME-depth, NAME_depth or NAME.depth, with .png,
-// .pgm, .pfm, .jpg, .jpeg, .tif, .tiff or .npy, in upper or lower case.
+// .pgm, .pfm, .jpg, .jpeg, .tif, .tiff, .npy, .npz or .exr, in upper or lower case. Files in the
+// format OpenEXR (.exr) are found so that their error states how to convert them.
 class DepthPictures {
  public:
   // Adds a file of the folder. Ignores files whose names are not names of depth pictures.

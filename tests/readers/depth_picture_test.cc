@@ -385,9 +385,10 @@ TEST_CASE(
 }
 
 TEST_CASE("depth pictures: a picture is found by its name next to the photo") {
-  for (const char* name : {"photo-depth.png", "photo_depth.png", "photo.depth.png",
-                           "photo-depth.PNG", "PHOTO_Depth.Png", "Photo-DEPTH.png",
-                           "photo-depth.npy", "photo-depth.tif", "photo-depth.tiff"}) {
+  for (const char* name :
+       {"photo-depth.png", "photo_depth.png", "photo.depth.png", "photo-depth.PNG",
+        "PHOTO_Depth.Png", "Photo-DEPTH.png", "photo-depth.npy", "photo-depth.npz",
+        "photo-depth.exr", "photo-depth.tif", "photo-depth.tiff"}) {
     CAPTURE(name);
     TempFolder folder;
     Write(folder.file("photo.jpg"), Encode(Plain(kWidth, kHeight, 128), ".jpg"));

@@ -68,7 +68,8 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
                        "depth photos; - reads a photo from standard input",
                        several, Use::kRequired},
           {"--depth", "FILE",
-           "Depth picture of the photo (PNG, PGM, PPM, JPEG, WebP, PFM, TIFF or NPY); default: "
+           "Depth picture of the photo (PNG, PGM, PPM, JPEG, WebP, PFM, TIFF, NPY or NPZ); "
+           "default: "
            "the map in the photo, or the file NAME-depth, NAME_depth or NAME.depth in the "
            "folder of the photo",
            &options->depth},

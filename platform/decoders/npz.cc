@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/decoders/npz.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "platform/decoders/npy.h"
+#include "platform/decoders/zip.h"
+#include "platform/text.h"
+
+namespace starfocus {
+namespace {
+
+constexpr char kExtension[] = ".npy", kDepth[] = "depth";
+
+// An array of an archive that may be the map.
+struct Array {
+  std::string name;  // without extension
+  const ZipEntry* entry;
+  bool is_secondary;  // True for a mask or a camera matrix.
+};
+
+// Returns the name of an array, or an empty string if the entry is no array.
+std::string ArrayName(const ZipEntry& entry) {
+  const size_t length = sizeof(kExtension) - 1;
+  if (entry.name.size() <= length) return "";
+  const size_t at = entry.name.size() - length;
+  return entry.name.compare(at, length, kExtension) == 0 ? entry.name.substr(0, at) : "";
+}
+
+bool IsSecondary(const NpyHeader& header) {
+  constexpr int64_t kMostMatrix = 4;
+  return header.type == "|b1" || std::max(header.sizes[0], header.sizes[1]) <= kMostMatrix;
+}
+
+std::string NamesOf(const std::vector<Array>& arrays) {
+  std::string names;
+  for (const Array& array : arrays) names += (names.empty() ? "" : ", ") + array.name;
+  return names;
+}
+
+Error RejectArrays(const std::string& where, const std::string& found) {
+  return Expected(where, "an array named depth, or a single array of rows and columns",
+                  found + " (numpy.save('depth.npy', numpy.load(FILE)['NAME']) writes one array)");
+}
+
+// Finds the map among the arrays with rows and columns. Decompresses all arrays to read their
+// headers.
+Result<const ZipEntry*> ChooseArray(const std::string& where, const Bytes& npz,
+                                    const std::vector<Array>& arrays) {
+  std::vector<Array> maps;
+  for (const Array& array : arrays) {
+    const Result<Bytes> npy = ReadZipEntry(where + ": " + array.name, npz, *array.entry);
+    if (!npy) return npy.error();
+    const std::optional<NpyHeader> header = ParseNpyHeader(*npy);
+    if (!header || !header->is_map()) continue;
+    maps.push_back({array.name, array.entry, IsSecondary(*header)});
+  }
+  std::vector<Array> primary;
+  std::copy_if(maps.begin(), maps.end(), std::back_inserter(primary),
+               [](const Array& array) { return !array.is_secondary; });
+  if (!primary.empty()) maps = primary;
+  if (maps.size() == 1) return maps[0].entry;
+  return RejectArrays(where, maps.empty() ? "other arrays: " + NamesOf(arrays)
+                                          : std::to_string(maps.size()) + ": " + NamesOf(maps));
+}
+
+}  // namespace
+
+Result<Samples> DecodeNpz(const std::string& where, const Bytes& npz) {
+  const Result<std::vector<ZipEntry>> entries = ListZip(where, npz);
+  if (!entries) return entries.error();
+  std::vector<Array> arrays;
+  for (const ZipEntry& entry : *entries) {
+    std::string name = ArrayName(entry);
+    if (!name.empty()) arrays.push_back({std::move(name), &entry, false});
+  }
+  if (arrays.empty()) return RejectArrays(where, "a ZIP archive without arrays");
+  const auto depth = std::find_if(arrays.begin(), arrays.end(),
+                                  [](const Array& array) { return Lower(array.name) == kDepth; });
+  const ZipEntry* entry = depth == arrays.end() ? nullptr : depth->entry;
+  if (entry == nullptr) {
+    if (Error error = ChooseArray(where, npz, arrays).MoveTo(&entry)) return error;
+  }
+  const std::string name = where + ": " + ArrayName(*entry);
+  const Result<Bytes> npy = ReadZipEntry(name, npz, *entry);
+  return npy ? DecodeNpy(name, *npy) : npy.error();
+}
+
+}  // namespace starfocus
