@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/depth_levels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "platform/image_io.h"
 #include "platform/readers/exif.h"
 #include "platform/readers/profile.h"
+#include "platform/readers/unknown_depth.h"
 #include "platform/text.h"
 
 namespace starfocus {
@@ -27,10 +29,8 @@ double MeanOfRows(const FloatMap& map, int from, int to) {
   return count > 0 ? sum / count : 0;
 }
 
-Near Guess(const FloatMap& map) {
-  const int third = (map.height + 2) / 3;
-  return MeanOfRows(map, map.height - third, map.height) > MeanOfRows(map, 0, third) ? Near::kWhite
-                                                                                     : Near::kBlack;
+bool HasInfinity(const FloatMap& map) {
+  return std::find(map.values.begin(), map.values.end(), HUGE_VALF) != map.values.end();
 }
 
 }  // namespace
@@ -49,15 +49,29 @@ void Invert(FloatMap* map) {
   for (float& value : map->values) value = value > 0 ? 1 / value : kUnknown;
 }
 
+Near GuessNear(const FloatMap& map) {
+  const int third = (map.height + 2) / 3;
+  return !HasInfinity(map) &&
+                 MeanOfRows(map, map.height - third, map.height) > MeanOfRows(map, 0, third)
+             ? Near::kWhite
+             : Near::kBlack;
+}
+
 void ToOrder(Near near, DepthPhoto* photo) {
   if (near == Near::kUnknown) {
-    near = Guess(photo->map);
-    photo->notes.push_back(std::string(near == Near::kWhite ? "white" : "black") +
-                           " is taken as near in the depth picture, because the lower part of the "
-                           "picture is assumed to be nearer (--near " +
-                           (near == Near::kWhite ? "black" : "white") + " overrides this)");
+    near = GuessNear(photo->map);
+    photo->notes.push_back(
+        std::string(near == Near::kWhite ? "white" : "black") +
+        " is taken as near in the depth picture, because " +
+        (HasInfinity(photo->map) ? "only distances are infinite"
+                                 : "the lower part of the picture is assumed to be nearer") +
+        " (--near " + (near == Near::kWhite ? "black" : "white") + " overrides this)");
   }
-  if (near == Near::kBlack) ToRange(1, 0, &photo->map);
+  if (near == Near::kBlack) {
+    ToRange(1, 0, &photo->map);
+  } else {
+    Forget(HUGE_VALF, &photo->map);
+  }
   photo->meaning = MapMeaning::kOrder;
 }
 

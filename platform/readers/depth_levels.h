@@ -25,12 +25,18 @@ void ToInverse(const DepthRange& range, FloatMap* map);
 // Converts levels linearly, such that level 0 becomes `low` and level 1 becomes `high`.
 void ToRange(double low, double high, FloatMap* map);
 
-// Replaces each distance z by 1 / z. Distances that are not positive become unknown (NaN).
+// Replaces each distance z by 1 / z, and +inf by 0. Distances that are not positive become unknown
+// (NaN).
 void Invert(FloatMap* map);
 
+// Guesses which end of the value range of a map is near. Values of +inf are distances, so that
+// small values are near. For other maps, the guess assumes that the bottom of a photograph is
+// nearer than its top. Unknown values (NaN) are ignored.
+Near GuessNear(const FloatMap& map);
+
 // Inverts a map whose meaning is MapMeaning::kOrder if necessary, so that larger values are nearer.
-// If `near` is kUnknown, the function guesses which end of the value range is near, and adds a
-// note. The guess assumes that the bottom of a photograph is nearer than its top.
+// If `near` is kUnknown, uses GuessNear and adds a note. The value +inf is the farthest depth if
+// small values are near (it becomes -inf), and unknown otherwise.
 void ToOrder(Near near, DepthPhoto* photo);
 
 // Adds an entry to photo->facts that describes how the file stores the map.

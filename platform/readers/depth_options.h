@@ -16,12 +16,12 @@ namespace starfocus {
 // The end of the grey range of a depth picture that means near: white, black, or unknown.
 enum class Near { kUnknown, kWhite, kBlack };
 
-// Unit of the values of a depth picture.
+// Meaning of the values of a depth picture.
 enum class DepthUnit {
-  kNone,         // Values without a unit, which define only an order of depth.
-  kMetres,       // Distances in metres.
-  kMillimetres,  // Distances in millimetres.
-  kDisparity,    // Disparities in pixels of the photo, for an aperture of radius 1.
+  kNone,       // Values without a unit, which define only an order of depth.
+  kDistance,   // Distances in the unit DepthOptions::metres; +inf is infinitely far.
+  kDepth16,    // Android's DEPTH16: millimetres in the lower 13 bits of 16-bit values.
+  kDisparity,  // Disparities in pixels of the photo, for an aperture of radius 1.
 };
 
 // Orientation of a depth picture in its file, relative to the photo.
@@ -34,9 +34,10 @@ enum class DepthOrientation {
 struct DepthOptions {
   Near near = Near::kUnknown;
   DepthUnit unit = DepthUnit::kNone;
+  double metres = 1;  // Unit of distances in metres.
   DepthOrientation orientation = DepthOrientation::kUnknown;
   // True if `unknown` lists the values that mean an unknown depth. If has_unknown is false,
-  // MarkUnknown decides whether 0 and 65535 are depths in 16-bit maps.
+  // MarkUnknown decides whether values up to 0 and 65535 are depths.
   bool has_unknown = false;
   std::vector<double> unknown;
   bool use_alpha = true;  // True: transparent pixels have unknown depth.

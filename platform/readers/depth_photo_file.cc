@@ -180,14 +180,13 @@ void NoteProblem(DepthPhoto* photo) {
 }
 
 // Computes the depth picture of a photo without depth.
-Error EstimateDepth(const DepthOptions& options, DepthPhoto* photo) {
+Error EstimateDepth(const std::string& where, const DepthOptions& options, DepthPhoto* photo) {
   ApplyOrientation(photo);
   Result<Samples> samples = options.estimate(photo->picture);
   if (!samples) return samples.error();
   photo->format = "photo with estimated depth";
   photo->facts.emplace_back("depth", "computed by --depth-command");
-  TakeDepthPicture(options, std::move(*samples), photo);
-  return {};
+  return TakeDepthPicture(where, options, std::move(*samples), photo);
 }
 
 }  // namespace
@@ -252,7 +251,7 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   }
   NoteProblem(&photo);
   if (photo.depth_path.empty()) {
-    if (Error error = EstimateDepth(options, &photo)) return error;
+    if (Error error = EstimateDepth(where, options, &photo)) return error;
     return decoded;
   }
   if (Error error = ReadDepthPicture(photo.depth_path, options, &photo)) return error;

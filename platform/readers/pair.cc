@@ -2,15 +2,20 @@
 #include "platform/readers/pair.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <system_error>
 #include <tuple>
+#include <utility>
 
 #include "platform/depth_file.h"
 #include "platform/helper/helper.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/map_orientation.h"
+#include "platform/readers/robust_range.h"
 #include "platform/readers/unknown_depth.h"
 #include "platform/text.h"
 
@@ -65,19 +70,67 @@ size_t ExtensionIndex(const std::string& file) {
                              std::begin(kExtensions));
 }
 
+// Converts the values of DEPTH16 to millimetres. Ignores the confidence in the upper bits.
+Error DecodeDepth16(const std::string& where, Samples* samples) {
+  constexpr float kMost = 65535;
+  constexpr int kDistanceBits = 13;
+  for (float& value : samples->map.values) {
+    if (std::isnan(value)) continue;  // A transparent pixel.
+    if (samples->largest <= UINT8_MAX || value < 0 || value > kMost) {
+      return Expected(where, "integers of 16 bits for --depth-unit depth16",
+                      samples->largest == 0           ? "floats"
+                      : samples->largest <= UINT8_MAX ? "integers of 8 bits"
+                                                      : "other integers");
+    }
+    value = static_cast<float>(static_cast<int>(value) % (1 << kDistanceBits));
+  }
+  return {};
+}
+
+std::string NumberText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
+}
+
+// Adds a note if the values of a map without a unit look like distances: they are larger for more
+// distant points, and in the range of rooms and streets.
+void NoteDistances(const DepthOptions& options, int largest, DepthPhoto* photo) {
+  const RobustRange range = RobustRangeOf(photo->map.values);
+  const bool metres = largest == 0;
+  const float low = metres ? 0.2F : 200, high = metres ? 200 : 20000;
+  if (!range.known || range.low < low || range.high > high || range.low == range.high) return;
+  if (!metres && largest <= UINT8_MAX) return;
+  const Near near = options.near == Near::kUnknown ? GuessNear(photo->map) : options.near;
+  if (near == Near::kWhite) return;
+  photo->notes.push_back("the values of the depth picture, " + NumberText(double(range.low)) +
+                         " to " + NumberText(double(range.high)) + ", look like distances in " +
+                         (metres ? "metres" : "millimetres") +
+                         ", but define only an order of depth (--depth-unit " +
+                         (metres ? "m" : "mm") + " reads them as distances)");
+}
+
 // Sets the meaning of the map's values according to the options.
-void Understand(const DepthOptions& options, bool larger_is_nearer, DepthPhoto* photo) {
+void Understand(const DepthOptions& options, const Samples& samples, DepthPhoto* photo) {
   if (options.unit == DepthUnit::kDisparity) {
     TellMap("disparities in pixels", photo);
+    Forget(HUGE_VALF, &photo->map);
     photo->meaning = MapMeaning::kDisparity;
   } else if (options.unit == DepthUnit::kNone) {
     TellMap("relative depth without distances", photo);
-    ToOrder(larger_is_nearer && options.near == Near::kUnknown ? Near::kWhite : options.near,
-            photo);
+    NoteDistances(options, samples.largest, photo);
+    ToOrder(
+        samples.larger_is_nearer && options.near == Near::kUnknown ? Near::kWhite : options.near,
+        photo);
   } else {
-    const bool millimetres = options.unit == DepthUnit::kMillimetres;
-    TellMap(millimetres ? "distances in millimetres" : "distances in metres", photo);
-    if (millimetres) ToRange(0, 0.001, &photo->map);
+    const bool depth16 = options.unit == DepthUnit::kDepth16;
+    const double metres = depth16 ? 0.001 : options.metres;
+    TellMap("distances in " + (depth16           ? "millimetres (DEPTH16)"
+                               : metres == 1     ? "metres"
+                               : metres == 0.001 ? "millimetres"
+                                                 : "units of " + NumberText(metres) + " m"),
+            photo);
+    ToRange(0, metres, &photo->map);
     Invert(&photo->map);
     photo->meaning = MapMeaning::kInverseMetres;
   }
@@ -148,15 +201,19 @@ Error ReadDepthPicture(const std::string& path, const DepthOptions& options, Dep
   Result<Samples> samples =
       Confined<Samples>(path, [&] { return DecodeDepthFile(path, options.use_alpha, *bytes); });
   if (!samples) return samples.error();
-  TakeDepthPicture(options, std::move(*samples), photo);
-  return {};
+  return TakeDepthPicture(path, options, std::move(*samples), photo);
 }
 
-void TakeDepthPicture(const DepthOptions& options, Samples samples, DepthPhoto* photo) {
+Error TakeDepthPicture(const std::string& where, const DepthOptions& options, Samples samples,
+                       DepthPhoto* photo) {
+  if (options.unit == DepthUnit::kDepth16) {
+    if (Error error = DecodeDepth16(where, &samples)) return error;
+  }
+  MarkUnknown(options, &samples, &photo->notes);
   photo->map = std::move(samples.map);
-  MarkUnknown(options, samples.largest, photo);
   StandWithPhoto(options.orientation, photo);
-  Understand(options, samples.larger_is_nearer, photo);
+  Understand(options, samples, photo);
+  return {};
 }
 
 }  // namespace starfocus

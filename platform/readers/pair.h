@@ -44,8 +44,10 @@ Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo)
 // larger values are nearer in PFM files, and the near end of other formats is guessed.
 Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo);
 
-// Interprets the samples of a depth picture as the map of the photo, like ReadDepthPicture.
-void TakeDepthPicture(const DepthOptions& options, Samples samples, DepthPhoto* photo);
+// Interprets the samples of a depth picture as the map of the photo, like ReadDepthPicture. Error
+// messages start with `where`.
+Error TakeDepthPicture(const std::string& where, const DepthOptions& options, Samples samples,
+                       DepthPhoto* photo);
 
 }  // namespace starfocus
 

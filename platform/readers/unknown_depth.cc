@@ -18,45 +18,82 @@ constexpr float kTop = 65535;  // Largest 16-bit value.
 // measures is at least 5 % of the range.
 constexpr float kBesidePart = 0.02F;
 
-// Number of pixels with the values 0 and 65535 in a 16-bit map, and whether these values are
-// depths.
+// Number of pixels with values at the ends of the range of values, and whether these are depths.
 struct Ends {
-  size_t zeros = 0, tops = 0;
+  size_t zeros = 0, negatives = 0;
+  size_t tops = 0;  // Values of 65535 in maps of integers.
   bool are_depths = false;
+
+  bool any() const { return zeros + negatives + tops > 0; }
 };
 
-// Decides whether 0 and 65535 are depths in a 16-bit map. The values 0 and 65535 are depths if the
-// map was stretched to the whole range. A map counts as stretched if values other than 0 and 65535
-// come close to 0 or 65535. A map with both 0 and 65535 counts as stretched if another value lies
-// in the upper half of the range, or if all values are 0 or 65535.
-Ends JudgeEnds(const FloatMap& map) {
+// Decides whether 0, negative values and 65535 are depths. They are depths if the other values come
+// close to 0 or 65535, because the map was stretched to the whole range or has no gap at 0. A map
+// with both ends counts as stretched if another value lies in the upper half of the range, or if
+// there is no other value.
+Ends JudgeEnds(bool has_top, const FloatMap& map) {
   Ends ends;
   std::vector<float> others;
   for (const float value : map.values) {
     if (value == 0) {
       ++ends.zeros;
-    } else if (value == kTop) {
+    } else if (value < 0) {
+      ++ends.negatives;
+    } else if (has_top && value == kTop) {
       ++ends.tops;
     } else {
       others.push_back(value);
     }
   }
   const RobustRange range = RobustRangeOf(others);
-  if (ends.zeros > 0 && ends.tops > 0) {
+  const bool has_low = ends.zeros + ends.negatives > 0;
+  if (has_low && ends.tops > 0) {
     ends.are_depths = !range.known || range.high >= kTop / 2;
   } else if (!range.known) {
-    ends.are_depths = true;  // All values are 0 or all are 65535.
+    ends.are_depths = true;  // No value is between the ends.
   }
   const float beside = kBesidePart * (range.high - range.low);
   if (range.known && range.high > range.low) {
     ends.are_depths |=
-        (ends.zeros > 0 && range.low <= beside) || (ends.tops > 0 && kTop - range.high <= beside);
+        (has_low && range.low <= beside) || (ends.tops > 0 && kTop - range.high <= beside);
   }
   return ends;
 }
 
-void Forget(float unknown, FloatMap* map) {
-  std::replace(map->values.begin(), map->values.end(), unknown, kUnknown);
+// Returns the names of the values at the ends, such as "0 and 65535".
+std::string NamesOf(const Ends& ends) {
+  std::string names = ends.zeros > 0 ? "0" : "";
+  if (ends.negatives > 0) names += names.empty() ? "negative values" : " and negative values";
+  if (ends.tops > 0) names += names.empty() ? "65535" : " and 65535";
+  return names;
+}
+
+// Decides whether values at the ends of the range of values are unknown, and adds a note.
+void MarkEnds(const DepthOptions& options, Samples* samples, std::vector<std::string>* notes) {
+  const bool floats = samples->largest == 0;
+  const Ends ends = JudgeEnds(!floats, samples->map);
+  const bool larger_is_nearer =
+      options.near == Near::kWhite || (samples->larger_is_nearer && options.near == Near::kUnknown);
+  // Floats that reach 0 without a gap need no note: 0 is an ordinary value.
+  if (!ends.any() || (floats && ends.are_depths)) return;
+  const bool one = ends.zeros * ends.tops == 0 && ends.negatives == 0;
+  const std::string taken =
+      "in the depth picture, " + NamesOf(ends) + (one ? " is" : " are") + " taken as ";
+  if (ends.are_depths || (floats && larger_is_nearer)) {
+    const std::string listed = ends.negatives > 0 ? "V,V,..."
+                               : ends.tops == 0   ? "0"
+                               : ends.zeros > 0   ? "0,65535"
+                                                  : "65535";
+    notes->push_back(taken + "a known depth, because " +
+                     (ends.are_depths ? "other values are close"
+                                      : "larger values are nearer and 0 is the farthest depth") +
+                     " (--unknown " + listed + " overrides this)");
+    return;
+  }
+  notes->push_back(taken + "unknown depth (--unknown none overrides this)");
+  for (float& value : samples->map.values) {
+    if (value <= 0 || (!floats && value == kTop)) value = kUnknown;
+  }
 }
 
 // A gap of unknown pixels in a row or a column of a map. `value` is the value that fills one pixel
@@ -126,30 +163,22 @@ size_t FillOnce(float alike, FloatMap* map) {
 
 }  // namespace
 
-void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo) {
-  FloatMap* map = &photo->map;
-  for (float& value : map->values) {
-    if (!std::isfinite(value)) value = kUnknown;
-  }
+void Forget(float unknown, FloatMap* map) {
+  std::replace(map->values.begin(), map->values.end(), unknown, kUnknown);
+}
+
+void MarkUnknown(const DepthOptions& options, Samples* samples, std::vector<std::string>* notes) {
+  FloatMap* map = &samples->map;
+  Forget(-HUGE_VALF, map);
   for (const double value : options.unknown) Forget(static_cast<float>(value), map);
-  const bool distances =
-      options.unit == DepthUnit::kMetres || options.unit == DepthUnit::kMillimetres;
-  if (distances) Forget(0, map);  // Sensors store the distance 0 for pixels without a measurement.
-  if (options.has_unknown || largest <= 255) return;
-  const Ends ends = JudgeEnds(*map);
-  if (ends.zeros + ends.tops == 0) return;
-  const bool both = ends.zeros > 0 && ends.tops > 0;
-  const std::string end = ends.tops == 0 ? "0" : "65535", which = both ? "0 and 65535" : end;
-  if (ends.are_depths) {
-    photo->notes.push_back("in the depth picture, " + which + (both ? " are" : " is") +
-                           " taken as a known depth, because other values are close (--unknown " +
-                           (both ? "0,65535" : end) + " overrides this)");
-    return;
+  if (options.unit == DepthUnit::kDistance || options.unit == DepthUnit::kDepth16) {
+    for (float& value : map->values) {
+      if (value <= 0) value = kUnknown;
+    }
   }
-  photo->notes.push_back("in the depth picture, " + which + (both ? " are" : " is") +
-                         " taken as unknown depth (--unknown none overrides this)");
-  Forget(0, map);
-  Forget(kTop, map);
+  const bool has_markers =
+      samples->largest == 0 ? options.unit == DepthUnit::kNone : samples->largest > UINT8_MAX;
+  if (has_markers && !options.has_unknown) MarkEnds(options, samples, notes);
 }
 
 size_t FillBehind(FloatMap* map) {

@@ -3,17 +3,27 @@
 #ifndef STARFOCUS_PLATFORM_READERS_UNKNOWN_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_UNKNOWN_DEPTH_H_
 
+#include <string>
+#include <vector>
+
+#include "platform/levels.h"
 #include "platform/readers/depth_options.h"
-#include "platform/readers/photo.h"
 
 namespace starfocus {
 
-// Sets unknown values of photo->map to NaN. The map must contain the values that the file stores.
-// Values that are not finite and values in options.unknown are always unknown. If
-// options.has_unknown is false, 0 and 65535 may mean unknown depth in maps of more than 8 bits. The
-// other values of the map decide, and a note reports the decision. `largest` is the sample value of
-// white, or 0 for floats.
-void MarkUnknown(const DepthOptions& options, int largest, DepthPhoto* photo);
+// Sets unknown values of samples->map to NaN. -inf, NaN and values in options.unknown are always
+// unknown. Distances that are not positive are unknown, too. The caller decides the meaning of
+// +inf.
+//
+// If options.has_unknown is false, the following values may mean unknown depth: 0, negative values
+// and 65535 in maps of integers of more than 8 bits; 0 and negative values in maps of floats
+// without a unit, unless larger values are nearer. If larger values are nearer, 0 is the inverse
+// distance of infinitely distant points. The other values of the map decide, and a note reports the
+// decision.
+void MarkUnknown(const DepthOptions& options, Samples* samples, std::vector<std::string>* notes);
+
+// Marks pixels with the value `unknown` as unknown (NaN).
+void Forget(float unknown, FloatMap* map);
 
 // Replaces NaN by the background in a map in which larger values are nearer. For each unknown
 // pixel, uses the gap along its row or its column, whichever is shorter. The new value of an

@@ -12,97 +12,21 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/unknown_depth.h"
+#include "tests/readers/depth_scene.h"
 #include "tests/support/error_line.h"
-#include "tests/support/opened_photo.h"
 
 namespace starfocus::depth_picture_test {
 namespace {
 
+using namespace depth_scene;
 using namespace photos;
-
-constexpr int kWidth = 48, kHeight = 36;
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-// Values of a map: the wall, the bottom of a floor that comes nearer, and a box in front of both.
-struct Scene {
-  double wall, floor, box;
-
-  double At(int x, int y) const {
-    if (x >= 16 && x < 28 && y >= 8 && y < 26) return box;
-    return y < 20 ? wall : wall + (floor - wall) * (y - 19) / (kHeight - 20);
-  }
-};
-
-FloatMap MapOf(const Scene& scene) {
-  FloatMap map = {kWidth, kHeight, {}};
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) map.values.push_back(static_cast<float>(scene.At(x, y)));
-  }
-  return map;
-}
-
-std::vector<uint16_t> LevelsOf(const Scene& scene) {
-  std::vector<uint16_t> levels;
-  for (const float value : MapOf(scene).values) {
-    levels.push_back(static_cast<uint16_t>(std::lround(value)));
-  }
-  return levels;
-}
-
-size_t Index(int x, int y) { return size_t(y) * kWidth + size_t(x); }
-
-std::string GreyPng(const std::vector<uint16_t>& levels) { return Png16(kWidth, kHeight, levels); }
-
-// Opens a grey photo with a depth picture of the given name and content.
-struct Opened {
-  std::string error;
-  Capture capture;
-
-  Opened(const std::string& name, const std::string& depth, const DepthOptions& options) {
-    TempFolder folder;
-    Write(folder.file("photo.jpg"), Encode(Plain(kWidth, kHeight, 128), ".jpg"));
-    Write(folder.file(name), depth);
-    const auto opened = OpenCapture(folder.file("photo.jpg"), {folder.file(name), options});
-    error = opened.error().line();
-    capture = *opened;
-  }
-
-  double At(int x, int y) const { return double(capture.light_field.disparity.at(x, y)); }
-  bool HasNote(const std::string& part) const { return photos::HasNote(capture, part); }
-};
-
-std::string PfmOf(const FloatMap& map, ByteOrder order = ByteOrder::kLittle) {
-  TempFolder folder;
-  Require(WritePfm(folder.file("map.pfm"), map, order));
-  const Bytes bytes = ValueOf(ReadFile(folder.file("map.pfm")));
-  return {bytes.begin(), bytes.end()};
-}
-
-DepthOptions NearIs(Near near) {
-  DepthOptions options;
-  options.near = near;
-  return options;
-}
-
-const Scene kMillimetres = {3000, 1500, 900};
-constexpr int kWall[] = {40, 4}, kFloor[] = {40, 35}, kBox[] = {20, 15};
-
-// The largest disparity of a map without units: a portrait at 1.5 m from a 50 mm lens.
-const double kNearest = 50.0 * 50 / 1000 / 2 / 43.2666 * std::hypot(kWidth, kHeight) / 1.5;
-
-void CheckScene(const Opened& opened) {
-  REQUIRE(opened.error == "");
-  CHECK(opened.At(kWall[0], kWall[1]) == doctest::Approx(0));
-  CHECK(opened.At(kBox[0], kBox[1]) == doctest::Approx(kNearest));
-  CHECK(opened.At(kFloor[0], kFloor[1]) == doctest::Approx(kNearest * 1500 / 2100).epsilon(0.001));
-}
 
 TEST_CASE(
     "unknown depth: 0 and 65535 in 16 bits are unknown, and are filled with the surface behind") {
   for (const uint16_t unknown : {uint16_t{0}, uint16_t{65535}}) {
     CAPTURE(unknown);
     std::vector<uint16_t> levels = LevelsOf(kMillimetres);
-    for (int y = 0; y < kHeight; ++y) {
+    for (int y = 0; y < kRows; ++y) {
       for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // The left border.
       for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // A gap next to the box.
     }
@@ -144,7 +68,7 @@ TEST_CASE("unknown depth: 0 and 65535 are depths in a map that uses the whole ra
 }
 
 TEST_CASE("unknown depth: in 8 bits, only values that an option names are unknown") {
-  Image map = Plain(kWidth, kHeight, 100);
+  Image map = Plain(kColumns, kRows, 100);
   std::fill_n(map.row(0), map.stride(), uint8_t{0});
   std::fill_n(map.row(35), map.stride(), uint8_t{200});
   const Opened own("map.png", Encode(map, ".png"), NearIs(Near::kWhite));
@@ -165,8 +89,8 @@ TEST_CASE("unknown depth: transparent pixels are unknown, by alpha channel, colo
   const auto make = [&](int depth, int colour) {
     std::string samples;
     const int bytes = depth / 8;
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kRows; ++y) {
+      for (int x = 0; x < kColumns; ++x) {
         const bool unknown = x < 6;
         const auto level = static_cast<uint32_t>(unknown ? 7 : std::lround(scene.At(x, y)));
         const int channels = colour == 6 ? 3 : 1;
@@ -180,14 +104,14 @@ TEST_CASE("unknown depth: transparent pixels are unknown, by alpha channel, colo
   for (int level = 0; level < 256; ++level) palette += std::string(3, static_cast<char>(level));
   opacities[7] = 0;
   const std::string files[] = {
-      Png(kWidth, kHeight, {8, 4}, make(8, 4), 2 * kWidth),
-      Png(kWidth, kHeight, {16, 4}, make(16, 4), 4 * kWidth),
-      Png(kWidth, kHeight, {8, 6}, make(8, 6), 4 * kWidth),
-      Png(kWidth, kHeight, {16, 6}, make(16, 6), 8 * kWidth),
-      Png(kWidth, kHeight, {8, 0, Chunk("tRNS", Big(7, 2))}, make(8, 0), kWidth),
-      Png(kWidth, kHeight, {16, 0, Chunk("tRNS", Big(7 * 257, 2))}, make(16, 0), 2 * kWidth),
-      Png(kWidth, kHeight, {8, 3, Chunk("PLTE", palette) + Chunk("tRNS", opacities)}, make(8, 3),
-          kWidth)};
+      Png(kColumns, kRows, {8, 4}, make(8, 4), 2 * kColumns),
+      Png(kColumns, kRows, {16, 4}, make(16, 4), 4 * kColumns),
+      Png(kColumns, kRows, {8, 6}, make(8, 6), 4 * kColumns),
+      Png(kColumns, kRows, {16, 6}, make(16, 6), 8 * kColumns),
+      Png(kColumns, kRows, {8, 0, Chunk("tRNS", Big(7, 2))}, make(8, 0), kColumns),
+      Png(kColumns, kRows, {16, 0, Chunk("tRNS", Big(7 * 257, 2))}, make(16, 0), 2 * kColumns),
+      Png(kColumns, kRows, {8, 3, Chunk("PLTE", palette) + Chunk("tRNS", opacities)}, make(8, 3),
+          kColumns)};
   for (size_t k = 0; k < std::size(files); ++k) {
     CAPTURE(k);
     const Opened opened("map.png", files[k], NearIs(Near::kWhite));
@@ -207,7 +131,7 @@ TEST_CASE("unknown depth: transparent pixels are unknown, by alpha channel, colo
 TEST_CASE("unknown depth: in PFM, values that are not finite and single outliers are unknown") {
   for (const ByteOrder order : {ByteOrder::kLittle, ByteOrder::kBig}) {
     FloatMap map = MapOf({5, 5 + 25.0F * 1500 / 2100, 30});
-    for (int y = 0; y < kHeight; ++y) {
+    for (int y = 0; y < kRows; ++y) {
       map.values[Index(0, y)] = HUGE_VALF;
       map.values[Index(1, y)] = -HUGE_VALF;
       map.values[Index(47, y)] = kNan;
@@ -219,7 +143,7 @@ TEST_CASE("unknown depth: in PFM, values that are not finite and single outliers
     CHECK(opened.At(30, 1) == doctest::Approx(kNearest));
     CHECK(opened.HasNote("108 of 1728 pixels"));
   }
-  const Opened nothing("map.pfm", PfmOf({kWidth, kHeight, std::vector<float>(1728, kNan)}), {});
+  const Opened nothing("map.pfm", PfmOf({kColumns, kRows, std::vector<float>(1728, kNan)}), {});
   CHECK(Contains(nothing.error, "a map with known depths"));
 }
 
@@ -246,13 +170,12 @@ TEST_CASE("unknown depth: a gap is filled along its shorter direction, from its 
 TEST_CASE("depth pictures: PFM follows --near, and units keep the values unchanged") {
   const Scene metres = {3, 1.5, 0.9};
   CheckScene(Opened("map.pfm", PfmOf(MapOf(metres)), NearIs(Near::kBlack)));
-  DepthOptions options;
-  options.unit = DepthUnit::kMetres;
+  DepthOptions options = UnitIs(DepthUnit::kDistance);
   const Opened by_metre("map.pfm", PfmOf(MapOf(metres)), options);
   REQUIRE(by_metre.error == "");
   CHECK(by_metre.At(kWall[0], kWall[1]) == doctest::Approx(kNearest * 1.5 / 3));
   CHECK(by_metre.At(kBox[0], kBox[1]) == doctest::Approx(kNearest * 1.5 / 0.9));
-  options.unit = DepthUnit::kMillimetres;
+  options.metres = 0.001;
   std::vector<uint16_t> levels = LevelsOf(kMillimetres);
   levels[0] = 0;
   const Opened by_millimetre("map.png", GreyPng(levels), options);
@@ -270,15 +193,11 @@ TEST_CASE("depth pictures: PFM follows --near, and units keep the values unchang
 
 TEST_CASE("depth pictures: in NPY, the near end is guessed, and units keep the values unchanged") {
   const FloatMap map = MapOf({3, 1.5, 0.9});
-  std::string npy = std::string("\x93NUMPY\1\0\76\0", 10) +
-                    "{'descr': '<f4', 'fortran_order': False, 'shape': (36, 48), }\n";
-  npy.append(reinterpret_cast<const char*>(map.values.data()), map.values.size() * sizeof(float));
-  const Opened by_order("map.npy", npy, {});
+  const Opened by_order("map.npy", NpyOf(map), {});
   CHECK(by_order.HasNote("black is taken as near"));
-  CheckScene(Opened("map.npy", npy, NearIs(Near::kBlack)));
-  DepthOptions options;
-  options.unit = DepthUnit::kDisparity;
-  CHECK(Opened("map.npy", npy, options).At(kBox[0], kBox[1]) == doctest::Approx(0.9));
+  CheckScene(Opened("map.npy", NpyOf(map), NearIs(Near::kBlack)));
+  CHECK(Opened("map.npy", NpyOf(map), UnitIs(DepthUnit::kDisparity)).At(kBox[0], kBox[1]) ==
+        doctest::Approx(0.9));
 }
 
 TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected") {
@@ -289,7 +208,7 @@ TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected")
   Samples samples = ValueOf(DecodeSamples("x", true, bytes));
   CHECK(samples.largest == 4095);
   CHECK(samples.map.values[Index(kBox[0], kBox[1])] == 900);
-  Image colours(kWidth, kHeight);
+  Image colours(kColumns, kRows);
   for (size_t k = 0; k < colours.pixels.size(); k += 3) {
     colours.pixels[k] = static_cast<uint8_t>(k / 21);
     colours.pixels[k + 2] = static_cast<uint8_t>(255 - k / 21);
@@ -300,7 +219,7 @@ TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected")
                    "a colour picture"));
   }
   // Grey pictures stay grey after JPEG compression.
-  CHECK(Opened("map.jpg", Encode(Ramp(kWidth, kHeight), ".jpg"), {}).error == "");
+  CHECK(Opened("map.jpg", Encode(Ramp(kColumns, kRows), ".jpg"), {}).error == "");
 }
 
 Image GreyOf(const FloatMap& map) {
@@ -331,13 +250,13 @@ TEST_CASE("depth pictures: by its proportions and edges, a picture is rotated wi
       CAPTURE(square);
       FloatMap map = MapOf({30, 140, 220});
       if (square) {
-        map.values.resize(size_t(kHeight) * kHeight);
-        for (int y = 0; y < kHeight; ++y) {
-          for (int x = 0; x < kHeight; ++x) {
-            map.values[size_t(y * kHeight + x)] = static_cast<float>(Scene{30, 140, 220}.At(x, y));
+        map.values.resize(size_t(kRows) * kRows);
+        for (int y = 0; y < kRows; ++y) {
+          for (int x = 0; x < kRows; ++x) {
+            map.values[size_t(y * kRows + x)] = static_cast<float>(Scene{30, 140, 220}.At(x, y));
           }
         }
-        map.width = kHeight;
+        map.width = kRows;
       }
       const Image as_file = PictureOf(map);
       FloatMap upright = map;
@@ -391,15 +310,15 @@ TEST_CASE("depth pictures: a picture is found by its name next to the photo") {
         "photo-depth.exr", "photo-depth.tif", "photo-depth.tiff"}) {
     CAPTURE(name);
     TempFolder folder;
-    Write(folder.file("photo.jpg"), Encode(Plain(kWidth, kHeight, 128), ".jpg"));
+    Write(folder.file("photo.jpg"), Encode(Plain(kColumns, kRows, 128), ".jpg"));
     Write(folder.file("photodepth.png"), "no picture");
     Write(folder.file("photo2-depth.png"), "no picture");
     Write(folder.file("depth.png"), "no picture");
-    Write(folder.file(name), Encode(Ramp(kWidth, kHeight), ".png"));
+    Write(folder.file(name), Encode(Ramp(kColumns, kRows), ".png"));
     Capture capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {}));
     CHECK(capture.map_path == folder.file(name));
     CHECK(capture.notes.size() == 1);
-    Write(folder.file("photo-depth.jpg"), Encode(Ramp(kWidth, kHeight), ".jpg"));
+    Write(folder.file("photo-depth.jpg"), Encode(Ramp(kColumns, kRows), ".jpg"));
     capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {"", NearIs(Near::kWhite)}));
     REQUIRE(capture.notes.size() == 1);
     CHECK(Contains(capture.notes[0], "2 depth pictures"));

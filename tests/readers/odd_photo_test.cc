@@ -114,7 +114,7 @@ TEST_CASE("extended XMP that no packet names is used if there is no other map") 
     Capture capture = OpenRamp(file, kPortrait, kPortrait / 8);
     CHECK(HasNote(capture, "no XMP packet refers to"));
     CaptureOptions metres;
-    metres.map.unit = DepthUnit::kMetres;
+    metres.map.unit = DepthUnit::kDistance;
     TempFolder folder;
     Write(folder.file("a.jpg"), file);
     CHECK(Contains(OpenCapture(folder.file("a.jpg"), metres),

@@ -19,11 +19,10 @@ Error CheckNear(const DepthOptions& options) {
   if (options.unit == DepthUnit::kNone) return {};
   const bool disparity = options.unit == DepthUnit::kDisparity;
   if (options.near != (disparity ? Near::kBlack : Near::kWhite)) return {};
-  return Error::Usage("--near",
-                      disparity ? "white for --depth-unit disparity"
-                                : std::string("black for --depth-unit ") +
-                                      (options.unit == DepthUnit::kMetres ? "m" : "mm"),
-                      disparity ? "black" : "white");
+  return Error::Usage(
+      "--near",
+      disparity ? "white for --depth-unit disparity" : "black for the distances of --depth-unit",
+      disparity ? "black" : "white");
 }
 
 // Returns the name of the first depth-picture option that is set, in the order of the help. Returns

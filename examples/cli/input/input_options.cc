@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/input/input_options.h"
 
+#include <cmath>
+
 #include "examples/command_line/options.h"
 
 namespace starfocus {
@@ -8,12 +10,32 @@ namespace {
 
 constexpr int kMostSeconds = 86400;
 
-// Parses "none" or a list of numbers separated by commas.
+// Parses "none" or a list of numbers separated by commas, of which one may be inf.
 std::string ReadUnknown(const std::string& text, DepthOptions* options) {
   options->has_unknown = true;
   options->use_alpha = text != "none";
-  if (options->use_alpha) options->unknown = ReadNumbers(text, ',');
-  return options->use_alpha && options->unknown.empty() ? "none or a list of values V,V,..." : "";
+  if (!options->use_alpha) return "";
+  options->unknown = ReadNumbers(text, ',');
+  if (text == "inf") options->unknown = {HUGE_VAL};
+  return options->unknown.empty() ? "none, inf or a list of values V,V,..." : "";
+}
+
+// Parses the name of a unit, or a number of metres.
+std::string ReadUnit(const std::string& text, DepthOptions* options) {
+  if (text == "disparity" || text == "depth16") {
+    options->unit = text == "depth16" ? DepthUnit::kDepth16 : DepthUnit::kDisparity;
+    return "";
+  }
+  const std::vector<double> numbers = ReadNumbers(text == "m"    ? "1"
+                                                  : text == "mm" ? "0.001"
+                                                                 : text,
+                                                  ',');
+  if (numbers.size() != 1 || !(numbers[0] > 0)) {
+    return "m, mm, a number of metres above 0, depth16 or disparity";
+  }
+  options->unit = DepthUnit::kDistance;
+  options->metres = numbers[0];
+  return "";
 }
 
 std::string ReadCommand(const std::string& text, DepthCommand* command) {
@@ -29,25 +51,23 @@ void AddDepthPictureOptions(Command* command, DepthOptions* options) {
            "Shade that is near in a depth picture; default: white in a PFM file, "
            "otherwise guessed from the lower part of the picture",
            Choice<Near>({{"white", Near::kWhite}, {"black", Near::kBlack}}, &options->near)},
-          {"--depth-unit", "m|mm|disparity",
-           "Unit of the values of a depth picture: distances in metres (m) or millimetres "
-           "(mm), or disparities in pixels of the photo; default: no unit, so that only "
-           "the order of the values matters",
-           Choice<DepthUnit>({{"m", DepthUnit::kMetres},
-                              {"mm", DepthUnit::kMillimetres},
-                              {"disparity", DepthUnit::kDisparity}},
-                             &options->unit)},
+          {"--depth-unit", "m|mm|NUMBER|depth16|disparity",
+           "Unit of the values of a depth picture: distances in metres (m), millimetres "
+           "(mm) or multiples of a number of metres (0.0002 for maps that store 5000 for a "
+           "metre), Android's DEPTH16, or disparities in pixels of the photo; default: no "
+           "unit, so that only the order of the values matters",
+           Target([options](const std::string& text) { return ReadUnit(text, options); })},
           {"--depth-orientation", "photo|upright",
            "Orientation of a depth picture: photo rotates the depth picture by the "
            "photo's EXIF, upright does not; default: guessed from proportions and edges",
            Choice<DepthOrientation>(
                {{"photo", DepthOrientation::kPhoto}, {"upright", DepthOrientation::kUpright}},
                &options->orientation)},
-          {"--unknown", "none|V,V,...",
+          {"--unknown", "none|inf|V,V,...",
            "Values of a depth picture that mean an unknown depth, in addition to transparent "
            "pixels; none means that all finite values are known, also those of transparent "
-           "pixels; default: 0 and 65535 in pictures with more than 8 bits, unless the other "
-           "values show that 0 and 65535 are depths",
+           "pixels; default: values up to 0, and 65535 in pictures with more than 8 bits, "
+           "unless the other values show that these are depths",
            Target([options](const std::string& text) { return ReadUnknown(text, options); })},
       },
       command);

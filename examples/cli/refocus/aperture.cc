@@ -113,6 +113,7 @@ double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vect
 
 Error FitAperture(double range, ApertureChoice* aperture) {
   const double blur = aperture->radius * range;
+  aperture->blur = std::min(blur, STARFOCUS_MAX_BLUR);
   if (blur <= STARFOCUS_MAX_BLUR) return {};
   if (aperture->option.empty()) {
     aperture->radius = aperture->widest / WidestFStop(range, *aperture);
@@ -126,6 +127,12 @@ Error FitAperture(double range, ApertureChoice* aperture) {
 }
 
 void TellAperture(const std::string& path, const ApertureChoice& aperture) {
+  if (aperture.blur < 1 && aperture.radius > 0) {
+    std::fprintf(stderr,
+                 "%s: the blur is below a pixel everywhere, at most %s (another --depth-unit of a "
+                 "depth picture or a wider aperture changes this)\n",
+                 path.c_str(), ThreeDigits(aperture.blur).c_str());
+  }
   if (!aperture.narrowed) return;
   std::fprintf(stderr,
                "%s: aperture set to f/%s, the widest with a blur of at most %s pixels (--f-stop "

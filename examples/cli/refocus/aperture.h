@@ -26,6 +26,7 @@ struct ApertureChoice {
   std::string option;     // Option that set the radius; empty: the default.
   std::string value;      // Value of `option` as typed.
   bool narrowed = false;  // True if the default exceeded the blur limit and was reduced.
+  double blur = 0;        // Largest blur radius in pixels; set by FitAperture.
 };
 
 // Evaluates the options. The default aperture is the f-stop of the input if known, otherwise radius
@@ -42,7 +43,8 @@ double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vect
 // for an aperture that the user chose.
 Error FitAperture(double range, ApertureChoice* aperture);
 
-// If the default aperture was reduced, prints the f-stop that replaces the default to stderr.
+// Prints notes to stderr: the f-stop that replaces the default if the default aperture was reduced,
+// and the largest blur if it is less than a pixel, as with a wrong unit of distances.
 void TellAperture(const std::string& path, const ApertureChoice& aperture);
 
 }  // namespace starfocus

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene of three surfaces, and its depth pictures in several formats, which tests open together
+// with a grey photo.
+#ifndef STARFOCUS_TESTS_READERS_DEPTH_SCENE_H_
+#define STARFOCUS_TESTS_READERS_DEPTH_SCENE_H_
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "platform/readers/capture.h"
+#include "tests/support/opened_photo.h"
+
+namespace starfocus::depth_scene {
+
+using namespace photos;
+
+inline constexpr int kColumns = 48, kRows = 36;
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// Values of a map: the wall, the bottom of a floor that comes nearer, and a box in front of both.
+struct Scene {
+  double wall, floor, box;
+
+  double At(int x, int y) const {
+    if (x >= 16 && x < 28 && y >= 8 && y < 26) return box;
+    return y < 20 ? wall : wall + (floor - wall) * (y - 19) / (kRows - 20);
+  }
+};
+
+inline FloatMap MapOf(const Scene& scene) {
+  FloatMap map = {kColumns, kRows, {}};
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = 0; x < kColumns; ++x) map.values.push_back(static_cast<float>(scene.At(x, y)));
+  }
+  return map;
+}
+
+inline std::vector<uint16_t> LevelsOf(const Scene& scene) {
+  std::vector<uint16_t> levels;
+  for (const float value : MapOf(scene).values) {
+    levels.push_back(static_cast<uint16_t>(std::lround(value)));
+  }
+  return levels;
+}
+
+inline size_t Index(int x, int y) { return size_t(y) * kColumns + size_t(x); }
+
+inline std::string GreyPng(const std::vector<uint16_t>& levels) {
+  return Png16(kColumns, kRows, levels);
+}
+
+// Opens a grey photo with a depth picture of the given name and content.
+struct Opened {
+  std::string error;
+  Capture capture;
+
+  Opened(const std::string& name, const std::string& depth, const DepthOptions& options) {
+    TempFolder folder;
+    Write(folder.file("photo.jpg"), Encode(Plain(kColumns, kRows, 128), ".jpg"));
+    Write(folder.file(name), depth);
+    const auto opened = OpenCapture(folder.file("photo.jpg"), {folder.file(name), options});
+    error = opened.error().line();
+    capture = *opened;
+  }
+
+  double At(int x, int y) const { return double(capture.light_field.disparity.at(x, y)); }
+  bool HasNote(const std::string& part) const { return photos::HasNote(capture, part); }
+};
+
+inline std::string PfmOf(const FloatMap& map, ByteOrder order = ByteOrder::kLittle) {
+  TempFolder folder;
+  Require(WritePfm(folder.file("map.pfm"), map, order));
+  const Bytes bytes = ValueOf(ReadFile(folder.file("map.pfm")));
+  return {bytes.begin(), bytes.end()};
+}
+
+inline DepthOptions NearIs(Near near) {
+  DepthOptions options;
+  options.near = near;
+  return options;
+}
+
+inline std::string NpyOf(const FloatMap& map) {
+  const std::string npy = std::string("\x93NUMPY\1\0\76\0", 10) +
+                          "{'descr': '<f4', 'fortran_order': False, 'shape': (36, 48), }\n";
+  return npy + std::string(reinterpret_cast<const char*>(map.values.data()),
+                           map.values.size() * sizeof(float));
+}
+
+inline DepthOptions UnitIs(DepthUnit unit, double metres = 1) {
+  DepthOptions options;
+  options.unit = unit;
+  options.metres = metres;
+  return options;
+}
+
+inline constexpr Scene kMillimetres = {3000, 1500, 900};
+inline constexpr int kWall[] = {40, 4}, kFloor[] = {40, 35}, kBox[] = {20, 15};
+
+// The largest disparity of a map without units: a portrait at 1.5 m from a 50 mm lens.
+inline const double kNearest = 50.0 * 50 / 1000 / 2 / 43.2666 * std::hypot(kColumns, kRows) / 1.5;
+
+inline void CheckScene(const Opened& opened) {
+  REQUIRE(opened.error == "");
+  CHECK(opened.At(kWall[0], kWall[1]) == doctest::Approx(0));
+  CHECK(opened.At(kBox[0], kBox[1]) == doctest::Approx(kNearest));
+  CHECK(opened.At(kFloor[0], kFloor[1]) == doctest::Approx(kNearest * 1500 / 2100).epsilon(0.001));
+}
+
+}  // namespace starfocus::depth_scene
+
+#endif  // STARFOCUS_TESTS_READERS_DEPTH_SCENE_H_
