@@ -60,6 +60,21 @@ inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
   if (!done) reference::HalvesToDepth(values, count, z);
 }
 
+inline void Depth16ToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
+                           float* HWY_RESTRICT z) {
+  const DepthTag df;
+  const DepthBits d32;
+  const hn::Rebind<uint16_t, DepthTag> d16;
+  const auto nan = hn::BitCast(df, hn::Set(d32, 0x7FC00000));
+  const bool done = ForVectors(count, hn::Lanes(df), [&](size_t n) HWY_ATTR {
+    const auto value = hn::PromoteTo(d32, hn::LoadU(d16, values + n));
+    const auto distance = hn::And(value, hn::Set(d32, kDepth16Distance));
+    const auto unknown = hn::RebindMask(df, hn::Eq(distance, hn::Zero(d32)));
+    hn::StoreU(hn::IfThenElse(unknown, nan, hn::ConvertTo(df, distance)), df, z + n);
+  });
+  if (!done) reference::Depth16ToDepth(values, count, z);
+}
+
 // Converts depths to disparities. The function `scaled` computes scale * z or scale / z.
 template <class Scaled>
 HWY_INLINE uint32_t ConvertDepths(const float* HWY_RESTRICT z, size_t count, const DepthRule& rule,

@@ -27,6 +27,9 @@ enum DepthFlags : uint32_t { kUnknownDepth = 1, kDepthOutside = 2 };
 // engine's kSurfaceStep.
 inline constexpr int16_t kBlendStep = 96;
 
+// Bits of the distance in a value of DEPTH16.
+inline constexpr int32_t kDepth16Distance = 0x1FFF;
+
 // Fractional bits of the position of a picture column in a map. The position is kColumnOne times
 // the index of the map column on the left, plus the share of the map column on the right.
 inline constexpr int kColumnBits = 8;
@@ -36,11 +39,13 @@ inline constexpr int kSpreadSpare = 8;
 
 namespace reference {
 
-// Convert bytes, 16-bit numbers or half-precision floats (IEEE 754 binary16) to z[n] for n < count.
-// Infinity and NaN are converted to NaN.
+// Convert bytes, 16-bit numbers, half-precision floats (IEEE 754 binary16) or DEPTH16 to z[n] for
+// n < count. Infinity and NaN are converted to NaN. DEPTH16 is a distance in the lower 13 bits,
+// where 0 is unknown (NaN).
 void BytesToDepth(const uint8_t* values, size_t count, float* z);
 void WordsToDepth(const uint16_t* values, size_t count, float* z);
 void HalvesToDepth(const uint16_t* values, size_t count, float* z);
+void Depth16ToDepth(const uint16_t* values, size_t count, float* z);
 
 // Returns the disparity of z according to `rule`, with each operation rounded to single precision.
 // The result is NaN if z is invalid or the disparity is not finite.

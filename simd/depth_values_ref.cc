@@ -44,6 +44,13 @@ void HalvesToDepth(const uint16_t* values, size_t count, float* z) {
   for (size_t n = 0; n < count; ++n) z[n] = HalfToFloat(values[n]);
 }
 
+void Depth16ToDepth(const uint16_t* values, size_t count, float* z) {
+  for (size_t n = 0; n < count; ++n) {
+    const int32_t distance = values[n] & kDepth16Distance;
+    z[n] = distance == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(distance);
+  }
+}
+
 uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, int16_t* out) {
   uint32_t flags = 0;
   for (size_t n = 0; n < count; ++n) {

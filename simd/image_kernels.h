@@ -20,6 +20,7 @@
   KERNEL(RgbToPixels)                   \
   KERNEL(BytesToDepth)                  \
   KERNEL(WordsToDepth)                  \
+  KERNEL(Depth16ToDepth)                \
   KERNEL(HalvesToDepth)                 \
   KERNEL(DepthToDisparity)              \
   KERNEL(BlendRows)                     \

@@ -96,7 +96,8 @@ starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize
                                starfocus_problem* problem) {
   Checker check(problem);
   check.NotNull(map.data, "depth.data");
-  check.In({"depth.type", double(map.type)}, {"a starfocus_depth_type", 0, STARFOCUS_DEPTH_HALF});
+  check.In({"depth.type", double(map.type)},
+           {"a starfocus_depth_type", 0, STARFOCUS_DEPTH_DEPTH16});
   check.In({"depth.meaning", double(map.meaning)},
            {"a starfocus_depth_meaning", 0, STARFOCUS_DEPTH_RECIPROCAL});
   check.In({"depth.has_invalid", double(map.has_invalid)}, STARFOCUS_FROM_TO(0, 1));

@@ -28,6 +28,8 @@ uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& dep
     kernels.BytesToDepth(static_cast<const uint8_t*>(row), values, z);
   } else if (type == STARFOCUS_DEPTH_U16) {
     kernels.WordsToDepth(static_cast<const uint16_t*>(row), values, z);
+  } else if (type == STARFOCUS_DEPTH_DEPTH16) {
+    kernels.Depth16ToDepth(static_cast<const uint16_t*>(row), values, z);
   } else {
     kernels.HalvesToDepth(static_cast<const uint16_t*>(row), values, z);
   }

@@ -42,6 +42,8 @@ void ReadDisparities(const starfocus_depth_map& map, int32_t x, int32_t y, int32
     simd::reference::BytesToDepth(static_cast<const uint8_t*>(values), n, out);
   } else if (map.type == STARFOCUS_DEPTH_U16) {
     simd::reference::WordsToDepth(static_cast<const uint16_t*>(values), n, out);
+  } else if (map.type == STARFOCUS_DEPTH_DEPTH16) {
+    simd::reference::Depth16ToDepth(static_cast<const uint16_t*>(values), n, out);
   } else {
     simd::reference::HalvesToDepth(static_cast<const uint16_t*>(values), n, out);
   }

@@ -16,7 +16,7 @@ using test::ImageField;
 using test::ImageKind;
 using test::ImageMemory;
 
-constexpr int kFormats = 8, kTypes = 4;
+constexpr int kFormats = 8, kTypes = 5;
 constexpr int kAllViews[] = {1, 5, 9, 17};
 
 ImageField AnyField(const test::Scene& scene, int format, int round, test::Random* random) {

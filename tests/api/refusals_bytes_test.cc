@@ -172,7 +172,7 @@ const Row kImages[] = {
        c->field.views[0].strides[0] = 4 * 21 - 1;
      }},
     {kViews, "depth.data", kNull, [](Call* c) { c->field.depth.data = nullptr; }},
-    {kViews, "depth.type", kRange, [](Call* c) { c->field.depth.type = 4; }},
+    {kViews, "depth.type", kRange, [](Call* c) { c->field.depth.type = 5; }},
     {kViews, "depth.type", kRange, [](Call* c) { c->field.depth.type = -1; }},
     {kViews, "depth.meaning", kRange, [](Call* c) { c->field.depth.meaning = 2; }},
     {kViews, "depth.meaning", kRange, [](Call* c) { c->field.depth.meaning = -1; }},

@@ -78,7 +78,7 @@ ImageField Field(int views, starfocus_depth_type type, starfocus_depth_meaning m
 TEST_CASE("maps of any format: the result is that of the converted light field") {
   test::Random random(3);
   for (const int views : {1, 5}) {
-    for (const auto type : {STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_HALF}) {
+    for (const auto type : {STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_HALF, STARFOCUS_DEPTH_DEPTH16}) {
       for (const auto meaning : {STARFOCUS_DEPTH_LINEAR, STARFOCUS_DEPTH_RECIPROCAL}) {
         const ImageField field = Field(views, type, meaning, &random);
         for (const bool repairs : {true, false}) {

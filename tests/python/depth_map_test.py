@@ -24,6 +24,15 @@ class DepthMaps(unittest.TestCase):
         with self.assertRaises(starfocus.DisparityError):
             starfocus.focus_at(np.full((9, 9), np.nan, np.float32), 4, 4)
 
+    def test_depth16_is_measured_without_its_confidence(self):
+        distances = np.where(np.arange(40) < 20, 4000, 500).astype(np.uint16) * np.ones((30, 1), np.uint16)
+        distances[0, 0] = 0
+        codes = distances | (np.arange(40, dtype=np.uint16) % 8 << 13)
+        depth = starfocus.DepthMap(codes, starfocus.DepthMeaning.RECIPROCAL, 8000, depth16=True)
+        self.assertEqual(starfocus.measure_disparity(depth), (2, 16, 1))
+        with self.assertRaisesRegex(TypeError, "expected uint16 for depth16, found float32"):
+            starfocus.measure_disparity(starfocus.DepthMap(codes.astype(np.float32), depth16=True))
+
     def test_the_largest_aperture_is_accepted(self):
         engine = starfocus.Refocuser(8, 8, 1, disparity_min=2, disparity_max=16, max_blur=7)
         self.assertEqual(engine.largest_aperture(2), 0.5)

@@ -69,6 +69,14 @@ void BytesToDepth(Draw* draw, ImageCall* call) {
             call);
 }
 
+void Depth16ToDepth(Draw* draw, ImageCall* call) {
+  std::vector<uint16_t> values = Words(draw->Length(1, kLongestDepths, 1024), draw);
+  for (uint16_t& value : values) {  // Unknown distances with any confidence.
+    if (draw->Rarely(4)) value &= 0xE000;
+  }
+  WidenCase(values, &ImageKernels::Depth16ToDepth, call);
+}
+
 void WordsToDepth(Draw* draw, ImageCall* call) {
   WidenCase(Words(draw->Length(1, kLongestDepths, 1024), draw), &ImageKernels::WordsToDepth, call);
 }

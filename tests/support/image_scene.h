@@ -214,8 +214,11 @@ struct DepthMemory {
     } else if (map.type == STARFOCUS_DEPTH_U8) {
       *At(x, y) = uint8_t(std::clamp(std::lround(z), 0L, 255L));
     } else {
+      // DEPTH16 has any confidence in its upper 3 bits.
       const uint16_t value = map.type == STARFOCUS_DEPTH_U16
                                  ? uint16_t(std::clamp(std::lround(z), 0L, 65535L))
+                             : map.type == STARFOCUS_DEPTH_DEPTH16
+                                 ? uint16_t(std::clamp(std::lround(z), 1L, 8191L) | (x + y) << 13)
                                  : HalfOf(z);
       std::memcpy(At(x, y), &value, 2);
     }
@@ -227,6 +230,9 @@ struct DepthMemory {
     std::memcpy(&value, At(x, y), map.type == STARFOCUS_DEPTH_FLOAT ? 4 : 0);
     std::memcpy(&word, At(x, y), 2);
     if (map.type == STARFOCUS_DEPTH_U16) return float(word);
+    if (map.type == STARFOCUS_DEPTH_DEPTH16) {
+      return word % 8192 == 0 ? std::numeric_limits<float>::quiet_NaN() : float(word % 8192);
+    }
     return map.type == STARFOCUS_DEPTH_FLOAT ? value : FloatOf(word);
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the range of depth maps in platform/web/worker/depth.js against sorted values.
+// Tests platform/web/worker/depth.js: the range of depth maps against sorted values, and the values of DEPTH16.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
@@ -7,7 +7,7 @@ import {dirname, join} from 'node:path';
 import test from 'node:test';
 
 const path = join(dirname(process.env.STARFOCUS_SERVER), '../../platform/web/worker/depth.js');
-const {measureRobustly} = await import(`data:text/javascript,${encodeURIComponent(readFileSync(path, 'utf8'))}`);
+const {measureRobustly, writeDisparities} = await import(`data:text/javascript,${encodeURIComponent(readFileSync(path, 'utf8'))}`);
 
 /** Checks the quantiles of 0.1 % and 99.9 % of the finite values, including the sign of zero. */
 function check(data, channels = 1) {
@@ -39,6 +39,15 @@ test('the range of integers has the values of sorting', () => {
   check(codes, 3);
   check(Uint8Array.from(codes), 4);
   check(Uint8Array.of(255));
+});
+
+test('values of DEPTH16 are distances below any confidence, and 0 is unknown', () => {
+  for (let confidence = 0; confidence < 8; ++confidence) {
+    const data = Uint16Array.of(...[0, 1, 500, 8191].map(distance => distance + 8192 * confidence));
+    const disparities = new Float32Array(4);
+    writeDisparities({data, scale: 1000, reciprocal: true, depth16: true}, disparities);
+    assert.deepStrictEqual(disparities, Float32Array.of(NaN, 1000, 2, 1000 / 8191));
+  }
 });
 
 test('a map without finite values has no range', () => {

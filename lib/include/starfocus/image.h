@@ -92,7 +92,11 @@ typedef enum starfocus_depth_type {
   STARFOCUS_DEPTH_FLOAT = 0, /**< 32-bit IEEE float. */
   STARFOCUS_DEPTH_U16 = 1,   /**< 16-bit unsigned integer. */
   STARFOCUS_DEPTH_U8 = 2,    /**< 8-bit unsigned integer. */
-  STARFOCUS_DEPTH_HALF = 3   /**< 16-bit IEEE float. */
+  STARFOCUS_DEPTH_HALF = 3,  /**< 16-bit IEEE float. */
+  /** 16-bit unsigned integer in Android's format DEPTH16. The value z is the distance in
+   * millimetres in the lower 13 bits; 0 is unknown. The confidence in the upper 3 bits is ignored.
+   * Use this type with STARFOCUS_DEPTH_RECIPROCAL. */
+  STARFOCUS_DEPTH_DEPTH16 = 4
 } starfocus_depth_type;
 
 /** Conversion of a value z of a depth map to a disparity. */

@@ -15,6 +15,7 @@ from .constants import DepthMeaning, Format, Matrix, Range
 _PIXEL_BYTES = {Format.RGB: 3, Format.BGR: 3, Format.RGBX: 4, Format.BGRX: 4}
 _CHROMA_PLANES = {Format.NV12: 1, Format.NV21: 1, Format.I420: 2, Format.YUV_420_888: 2}
 _DEPTH_TYPES = {np.dtype(np.float32): 0, np.dtype(np.uint16): 1, np.dtype(np.uint8): 2, np.dtype(np.float16): 3}
+_DEPTH16 = 4
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,8 @@ class DepthMap:
         offset: finite; rounded to float32.
         invalid: value that stands for unknown depth; None: no such value. Maps with unknown values require
             `fill_unknown=1` in the configuration.
+        depth16: True for uint16 values in Android's format DEPTH16: z is the distance in millimetres in the lower 13
+            bits, where 0 is unknown, and the confidence in the upper 3 bits is ignored.
     """
 
     values: Array
@@ -86,6 +89,7 @@ class DepthMap:
     scale: float = 1.0
     offset: float = 0.0
     invalid: Optional[float] = None
+    depth16: bool = False
 
     def as_structure(self) -> Tuple[_abi.DepthMap, Array]:
         """Returns the starfocus_depth_map, and the array that it points to.
@@ -99,12 +103,14 @@ class DepthMap:
                 values = values.astype(native)
         if values.dtype not in _DEPTH_TYPES:
             raise TypeError(f"depth: expected float32, float16, uint16 or uint8, found {values.dtype}")
+        if self.depth16 and values.dtype != np.uint16:
+            raise TypeError(f"depth: expected uint16 for depth16, found {values.dtype}")
         if values.ndim != 2 or 0 in values.shape or not has_rows(values):
             raise ValueError(f"depth: expected rows of values, contiguous and aligned, found the shape "
                              f"{values.shape} with the strides {values.strides}")
         height, width = values.shape
-        depth = _abi.DepthMap(values.ctypes.data, stride_of(values), width, height, _DEPTH_TYPES[values.dtype],
-                              DepthMeaning(self.meaning), self.scale, self.offset, self.invalid or 0.0,
+        depth = _abi.DepthMap(values.ctypes.data, stride_of(values), width, height,
+                              _DEPTH16 if self.depth16 else _DEPTH_TYPES[values.dtype], DepthMeaning(self.meaning), self.scale, self.offset, self.invalid or 0.0,
                               self.invalid is not None)
         return depth, values
 

@@ -40,7 +40,7 @@ export function checkCoverage(coverage, {width, height}) {
 
 const MAP = {
   data: 'any', width: 'integer', height: 'integer', scale: 'number', offset: 'number', reciprocal: 'boolean',
-  invalid: 'any'
+  invalid: 'any', depth16: 'boolean'
 };
 
 /** Returns a depth map with all fields of DepthMap in starfocus.d.ts. `depth` is a DepthMap, or a Float32Array of the
@@ -48,14 +48,16 @@ const MAP = {
 export function checkDepth(depth, config) {
   const given = depth instanceof Float32Array ? {data: depth} : depth;
   checkFields('depth', given, MAP, ['data']);
-  const {data, width = config.width, height = config.height, scale = 1, offset = 0, reciprocal = false} = given;
+  const {data, width = config.width, height = config.height, scale = 1, offset = 0} = given;
+  const {reciprocal = false, invalid, depth16 = false} = given;
   expect(isDepth(data), 'depth.data', 'a Float32Array, a Uint16Array or a Uint8Array', data);
+  expect(!depth16 || data instanceof Uint16Array, 'depth.data', 'a Uint16Array for depth16', data);
   expect(width >= 1 && width <= config.width, 'depth.width', `1 to ${config.width}`, width, 'RANGE');
   expect(height >= 1 && height <= config.height, 'depth.height', `1 to ${config.height}`, height, 'RANGE');
   expect(data.length === width * height, 'depth.data', `${width} x ${height} values`, data.length, 'RANGE');
   expect(Number.isFinite(Math.fround(scale)) && Math.fround(scale) !== 0, 'depth.scale', 'a finite number other than 0',
          scale, 'RANGE');
   expect(Number.isFinite(Math.fround(offset)), 'depth.offset', 'a finite number', offset, 'RANGE');
-  expect(given.invalid === undefined || typeof given.invalid === 'number', 'depth.invalid', 'a number', given.invalid);
-  return {data, width, height, scale, offset, reciprocal, invalid: given.invalid};
+  expect(invalid === undefined || typeof invalid === 'number', 'depth.invalid', 'a number', invalid);
+  return {data, width, height, scale, offset, reciprocal, invalid, depth16};
 }

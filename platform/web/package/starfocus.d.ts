@@ -131,6 +131,9 @@ export interface DepthMap {
   reciprocal?: boolean;
   /** A value that stands for unknown depth, as NaN does: see Settings.fillUnknown. Default: none. */
   invalid?: number;
+  /** True: `data` is a Uint16Array in Android's format DEPTH16. The value is the distance in millimetres in the lower 13
+   *  bits, where 0 is unknown; the confidence in the upper 3 bits is ignored. Default false. */
+  depth16?: boolean;
 }
 
 /** Options of calls that can be cancelled. */

@@ -20,7 +20,9 @@ export function writeDisparities(map, to, channels = 1) {
     for (let i = 0; i < count; ++i) to[i] = convert(data[i]);
     return;
   }
-  const table = Float32Array.from({length: data instanceof Uint16Array ? 65536 : 256}, (_, code) => convert(code));
+  const valueOf = map.depth16 ? code => code & 0x1fff || NaN : code => code;
+  const table =
+    Float32Array.from({length: data instanceof Uint16Array ? 65536 : 256}, (_, code) => convert(valueOf(code)));
   for (let i = 0, at = 0; i < count; ++i, at += channels) to[i] = table[data[at]];
 }
 

@@ -28,7 +28,9 @@ const params: Params = {
 };
 const pixels: Pixels = {data: new Uint8Array(48), width: 4, height: 4};
 const views: readonly View[] = [pixels, new Uint8Array(48), new Uint8ClampedArray(64)];
-const map: DepthMap = {data: new Uint16Array(16), width: 4, height: 4, scale: 1, offset: 0, reciprocal: true, invalid: 0};
+const map: DepthMap = {
+  data: new Uint16Array(16), width: 4, height: 4, scale: 1, offset: 0, reciprocal: true, invalid: 0, depth16: true
+};
 
 export async function useRefocuser(): Promise<string> {
   const refocuser: Refocuser = await createRefocuser(options);

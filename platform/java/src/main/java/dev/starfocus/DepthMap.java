@@ -11,9 +11,11 @@ import java.nio.ByteBuffer;
 public final class DepthMap {
   /**
    * Types of the values of a map: 32-bit float, 16-bit unsigned integer, 8-bit unsigned integer,
-   * 16-bit float.
+   * 16-bit float, and the 16-bit integers of {@code ImageFormat.DEPTH16} of Android. A value of
+   * DEPTH16 is a distance in millimetres in the lower 13 bits, where 0 is unknown; its confidence
+   * is ignored. Use DEPTH16 with {@link #RECIPROCAL}.
    */
-  public static final int FLOAT = 0, U16 = 1, U8 = 2, HALF = 3;
+  public static final int FLOAT = 0, U16 = 1, U8 = 2, HALF = 3, DEPTH16 = 4;
   /** Values of {@link #meaning}. */
   public static final int LINEAR = 0, RECIPROCAL = 1;
 
@@ -44,7 +46,7 @@ public final class DepthMap {
   /**
    * Describes a depth map. The values in the buffer must not change while a call reads the map.
    *
-   * @param type {@link #FLOAT}, {@link #U16}, {@link #U8} or {@link #HALF}
+   * @param type {@link #FLOAT}, {@link #U16}, {@link #U8}, {@link #HALF} or {@link #DEPTH16}
    * @param values direct buffer; the map starts at its position
    * @param stride bytes from row to row, at least one row and a multiple of the size of a value
    * @param width width in values, 1 to the width of the picture
