@@ -67,15 +67,14 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo) {
           photo);
 }
 
-Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
+Error ReadAppleJpeg(Span file, const JpegParts& parts, std::vector<AppendedPicture> appended,
+                    DepthPhoto* photo) {
   if (!CanReadXmp()) return {};
-  bool gain_map = false;
   Error error;
-  const MultiPictures listed = ListMultiPictures(file, parts);
+  const MultiPictures listed = ListMultiPictures(file, parts, std::move(appended));
   for (const MultiPicture& picture : listed.pictures) {
     const XmpNode xmp = ReadPackets(picture.parts);
     const std::string type = TypeOf(xmp);
-    gain_map = gain_map || type.find("gainmap") != std::string::npos;
     if (!IsMap(type) || !photo->map.values.empty()) continue;
     const Bytes bytes(picture.file.data, picture.file.data + picture.file.size);
     error = DecodeLevels("auxiliary picture", bytes).MoveTo(&photo->map);
@@ -84,7 +83,6 @@ Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo) {
     NoteIndex(parts, picture, photo);
     UnderstandApple(xmp, photo);
   }
-  if (gain_map) photo->facts.emplace_back("gain map", "ignored");
   if (!photo->map.values.empty()) return {};
   if (error || !listed.missing) return error;
   return Expected("multi-picture index", "all listed pictures in the file",

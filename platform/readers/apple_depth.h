@@ -4,7 +4,9 @@
 #ifndef STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 
-#include "platform/readers/jpeg_parts.h"
+#include <vector>
+
+#include "platform/readers/appended_pictures.h"
 #include "platform/readers/photo.h"
 #include "platform/readers/xmp.h"
 #include "platform/result.h"
@@ -17,9 +19,9 @@ namespace starfocus {
 void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 
 // Reads the first map of disparities or depths among the pictures that follow the primary picture
-// of a JPEG file. The caller must have set photo->picture. Adds an entry to photo->facts if the
-// JPEG file has a gain map.
-Error ReadAppleJpeg(Span file, const JpegParts& parts, DepthPhoto* photo);
+// of a JPEG file, `appended`. The caller must have set photo->picture.
+Error ReadAppleJpeg(Span file, const JpegParts& parts, std::vector<AppendedPicture> appended,
+                    DepthPhoto* photo);
 
 }  // namespace starfocus
 

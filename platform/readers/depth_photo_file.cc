@@ -28,7 +28,7 @@
 namespace starfocus {
 namespace {
 
-constexpr char kGainMap[] = "http://ns.adobe.com/hdr-gain-map/1.0/|Version";
+constexpr char kSpecialType[] = "http://ns.google.com/photos/1.0/camera/|SpecialTypeID";
 constexpr char kExtendedXmp[] = "http://ns.adobe.com/xmp/note/|HasExtendedXMP";
 
 void IgnoreXmp(const Error& error, DepthPhoto* photo) {
@@ -70,16 +70,32 @@ XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
 }
 
 // Reads the depth map of a file by trying each format. The first format whose reader succeeds is
-// used.
-void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near, DepthPhoto* photo) {
+// used. `appended` are the pictures that follow the first picture.
+void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
+             std::vector<AppendedPicture>* appended, DepthPhoto* photo) {
   const auto read = [photo](const Error& error) {
     if (error) photo->map = {};
     if (photo->map_problem.empty()) photo->map_problem = error.line();
     return !photo->map.values.empty();
   };
   if (HasGdepth(xmp) && read(ReadGdepth(xmp, near, photo))) return;
-  if (HasDynamicDepth(xmp) && read(ReadDynamicDepth(file, parts, xmp, near, photo))) return;
-  read(ReadAppleJpeg(file, parts, photo));
+  if (HasDynamicDepth(xmp) && read(ReadDynamicDepth(file, xmp, near, appended, photo))) return;
+  read(ReadAppleJpeg(file, parts, *appended, photo));
+}
+
+// Returns true if `node` has a property `name` whose text, or whose list of texts, contains `part`.
+bool Mentions(const XmpNode& node, const std::string& name, const std::string& part) {
+  const auto contains = [&](const std::string& text) {
+    return text.find(part) != std::string::npos;
+  };
+  const auto attribute = node.attributes.find(name);
+  if (attribute != node.attributes.end() && contains(attribute->second)) return true;
+  // An empty name matches the elements of the list inside the property.
+  const bool inside = name.empty() || node.name == name;
+  if (inside && contains(node.text)) return true;
+  return std::any_of(node.children.begin(), node.children.end(), [&](const XmpNode& child) {
+    return Mentions(child, inside ? "" : name, part);
+  });
 }
 
 Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool with_map, Near near) {
@@ -89,8 +105,13 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   if (!photo) return photo;
   const XmpNode xmp = ReadXmp(*parts, false, &*photo);
   photo->metadata.xmp = KeptXmp(xmp);
-  if (FindProperty(xmp, kGainMap) != nullptr) photo->facts.emplace_back("gain map", "ignored");
-  if (with_map) ReadMap(file, *parts, xmp, near, &*photo);
+  if (Mentions(xmp, kSpecialType, "PORTRAIT")) photo->is_blurred = true;
+  std::vector<AppendedPicture> appended = ListAppendedPictures(file, parts->end);
+  if (with_map) ReadMap(file, *parts, xmp, near, &appended, &*photo);
+  const bool has_gain_map =
+      std::any_of(appended.begin(), appended.end(),
+                  [](const AppendedPicture& picture) { return picture.is_gain_map; });
+  if (has_gain_map) photo->facts.emplace_back("gain map", "ignored");
   return photo;
 }
 
@@ -128,7 +149,8 @@ bool JpegStoresDepth(const std::string& path, Span file) {
   const Result<JpegParts> parts = ReadJpegParts(path, file);
   if (!parts) return false;
   DepthPhoto photo;
-  ReadMap(file, *parts, ReadXmp(*parts, false, &photo), Near::kUnknown, &photo);
+  std::vector<AppendedPicture> appended = ListAppendedPictures(file, parts->end);
+  ReadMap(file, *parts, ReadXmp(*parts, false, &photo), Near::kUnknown, &appended, &photo);
   if (!photo.map.values.empty() || ReadStrayMap(file, Near::kUnknown, &photo)) return true;
   if (!MayBeStereoPair(path, file)) return false;
   if (ReadJpegPicture(path, file, *parts).MoveTo(&photo)) return false;

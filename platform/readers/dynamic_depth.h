@@ -4,7 +4,9 @@
 #ifndef STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_DYNAMIC_DEPTH_H_
 
-#include "platform/readers/jpeg_parts.h"
+#include <vector>
+
+#include "platform/readers/appended_pictures.h"
 #include "platform/readers/photo.h"
 #include "platform/readers/xmp.h"
 #include "platform/result.h"
@@ -13,10 +15,12 @@ namespace starfocus {
 
 bool HasDynamicDepth(const XmpNode& xmp);
 
-// Reads the depth map of a Dynamic Depth file. The caller must have set photo->picture. `near`
-// applies only if the file does not state which end of the grey range is near.
-Error ReadDynamicDepth(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
-                       DepthPhoto* photo);
+// Reads the depth map of a Dynamic Depth file, or a mask of the subject if the file has no depth
+// map, and the original of a portrait. The caller must have set photo->picture. `near` applies only
+// if the file does not state which end of the grey range is near, and to masks. `appended` are the
+// pictures that follow the first picture of `file`; those that are listed as gain maps are marked.
+Error ReadDynamicDepth(Span file, const XmpNode& xmp, Near near,
+                       std::vector<AppendedPicture>* appended, DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "platform/base64.h"
-#include "platform/image_io.h"
 #include "platform/levels.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/depth_range.h"
+#include "platform/readers/original_picture.h"
 #include "platform/writers/depth_photo.h"
 
 namespace starfocus {
@@ -65,20 +65,13 @@ void ReadOwnDisparities(const XmpNode& xmp, DepthPhoto* photo) {
   photo->is_ready = true;
 }
 
-// Replaces the primary picture, which is already blurred, by the sharp picture in the XMP. Ignores
-// an unreadable sharp picture and adds a note.
+// Replaces the primary picture, which is already blurred, by the sharp picture in the XMP.
 void ReadSharp(const XmpNode& xmp, DepthPhoto* photo) {
   const std::string* data = FindProperty(xmp, kImage + "Data");
   if (data == nullptr) return;
   const Result<Bytes> bytes = DecodeData("GImage:Data", *data);
-  Result<DecodedPicture> sharp = bytes ? DecodeImage("GImage:Data", *bytes) : bytes.error();
-  if (!sharp) {
-    photo->notes.push_back("the sharp picture in the file is ignored: " + sharp.error().line());
-    return;
-  }
-  photo->picture = std::move(sharp->image);
-  photo->is_blurred = false;
-  photo->facts.emplace_back("picture", "the sharp picture in the file (GImage:Data)");
+  if (bytes) return TakeOriginal("GImage:Data", {bytes->data(), bytes->size()}, photo);
+  photo->notes.push_back("the sharp picture in the file is ignored: " + bytes.error().line());
 }
 
 void ReadFocus(const XmpNode& xmp, DepthPhoto* photo) {

@@ -55,6 +55,10 @@ void TakeApp1(Span segment, JpegParts* parts) {
 void TakeApp2(Span segment, std::vector<Span>* profile, JpegParts* parts) {
   if (parts->multi_picture.empty() && Strip("MPF", &segment)) parts->multi_picture = segment;
   if (Strip("ICC_PROFILE", &segment) && segment.size >= 2) profile->push_back(segment);
+  // In a photo that has a gain map, the segment contains only two version numbers of 16 bits.
+  if (Strip("urn:iso:std:iso:ts:21496:-1", &segment) && segment.size > 4) {
+    parts->has_gain_map_segment = true;
+  }
 }
 
 // Joins the parts of an ICC profile (ICC.1 annex B.4). Each part of the profile starts with its own
@@ -111,6 +115,11 @@ bool SameHex(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+bool Contains(Span text, const std::string& part) {
+  const uint8_t* end = text.data + text.size;
+  return std::search(text.data, end, part.begin(), part.end()) != end;
+}
 
 bool IsJpeg(Span file) {
   return file.size >= 3 && file.data[0] == 0xff && file.data[1] == 0xd8 && file.data[2] == 0xff;

@@ -36,8 +36,12 @@ struct JpegParts {
   std::vector<XmpExtension> extensions;
   Span multi_picture;  // Multi-picture index (CIPA DC-007), from its TIFF header to the end of the
                        // segment.
-  size_t end = 0;      // End of the first picture; other pictures may follow.
+  bool has_gain_map_segment = false;  // True if a segment of ISO 21496-1 describes a gain map.
+  size_t end = 0;                     // End of the first picture; other pictures may follow.
 };
+
+// Returns true if the bytes contain `part`.
+bool Contains(Span text, const std::string& part);
 
 // Returns true if the bytes start with the signature of JPEG files.
 bool IsJpeg(Span file);

@@ -2,16 +2,12 @@
 #include "platform/readers/multi_picture.h"
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 #include <utility>
 
 namespace starfocus {
 namespace {
 
-// Limit on the number of start codes that are tried, because a start code without a picture causes
-// a scan of the rest of the file.
-constexpr size_t kMostPictures = 64;
 constexpr size_t kEntrySize = 16;
 constexpr uint32_t kEntryTag = 0xb002, kTypeBits = 0xffffff;
 
@@ -64,19 +60,6 @@ Index ReadIndex(Span file, Span index, size_t pictures) {
   return result;
 }
 
-// Returns the first position from `at` on where a JPEG file may start, or the size of `file` if no
-// start is found.
-size_t FindBeginning(Span file, size_t at) {
-  while (at + 2 < file.size) {
-    const void* found = std::memchr(file.data + at, 0xff, file.size - at);
-    if (found == nullptr) break;
-    at = static_cast<size_t>(static_cast<const uint8_t*>(found) - file.data);
-    if (IsJpeg({file.data + at, file.size - at})) return at;
-    ++at;
-  }
-  return file.size;
-}
-
 // Returns true if CIPA DC-007 defines the picture type. Unrelated bytes rarely match a defined
 // type.
 bool IsType(uint32_t type) {
@@ -108,22 +91,11 @@ void TakeIndex(Span file, const Index& index, std::vector<MultiPicture>* picture
 
 }  // namespace
 
-MultiPictures ListMultiPictures(Span file, const JpegParts& parts) {
+MultiPictures ListMultiPictures(Span file, const JpegParts& parts,
+                                std::vector<AppendedPicture> appended) {
   std::vector<MultiPicture> pictures;
-  size_t at = parts.end;
-  for (size_t attempt = 0; attempt < kMostPictures; ++attempt) {
-    at = FindBeginning(file, at);
-    if (at >= file.size) break;
-    Result<JpegParts> own = ReadJpegParts("", {file.data + at, file.size - at});
-    if (!own) {
-      ++at;
-      continue;
-    }
-    MultiPicture picture;
-    picture.file = {file.data + at, own->end};
-    picture.parts = std::move(*own);
-    at += picture.parts.end;
-    pictures.push_back(std::move(picture));
+  for (AppendedPicture& picture : appended) {
+    if (!picture.is_png) pictures.push_back({std::move(picture)});
   }
   const Index index = ReadIndex(file, parts.multi_picture, pictures.size());
   TakeIndex(file, index, &pictures);

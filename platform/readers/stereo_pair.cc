@@ -23,17 +23,13 @@ namespace {
 
 constexpr uint32_t kUndefined = 0, kStereo = 0x020002;  // picture types of CIPA DC-007
 
-bool Contains(Span text, const std::string& part) {
-  const uint8_t* end = text.data + text.size;
-  return std::search(text.data, end, part.begin(), part.end()) != end;
-}
-
 // Returns true if the XMP of the picture marks it as an auxiliary picture, such as a gain map or a
 // matte.
 bool IsAuxiliary(const MultiPicture& picture) {
-  return std::any_of(picture.parts.xmp.begin(), picture.parts.xmp.end(), [](const Span& xmp) {
-    return Contains(xmp, "AuxiliaryImageType") || Contains(xmp, "hdr-gain-map");
-  });
+  const std::vector<Span>& xmp_packets = picture.parts.xmp;
+  return picture.is_gain_map ||
+         std::any_of(xmp_packets.begin(), xmp_packets.end(),
+                     [](const Span& xmp) { return Contains(xmp, "AuxiliaryImageType"); });
 }
 
 // Finds the picture of a JPEG file that may be the right picture of a stereo pair.
@@ -43,7 +39,8 @@ std::optional<MultiPicture> FindRight(const std::string& path, Span file) {
   if (!parts || (parts->multi_picture.empty() && LowerExtension(path) != ".mpo")) {
     return std::nullopt;
   }
-  std::vector<MultiPicture> pictures = ListMultiPictures(file, *parts).pictures;
+  std::vector<MultiPicture> pictures =
+      ListMultiPictures(file, *parts, ListAppendedPictures(file, parts->end)).pictures;
   if (pictures.empty() || IsAuxiliary(pictures[0])) return std::nullopt;
   const uint32_t type = pictures[0].type;
   if (type != kUndefined && type != kStereo) return std::nullopt;

@@ -45,7 +45,8 @@ void CheckParts(const uint8_t* data, size_t size) {
   if (!read) return;
   const starfocus::JpegParts& parts = *read;
   if (parts.end > size) std::abort();
-  const starfocus::MultiPictures listed = starfocus::ListMultiPictures({data, size}, parts);
+  const starfocus::MultiPictures listed = starfocus::ListMultiPictures(
+      {data, size}, parts, starfocus::ListAppendedPictures({data, size}, parts.end));
   for (const starfocus::MultiPicture& picture : listed.pictures) {
     const starfocus::Span& file = picture.file;
     if (file.data < data + parts.end || file.data + file.size > data + size) std::abort();

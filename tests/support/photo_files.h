@@ -301,8 +301,8 @@ inline std::string ContainerItem(const std::string& mime, size_t length, const s
          "\"/></rdf:li>";
 }
 
-// Returns a Dynamic Depth 1.0 file: a picture, another item, and the map. `wrong` is added to the
-// declared length of the other item.
+// Returns a Dynamic Depth 1.0 file: a picture, another item, and the map. `wrong` is added to
+// the declared lengths of the items.
 inline std::string DynamicDepth(const std::string& jpeg, const std::string& map,
                                 const std::string& attributes, size_t wrong = 0) {
   const std::string other = "a confidence map would stand here";
@@ -310,7 +310,7 @@ inline std::string DynamicDepth(const std::string& jpeg, const std::string& map,
       "<Device:Container rdf:parseType=\"Resource\"><Container:Directory><rdf:Seq>" +
       ContainerItem("image/jpeg", 0, "primary_image") +
       ContainerItem("image/jpeg", other.size() + wrong, "other") +
-      ContainerItem("image/png", map.size(), "android/depthmap") +
+      ContainerItem("image/png", map.size() + wrong, "android/depthmap") +
       "</rdf:Seq></Container:Directory></Device:Container>"
       "<Device:Cameras><rdf:Seq><rdf:li rdf:parseType=\"Resource\"><Device:Camera "
       "rdf:parseType=\"Resource\"><Camera:DepthMap DepthMap:ItemSemantic=\"Depth\" "

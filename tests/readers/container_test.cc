@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens portraits of phones: JPEG files that contain an original, a depth map, a confidence map, a
+// gain map and a video behind the picture. All orders of the parts and all kinds of directories
+// must give the original and the depth map.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "platform/readers/depth_photo_file.h"
+#include "platform/readers/xmp.h"
+#include "tests/support/opened_photo.h"
+
+namespace starfocus::container_test {
+namespace {
+
+using namespace photos;
+
+constexpr int kOriginalLevel = 200;  // level of the original; the blurred picture has 128
+
+constexpr char kNames[] =
+    "xmlns:Camera=\"http://ns.google.com/photos/dd/1.0/camera/\" "
+    "xmlns:DepthMap=\"http://ns.google.com/photos/dd/1.0/depthmap/\" "
+    "xmlns:Image=\"http://ns.google.com/photos/dd/1.0/image/\" "
+    "xmlns:Old=\"http://ns.google.com/photos/dd/1.0/item/\" "
+    "xmlns:Item=\"http://ns.google.com/photos/1.0/container/item/\" "
+    "xmlns:GCamera=\"http://ns.google.com/photos/1.0/camera/\"";
+
+// A part of a portrait that follows the blurred picture.
+struct Part {
+  std::string semantic, uri, bytes, mime = "image/jpeg";
+};
+
+enum class Lengths { kRight, kMissing, kWrong };
+enum class Directories {
+  kBoth,     // Dynamic Depth lists original, depth and confidence; the later directory the others.
+  kLater,    // The later directory lists everything by its semantics.
+  kRepeated  // Both directories list everything.
+};
+
+std::string GainMapXmp() {
+  return XmpSegment(Packet("xmlns:hdrgm=\"http://ns.adobe.com/hdr-gain-map/1.0/\"",
+                           "hdrgm:Version=\"1.0\" hdrgm:GainMapMax=\"2.5\""));
+}
+
+// Returns a video whose data contain the start of a JPEG file.
+std::string Video() {
+  return Big(16, 4) + "ftypisom" + Big(0, 4) + Big(60, 4) + "mdat" + Photo().substr(0, 52);
+}
+
+std::vector<Part> Parts() {
+  return {
+      {"GainMap", "gainmap", Insert(Encode(Ramp(kWidth / 2, kHeight / 2), ".jpg"), GainMapXmp())},
+      {"Original", "android/original_image",
+       Encode(Plain(kWidth, kHeight, kOriginalLevel), ".jpg")},
+      {"Depth", "android/depthmap", Encode(Ramp(kWidth, kHeight), ".jpg")},
+      {"Confidence", "android/confidencemap", Encode(Plain(kWidth, kHeight, 255), ".jpg")},
+      {"MotionPhoto", "video", Video(), "video/mp4"},
+  };
+}
+
+std::string ItemXml(const std::string& prefix, const Part& part, Lengths lengths, size_t padding) {
+  std::string text = "<rdf:li rdf:parseType=\"Resource\"><Item:Item " + prefix + ":Mime=\"" +
+                     part.mime + "\" " + prefix + ":Semantic=\"" + part.semantic + "\" " + prefix +
+                     ":DataURI=\"" + part.uri + "\"";
+  const size_t length = part.bytes.size() + (lengths == Lengths::kWrong ? 3 : 0);
+  if (lengths != Lengths::kMissing && part.semantic != "Primary") {
+    text += " " + prefix + ":Length=\"" + std::to_string(length) + "\"";
+  }
+  if (padding > 0) text += " " + prefix + ":Padding=\"" + std::to_string(padding) + "\"";
+  return text + "/></rdf:li>";
+}
+
+// Returns a portrait with the given parts in the given order, each followed by `padding` bytes.
+std::string Portrait(const std::vector<Part>& parts, Directories directories, Lengths lengths,
+                     size_t padding = 0) {
+  const Part primary = {"Primary", "primary_image", ""};
+  std::string old = ItemXml("Old", primary, lengths, 0),
+              later = ItemXml("Item", primary, lengths, 0);
+  for (const Part& part : parts) {
+    const bool is_old =
+        part.semantic == "Original" || part.semantic == "Depth" || part.semantic == "Confidence";
+    if (directories != Directories::kBoth || !is_old) {
+      later += ItemXml("Item", part, lengths, padding);
+    }
+    if (directories == Directories::kRepeated || (directories == Directories::kBoth && is_old)) {
+      old += ItemXml("Old", part, lengths, padding);
+    }
+  }
+  const std::string map =
+      "<Camera:DepthMap DepthMap:ItemSemantic=\"Depth\" DepthMap:Format=\"RangeInverse\" "
+      "DepthMap:Near=\"0.5\" DepthMap:Far=\"4\" DepthMap:DepthURI=\"android/depthmap\"/>";
+  std::string inside = later + map;
+  if (directories != Directories::kLater) inside = old + later + map;
+  static const std::string blurred = Photo();
+  std::string file =
+      Insert(blurred, XmpSegment(Packet(kNames, "GCamera:SpecialTypeID=\"PORTRAIT\"", inside)));
+  for (const Part& part : parts) file += part.bytes + std::string(padding, 'x');
+  return file;
+}
+
+// Returns an empty text if `file` contains a picture of the level `level` and the ramp of the depth
+// map, and otherwise the difference.
+std::string Difference(const std::string& file, int level = kOriginalLevel) {
+  const Span span = {reinterpret_cast<const uint8_t*>(file.data()), file.size()};
+  const Result<DepthPhoto> photo = DecodeDepthPhoto("photo.jpg", span, true, Near::kUnknown);
+  if (!photo) return photo.error().line();
+  if (photo->map.values.empty()) return photo->map_problem;
+  const int found = photo->picture.row(5)[30];
+  if (std::abs(found - level) > 2) return "a picture of level " + std::to_string(found);
+  const double near = double(photo->map.at(0, 3)), far = double(photo->map.at(kWidth - 1, 3));
+  if (std::fabs(near - 1 / 0.5) > 0.05 || std::fabs(far - 1 / 4.0) > 0.05) {
+    return "inverse distances from " + std::to_string(near) + " to " + std::to_string(far);
+  }
+  if (photo->is_blurred == (level == kOriginalLevel)) return "the wrong picture as the blurred one";
+  for (const auto& fact : photo->facts) {
+    if (fact.first == "gain map") return "";
+  }
+  return "no gain map";
+}
+
+TEST_CASE("portraits: all orders of the parts give the original and the depth map") {
+  if (!CanReadXmp()) return;
+  const std::vector<Part> parts = Parts();
+  std::vector<size_t> order = {0, 1, 2, 3, 4};
+  do {
+    std::vector<Part> placed;
+    std::string name;
+    for (const size_t k : order) {
+      placed.push_back(parts[k]);
+      name += parts[k].semantic + " ";
+    }
+    CAPTURE(name);
+    const size_t padding = order[0];  // several sizes
+    for (const Lengths lengths : {Lengths::kRight, Lengths::kMissing, Lengths::kWrong}) {
+      for (const Directories directories :
+           {Directories::kBoth, Directories::kLater, Directories::kRepeated}) {
+        CHECK(Difference(Portrait(placed, directories, lengths, padding)) == "");
+      }
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_CASE("portraits: a gain map without XMP of its own is known by the directory") {
+  if (!CanReadXmp()) return;
+  for (const bool other_length : {false, true}) {
+    std::vector<Part> parts = Parts();
+    parts[0].bytes = Encode(Ramp(kWidth / 2, kHeight / 2), ".jpg");
+    if (other_length) std::swap(parts[0], parts[2]);
+    CHECK(Difference(Portrait(parts, Directories::kBoth, Lengths::kRight)) == "");
+    // The standard places the gain map right behind the first picture.
+    if (other_length) continue;
+    CHECK(Difference(Portrait(parts, Directories::kBoth, Lengths::kMissing)) == "");
+  }
+  // ISO 21496-1 describes a gain map by a segment, which the photo has as well without content.
+  std::vector<Part> parts = Parts();
+  const std::string iso = std::string("urn:iso:std:iso:ts:21496:-1") + std::string(5, '\0');
+  parts[0].bytes = Insert(Encode(Ramp(kWidth / 2, kHeight / 2), ".jpg"),
+                          Segment(0xe2, iso + std::string(60, '\1')));
+  parts[0].semantic = "Other";
+  parts[1].bytes = Insert(parts[1].bytes, Segment(0xe2, iso));
+  CHECK(Difference(Portrait(parts, Directories::kBoth, Lengths::kMissing)) == "");
+}
+
+TEST_CASE("portraits: an original that is itself a file with a gain map is one item") {
+  if (!CanReadXmp()) return;
+  std::vector<Part> parts = Parts();
+  parts[1].bytes = Insert(parts[1].bytes,
+                          XmpSegment(Packet("xmlns:hdrgm=\"http://ns.adobe.com/hdr-gain-map/1.0/\"",
+                                            "hdrgm:Version=\"1.0\"", "<Directory/>"))) +
+                   parts[0].bytes;
+  CHECK(Difference(Portrait(parts, Directories::kBoth, Lengths::kRight)) == "");
+}
+
+TEST_CASE("portraits: without an original, or with another picture, a note reports the blur") {
+  if (!CanReadXmp()) return;
+  std::vector<Part> parts = Parts();
+  parts[1].bytes = Encode(Plain(kHeight, kWidth, kOriginalLevel), ".jpg");
+  Capture capture;
+  const std::string other = Portrait(parts, Directories::kBoth, Lengths::kRight);
+  CHECK(Difference(other, 128) == "");
+  REQUIRE(Open(other, &capture) == "");
+  CHECK(HasNote(capture, "the sharp picture in the file is ignored"));
+  CHECK(HasNote(capture, "already blurred"));
+  parts.erase(parts.begin() + 1);
+  const std::string none = Portrait(parts, Directories::kBoth, Lengths::kRight);
+  CHECK(Difference(none, 128) == "");
+  REQUIRE(Open(none, &capture) == "");
+  CHECK(HasNote(capture, "already blurred"));
+}
+
+TEST_CASE("portraits: a gain map alone is never depth") {
+  if (!CanReadXmp()) return;
+  Capture capture;
+  for (const Lengths lengths : {Lengths::kRight, Lengths::kMissing, Lengths::kWrong}) {
+    const std::vector<Part> parts = {Parts()[0]};
+    // The packet describes a depth map that is not in the file.
+    CHECK(Contains(Open(Portrait(parts, Directories::kBoth, lengths), &capture),
+                   "no complete picture there"));
+  }
+}
+
+TEST_CASE("portraits: a mask of the subject gives two depths, the near one in the mask") {
+  if (!CanReadXmp()) return;
+  const auto open = [](const std::string& format, Near near) {
+    std::string file = Portrait(Parts(), Directories::kBoth, Lengths::kRight);
+    const std::string semantic = "ItemSemantic=\"Depth\" DepthMap:Format=\"RangeInverse\"";
+    const size_t at = file.find(semantic);
+    REQUIRE(at != std::string::npos);
+    // The length of the segment must remain.
+    std::string mask = "ItemSemantic=\"Segmentation\" " + format;
+    mask.resize(semantic.size(), ' ');
+    file.replace(at, semantic.size(), mask);
+    CaptureOptions options;
+    options.map.near = near;
+    Capture capture;
+    REQUIRE(Open(file, &capture, options) == "");
+    CHECK(HasNote(capture, "a mask of the subject instead of a depth map"));
+    CHECK(Contains(FactOf(capture, "map"), "mask of the subject"));
+    CHECK(FactOf(capture, "picture") != "");
+    return capture;
+  };
+  const std::string linear = "DepthMap:Format=\"x\"";
+  const auto check = [&](const Capture& capture, double black, double white) {
+    CheckRamp(capture, black, white);
+    for (const float value : capture.light_field.disparity.values) {
+      CHECK((value == 0 || double(value) == doctest::Approx(kPortrait)));
+    }
+  };
+  check(open(linear, Near::kUnknown), kPortrait, 0);
+  check(open(linear, Near::kBlack), kPortrait, 0);
+  check(open(linear, Near::kWhite), 0, kPortrait);
+  check(open("", Near::kWhite), 0, kPortrait);
+}
+
+}  // namespace
+}  // namespace starfocus::container_test
