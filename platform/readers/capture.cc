@@ -120,8 +120,9 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   DepthPhoto& photo = *read;
   const bool pair = !photo.right.pixels.empty();
   Capture capture;
-  Error error = pair ? AlignPair(InputName(path), &photo)
-                     : MakePhotoField(InputName(path), &photo).MoveTo(&capture.light_field);
+  Error error =
+      pair ? AlignPair(InputName(path), &photo)
+           : MakePhotoField(InputName(path), &photo, options.map.clip).MoveTo(&capture.light_field);
   if (error) return error;
   capture.format = photo.format;
   capture.metadata = std::move(photo.metadata);
@@ -140,6 +141,7 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   if (!options.small_map) FitMap(&capture.light_field);
   const Image& picture = capture.light_field.views[0];
   capture.photo = true;
+  capture.survey = std::move(photo.survey);
   capture.files = {{{0, 0}, path}};
   capture.map_path = photo.depth_path.empty() ? path : photo.depth_path;
   capture.care = photo.is_ready ? MapCare::kNone : MapCare::kRepair;

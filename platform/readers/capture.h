@@ -32,6 +32,7 @@ struct Capture {
   std::vector<ViewFile> files;  // Files of the views, the centre first.
   std::string map_path;         // File of the map, for reading and for errors; empty: no map.
   std::string coverage_path;    // File of the coverage; empty: no coverage.
+  MapSurvey survey;             // Figures of the map of a photo.
   double map_scale = 1;  // Factor that converts values in the file of the map to disparities.
   MapCare care = MapCare::kNone;
   double widest = 0;  // The f-stop of an aperture of radius 1; 0: unknown.

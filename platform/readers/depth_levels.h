@@ -29,14 +29,10 @@ void ToRange(double low, double high, FloatMap* map);
 // (NaN).
 void Invert(FloatMap* map);
 
-// Guesses which end of the value range of a map is near. Values of +inf are distances, so that
-// small values are near. For other maps, the guess assumes that the bottom of a photograph is
-// nearer than its top. Unknown values (NaN) are ignored.
-Near GuessNear(const FloatMap& map);
-
-// Inverts a map whose meaning is MapMeaning::kOrder if necessary, so that larger values are nearer.
-// If `near` is kUnknown, uses GuessNear and adds a note. The value +inf is the farthest depth if
-// small values are near (it becomes -inf), and unknown otherwise.
+// Sets the meaning of a map to MapMeaning::kOrder, and inverts the map if black is near. If `near`
+// is kUnknown, MakePhotoField (photo_scale.h) guesses which end of the value range is near. The
+// value +inf is the farthest depth if small values are near (it becomes -inf), and unknown
+// otherwise.
 void ToOrder(Near near, DepthPhoto* photo);
 
 // Adds an entry to photo->facts that describes how the file stores the map.

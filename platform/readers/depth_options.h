@@ -9,12 +9,10 @@
 
 #include "platform/image.h"
 #include "platform/levels.h"
+#include "platform/readers/map_survey.h"
 #include "platform/result.h"
 
 namespace starfocus {
-
-// The end of the grey range of a depth picture that means near: white, black, or unknown.
-enum class Near { kUnknown, kWhite, kBlack };
 
 // Meaning of the values of a depth picture.
 enum class DepthUnit {
@@ -40,7 +38,8 @@ struct DepthOptions {
   // MarkUnknown decides whether values up to 0 and 65535 are depths.
   bool has_unknown = false;
   std::vector<double> unknown;
-  bool use_alpha = true;  // True: transparent pixels have unknown depth.
+  bool use_alpha = true;            // True: transparent pixels have unknown depth.
+  const MapSurvey* clip = nullptr;  // Figures of all maps of a clip; null: a single photo.
   // Computes a depth picture of an upright photo for which no depth is found; null: such a photo is
   // an error.
   // If `estimate` is set, the other options do not apply to a depth map in the file of a photo.

@@ -101,7 +101,7 @@ void NoteDistances(const DepthOptions& options, int largest, DepthPhoto* photo) 
   const float low = metres ? 0.2F : 200, high = metres ? 200 : 20000;
   if (!range.known || range.low < low || range.high > high || range.low == range.high) return;
   if (!metres && largest <= UINT8_MAX) return;
-  const Near near = options.near == Near::kUnknown ? GuessNear(photo->map) : options.near;
+  const Near near = options.near == Near::kUnknown ? SurveyNear(photo->map).GuessNear() : options.near;
   if (near == Near::kWhite) return;
   photo->notes.push_back("the values of the depth picture, " + NumberText(double(range.low)) +
                          " to " + NumberText(double(range.high)) + ", look like distances in " +
@@ -142,9 +142,13 @@ bool IsDepthPictureName(const std::string& name) {
   return !NameBefore(fs::path(name).stem().string()).empty();
 }
 
+bool HasDepthExtension(const std::string& name) {
+  return ExtensionIndex(name) < std::size(kExtensions);
+}
+
 void DepthPictures::Add(const std::string& name) {
   const std::string photo = NameBefore(fs::path(name).stem().string());
-  if (photo.empty() || ExtensionIndex(name) == std::size(kExtensions)) return;
+  if (photo.empty() || !HasDepthExtension(name)) return;
   names_[Lower(photo)].push_back(name);
 }
 
@@ -209,7 +213,9 @@ Error TakeDepthPicture(const std::string& where, const DepthOptions& options, Sa
   if (options.unit == DepthUnit::kDepth16) {
     if (Error error = DecodeDepth16(where, &samples)) return error;
   }
-  MarkUnknown(options, &samples, &photo->notes);
+  photo->survey.kind =
+      samples.largest == 0 ? "floats" : "levels up to " + std::to_string(samples.largest);
+  MarkUnknown(options, &samples, photo);
   photo->map = std::move(samples.map);
   StandWithPhoto(options.orientation, photo);
   Understand(options, samples, photo);

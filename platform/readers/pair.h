@@ -17,6 +17,9 @@ namespace starfocus {
 // depth picture ends in -depth, _depth or .depth, in upper or lower case.
 bool IsDepthPictureName(const std::string& name);
 
+// Returns true if `name` has an extension of depth pictures, which DepthPictures lists.
+bool HasDepthExtension(const std::string& name);
+
 // Finds the depth pictures of photographs among the files of a folder. The depth picture of a
 // photograph NAME.jpg or NAME-image.jpg is named NAME-depth, NAME_depth or NAME.depth, with .png,
 // .pgm, .pfm, .jpg, .jpeg, .tif, .tiff, .npy, .npz or .exr, in upper or lower case. Files in the

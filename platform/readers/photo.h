@@ -14,6 +14,7 @@
 #include "platform/metadata.h"
 #include "platform/pfm.h"
 #include "platform/readers/depth_options.h"
+#include "platform/readers/map_survey.h"
 
 namespace starfocus {
 
@@ -35,8 +36,10 @@ struct DepthPhoto {
   std::string depth_path;   // Path of the depth picture; empty: the map is in the file.
   Image right;              // Right picture of a stereo pair; empty: no stereo pair.
   MapMeaning meaning = MapMeaning::kOrder;
-  int orientation = 1;    // EXIF orientation that has not been applied yet.
-  double focal_35mm = 0;  // Equivalent focal length on full frame in millimetres; 0: unknown.
+  bool guesses_near = false;  // True if it is unknown whether larger values of `map` are nearer.
+  MapSurvey survey;           // Figures of `map`.
+  int orientation = 1;        // EXIF orientation that has not been applied yet.
+  double focal_35mm = 0;      // Equivalent focal length on full frame in millimetres; 0: unknown.
   // True if the camera has blurred the background of `picture`, as its EXIF states.
   bool is_blurred = false;
   bool has_focus = false;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "platform/readers/depth_levels.h"
 #include "platform/readers/map_orientation.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/robust_range.h"
@@ -134,6 +135,45 @@ Error CheckDisparities(const std::string& where, DepthPhoto* photo) {
                   Rounded(double(*low)) + " to " + Rounded(double(*high)));
 }
 
+// Returns a description of the values of the map, which must be equal for all frames of a clip.
+std::string KindOf(const DepthPhoto& photo) {
+  const std::string& samples = photo.survey.kind;
+  switch (photo.meaning) {
+    case MapMeaning::kInverseMetres:
+      return "distances";
+    case MapMeaning::kInverse:
+      return "distances of unknown units";
+    case MapMeaning::kDisparity:
+      return "disparities";
+    default:
+      return "relative depth" + (samples.empty() ? "" : " in " + samples);
+  }
+}
+
+// Measures the map. Returns the range of its values, or of the values in all maps of the clip.
+// Inverts the map and the range if smaller values are nearer, which is a guess with a note.
+RobustRange Survey(const MapSurvey* clip, DepthPhoto* photo) {
+  MapSurvey& own = photo->survey;
+  own.kind = KindOf(*photo);
+  own.range = RobustRangeOf(photo->map.values);
+  if (photo->guesses_near) {
+    const MapSurvey near = SurveyNear(photo->map);
+    own.rise = near.rise;
+    own.has_infinity = near.has_infinity;
+  }
+  const MapSurvey& all = clip != nullptr ? *clip : own;
+  if (!photo->guesses_near) return all.range;
+  const bool white = all.GuessNear() == Near::kWhite;
+  photo->notes.push_back(
+      std::string(white ? "white" : "black") + " is taken as near in the depth picture, because " +
+      (all.has_infinity ? "only distances are infinite"
+                        : "the lower part of the picture is assumed to be nearer") +
+      " (--near " + (white ? "black" : "white") + " overrides this)");
+  if (white) return all.range;
+  ToRange(1, 0, &photo->map);
+  return {all.range.known, 1 - all.range.high, 1 - all.range.low};
+}
+
 // Fills unknown values of the depth map and adds a note that states their number.
 void FillUnknown(DepthPhoto* photo) {
   const size_t filled = FillBehind(&photo->map), all = photo->map.values.size();
@@ -159,7 +199,8 @@ FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner
   return result;
 }
 
-Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo) {
+Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo,
+                                  const MapSurvey* clip) {
   ApplyOrientation(photo);
   const Image& picture = photo->picture;
   FloatMap& map = photo->map;
@@ -168,8 +209,8 @@ Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo) {
         where, "a depth map with the proportions of the picture",
         SizeText(map.width, map.height) + " for " + SizeText(picture.width, picture.height));
   }
-  const RobustRange range = RobustRangeOf(map.values);
-  if (!range.known) return Expected(where, "a map with known depths", "none");
+  const RobustRange range = Survey(clip, photo);
+  if (!photo->survey.range.known) return Expected(where, "a map with known depths", "none");
   FillUnknown(photo);
   if (photo->meaning == MapMeaning::kDisparity) {
     if (Error error = CheckDisparities(where, photo)) return error;

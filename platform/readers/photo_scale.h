@@ -18,8 +18,10 @@ FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner
 // Applies the EXIF orientation of the photo, and converts the map to disparities in pixels of the
 // picture. With the resulting disparities, an aperture of radius 1 is a lens of f/1 on full frame
 // (docs/formats.md). Moves the picture and the map to the light field. The map keeps its size.
-// Converts photo->focus_value to a disparity as well.
-Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo);
+// Converts photo->focus_value to a disparity as well. Measures photo->survey. If `clip` is not
+// null, its figures determine the near end and the scale instead of the figures of the map.
+Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo,
+                                  const MapSurvey* clip = nullptr);
 
 // Resizes the disparity map of a one-view light field to the size of the view.
 void FitMap(LightField* light_field, ThreadRunner* runner = nullptr);

@@ -12,56 +12,29 @@ namespace starfocus {
 namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-constexpr float kTop = 65535;  // Largest 16-bit value.
-// The value 0 or 65535 is a depth if its distance to the other values is less than kBesidePart
-// times their range. Sensors leave a larger gap at 0, because the nearest distance that a sensor
-// measures is at least 5 % of the range.
-constexpr float kBesidePart = 0.02F;
 
-// Number of pixels with values at the ends of the range of values, and whether these are depths.
-struct Ends {
-  size_t zeros = 0, negatives = 0;
-  size_t tops = 0;  // Values of 65535 in maps of integers.
-  bool are_depths = false;
-
-  bool any() const { return zeros + negatives + tops > 0; }
-};
-
-// Decides whether 0, negative values and 65535 are depths. They are depths if the other values come
-// close to 0 or 65535, because the map was stretched to the whole range or has no gap at 0. A map
-// with both ends counts as stretched if another value lies in the upper half of the range, or if
-// there is no other value.
-Ends JudgeEnds(bool has_top, const FloatMap& map) {
-  Ends ends;
+// Returns the figures of the values at the ends of the range of values. The value 65535 is an end
+// if `has_top` is true.
+MapEnds MeasureEnds(bool has_top, const FloatMap& map) {
+  MapEnds ends;
   std::vector<float> others;
   for (const float value : map.values) {
     if (value == 0) {
       ++ends.zeros;
     } else if (value < 0) {
       ++ends.negatives;
-    } else if (has_top && value == kTop) {
+    } else if (has_top && value == MapEnds::kTop) {
       ++ends.tops;
     } else {
       others.push_back(value);
     }
   }
-  const RobustRange range = RobustRangeOf(others);
-  const bool has_low = ends.zeros + ends.negatives > 0;
-  if (has_low && ends.tops > 0) {
-    ends.are_depths = !range.known || range.high >= kTop / 2;
-  } else if (!range.known) {
-    ends.are_depths = true;  // No value is between the ends.
-  }
-  const float beside = kBesidePart * (range.high - range.low);
-  if (range.known && range.high > range.low) {
-    ends.are_depths |=
-        (has_low && range.low <= beside) || (ends.tops > 0 && kTop - range.high <= beside);
-  }
+  ends.others = RobustRangeOf(others);
   return ends;
 }
 
 // Returns the names of the values at the ends, such as "0 and 65535".
-std::string NamesOf(const Ends& ends) {
+std::string NamesOf(const MapEnds& ends) {
   std::string names = ends.zeros > 0 ? "0" : "";
   if (ends.negatives > 0) names += names.empty() ? "negative values" : " and negative values";
   if (ends.tops > 0) names += names.empty() ? "65535" : " and 65535";
@@ -69,30 +42,32 @@ std::string NamesOf(const Ends& ends) {
 }
 
 // Decides whether values at the ends of the range of values are unknown, and adds a note.
-void MarkEnds(const DepthOptions& options, Samples* samples, std::vector<std::string>* notes) {
+void MarkEnds(const DepthOptions& options, Samples* samples, DepthPhoto* photo) {
   const bool floats = samples->largest == 0;
-  const Ends ends = JudgeEnds(!floats, samples->map);
+  photo->survey.ends = MeasureEnds(!floats, samples->map);
+  const MapEnds& ends = options.clip != nullptr ? options.clip->ends : photo->survey.ends;
+  const bool are_depths = ends.AreDepths();
   const bool larger_is_nearer =
       options.near == Near::kWhite || (samples->larger_is_nearer && options.near == Near::kUnknown);
   // Floats that reach 0 without a gap need no note: 0 is an ordinary value.
-  if (!ends.any() || (floats && ends.are_depths)) return;
+  if (ends.zeros + ends.negatives + ends.tops == 0 || (floats && are_depths)) return;
   const bool one = ends.zeros * ends.tops == 0 && ends.negatives == 0;
   const std::string taken =
       "in the depth picture, " + NamesOf(ends) + (one ? " is" : " are") + " taken as ";
-  if (ends.are_depths || (floats && larger_is_nearer)) {
+  if (are_depths || (floats && larger_is_nearer)) {
     const std::string listed = ends.negatives > 0 ? "V,V,..."
                                : ends.tops == 0   ? "0"
                                : ends.zeros > 0   ? "0,65535"
                                                   : "65535";
-    notes->push_back(taken + "a known depth, because " +
-                     (ends.are_depths ? "other values are close"
+    photo->notes.push_back(taken + "a known depth, because " +
+                     (are_depths ? "other values are close"
                                       : "larger values are nearer and 0 is the farthest depth") +
                      " (--unknown " + listed + " overrides this)");
     return;
   }
-  notes->push_back(taken + "unknown depth (--unknown none overrides this)");
+  photo->notes.push_back(taken + "unknown depth (--unknown none overrides this)");
   for (float& value : samples->map.values) {
-    if (value <= 0 || (!floats && value == kTop)) value = kUnknown;
+    if (value <= 0 || (!floats && value == MapEnds::kTop)) value = kUnknown;
   }
 }
 
@@ -167,7 +142,7 @@ void Forget(float unknown, FloatMap* map) {
   std::replace(map->values.begin(), map->values.end(), unknown, kUnknown);
 }
 
-void MarkUnknown(const DepthOptions& options, Samples* samples, std::vector<std::string>* notes) {
+void MarkUnknown(const DepthOptions& options, Samples* samples, DepthPhoto* photo) {
   FloatMap* map = &samples->map;
   Forget(-HUGE_VALF, map);
   for (const double value : options.unknown) Forget(static_cast<float>(value), map);
@@ -178,7 +153,7 @@ void MarkUnknown(const DepthOptions& options, Samples* samples, std::vector<std:
   }
   const bool has_markers =
       samples->largest == 0 ? options.unit == DepthUnit::kNone : samples->largest > UINT8_MAX;
-  if (has_markers && !options.has_unknown) MarkEnds(options, samples, notes);
+  if (has_markers && !options.has_unknown) MarkEnds(options, samples, photo);
 }
 
 size_t FillBehind(FloatMap* map) {
