@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <initializer_list>
 #include <new>
 #include <thread>
 

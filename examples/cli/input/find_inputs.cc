@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "platform/file.h"
+#include "platform/natural_order.h"
 #include "platform/readers/capture.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/pair.h"
@@ -87,11 +88,18 @@ Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
   const auto is_used = [&](const SkippedPath& one) { return used.count(one.path) != 0; };
   found.skipped.erase(std::remove_if(found.skipped.begin(), found.skipped.end(), is_used),
                       found.skipped.end());
-  std::sort(found.paths.begin(), found.paths.end());
+  std::sort(found.paths.begin(), found.paths.end(), NaturalLess);
   std::sort(found.skipped.begin(), found.skipped.end(),
-            [](const SkippedPath& a, const SkippedPath& b) { return a.path < b.path; });
+            [](const SkippedPath& a, const SkippedPath& b) { return NaturalLess(a.path, b.path); });
   if (found.paths.empty()) return NothingFound(path, found.skipped);
   return found;
+}
+
+std::string NameOfInput(const std::string& input) {
+  std::error_code ignored;
+  fs::path path = fs::absolute(input, ignored).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // "folder/"
+  return (fs::is_directory(input, ignored) ? path.filename() : path.stem()).string();
 }
 
 void TellSkipped(const std::vector<SkippedPath>& skipped) {

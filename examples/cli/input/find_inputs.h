@@ -16,8 +16,8 @@ struct SkippedPath {
 };
 
 struct FoundInputs {
-  std::vector<std::string> paths;    // sorted
-  std::vector<SkippedPath> skipped;  // sorted by path; without hidden files
+  std::vector<std::string> paths;    // in natural order (natural_order.h)
+  std::vector<SkippedPath> skipped;  // in natural order of the paths; without hidden files
 };
 
 // Returns the inputs that `path` stands for. If `path` is a folder but not a light field, these are
@@ -28,6 +28,10 @@ struct FoundInputs {
 // has depth or `estimates_depth` is true. Returns an error if the folder contains no input.
 Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
                                const std::string& out);
+
+// Returns the name of an input without folders, and without extension if the input is a file.
+// Output pictures get this name.
+std::string NameOfInput(const std::string& input);
 
 // Prints the skipped paths to stderr.
 void TellSkipped(const std::vector<SkippedPath>& skipped);

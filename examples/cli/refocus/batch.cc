@@ -25,14 +25,11 @@ namespace fs = std::filesystem;
 
 std::string OutputOf(const std::string& input, const std::string& folder) {
   std::error_code ignored;
-  fs::path path = fs::absolute(input, ignored).lexically_normal();
-  if (!path.has_filename()) path = path.parent_path();  // "folder/"
-  if (fs::is_directory(input, ignored)) {
-    return (fs::path(folder) / (path.filename().string() + ".png")).string();
-  }
   const bool kept = IsPictureExtension(LowerExtension(input));
-  return (fs::path(folder) / (path.stem().string() + (kept ? path.extension().string() : ".jpg")))
-      .string();
+  const std::string extension = fs::is_directory(input, ignored) ? ".png"
+                                : kept ? fs::path(input).extension().string()
+                                       : ".jpg";
+  return (fs::path(folder) / (NameOfInput(input) + extension)).string();
 }
 
 // State that the threads of a batch share.
