@@ -145,6 +145,10 @@ starfocus refocus lf -o a.png
 starfocus refocus lf -o b.png --focus 1
 starfocus-lab calibrate --light-field lf --check lf -o timing.json
 printf 'photo.jpg\nlf\n' >inputs.txt
+mkdir clip rgb depth
+cp photo.jpg clip/1.jpg
+cp IMG.jpg rgb/1.jpg
+cp MAP.png depth/1.png
 )";
 
 void MakeInputs(const TempFolder& folder) {

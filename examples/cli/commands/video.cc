@@ -13,6 +13,7 @@
 #include "examples/cli/input/input.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/refocus/refocus_report.h"
+#include "examples/cli/video/clip.h"
 #include "examples/cli/video/frames.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
@@ -36,26 +37,29 @@ struct VideoOptions {
 
 // Frames of a video and their common properties.
 struct Video {
-  std::vector<std::string> inputs;
+  std::vector<FrameSource> sources;
+  MapSurvey survey;  // of the depth maps of all frames
+  KeptEstimates estimates;
   FrameFolders converted;
-  std::vector<FrameFiles> frames;  // frames that are open, in the order of `inputs`
+  ClipNotes notes;
+  std::vector<FrameFiles> frames;  // frames that are open, in the order of `sources`
   int width = 0, height = 0;
   Positions views;
   starfocus_disparity_stats stats = {};  // over all frames
   double max_blur = 0;
 };
 
-std::string FramePath(const std::string& folder, size_t index) {
-  char name[32];
-  std::snprintf(name, sizeof(name), "frame_%04d.png", static_cast<int>(index));
-  return (fs::path(folder) / name).string();
+std::string PicturePath(const std::string& folder, const FrameSource& frame) {
+  return (fs::path(folder) / frame.picture).string();
 }
 
 // Returns the input files that no output may overwrite.
 std::vector<std::string> FilesOf(const VideoOptions& options, const Video& video) {
-  std::vector<std::string> files = video.inputs;
-  files.push_back(options.input.depth);
-  files.push_back(options.lens.timing);
+  std::vector<std::string> files = {options.lens.timing};
+  for (const FrameSource& frame : video.sources) {
+    files.push_back(frame.path);
+    files.push_back(frame.depth);
+  }
   return files;
 }
 
@@ -64,24 +68,26 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
   Error error;
   if (options.out.empty()) return Error::Usage("--output", "a folder", "an empty name");
   if (fs::is_directory(options.out, failure)) {
-    for (size_t i = 0; i < video.inputs.size() && !error; ++i) {
-      error = CheckImageOutput(FramePath(options.out, i));
+    for (size_t i = 0; i < video.sources.size() && !error; ++i) {
+      error = CheckImageOutput(PicturePath(options.out, video.sources[i]));
     }
   } else {
     error = CheckFolderOutput(options.out);
     if (!error) error = CheckOutputPath(options.out);
   }
-  if (!error) error = CheckFolderApart({"--output", options.out}, video.inputs);
+  std::vector<std::string> paths;
+  for (const FrameSource& frame : video.sources) paths.push_back(frame.path);
+  if (!error) error = CheckFolderApart({"--output", options.out}, paths);
   if (error) return error;
   std::vector<Output> outputs = {{"--output", options.out}};
-  for (size_t i = 0; i < video.inputs.size(); ++i) {
-    outputs.push_back({"--output", FramePath(options.out, i)});
+  for (const FrameSource& frame : video.sources) {
+    outputs.push_back({"--output", PicturePath(options.out, frame)});
   }
   if (!options.report.empty()) {
     error = CheckOutputPath(options.report);
     outputs.push_back({"--report", options.report});
   }
-  return !error ? CheckApart(outputs, {video.inputs, FilesOf(options, video)}) : error;
+  return !error ? CheckApart(outputs, {paths, FilesOf(options, video)}) : error;
 }
 
 Error CheckSize(const std::string& where, const FloatMap& map, const Video& video) {
@@ -101,12 +107,14 @@ Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std
 }
 
 // Opens a frame. The first frame sets the aperture and the views of all frames.
-Result<Frame> OpenFrame(const VideoOptions& options, const std::string& input, LensPlan* plan,
+Result<Frame> OpenFrame(const VideoOptions& options, const FrameSource& source, LensPlan* plan,
                         Video* video) {
-  InputOptions one = options.input;
-  one.path = input;
-  Result<Capture> capture = OpenInput(one);
+  InputOptions one = OptionsOf(options.input, source);
+  one.kept = &video->estimates;
+  one.map.clip = &video->survey;
+  Result<Capture> capture = ReadInput(one);
   if (!capture) return capture.error();
+  video->notes.Tell(*capture);
   const bool is_first = video->frames.empty();
   if (is_first) {
     Error error = PlanAperture(options.lens.aperture, *capture).MoveTo(&plan->aperture);
@@ -120,7 +128,7 @@ Result<Frame> OpenFrame(const VideoOptions& options, const std::string& input, L
   if (!chosen) return chosen.error();
   if (!is_first) return frame;
   for (const ViewFile& file : *chosen) video->views.push_back(file.position);
-  if (Error error = CheckRenderer(input, *plan, video->views)) return error;
+  if (Error error = CheckRenderer(source.path, *plan, video->views)) return error;
   return frame;
 }
 
@@ -148,20 +156,23 @@ Error AddFrame(const VideoOptions& options, const std::string& input, Frame fram
 
 // Opens all frames and measures their maps.
 Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
-  for (const std::string& input : video->inputs) {
-    Result<Frame> frame = OpenFrame(options, input, plan, video);
+  InputOptions input = options.input;
+  input.kept = &video->estimates;
+  if (Error error = SurveyClip(video->sources, input).MoveTo(&video->survey)) return error;
+  for (const FrameSource& source : video->sources) {
+    Result<Frame> frame = OpenFrame(options, source, plan, video);
     if (!frame) return frame.error();
-    if (Error error = AddFrame(options, input, std::move(*frame), plan, video)) return error;
+    if (Error error = AddFrame(options, source.path, std::move(*frame), plan, video)) return error;
   }
   if (Error error = ChooseBlur(video->stats, plan).MoveTo(&video->max_blur)) return error;
-  TellAperture(video->inputs[0], plan->aperture);
+  TellAperture(video->sources[0].path, plan->aperture);
   return {};
 }
 
 Result<LightField> LoadFrame(const VideoOptions& options, const Video& video, size_t index) {
   Result<LightField> frame = LoadLightField(video.frames[index].folder, video.views);
   if (!frame) return frame;
-  if (Error error = CheckSize(video.inputs[index], frame->disparity, video)) return error;
+  if (Error error = CheckSize(video.sources[index].path, frame->disparity, video)) return error;
   if (Error error = Prepare(options, video.frames[index].where, &frame->disparity).error())
     return error;
   return frame;
@@ -174,7 +185,8 @@ Result<SeriesReport> RefocusFrames(const VideoOptions& options, const LensPlan& 
   LightField now, before;
   Image picture;
   for (size_t i = 0; i < video.frames.size(); ++i) {
-    const std::string &input = video.inputs[i], out = FramePath(options.out, i);
+    const std::string& input = video.sources[i].path;
+    const std::string out = PicturePath(options.out, video.sources[i]);
     before = std::move(now);
     if (Error error = LoadFrame(options, video, i).MoveTo(&now)) return error;
     const EngineTask task = MakeTask(plan, now, video.stats, video.max_blur, true);
@@ -196,7 +208,7 @@ Error Run(const VideoOptions& options) {
   Result<LensPlan> plan = PlanLens(options.lens);
   Error error = plan.error();
   if (!error) {
-    error = FindFrames(options.inputs, options.input, options.out).MoveTo(&video.inputs);
+    error = FindFrames(options.inputs, options.input, options.out).MoveTo(&video.sources);
   }
   if (!error) error = CheckOutputs(options, video);
   if (!error) error = Scan(options, &*plan, &video);
@@ -217,16 +229,18 @@ Command VideoCommand() {
       {},
       [options] { return Run(*options); },
       {"starfocus video frames -o out --focus 2",
-       "starfocus video lf0 lf1 lf2 -o out --focus-at 320,240 --report report.json"},
+       "starfocus video rgb --depth depth -o out --near white --focus-at 320,240"},
       "Frames must have the same size and are taken in the order of SRC. If SRC is one folder\n"
       "that is not a light field, the frames are the light fields or photos in this folder,\n"
-      "sorted by name. Unless --focus or --focus-range is given, the first frame determines the\n"
-      "focus of all frames: the focus at the pixel of --focus-at, or else the default focus.\n"
-      "Modes frame and benchmark choose one number of views for all frames."};
+      "sorted by the numbers in their names. Depth maps without distances get one scale and one\n"
+      "near end for all frames. If --depth is a folder, its depth pictures are paired with the\n"
+      "frames by name, or else by number. Unless --focus or --focus-range is given, the first\n"
+      "frame determines the focus of all frames: the focus at the pixel of --focus-at, or else\n"
+      "the default focus. Modes frame and benchmark choose one number of views for all frames."};
   AddInputOptions(&command, &options->input, &options->inputs);
   AddOptions(
       {
-          {"-o,--output", "DIR", "Folder to write frame_0000.png, frame_0001.png, ... into",
+          {"-o,--output", "DIR", "Folder to write a PNG picture with the name of each input into",
            &options->out, Use::kRequired},
       },
       &command);

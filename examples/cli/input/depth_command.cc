@@ -8,8 +8,8 @@
 #include "platform/folder.h"
 #include "platform/helper/helper.h"
 #include "platform/image_io.h"
+#include "platform/pfm.h"
 #include "platform/shell_command.h"
-#include "platform/temporary_folder.h"
 
 namespace starfocus {
 namespace {
@@ -74,6 +74,25 @@ Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& com
   if (!bytes) return bytes.error();
   const std::string result = name + " (depth picture of the depth command)";
   return Confined<Samples>(result, [&] { return DecodeDepthFile(result, use_alpha, *bytes); });
+}
+
+Result<Samples> KeptEstimates::Of(const std::string& name, const DepthCommand& command,
+                                  bool use_alpha, const Image& photo) {
+  const auto found = kept_.find(name);
+  if (found != kept_.end()) {
+    Samples samples;
+    samples.largest = found->second.largest;
+    samples.larger_is_nearer = found->second.larger_is_nearer;
+    if (Error error = ReadPfm(found->second.path).MoveTo(&samples.map)) return error;
+    return samples;
+  }
+  Result<Samples> samples = RunDepthCommand(name, command, use_alpha, photo);
+  if (!samples) return samples;
+  if (Error error = folder_.path().empty() ? folder_.Create() : Error()) return error;
+  const std::string path = folder_.path() + "/" + std::to_string(kept_.size()) + ".pfm";
+  if (Error error = WritePfm(path, samples->map)) return error;
+  kept_[name] = {path, samples->largest, samples->larger_is_nearer};
+  return samples;
 }
 
 }  // namespace starfocus

@@ -3,11 +3,13 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_INPUT_DEPTH_COMMAND_H_
 #define STARFOCUS_EXAMPLES_CLI_INPUT_DEPTH_COMMAND_H_
 
+#include <map>
 #include <string>
 
 #include "platform/image.h"
 #include "platform/levels.h"
 #include "platform/result.h"
+#include "platform/temporary_folder.h"
 
 namespace starfocus {
 
@@ -27,6 +29,25 @@ std::string CheckDepthCommand(const std::string& text);
 // time.
 Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& command,
                                 bool use_alpha, const Image& photo);
+
+// Estimates that are kept in temporary files, so that a photo can be opened several times. The name
+// of a photo identifies its estimate. Only one thread may use the object.
+class KeptEstimates {
+ public:
+  // Returns the kept estimate of the photo `name`, or runs the command (RunDepthCommand).
+  Result<Samples> Of(const std::string& name, const DepthCommand& command, bool use_alpha,
+                     const Image& photo);
+
+ private:
+  struct Kept {
+    std::string path;
+    int largest;
+    bool larger_is_nearer;
+  };
+
+  TemporaryFolder folder_;
+  std::map<std::string, Kept> kept_;
+};
 
 }  // namespace starfocus
 

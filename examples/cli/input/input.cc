@@ -96,8 +96,10 @@ Result<Capture> ReadInput(const InputOptions& options) {
   if (EstimatesDepth(options)) {
     wanted.map.estimate = [&](const Image& photo) {
       estimates = true;
-      return RunDepthCommand(InputName(options.path), options.command, options.map.use_alpha,
-                             photo);
+      const std::string name = InputName(options.path);
+      const bool use_alpha = options.map.use_alpha;
+      return options.kept != nullptr ? options.kept->Of(name, options.command, use_alpha, photo)
+                                     : RunDepthCommand(name, options.command, use_alpha, photo);
     };
   }
   Result<Capture> capture = OpenCapture(options.path, wanted);

@@ -16,6 +16,7 @@ struct InputOptions {
   std::string path, depth, right, coverage;
   DepthCommand command;
   DepthOptions map = {};
+  KeptEstimates* kept = nullptr;  // Null: the depth command runs whenever the photo is opened.
 };
 
 // Options for processing the map. By default, the format of the input determines the processing.

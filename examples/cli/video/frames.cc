@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/video/frames.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "examples/cli/input/find_inputs.h"
+#include "examples/cli/video/depth_folder.h"
 
 namespace starfocus {
 namespace {
-
-// Largest number of frames, because file names have four digits.
-constexpr size_t kMostFrames = 10000;
 
 // Returns true if the frame can be read again as a light-field folder.
 bool IsReady(const MapOptions& options, const Capture& capture) {
@@ -21,18 +21,28 @@ bool IsReady(const MapOptions& options, const Capture& capture) {
 
 }  // namespace
 
-Result<std::vector<std::string>> FindFrames(const std::vector<std::string>& inputs,
+Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
                                             const InputOptions& options, const std::string& out) {
-  std::vector<std::string> frames = inputs;
+  std::vector<std::string> paths = inputs, depths(inputs.size(), options.depth);
+  if (std::find(paths.begin(), paths.end(), "-") != paths.end()) {
+    return Error::Usage("SRC", "files or folders as frames", "- (standard input)");
+  }
   if (inputs.size() == 1) {
-    Result<FoundInputs> found = FindInputs(inputs[0], EstimatesDepth(options), out);
+    Result<FoundInputs> found = FindInputs(inputs[0], true, out);
     if (!found) return found.error();
     TellSkipped(found->skipped);
-    frames = std::move(found->paths);
+    paths = std::move(found->paths);
+    depths.assign(paths.size(), options.depth);
   }
-  if (frames.size() <= kMostFrames) return frames;
-  return Error::Usage("SRC", "at most " + std::to_string(kMostFrames) + " frames",
-                      std::to_string(frames.size()));
+  std::error_code ignored;
+  if (std::filesystem::is_directory(options.depth, ignored)) {
+    if (Error error = PairWithFolder(paths, options.depth).MoveTo(&depths)) return error;
+  }
+  std::vector<FrameSource> frames;
+  for (size_t i = 0; i < paths.size(); ++i) {
+    frames.push_back({paths[i], depths[i], NameOfInput(paths[i]) + ".png"});
+  }
+  return frames;
 }
 
 Result<Frame> FrameFolders::Open(const MapOptions& options, const Positions& views, int threads,

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "examples/cli/video/depth_folder.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "platform/file.h"
+#include "platform/folder.h"
+#include "platform/natural_order.h"
+#include "platform/readers/pair.h"
+#include "platform/text.h"
+#include "platform/writers/picture.h"
+
+namespace starfocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Names = std::vector<std::string>;
+using Numbers = std::vector<std::string>;
+
+std::string StemOf(const std::string& path) { return fs::path(path).stem().string(); }
+
+// Depth pictures whose names differ only in their numbers.
+struct Group {
+  Names names;
+  std::vector<Numbers> numbers;  // of each name
+};
+
+// The depth pictures that match each frame by one rule.
+struct Pairing {
+  std::vector<Names> matches;
+
+  size_t Matched() const {
+    return static_cast<size_t>(std::count_if(matches.begin(), matches.end(),
+                                             [](const Names& names) { return !names.empty(); }));
+  }
+  bool IsComplete() const { return Matched() == matches.size(); }
+};
+
+// Lists the depth pictures of a folder. Frames in the same folder are no depth pictures.
+Result<Names> ListDepths(const Names& frames, const std::string& folder) {
+  const Result<Names> names = ListFolder(folder);
+  if (!names) return names;
+  std::error_code ignored;
+  std::set<fs::path> taken;
+  for (const std::string& frame : frames) taken.insert(fs::weakly_canonical(frame, ignored));
+  Names depths;
+  for (const std::string& name : *names) {
+    const fs::path path = fs::path(folder) / name;
+    if (name[0] == '.' || !fs::is_regular_file(path, ignored)) continue;
+    if (!HasDepthExtension(name) && !IsPictureExtension(LowerExtension(name))) continue;
+    if (taken.count(fs::weakly_canonical(path, ignored)) == 0) depths.push_back(name);
+  }
+  if (depths.empty()) return Expected(folder, "a folder with depth pictures", "none");
+  return depths;
+}
+
+Pairing PairByName(const Names& frames, const Names& depths) {
+  DepthPictures with_ending;
+  std::map<std::string, Names> by_name;
+  for (const std::string& depth : depths) {
+    with_ending.Add(depth);
+    by_name[Lower(StemOf(depth))].push_back(depth);
+  }
+  Pairing pairing;
+  for (const std::string& frame : frames) {
+    Names found = with_ending.Of(fs::path(frame).filename().string());
+    const Names& equal = by_name[Lower(StemOf(frame))];
+    found.insert(found.end(), equal.begin(), equal.end());
+    pairing.matches.push_back(found);
+  }
+  return pairing;
+}
+
+// Returns the numbers of each frame without the numbers that all frames have in common. The last
+// number always remains.
+std::vector<Numbers> WithoutCommon(const std::vector<Numbers>& frames) {
+  std::vector<Numbers> result(frames.size());
+  const size_t count = frames[0].size();
+  for (size_t k = 0; k < count; ++k) {
+    const bool common = std::all_of(frames.begin(), frames.end(), [&](const Numbers& numbers) {
+      return numbers[k] == frames[0][k];
+    });
+    for (size_t i = 0; i < frames.size() && (!common || k + 1 == count); ++i) {
+      result[i].push_back(frames[i][k]);
+    }
+  }
+  return result;
+}
+
+// Pairs each frame with the depth pictures of a group that have the numbers of the frame in
+// succession, from the number `first` on.
+Pairing PairByNumber(const std::vector<Numbers>& frames, const Group& group, size_t first) {
+  std::map<Numbers, Names> by_numbers;
+  const auto count = static_cast<ptrdiff_t>(frames[0].size());
+  for (size_t k = 0; k < group.names.size(); ++k) {
+    const auto begin = group.numbers[k].begin() + static_cast<ptrdiff_t>(first);
+    by_numbers[Numbers(begin, begin + count)].push_back(group.names[k]);
+  }
+  Pairing pairing;
+  for (const Numbers& numbers : frames) pairing.matches.push_back(by_numbers[numbers]);
+  return pairing;
+}
+
+// Returns the pairings by number: of all numbers of the frames if one of them is complete,
+// otherwise without the numbers that the frames have in common. Depth pictures with numbers that
+// are equal in all their names, such as a version, match no frame or several frames.
+std::vector<Pairing> PairByNumbers(const Names& frames, const Names& depths) {
+  std::map<std::string, Group> groups;
+  for (const std::string& depth : depths) {
+    const NumberedName name = ParseNumberedName(StemOf(depth));
+    groups[name.shape].names.push_back(depth);
+    groups[name.shape].numbers.push_back(name.numbers);
+  }
+  std::vector<Numbers> numbers;
+  for (const std::string& frame : frames) {
+    numbers.push_back(ParseNumberedName(StemOf(frame)).numbers);
+    if (numbers.back().empty() || numbers.back().size() != numbers[0].size()) return {};
+  }
+  std::vector<Pairing> pairings;
+  for (const std::vector<Numbers>& keys : {numbers, WithoutCommon(numbers)}) {
+    if (std::set<Numbers>(keys.begin(), keys.end()).size() < keys.size()) continue;
+    const auto complete = [](const Pairing& pairing) { return pairing.IsComplete(); };
+    if (std::any_of(pairings.begin(), pairings.end(), complete)) break;
+    for (const auto& [shape, group] : groups) {
+      for (size_t k = 0; k + keys[0].size() <= group.numbers[0].size(); ++k) {
+        pairings.push_back(PairByNumber(keys, group, k));
+      }
+    }
+  }
+  return pairings;
+}
+
+// Chooses the pairing that matches the most frames, and among these the first with the fewest depth
+// pictures. Returns an error unless it matches each frame with one depth picture, and no other
+// pairing does so.
+Result<Names> Choose(const Names& frames, const std::string& folder,
+                     const std::vector<Pairing>& pairings) {
+  const auto figures = [](const Pairing& pairing) {
+    size_t depths = 0;
+    for (const Names& names : pairing.matches) depths += names.size();
+    return std::pair<size_t, size_t>(pairing.matches.size() - pairing.Matched(), depths);
+  };
+  const Pairing best = *std::min_element(
+      pairings.begin(), pairings.end(),
+      [&](const Pairing& a, const Pairing& b) { return figures(a) < figures(b); });
+  Names chosen;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    std::set<std::string> found(best.matches[i].begin(), best.matches[i].end());
+    for (const Pairing& other : pairings) {
+      if (figures(other) == figures(best)) {
+        found.insert(other.matches[i].begin(), other.matches[i].end());
+      }
+    }
+    const std::string expected = "one depth picture with the name or number of the frame in ";
+    if (best.matches[i].empty()) {
+      return Expected(frames[i], expected + folder,
+                      "none (" + std::to_string(best.Matched()) + " of " +
+                          std::to_string(frames.size()) + " frames have one)");
+    }
+    if (found.size() > 1) {
+      return Expected(frames[i], expected + folder, *found.begin() + " and " + *++found.begin());
+    }
+    chosen.push_back(*found.begin());
+  }
+  return chosen;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> PairWithFolder(const std::vector<std::string>& frames,
+                                                const std::string& folder) {
+  const Result<Names> depths = ListDepths(frames, folder);
+  if (!depths) return depths;
+  std::vector<Pairing> pairings = {PairByName(frames, *depths)};
+  if (!pairings[0].IsComplete()) {
+    for (Pairing& pairing : PairByNumbers(frames, *depths)) pairings.push_back(std::move(pairing));
+  }
+  Result<Names> chosen = Choose(frames, folder, pairings);
+  if (!chosen) return chosen;
+  const std::set<std::string> used(chosen->begin(), chosen->end());
+  Names unused;
+  std::copy_if(depths->begin(), depths->end(), std::back_inserter(unused),
+               [&](const std::string& name) { return used.count(name) == 0; });
+  if (!unused.empty()) {
+    std::fprintf(stderr, "%s: %zu depth pictures belong to no frame, such as %s\n", folder.c_str(),
+                 unused.size(), unused[0].c_str());
+  }
+  for (std::string& name : *chosen) name = (fs::path(folder) / name).string();
+  return chosen;
+}
+
+}  // namespace starfocus
