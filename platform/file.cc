@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/file.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -33,16 +34,10 @@ bool IsSpecial(const fs::path& path) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
+constexpr char kSpecial[] = "it is a device or pipe";
+
 fs::path FolderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-// Resolves links, because renaming onto a link would replace the link instead of its target.
-fs::path FollowLink(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_symlink(path, error)) return path;
-  const fs::path real = fs::canonical(path, error);
-  return error ? path : real;
 }
 
 // Returns true if the file has no write permission at all, or if this process lacks the permission
@@ -102,20 +97,22 @@ struct OpenedFile {
   size_t size = 0;  // size in bytes; 0 for a pipe
 };
 
-// Opens a regular file of at most `most` bytes, or a pipe.
+// Opens a regular file of at most `most` bytes, or standard input of any kind. Opening a pipe
+// without O_NONBLOCK would wait for a writer.
 Result<OpenedFile> OpenFile(const std::string& path, uint64_t most) {
   // Duplicate the descriptor of standard input, because File closes its descriptor.
   const bool standard = path == "-";
-  File file(standard ? fdopen(dup(STDIN_FILENO), "rb") : std::fopen(path.c_str(), "rb"));
+  const int handle =
+      standard ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (handle < 0 && IsSpecial(path)) return Cannot("read", path, kSpecial);
+  File file(handle < 0 ? nullptr : fdopen(handle, "rb"));
   struct stat status;
-  if (file == nullptr || fstat(fileno(file.get()), &status) != 0) {
-    return Cannot("read", path, Reason(errno));
-  }
+  if (file == nullptr || fstat(handle, &status) != 0) return Cannot("read", path, Reason(errno));
   if (S_ISDIR(status.st_mode)) return Cannot("read", path, "it is a folder");
-  if (!standard && (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode))) {
-    return Cannot("read", path, "it is a device");
+  if (!S_ISREG(status.st_mode)) {
+    if (!standard) return Cannot("read", path, kSpecial);
+    return OpenedFile{std::move(file), 0};
   }
-  if (!S_ISREG(status.st_mode)) return OpenedFile{std::move(file), 0};
   const auto bytes = static_cast<uint64_t>(status.st_size);
   if (bytes > most) return TooLarge(path, most, std::to_string(bytes));
   return OpenedFile{std::move(file), static_cast<size_t>(bytes)};
@@ -146,6 +143,15 @@ Result<Bytes> ReadAtMost(const std::string& path, uint64_t most, IsWanted is_wan
 
 }  // namespace
 
+fs::path FollowLinks(fs::path path) {
+  constexpr int kMostLinks = 40;  // limit of Linux
+  std::error_code error;
+  for (int count = 0; count < kMostLinks && fs::is_symlink(path, error); ++count) {
+    path = FolderOf(path) / fs::read_symlink(path, error);
+  }
+  return path;
+}
+
 Result<Bytes> ReadFile(const std::string& path) { return ReadAtMost(path, kMostBytes, nullptr); }
 
 Result<Bytes> ReadFileIf(const std::string& path, IsWanted is_wanted) {
@@ -161,7 +167,7 @@ Error WriteFile(const std::string& path, const Bytes& bytes) {
     const bool whole = WriteAll(bytes, stdout) && std::fflush(stdout) == 0;
     return whole ? Error() : Cannot("write", path + " to standard output", Reason(errno));
   }
-  const fs::path target = FollowLink(path);
+  const fs::path target = FollowLinks(path);
   return IsSpecial(target) ? WriteInPlace(path, bytes) : Replace(path, target, bytes);
 }
 
@@ -174,7 +180,7 @@ Error WriteText(const std::string& path, const std::string& text) {
 }
 
 Error CheckPlainFile(const std::string& path) {
-  return IsSpecial(path) ? Cannot("read", path, "it is a device or pipe") : Error();
+  return IsSpecial(path) ? Cannot("read", path, kSpecial) : Error();
 }
 
 Error CheckOutputPath(const std::string& path) {
@@ -182,7 +188,7 @@ Error CheckOutputPath(const std::string& path) {
   if (path.empty()) return Expected("output", "a file name", "an empty one");
   if (IsStandardStream(path)) return {};
   if (fs::is_directory(path, error)) return Cannot("write", path, "it is a folder");
-  const fs::path folder = FolderOf(FollowLink(path));
+  const fs::path folder = FolderOf(FollowLinks(path));
   const fs::file_status folder_status = fs::status(folder, error);
   if (!fs::exists(folder_status)) {
     const bool absent = !error || error == std::errc::no_such_file_or_directory;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,9 @@ namespace starfocus {
 
 using Bytes = std::vector<uint8_t>;
 
-// Reads a regular file or a pipe of at most 2 GiB. Rejects folders and devices, since a device such
-// as /dev/zero never ends. The path "-" means standard input in all functions of this header that
-// read a file.
+// Reads a regular file of at most 2 GiB. Rejects folders, devices and pipes without waiting, since a
+// device such as /dev/zero never ends, and a pipe may have no writer. The path "-" means standard
+// input, which may be a pipe, in all functions of this header that read a file.
 Result<Bytes> ReadFile(const std::string& path);
 
 // Reads a file, or only its first 64 KiB if `is_wanted` returns false for these bytes. Reading an
@@ -26,6 +27,10 @@ Result<Bytes> ReadFileIf(const std::string& path, bool (*is_wanted)(const Bytes&
 // Reads a file of at most kMostSmallBytes, for timings, calibrations and other texts.
 constexpr size_t kMostSmallBytes = size_t{1} << 20;
 Result<Bytes> ReadSmallFile(const std::string& path);
+
+// Replaces a link by its target, and again if the target is a link. The last target may be absent.
+// WriteFile writes to this target, because renaming onto a link would replace the link.
+std::filesystem::path FollowLinks(std::filesystem::path path);
 
 // Writes a temporary file in the folder of `path` and renames the temporary file, so that `path`
 // contains either its old content or all of `bytes`. Keeps the owner and permissions of an existing
@@ -44,7 +49,7 @@ Error WriteText(const std::string& path, const std::string& text);
 // `path` must not be a folder or a read-only file.
 Error CheckOutputPath(const std::string& path);
 
-// Returns an error if `path` is a device or pipe, on which a reader could wait forever.
+// Returns an error if `path` is a device or pipe, as the functions that read a file do.
 Error CheckPlainFile(const std::string& path);
 
 // Returns the extension of a path in lower case with its dot, or an empty string if the path has no

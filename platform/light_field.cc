@@ -59,9 +59,7 @@ struct LoadJob {
   static void Run(void* data, int32_t index, int32_t) {
     LoadJob* self = static_cast<LoadJob*>(data);
     const std::string& path = self->files[size_t(index)].path;
-    Result<Image> view = CheckPlainFile(path);
-    if (view) view = ReadImage(path);
-    self->views[size_t(index)] = std::move(view);
+    self->views[size_t(index)] = ReadImage(path);
     self->progress.Step();
   }
 };
@@ -135,11 +133,7 @@ std::vector<std::string> LightFieldFiles(const std::string& folder) {
   return files;
 }
 
-Result<FloatMap> ReadDisparity(const std::string& folder) {
-  const std::string path = DisparityPath(folder);
-  if (Error error = CheckPlainFile(path)) return error;
-  return ReadPfm(path);
-}
+Result<FloatMap> ReadDisparity(const std::string& folder) { return ReadPfm(DisparityPath(folder)); }
 
 bool HasDisparity(const std::string& folder) {
   std::error_code error;
@@ -169,7 +163,6 @@ Result<LightField> LoadViewFiles(const std::vector<ViewFile>& files, ThreadRunne
 }
 
 Error LoadMap(const std::string& path, LightField* light_field) {
-  if (Error error = CheckPlainFile(path)) return error;
   Result<FloatMap> map = ReadPfm(path);
   return map ? TakeMap(path, std::move(*map), light_field) : map.error();
 }
@@ -187,7 +180,6 @@ std::string CoveragePath(const std::string& folder) {
 }
 
 Error LoadCoverage(const std::string& path, LightField* light_field) {
-  if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
   const Result<Samples> samples =

@@ -24,19 +24,19 @@ namespace fs = std::filesystem;
 // Returns a unique name for a file, whether or not the file exists.
 fs::path NameOf(const fs::path& path) {
   std::error_code ignored;
-  const fs::path name = fs::weakly_canonical(fs::absolute(path), ignored);
+  const fs::path name = fs::weakly_canonical(FollowLinks(fs::absolute(path)), ignored);
   return name.has_filename() ? name : name.parent_path();  // "folder/"
 }
 
 using FileId = std::pair<dev_t, ino_t>;
 
-// Returns a value that all names of a file have in common, for example hard links. Returns nullopt
-// if the file does not exist, or if it is neither a regular file nor a folder.
-std::optional<FileId> IdOf(const std::string& path) {
+// Returns a value that all names of a file have in common, for example hard links. `stream` is the
+// descriptor that the path "-" stands for. Returns nullopt if the file does not exist, or if it is
+// neither a regular file nor a folder.
+std::optional<FileId> IdOf(const std::string& path, int stream) {
   struct stat info = {};
-  if (stat(path.c_str(), &info) != 0 || !(S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))) {
-    return {};
-  }
+  const int failed = IsStandardStream(path) ? fstat(stream, &info) : stat(path.c_str(), &info);
+  if (failed != 0 || !(S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))) return {};
   return FileId{info.st_dev, info.st_ino};
 }
 
@@ -54,7 +54,9 @@ std::vector<std::string> FindLinks(const std::string& folder) {
 
 Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
   std::set<fs::path> folders, files, grids, names;
-  std::set<std::optional<FileId>> ids;
+  // `ids` are those of inputs. Two names of one file are written one after the other by renaming,
+  // but a file that is standard output would be lost if one of its names were written as well.
+  std::set<std::optional<FileId>> ids, written, streamed;
   for (const std::string& folder : inputs.grids) grids.insert(NameOf(folder));
   for (const std::string& folder : inputs.folders) {
     folders.insert(NameOf(folder));
@@ -63,17 +65,18 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
   for (const std::string& path : inputs.files) {
     if (path.empty()) continue;
     files.insert(NameOf(path));
-    ids.insert(IdOf(path));
+    ids.insert(IdOf(path, STDIN_FILENO));
   }
   for (const Output& output : outputs) {
     // All names of standard output refer to the same stream. Standard input is a different stream.
     const bool stream = IsStandardStream(output.path);
     const fs::path name = stream ? "-" : NameOf(output.path);
-    if (!names.insert(name).second) {
+    const std::optional<FileId> id = IdOf(output.path, STDOUT_FILENO);
+    if (!names.insert(name).second || (id && (stream ? written : streamed).count(id) != 0)) {
       return Error::Usage(output.option, "a separate file",
                           output.path + ", which another output uses");
     }
-    const std::optional<FileId> id = stream ? std::nullopt : IdOf(output.path);
+    (stream ? streamed : written).insert(id);
     if ((id && ids.count(id) != 0) || files.count(name) != 0) {
       return Error::Usage(output.option, "a separate file", output.path + ", which is an input");
     }

@@ -36,7 +36,6 @@ KeyValues ParseKeyValues(const std::string& text) {
 }
 
 Result<KeyValues> ReadKeyValues(const std::string& path) {
-  if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadSmallFile(path);
   if (!bytes) return bytes.error();
   return ParseKeyValues({bytes->begin(), bytes->end()});

@@ -131,7 +131,6 @@ std::optional<Capture> FindGreyMapPair(const std::string& folder,
 
 Error LoadGreyMap(Capture* capture) {
   const std::string& path = capture->map_path;
-  if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
   Result<Samples> samples =

@@ -199,7 +199,6 @@ Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo)
 Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {
   photo->format = "photo and depth picture";
   photo->facts.emplace_back("depth picture", path);
-  if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
   Result<Samples> samples =

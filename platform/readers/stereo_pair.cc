@@ -49,7 +49,6 @@ std::optional<MultiPicture> FindRight(const std::string& path, Span file) {
 
 // Reads a photo, without its depth map, and turns it upright.
 Result<DepthPhoto> ReadUpright(const std::string& path) {
-  if (Error error = CheckPlainFile(path)) return error;
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
   const Span file = {bytes->data(), bytes->size()};

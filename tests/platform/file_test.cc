@@ -81,7 +81,7 @@ TEST_CASE("file: an error line names the cause of the error") {
 TEST_CASE("file: devices and endless pipes are not read, and a limit applies to small files") {
   TempFolder folder;
   const auto device = [](const char* path) {
-    return std::string("cannot read ") + path + ": it is a device";
+    return std::string("cannot read ") + path + ": it is a device or pipe";
   };
   for (const char* path : {"/dev/zero", "/dev/null"}) {
     if (!fs::exists(path)) continue;
@@ -100,7 +100,7 @@ TEST_CASE("file: devices and endless pipes are not read, and a limit applies to 
   CHECK(ReadFile(folder.file("more")) ==
         folder.file("more") +
             ": the file is too large (expected at most 2147483648 bytes, found 2147483649)");
-  // A pipe that ends is read completely. An endless pipe is read up to the limit.
+  // A pipe on standard input is read completely if it ends, and otherwise up to the limit.
   for (const bool endless : {false, true}) {
     const std::string path = folder.file(endless ? "endless" : "pipe");
     REQUIRE(mkfifo(path.c_str(), 0600) == 0);
@@ -114,9 +114,14 @@ TEST_CASE("file: devices and endless pipes are not read, and a limit applies to 
       }
       _exit(0);
     }
-    const Result<Bytes> read = ReadSmallFile(path);
+    const int own = dup(STDIN_FILENO), pipe = open(path.c_str(), O_RDONLY);
+    REQUIRE(dup2(pipe, STDIN_FILENO) == STDIN_FILENO);
+    const Result<Bytes> read = ReadSmallFile("-");
+    REQUIRE(dup2(own, STDIN_FILENO) == STDIN_FILENO);
+    close(pipe);
+    close(own);
     if (endless) {
-      CHECK(read == path + ": the file is too large (expected at most 1048576 bytes, found more)");
+      CHECK(read == "-: the file is too large (expected at most 1048576 bytes, found more)");
     } else {
       CHECK(read == "");
       CHECK(read->size() == 1000);
@@ -168,7 +173,7 @@ TEST_CASE("file: CheckOutputPath and WriteFile accept the longest file name, and
   CHECK(folder.count() == 3);
 }
 
-TEST_CASE("file: CheckPlainFile rejects pipes and devices") {
+TEST_CASE("file: pipes and devices are rejected without waiting") {
   TempFolder folder;
   REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
   REQUIRE(WriteFile(folder.file("file"), {}) == "");
@@ -177,6 +182,26 @@ TEST_CASE("file: CheckPlainFile rejects pipes and devices") {
   CHECK(CheckPlainFile(folder.file("file")) == "");
   // The function that opens the file reports the error.
   CHECK(CheckPlainFile(folder.file("none")) == "");
+  for (const std::string& path : {folder.file("pipe"), std::string("/dev/zero")}) {
+    CHECK(ReadFile(path) == "cannot read " + path + ": it is a device or pipe");
+    CHECK(ReadSmallFile(path) == "cannot read " + path + ": it is a device or pipe");
+  }
+}
+
+TEST_CASE("file: a link to an absent file is written through, like a link to a file") {
+  TempFolder folder;
+  fs::create_directory(folder.file("in"));
+  fs::create_symlink("in/second", folder.file("first"));
+  fs::create_symlink(folder.file("in/third"), folder.file("in/second"));
+  for (const char* text : {"absent", "present"}) {
+    CHECK(CheckOutputPath(folder.file("first")) == "");
+    REQUIRE(WriteFile(folder.file("first"), FromText(text)) == "");
+    CHECK(fs::is_symlink(folder.file("first")));
+    CHECK(fs::is_symlink(folder.file("in/second")));
+    CHECK(Read(folder.file("in/third")) == text);
+  }
+  fs::create_symlink("loop", folder.file("loop"));
+  CHECK(CheckOutputPath(folder.file("loop")) != "");
 }
 
 TEST_CASE("file: WriteFile returns an error if the device is full") {

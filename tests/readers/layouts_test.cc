@@ -2,6 +2,7 @@
 // Reads folders of views in the layouts of published data sets. Tests the selection of views, the
 // positions of views, and the disparity map.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,65 @@ Error OpenAndLoad(const TempFolder& folder, Capture* capture) {
   return LoadCapture({}, capture);
 }
 
+// Writes 5 rows of 7 views. `place` returns the part of a name after the row and the column.
+template <class Place>
+void WriteStanford(const TempFolder& folder, const Place& place) {
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 7; ++column) {
+      WriteView(folder,
+                "out_" + Number(row, 2) + "_" + Number(column, 2) + place(row, column) + ".png",
+                10 * row + column);
+    }
+  }
+}
+
+// Replaces each file of a layout by a pipe without a writer and by a device. Checks that the folder
+// is rejected without waiting, unless it is opened without the file.
+void CheckSpecialFiles(const TempFolder& folder) {
+  namespace fs = std::filesystem;
+  TempFolder kept;
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folder.path())) paths.push_back(entry.path());
+  int rejected = 0;
+  for (const fs::path& path : paths) {
+    fs::rename(path, kept.file("file"));
+    for (const bool pipe : {true, false}) {
+      CAPTURE(path.string());
+      if (pipe) REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+      if (!pipe) fs::create_symlink("/dev/zero", path);
+      Capture capture;
+      const Error error = OpenAndLoad(folder, &capture);
+      if (error)
+        CHECK(Contains(error, "cannot read " + path.string() + ": it is a device or pipe"));
+      rejected += error ? 1 : 0;
+      fs::remove(path);
+    }
+    fs::rename(kept.file("file"), path);
+  }
+  CHECK(rejected >= 10);
+}
+
+TEST_CASE("layouts: a pipe or device instead of any file is rejected without waiting") {
+  TempFolder own, grid, hci, stanford;
+  for (const char* name : {"+0.0_+0.0", "+1.0_+0.0", "+0.0_+1.0", "-1.0_+0.0", "+0.0_-1.0"}) {
+    WriteView(own, "view_" + std::string(name) + ".png", 7);
+  }
+  Require(WritePfm(own.file("disparity.pfm"), {4, 3, std::vector<float>(12, 1)}));
+  WriteView(own, "coverage.png", 255);
+  CheckSpecialFiles(own);
+  for (int k = 0; k < 9; ++k) {
+    WriteView(grid, "v_" + Number(k / 3, 1) + "_" + Number(k % 3, 1) + ".png", k);
+  }
+  Require(WritePfm(grid.file("disparity.pfm"), {4, 3, std::vector<float>(12, 1)}));
+  CheckSpecialFiles(grid);
+  for (int k = 0; k < 9; ++k) WriteView(hci, "input_Cam" + Number(k, 3) + ".png", k);
+  Require(WritePfm(hci.file("gt_disp_lowres.pfm"), {4, 3, std::vector<float>(12, 1)}));
+  Write(hci.file("parameters.cfg"), "[intrinsics]\nfocal_length_mm = 100.0\n");
+  CheckSpecialFiles(hci);
+  WriteStanford(stanford, [](int, int) { return ""; });
+  CheckSpecialFiles(stanford);
+}
+
 TEST_CASE(
     "HCI: 17 of 81 views are read, disparities are scaled by 4, and f-stops follow the baseline") {
   TempFolder folder;
@@ -73,18 +133,6 @@ TEST_CASE(
   CHECK(capture.light_field.disparity.values.empty());
   std::filesystem::remove(folder.file("input_Cam080.png"));
   CHECK(Contains(OpenAndLoad(folder, &capture), "a square number of views"));
-}
-
-// Writes 5 rows of 7 views. `place` returns the part of a name after the row and the column.
-template <class Place>
-void WriteStanford(const TempFolder& folder, const Place& place) {
-  for (int row = 0; row < 5; ++row) {
-    for (int column = 0; column < 7; ++column) {
-      WriteView(folder,
-                "out_" + Number(row, 2) + "_" + Number(column, 2) + place(row, column) + ".png",
-                10 * row + column);
-    }
-  }
 }
 
 TEST_CASE(
