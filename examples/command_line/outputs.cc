@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -48,6 +50,55 @@ std::vector<std::string> FindLinks(const std::string& folder) {
     if (fs::is_symlink(path, ignored)) links.push_back(path);
   }
   return links;
+}
+
+// Extensions of files whose kind is known. GIF files are listed with the videos, because starfocus
+// does not write them.
+struct KnownExtension {
+  const char* extension;
+  OutputKind kind;
+};
+constexpr KnownExtension kExtensions[] = {
+    {".png", OutputKind::kPicture},  {".ppm", OutputKind::kPicture},
+    {".jpg", OutputKind::kPicture},  {".jpeg", OutputKind::kPicture},
+    {".webp", OutputKind::kPicture}, {".bmp", OutputKind::kOther},
+    {".tif", OutputKind::kOther},    {".tiff", OutputKind::kOther},
+    {".pgm", OutputKind::kOther},    {".heic", OutputKind::kOther},
+    {".heif", OutputKind::kOther},   {".avif", OutputKind::kOther},
+    {".jxl", OutputKind::kOther},    {".exr", OutputKind::kOther},
+    {".svg", OutputKind::kOther},    {".mpo", OutputKind::kOther},
+    {".mp4", OutputKind::kVideo},    {".m4v", OutputKind::kVideo},
+    {".mov", OutputKind::kVideo},    {".mkv", OutputKind::kVideo},
+    {".webm", OutputKind::kVideo},   {".avi", OutputKind::kVideo},
+    {".gif", OutputKind::kVideo},    {".mpg", OutputKind::kVideo},
+    {".mpeg", OutputKind::kVideo},   {".wmv", OutputKind::kVideo},
+    {".flv", OutputKind::kVideo},    {".ogv", OutputKind::kVideo},
+    {".3gp", OutputKind::kVideo},    {".mts", OutputKind::kVideo},
+    {".pfm", OutputKind::kMap},      {".npy", OutputKind::kOther},
+    {".npz", OutputKind::kOther},    {".html", OutputKind::kPage},
+    {".htm", OutputKind::kPage},     {".xhtml", OutputKind::kPage},
+    {".json", OutputKind::kJson},    {".pdf", OutputKind::kOther},
+    {".ps", OutputKind::kOther},     {".doc", OutputKind::kOther},
+    {".docx", OutputKind::kOther},   {".odt", OutputKind::kOther},
+    {".md", OutputKind::kOther},     {".txt", OutputKind::kOther},
+    {".csv", OutputKind::kOther},    {".xml", OutputKind::kOther},
+    {".yaml", OutputKind::kOther},   {".zip", OutputKind::kOther},
+    {".tar", OutputKind::kOther},    {".gz", OutputKind::kOther},
+};
+
+std::string Describe(OutputKind written) {
+  switch (written) {
+    case OutputKind::kPage:
+      return "a name for a web page (.html)";
+    case OutputKind::kJson:
+      return "a name for a JSON file (.json)";
+    case OutputKind::kMap:
+      return "a name for a map (.pfm)";
+    case OutputKind::kFolder:
+      return "a folder for the pictures";
+    default:
+      return "a name for a picture";
+  }
 }
 
 }  // namespace
@@ -106,11 +157,43 @@ Error CheckFolderApart(const Output& output, const std::vector<std::string>& fol
   return {};
 }
 
-Error CheckFolderOutput(const std::string& folder) {
+Error CheckKind(const Output& output, OutputKind written) {
+  const std::string& path = output.path;
+  if (IsStandardStream(path) || path.empty() || path.back() == '/') return {};
+  const std::string extension = LowerExtension(path);
+  const auto known = std::find_if(std::begin(kExtensions), std::end(kExtensions),
+                                  [&](const auto& one) { return extension == one.extension; });
+  if (known == std::end(kExtensions) || known->kind == written) return {};
+  std::error_code ignored;
+  if (written == OutputKind::kFolder && fs::is_directory(path, ignored)) {
+    return Cannot("write", path,
+                  "it is a folder with the extension of a file (" + path + "/ writes into it)");
+  }
+  std::string expected = Describe(written);
+  if (written == OutputKind::kFolder && known->kind == OutputKind::kVideo) {
+    const std::string folder = fs::path(path).replace_extension().string();
+    expected += ", such as " + folder + ", from which this command makes the video: cat $(ls -v " +
+                folder + "/*.png) | ffmpeg -f image2pipe -framerate 30 -i - ";
+    if (extension != ".gif") {
+      expected += "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p ";
+    }
+    expected += path;
+  }
+  return Error::Usage(output.option, expected, path);
+}
+
+Error CheckTextOutput(const Output& output, OutputKind written) {
+  const Error error = CheckKind(output, written);
+  return error ? error : CheckOutputPath(output.path);
+}
+
+Error CheckFolderOutput(const Output& output) {
+  const std::string& folder = output.path;
   std::error_code ignored;
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
     return Cannot("create folder", folder, "a file of that name exists");
   }
+  if (Error error = CheckKind(output, OutputKind::kFolder)) return error;
   fs::path at = NameOf(folder);
   while (at.has_relative_path() && !fs::exists(at, ignored)) at = at.parent_path();
   if (!fs::is_directory(at, ignored)) {

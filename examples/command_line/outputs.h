@@ -29,8 +29,19 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
 // input folder, output files would mix with the views.
 Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders);
 
-// Returns an error unless the folder can be created, or exists and is writable.
-Error CheckFolderOutput(const std::string& folder);
+enum class OutputKind { kPicture, kMap, kPage, kJson, kFolder, kVideo, kOther };
+
+// Returns an error if the extension of an output states another kind than the program writes. Other
+// extensions, and names without extension, fit every kind. The error for a video contains the
+// command of ffmpeg that makes the video. A folder may have any name that ends with "/".
+Error CheckKind(const Output& output, OutputKind written);
+
+// Calls CheckKind and CheckOutputPath.
+Error CheckTextOutput(const Output& output, OutputKind written);
+
+// Returns an error unless the folder can be created, or exists and is writable, and CheckKind
+// accepts its name.
+Error CheckFolderOutput(const Output& output);
 
 }  // namespace starfocus
 

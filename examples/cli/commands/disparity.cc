@@ -33,7 +33,8 @@ struct DisparityOptions {
 
 // Output files.
 struct Plan {
-  std::string map, picture;
+  std::string map;
+  std::string picture;  // empty: no picture, because a file of this name exists
 };
 
 // Parses MIN:MAX.
@@ -49,7 +50,8 @@ std::string ReadRange(const std::string& text, std::optional<DisparityRange>* ra
 }
 
 std::vector<Output> PicturesOf(const DisparityOptions& options, const Plan& plan) {
-  std::vector<Output> pictures = {{"--output", plan.picture}};
+  std::vector<Output> pictures;
+  if (!plan.picture.empty()) pictures.push_back({"--output", plan.picture});
   if (!options.confidence.empty()) pictures.push_back({"--confidence", options.confidence});
   if (!options.coverage.empty()) pictures.push_back({"--coverage", options.coverage});
   return pictures;
@@ -91,6 +93,11 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   }
   if (options.out.empty() && HasDisparity(input)) {
     return Expected(plan.map, "no existing map, or another name by --output", "an existing map");
+  }
+  if (std::filesystem::exists(std::filesystem::symlink_status(plan.picture, ignored))) {
+    std::fprintf(stderr, "%s: not replaced by a picture of the map, because it was not named\n",
+                 plan.picture.c_str());
+    plan.picture.clear();
   }
   Error error = CheckOutputPath(plan.map);
   for (const Output& picture : PicturesOf(options, plan)) {
@@ -173,7 +180,8 @@ Work ChooseWork(const DisparityOptions& options, const Capture& capture) {
 
 Error WriteMap(const DisparityOptions& options, const Plan& plan, const Image& centre,
                const DisparityEstimate& estimate) {
-  Error error = WriteImage(plan.picture, DrawDisparity(estimate.map));
+  Error error;
+  if (!plan.picture.empty()) error = WriteImage(plan.picture, DrawDisparity(estimate.map));
   if (!error && !options.confidence.empty()) {
     error = WriteImage(options.confidence, estimate.confidence);
   }
@@ -228,7 +236,8 @@ Command DisparityCommand() {
       {
           {"-o,--output", "FILE",
            "Map to write (.pfm); a picture of the map (.png, bright is near) gets the "
-           "same name; default: disparity.pfm in SRC, if SRC is a folder without a map",
+           "same name unless this file exists; default: disparity.pfm in SRC, if SRC is a folder "
+           "without a map",
            &options->out},
           {"--confidence", "FILE",
            "Picture to write of the confidence of each pixel: black for unknown, brighter "

@@ -56,7 +56,7 @@ void Tell(const ImportOptions& options, const Capture& capture) {
 Error Run(const ImportOptions& options) {
   SetDecoderThreads(options.threads);
   if (Error error = CheckFolderApart({"DIR", options.folder}, {options.input.path})) return error;
-  if (Error error = CheckFolderOutput(options.folder)) return error;
+  if (Error error = CheckFolderOutput({"DIR", options.folder})) return error;
   if (Error error = CheckFolder(options.folder)) return error;
   Result<Capture> opened = OpenInput(options.input);
   if (!opened) return opened.error();

@@ -62,8 +62,10 @@ Error CheckOutputs(const RefocusOptions& options) {
   const std::vector<Output> outputs = ListOutputs(options);
   Error error = options.output.out.empty() ? Error() : CheckImageOutput(options.output.out);
   for (size_t i = 0; i < outputs.size() && !error; ++i) {
-    const bool text = outputs[i].option == "--report" || outputs[i].option == "--compare";
-    error = text ? CheckOutputPath(outputs[i].path) : CheckImageOutput(outputs[i].path);
+    const std::string& option = outputs[i].option;
+    error = option == "--report"    ? CheckTextOutput(outputs[i], OutputKind::kJson)
+            : option == "--compare" ? CheckTextOutput(outputs[i], OutputKind::kPage)
+                                    : CheckImageOutput(outputs[i].path);
   }
   if (error) return error;
   return CheckApart(outputs, {{options.input.path},

@@ -67,13 +67,13 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
   std::error_code failure;
   Error error;
   if (options.out.empty()) return Error::Usage("--output", "a folder", "an empty name");
+  error = CheckFolderOutput({"--output", options.out});
   if (fs::is_directory(options.out, failure)) {
     for (size_t i = 0; i < video.sources.size() && !error; ++i) {
       error = CheckImageOutput(PicturePath(options.out, video.sources[i]));
     }
-  } else {
-    error = CheckFolderOutput(options.out);
-    if (!error) error = CheckOutputPath(options.out);
+  } else if (!error) {
+    error = CheckOutputPath(options.out);
   }
   std::vector<std::string> paths;
   for (const FrameSource& frame : video.sources) paths.push_back(frame.path);
@@ -84,8 +84,8 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
     outputs.push_back({"--output", PicturePath(options.out, frame)});
   }
   if (!options.report.empty()) {
-    error = CheckOutputPath(options.report);
     outputs.push_back({"--report", options.report});
+    error = CheckTextOutput(outputs.back(), OutputKind::kJson);
   }
   return !error ? CheckApart(outputs, {paths, FilesOf(options, video)}) : error;
 }

@@ -158,7 +158,7 @@ Result<Opened> Open(const ViewOptions& options) {
   for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
   Opened opened;
   Capture* const capture = &opened.capture;
-  Error error = CheckOutputPath(options.out);
+  Error error = CheckTextOutput(outputs[0], OutputKind::kPage);
   if (!error) error = CheckApart(outputs, {{options.input.path}, files, {}});
   if (!error) error = OpenInput(options.input).MoveTo(capture);
   if (!error) error = CheckApart(outputs, {{}, CaptureFiles(*capture)});

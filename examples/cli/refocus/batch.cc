@@ -97,10 +97,10 @@ Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
   const bool may_be_photos =
       !out.empty() && FormatExtension(out).empty() && fs::is_directory(inputs[0], ignored);
   if (!to_folder && !may_be_photos) return std::optional<Batch>();
-  if (out.empty() || IsPictureExtension(FormatExtension(out))) {
-    return Error::Usage("--output", "a folder for the pictures of several inputs",
-                        out.empty() ? "none" : out);
+  if (out.empty()) {
+    return Error::Usage("--output", "a folder for the pictures of several inputs", "none");
   }
+  if (Error error = CheckKind({"--output", out}, OutputKind::kFolder)) return error;
   Batch batch;
   batch.folder = out;
   for (const std::string& input : inputs) {

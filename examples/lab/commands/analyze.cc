@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "examples/command_line/options.h"
+#include "examples/command_line/outputs.h"
 #include "examples/lab/analyze/figures.h"
 #include "examples/lab/commands.h"
 #include "platform/folder.h"
@@ -34,6 +35,7 @@ Error Write(const fs::path& folder, const Figure& figure, bool draw) {
 
 Error Run(const AnalyzeOptions& options) {
   if (!options.folder.empty()) {
+    if (Error error = CheckFolderOutput({"--output", options.folder})) return error;
     if (Error error = MakeFolder(options.folder)) return error;
   }
   constexpr int kEngineBlur = 40;  // larger radii take hours

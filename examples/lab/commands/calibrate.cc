@@ -111,7 +111,7 @@ Json Judge(const char* role, const SceneTimes& scene, const starfocus_timing& ti
 
 Error CheckOutput(const CalibrateOptions& options) {
   if (options.out.empty()) return {};
-  if (Error error = CheckOutputPath(options.out)) return error;
+  if (Error error = CheckTextOutput({"--output", options.out}, OutputKind::kJson)) return error;
   std::vector<std::string> folders;
   for (const std::string& folder : {options.folder, options.check}) {
     if (!folder.empty()) folders.push_back(folder);

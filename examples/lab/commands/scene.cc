@@ -112,7 +112,7 @@ Error CheckFolder(const SceneOptions& options, const Plan& plan) {
   const std::string& folder = options.folder;
   const Positions& views = options.views;
   std::error_code failure;
-  if (Error error = CheckFolderOutput(folder)) return error;
+  if (Error error = CheckFolderOutput({"DIR", folder})) return error;
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
     const std::string name = entry.path().filename().string();
     const bool replaced = std::any_of(

@@ -26,7 +26,7 @@ struct StepsOptions {
 Error Run(const StepsOptions& options) {
   const std::string& where = options.input.path;
   if (Error error = CheckFolderApart({"--output", options.out}, {where})) return error;
-  if (Error error = CheckFolderOutput(options.out)) return error;
+  if (Error error = CheckFolderOutput({"--output", options.out})) return error;
   Result<Capture> capture = OpenInput(options.input);
   if (!capture) return capture.error();
   if (Error error = LoadInput({}, 1, &*capture)) return error;
