@@ -13,6 +13,7 @@
 #include <new>
 
 #include "platform/pool/big_cores.h"
+#include "platform/pool/quota.h"
 
 namespace {
 
@@ -143,7 +144,9 @@ int32_t Clamp(int64_t value) {
 
 int32_t CountCores(const starfocus::CoreSet& big) {
   const int count = big.Count();
-  return Clamp(count > 0 ? count : sysconf(_SC_NPROCESSORS_ONLN));
+  const int32_t cores = Clamp(count > 0 ? count : sysconf(_SC_NPROCESSORS_ONLN));
+  const int quota = starfocus::QuotaCores("/proc/self/cgroup", "/sys/fs/cgroup");
+  return quota > 0 && quota < cores ? quota : cores;
 }
 
 }  // namespace

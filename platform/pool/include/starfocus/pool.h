@@ -27,10 +27,11 @@ extern "C" {
 /** A pool of threads. */
 typedef struct starfocus_pool starfocus_pool;
 
-/** Returns the number of cores of this process that are fast enough for a worker. On Linux, a fast
- *  core has at least half the capacity of the strongest core (cpu_capacity), or 3/4 of the highest
- *  clock frequency (cpuinfo_max_freq). A stripe is finished only when its last job is done, so a
- *  slow core would cost more time than it saves.
+/** Returns the number of cores that this process may use and that are fast enough for a worker. On
+ *  Linux, the scheduler affinity and the quota of the control groups limit the cores. A fast core
+ *  has at least half the capacity of the strongest core (cpu_capacity), or 3/4 of the highest clock
+ *  frequency (cpuinfo_max_freq). A stripe is finished only when its last job is done, so a slow
+ *  core would cost more time than it saves.
  *  @return number of cores, [1, STARFOCUS_MAX_WORKERS] */
 STARFOCUS_API int32_t starfocus_pool_cores(void);
 
