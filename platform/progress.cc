@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/progress.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <cstdio>
 
 #include "platform/clock.h"
+#include "platform/console.h"
 
 namespace starfocus {
 namespace {
@@ -18,7 +17,7 @@ constexpr double kLeastTime = 1;  // Seconds before the remaining time is estima
 
 std::atomic<bool> line_taken{false};
 
-bool TakeLine() { return isatty(STDERR_FILENO) == 1 && !line_taken.exchange(true); }
+bool TakeLine() { return CanShowProgress() && !line_taken.exchange(true); }
 
 }  // namespace
 
@@ -26,7 +25,7 @@ Progress::Progress(std::string what, int64_t total)
     : what_(std::move(what)), total_(total), shown_here_(TakeLine()), start_(Seconds()) {}
 
 Progress::~Progress() {
-  if (shown_ != 0) std::fputs("\r\x1b[K", stderr);
+  if (shown_ != 0) EraseProgress();
   if (shown_here_) line_taken = false;
 }
 
@@ -35,34 +34,24 @@ void Progress::Step(int64_t steps) {
   std::lock_guard<std::mutex> lock(mutex_);
   done_ += steps;
   const double now = Seconds();
-  if (now - (shown_ != 0 ? shown_ : start_) >= kInterval) Show(now);
+  if (now - (shown_ != 0 ? shown_ : start_) < kInterval) return;
+  shown_ = now;
+  ShowProgress(what_, State(done_, total_, now - start_));
 }
 
-void Progress::Tell(const std::string& line) {
-  std::lock_guard<std::mutex> lock(mutex_);
-  std::fprintf(stderr, "%s%s\n", shown_ != 0 ? "\r\x1b[K" : "", line.c_str());
-  if (shown_ != 0) Show(Seconds());
-}
-
-std::string Progress::Text(const std::string& what, int64_t done, int64_t total, double seconds) {
+std::string Progress::State(int64_t done, int64_t total, double seconds) {
   const double share = static_cast<double>(done) / static_cast<double>(total);
   char text[80];
   std::snprintf(text, sizeof(text), ": %.0f %%", 100 * share);
-  std::string line = what + text;
-  if (done <= 0 || seconds < kLeastTime) return line;
+  const std::string percentage = text;
+  if (done <= 0 || seconds < kLeastTime) return percentage;
   const long left = std::lround(seconds * (1 - share) / share);
   if (left < 60) {
     std::snprintf(text, sizeof(text), ", %ld s left", left);
   } else {
     std::snprintf(text, sizeof(text), ", %ld:%02ld min left", left / 60, left % 60);
   }
-  return line + text;
-}
-
-void Progress::Show(double now) {
-  shown_ = now;
-  std::fprintf(stderr, "\r\x1b[K%s", Text(what_, done_, total_, now - start_).c_str());
-  std::fflush(stderr);
+  return percentage + text;
 }
 
 int PictureProgress::Tell(void* data, int32_t rows_done, int32_t rows) {

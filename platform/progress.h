@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows a progress line with the remaining time on stderr, if stderr is a terminal. Only one
+// Shows a progress line (console.h) with the remaining time, if stderr is a terminal. Only one
 // Progress object at a time shows a progress line. A Progress object that is created while another
 // object shows a line shows nothing, because it measures a part of the same work.
 #ifndef STARFOCUS_PLATFORM_PROGRESS_H_
@@ -22,17 +22,11 @@ class Progress {
 
   void Step(int64_t steps = 1);  // Thread-safe.
 
-  // Prints a permanent line on stderr above the progress line, even if stderr is not a terminal.
-  // Thread-safe.
-  void Tell(const std::string& line);
-
-  // Returns a text such as "what: 43 %, 12 s left". `seconds` is the elapsed time. The text omits
-  // the remaining time if it cannot be estimated yet.
-  static std::string Text(const std::string& what, int64_t done, int64_t total, double seconds);
+  // Returns a text such as ": 43 %, 12 s left". `seconds` is the elapsed time. The text omits the
+  // remaining time if it cannot be estimated yet.
+  static std::string State(int64_t done, int64_t total, double seconds);
 
  private:
-  void Show(double now);
-
   const std::string what_;
   const int64_t total_;
   const bool shown_here_;  // true if stderr is a terminal and this object shows the progress line

@@ -23,6 +23,10 @@ bool IsStandardStream(const std::string& path) { return path == "-" || !Prefix(p
 
 std::string InputName(const std::string& path) { return path == "-" ? "standard input" : path; }
 
+std::string OutputName(const std::string& path) {
+  return IsStandardStream(path) ? "standard output" : path;
+}
+
 std::string FormatExtension(const std::string& path) {
   if (path == "-") return ".png";
   const std::string prefix = Prefix(path);

@@ -16,6 +16,10 @@ bool IsStandardStream(const std::string& path);
 // path.
 std::string InputName(const std::string& path);
 
+// Returns the name of an output in messages: "standard output" for a standard stream, otherwise the
+// path.
+std::string OutputName(const std::string& path);
+
 // Returns the extension that selects the format of an output picture, in lower case with its dot.
 std::string FormatExtension(const std::string& path);
 

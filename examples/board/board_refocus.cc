@@ -14,6 +14,7 @@
 #include "examples/command_line/parse.h"
 #include "examples/command_line/program.h"
 #include "platform/clock.h"
+#include "platform/console.h"
 #include "platform/file.h"
 #include "platform/framebuffer.h"
 #include "platform/gpio.h"
@@ -175,7 +176,7 @@ class Board {
       error = WriteImage(path, camera_.picture());
       if (!error) std::printf("wrote %s\n", path.c_str());
     }
-    if (error) std::fprintf(stderr, "board_refocus: %s\n", error.line().c_str());
+    if (error) TellLine("board_refocus: " + error.line());
   }
 
   const Options& options_;

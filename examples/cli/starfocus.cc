@@ -12,9 +12,15 @@ Error Run(int argc, char** argv) {
   Program program;
   program.main = {
       "starfocus",
-      "Refocus photographs after they were taken, from a light field and its disparity map.",
+      "Refocus photographs after they were taken, from light fields or depth photos.",
       {},
-      nullptr};
+      nullptr,
+      {"starfocus refocus photo.jpg -o out.jpg", "starfocus view photo.jpg -o page.html"},
+      "",
+      {{"Pictures", {{"refocus"}, {"video"}}},
+       {"Depth maps and light fields", {{"disparity"}, {"import"}}},
+       {"Information", {{"info"}, {"view"}, {"help"}}},
+       {"Options", {{"--help"}, {"--help-all"}, {"--version"}}}}};
   program.commands = {RefocusCommand(), DisparityCommand(), VideoCommand(),       ViewCommand(),
                       InfoCommand(),    ImportCommand(),    HelpCommand(&program)};
   program.lab_commands = {"analyze", "calibrate", "compare", "scene", "sheet", "steps", "stress"};

@@ -53,7 +53,20 @@ struct Option {
 };
 
 inline const Option kHelpOption = {"-h,--help", nullptr, "Print this help and exit", {}};
+inline const Option kHelpAllOption = {
+    "--help-all", nullptr, "Print the help of all options and exit", {}};
 inline const Option kVersionOption = {"--version", nullptr, "Print the version and exit", {}};
+
+// An option, positional argument or command in the first level of the help.
+struct HelpLine {
+  const char* name;            // One of its names, such as "--output".
+  const char* text = nullptr;  // Short description; null: the description in its table.
+};
+
+struct HelpGroup {
+  const char* title;
+  std::vector<HelpLine> lines;
+};
 
 struct Command {
   const char* name;
@@ -62,6 +75,9 @@ struct Command {
   std::function<Error()> run;
   std::vector<std::string> examples = {};  // Complete command lines, shown at the end of the help.
   const char* footer = "";                 // Notes between the options and the examples.
+  // First level of the help, which --help prints; empty: --help prints all options. The last group
+  // of a program contains its options, and the other groups contain its commands.
+  std::vector<HelpGroup> basics = {};
   // Returns true if the parsed options make the command start other programs; null: never. Other
   // commands give up the right to start programs.
   std::function<bool()> starts_programs = nullptr;
@@ -75,8 +91,8 @@ struct Program {
 
 // Last lines of a program's help.
 inline constexpr char kExitCodes[] =
-    "Exit codes: 0 for success, 1 when a file or the work failed, 2 when the command line is\n"
-    "wrong, 70 for an error in the program itself.\n";
+    "Exit codes: 0 for success, 1 when a file or the work failed, 2 when the command\n"
+    "line is wrong, 70 for an error in the program itself.\n";
 
 // Appends `options` to a command.
 void AddOptions(std::initializer_list<Option> options, Command* command);

@@ -9,6 +9,7 @@
 
 #include "platform/image.h"
 #include "platform/text.h"
+#include "starfocus/pool.h"
 
 namespace starfocus {
 namespace {
@@ -123,6 +124,11 @@ Target Whole(int low, int high, std::optional<int>* value) {
 
 Target Threads(int* value) { return Whole(1, STARFOCUS_MAX_WORKERS, value); }
 
+Option ThreadsOption(int* value) {
+  *value = starfocus_pool_cores();
+  return {"--threads", "N", kThreadsHelp, Threads(value)};
+}
+
 Target Number(double* value) { return Number(-kMost, kMost, "a finite number", value); }
 
 Target Number(std::optional<double>* value) {
@@ -140,6 +146,17 @@ Target Number(double low, double high, const std::string& expected, std::optiona
 Target Transfer(starfocus_transfer* value) {
   return Choice<starfocus_transfer>(
       {{"srgb", STARFOCUS_TRANSFER_SRGB}, {"none", STARFOCUS_TRANSFER_NONE}}, value);
+}
+
+Target FStop(std::optional<double>* value) {
+  return Target([value](const std::string& text) -> std::string {
+    const size_t letter = !text.empty() && (text[0] == 'f' || text[0] == 'F') ? 1 : 0;
+    const size_t slash = letter == 1 && text.size() > 1 && text[1] == '/' ? 1 : 0;
+    const std::optional<double> number = ReadNumber(text.substr(letter + slash));
+    if (!number || *number <= 0) return "an f-stop above 0, such as 2.8 or f/2.8";
+    *value = *number;
+    return "";
+  });
 }
 
 Target Pair(char separator, Pixel* value) {
@@ -179,6 +196,12 @@ std::vector<double> ReadNumbers(const std::string& text, char separator) {
 std::string Short(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%g", value);
+  return text;
+}
+
+std::string ThreeDigits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
   return text;
 }
 

@@ -20,6 +20,13 @@ Target Whole(int low, int high, int* value);
 Target Whole(int low, int high, std::optional<int>* value);
 Target Threads(int* value);  // 1 to 64
 
+inline constexpr char kThreadsHelp[] =
+    "Number of threads, 1 to 64; default: the number of cores that the process may use";
+
+// Option --threads of a command whose default is the number of cores that the process may use. Sets
+// `value` to this default.
+Option ThreadsOption(int* value);
+
 // Targets for a finite number. `expected` describes the range [low, high] in error messages.
 Target Number(double* value);
 Target Number(std::optional<double>* value);
@@ -32,6 +39,10 @@ using Words = std::vector<std::pair<const char*, T>>;
 template <class T>
 Target Choice(const Words<T>& words, T* value);
 Target Transfer(starfocus_transfer* value);
+
+// Target for an f-stop above 0. Accepts the ways in which f-stops are printed: 1.8, f/1.8
+// and f1.8.
+Target FStop(std::optional<double>* value);
 
 // Pixel coordinates, which are two integers from 0 to 65535.
 struct Pixel {
@@ -58,6 +69,9 @@ std::vector<double> ReadNumbers(const std::string& text, char separator);
 
 // Formats `value` with %g.
 std::string Short(double value);
+
+// Formats `value` with three significant digits, such as 14.2.
+std::string ThreeDigits(double value);
 
 // Formats `value` with a fixed number of decimals.
 std::string Decimal(double value, int decimals);

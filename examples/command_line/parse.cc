@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "examples/command_line/arguments.h"
+#include "examples/command_line/help.h"
 #include "examples/command_line/program.h"
 #include "platform/file.h"
 #include "platform/helper/helper.h"
@@ -44,6 +45,7 @@ void AddOption(const Option& option, Error* wrong, CLI::App* app) {
 
 void AddCommandOptions(const Command& command, Error* wrong, CLI::App* app) {
   app->set_help_flag(kHelpOption.names, kHelpOption.help);
+  if (!command.basics.empty()) app->set_help_all_flag(kHelpAllOption.names, kHelpAllOption.help);
   for (const Option& option : command.options) AddOption(option, wrong, app);
 }
 
@@ -175,6 +177,18 @@ const Command& CommandOf(const Program& program, const std::string& name) {
   return program.main;
 }
 
+// Returns the help of all options of a command, or of the program and all its commands.
+std::string AllHelpText(const Program& program, const Command& command) {
+  CLI::App app;
+  Error unused;
+  Translate(program, &unused, &app);
+  const std::string name = app.get_name();
+  if (&command != &program.main) return app.get_subcommand(command.name)->help(name);
+  std::string text = app.help();
+  for (const CLI::App* one : app.get_subcommands({})) text += "\n" + one->help(name);
+  return text;
+}
+
 }  // namespace
 
 Error RunCommandLine(const Program& program, int argc, char** argv) {
@@ -186,13 +200,21 @@ Error RunCommandLine(const Program& program, int argc, char** argv) {
     }
   }
   if (Error error = CheckSeparators(arguments, CommandOf(program, first).options)) return error;
+  if (arguments.empty() && !program.main.basics.empty()) {
+    // The first lines of the help take the place of an error line.
+    std::printf("%s", FirstLinesOfHelp(program).c_str());
+    return Error(ErrorKind::kUsage, "");
+  }
   CLI::App app;
   Error wrong_value;
   Translate(program, &wrong_value, &app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    std::printf("%s", app.help().c_str());
+    std::printf("%s", HelpText(program, CommandOf(program, Chosen(&app)->get_name())).c_str());
+    return {};
+  } catch (const CLI::CallForAllHelp&) {
+    std::printf("%s", AllHelpText(program, CommandOf(program, Chosen(&app)->get_name())).c_str());
     return {};
   } catch (const CLI::CallForVersion& version) {
     std::printf("%s\n", version.what());
@@ -215,11 +237,8 @@ Error RunCommandLine(const Program& program, int argc, char** argv) {
 }
 
 std::string HelpText(const Program& program, const Command& command) {
-  CLI::App app;
-  Error unused;
-  Translate(program, &unused, &app);
-  const std::string name = app.get_name();
-  return &command == &program.main ? app.help() : app.get_subcommand(command.name)->help(name);
+  if (command.basics.empty()) return AllHelpText(program, command);
+  return BasicHelp(program, command);
 }
 
 }  // namespace starfocus

@@ -15,7 +15,7 @@ namespace starfocus {
 // the program's own command. Prints help or the version if requested.
 Error RunCommandLine(const Program& program, int argc, char** argv);
 
-// Returns the help of a program, or of one of its subcommands.
+// Returns the first level of the help of a program, or of one of its subcommands.
 std::string HelpText(const Program& program, const Command& command);
 
 }  // namespace starfocus

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/command_line/program.h"
 
+#include <poll.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include <string>
 #include <system_error>
 
+#include "platform/console.h"
 #include "platform/file.h"
 #include "platform/helper/helper.h"
 #include "platform/signal_cleanup.h"
@@ -18,11 +21,22 @@
 namespace starfocus {
 namespace {
 
-// Flushes stdout. Returns an error if printed text could not be written.
+// Returns true if no process reads the pipe of stdout any more, for example after `| head`.
+bool IsReaderGone() {
+  pollfd output = {STDOUT_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+// Flushes stdout. Returns an error if printed text could not be written. If the reader of a pipe is
+// gone, ends the program without a message, as the signal does in programs that do not ignore it.
 Error CheckPrinted() {
   const bool failed = std::ferror(stdout) != 0;
   errno = 0;
   if (std::fflush(stdout) == 0 && !failed) return {};
+  if (errno == EPIPE || IsReaderGone()) {
+    signal(SIGPIPE, SIG_DFL);
+    raise(SIGPIPE);
+  }
   const int reason = errno != 0 ? errno : EIO;
   return Cannot("write to", "standard output", {reason, std::generic_category()});
 }
@@ -32,7 +46,7 @@ constexpr int kFailed = 1, kUsage = 2, kInternal = 70;
 
 int Report(const char* name, const Error& error) {
   if (!error) return 0;
-  std::fprintf(stderr, "%s: %s\n", name, error.line().c_str());
+  if (!error.line().empty()) TellLine(std::string(name) + ": " + error.line());
   return error.kind() == ErrorKind::kInput   ? kFailed
          : error.kind() == ErrorKind::kUsage ? kUsage
                                              : kInternal;

@@ -15,7 +15,20 @@ Error Run(int argc, char** argv) {
   program.main = {"starfocus-lab",
                   "Render scenes, compare pictures, and measure and test the engine of starfocus.",
                   {},
-                  nullptr};
+                  nullptr,
+                  {},
+                  "",
+                  {{"Pictures",
+                    {{"scene"},
+                     {"compare", "Print how much two pictures differ"},
+                     {"sheet"},
+                     {"steps", "Draw the intermediate data of refocusing"}}},
+                   {"Engine",
+                    {{"analyze", "Compute the paper's filter analysis"},
+                     {"calibrate", "Measure the coefficients of the timing model"},
+                     {"stress", "Test the engine with random refocusings"},
+                     {"help"}}},
+                   {"Options", {{"--help"}, {"--help-all"}, {"--version"}}}}};
   program.commands = {SceneCommand(),     CompareCommand(), SheetCommand(),  AnalyzeCommand(),
                       CalibrateCommand(), StepsCommand(),   StressCommand(), HelpCommand(&program)};
   return RunCommandLine(program, argc, argv);

@@ -33,7 +33,7 @@ struct Options {
   std::string folder, out;
   Pixel size = {4000, 3000};  // picture size of the ray-traced scene, used if `folder` is empty
   std::optional<Pixel> first, second;
-  int shift = 2, frames = 12, threads = starfocus_pool_cores();
+  int shift = 2, frames = 12, threads = 1;
 };
 
 // A light field, and the pixels of the two taps if the options do not set them.
@@ -246,8 +246,7 @@ Error Main(int argc, char** argv) {
             Whole(1, STARFOCUS_MAX_PREVIEW, &options.shift), Use::kDefault},
            {"--frames", "N", "Number of previews of the focus pull, 1 to 1000",
             Whole(1, 1000, &options.frames), Use::kDefault},
-           {"--threads", "N", "Number of threads, 1 to 64; default: one for each fast core",
-            Threads(&options.threads)},
+           ThreadsOption(&options.threads),
            {"--out", "DIR",
             "Folder for all pictures, frame_0000.png, frame_0001.png, ...; default: none "
             "are written",

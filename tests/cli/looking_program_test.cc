@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 
 namespace starfocus::looking_program_test {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr char kQuery[] = "\x1b[c\r\x1b[K";
 
@@ -208,10 +211,11 @@ TEST_CASE("compare: a page needs one whole picture and a separate file") {
 
 // Runs `refocus --show` on a terminal of 10 rows that sends `answer`.
 TerminalRun Show(const TempFolder& folder, const std::string& answer, unsigned short width,
-                 unsigned short height) {
+                 unsigned short height, const std::string& output = "-o out.png ") {
   const std::string command = "cd '" + folder.path() +
                               "' && TERM=test exec '" STARFOCUS_PROGRAM
-                              "' refocus '<&>' --focus 6 -o out.png --show 2>errors";
+                              "' refocus '<&>' --focus 6 " +
+                              output + "--show 2>errors";
   return CallOnTerminal(command, {10, 40, width, height}, kQuery, answer);
 }
 
@@ -239,7 +243,7 @@ TEST_CASE("show: a terminal with the kitty protocol gets the pixels, reduced if 
   const TerminalRun run = Show(folder, "\x1b_Gi=31;OK\x1b\\\x1b[?62;4c", 800, 600);
   CHECK(run.code == 0);
   CHECK(run.restored);
-  CHECK(Text(folder.file("errors")) == "");
+  CHECK(Text(folder.file("errors")) == "out.png: focus at disparity 6, f/1\n");
   CHECK(Count(run.out, kQuery) == 1);
   CHECK(Contains(run.out, ",q=2,"));  // Answers would appear as typed text.
   CHECK(ReadKitty(run.out).pixels == ValueOf(ReadImage(folder.file("out.png"))).pixels);
@@ -279,24 +283,36 @@ TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture")
                        ValueOf(ReadImage(folder.file("out.png")))) < 6);
 }
 
-TEST_CASE("show: other terminals are named before any work, and keep their mode") {
+TEST_CASE(
+    "show: on other terminals, the other outputs are written, and the terminal keeps its mode") {
   TempFolder folder;
   MakeField(folder);
-  const TerminalRun without = Show(folder, "\x1b[?64;22c", 800, 600);
-  CHECK(without.code == 2);
-  CHECK(without.restored);
-  const std::string errors = Text(folder.file("errors"));
-  CheckErrorLine(errors);
-  CHECK(Contains(errors,
-                 "--show: expected a terminal with kitty or sixel graphics, found a "
-                 "terminal (TERM=test)"));
-  CHECK(Contains(errors, "64;22"));
-  CHECK(folder.count() == 2);
-  const TerminalRun silent = Show(folder, "", 800, 600);
-  CHECK(silent.code == 2);
-  CHECK(silent.restored);
-  CHECK(Contains(Text(folder.file("errors")), "did not answer within a second"));
-  CHECK(folder.count() == 2);
+  const std::string expected = "--show: expected a terminal with kitty or sixel graphics, found a ";
+  for (const std::string answer : {"\x1b[?64;22c", ""}) {
+    CAPTURE(answer);
+    const std::string cause = answer.empty() ? "did not answer within a second" : "64;22";
+    const TerminalRun run = Show(folder, answer, 800, 600, "-o out.png --compare page.html ");
+    CHECK(run.code == 0);
+    CHECK(run.restored);
+    const std::string notes = Text(folder.file("errors"));
+    CHECK(notes.rfind("<&>: the picture is not shown: " + expected + "terminal (TERM=test)", 0) ==
+          0);
+    CHECK(Contains(notes, cause));
+    CHECK(Contains(notes, "\nout.png: focus at disparity 6, f/1\npage.html: focus at "));
+    CHECK(PicturesIn(Text(folder.file("page.html"))).size() == 4);
+    fs::remove(folder.file("out.png"));
+    fs::remove(folder.file("page.html"));
+    // Without another output, the terminal is rejected before any work.
+    const TerminalRun alone = Show(folder, answer, 800, 600, "");
+    CHECK(alone.code == 2);
+    CHECK(alone.restored);
+    const std::string error = Text(folder.file("errors"));
+    CheckErrorLine(error);
+    CHECK(Contains(error, expected + "terminal (TERM=test)"));
+    CHECK(Contains(error, cause));
+    CHECK(folder.count() == 2);
+  }
+  CHECK(Contains(Call(folder, "refocus '<&>' --focus 6 -o out.png --show").err, "is not shown"));
 }
 
 }  // namespace

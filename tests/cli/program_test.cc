@@ -4,6 +4,7 @@
 #include "examples/command_line/program.h"
 
 #include <doctest/doctest.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +20,8 @@
 #include "platform/file.h"
 #include "platform/light_field.h"
 #include "platform/temporary_file.h"
+#include "platform/text.h"
+#include "starfocus/pool.h"
 #include "tests/cli/call_program.h"
 #include "tests/cli/refusals.h"
 #include "tests/support/child.h"
@@ -148,6 +151,110 @@ TEST_CASE("program: the help of each command ends with two examples") {
   CHECK(Contains(manual.out, "starfocus refocus photo.jpg \\-o near.jpg"));
 }
 
+// Returns the lines of a text.
+std::vector<std::string> LinesOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_CASE("program: --help fits on a screen, and --help-all and the manual have every option") {
+  TempFolder folder;
+  const std::string manual = Call(folder, "help --man").out;
+  const std::string everything = Call(folder, "--help-all").out;
+  for (const std::string command :
+       {"", "refocus", "disparity", "video", "view", "info", "import"}) {
+    CAPTURE(command);
+    const std::string basic = Call(folder, command + " --help").out;
+    const Outcome all = Call(folder, command + " --help-all");
+    CHECK(all.code == 0);
+    CHECK(LinesOf(basic).size() <= 25);
+    for (const std::string& line : LinesOf(basic)) {
+      CAPTURE(line);
+      CHECK(line.size() <= 80);
+    }
+    const std::set<std::string> basics = OptionsIn(basic), options = OptionsIn(all.out);
+    CHECK(options.size() > (command.empty() ? 3 : basics.size()));
+    for (const std::string& option : basics) CHECK(options.count(option) == 1);
+    for (const std::string& option : options) {
+      CAPTURE(option);
+      std::string roff = option;
+      for (size_t at = 0; (at = roff.find('-', at)) != std::string::npos; at += 2) {
+        roff.insert(at, "\\");
+      }
+      CHECK(Contains(manual, "\\fB" + roff + "\\fR"));
+    }
+    CHECK(options.count("--help-all") == 1);
+    CHECK(Contains(everything, all.out));
+  }
+}
+
+TEST_CASE("program: without arguments, the programs print the first lines of their help") {
+  TempFolder folder;
+  for (const std::string program : {STARFOCUS_PROGRAM, STARFOCUS_PROGRAM "-lab"}) {
+    CAPTURE(program);
+    const std::string logs = "'" + folder.file("out") + "' 2>'" + folder.file("err") + "'";
+    const int status = std::system((STARFOCUS_EMULATOR " '" + program + "' >" + logs).c_str());
+    CHECK(WEXITSTATUS(status) == 2);
+    CHECK(Text(folder.file("err")) == "");
+    const std::string lines = Text(folder.file("out"));
+    const std::string start = lines.substr(0, lines.find("\n`"));
+    CHECK(LinesOf(start).size() >= 10);
+    CHECK(std::system((STARFOCUS_EMULATOR " '" + program + "' --help >" + logs).c_str()) == 0);
+    CHECK(Text(folder.file("out")).rfind(start, 0) == 0);
+  }
+}
+
+TEST_CASE("program: names with control characters are printed without them") {
+  TempFolder folder;
+  Succeed(folder, "scene lf --size 32x24 --views 1");
+  for (const std::string name :
+       {"\x1b[31mred", "bell\a", "two\nlines", "back\b", "delete\x7f", "c1 \xc2\x9b", "raw \x9b"}) {
+    CAPTURE(name);
+    fs::copy(folder.file("lf"), folder.file(name));
+    const std::string quoted = "'" + name + "'";
+    for (const std::string& arguments :
+         {"info " + quoted, "refocus " + quoted + " -o " + quoted + ".png",
+          "refocus " + quoted + " -o out/ --focus 500", "refocus " + quoted + " -o none/x.png",
+          "view " + quoted + " -o x.html", "video " + quoted + " -o frames",
+          "import " + quoted + " 'new " + name + "'",
+          "disparity " + quoted + " --repair -o " + quoted + ".pfm",
+          "info " + quoted + " --json"}) {
+      CAPTURE(arguments);
+      const Outcome outcome = Call(folder, arguments);
+      const std::string printed = outcome.out + outcome.err;
+      CHECK(!printed.empty());
+      for (const std::string& line : LinesOf(printed)) CHECK(Printable(line) == line);
+      CHECK(!Contains(printed, "\nlines"));
+    }
+  }
+}
+
+TEST_CASE("program: the default number of threads is the number of cores that it may use") {
+  TempFolder folder;
+  Succeed(folder, "scene lf --size 32x24 --views 1");
+  const auto check = [&] {
+    const std::string threads = "\"threads\": " + std::to_string(starfocus_pool_cores());
+    for (const std::string call : {"refocus lf -o a.png", "video lf -o frames"}) {
+      Succeed(folder, call + " --focus 1 --report a.json");
+      const std::string report = Text(folder.file("a.json"));
+      CHECK((Contains(report, threads + ",") || Contains(report, threads + "\n")));
+    }
+  };
+  check();
+  cpu_set_t all, one;
+  REQUIRE(sched_getaffinity(0, sizeof(all), &all) == 0);
+  CPU_ZERO(&one);
+  for (int core = 0; CPU_COUNT(&one) == 0; ++core) {
+    if (CPU_ISSET(core, &all)) CPU_SET(core, &one);
+  }
+  REQUIRE(sched_setaffinity(0, sizeof(one), &one) == 0);
+  CHECK(starfocus_pool_cores() == 1);
+  check();
+  REQUIRE(sched_setaffinity(0, sizeof(all), &all) == 0);
+}
+
 TEST_CASE("program: --version names the library's version and the SIMD target") {
   TempFolder folder;
   const Outcome outcome = Call(folder, "--version");
@@ -168,7 +275,8 @@ TEST_CASE("program: the manual and the completion have every option") {
   const auto complete = [&](const std::string& words) {
     const std::string text = ". ./script\nCOMP_WORDS=(starfocus " + words +
                              ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_starfocus\n"
-                             "echo \"${COMPREPLY[*]}\"\n";
+                             "IFS='|'\nprintf '%s\\n' \"${COMPREPLY[*]}\" | tr '|' '\\n' | "
+                             "LC_ALL=C sort | paste -sd '|'\n";
     REQUIRE(WriteFile(folder.file("try"), Bytes(text.begin(), text.end())) == "");
     const std::string command = "cd '" + folder.path() + "' && bash try > said 2>&1";
     CHECK(std::system(command.c_str()) == 0);
@@ -176,13 +284,21 @@ TEST_CASE("program: the manual and the completion have every option") {
   };
   if (std::system("command -v bash >/dev/null") != 0) return;
   CHECK(complete("refo") == "refocus\n");
-  CHECK(complete("refocus --focus-") == "--focus-index --focus-at --focus-range\n");
+  CHECK(complete("refocus --focus-") == "--focus-at|--focus-index|--focus-range\n");
   CHECK(complete("refocus lf --mode be") == "benchmark\n");
   CHECK(complete("refocus lf --focus ''") == "\n");
-  CHECK(complete("refocus lf --views ''") == "17 9 5 1\n");
-  CHECK(complete("refocus lf --shape ''") == "fall-off disc\n");
+  CHECK(complete("refocus lf --views ''") == "1|17|5|9\n");
+  CHECK(complete("refocus lf --shape ''") == "disc|fall-off\n");
   CHECK(complete("refocus lf -o sc") == "script\n");
   CHECK(complete("help vid") == "video\n");
+  // Names with spaces, stars and quotes are single completions.
+  for (const char* name : {"my first photo.jpg", "my *.jpg", "my 'quoted'.jpg"}) {
+    REQUIRE(WriteText(folder.file(name), "") == "");
+  }
+  fs::create_directory(folder.file("my folder"));
+  CHECK(complete("refocus my") == "my 'quoted'.jpg|my *.jpg|my first photo.jpg|my folder\n");
+  CHECK(complete("refocus lf -o my") == "my 'quoted'.jpg|my *.jpg|my first photo.jpg|my folder\n");
+  CHECK(complete("video lf -o my") == "my folder\n");
 }
 
 TEST_CASE("program: the program fails if it cannot write its output") {
@@ -199,9 +315,9 @@ TEST_CASE("program: the program fails if it cannot write its output") {
     CHECK(Contains(full.err, "standard output"));
     const Outcome closed =
         Call(folder, arguments + " >&8", "rm -f p; mkfifo p; true <p & exec 8>p; wait;");
-    CHECK(closed.code == 1);
-    CheckErrorLine(closed.err);
-    CHECK(Contains(closed.err, "standard output"));
+    // As in other programs, the closed pipe of `| head` is no error.
+    CHECK(closed.code == -1);
+    CHECK(closed.err == "");
   }
   CHECK(Call(folder, "refocus lf --focus 1 -o a.png --report /dev/full").code == 1);
 }

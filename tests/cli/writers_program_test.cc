@@ -12,7 +12,6 @@
 #include "platform/image_io.h"
 #include "platform/light_field.h"
 #include "platform/pfm.h"
-#include "platform/progress.h"
 #include "platform/writers/webp.h"
 #include "tests/cli/session.h"
 #include "tests/support/error_line.h"
@@ -71,8 +70,9 @@ TEST_CASE("writers: a batch continues after a bad input and names the inputs tha
     CHECK(outcome.code == 1);
     CHECK(Contains(outcome.err, "(failed: bad, none)"));
     CHECK(Contains(outcome.err, "\nstarfocus: 3 finished, 0 skipped, 2 failed\n"));
-    CHECK(Count(outcome.err, "\n") == 4);
+    CHECK(Count(outcome.err, "\n") == 7);
     for (const char* name : {"lf.png", "one.png", "two.png"}) {
+      CHECK(Contains(outcome.err, "out/" + std::string(name) + ": focus at disparity 1, f/1\n"));
       CHECK(fs::exists(folder.file("out/" + std::string(name))));
     }
     CHECK(std::distance(fs::directory_iterator(folder.file("out")), {}) == 3);
@@ -135,14 +135,6 @@ TEST_CASE("writers: the page of `starfocus view` is self-contained and describes
   const Outcome over = Call(folder, "view 'a<b&\"c' -o 'a<b&\"c/disparity.pfm'");
   CHECK(over.code == 2);
   CheckErrorLine(over.err);
-}
-
-TEST_CASE("progress: the line shows the share and, after a second, the remaining time") {
-  CHECK(Progress::Text("working", 43, 100, 0.5) == "working: 43 %");
-  CHECK(Progress::Text("working", 0, 100, 5) == "working: 0 %");
-  CHECK(Progress::Text("working", 25, 100, 4) == "working: 25 %, 12 s left");
-  CHECK(Progress::Text("working", 1, 3, 60) == "working: 33 %, 2:00 min left");
-  CHECK(Progress::Text("working", 100, 100, 60) == "working: 100 %, 0 s left");
 }
 
 double Psnr(const TempFolder& folder, const std::string& names) {

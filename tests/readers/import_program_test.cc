@@ -169,34 +169,36 @@ TEST_CASE("photos: the default focus is the EXIF subject, rotated and scaled lik
   constexpr int kArea = 0x9214, kLocation = 0xa214;
   const struct {
     std::string exif;
-    const char* focus;
-  } kinds[] = {{SubjectSegment(1, kArea, {72, 20}), "72,20, the subject in the photo's EXIF"},
-               {SubjectSegment(1, kArea, {72, 20, 9}), "72,20, the subject"},
-               {SubjectSegment(1, kArea, {72, 20, 9, 5}), "72,20, the subject"},
-               {SubjectSegment(1, kLocation, {72, 20}), "72,20, the subject"},
-               {SubjectSegment(3, kArea, {72, 20}), "23,43, the subject"},
-               {SubjectSegment(6, kArea, {72, 20, 9, 5}), "43,72, the subject"},
-               {SubjectSegment(8, kArea, {72, 20}), "20,23, the subject"},
-               {SubjectSegment(1, kArea, {144, 40}, 192, 128), "72,20, the subject"},
-               {SubjectSegment(6, kLocation, {144, 40}, 192, 128), "43,72, the subject"},
+    const char* origin;
+    const char* pixel;
+  } kinds[] = {{SubjectSegment(1, kArea, {72, 20}), "the subject in the photo's EXIF", "72,20"},
+               {SubjectSegment(1, kArea, {72, 20, 9}), "the subject", "72,20"},
+               {SubjectSegment(1, kArea, {72, 20, 9, 5}), "the subject", "72,20"},
+               {SubjectSegment(1, kLocation, {72, 20}), "the subject", "72,20"},
+               {SubjectSegment(3, kArea, {72, 20}), "the subject", "23,43"},
+               {SubjectSegment(6, kArea, {72, 20, 9, 5}), "the subject", "43,72"},
+               {SubjectSegment(8, kArea, {72, 20}), "the subject", "20,23"},
+               {SubjectSegment(1, kArea, {144, 40}, 192, 128), "the subject", "72,20"},
+               {SubjectSegment(6, kLocation, {144, 40}, 192, 128), "the subject", "43,72"},
                // The following subjects refer to a picture that was cropped, or lie outside the
                // picture.
-               {SubjectSegment(1, kArea, {72, 20}, 128, 128), "the nearest large surface"},
-               {SubjectSegment(1, kArea, {96, 20}), "the nearest large surface"},
-               {SubjectSegment(1, kArea, {72}), "the nearest large surface"},
-               {"", "the nearest large surface"}};
+               {SubjectSegment(1, kArea, {72, 20}, 128, 128), "the nearest large surface", nullptr},
+               {SubjectSegment(1, kArea, {96, 20}), "the nearest large surface", nullptr},
+               {SubjectSegment(1, kArea, {72}), "the nearest large surface", nullptr},
+               {"", "the nearest large surface", nullptr}};
   const std::string map = " --near white --depth-orientation photo";
   for (const auto& photo : kinds) {
     TempFolder folder;
     MakePhoto(folder, photo.exif);
     const Outcome outcome = Call(folder, "refocus a.jpg" + map + " -o default.png");
-    CAPTURE(photo.focus);
+    CAPTURE(photo.origin);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(Contains(outcome.err, photo.focus));
-    const size_t begin = outcome.err.find("focused at ") + 11;
+    CHECK(Contains(outcome.err, std::string("a.jpg: focused at ") + photo.origin));
+    const size_t begin = outcome.err.find("default.png: focus ") + 19;
     CHECK(outcome.err.find("focused at ", begin) == std::string::npos);
-    const std::string pixel = outcome.err.substr(begin, outcome.err.find(", ", begin) - begin);
+    const std::string pixel = outcome.err.substr(begin, outcome.err.find(" (", begin) - begin);
+    if (photo.pixel != nullptr) CHECK(pixel == photo.pixel);
     Succeed(folder, "refocus a.jpg" + map + " -o at.png --focus-at " + pixel);
     CHECK(Text(folder.file("default.png")) == Text(folder.file("at.png")));
   }
@@ -226,7 +228,8 @@ TEST_CASE("photos: the EXIF subject is kept only if the output has the same pixe
     const Outcome again = Call(folder, "refocus b.jpg --near white -o c.jpg");
     CAPTURE(again.err);
     CHECK(again.code == 0);
-    CHECK(Contains(again.err, kind.stays ? "72,20, the subject" : "the nearest large surface"));
+    CHECK(Contains(again.err, kind.stays ? "at the subject" : "at the nearest large surface"));
+    CHECK(Contains(again.err, "c.jpg: focus 72,20 (") == kind.stays);
   }
 }
 

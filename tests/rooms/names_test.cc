@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that no two structures or classes in lib have the same name.
+// Checks that no two structures or classes in lib have the same name, and that all lines of the
+// programs on stderr go through one module.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -37,6 +38,23 @@ TEST_CASE("names: CountStructures counts both definitions of a structure that is
   std::map<std::string, int> counts;
   CountStructures({"struct A {", "struct B;", "class A : public B {", "  struct C {"}, &counts);
   CHECK(counts == std::map<std::string, int>{{"A", 2}});
+}
+
+TEST_CASE("names: the programs write to stderr by platform/console.h only") {
+  // The handler for lack of memory in program.cc must not allocate memory for a line.
+  const std::map<std::string, int> kAllowed = {{"console.cc", 1}, {"program.cc", 1}};
+  static const std::regex kStderr("\\b(stderr|cerr|clog|perror)\\b");
+  std::map<std::string, int> counts;
+  for (const std::filesystem::path& path :
+       tree::Files({"platform", "examples/board", "examples/cli", "examples/command_line",
+                    "examples/lab", "examples/scene", "examples/tap"},
+                   {".h", ".cc"})) {
+    for (const std::string& line : tree::Lines(path)) {
+      const std::string code = line.substr(0, line.find("//"));
+      if (std::regex_search(code, kStderr)) ++counts[path.filename().string()];
+    }
+  }
+  CHECK(counts == kAllowed);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
+#include "platform/console.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "starfocus/starfocus.h"
@@ -128,10 +129,10 @@ Result<DisparityEstimate> Repair(const DisparityOptions& options, const Capture&
       RepairDisparity(MapName(capture), light_field,
                       {options.threads, !options.coverage.empty(), !options.confidence.empty()});
   if (estimate && !options.coverage.empty() && estimate->coverage.empty()) {
-    std::fprintf(stderr, "%s: no coverage is written: %s\n", capture.path.c_str(),
-                 light_field.views.size() > 1
-                     ? "only a repair with one view (--views 1) finds coverage"
-                     : "the map has no hair with a closed outline");
+    TellLine(capture.path + ": no coverage is written: " +
+             (light_field.views.size() > 1
+                  ? "only a repair with one view (--views 1) finds coverage"
+                  : "the map has no hair with a closed outline"));
   }
   return estimate;
 }
@@ -210,13 +211,13 @@ Error Run(const DisparityOptions& options) {
   const double megapixels = 1e-6 * estimate->map.width * estimate->map.height;
   const int count = work == Work::kEstimate ? EstimateViews(light_field.positions)
                                             : StarWithin(light_field.positions);
-  std::printf("%s: disparities from %s to %s, %s %d view%s, %.1f s, %.1f s per megapixel\n",
-              plan->map.c_str(), Short(estimate->range.min).c_str(),
-              Short(estimate->range.max).c_str(),
-              work == Work::kEstimate ? "estimated from"
-              : work == Work::kRepair ? "repaired with"
-                                      : "taken from",
-              count, count == 1 ? "" : "s", seconds, seconds / megapixels);
+  PrintLine(plan->map + ": disparities from " + Short(estimate->range.min) + " to " +
+            Short(estimate->range.max) +
+            (work == Work::kEstimate ? ", estimated from "
+             : work == Work::kRepair ? ", repaired with "
+                                     : ", taken from ") +
+            std::to_string(count) + (count == 1 ? " view, " : " views, ") + Decimal(seconds, 1) +
+            " s, " + Decimal(seconds / megapixels, 1) + " s per megapixel");
   return {};
 }
 
@@ -226,10 +227,20 @@ Command DisparityCommand() {
   const auto options = std::make_shared<DisparityOptions>();
   Command command = {
       "disparity",
-      "Estimate the disparity map of a light field from its views, or repair an existing map",
+      "Estimate the disparity map of a light field, or repair a map",
       {},
       [options] { return Run(*options); },
-      {"starfocus disparity lf", "starfocus disparity lf -o repaired.pfm --repair --threads 4"}};
+      {"starfocus disparity lf", "starfocus disparity lf -o repaired.pfm --repair --threads 4"},
+      "",
+      {{"Input and output",
+        {{"SRC", "Light-field folder, or photo with depth"},
+         {"--right", "Right picture of a stereo pair whose left picture is SRC"},
+         {"--output", "Map (.pfm); a picture of it gets the same name with .png"},
+         {"--confidence", "Picture of the confidence of each pixel"}}},
+       {"Map",
+        {{"--repair", "Repair the map of SRC instead of estimating a new one"},
+         {"--range", "Disparities to search"},
+         {"--threads", "Number of threads; default: all cores"}}}}};
   AddInputOptions(&command, &options->input);
   AddRightOption(&command, &options->input);
   AddOptions(
@@ -261,8 +272,7 @@ Command DisparityCommand() {
            "Views to use: the star of 17, 9 or 5 views, or positions U,V:U,V; with --repair also "
            "1; default: all views of the input",
            Views(&options->views)},
-          {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
-           Use::kDefault},
+          ThreadsOption(&options->threads),
       },
       &command);
   return command;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus import: converts an input of any supported format to a light-field folder.
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -9,9 +8,11 @@
 #include "examples/cli/input/input.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
+#include "platform/console.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/light_field.h"
 #include "platform/runner.h"
+#include "platform/text.h"
 
 namespace starfocus {
 namespace {
@@ -33,23 +34,21 @@ Error CheckFolder(const std::string& folder) {
 
 void Tell(const ImportOptions& options, const Capture& capture) {
   if (options.json) {
-    std::printf("%s\n", Describe(capture).Text().c_str());
+    PrintLine(Describe(capture).Text());
     return;
   }
   const LightField& light_field = capture.light_field;
-  std::printf("%s: %s\n", capture.path.c_str(), capture.format.c_str());
-  for (const auto& fact : capture.facts) {
-    std::printf("  %s: %s\n", fact.first.c_str(), fact.second.c_str());
-  }
-  std::printf("%s: %zu view%s of %dx%d, %s\n", options.folder.c_str(), light_field.views.size(),
-              light_field.views.size() == 1 ? "" : "s", light_field.views[0].width,
-              light_field.views[0].height,
-              light_field.disparity.values.empty()
-                  ? "without a map (starfocus disparity estimates one)"
-                  : "with a map");
+  PrintLine(capture.path + ": " + capture.format);
+  for (const auto& fact : capture.facts) PrintLine("  " + fact.first + ": " + fact.second);
+  const Image& view = light_field.views[0];
+  PrintLine(options.folder + ": " + std::to_string(light_field.views.size()) +
+            (light_field.views.size() == 1 ? " view of " : " views of ") +
+            SizeText(view.width, view.height) + ", " +
+            (light_field.disparity.values.empty()
+                 ? "without a map (starfocus disparity estimates one)"
+                 : "with a map"));
   if (capture.widest > 0) {
-    std::printf("for f-stops, refocus this light field with --widest %s\n",
-                Short(capture.widest).c_str());
+    PrintLine("for f-stops, refocus this light field with --widest " + Short(capture.widest));
   }
 }
 
@@ -73,13 +72,22 @@ Error Run(const ImportOptions& options) {
 
 Command ImportCommand() {
   const auto options = std::make_shared<ImportOptions>();
-  Command command = {
-      "import",
-      "Write a light-field folder from a depth photo or from a folder of views with another layout",
-      {},
-      [options] { return Run(*options); },
-      {"starfocus import photo.jpg lf",
-       "starfocus import photo.png lf --depth depth.png --near white"}};
+  Command command = {"import",
+                     "Write a light-field folder from a photo or from other views",
+                     {},
+                     [options] { return Run(*options); },
+                     {"starfocus import photo.jpg lf",
+                      "starfocus import photo.png lf --depth depth.png --near white"},
+                     "",
+                     {{"Input and output",
+                       {{"SRC", "Photo with depth, or views with another layout"},
+                        {"DIR", "Light-field folder to write"},
+                        {"--json", "Print the properties of the input as JSON"}}},
+                      {"Depth",
+                       {{"--depth", "Depth picture of the photo, if it is separate"},
+                        {"--near", "Shade that is near in the depth picture"},
+                        {"--depth-unit", "Unit of the values of the depth picture"},
+                        {"--no-repair", "Keep the map as it is in the photo"}}}}};
   AddInputOptions(&command, &options->input);
   AddRightOption(&command, &options->input);
   AddCoverageOption(&command, &options->input);
@@ -96,8 +104,7 @@ Command ImportCommand() {
            "Views to write: the star of 17, 9, 5 or 1 views, or positions U,V:U,V from -1 "
            "to 1 that begin with 0,0; default: all views of the input",
            Views(&options->views)},
-          {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
-           Use::kDefault},
+          ThreadsOption(&options->threads),
           {"--json", nullptr,
            "Print the format, the facts, the size and the views of the input as JSON instead of "
            "text",

@@ -13,6 +13,7 @@
 #include "examples/cli/input/input.h"
 #include "examples/cli/json/json.h"
 #include "examples/command_line/options.h"
+#include "platform/console.h"
 #include "platform/light_field.h"
 #include "platform/text.h"
 #include "starfocus/starfocus.h"
@@ -33,7 +34,9 @@ double BinEdge(const starfocus_disparity_stats& stats, int bin) {
 }
 
 void PrintRow(const std::string& name, const std::string& value) {
-  std::printf("  %-10s %s\n", name.c_str(), value.c_str());
+  constexpr size_t kNameColumns = 10;
+  const std::string space(kNameColumns - std::min(kNameColumns, name.size()), ' ');
+  PrintLine("  " + name + space + " " + value);
 }
 
 void PrintText(const Capture& capture, const starfocus_disparity_stats& stats,
@@ -46,7 +49,7 @@ void PrintText(const Capture& capture, const starfocus_disparity_stats& stats,
       views += " (" + Short(at.u) + ", " + Short(at.v) + ")";
     }
   }
-  std::printf("%s\n", capture.path.c_str());
+  PrintLine(capture.path);
   PrintRow("format", capture.format);
   for (const auto& fact : capture.facts) PrintRow(fact.first, fact.second);
   const Image& view = light_field.views[0];
@@ -61,8 +64,10 @@ void PrintText(const Capture& capture, const starfocus_disparity_stats& stats,
   for (int bin = kBins - 1; bin >= 0; --bin) {
     const int64_t count = counts[size_t(bin)];
     const int length = static_cast<int>((count * kBarLength + most - 1) / most);
-    std::printf("%9.3f to %9.3f %9lld %s\n", BinEdge(stats, bin), BinEdge(stats, bin + 1),
-                static_cast<long long>(count), std::string(size_t(length), '#').c_str());
+    char bounds[80];
+    std::snprintf(bounds, sizeof(bounds), "%9.3f to %9.3f %9lld ", BinEdge(stats, bin),
+                  BinEdge(stats, bin + 1), static_cast<long long>(count));
+    PrintLine(bounds + std::string(size_t(length), '#'));
   }
 }
 
@@ -77,7 +82,7 @@ void PrintJson(const Capture& capture, const starfocus_disparity_stats& stats,
     for (const int64_t count : counts) histogram.Add(count);
     json.Set("histogram", std::move(histogram));
   }
-  std::printf("%s\n", json.Text().c_str());
+  PrintLine(json.Text());
 }
 
 // Returns true if the input has a map, or several views from which a map can be estimated.
@@ -106,12 +111,16 @@ Error Run(const InfoOptions& options) {
 
 Command InfoCommand() {
   const auto options = std::make_shared<InfoOptions>();
-  Command command = {
-      "info",
-      "Describe a light field or depth photo: format, size, views and disparity range",
-      {},
-      [options] { return Run(*options); },
-      {"starfocus info photo.jpg", "starfocus info lf --json"}};
+  Command command = {"info",
+                     "Describe a light field or photo: format, size and disparities",
+                     {},
+                     [options] { return Run(*options); },
+                     {"starfocus info photo.jpg", "starfocus info lf --json"},
+                     "",
+                     {{"Input and output",
+                       {{"SRC", "Photo with depth, or light-field folder"},
+                        {"--depth", "Depth picture of the photo, if it is a separate file"},
+                        {"--json", "Print JSON instead of text"}}}}};
   AddInputOptions(&command, &options->input);
   AddRightOption(&command, &options->input);
   AddCoverageOption(&command, &options->input);

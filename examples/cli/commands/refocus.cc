@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus refocus: computes a refocused picture, or a sweep of several.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "examples/cli/commands.h"
 #include "examples/cli/engine/engine_run.h"
 #include "examples/cli/input/input.h"
+#include "examples/cli/input/notes.h"
 #include "examples/cli/pictures/shrink.h"
 #include "examples/cli/refocus/batch.h"
 #include "examples/cli/refocus/partition_map.h"
@@ -20,10 +22,12 @@
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
+#include "platform/console.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
 #include "platform/terminal_graphics.h"
+#include "starfocus/pool.h"
 
 namespace starfocus {
 namespace {
@@ -166,7 +170,21 @@ Result<Loaded> Load(const RefocusOptions& options, LensPlan* plan) {
   if (!error) error = ChooseBlur(loaded.stats, plan).MoveTo(&loaded.max_blur);
   if (error) return error;
   TellAperture(capture->path, plan->aperture);
+  TellBlurred(capture->path, loaded.stats, SharpRadius(map.width, map.height), *plan);
   return loaded;
+}
+
+// Prints one line for each output picture or page, and for a sweep one line.
+void TellOutputs(const RefocusOptions& options, const LensPlan& plan) {
+  const std::string lens = ": " + LensText(plan);
+  const std::vector<Output> outputs = ListPictures(options.output, options.sweep.size());
+  if (!options.sweep.empty()) {
+    const bool one = outputs[0].path == options.output.out;  // an animation
+    const std::string last = one ? "" : " to " + outputs[options.sweep.size() - 1].path;
+    return TellLine(OutputName(outputs[0].path) + last + lens);
+  }
+  for (const Output& output : outputs) TellLine(OutputName(output.path) + lens);
+  if (outputs.empty()) TellLine(InputName(options.input.path) + lens);
 }
 
 // Computes and writes one picture. Shows the picture on `terminal`, unless this is nullopt.
@@ -231,8 +249,13 @@ Error RunInput(const RefocusOptions& options) {
   std::optional<GraphicsTerminal> terminal;
   if (options.output.show) {
     const Result<GraphicsTerminal> found = FindGraphicsTerminal("--show");
-    if (!found) return found.error();
-    terminal = *found;
+    const bool writes = !options.output.out.empty() || !options.output.compare.empty();
+    if (!found && !writes) return found.error();
+    if (found) {
+      terminal = *found;
+    } else {
+      TellNote(InputName(options.input.path), "the picture is not shown: " + found.error().line());
+    }
   }
   const Result<Loaded> loaded = Load(options, &*plan);
   if (!loaded) return loaded.error();
@@ -240,8 +263,10 @@ Error RunInput(const RefocusOptions& options) {
                               options.output.small_png ? PngSize::kSmall : PngSize::kQuick};
   const EngineTask task = MakeTask(*plan, loaded->capture.light_field, loaded->stats,
                                    loaded->max_blur, !options.report.empty());
-  return options.sweep.empty() ? RunOne(options, how, *plan, task, terminal, start)
-                               : RunSweep(options, how, plan->foci, task, start);
+  const Error error = options.sweep.empty() ? RunOne(options, how, *plan, task, terminal, start)
+                                            : RunSweep(options, how, plan->foci, task, start);
+  if (!error) TellOutputs(options, *plan);
+  return error;
 }
 
 Error RunInputs(const RefocusOptions& options, const Batch& batch) {
@@ -259,12 +284,15 @@ Error RunInputs(const RefocusOptions& options, const Batch& batch) {
   if (Error error = MakeBatchFolder(batch)) return error;
   // One more input than options.jobs is in memory, so that files are read and written during the
   // turns of other inputs.
-  const int ahead = options.lens.threads > 1 ? 1 : 0;
+  const int cores = std::max(1, starfocus_pool_cores() / options.jobs);
+  const int threads = options.lens.threads > 0 ? options.lens.threads : cores;
+  const int ahead = threads > 1 ? 1 : 0;
   Turns turns(static_cast<size_t>(options.jobs));
   return RunBatch(batch, options.jobs + ahead, [&](const BatchItem& item) {
     Turn turn(&turns, static_cast<size_t>(&item - batch.items.data()));
     RefocusOptions one = options;
     one.turn = &turn;
+    one.lens.threads = threads;
     one.input.path = item.input;
     one.output.out = item.output;
     return RunInput(one);
@@ -282,16 +310,35 @@ Error Run(const RefocusOptions& options) {
   return RunInput(one);
 }
 
+const std::vector<HelpGroup> kBasics = {
+    {"Input and output",
+     {{"SRC", "Photos with depth, light fields, or folders of them"},
+      {"--depth", "Depth picture of the photo, if it is a separate file"},
+      {"--output", "Picture (.jpg, .png, .webp), or folder for several"},
+      {"--compare", "Web page with the picture before and after"},
+      {"--show", "Show the picture on the terminal"}}},
+    {"Focus (default: the focus of the photo, or a near surface)",
+     {{"--focus-at", "Pixel in focus, counted from 0,0 at the top left"},
+      {"--focus", "Disparity in focus; `starfocus info` prints the range"},
+      {"--focus-range", "Disparities between which everything is sharp"},
+      {"--sweep", "N pictures with foci from disparity D0 to D1"}}},
+    {"Lens (default: f/1.8 for a photo)",
+     {{"--f-stop", "F-stop, such as 2.8; a smaller one blurs more"},
+      {"--strength", "Percentage of the blur, 0 to 100"},
+      {"--shape", "Opening of the lens, such as disc or polygon:5"}}}};
+
 }  // namespace
 
 Command RefocusCommand() {
   const auto options = std::make_shared<RefocusOptions>();
   Command command = {"refocus",
-                     "Compute the picture that a lens focused at a disparity would have taken",
+                     "Compute the picture that another lens or focus would have taken",
                      {},
                      [options] { return Run(*options); },
                      {"starfocus refocus photo.jpg -o near.jpg --focus-at 800,600 --f-stop 2.8",
-                      "starfocus refocus lf -o stack.webp --sweep -2:8:20 --strength 50"}};
+                      "starfocus refocus lf -o stack.webp --sweep -2:8:20 --strength 50"},
+                     "",
+                     kBasics};
   AddInputOptions(&command, &options->input, &options->inputs);
   AddRightOption(&command, &options->input);
   AddCoverageOption(&command, &options->input);
@@ -299,8 +346,8 @@ Command RefocusCommand() {
   AddOptions(
       {
           {"--jobs", "N",
-           "Number of inputs that are processed at the same time, 1 to 64; each uses "
-           "--threads threads",
+           "Number of inputs that are processed at the same time, 1 to 64; each uses --threads "
+           "threads, by default an equal part of the cores",
            Threads(&options->jobs), Use::kDefault},
       },
       &command);

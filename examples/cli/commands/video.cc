@@ -11,12 +11,14 @@
 #include "examples/cli/commands.h"
 #include "examples/cli/engine/engine_run.h"
 #include "examples/cli/input/input.h"
+#include "examples/cli/input/notes.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "examples/cli/refocus/refocus_report.h"
 #include "examples/cli/video/clip.h"
 #include "examples/cli/video/frames.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
+#include "platform/console.h"
 #include "platform/folder.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
@@ -166,6 +168,7 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   }
   if (Error error = ChooseBlur(video->stats, plan).MoveTo(&video->max_blur)) return error;
   TellAperture(video->sources[0].path, plan->aperture);
+  TellBlurred(video->sources[0].path, video->stats, SharpRadius(video->width, video->height), *plan);
   return {};
 }
 
@@ -215,8 +218,15 @@ Error Run(const VideoOptions& options) {
   if (!error) error = MakeFolder(options.out);
   if (error) return error;
   const Result<SeriesReport> report = RefocusFrames(options, *plan, video);
-  if (!report || options.report.empty()) return report.error();
-  return WriteText(options.report, report->Text(Seconds() - start));
+  error = report.error();
+  if (!error && !options.report.empty()) {
+    error = WriteText(options.report, report->Text(Seconds() - start));
+  }
+  if (error) return error;
+  TellOtherInputs();
+  TellLine(options.out + ": " + std::to_string(video.frames.size()) + " pictures, " +
+           LensText(*plan));
+  return {};
 }
 
 }  // namespace
@@ -225,7 +235,7 @@ Command VideoCommand() {
   const auto options = std::make_shared<VideoOptions>();
   Command command = {
       "video",
-      "Refocus one light field or photo after another, and copy the blocks that did not change",
+      "Refocus the frames of a video, which are light fields or photos",
       {},
       [options] { return Run(*options); },
       {"starfocus video frames -o out --focus 2",
@@ -236,7 +246,17 @@ Command VideoCommand() {
       "near end for all frames. If --depth is a folder, its depth pictures are paired with the\n"
       "frames by name, or else by number. Unless --focus or --focus-range is given, the first\n"
       "frame determines the focus of all frames: the focus at the pixel of --focus-at, or else\n"
-      "the default focus. Modes frame and benchmark choose one number of views for all frames."};
+      "the default focus. Modes frame and benchmark choose one number of views for all frames.",
+       {{"Input and output",
+        {{"SRC", "Frames, or one folder that contains the frames"},
+         {"--output", "Folder for the pictures"},
+         {"--depth", "Depth of the frames, if it is separate"},
+         {"--report", "JSON file with the measurements of each frame"}}},
+       {"Focus and lens, the same for all frames",
+        {{"--focus-at", "Pixel in focus in the first frame"},
+         {"--focus", "Disparity in focus"},
+         {"--f-stop", "F-stop, such as 2.8; a smaller one blurs more"},
+         {"--strength", "Percentage of the blur, 0 to 100"}}}}};
   AddInputOptions(&command, &options->input, &options->inputs);
   AddOptions(
       {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus view: writes a page that shows a light field and its refocused pictures.
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -17,9 +16,10 @@
 #include "examples/cli/view/strip.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
+#include "platform/console.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
-#include "starfocus/pool.h"
+#include "platform/standard_stream.h"
 
 namespace starfocus {
 namespace {
@@ -32,7 +32,7 @@ struct ViewOptions {
   InputOptions input;
   ApertureOptions aperture;
   std::string out;
-  int threads = starfocus_pool_cores();
+  int threads = 1;
 };
 
 // Contents of the page, in the order of their computation.
@@ -125,9 +125,8 @@ Error ChooseLenses(const Capture& capture, const starfocus_disparity_stats& stat
   for (const TruthFile& truth : FindTruths(capture.path)) {
     const double blur = BlurOf(truth.lens, stats);
     if (blur > STARFOCUS_MAX_BLUR) {
-      std::fprintf(
-          stderr, "%s: not shown, because its lens blurs by %s pixels and the limit is %s pixels\n",
-          truth.path.c_str(), Short(blur).c_str(), Short(STARFOCUS_MAX_BLUR).c_str());
+      TellLine(truth.path + ": not shown, because its lens blurs by " + Short(blur) +
+               " pixels and the limit is " + Short(STARFOCUS_MAX_BLUR) + " pixels");
       continue;
     }
     contents->truths.push_back(truth);
@@ -193,7 +192,13 @@ Error Run(const ViewOptions& options) {
                   [&](size_t i, const Image& picture, const std::vector<starfocus_block>& blocks) {
                     return ShowPicture(i, picture, blocks, &contents);
                   });
-  return error ? error : WritePage(options, capture, stats, contents);
+  if (!error) error = WritePage(options, capture, stats, contents);
+  if (error) return error;
+  LensPlan plan;
+  plan.foci = StripFoci(light_field.disparity, kFoci);
+  plan.aperture = opened->aperture;
+  TellLine(OutputName(options.out) + ": " + LensText(plan));
+  return {};
 }
 
 }  // namespace
@@ -202,11 +207,20 @@ Command ViewCommand() {
   const auto options = std::make_shared<ViewOptions>();
   Command command = {
       "view",
-      "Write a web page about a light field or depth photo: photo, map, refocused "
-      "pictures, blocks, and errors if a ground truth exists",
+      "Write a web page about a light field or depth photo",
       {},
       [options] { return Run(*options); },
-      {"starfocus view lf -o page.html", "starfocus view photo.jpg -o page.html --f-stop 2.8"}};
+      {"starfocus view lf -o page.html", "starfocus view photo.jpg -o page.html --f-stop 2.8"},
+      "The page shows the photo, its map, refocused pictures, blocks, and errors if a ground "
+      "truth\n"
+      "exists.",
+      {{"Input and output",
+        {{"SRC", "Photo with depth, or light-field folder"},
+         {"--depth", "Depth picture of the photo, if it is a separate file"},
+         {"--output", "Web page to write"}}},
+       {"Lens (default: f/1.8 for a photo)",
+        {{"--f-stop", "F-stop, such as 2.8; a smaller one blurs more"},
+         {"--strength", "Percentage of the blur, 0 to 100"}}}}};
   AddInputOptions(&command, &options->input);
   AddRightOption(&command, &options->input);
   AddCoverageOption(&command, &options->input);
@@ -219,8 +233,7 @@ Command ViewCommand() {
   AddApertureOptions(&command, &options->aperture);
   AddOptions(
       {
-          {"--threads", "N", "Number of threads, 1 to 64; default: one for each fast core",
-           Threads(&options->threads)},
+          ThreadsOption(&options->threads),
       },
       &command);
   return command;

@@ -2,11 +2,11 @@
 #include "examples/cli/input/find_inputs.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <set>
 #include <system_error>
 
+#include "platform/console.h"
 #include "platform/file.h"
 #include "platform/natural_order.h"
 #include "platform/readers/capture.h"
@@ -103,9 +103,7 @@ std::string NameOfInput(const std::string& input) {
 }
 
 void TellSkipped(const std::vector<SkippedPath>& skipped) {
-  for (const SkippedPath& one : skipped) {
-    std::fprintf(stderr, "starfocus: skipped %s\n", Text(one).c_str());
-  }
+  for (const SkippedPath& one : skipped) TellLine("starfocus: skipped " + Text(one));
 }
 
 }  // namespace starfocus

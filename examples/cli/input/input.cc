@@ -4,12 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/input/depth_command.h"
+#include "examples/cli/input/notes.h"
 #include "examples/command_line/options.h"
+#include "platform/console.h"
 #include "platform/standard_stream.h"
 
 namespace starfocus {
@@ -58,10 +59,9 @@ Error Estimate(int threads, Capture* capture) {
   }
   const Result<DisparityRange> range = FindRange(capture->path, *light_field, threads);
   if (!range) return range.error();
-  std::fprintf(stderr,
-               "%s: no map found, so disparities from %s to %s are estimated from %d views\n",
-               MapName(*capture).c_str(), Short(range->min).c_str(), Short(range->max).c_str(),
-               EstimateViews(light_field->positions));
+  TellLine(MapName(*capture) + ": no map found, so disparities from " + Short(range->min) + " to " +
+           Short(range->max) + " are estimated from " +
+           std::to_string(EstimateViews(light_field->positions)) + " views");
   Result<DisparityEstimate> estimate =
       EstimateDisparity(capture->path, *light_field, *range, threads);
   if (estimate) light_field->disparity = std::move(estimate->map);
@@ -92,6 +92,11 @@ Result<Capture> ReadInput(const InputOptions& options) {
       std::filesystem::is_directory(options.path, ignored)) {
     return Error::Usage(option, "a photo as SRC", "the folder " + options.path);
   }
+  if (options.path != "-" && std::filesystem::is_fifo(options.path, ignored)) {
+    return Cannot("read", options.path,
+                  "it is a pipe (the input - reads a photo from standard input: "
+                  "`cat photo.jpg | starfocus info -`)");
+  }
   bool estimates = false;
   if (EstimatesDepth(options)) {
     wanted.map.estimate = [&](const Image& photo) {
@@ -119,9 +124,7 @@ Result<Capture> OpenInput(const InputOptions& options) {
 }
 
 void TellNotes(const Capture& capture) {
-  for (const std::string& note : capture.notes) {
-    std::fprintf(stderr, "%s: %s\n", capture.path.c_str(), note.c_str());
-  }
+  for (const std::string& note : capture.notes) TellNote(capture.path, note);
 }
 
 Error LoadInput(const Positions& views, int threads, Capture* capture) {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
+#include "examples/cli/input/notes.h"
 #include "examples/command_line/options.h"
 
 namespace starfocus {
@@ -23,12 +23,6 @@ void NameOption(const ApertureOptions& options, ApertureChoice* aperture) {
     aperture->value = Short(*value);
     return;
   }
-}
-
-std::string ThreeDigits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
 }
 
 // Returns the first number of three digits that satisfies `fits`. The search starts at `value` and
@@ -111,6 +105,10 @@ double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vect
   return range;
 }
 
+double SharpRadius(int width, int height) {
+  return std::max(1.0, std::hypot(width, height) / 3000);
+}
+
 Error FitAperture(double range, ApertureChoice* aperture) {
   const double blur = aperture->radius * range;
   aperture->blur = std::min(blur, STARFOCUS_MAX_BLUR);
@@ -134,11 +132,9 @@ void TellAperture(const std::string& path, const ApertureChoice& aperture) {
                  path.c_str(), ThreeDigits(aperture.blur).c_str());
   }
   if (!aperture.narrowed) return;
-  std::fprintf(stderr,
-               "%s: aperture set to f/%s, the widest with a blur of at most %s pixels (--f-stop "
-               "sets another)\n",
-               path.c_str(), ThreeDigits(aperture.widest / aperture.radius).c_str(),
-               Short(STARFOCUS_MAX_BLUR).c_str());
+  TellNote(path, "aperture set to f/" + ThreeDigits(aperture.widest / aperture.radius) +
+                     ", the widest with a blur of at most " + Short(STARFOCUS_MAX_BLUR) +
+                     " pixels (--f-stop sets another)");
 }
 
 }  // namespace starfocus

@@ -38,6 +38,11 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
 double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci,
                          const starfocus_lens& lens = {});
 
+// Returns the largest blur radius in pixels of a pixel that counts as in focus: 1/3000 of the
+// picture's diagonal, but at least one pixel. The diameter of the blur is then at most 1/1500 of
+// the diagonal, which is the usual limit for the depth of field.
+double SharpRadius(int width, int height);
+
 // Fits the aperture to the blur limit. `range` is the largest distance of a disparity from the
 // focus, in pixels. If the blur exceeds the limit, reduces a default aperture, but returns an error
 // for an aperture that the user chose.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <mutex>
@@ -11,7 +10,9 @@
 #include <system_error>
 #include <thread>
 
+#include "examples/cli/input/notes.h"
 #include "examples/command_line/outputs.h"
+#include "platform/console.h"
 #include "platform/file.h"
 #include "platform/folder.h"
 #include "platform/progress.h"
@@ -38,7 +39,7 @@ struct Work {
   const std::function<Error(const BatchItem&)>& run;
   Progress progress;
   std::atomic<size_t> next;
-  std::mutex mutex;  // protects `failed` and stderr
+  std::mutex mutex;  // protects `failed`
   std::vector<std::string> failed;
 
   Error RunOne(const BatchItem& item) const {
@@ -59,7 +60,7 @@ struct Work {
       // Errors of an option do not contain the name of the input.
       const bool named = error.line().find(items[i].input) != std::string::npos;
       const std::lock_guard<std::mutex> lock(mutex);
-      progress.Tell("starfocus: " + (named ? "" : items[i].input + ": ") + error.line());
+      TellLine("starfocus: " + (named ? "" : items[i].input + ": ") + error.line());
       failed.push_back(items[i].input);
     }
   }
@@ -135,8 +136,10 @@ Error RunBatch(const Batch& batch, int jobs, const std::function<Error(const Bat
   TellSkipped(batch.skipped);
   std::vector<std::string> failed = RunItems(batch.items, jobs, run);
   const size_t finished = batch.items.size() - failed.size();
-  std::fprintf(stderr, "starfocus: %zu finished, %zu skipped, %zu failed\n", finished,
-               batch.skipped.size(), failed.size());
+  TellOtherInputs();
+  TellLine("starfocus: " + std::to_string(finished) + " finished, " +
+           std::to_string(batch.skipped.size()) + " skipped, " + std::to_string(failed.size()) +
+           " failed");
   if (failed.empty()) return {};
   std::sort(failed.begin(), failed.end());
   std::string names;

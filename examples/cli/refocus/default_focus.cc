@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <vector>
+
+#include "examples/cli/input/notes.h"
 
 namespace starfocus {
 namespace {
@@ -133,13 +134,7 @@ DefaultFocus FindSurface(const FloatMap& map) {
 }
 
 void TellFocus(const std::string& path, const DefaultFocus& focus) {
-  if (focus.at_pixel) {
-    std::fprintf(stderr, "%s: focused at %d,%d, %s (--focus-at or --focus sets another)\n",
-                 path.c_str(), focus.x, focus.y, focus.source.c_str());
-  } else {
-    std::fprintf(stderr, "%s: focused at disparity %g, %s (--focus-at or --focus sets another)\n",
-                 path.c_str(), focus.disparity, focus.source.c_str());
-  }
+  TellNote(path, "focused at " + focus.source + " (--focus-at or --focus sets another)");
 }
 
 }  // namespace starfocus

@@ -27,7 +27,7 @@ DefaultFocus FindDefaultFocus(const Capture& capture);
 // Coordinates are pixels of the map.
 DefaultFocus FindSurface(const FloatMap& map);
 
-// Prints the focus and its origin to stderr.
+// Prints the origin of the focus to stderr.
 void TellFocus(const std::string& path, const DefaultFocus& focus);
 
 }  // namespace starfocus

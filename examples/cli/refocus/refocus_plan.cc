@@ -7,9 +7,11 @@
 
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/engine/timing_file.h"
+#include "examples/cli/input/notes.h"
 #include "examples/command_line/options.h"
 #include "platform/clock.h"
 #include "platform/file.h"
+#include "starfocus/pool.h"
 
 namespace starfocus {
 namespace {
@@ -155,13 +157,12 @@ void AddApertureOptions(Command* command, ApertureOptions* options) {
           {"--f-stop", "N",
            "F-stop of the lens, at least --widest; the radius of the aperture is --widest "
            "/ N; default: see --aperture",
-           Number(&options->f_stop)},
+           FStop(&options->f_stop)},
           {"--widest", "W",
            "F-stop of an aperture of radius 1, above 0: the focal length divided by twice "
            "the distance from the centre to view (1, 0); default: the value stored in the "
            "input, otherwise 1",
-           Number(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
-                  "an f-stop above 0", &options->widest)},
+           FStop(&options->widest)},
           {"--strength", "S",
            "Percentage of the aperture, 0 to 100; 0 keeps the centre view unchanged",
            Number(0, 100, "a percentage from 0 to 100", &options->strength), Use::kOptional,
@@ -201,8 +202,7 @@ void AddLensOptions(Command* command, LensOptions* options) {
            "Views to use: the star of 17, 9, 5 or 1 views, or positions U,V:U,V from -1 "
            "to 1 that begin with 0,0; default: all views of the input",
            Views(&options->views)},
-          {"--threads", "N", "Number of threads, 1 to 64", Threads(&options->threads),
-           Use::kDefault},
+          {"--threads", "N", kThreadsHelp, Threads(&options->threads)},
       },
       command);
   AddTuningOptions(command, options);
@@ -218,6 +218,7 @@ Result<LensPlan> PlanLens(const LensOptions& options) {
   }
   LensPlan plan;
   plan.options = options;
+  if (options.threads == 0) plan.options.threads = starfocus_pool_cores();
   if (options.focus_at) {
     UseFocus({true, options.focus_at->x, options.focus_at->y, 0, ""}, &plan);
   } else if (options.focus) {
@@ -271,6 +272,41 @@ Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   starfocus_focus_at(&depth, map.width, map.height, plan->x, plan->y, &focus);
   plan->foci = {focus};
   return {};
+}
+
+std::string FocusText(const LensPlan& plan) {
+  const double first = plan.foci.front(), last = plan.foci.back();
+  const double near = first + plan.lens.focus_nearer, far = first - plan.lens.focus_farther;
+  if (plan.foci.size() > 1) {
+    return std::to_string(plan.foci.size()) + " foci from disparity " + ThreeDigits(first) +
+           " to " + ThreeDigits(last);
+  }
+  if (near > far) {
+    return "focus from disparity " + ThreeDigits(near) + " to " + ThreeDigits(far);
+  }
+  if (plan.focus_option != "--focus-at") return "focus at disparity " + ThreeDigits(first);
+  return "focus " + std::to_string(plan.x) + "," + std::to_string(plan.y) + " (disparity " +
+         ThreeDigits(first) + ")";
+}
+
+std::string LensText(const LensPlan& plan) {
+  return FocusText(plan) + ", " +
+         (plan.aperture.radius > 0 ? "f/" + ThreeDigits(plan.aperture.widest / plan.aperture.radius)
+                                   : "sharp everywhere");
+}
+
+void TellBlurred(const std::string& path, const starfocus_disparity_stats& stats, double sharp,
+                 const LensPlan& plan) {
+  const double least = plan.aperture.radius > 0 ? sharp / plan.aperture.radius : HUGE_VAL;
+  for (const double focus : plan.foci) {
+    if (focus - plan.lens.focus_farther - stats.max <= least &&
+        stats.min - focus - plan.lens.focus_nearer <= least) {
+      return;
+    }
+  }
+  TellNote(path, "nothing is sharp with the " + FocusText(plan) +
+                     ", because the disparities of the map are from " + ThreeDigits(stats.min) +
+                     " to " + ThreeDigits(stats.max));
 }
 
 Error ForeseeBlur(const LightField& light_field, bool repaired, LensPlan* plan) {

@@ -27,8 +27,8 @@ struct LensOptions {
   ApertureOptions aperture;
   starfocus_mode mode = STARFOCUS_MODE_BLOCK;
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
-  Positions views;  // positions of the views to use; empty: all available views
-  int threads = 1;
+  Positions views;     // positions of the views to use; empty: all available views
+  int threads = 0;     // 0: the number of cores that the process may use
   int superblock = 0;  // side of the superblocks; 0: chosen by the library
   int max_layer = 2, deblocking = 35;
   double n_scale = 1, highlights = 1;
@@ -67,6 +67,18 @@ Result<starfocus_disparity_stats> PrepareDisparity(const std::string& where, con
 
 // Sets the focus to the disparity at the chosen pixel, if the focus depends on a pixel.
 Error ChooseFocus(const FloatMap& map, LensPlan* plan);
+
+// Describes the focus: "focus 273,595 (disparity 14.2)", "focus at disparity 14.2", "focus from
+// disparity 9 to -1" or "25 foci from disparity -3 to 3". The foci must be set.
+std::string FocusText(const LensPlan& plan);
+
+// Describes the lens for the line that reports an output: "focus 273,595 (disparity 14.2), f/1.8".
+std::string LensText(const LensPlan& plan);
+
+// Prints a note if the map, whose disparities are measured in `stats`, has no pixel in focus.
+// `sharp` is the largest blur radius of a pixel in focus.
+void TellBlurred(const std::string& path, const starfocus_disparity_stats& stats, double sharp,
+                 const LensPlan& plan);
 
 // Fits the aperture to the expected blur. ForeseeBlur is called before the map is processed,
 // because processing may take a long time. `repaired` is true if the map will be repaired. The map

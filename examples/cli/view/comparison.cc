@@ -7,6 +7,7 @@
 #include "examples/cli/disparity/map_figures.h"
 #include "examples/cli/pictures/shrink.h"
 #include "examples/cli/pictures/tint.h"
+#include "examples/cli/refocus/aperture.h"
 #include "examples/cli/view/legend.h"
 #include "examples/cli/view/page.h"
 
@@ -16,13 +17,6 @@ namespace {
 constexpr int kSliderSide = 1600, kFigureSide = 600;  // Largest sides of pictures in pixels.
 constexpr uint8_t kFocusColor[3] = {255, 140, 0};
 constexpr int kFocusPercent = 60;  // Share of kFocusColor in the tint of pixels in focus.
-
-// Returns the largest blur radius in pixels of a pixel that counts as in focus: 1/3000 of the
-// picture's diagonal, but at least one pixel. The diameter of the blur is then at most 1/1500 of
-// the diagonal, which is the usual limit for the depth of field.
-double SharpRadius(int width, int height) {
-  return std::max(1.0, std::hypot(width, height) / 3000);
-}
 
 // Returns the disparities that a lens does not blur.
 FocusBand BandOf(const starfocus_lens& lens) {

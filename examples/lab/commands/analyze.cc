@@ -78,6 +78,7 @@ Command AnalyzeCommand() {
       [options] { return Run(*options); },
       {"starfocus-lab analyze", "starfocus-lab analyze -o analysis --max-blur 20"},
       "",
+      {},
       [options] { return !options->folder.empty(); }};
 }
 

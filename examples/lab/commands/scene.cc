@@ -40,7 +40,7 @@ struct SceneOptions {
   Pixel size = {1024, 768};
   Positions views = StarPositions(17);
   starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;
-  int threads = starfocus_pool_cores();
+  int threads = 1;
   std::optional<int> seed;
   std::vector<std::string> truths;
   ShapeOptions shape;
@@ -244,8 +244,7 @@ Command SceneCommand() {
   AddShapeOptions(&command, &options->shape);
   AddOptions(
       {
-          {"--threads", "N", "Number of threads, 1 to 64; default: one for each fast core",
-           Threads(&options->threads)},
+          ThreadsOption(&options->threads),
       },
       &command);
   return command;

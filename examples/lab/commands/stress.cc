@@ -11,6 +11,7 @@
 
 #include "examples/command_line/options.h"
 #include "examples/lab/commands.h"
+#include "platform/console.h"
 #include "platform/file.h"
 #include "platform/progress.h"
 #include "tests/stress/rig.h"
@@ -82,7 +83,7 @@ stress::Report Try(stress::Options* wanted) {
     told = now;
   };
   return stress::RunStress(*wanted, [](const std::string& line) {
-    std::printf("FAILED: %s\n", line.c_str());
+    PrintLine("FAILED: " + line);
     std::fflush(stdout);
   });
 }
