@@ -11,7 +11,7 @@ void AddOptions(std::initializer_list<Option> options, Command* command) {
 
 std::vector<Option> AllOptions(const Program& program, const Command& command) {
   std::vector<Option> options = {kHelpOption};
-  if (!command.basics.empty()) options.push_back(kHelpAllOption);
+  if (!program.main.basics.empty()) options.push_back(kHelpAllOption);
   options.insert(options.end(), command.options.begin(), command.options.end());
   if (&command == &program.main) options.push_back(kVersionOption);
   return options;

@@ -43,9 +43,12 @@ void AddOption(const Option& option, Error* wrong, CLI::App* app) {
   if (option.excludes != nullptr) added->excludes(app->get_option(option.excludes));
 }
 
-void AddCommandOptions(const Command& command, Error* wrong, CLI::App* app) {
+void AddCommandOptions(const Program& program, const Command& command, Error* wrong,
+                       CLI::App* app) {
   app->set_help_flag(kHelpOption.names, kHelpOption.help);
-  if (!command.basics.empty()) app->set_help_all_flag(kHelpAllOption.names, kHelpAllOption.help);
+  if (!program.main.basics.empty()) {
+    app->set_help_all_flag(kHelpAllOption.names, kHelpAllOption.help);
+  }
   for (const Option& option : command.options) AddOption(option, wrong, app);
 }
 
@@ -62,13 +65,13 @@ std::string FooterOf(const Command& command) {
 void Translate(const Program& program, Error* wrong, CLI::App* app) {
   app->name(program.main.name);
   app->description(program.main.help);
-  AddCommandOptions(program.main, wrong, app);
+  AddCommandOptions(program, program.main, wrong, app);
   app->set_version_flag(kVersionOption.names, VersionText(program.main.name), kVersionOption.help);
   // If a subcommand were required, CLI11 would report its absence instead of a wrong argument.
   if (!program.commands.empty()) app->require_subcommand(0, 1);
   for (const Command& command : program.commands) {
     CLI::App* added = app->add_subcommand(command.name, command.help);
-    AddCommandOptions(command, wrong, added);
+    AddCommandOptions(program, command, wrong, added);
     added->footer(FooterOf(command));
   }
   const std::string footer = FooterOf(program.main);

@@ -89,11 +89,13 @@ TEST_CASE("program: every way to request help prints the same text") {
     // The help text must name the kind of each option's value.
     CHECK(!Contains(one.out, " TEXT"));
   }
+  CHECK(Call(folder, "help --help-all").out == Call(folder, "help --help").out);
   for (const std::string command :
        {"scene", "compare", "sheet", "analyze", "calibrate", "steps", "stress"}) {
     CAPTURE(command);
     CHECK(!Contains(all.out, "\n  " + command + " "));
     const Outcome one = Call(folder, command + " --help");
+    CHECK(Call(folder, command + " --help-all").out == one.out);
     CHECK(one.code == 0);
     CHECK(Contains(one.out, "starfocus-lab " + command + " [OPTIONS]"));
     CHECK(!Contains(one.out, " TEXT"));

@@ -36,6 +36,18 @@ const char* DepthOption(const InputOptions& options) {
   return options.map.has_unknown ? "--unknown" : nullptr;
 }
 
+// Rejects pipes by name, such as the process substitution `<(cat photo.jpg)` of shells.
+Error CheckPipes(const InputOptions& options) {
+  for (const std::string& path : {options.path, options.depth, options.right, options.coverage}) {
+    std::error_code ignored;
+    if (path.empty() || path == "-" || !std::filesystem::is_fifo(path, ignored)) continue;
+    return Cannot("read", path,
+                  "it is a pipe (the name - reads standard input, as in `cat photo.jpg | starfocus "
+                  "info -`)");
+  }
+  return {};
+}
+
 // Checks that the other options fit the right picture of a stereo pair.
 Error CheckRight(const InputOptions& options) {
   std::error_code ignored;
@@ -71,6 +83,7 @@ Error Estimate(int threads, Capture* capture) {
 }  // namespace
 
 Result<Capture> ReadInput(const InputOptions& options) {
+  if (Error error = CheckPipes(options)) return error;
   if (Error error = CheckRight(options)) return error;
   if (options.path == "-") {
     if (options.depth == "-") {
@@ -91,11 +104,6 @@ Result<Capture> ReadInput(const InputOptions& options) {
   if (option != nullptr && options.path != "-" &&
       std::filesystem::is_directory(options.path, ignored)) {
     return Error::Usage(option, "a photo as SRC", "the folder " + options.path);
-  }
-  if (options.path != "-" && std::filesystem::is_fifo(options.path, ignored)) {
-    return Cannot("read", options.path,
-                  "it is a pipe (the input - reads a photo from standard input: "
-                  "`cat photo.jpg | starfocus info -`)");
   }
   bool estimates = false;
   if (EstimatesDepth(options)) {
