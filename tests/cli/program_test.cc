@@ -175,6 +175,7 @@ TEST_CASE("program: --help fits on a screen, and --help-all and the manual have 
     for (const std::string& line : LinesOf(basic)) {
       CAPTURE(line);
       CHECK(line.size() <= 80);
+      CHECK(line.rfind("   ", 0) != 0);  // a line without a name
     }
     const std::set<std::string> basics = OptionsIn(basic), options = OptionsIn(all.out);
     CHECK(options.size() > (command.empty() ? 3 : basics.size()));
@@ -317,7 +318,7 @@ TEST_CASE("program: the program fails if it cannot write its output") {
     CHECK(Contains(full.err, "standard output"));
     const Outcome closed =
         Call(folder, arguments + " >&8", "rm -f p; mkfifo p; true <p & exec 8>p; wait;");
-    // As in other programs, the closed pipe of `| head` is no error.
+    // A closed pipe, as after `| head`, ends the program like other programs.
     CHECK(closed.code == -1);
     CHECK(closed.err == "");
   }
