@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Command of ./do that builds Debian packages; sourced by ./do.
 
-DEBIAN_PACKAGES="debhelper dh-python dpkg-dev fakeroot lintian pkg-config python3-setuptools python3-wheel"
+DEBIAN_PACKAGES="build-essential debhelper dh-python dpkg-dev fakeroot lintian pkg-config python3-setuptools python3-wheel"
 
 # make_debian_source FOLDER: writes the files of the commit HEAD, and the folder debian/, to an empty folder.
 make_debian_source() {
