@@ -237,7 +237,8 @@ Image ReadKitty(const std::string& out) {
   return ValueOf(DecodeImage("kitty", *bytes)).image;
 }
 
-TEST_CASE("show: a terminal with the kitty protocol gets the pixels, reduced if necessary") {
+TEST_CASE("show: a terminal with the kitty protocol gets the pixels, reduced if necessary" *
+          doctest::test_suite("terminal")) {
   TempFolder folder;
   MakeField(folder);
   const TerminalRun run = Show(folder, "\x1b_Gi=31;OK\x1b\\\x1b[?62;4c", 800, 600);
@@ -258,7 +259,8 @@ TEST_CASE("show: a terminal with the kitty protocol gets the pixels, reduced if 
   CHECK(narrow.height == 20);
 }
 
-TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture") {
+TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture" *
+          doctest::test_suite("terminal")) {
   TempFolder folder;
   MakeField(folder);
   const TerminalRun run = Show(folder, "\x1b[?62;4;22c", 800, 600);
@@ -272,7 +274,7 @@ TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture")
   CHECK(Contains(Show(folder, "\x1b[?2;0;30;400S\x1b[?62;4c", 800, 600).out, "q\"1;1;30;20"));
   CHECK(Contains(Show(folder, "\x1b[?2;0;300;10S\x1b[?62;4c", 800, 600).out, "q\"1;1;15;10"));
   if (std::system("command -v sixel2png >/dev/null") != 0) {
-    MESSAGE("SKIPPED: sixel2png is absent");
+    MESSAGE("sixel2png is absent, so no other program decodes the sixels");
     return;
   }
   REQUIRE(WriteText(folder.file("sixels"), sixels) == "");
@@ -283,8 +285,8 @@ TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture")
                        ValueOf(ReadImage(folder.file("out.png")))) < 6);
 }
 
-TEST_CASE(
-    "show: on other terminals, the other outputs are written, and the terminal keeps its mode") {
+TEST_CASE("show: on other terminals, the other outputs are written, and the terminal keeps its mode" *
+          doctest::test_suite("terminal")) {
   TempFolder folder;
   MakeField(folder);
   const std::string expected = "--show: expected a terminal with kitty or sixel graphics, found a ";

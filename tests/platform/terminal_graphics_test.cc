@@ -13,6 +13,7 @@
 
 #include "platform/signal_cleanup.h"
 #include "tests/support/child.h"
+#include "tests/support/terminal.h"
 
 namespace starfocus::terminal_graphics_test {
 namespace {
@@ -33,11 +34,9 @@ TEST_CASE("terminal: an answer is complete when the device attributes have arriv
   CHECK(answers.sixel_height == 900);
 }
 
-TEST_CASE("terminal: a signal during the query restores the echo") {
-  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
-  REQUIRE(terminal >= 0);
-  REQUIRE(grantpt(terminal) == 0);
-  REQUIRE(unlockpt(terminal) == 0);
+TEST_CASE("terminal: a signal during the query restores the echo" *
+          doctest::test_suite("terminal")) {
+  const int terminal = OpenPseudoterminal();
   const int program = open(ptsname(terminal), O_RDWR | O_NOCTTY);
   REQUIRE(program >= 0);
   const auto echoes = [program] {

@@ -23,6 +23,17 @@ struct TerminalRun {
       false;  // true if the terminal echoes and reads lines after the program, as before
 };
 
+// Opens the controlling side of a new pseudoterminal. Where /dev/pts is not mounted, as in some
+// chroots, the test case fails with a message for which ctest lists the suite `terminal` as
+// skipped.
+inline int OpenPseudoterminal() {
+  const int controller = posix_openpt(O_RDWR | O_NOCTTY);
+  const bool exists = controller >= 0 && grantpt(controller) == 0 && unlockpt(controller) == 0 &&
+                      access(ptsname(controller), F_OK) == 0;
+  REQUIRE_MESSAGE(exists, "SKIPPED: this machine has no pseudoterminals; is /dev/pts mounted?");
+  return controller;
+}
+
 // Connects standard input and output of this process to a terminal, and runs a shell command.
 [[noreturn]] inline void RunOnTerminal(const std::string& name, const std::string& command) {
   setsid();
@@ -37,10 +48,7 @@ struct TerminalRun {
 // terminal sends `answer`.
 inline TerminalRun CallOnTerminal(const std::string& command, const winsize& size,
                                   const std::string& query, const std::string& answer) {
-  const int controller = posix_openpt(O_RDWR | O_NOCTTY);
-  REQUIRE(controller >= 0);
-  REQUIRE(grantpt(controller) == 0);
-  REQUIRE(unlockpt(controller) == 0);
+  const int controller = OpenPseudoterminal();
   REQUIRE(ioctl(controller, TIOCSWINSZ, &size) == 0);
   const std::string name = ptsname(controller);
   const int kept = open(name.c_str(), O_RDWR | O_NOCTTY);  // keeps the terminal after the program
