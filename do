@@ -72,20 +72,37 @@ fail() {
   exit 1
 }
 
-# watch LABEL LOG: prints the last line of the log while a step runs.
+# fit TEXT COLUMNS: prints the start of the text that COLUMNS columns of a terminal can show. Characters outside of ASCII
+# count as two columns, the width of the widest characters.
+fit() {
+  local text=${1:0:$2} wide
+  wide=${text//[ -~]/}
+  while [ $((${#text} + ${#wide})) -gt "$2" ]; do
+    text=${text%?}
+    wide=${text//[ -~]/}
+  done
+  printf '%s' "$text"
+}
+
+# watch LABEL LOG: prints the last line of the log while a step runs, in one line of the terminal.
 watch() {
+  local size columns
+  exec 3<&1
   while kill -0 $$ 2>/dev/null; do
-    printf '\r\033[K%s: %s' "$1" "$(tail -n 1 "$2" | tr -d '\r\033' | cut -c 1-60)"
+    size=$(stty size <&3 2>/dev/null)
+    columns=${size#* }
+    [ "${columns:-0}" -gt 0 ] || columns=80
+    printf '\r\033[K%s' "$(fit "$1: $(tail -n 1 "$2" | tr '\t' ' ' | tr -d '[:cntrl:]')" $((columns - 1)))"
     sleep 0.3
   done
 }
 
-# step NAME LABEL COMMAND...: runs a command with its output in build/log/NAME.log. If the command fails, prints the
-# log.
-step() {
-  local label=$2 log=$LOGS/$1.log start=$SECONDS watcher= result=0
+# logged LABEL LOG COMMAND...: runs a command with its output in the file LOG, and prints the last line of the output
+# while the command runs.
+logged() {
+  local label=$1 log=$2 watcher= result=0
   shift 2
-  mkdir -p "$LOGS" && : >"$log" || exit 1
+  mkdir -p "${log%/*}" && : >"$log" || exit 1
   if [ -t 1 ]; then
     watch "$label" "$log" &
     watcher=$!
@@ -96,7 +113,15 @@ step() {
     wait $watcher 2>/dev/null
     printf '\r\033[K'
   fi
-  if [ $result != 0 ]; then
+  return $result
+}
+
+# step NAME LABEL COMMAND...: runs a command with its output in build/log/NAME.log. If the command fails, prints the
+# log.
+step() {
+  local label=$2 log=$LOGS/$1.log start=$SECONDS
+  shift 2
+  if ! logged "$label" "$log" "$@"; then
     tail -n 40 "$log" >&2
     fail "$label: failed; the whole log is $log"
   fi
@@ -185,7 +210,7 @@ install_missing() {
       fail "starfocus needs these packages; install them as root: apt-get install $missing"
     sudo -v || fail "starfocus needs root's leave to install: $missing"
   fi
-  step install "installing $missing" install_packages
+  step install "installing $(wc -w <<<"$missing") packages" install_packages
 }
 
 configure() {
