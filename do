@@ -61,6 +61,8 @@ usage: ./do COMMAND
           to tap, and check its links
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file, and name the licence in new ones
+  bare [COMMAND...]  run every command that installs packages, or the given ones, in separate copies
+          of a bare Debian 12 with git, and print a table of the results (as root; takes hours)
   help    this text
 
 Packages are installed with apt-get, as root or with sudo, and only when absent.
@@ -447,8 +449,8 @@ bench() {
 }
 
 format() {
-  local licence='SPDX-License-Identifier: Apache-2.0'
-  command -v clang-format >/dev/null || fail "install the package clang-format first"
+  local PACKAGES=clang-format licence='SPDX-License-Identifier: Apache-2.0'
+  install_missing
   sources() {
     find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' -o \
       -name '*.java' \) "$@"
@@ -460,6 +462,7 @@ format() {
 . toolchains/commands.sh
 . toolchains/web.sh
 . toolchains/site/site.sh
+. toolchains/packaging/bare.sh
 . toolchains/packaging/packages.sh
 . toolchains/packaging/release.sh
 . toolchains/packaging/wheel.sh
@@ -485,6 +488,7 @@ case "${1:-help}" in
   count) count_command "${2:-}" ;;
   size) size "${2:-}" ;;
   format) format ;;
+  bare) shift && bare "$@" ;;
   help | -h | --help) help ;;
   *) help >&2; exit 1 ;;
 esac

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # do_test.sh SOURCES: checks the messages and exit codes of ./do build on machines without some tools. The test replaces
-# tools by fake programs. The programs dpkg and apt-get are absent.
+# tools by fake programs. The programs dpkg and apt-get are absent. The test also checks the commands of ./do bare.
 set -eu
 sources=$(cd "$1" && pwd)
 work=$(mktemp -d)
@@ -43,3 +43,8 @@ grep -qE 'packages.*: libcli11-dev$' "$work/said" || fail "expected libcli11-dev
 printf '#!/bin/sh\n' >"$work/bin/c++"
 build
 [ $result = 0 ] || fail "everything is there, and it fails"
+
+# Each command of the help installs packages, except `help` and `bare` itself, and is tried in a bare Debian.
+"$work/tree/do" help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p' | grep -vxE 'help|bare' | sort -u >"$work/commands"
+bash -c '. "$0" && echo "$BARE_COMMANDS"' "$work/tree/toolchains/packaging/bare.sh" | sed 's/ .*//' | sort -u >"$work/tried"
+diff "$work/commands" "$work/tried" >"$work/said" || fail "the help (<) and BARE_COMMANDS (>) have different commands"

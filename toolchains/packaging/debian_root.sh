@@ -10,6 +10,9 @@ here=$(cd "$(dirname "$0")" && pwd)
 mirror=$(. /etc/os-release && apt-get indextargets --format '$(RELEASE) $(REPO_URI)' 'Created-By: Packages' |
   sed -n "s/^$VERSION_CODENAME //p" | head -n 1)
 debootstrap --variant=minbase --foreign --arch="$3" "$2" "$1" ${mirror:+"$mirror"}
+# dpkg waits for the disk after each file. A folder that can be made again does not need this.
+mkdir -p "$1/etc/dpkg/dpkg.cfg.d"
+echo force-unsafe-io >"$1/etc/dpkg/dpkg.cfg.d/unsafe-io"
 # The user namespace of emulate.sh cannot create devices. debootstrap supports this restriction for containers of LXC.
 "$here/emulate.sh" "$3" chroot "$1" env container=lxc /debootstrap/debootstrap --second-stage
 cp /etc/resolv.conf "$1/etc/"
