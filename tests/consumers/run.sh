@@ -83,18 +83,17 @@ package() {
   done
   project 'CMake package, C++' cmake_package -DLANGUAGE=CXX -DCMAKE_PREFIX_PATH="$prefix"
 
-  # Checks that the installation prefix can be moved, and that pkg-config --static works without the shared library.
+  # Checks that the installation prefix can be moved, and that the command of docs/library.md links the static library
+  # although the shared library exists: the linked programs would not find the shared library.
   mv "$prefix" "$work/moved"
   PKG_CONFIG_PATH=$(dirname "$(find "$work/moved" -name starfocus.pc)")
   export PKG_CONFIG_PATH
   folder=$(pkg-config --variable=libdir starfocus)
   program 'pkg-config, C99, shared' $(pkg-config --cflags --libs starfocus) "-Wl,-rpath,$folder"
-  mkdir "$work/aside"
-  mv "$folder"/libstarfocus.so* "$work/aside"
-  program 'pkg-config --static, C99' $(pkg-config --static --cflags --libs starfocus)
-  program 'pkg-config --static, C99, pool' -DWITH_POOL \
-    $(pkg-config --static --cflags --libs starfocus-pool)
-  mv "$work"/aside/* "$folder"
+  program 'pkg-config, C99, static' \
+    $(pkg-config --static --cflags --libs starfocus | sed 's/-lstarfocus\>/-l:libstarfocus.a/')
+  program 'pkg-config, C99, static, pool' -DWITH_POOL \
+    $(pkg-config --static --cflags --libs starfocus-pool | sed 's/-lstarfocus\>/-l:libstarfocus.a/')
 
   mv "$work/moved" "$prefix"
   quietly cmake --build "$build" --target uninstall

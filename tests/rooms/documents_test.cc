@@ -79,6 +79,15 @@ TEST_CASE("documents: README.md has at most 110 lines") {
   CHECK(text.size() > 1000);
 }
 
+TEST_CASE("documents: pages begin with what readers type or look for, not with their purpose") {
+  for (const fs::path& document : Documents()) {
+    const std::string text = Read(document);
+    const bool is_about_itself = text.find("page is for") != std::string::npos ||
+                                 text.find("After reading this page") != std::string::npos;
+    CHECK_MESSAGE(!is_about_itself, document.filename().string());
+  }
+}
+
 TEST_CASE("documents: files that name the version of the library name the right one") {
   const std::string version = STARFOCUS_VERSION_STRING;
   const std::string major = std::to_string(STARFOCUS_VERSION_MAJOR);
