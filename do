@@ -227,8 +227,10 @@ configure() {
 
 # build [TARGET...]: builds everything, or the given targets.
 build() {
+  local what=${*:-everything}
+  [ $# -le 2 ] || what="$# targets"
   configure
-  step build "building ${*:-everything} in $BUILD" \
+  step build "building $what in $BUILD" \
     cmake --build $BUILD --parallel "$(nproc)" --target "${@:-all}"
 }
 
@@ -370,7 +372,7 @@ fuzz() {
   PACKAGES="$PACKAGES $FUZZ_PACKAGES"
   install_missing
   build_sanitized $(printf 'starfocus_fuzz_%s ' $FUZZ_TARGETS)
-  step fuzz "fuzzing $FUZZ_TARGETS" side_by_side "fuzz_target $1" $FUZZ_TARGETS
+  step fuzz "fuzzing $(wc -w <<<"$FUZZ_TARGETS") targets" side_by_side "fuzz_target $1" $FUZZ_TARGETS
   for target in $FUZZ_TARGETS; do
     printf '%s: %s inputs\n' "$target" \
       "$(sed -n 's/^stat::number_of_executed_units: *//p' "$LOGS/fuzz-$target.log")"
