@@ -281,7 +281,7 @@ class Arguments(unittest.TestCase):
                 call()
         with self.assertRaisesRegex(TypeError, "disparity: expected float32, found int64"):
             engine.refocus(VIEWS, DISPARITY.astype(np.int64), focus=1)
-        for shape in ((0, 4), (4, 0), (4,), (1, 4, 4)):
+        for shape in ((0, 4), (4, 0), (4,), (2, 4, 4), (4, 4, 3)):
             with self.assertRaisesRegex(ValueError, "disparity: expected the shape"):
                 starfocus.measure_disparity(np.zeros(shape, np.float32))
 

@@ -9,12 +9,14 @@ from numpy.typing import NDArray
 import starfocus
 
 scene: starfocus.LightField = starfocus.read_light_field(Path("photo.png"), depth="depth.npy", threads=2)
+scene = starfocus.read_light_field(b"photo.png", depth=Path("depth.npy"))
 assert scene.disparity is not None
 disparity: NDArray[np.float32] = scene.disparity
 refocuser = starfocus.Refocuser.for_light_field(scene.views, disparity, positions=scene.positions, streaming=1)
 picture: NDArray[np.uint8] = refocuser.refocus(scene.views, disparity, focus=1, blades=5, shape=starfocus.Shape.POLYGON)
 image: starfocus.Image = starfocus.Image.empty(starfocus.Format.NV12, 640, 480)
 image = refocuser.refocus(scene.views, starfocus.DepthMap(disparity), focus=1, out=image)
+refocuser = starfocus.Refocuser.for_light_field(picture, starfocus.DepthMap(disparity))
 prepared = refocuser.prepare(scene.views, disparity)
 picture = prepared.refocus(focus=starfocus.focus_at(disparity, 1, 2), out=picture)
 picture = prepared.preview(1, focus=1, region=(0, 0, 2, 2))

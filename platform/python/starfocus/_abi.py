@@ -12,6 +12,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, 
 from pathlib import Path
 
 MAX_VIEWS = 17
+MAX_SIZE = 65535
 ALIGNMENT = 64
 ABI_VERSION = 2
 #: Names and bits of STARFOCUS_FEATURE_*, which are keywords of Refocuser.

@@ -6,15 +6,14 @@ import ctypes
 import operator
 import weakref
 from functools import partial
-from typing import Any, Callable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Collection, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _abi
 from ._abi import library
 from ._types import Array, Bytes
-from .constants import Status
-from .errors import ArgumentError, check
+from .errors import check, out_of_range
 
 #: Progress callback: receives the number of finished rows and the number of all rows. If the callback returns a true
 #: value, the call is cancelled.
@@ -61,21 +60,69 @@ def part_of(region: Optional[RegionOfPicture], width: int, height: int) -> Regio
     if not (x or y or columns or rows):
         return 0, 0, width, height
     if min(x, y) < 0 or min(columns, rows) < 1 or x + columns > width or y + rows > height:
-        raise ArgumentError(Status.RANGE, _abi.Problem(Status.RANGE, 0, b"region", b"inside the picture", np.nan))
+        raise out_of_range("region", "inside the picture", np.nan)
     return x, y, columns, rows
 
 
 def rows_of(array: Any, dtype: Any, shape: Tuple[int, ...], what: str) -> Array:
-    """Returns the array if the library can read it in place, otherwise a contiguous copy.
+    """Returns the array if the library can read it in place, otherwise a copy.
 
-    Raises TypeError or ValueError if the array has another type or shape.
+    Raises TypeError or ValueError if the array has another type or shape, or masked values.
     """
     given: Array = np.asarray(array)
+    masked = _mask_of(array)
+    if masked is not None:
+        raise ValueError(f"{what}: expected no masked values, found {masked.sum()}")
     if given.dtype != dtype:
         raise TypeError(f"{what}: expected {np.dtype(dtype)}, found {given.dtype}")
+    given = _without_batch(given, len(shape))
     if given.shape != shape:
         raise ValueError(f"{what}: expected the shape {shape}, found {given.shape}")
-    return given if has_rows(given) else np.ascontiguousarray(given)
+    return readable(given)
+
+
+def _without_batch(array: Array, axes: int) -> Array:
+    """Returns the array without axes of length 1 before or after the wanted number of axes, which networks add."""
+    while array.ndim > axes and array.shape[0] == 1:
+        array = array[0]
+    while array.ndim > axes and array.shape[-1] == 1:
+        array = array[..., 0]
+    return array
+
+
+def _mask_of(array: Any) -> Optional[Array]:
+    """Returns True for each masked value of an array, or None if no value is masked."""
+    masked: Array = np.asarray(array.mask if isinstance(array, np.ma.MaskedArray) else False)
+    return np.broadcast_to(masked, array.shape) if masked.any() else None
+
+
+def readable(array: Array) -> Array:
+    """Returns the array if the library can read it in place, otherwise a copy."""
+    return array if has_rows(array) else np.array(array, order="C")
+
+
+def map_values(given: Any, types: Collection[Any], what: str) -> Array:
+    """Returns a depth map of two axes with one of the types that the library can read in place, if necessary as a copy.
+
+    Other floating-point types are converted to float32, and other byte orders to the native one. Masked values become
+    NaN, which is unknown depth. Raises TypeError or ValueError for other types and shapes.
+    """
+    values, masked = _without_batch(np.asarray(given), 2), _mask_of(given)
+    if values.ndim != 2 or 0 in values.shape:
+        raise ValueError(f"{what}: expected the shape (height, width), found {values.shape}")
+    kind = values.dtype.newbyteorder("=")
+    is_float = np.issubdtype(kind, np.floating)
+    if is_float and kind not in types or masked is not None and not is_float and kind in types:
+        kind = np.dtype(np.float32)
+    if kind not in types:
+        raise TypeError(f"{what}: expected {' or '.join(str(one) for one in types)}, found {values.dtype}")
+    if values.dtype != kind:
+        with np.errstate(over="ignore"):  # the library rejects infinite values
+            values = values.astype(kind)
+    if masked is not None:
+        values = values.copy()
+        values[_without_batch(masked, 2)] = np.nan
+    return readable(values)
 
 
 def has_rows(array: Array) -> bool:
@@ -106,20 +153,25 @@ def output(out: Optional[Array], shape: Tuple[int, ...], what: str) -> Bytes:
     return out
 
 
-def as_list(views: Views) -> Views:
-    """Returns the views as a sequence. A single array of shape (height, width, 3) becomes one view."""
-    return [views] if isinstance(views, np.ndarray) and views.ndim == 3 else views
+def as_list(views: Views) -> Sequence[Any]:
+    """Returns the views as a sequence. A single Image or array of shape (height, width, 3) becomes one view."""
+    if isinstance(views, (list, tuple)):
+        return views
+    return [views] if hasattr(views, "as_structure") or np.ndim(views) == 3 else views  # type: ignore[return-value]
+
+
+def size_of_views(views: Sequence[Any]) -> Tuple[int, int]:
+    """Returns the height and width of the first view that is an array. Raises ValueError if no view is one."""
+    shape = next((np.shape(view) for view in views if not hasattr(view, "as_structure")), ())
+    if len(shape) < 3:
+        raise ValueError(f"views: expected arrays of the shape (height, width, 3), found {len(views)} of {shape}")
+    height, width = shape[-3:-1]
+    return height, width
 
 
 def as_map(disparity: Any) -> Array:
     """Returns a disparity map as float32. Maps of other floating-point types are converted."""
-    disparity = np.asarray(disparity)
-    if disparity.ndim != 2 or 0 in disparity.shape:
-        raise ValueError(f"disparity: expected the shape (height, width), found {disparity.shape}")
-    if disparity.dtype != np.float32 and np.issubdtype(disparity.dtype, np.floating):
-        with np.errstate(over="ignore"):  # the library rejects infinite values
-            disparity = disparity.astype(np.float32)
-    return rows_of(disparity, np.float32, disparity.shape, "disparity")
+    return map_values(disparity, (np.dtype(np.float32),), "disparity")
 
 
 def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int) -> List[Array]:
@@ -145,24 +197,29 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
                 width: int) -> Tuple[_abi.LightField, List[Any]]:
     """Returns a starfocus_light_field, and the arrays that must stay alive while the library may read it.
 
-    The views are arrays or Images. The disparity map is an array, a DepthMap, or None if there is no map.
+    The views are arrays or Images. The disparity map is an array, a DepthMap, or None if there is no map. The arrays
+    of an Image are kept instead of the Image, because its list of planes may change.
     """
     views = as_list(views)
     if len(views) != count:
         raise ValueError(f"views: expected {count}, found {len(views)}")
-    field, kept = _abi.LightField(), []
+    field = _abi.LightField()
+    kept: List[Any] = []
     for i, view in enumerate(views):
         if hasattr(view, "as_structure"):
-            field.views[i] = view.as_structure(width, height, f"view {i}")
+            field.views[i], planes = view.as_structure(width, height, f"view {i}")
+            kept += planes
         else:
-            view = rows_of(view, np.uint8, (height, width, 3), f"view {i}")
-            field.views[i] = as_image(view)
-        kept.append(view)
+            kept.append(rows_of(view, np.uint8, (height, width, 3), f"view {i}"))
+            field.views[i] = as_image(kept[-1])
     if disparity is not None:
         if not hasattr(disparity, "as_structure"):
             disparity = rows_of(as_map(disparity), np.float32, (height, width), "disparity")
         field.depth, values = depth_map(disparity)
         kept.append(values)
+        if field.depth.width > width or field.depth.height > height:
+            raise ValueError(f"depth: expected at most {width} x {height} values, found "
+                             f"{field.depth.width} x {field.depth.height}")
     return field, kept
 
 

@@ -55,6 +55,11 @@ _KINDS = {
 }
 
 
+def out_of_range(field: str, expected: str, found: float) -> ArgumentError:
+    """Returns the error for an argument of a C function that reports no starfocus_problem."""
+    return ArgumentError(Status.RANGE, Problem(Status.RANGE, 0, field.encode(), expected.encode(), found))
+
+
 def check(status: int, problem: Optional[Problem] = None) -> None:
     """Raises the exception for a status, unless it is OK."""
     if status != Status.OK:

@@ -8,14 +8,16 @@ from typing import Optional, Sequence, Tuple
 import numpy as np
 
 from . import _abi
-from ._calls import has_rows, stride_of, whole
+from ._calls import has_rows, map_values, stride_of, whole
 from ._types import Array, Bytes
 from .constants import DepthMeaning, Format, Matrix, Range
+from .errors import out_of_range
 
 _PIXEL_BYTES = {Format.RGB: 3, Format.BGR: 3, Format.RGBX: 4, Format.BGRX: 4}
 _CHROMA_PLANES = {Format.NV12: 1, Format.NV21: 1, Format.I420: 2, Format.YUV_420_888: 2}
 _DEPTH_TYPES = {np.dtype(np.float32): 0, np.dtype(np.uint16): 1, np.dtype(np.uint8): 2, np.dtype(np.float16): 3}
 _DEPTH16 = 4
+_LARGEST_FLOAT = float(np.finfo(np.float32).max)
 
 
 @dataclass(frozen=True)
@@ -50,8 +52,9 @@ class Image:
         sizes = _plane_sizes(form, 0, width, height)
         return Image(form, [np.empty(size, np.uint8) for size in sizes], matrix, codes)
 
-    def as_structure(self, width: int, height: int, what: str, written: bool = False) -> _abi.Image:
-        """Returns the starfocus_image of a picture of this size.
+    def as_structure(self, width: int, height: int, what: str,
+                     written: bool = False) -> Tuple[_abi.Image, Sequence[Bytes]]:
+        """Returns the starfocus_image of a picture of this size, and the arrays that it points to.
 
         Raises TypeError or ValueError if a plane has the wrong type, is too small, or cannot be read or written in
         place. `what` names the picture in messages; `written` is True for outputs.
@@ -59,12 +62,13 @@ class Image:
         form, pixel_stride = Format(self.format), whole(self.pixel_stride, f"{what}, pixel_stride")
         image = _abi.Image(form, Matrix(self.matrix), Range(self.range), pixel_stride)
         sizes = _plane_sizes(form, pixel_stride, width, height)
-        if len(self.planes) != len(sizes):
-            raise ValueError(f"{what}: expected {len(sizes)} planes, found {len(self.planes)}")
-        for i, (plane, (rows, row_bytes)) in enumerate(zip(self.planes, sizes)):
+        planes = tuple(self.planes)
+        if len(planes) != len(sizes):
+            raise ValueError(f"{what}: expected {len(sizes)} planes, found {len(planes)}")
+        for i, (plane, (rows, row_bytes)) in enumerate(zip(planes, sizes)):
             _check_plane(plane, rows, row_bytes, f"{what}, plane {i}", written)
             image.planes[i], image.strides[i] = plane.ctypes.data, stride_of(plane)
-        return image
+        return image, planes
 
 
 @dataclass(frozen=True)
@@ -72,8 +76,9 @@ class DepthMap:
     """Depth map of the centre view, as large as the picture or smaller.
 
     Attributes:
-        values: array of shape (height, width) with aligned, contiguous rows, of float32, float16, uint16 or uint8.
-            float64 and other byte orders are converted.
+        values: array of shape (height, width), of float32, float16, uint16 or uint8. Arrays with aligned, contiguous
+            rows are read in place, and all others are copied, for example flipped ones. Other floating-point types and
+            byte orders are converted. Masked values are unknown depth.
         meaning: how a value z gives a disparity: scale * z + offset (LINEAR), or scale / z + offset for distances z
             (RECIPROCAL).
         scale: finite and not 0; rounded to float32.
@@ -96,21 +101,17 @@ class DepthMap:
 
         Raises TypeError or ValueError if the values have the wrong type or shape.
         """
-        values = np.asarray(self.values)
-        native = np.dtype(np.float32) if values.dtype.type == np.float64 else values.dtype.newbyteorder("=")
-        if values.dtype != native:
-            with np.errstate(over="ignore"):  # the library rejects infinite values
-                values = values.astype(native)
-        if values.dtype not in _DEPTH_TYPES:
-            raise TypeError(f"depth: expected float32, float16, uint16 or uint8, found {values.dtype}")
+        values = map_values(self.values, _DEPTH_TYPES, "depth")
         if self.depth16 and values.dtype != np.uint16:
             raise TypeError(f"depth: expected uint16 for depth16, found {values.dtype}")
-        if values.ndim != 2 or 0 in values.shape or not has_rows(values):
-            raise ValueError(f"depth: expected rows of values, contiguous and aligned, found the shape "
-                             f"{values.shape} with the strides {values.strides}")
+        if not abs(self.scale) <= _LARGEST_FLOAT or np.float32(self.scale) == 0:
+            raise out_of_range("depth.scale", "a finite number other than 0", self.scale)
+        if not abs(self.offset) <= _LARGEST_FLOAT:
+            raise out_of_range("depth.offset", "a finite number", self.offset)
         height, width = values.shape
-        depth = _abi.DepthMap(values.ctypes.data, stride_of(values), width, height,
-                              _DEPTH16 if self.depth16 else _DEPTH_TYPES[values.dtype], DepthMeaning(self.meaning), self.scale, self.offset, self.invalid or 0.0,
+        kind = _DEPTH16 if self.depth16 else _DEPTH_TYPES[values.dtype]
+        depth = _abi.DepthMap(values.ctypes.data, stride_of(values), width, height, kind,
+                              DepthMeaning(self.meaning), self.scale, self.offset, self.invalid or 0.0,
                               self.invalid is not None)
         return depth, values
 

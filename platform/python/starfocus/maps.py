@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from ctypes import byref
 from typing import Any, List, NamedTuple, Optional, Tuple, Union
 
@@ -10,10 +11,10 @@ import numpy as np
 
 from . import _abi
 from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, depth_map, light_field, pointer,
-                     positions_of, set_field, stride_of, whole)
+                     positions_of, set_field, size_of_views, stride_of, whole)
 from ._abi import library
 from ._types import Array, Bytes, Floats
-from .errors import check
+from .errors import check, out_of_range
 from .images import DepthMap
 
 #: A disparity map: an array of floats of shape (height, width), or a DepthMap.
@@ -99,8 +100,14 @@ def focus_at(disparity: Disparity, x: int, y: int, size: Optional[Tuple[int, int
     """
     depth, kept = depth_map(disparity)
     width, height = (depth.width, depth.height) if size is None else (whole(length, "size") for length in size)
+    for name, length, least in (("size[0]", width, depth.width), ("size[1]", height, depth.height)):
+        if not least <= length <= _abi.MAX_SIZE:
+            raise out_of_range(name, f"{least}, the size of the map, to {_abi.MAX_SIZE}", length)
+    for name, place, length in (("x", whole(x, "x"), width), ("y", whole(y, "y"), height)):
+        if not 0 <= place < length:
+            raise out_of_range(name, f"0 to {length - 1}", place)
     focus = ctypes.c_double()
-    check(library.starfocus_focus_at(byref(depth), width, height, whole(x, "x"), whole(y, "y"), byref(focus)))
+    check(library.starfocus_focus_at(byref(depth), width, height, x, y, byref(focus)))
     del kept
     return focus.value
 
@@ -115,6 +122,10 @@ def aperture_of_f_stop(f_stop: float, widest: float = 1.0) -> float:
     Raises ArgumentError for values out of range.
     """
     aperture = ctypes.c_double()
+    if not 0 < widest < math.inf:
+        raise out_of_range("widest", "a number above 0", widest)
+    if not widest <= f_stop < math.inf:
+        raise out_of_range("f_stop", f"a number of at least {widest:.9g}", f_stop)
     check(library.starfocus_aperture_of_f_stop(f_stop, widest, byref(aperture)))
     return aperture.value
 
@@ -167,10 +178,7 @@ def repair_disparity(views: Views, disparity: Disparity, disparity_min: Optional
 def _make_map(size_of: Any, make: Any, views: Views, given: Optional[Disparity], span: Tuple[float, float],
               workers: int, progress: Optional[ProgressFunction], positions: Any = None) -> DisparityMap:
     views = as_list(views)
-    shape = np.asarray(views[0]).shape if len(views) > 0 else ()
-    if len(shape) != 3:
-        raise ValueError(f"views: expected arrays of the shape (height, width, 3), found {len(views)} of {shape}")
-    height, width = shape[:2]
+    height, width = size_of_views(views)
     pool, watch, size = Pool(workers), Watch(progress), ctypes.c_size_t()
     config, problem = _abi.DepthConfig(), _abi.Problem()
     library.starfocus_depth_config_init_sized(byref(config), ctypes.sizeof(config))

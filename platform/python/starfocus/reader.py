@@ -22,8 +22,10 @@ _GAP = rb"\s(?:\s|#[^\n]*\n)*"  # white space and comments
 _PFM_HEADER = re.compile(rb"Pf%b([1-9]\d{0,8})%b([1-9]\d{0,8})%b([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s"
                          % (_GAP, _GAP, _GAP))
 _PROGRAM = Path(__file__).parent / "bin" / "starfocus"
+#: Path of a file or folder.
+AnyPath = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 #: Value of an option of `starfocus import`. True sets an option without a value. None and False do not set an option.
-Option = Union[str, int, float, bool, Path, None]
+Option = Union[AnyPath, int, float, bool, None]
 
 
 class InputError(ValueError):
@@ -55,7 +57,7 @@ class LightField:
     widest_f_stop: Optional[float]
 
 
-def read_light_field(path: Union[str, "os.PathLike[str]"], *,
+def read_light_field(path: AnyPath, *,
                      views: Union[int, Sequence[Tuple[float, float]], None] = None, estimate: bool = False,
                      **options: Option) -> LightField:
     """Reads a light field, or a photo with depth, in any format that the program `starfocus` reads (docs/formats.md).
@@ -74,7 +76,7 @@ def read_light_field(path: Union[str, "os.PathLike[str]"], *,
     Raises InputError if the input cannot be read or an option is wrong, and RuntimeError if the package was built
     without the program.
     """
-    source = os.fspath(path)
+    source = os.fsdecode(path)
     source = os.path.join(os.curdir, source) if source.startswith("-") else source
     if views is None or isinstance(views, int):
         wanted: Option = views
@@ -88,18 +90,19 @@ def read_light_field(path: Union[str, "os.PathLike[str]"], *,
         return _read_folder(folder, described)
 
 
-def read_picture(path: Union[str, "os.PathLike[str]"]) -> Bytes:
+def read_picture(path: AnyPath) -> Bytes:
     """Reads a picture as uint8 of shape (height, width, 3) with the package pillow, which raises its own errors."""
     from PIL import Image  # type: ignore[import]  # pylint: disable=import-outside-toplevel
-    with Image.open(path) as image:
+    with Image.open(os.fsdecode(path)) as image:
         return np.asarray(image.convert("RGB"))
 
 
-def read_pfm(path: Union[str, "os.PathLike[str]"]) -> Floats:
+def read_pfm(path: AnyPath) -> Floats:
     """Reads a PFM with one channel as float32 of shape (height, width).
 
     The first row of the array is the top row of the map. Raises ValueError for a malformed PFM.
     """
+    path = os.fsdecode(path)
     data = Path(path).read_bytes()
     header = _PFM_HEADER.match(data)
     if header is None:
@@ -124,7 +127,8 @@ def _run(command: List[str], options: Dict[str, Option], working_folder: Optiona
     for name, value in options.items():
         if value is not None and value is not False:
             flag = "--" + name.replace("_", "-")
-            arguments.append(flag if value is True else f"{flag}={value}")
+            text = os.fsdecode(value) if isinstance(value, (bytes, os.PathLike)) else value
+            arguments.append(flag if value is True else f"{flag}={text}")
     done = subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
                           cwd=working_folder, check=False)
     notes = done.stderr.strip().splitlines()

@@ -13,7 +13,8 @@ import numpy as np
 
 from . import _abi
 from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_image, as_list, as_map,
-                     light_field, output, part_of, pointer, positions_of, set_coverage, set_field, whole)
+                     depth_map, light_field, output, part_of, pointer, positions_of, set_coverage, set_field,
+                     size_of_views, whole)
 from ._abi import library
 from ._types import Array, Bytes
 from .constants import Mode, Renderer, Status
@@ -93,7 +94,7 @@ class Refocuser:
         self.report: Dict[str, Any] = {}
 
     @classmethod
-    def for_light_field(cls, views: Views, disparity: Array, *, workers: int = 0,
+    def for_light_field(cls, views: Views, disparity: Disparity, *, workers: int = 0,
                         **config: Any) -> "Refocuser":
         """Returns a refocuser for a light field. Other light fields may use it if they have the same size, number of
         views and disparity range.
@@ -102,13 +103,21 @@ class Refocuser:
 
         Args:
             views: views, as for `refocus`.
-            disparity: disparity map, an array of the size of the views.
+            disparity: disparity map, an array of the size of the views; or a DepthMap, at most of this size.
             workers: number of threads; 0: one for each big core of the machine.
             config: as for `Refocuser`; takes precedence over the derived `max_blur`.
+
+        Raises TypeError or ValueError if a view or the map has another type or size. Images have no size: if all views
+        are Images, the size is that of the map.
         """
         stats = measure_disparity(disparity)
-        height, width = np.shape(disparity)
         views = as_list(views)
+        if all(isinstance(view, Image) for view in views):
+            depth, _ = depth_map(disparity)
+            height, width = depth.height, depth.width
+        else:
+            height, width = size_of_views(views)
+        light_field(views, disparity, len(views), height, width)  # checks the types and sizes
         room = min(128.0, max(1.0, math.ceil(stats.max - stats.min)))
         return cls(width, height, len(views), disparity_min=stats.min, disparity_max=stats.max,
                    workers=workers, **{"max_blur": room, **config})
@@ -221,12 +230,13 @@ class Refocuser:
         self._run(watch, library.starfocus_stream_begin, byref(params))
         left, consumed = self.height, ctypes.c_int32()
         for views, disparity, coverage in map(_with_coverage, bands):
+            disparity = as_map(disparity)
             rows = len(disparity)
             if rows > left:
                 found = self.height - left + rows
                 raise ValueError(f"bands: expected {self.height} rows in all, found at least {found}")
             left -= rows
-            field, kept = light_field(views, as_map(disparity), self._config.views, rows, self.width)
+            field, kept = light_field(views, disparity, self._config.views, rows, self.width)
             kept += set_coverage(field, coverage, rows, self.width)
             field.depth.height = self.height
             while rows > 0:
@@ -287,7 +297,9 @@ class Refocuser:
         """
         picture: Picture
         if isinstance(out, Image):
-            picture, image = out, out.as_structure(size[1], size[0], "out", written=True)
+            picture = out
+            image, planes = out.as_structure(size[1], size[0], "out", written=True)
+            keep = [*keep, *planes]
         else:
             picture = pixels = output(out, (*size, 3), "out")
             image = as_image(pixels)
@@ -326,7 +338,9 @@ class Refocuser:
             status = library.starfocus_set_callbacks(self._engine, byref(callbacks))
             if status == Status.OK:
                 status = function(self._engine, *arguments)
-        watch.check(status, library.starfocus_engine_problem(self._engine).contents)
+            # The next call, which may come from another thread, overwrites the problem of the engine.
+            problem = _abi.Problem.from_buffer_copy(library.starfocus_engine_problem(self._engine).contents)
+        watch.check(status, problem)
 
 
 class Prepared:
