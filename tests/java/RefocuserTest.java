@@ -9,14 +9,14 @@ import java.nio.ByteOrder;
  * Prints the checks that failed and exits with 1.
  */
 public final class RefocuserTest {
-  private static final int WIDTH = 160, HEIGHT = 120;
+  static final int WIDTH = 160, HEIGHT = 120;
   private static int checks, failures;
 
-  private interface Call {
+  interface Call {
     void run() throws Exception;
   }
 
-  private static void check(boolean holds, String what) {
+  static void check(boolean holds, String what) {
     ++checks;
     if (holds)
       return;
@@ -28,7 +28,7 @@ public final class RefocuserTest {
      Checks that the call throws an exception of the given class, with a message that contains
      `part`.
    */
-  private static void checkThrows(Class<?> kind, String part, Call call) {
+  static void checkThrows(Class<?> kind, String part, Call call) {
     try {
       call.run();
       check(false, "expected " + kind.getName() + " (" + part + "), found nothing thrown");
@@ -39,37 +39,37 @@ public final class RefocuserTest {
     }
   }
 
-  private static ByteBuffer bytes(int count) {
+  static ByteBuffer bytes(int count) {
     return ByteBuffer.allocateDirect(count).order(ByteOrder.nativeOrder());
   }
 
   /** Returns a picture of noise. Every call returns the same picture. */
-  private static ByteBuffer picture() {
+  static ByteBuffer picture() {
     final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
     for (int i = 0; i < pixels.capacity(); ++i) pixels.put(i, (byte) (i * i / 7 + i / 480 * 31));
     return pixels;
   }
 
   /** Returns disparities from -4 on the left to 4 on the right. */
-  private static ByteBuffer ramp() {
+  static ByteBuffer ramp() {
     final ByteBuffer map = bytes(4 * WIDTH * HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; ++i) map.putFloat(4 * i, i % WIDTH * 8F / WIDTH - 4);
     return map;
   }
 
-  private static DepthMap depth(ByteBuffer values) {
+  static DepthMap depth(ByteBuffer values) {
     return new DepthMap(DepthMap.FLOAT, values, 4 * WIDTH, WIDTH, HEIGHT);
   }
 
-  private static LightField field(ByteBuffer view) {
+  static LightField field(ByteBuffer view) {
     return new LightField(new Image[] {new Image(Image.RGB, view, 3 * WIDTH)}, depth(ramp()));
   }
 
-  private static Image out(ByteBuffer pixels) {
+  static Image out(ByteBuffer pixels) {
     return new Image(Image.RGB, pixels, 3 * WIDTH);
   }
 
-  private static Configuration configuration() {
+  static Configuration configuration() {
     final Configuration made = new Configuration();
     made.width = WIDTH;
     made.height = HEIGHT;
@@ -79,7 +79,7 @@ public final class RefocuserTest {
     return made;
   }
 
-  private static ByteBuffer refocused(double focus) {
+  static ByteBuffer refocused(double focus) {
     final ByteBuffer pixels = bytes(3 * WIDTH * HEIGHT);
     final Parameters parameters = new Parameters();
     parameters.focus = focus;
@@ -95,8 +95,8 @@ public final class RefocuserTest {
         "defaults of the configuration");
     final Parameters parameters = new Parameters();
     check(parameters.shape == Parameters.SHAPE_FALL_OFF && parameters.blades == 5
-            && parameters.ringInner == 0.5 && parameters.catsEye == 0
-            && parameters.focusNearer == 0 && parameters.focusFarther == 0,
+            && parameters.ringInner == 0.5 && parameters.catsEye == 0 && parameters.focusNearer == 0
+            && parameters.focusFarther == 0,
         "defaults of the lens");
     check(Math.abs(parameters.theta - 0.26 * Math.PI) < 1e-12, "default of theta");
     check(parameters.mode == Parameters.MODE_BLOCK && parameters.aperture == 1,
@@ -138,7 +138,8 @@ public final class RefocuserTest {
       parameters.aperture = 1;
       parameters.focusNearer = parameters.focusFarther = 9;
       refocuser.refocus(field(picture()), parameters, out(pixels));
-      check(pixels.equals(centre), "if all disparities are in focus, the picture is the centre view");
+      check(
+          pixels.equals(centre), "if all disparities are in focus, the picture is the centre view");
       parameters.focusFarther = 0;
       refocuser.refocus(field(picture()), parameters, out(pixels));
       check(!pixels.equals(centre), "the far side of the range ends at the focus");
@@ -417,37 +418,6 @@ public final class RefocuserTest {
         IllegalStateException.class, "closed", () -> closed.largestAperture(new Parameters()));
   }
 
-  private static void smallMapsAreMeasuredAndTapped() {
-    final ByteBuffer distances = bytes(2 * 40 * 30); // 4000 in the left half, 500 in the right half
-    for (int i = 0; i < 40 * 30; ++i) distances.putShort(2 * i, (short) (i % 40 < 20 ? 4000 : 500));
-    distances.putShort(0, (short) 0);
-    final DepthMap depth = new DepthMap(DepthMap.U16, distances, 80, 40, 30);
-    depth.meaning = DepthMap.RECIPROCAL;
-    depth.scale = 8000;
-    depth.hasInvalid = 1;
-    final double[] range = Refocuser.measureDisparity(depth);
-    check(range.length == 2 && range[0] == 2 && range[1] == 16, "range of a map of distances");
-    final Configuration configuration = configuration();
-    configuration.disparityMin = range[0];
-    configuration.disparityMax = range[1];
-    configuration.maxBlur = 7;
-    check(Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH / 2 - 1, 10) == 2, "focus at the left");
-    check(Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH / 2, 10) == 16, "focus at the right half");
-    check(Refocuser.focusAt(depth, WIDTH, HEIGHT, 0, 0) == 2, "focus at an unknown value");
-    checkThrows(
-        StarfocusException.class, "", () -> Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH, 10));
-    checkThrows(StarfocusException.class, "", () -> Refocuser.focusAt(depth, 10, 0, 5, 5));
-    try (Refocuser refocuser = new Refocuser(configuration)) {
-      final Parameters parameters = new Parameters();
-      parameters.focus = 2;
-      check(refocuser.largestAperture(parameters) == 0.5, "the largest aperture");
-      parameters.focus = 1e9;
-      checkThrows(StarfocusException.class, "focus", () -> refocuser.largestAperture(parameters));
-    }
-    depth.scale = 0;
-    checkThrows(StarfocusException.class, "", () -> Refocuser.measureDisparity(depth));
-  }
-
   private static void anotherThreadCallsOff() throws InterruptedException {
     final Configuration configuration = configuration();
     configuration.workers = 2;
@@ -494,7 +464,7 @@ public final class RefocuserTest {
     buffersAreChecked();
     randomArgumentsWriteNothingBeyondTheOutput();
     configurationsAndStatesAreChecked();
-    smallMapsAreMeasuredAndTapped();
+    LightFieldTest.run();
     anotherThreadCallsOff();
     if (failures == 0)
       System.out.println(checks + " checks");

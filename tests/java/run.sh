@@ -135,7 +135,8 @@ TEXT
 page_alignment "$library"
 mkdir "$work/classes"
 compile "$java_sources"/main/java/dev/starfocus/*.java
-compile "$sources/examples/java/Refocus.java" "$sources/tests/java/RefocuserTest.java"
+compile "$sources/examples/java/Refocus.java" "$sources/tests/java/RefocuserTest.java" \
+  "$sources/tests/java/LightFieldTest.java"
 run dev.starfocus.RefocuserTest
 quietly "$build/starfocus-lab" scene "$work/scene" --name portrait --size 320x240 --views 5
 for focus in -2.5 1.5; do
@@ -144,7 +145,7 @@ for focus in -2.5 1.5; do
   cmp "$work/found.ppm" "$work/expected.ppm" || fail "the bytes at focus $focus are not the program's"
   printf '%-40s %s\n' "$name" "the program's bytes at focus $focus"
 done
-rm "$work"/classes/dev/starfocus/RefocuserTest*
+rm "$work"/classes/dev/starfocus/*Test*
 archive
 [ -n "$preset" ] || kotlin
 android_routes
