@@ -2,7 +2,9 @@
 #include "platform/java/src/main/cpp/pictures.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <iterator>
 
 #include "platform/java/src/main/cpp/exceptions.h"
@@ -111,6 +113,53 @@ constexpr Field kDepthFields[] = {
     {"invalid", FieldType::kDouble, offsetof(starfocus_depth_map, invalid)},
 };
 
+int64_t BytesOf(int32_t type) {
+  if (type == STARFOCUS_DEPTH_FLOAT) return 4;
+  return type == STARFOCUS_DEPTH_U8 ? 1 : 2;
+}
+
+// Copies the rows of a map to packed memory, unless the rows are aligned and follow each other from
+// top to bottom. `stride` is negative if the map starts with its bottom row.
+bool MakeReadable(JNIEnv* env, int64_t stride, starfocus_depth_map* map, MapCopy* copy) {
+  const int64_t bytes = BytesOf(map->type), row = bytes * map->width, step = std::abs(stride);
+  const bool aligned = (reinterpret_cast<uintptr_t>(map->data) | static_cast<uintptr_t>(step)) %
+                           static_cast<uintptr_t>(bytes) ==
+                       0;
+  map->stride = static_cast<size_t>(step);
+  if (stride >= 0 && aligned) return true;
+  if (step < row) {
+    ThrowArgument(env, "depth: expected a stride of %lld bytes at least, found %lld",
+                  static_cast<long long>(row), static_cast<long long>(stride));
+    return false;
+  }
+  std::free(copy->rows);
+  copy->rows = std::malloc(static_cast<size_t>(row * map->height));
+  if (copy->rows == nullptr) {
+    ThrowStatus(env, STARFOCUS_ERROR_MEMORY);
+    return false;
+  }
+  for (int32_t y = 0; y < map->height; ++y) {
+    const int64_t from = stride < 0 ? map->height - 1 - y : y;
+    std::memcpy(static_cast<char*>(copy->rows) + row * y,
+                static_cast<const char*>(map->data) + step * from, static_cast<size_t>(row));
+  }
+  map->data = copy->rows;
+  map->stride = static_cast<size_t>(row);
+  return true;
+}
+
+// Reads the coverage of a LightField, unless the coverage is null.
+bool ReadCoverage(JNIEnv* env, jobject light_field, const starfocus_config& config,
+                  starfocus_light_field* field) {
+  const jobject buffer = ReadObject(env, light_field, "coverage", "Ljava/nio/ByteBuffer;");
+  const int32_t stride = ReadInt(env, light_field, "coverageStride");
+  if (buffer == nullptr || env->ExceptionCheck()) return !env->ExceptionCheck();
+  const PlaneSize size = {config.height, config.width};
+  field->coverage = static_cast<const uint8_t*>(AddressOf(env, buffer, "coverage", size, stride));
+  field->coverage_stride = static_cast<size_t>(stride);
+  return field->coverage != nullptr;
+}
+
 }  // namespace
 
 bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int32_t height,
@@ -137,7 +186,7 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
   return true;
 }
 
-bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map) {
+bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map, MapCopy* copy) {
   *map = {};
   if (object == nullptr) {
     ThrowArgument(env, "depth: expected a depth map, found null");
@@ -149,19 +198,16 @@ bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map) {
                   map->width, map->height);
     return false;
   }
-  const int64_t bytes = map->type == STARFOCUS_DEPTH_FLOAT ? 4
-                        : map->type == STARFOCUS_DEPTH_U8  ? 1
-                                                           : 2;
-  const int32_t stride = ReadInt(env, object, "stride");
+  const int64_t stride = ReadInt(env, object, "stride");
   const jobject values = ReadObject(env, object, "values", "Ljava/nio/ByteBuffer;");
   if (env->ExceptionCheck()) return false;
-  map->data = AddressOf(env, values, "depth", {map->height, bytes * map->width}, stride);
-  map->stride = static_cast<size_t>(stride);
-  return map->data != nullptr;
+  const PlaneSize size = {map->height, BytesOf(map->type) * map->width};
+  map->data = AddressOf(env, values, "depth", size, std::abs(stride));
+  return map->data != nullptr && MakeReadable(env, stride, map, copy);
 }
 
 bool ReadLightField(JNIEnv* env, jobject light_field, const starfocus_config& config,
-                    starfocus_light_field* field) {
+                    starfocus_light_field* field, MapCopy* copy) {
   *field = {};
   const auto views =
       static_cast<jobjectArray>(ReadObject(env, light_field, "views", "[Ldev/starfocus/Image;"));
@@ -180,7 +226,8 @@ bool ReadLightField(JNIEnv* env, jobject light_field, const starfocus_config& co
     if (!ReadImage(env, view, what, config.width, config.height, &field->views[i])) return false;
     env->DeleteLocalRef(view);
   }
-  return ReadDepthMap(env, depth, &field->depth);
+  return ReadDepthMap(env, depth, &field->depth, copy) &&
+         ReadCoverage(env, light_field, config, field);
 }
 
 }  // namespace starfocus

@@ -7,25 +7,38 @@
 
 #include <jni.h>
 
+#include <cstdlib>
+
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
 // Each function of this header returns false, with an exception pending, if an object is null, a
 // buffer is not direct, or a buffer is too small. The C library checks all other values, such as
-// formats and strides.
+// formats and strides of images.
+
+// Owns the copy of a depth map that the C library cannot read in place.
+struct MapCopy {
+  MapCopy() = default;
+  MapCopy(const MapCopy&) = delete;
+  MapCopy& operator=(const MapCopy&) = delete;
+  ~MapCopy() { std::free(rows); }
+
+  void* rows = nullptr;
+};
 
 // Converts an Image with a size of `width` x `height` pixels. `what` is the name of the image in
 // error messages.
 bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int32_t height,
                starfocus_image* image);
 
-// Converts a DepthMap.
-bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map);
+// Converts a DepthMap. If its rows are not aligned or are stored from bottom to top, they are
+// copied to `copy`, which must exist as long as the map is used.
+bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map, MapCopy* copy);
 
 // Converts a LightField with the number and size of views of the configuration.
 bool ReadLightField(JNIEnv* env, jobject light_field, const starfocus_config& config,
-                    starfocus_light_field* field);
+                    starfocus_light_field* field, MapCopy* copy);
 
 }  // namespace starfocus
 

@@ -25,15 +25,17 @@ struct Session {
   starfocus_engine* engine = nullptr;
   void* prepared_memory = nullptr;
   starfocus_prepared* prepared = nullptr;
+  MapCopy prepared_map;
   std::atomic<int> cancelled{0}, rows_done{0};
 };
 
 // Frees a session. The function End calls free() instead of `delete`, because libstarfocus_jni must
-// not depend on the C++ run time. A session has no destructor.
+// not depend on the C++ run time.
 void End(Session* session) {
   std::free(session->prepared_memory);
   starfocus_destroy(session->engine);
   starfocus_pool_destroy(session->pool);
+  session->~Session();
   std::free(session);
 }
 
@@ -158,6 +160,24 @@ starfocus_status Start(Session* session) {
   return starfocus_set_callbacks(session->engine, &callbacks);
 }
 
+// Argument of a function of the C library that reports no starfocus_problem, and its range.
+struct PlaceValue {
+  const char* name;
+  int32_t value, low, high;
+};
+
+// Returns false, with an exception pending that names the argument, if the value is out of range.
+bool CheckRange(JNIEnv* env, const PlaceValue& from) {
+  if (from.value >= from.low && from.value <= from.high) return true;
+  char expected[40];
+  std::snprintf(expected, sizeof expected, "%d to %d", from.low, from.high);
+  const starfocus_problem problem = {
+      STARFOCUS_ERROR_RANGE, 0, from.name, expected, double(from.value), double(from.low),
+      double(from.high)};
+  ThrowStatus(env, STARFOCUS_ERROR_RANGE, &problem);
+  return false;
+}
+
 // Returns an array of two numbers, or null if an exception is pending.
 jdoubleArray NewPair(JNIEnv* env, double first, double second) {
   if (env->ExceptionCheck()) return nullptr;
@@ -173,7 +193,6 @@ starfocus_status Prepare(Session* session, const starfocus_light_field& field) {
   size_t bytes = 0;
   const starfocus_status status = starfocus_prepared_size(&session->config, &bytes);
   if (status != STARFOCUS_OK) return status;
-  session->prepared = nullptr;
   if (session->prepared_memory == nullptr &&
       posix_memalign(&session->prepared_memory, STARFOCUS_ALIGNMENT, bytes) != 0) {
     return STARFOCUS_ERROR_MEMORY;
@@ -239,9 +258,10 @@ STARFOCUS_NATIVE(void, refocus)
 (JNIEnv* env, jclass, jlong handle, jobject light_field, jobject parameters, jobject out) {
   Session* const session = From(handle);
   starfocus_light_field field;
+  MapCopy copy;
   starfocus_params params;
   starfocus_image image;
-  if (!ReadLightField(env, light_field, session->config, &field) ||
+  if (!ReadLightField(env, light_field, session->config, &field, &copy) ||
       !ReadTask(env, session, {0, parameters, out}, &params, &image)) {
     return;
   }
@@ -254,7 +274,8 @@ STARFOCUS_NATIVE(void, prepare)
 (JNIEnv* env, jclass, jlong handle, jobject light_field) {
   Session* const session = From(handle);
   starfocus_light_field field;
-  if (ReadLightField(env, light_field, session->config, &field)) {
+  session->prepared = nullptr;
+  if (ReadLightField(env, light_field, session->config, &field, &session->prepared_map)) {
     ThrowStatus(env, Prepare(session, field), starfocus_engine_problem(session->engine));
   }
 }
@@ -296,10 +317,17 @@ STARFOCUS_NATIVE(jdouble, focusAt)
   jint at[4] = {};  // width, height, x, y
   env->GetIntArrayRegion(place, 0, 4, at);
   starfocus_depth_map map;
+  MapCopy copy;
   double focus = 0;
-  if (ReadDepthMap(env, depth, &map)) {
-    ThrowStatus(env, starfocus_focus_at(&map, at[0], at[1], at[2], at[3], &focus));
+  if (!ReadDepthMap(env, depth, &map, &copy)) return focus;
+  const PlaceValue values[] = {{"width", at[0], map.width, STARFOCUS_MAX_SIZE},
+                               {"height", at[1], map.height, STARFOCUS_MAX_SIZE},
+                               {"x", at[2], 0, at[0] - 1},
+                               {"y", at[3], 0, at[1] - 1}};
+  for (const PlaceValue& value : values) {
+    if (!CheckRange(env, value)) return focus;
   }
+  ThrowStatus(env, starfocus_focus_at(&map, at[0], at[1], at[2], at[3], &focus));
   return focus;
 }
 
@@ -318,8 +346,9 @@ STARFOCUS_NATIVE(jdouble, largestAperture)
 
 STARFOCUS_NATIVE(jdoubleArray, measureDisparity)(JNIEnv* env, jclass, jobject depth) {
   starfocus_depth_map map;
+  MapCopy copy;
   starfocus_disparity_stats stats = {};
-  if (!ReadDepthMap(env, depth, &map)) return nullptr;
+  if (!ReadDepthMap(env, depth, &map, &copy)) return nullptr;
   ThrowStatus(env, starfocus_measure_disparity(&map, &stats));
   return NewPair(env, stats.min, stats.max);
 }

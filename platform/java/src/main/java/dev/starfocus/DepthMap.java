@@ -5,8 +5,9 @@ import java.nio.ByteBuffer;
 
 /**
  * Depth map of the centre view, which may have fewer pixels than the picture: the C structure
- * starfocus_depth_map. The values of the map are in a direct buffer in the native byte order and
- * are not copied.
+ * starfocus_depth_map. The values of the map are in a direct buffer in the native byte order.
+ * Aligned rows are read in place. Calls copy maps whose rows are not aligned or are stored from
+ * bottom to top.
  */
 public final class DepthMap {
   /**
@@ -48,7 +49,8 @@ public final class DepthMap {
    *
    * @param type {@link #FLOAT}, {@link #U16}, {@link #U8}, {@link #HALF} or {@link #DEPTH16}
    * @param values direct buffer; the map starts at its position
-   * @param stride bytes from row to row, at least one row and a multiple of the size of a value
+   * @param stride bytes from row to row, at least one row. If the stride is negative, the rows are
+   *     stored from bottom to top: the buffer starts with the bottom row
    * @param width width in values, 1 to the width of the picture
    * @param height height in values, 1 to the height of the picture
    * @throws IllegalArgumentException if the buffer is not direct
