@@ -7,7 +7,7 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test, {after, before} from 'node:test';
-import {createRefocuser, ErrorCode, Mode, Shape, StarfocusError} from 'starfocus';
+import {createRefocuser, ErrorCode, estimateDisparity, Mode, openPhoto, Shape, StarfocusError} from 'starfocus';
 
 import {assertSameBytes, dropAlpha, readLightField, readPng} from './pictures.mjs';
 
@@ -84,6 +84,56 @@ test('regions, blocks and previews', async () => {
   assert.deepEqual([preview.width, preview.height], [Math.ceil(width / 4), Math.ceil(height / 4)]);
 });
 
+/** Calls a function with a refocuser, and closes the refocuser. */
+async function withRefocuser(options, call) {
+  const opened = await createRefocuser(options);
+  try {
+    return await call(opened);
+  } finally {
+    opened.close();
+  }
+}
+
+const STAR = [[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]];
+
+test('views at positions give the bytes of the program, in any order', async () => {
+  const focused = (order, positions) => withRefocuser({...options, views: order.length, positions}, async opened => {
+    await opened.prepare(order.map(index => views[index]), field.disparity.data);
+    await opened.configure({highlights: 2});
+    await opened.configure({highlights: 1});
+    return (await opened.refocus({focus: 1})).data;
+  });
+  const star = await focused([0, 1, 2, 3, 4]);
+  assertSameBytes(dropAlpha(star), refocusByProgram('--focus', '1'));
+  assertSameBytes(await focused([0, 4, 2, 1, 3], [0, 4, 2, 1, 3].map(index => STAR[index])), star);
+  for (const order of [[0, 1], [0, 4, 2]]) {
+    const pairs = order.map(index => STAR[index]), folder = join(process.env.STARFOCUS_FIELD, `part-${order.length}`);
+    execFileSync(program, ['import', process.env.STARFOCUS_FIELD, folder, '--views', pairs.join(':')], {stdio: 'pipe'});
+    const path = join(folder, 'out.png');
+    execFileSync(program, ['refocus', folder, '-o', path, '--focus', '1'], {stdio: 'pipe'});
+    assertSameBytes(dropAlpha(await focused(order, pairs)), readPng(path).data);
+    const photo = await openPhoto(order.map(index => field.views[index]), field.disparity, {disparity: true, positions: pairs});
+    assertSameBytes(dropAlpha((await photo.refocus({focus: 1})).data), readPng(path).data);
+    photo.close();
+    await checkEstimate(order.map(index => field.views[index]), {positions: pairs}, folder);
+  }
+  await checkEstimate(field.views, {}, process.env.STARFOCUS_FIELD);
+});
+
+/** Checks that an estimate is that of the program for the folder, with a searched and with a given range. */
+async function checkEstimate(pictures, given, folder) {
+  const path = join(process.env.STARFOCUS_FIELD, 'map.pfm'), steps = [];
+  for (const range of [[], [-4, 5]]) {
+    const [disparityMin, disparityMax] = range;
+    execFileSync(program, ['disparity', folder, '-o', path, ...range.length ? ['--range', range.join(':')] : []], {stdio: 'pipe'});
+    const {data} = await estimateDisparity(pictures, {...given, disparityMin, disparityMax, onProgress: done => steps.push(done)});
+    const bytes = readFileSync(path).subarray(-4 * width * height), row = 4 * width;
+    for (let y = 0; y < height; ++y) {
+      assertSameBytes(new Uint8Array(data.buffer, row * y, row), bytes.subarray(row * (height - 1 - y), row * (height - y)));
+    }
+  }
+}
+
 test('coverage gives the bytes of the program', async () => {
   const coverage = Uint8Array.from({length: width * height}, (_, i) => i % 251);
   const path = join(folder, 'coverage.pgm');
@@ -139,6 +189,35 @@ test('an aborted call rejects at once, and the next call works', async () => {
   await assert.rejects(first, {name: 'AbortError'});
   await assert.rejects(refocuser.refocus({signal: AbortSignal.abort()}), {name: 'AbortError'});
   assert.equal((await refocuser.refocus({focus: 5})).data.length, 4 * width * height);
+});
+
+test('with shared memory, an aborted prepare or preview ends within milliseconds, and the worker goes on', async () => {
+  const size = {width: 1000, height: 800}, pixels = size.width * size.height;
+  const view = Uint8Array.from({length: 3 * pixels}, (_, i) => i % 3000 * 7 & 255);
+  const map = Float32Array.from({length: pixels}, (_, i) => i % 1000 > 700 ? 20 : 3);
+  await withRefocuser({...size, views: 1, disparityMin: -1, disparityMax: 21, previews: 1, threads: 2}, async large => {
+    /** Aborts a call in the middle, on a machine of any load, and checks that the next call does not wait for its end. */
+    const abort = async (call, next) => {
+      for (let attempt = 0; attempt < 10; ++attempt) {
+        const begin = performance.now();
+        await call();
+        const whole = performance.now() - begin, stop = new AbortController(), running = call(stop.signal);
+        setTimeout(() => stop.abort(), whole / 4);
+        if (await running.then(() => true, error => error.name !== 'AbortError')) continue;
+        const stopped = performance.now();
+        await next();
+        if (performance.now() - stopped < whole / 3) return;
+      }
+      assert.fail(`${call}: expected the worker to be free soon after the abort`);
+    };
+    await abort(signal => large.prepare([view], map, {repair: true, signal}),
+                () => assert.rejects(large.refocus({focus: 3}), {code: 'STATE'}));
+    await large.prepare([view], map);
+    const region = {x: 0, y: 0, width: 1000, height: 700}, next = () => large.focusAt({x: 5, y: 5});
+    await abort(signal => large.preview({focus: 20, signal}), next);
+    await abort(signal => large.refocus({focus: 20, region, signal}), next);
+    await abort(signal => large.refocus({focus: 20, blocks: true, signal}), next);
+  });
 });
 
 test('an aborted prepare rejects at once; without a light field calls fail; the next prepare works', async () => {
@@ -206,6 +285,17 @@ test('wrong arguments are rejected with a code, the field and the value', async 
     [() => createRefocuser({width, height, views: 5, disparityMin: 0}), 'ARGUMENT', /a value of disparityMax, found none/],
     [() => createRefocuser({...options, views: 3}), 'RANGE', /views: .*expected 1, 5, 9 or 17.*found 3/],
     [() => createRefocuser({...options, nonsense: 1}), 'ARGUMENT', /one of the fields width, .*found 'nonsense'/],
+    [() => createRefocuser({...options, positions: [[0, 0], [1, 0]]}), 'ARGUMENT', /^positions: expected \[u, v\] for each of 5 views/],
+    [() => createRefocuser({...options, views: 2, positions: [[0, 0], [1, 0, 0]]}), 'ARGUMENT', /^positions: expected \[u, v\]/],
+    [() => createRefocuser({...options, views: 2, positions: [[0, 0], [1, NaN]]}), 'ARGUMENT', /^positions: expected \[u, v\]/],
+    [() => createRefocuser({...options, views: 18, positions: Array(18).fill([0, 0])}), 'ARGUMENT', /for each of 17 views/],
+    [() => createRefocuser({...options, views: 2, positions: [[0, 0], [1.5, 0]]}), 'RANGE', /^positions\[1\]\.u: .*1\.5/],
+    [() => createRefocuser({...options, views: 2, positions: [[0, 0], [0, 0]]}), 'RANGE', /^views: /],
+    [() => withRefocuser({...options, positions: STAR},
+                         opened => opened.prepare(views, field.disparity.data, {repair: true})), 'ARGUMENT', /^repair: expected false/],
+    [() => estimateDisparity(field.views.slice(0, 2)), 'ARGUMENT', /^image: expected 5, 9 or 17 views/],
+    [() => estimateDisparity(field.views.slice(0, 1), {positions: [[0, 0]]}), 'ARGUMENT', /^image: expected an array of 2 to 17/],
+    [() => estimateDisparity(field.views, {disparityMin: 5, disparityMax: 4}), 'RANGE', /^disparityM/],
     [() => createRefocuser({...options, width: width + 0.5}), 'RANGE', /^width: expected an integer, found 320\.5/],
     [() => createRefocuser({...options, threads: 0}), 'RANGE', /^threads: expected 1 to 64, found 0/],
     [() => createRefocuser({...options, worker: 5}), 'ARGUMENT', /^worker: expected a URL, found 5/],

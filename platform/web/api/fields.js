@@ -13,7 +13,7 @@ export const SETTINGS = {
 /** Options of a light field, which cannot change after createRefocuser. */
 export const FIXED = {
   width: 'integer', height: 'integer', views: 'integer', disparityMin: 'number', disparityMax: 'number',
-  previews: 'integer', maxLayer: 'integer', transfer: 'integer'
+  previews: 'integer', maxLayer: 'integer', transfer: 'integer', positions: 'any'
 };
 
 /** Options of the worker. */

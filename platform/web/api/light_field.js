@@ -38,6 +38,16 @@ export function checkCoverage(coverage, {width, height}) {
   expect(coverage.length === width * height, 'coverage', `${width * height} bytes`, coverage.length, 'RANGE');
 }
 
+const MAX_VIEWS = 17;
+
+/** Checks the positions of views: [u, v] for each view, or undefined. */
+export function checkPositions(positions, views) {
+  if (positions === undefined) return;
+  const isPair = pair => Array.isArray(pair) && pair.length === 2 && pair.every(Number.isFinite);
+  expect(Array.isArray(positions) && positions.length === views && views <= MAX_VIEWS && positions.every(isPair),
+         'positions', `[u, v] for each of ${Math.min(views, MAX_VIEWS)} views`, positions);
+}
+
 const MAP = {
   data: 'any', width: 'integer', height: 'integer', scale: 'number', offset: 'number', reciprocal: 'boolean',
   invalid: 'any', depth16: 'boolean'

@@ -3,12 +3,14 @@
 
 import {checkFields, expect, StarfocusError} from './errors.js';
 import {CALL, ENGINE, LENS} from './fields.js';
-import {isBytes, isDepth} from './light_field.js';
+import {checkPositions, isBytes, isDepth} from './light_field.js';
 import {Refocusing} from './refocusing.js';
 import {checkEngine, Refocuser} from './refocuser.js';
 import {WorkerCalls} from './worker_calls.js';
 
-const OPTIONS = {...ENGINE, ...CALL, near: 'any', blur: 'number', disparity: 'boolean', repair: 'boolean'};
+const OPTIONS = {
+  ...ENGINE, ...CALL, near: 'any', blur: 'number', disparity: 'boolean', repair: 'boolean', positions: 'any'
+};
 const VIEWS = [1, 5, 9, 17];
 const MAX_BLUR = 128;      // pixels, STARFOCUS_MAX_BLUR
 const MAX_DISPARITY = 499; // pixels; STARFOCUS_MAX_DISPARITY without REPAIR_MARGIN
@@ -36,7 +38,7 @@ function checkPixels({data, width, height}, what) {
 }
 
 /** Converts a picture to a value that can be sent to the worker: a Blob, an ImageBitmap or {data, width, height}. */
-async function toSendable(source, what) {
+export async function toSendable(source, what) {
   if (typeof Blob === 'function' && source instanceof Blob) return source;
   if (source?.data !== undefined) return checkPixels(source, what);
   const isElement = typeof source?.width === 'number' && typeof globalThis.createImageBitmap === 'function';
@@ -66,14 +68,17 @@ function chooseRange({low, high, brightIsNear}, size, {near, blur = BLUR, dispar
   return {low: 0, high: most, order, near: bright ? 'bright' : 'dark'};
 }
 
-function checkSizes({sizes, depth}) {
+/** Returns the values that move to the worker. */
+export const toTransfer = sources => sources.filter(source => typeof ImageBitmap === 'function' && source instanceof ImageBitmap);
+
+/** Checks that all views have the same size, and returns this size. */
+export function checkSizes(sizes) {
   const [{width, height}] = sizes;
   sizes.forEach((size, index) => expect(size.channels === sizes[0].channels, `image[${index}]`,
                                         `${sizes[0].channels} bytes per pixel, as image[0] has`, size.channels, 'RANGE'));
   sizes.forEach((size, index) => expect(size.width === width && size.height === height, `image[${index}]`,
                                         `${width} x ${height} pixels, as image[0] has`, `${size.width} x ${size.height}`, 'RANGE'));
-  expect(depth.width <= width && depth.height <= height, 'depth', `at most ${width} x ${height} pixels, the size of the picture`,
-         `${depth.width} x ${depth.height}`, 'RANGE');
+  return {width, height};
 }
 
 export class Photo {
@@ -145,24 +150,25 @@ async function warmUp(refocuser, {width, height, low, high, signal}) {
 export async function openPhoto(image, depth, options = {}) {
   checkFields('openPhoto', options, OPTIONS);
   checkEngine(options);
-  const {threads, worker, signal, onProgress, near, blur, disparity = false, repair = !disparity} = options;
+  const {threads, worker, signal, onProgress, near, blur, disparity = false, repair = !disparity, positions} = options;
   expect([undefined, 'bright', 'dark'].includes(near), 'near', `'bright' or 'dark'`, near);
   expect(blur === undefined || blur > 0 && blur <= 1, 'blur', 'more than 0, at most 1', blur, 'RANGE');
   const images = Array.isArray(image) ? image : [image];
-  expect(VIEWS.includes(images.length), 'image', 'one picture, or 5, 9 or 17 views', images.length, 'RANGE');
+  if (positions) checkPositions(positions, images.length);
+  else expect(VIEWS.includes(images.length), 'image', 'one picture, or 5, 9 or 17 views', images.length, 'RANGE');
   expect(images.length === 1 || disparity, 'disparity', 'true for several views', disparity, 'RANGE');
   const calls = new WorkerCalls(worker);
   try {
     const views = await Promise.all(images.map((view, index) => toSendable(view, index ? `image[${index}]` : 'image')));
     const map = await toSendable(depth, 'depth');
-    const transfer = [...views, map].filter(source => typeof ImageBitmap === 'function' && source instanceof ImageBitmap);
-    const found = await calls.call('decode', {views, depth: map, disparity}, {signal, stops: true, transfer});
-    checkSizes(found);
-    const [{width, height}] = found.sizes, range = chooseRange(found.depth, {width, height}, {near, blur, disparity});
+    const found = await calls.call('decode', {views, depth: map, disparity}, {signal, stops: true, transfer: toTransfer([...views, map])});
+    const {width, height} = checkSizes(found.sizes), range = chooseRange(found.depth, {width, height}, {near, blur, disparity});
+    expect(found.depth.width <= width && found.depth.height <= height, 'depth',
+           `at most ${width} x ${height} pixels, the size of the picture`, `${found.depth.width} x ${found.depth.height}`, 'RANGE');
     const margin = repair ? REPAIR_MARGIN : 0;
     const largest = BLUR_MARGIN * (range.high - range.low + 2 * REPAIR_MARGIN + 1 / 64), maxBlur = Math.min(MAX_BLUR, largest);
     const refocuser = await Refocuser.start({
-      width, height, views: images.length, disparityMin: range.low - margin, disparityMax: range.high + margin, maxBlur,
+      width, height, views: images.length, positions, disparityMin: range.low - margin, disparityMax: range.high + margin, maxBlur,
       previews: PREVIEWS, fillUnknown: true, shapes: true, threads
     }, {calls, signal});
     await refocuser._prepare({depth: {order: range.order}, repair}, {signal, onProgress});

@@ -6,9 +6,9 @@ import deflated from 'engine-module';
 import {checkFields, expect, StarfocusError} from './errors.js';
 import {CALL, ENGINE, FIXED, PARAMS, SETTINGS} from './fields.js';
 import {host} from './host.js';
-import {checkCoverage, checkDepth, checkViews} from './light_field.js';
+import {checkCoverage, checkDepth, checkPositions, checkViews} from './light_field.js';
 import {Picture} from './picture.js';
-import {WorkerCalls} from './worker_calls.js';
+import {UNSHARED, WorkerCalls} from './worker_calls.js';
 
 const MAX_THREADS = 64;
 const REQUIRED = ['width', 'height', 'views', 'disparityMin', 'disparityMax'];
@@ -52,10 +52,16 @@ export class Refocuser {
     return this._prepare({views: pixels, depth: map, coverage, repair}, {...call, transfer: buffers});
   }
 
-  /** Prepares a light field that is checked. Conversion and repair cannot be interrupted, so a cancelled call ends the
-   *  worker. */
+  /** Prepares a light field that is checked. */
   _prepare(values, options) {
-    return this.#calls.call('prepare', values, {...options, stops: true});
+    const {positions, views} = this.#config;
+    expect(!values.repair || !positions || views === 1, 'repair', 'false for views at other positions', values.repair);
+    return this.#calls.call('prepare', values, {...options, stops: UNSHARED});
+  }
+
+  /** Estimates the map of the decoded views. */
+  _estimate(options) {
+    return this.#calls.call('estimate', {}, options);
   }
 
   async configure(settings) {
@@ -123,6 +129,7 @@ export function checkEngine({threads, worker}) {
 
 export async function createRefocuser(options) {
   checkFields('createRefocuser', options, {...FIXED, ...SETTINGS, ...ENGINE}, REQUIRED);
+  checkPositions(options.positions, options.views);
   checkEngine(options);
   return Refocuser.start(options);
 }

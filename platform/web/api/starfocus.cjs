@@ -8,6 +8,7 @@ const load = () => import('#entry');
 
 module.exports = {
   ErrorCode, Mode, Renderer, Shape, StarfocusError, Transfer,
+  estimateDisparity: async (...values) => (await load()).estimateDisparity(...values),
   openPhoto: async (...values) => (await load()).openPhoto(...values),
   createRefocuser: async (...values) => (await load()).createRefocuser(...values)
 };

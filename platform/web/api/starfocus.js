@@ -3,6 +3,7 @@
 
 export {ErrorCode, Mode, Renderer, Shape, Transfer} from './constants.js';
 export {StarfocusError} from './errors.js';
+export {estimateDisparity} from './estimate.js';
 export {setHost as _setHost} from './host.js';
 export {openPhoto} from './photo.js';
 export {createRefocuser} from './refocuser.js';

@@ -7,6 +7,9 @@ import {host} from './host.js';
 
 const PROGRESS_INTERVAL = 50;  // ms
 
+/** Value of the option `stops` for calls that the worker can cancel only with shared memory. */
+export const UNSHARED = 'unshared';
+
 /** Returns the reason of an aborted signal. Old browsers have no reasons. */
 const reasonOf = signal => signal.reason ?? new DOMException('The call was aborted.', 'AbortError');
 
@@ -28,7 +31,7 @@ export class WorkerCalls {
 
   /** Sends a call to the worker, and resolves with the worker's answer. `options` are {signal, onProgress, transfer,
    *  stops}. If the signal is aborted, the promise rejects at once. If `stops` is true, the worker cannot cancel the
-   *  call, so the worker is ended, and the next call starts another worker. */
+   *  call, so the worker is ended, and the next call starts another worker. `stops` may also be UNSHARED. */
   call(name, values, options = {}) {
     return new Promise((resolve, reject) => {
       const {signal} = options;
@@ -110,11 +113,11 @@ export class WorkerCalls {
 
   /** Rejects a call at once. A waiting call is removed, and the worker is asked to end a running call. */
   #cancel(call, reason) {
-    const runs = call === this.#calls[0];
+    const runs = call === this.#calls[0], stops = call.stops === UNSHARED ? !this.#shared : call.stops;
     this.#settle(call, () => call.reject(reason));
-    if (!runs || call.stops) this.#calls = this.#calls.filter(other => other !== call);
+    if (!runs || stops) this.#calls = this.#calls.filter(other => other !== call);
     if (!runs) return;
-    if (call.stops) {
+    if (stops) {
       this.#stop();
       return this.#send();
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types of the npm package starfocus, which refocuses photos with depth, and light fields of 5, 9 or 17 views. The engine
+// Types of the npm package starfocus, which refocuses photos with depth, and light fields of 2 to 17 views. The engine
 // runs in a worker, so all calls are asynchronous.
 //
 // createRefocuser gives access to all settings of the engine. Its options, settings and parameters are the fields of
@@ -76,8 +76,11 @@ export interface Options extends Settings, WorkerOptions {
   width: number;
   /** Height of the views in pixels, an integer in [1, 65535]. */
   height: number;
-  /** Number of views. */
-  views: 1 | 5 | 9 | 17;
+  /** Number of views: 1, 5, 9 or 17 in the order of starfocus_view_position (centre, right, left, below, above, ...), or
+   *  1 to 17 with `positions`. */
+  views: number;
+  /** Position of each view. Default: the positions of starfocus_view_position. */
+  positions?: Positions;
   /** Smallest disparity that a depth map may contain, in pixels, within +-500. Nearer points have larger
    *  disparities. */
   disparityMin: number;
@@ -114,6 +117,10 @@ export interface Pixels {
  *  the same number of bytes per pixel. */
 export type View = Pixels | Uint8Array | Uint8ClampedArray;
 
+/** [u, v] of each view, from -1 to 1. u grows to the right and v downwards. The first view is at [0, 0], and no two are
+ *  equal. A stereo pair has [[0, 0], [1, 0]]. */
+export type Positions = readonly (readonly [number, number])[];
+
 /** Depth map of the centre view, as large as the picture or smaller. */
 export interface DepthMap {
   /** width * height values, row by row. */
@@ -139,8 +146,8 @@ export interface DepthMap {
 /** Options of calls that can be cancelled. */
 export interface Call {
   /** Cancels the call, which rejects at once with the reason of the signal. The worker ends the computation within a
-   *  few milliseconds if memory is shared, and otherwise after at most 512 more rows. A preview, and a refocusing with
-   *  `region` or `blocks` without shared memory, are computed to the end before the next call starts. */
+   *  few milliseconds if memory is shared. Otherwise it ends after at most 512 more rows of the picture; in prepare(),
+   *  openPhoto() and estimateDisparity(), another worker replaces it. */
   signal?: Signal;
 }
 
@@ -268,12 +275,13 @@ export interface Refocuser extends Disposables {
 
   /** Prepares a light field for refocusing. The new light field replaces the previous one, even if the call fails or is
    *  cancelled.
-   *  @param views views in the order of starfocus_view_position (centre, right, left, below, above, ...)
+   *  @param views views in the order of Options.positions, or of starfocus_view_position
    *  @param depth depth map; a Float32Array contains disparities and has the size of the picture
    *  @param options `coverage`: optional alpha of the foreground, one byte per pixel of the centre view, as matting
    *      networks compute it: the part of the pixel that the nearer of two surfaces covers (255: all). Near depth
    *      edges, coverage takes precedence over the depth map. `repair`: if true, noise and misplaced edges of the map
-   *      are corrected (starfocus_repair_disparity), which takes about a second per megapixel; default false.
+   *      are corrected (starfocus_repair_disparity), which takes about a second per megapixel; default false. Maps of
+   *      several views with Options.positions cannot be repaired.
    *      `transfer`: if true, the buffers of all arrays are transferred to the worker and are empty afterwards. Default
    *      false: arrays are copied.
    *  @return elapsed time in the worker, in milliseconds
@@ -350,6 +358,8 @@ export interface PhotoOptions extends WorkerOptions, Call, Progress {
   /** True: depth values are disparities in pixels, as in light fields, within +-499, and `near` and `blur` do not apply.
    *  Default false: depth values have any unit. */
   disparity?: boolean;
+  /** Position of each view, for 2 to 17 views. Default: the positions of starfocus_view_position. */
+  positions?: Positions;
   /** True: the depth is repaired (see Refocuser.prepare). Default: true unless `disparity` is true. */
   repair?: boolean;
 }
@@ -407,10 +417,30 @@ export interface Photo extends Disposables {
 
 /** Opens a photo with depth: decodes the pictures, converts and repairs the depth, and prepares the engine, so that the
  *  first refocusing is fast.
- *  @param image the photo; or an array of 5, 9 or 17 views in the order of starfocus_view_position, with the option
- *      `disparity`
+ *  @param image the photo; or, with the option `disparity`, an array of 5, 9 or 17 views in the order of
+ *      starfocus_view_position, or of as many views as the option `positions` has
  *  @param depth the depth of the photo, at most as large as the photo
  *  @param options options
  *  @throws StarfocusError, for example with the code DECODE if a file is not a picture; the reason of `signal` if the
  *      signal is aborted */
 export declare function openPhoto(image: Source | readonly Source[], depth: DepthSource, options?: PhotoOptions): Promise<Photo>;
+
+/** Options of estimateDisparity. */
+export interface EstimateOptions extends WorkerOptions, Call, Progress {
+  /** Position of each view. Default: the positions of starfocus_view_position, for 5, 9 or 17 views. */
+  positions?: Positions;
+  /** Smallest disparity, in pixels, within +-500. Default: the smallest disparity that is found in reduced views, at
+   *  least minus an eighth of the width. */
+  disparityMin?: number;
+  /** Largest disparity, in pixels, within +-500. Default: the largest disparity that is found in reduced views, at most
+   *  an eighth of the width. */
+  disparityMax?: number;
+}
+
+/** Estimates the disparities of several views (starfocus_estimate_disparity), for openPhoto with the option
+ *  `disparity`. The views must be rectified: points must have equal heights in views beside each other.
+ *  @param images views, of which the first is the centre
+ *  @param options options
+ *  @return the map of the first view
+ *  @throws StarfocusError, for example for views of different sizes; the reason of `signal` if the signal is aborted */
+export declare function estimateDisparity(images: readonly Source[], options?: EstimateOptions): Promise<{data: Floats, width: number, height: number}>;

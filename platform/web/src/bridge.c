@@ -16,6 +16,7 @@
 #define STACK (2 * PAGE) /* stack size of a helper in bytes */
 #define HAS_COVERAGE 1   /* flags of Room */
 #define REPAIR 2
+#define ESTIMATE 4
 
 extern unsigned char __heap_base; /* end of the module's data; defined by the linker */
 
@@ -32,7 +33,7 @@ static uintptr_t top = (uintptr_t)&__heap_base; /* first unused byte */
 static uintptr_t stacks_end;                    /* end of the stacks; 0 before Room is called */
 static uintptr_t field_end;                     /* end of the light field */
 static starfocus_light_field field;
-static starfocus_disparity_output repaired;
+static starfocus_disparity_output made;
 static void* prepared_memory;
 static size_t prepared_bytes;
 static starfocus_prepared* prepared;
@@ -94,6 +95,9 @@ EXPORT(begin) void Begin(void) {
 /* Sets the field of starfocus_config that `text` names. Returns 0 if there is no such field. */
 EXPORT(configure) int Configure(double value) { return SetConfigField(&wanted, text, value); }
 
+/* Returns the positions of the configuration that is being set: u and v of each view. */
+EXPORT(positions) double* Positions(void) { return &wanted.positions[0].u; }
+
 /* Checks the configuration that was set. If it is valid, makes it the current configuration, with
  * `count` workers. On error, the current configuration remains. */
 EXPORT(accept) starfocus_status Accept(int32_t count) {
@@ -152,19 +156,23 @@ static int MakeRoomForCoverage(void) {
   return field.coverage != NULL;
 }
 
-static int MakeRoomForRepair(void) {
+/* Allocates memory for a map that Repair or Estimate makes, and for its coverage or confidence. */
+static int MakeRoomForMap(int32_t flags) {
   const size_t row = (size_t)config.width, rows = (size_t)config.height;
-  memset(&repaired, 0, sizeof(repaired));
-  repaired.disparity_stride = sizeof(float) * row;
-  repaired.disparity = (float*)Allocate(repaired.disparity_stride * rows);
-  repaired.coverage_stride = row;
-  repaired.coverage = (uint8_t*)Allocate(row * rows);
-  return repaired.disparity != NULL && repaired.coverage != NULL;
+  memset(&made, 0, sizeof(made));
+  made.disparity_stride = sizeof(float) * row;
+  made.disparity = (float*)Allocate(made.disparity_stride * rows);
+  uint8_t* const levels = (uint8_t*)Allocate(row * rows);
+  made.coverage_stride = made.confidence_stride = row;
+  made.coverage = (flags & REPAIR) != 0 ? levels : NULL;
+  made.confidence = (flags & REPAIR) != 0 ? NULL : levels;
+  return made.disparity != NULL && levels != NULL;
 }
 
 /* Allocates memory for a light field: views with `pixel_bytes` (3 or 4) bytes per pixel, a depth
- * map, coverage if `flags` contains HAS_COVERAGE, and the results of Repair if `flags` contains
- * REPAIR. Frees the previous light field and the engine. */
+ * map, coverage if `flags` contains HAS_COVERAGE, and the results of Repair or Estimate if `flags`
+ * contains REPAIR or ESTIMATE. With ESTIMATE, no pictures can be refocused. Frees the previous
+ * light field and the engine. */
 EXPORT(room)
 starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_height,
                       int32_t flags) {
@@ -178,9 +186,11 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
   if (status != STARFOCUS_OK) return status;
   if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height) ||
       ((flags & HAS_COVERAGE) != 0 && !MakeRoomForCoverage()) ||
-      ((flags & REPAIR) != 0 && !MakeRoomForRepair())) {
+      ((flags & (REPAIR | ESTIMATE)) != 0 && !MakeRoomForMap(flags))) {
     return STARFOCUS_ERROR_MEMORY;
   }
+  field_end = top;
+  if ((flags & ESTIMATE) != 0) return STARFOCUS_OK;
   picture = (uint8_t*)Allocate(4 * (size_t)config.width * (size_t)config.height);
   blocks = (starfocus_block*)Allocate(MAX_BLOCKS * sizeof(starfocus_block));
   prepared_memory = Allocate(prepared_bytes);
@@ -189,50 +199,69 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
                                                                       : STARFOCUS_ERROR_MEMORY;
 }
 
-static starfocus_depth_config RepairConfig(void) {
-  starfocus_depth_config repair;
-  starfocus_depth_config_init(&repair);
-  repair.width = config.width;
-  repair.height = config.height;
-  repair.views = config.views;
-  repair.disparity_min = config.disparity_min;
-  repair.disparity_max = config.disparity_max;
-  repair.max_workers = workers;
-  repair.runner = workers > 1 ? RunOnWorkers : NULL;
-  repair.progress = Progress;
-  repair.problem = &problem;
-  return repair;
+static starfocus_depth_config MapConfig(void) {
+  starfocus_depth_config map;
+  starfocus_depth_config_init(&map);
+  map.width = config.width;
+  map.height = config.height;
+  map.views = config.views;
+  map.disparity_min = config.disparity_min;
+  map.disparity_max = config.disparity_max;
+  map.max_workers = workers;
+  map.runner = workers > 1 ? RunOnWorkers : NULL;
+  map.progress = Progress;
+  map.problem = &problem;
+  memcpy(map.positions, config.positions, sizeof(map.positions));
+  return map;
 }
 
-/* Repairs the depth map of the light field, whose views are packed RGB. Replaces the map, and the
- * coverage unless the light field has coverage. The workspace lies where the engine will be. */
-EXPORT(repair) starfocus_status Repair(void) {
-  const starfocus_depth_config repair = RepairConfig();
+/* Makes a map from the views, which are packed RGB, by functions of the library, and replaces the
+ * map of the light field. The workspace lies where the engine will be. */
+static starfocus_status MakeMap(starfocus_status (*size_of)(const starfocus_depth_config*, size_t*),
+                                starfocus_status (*make)(const starfocus_depth_config*,
+                                                         const starfocus_light_field*,
+                                                         starfocus_disparity_output*, void*,
+                                                         size_t)) {
+  const starfocus_depth_config map = MapConfig();
   size_t bytes = 0;
   refused = &problem;
-  starfocus_status status = starfocus_repair_workspace_size(&repair, &bytes);
+  starfocus_status status = size_of(&map, &bytes);
   if (status != STARFOCUS_OK) return status;
   engine = NULL;
   top = field_end;
   void* const workspace = Allocate(bytes);
   if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
+  status = make(&map, &field, &made, workspace, bytes);
+  if (status == STARFOCUS_OK) MakeDepth(made.disparity, config.width, config.height);
+  return status;
+}
+
+/* Repairs the depth map of the light field. Replaces the map, and the coverage unless the light
+ * field has coverage. */
+EXPORT(repair) starfocus_status Repair(void) {
   rows_after = config.height; /* of Prepare */
-  if (field.coverage != NULL) repaired.coverage = NULL;
-  status = starfocus_repair_disparity(&repair, &field, &repaired, workspace, bytes);
+  if (field.coverage != NULL) made.coverage = NULL;
+  const starfocus_status status =
+      MakeMap(starfocus_repair_workspace_size, starfocus_repair_disparity);
   rows_after = 0;
   if (status != STARFOCUS_OK) return status;
   rows_before = config.height;
-  MakeDepth(repaired.disparity, config.width, config.height);
-  if (repaired.has_coverage) {
-    field.coverage = repaired.coverage;
-    field.coverage_stride = repaired.coverage_stride;
+  if (made.has_coverage) {
+    field.coverage = made.coverage;
+    field.coverage_stride = made.coverage_stride;
   }
   return STARFOCUS_OK;
 }
 
-/* Returns the memory of the pixels of a view, of the depth map (view -1) or of coverage (view -2).
- */
+/* Estimates the depth map of the light field and its confidence. */
+EXPORT(estimate) starfocus_status Estimate(void) {
+  return MakeMap(starfocus_estimate_workspace_size, starfocus_estimate_disparity);
+}
+
+/* Returns the memory of the pixels of a view, of the depth map (view -1), of coverage (view -2) or
+ * of the confidence of an estimate (view -3). */
 EXPORT(place) const void* Place(int32_t view) {
+  if (view == -3) return made.confidence;
   if (view == -2) return field.coverage;
   return view < 0 ? field.depth.data : field.views[view].planes[0];
 }
@@ -248,9 +277,9 @@ EXPORT(make_engine) starfocus_status MakeEngine(void) {
   top = field_end;
   void* const workspace = Allocate(bytes);
   if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
-  const starfocus_status made = starfocus_init(&config, workspace, bytes, &engine);
-  if (made == STARFOCUS_OK) SetCallbacks(NULL);
-  return made;
+  const starfocus_status created = starfocus_init(&config, workspace, bytes, &engine);
+  if (created == STARFOCUS_OK) SetCallbacks(NULL);
+  return created;
 }
 
 /* Returns the problem of the last call, or null if the last call reports none. */

@@ -8,11 +8,12 @@ import {guessNear, measure, measureRobustly, resize, writeDisparities} from './d
 import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
 import {listen, post, startHelper} from 'worker-port';
 import {errorOf, locate} from './problem.js';
+import {factorFor, mostIn, rangeOf, shrink} from './range.js';
 
 const OK = 0;
 const BLOCK_NUMBERS = 6;  // number of int32 fields of a starfocus_block
-const HAS_COVERAGE = 1, REPAIR = 2;  // flags of the bridge's Room
-const DEPTH = -1, COVERAGE = -2;     // places of the bridge's Place
+const HAS_COVERAGE = 1, REPAIR = 2, ESTIMATE = 4;  // flags of the bridge's Room
+const DEPTH = -1, COVERAGE = -2, CONFIDENCE = -3;  // places of the bridge's Place
 
 // Without shared memory, the worker reads its messages each time it has computed this number of rows. docs/web.md lists
 // the cost of this interruption.
@@ -21,7 +22,7 @@ const ROWS_AT_ONCE = 512;
 let memory, engine, threads, isShared;
 let config;            // options of createRefocuser
 let prepared = null;   // size of the disparity map of the prepared light field, or null
-let decoded = null;    // pictures of openPhoto: {views, depth}
+let decoded = null;    // pictures of openPhoto or estimateDisparity: {views, depth}, where `views` are decodePicture()
 let current = 0;       // id of the running call
 
 const bytesAt = (address, length) => new Uint8Array(memory.buffer, address, length);
@@ -30,6 +31,11 @@ const floatsAt = (address, length) => new Float32Array(memory.buffer, address, l
 /** Throws the error of a status. `given` are the arguments of the call. */
 function check(status, given) {
   if (status !== OK) throw errorOf(engine, memory, status, given);
+}
+
+/** Ends the call if it was cancelled. With shared memory, calls are cancelled while they run. */
+function expectRunning() {
+  if (new Int32Array(memory.buffer)[engine.shared() / 4] === current) throw new Error('the call was cancelled');
 }
 
 /** Sets fields of a C structure by JavaScript names: {maxBlur: 8, region: {x: 0}} sets max_blur and region.x. */
@@ -70,9 +76,26 @@ function copyLightField({views, depth, coverage, repair}, size) {
   const pixelBytes = repair ? 3 : views[0].length / pixels;
   const flags = (coverage ? HAS_COVERAGE : 0) | (repair ? REPAIR : 0);
   check(engine.room(pixelBytes, size.width, size.height, flags));
-  views.forEach((view, index) => copyRgb(view, bytesAt(engine.place(index), pixelBytes * pixels)));
+  views.forEach((view, index) => {
+    expectRunning();
+    copyRgb(view, bytesAt(engine.place(index), pixelBytes * pixels));
+  });
   copyDepth(depth, size);
+  expectRunning();
   if (coverage) bytesAt(engine.place(COVERAGE), pixels).set(coverage);
+}
+
+/** Estimates the map of the pictures `views`, and returns it. */
+function estimateMap(views) {
+  const {width, height} = config;
+  engine.aim(current);
+  check(engine.room(3, 1, 1, ESTIMATE));
+  views.forEach(({data}, index) => {
+    expectRunning();
+    copyRgb(data, bytesAt(engine.place(index), 3 * width * height));
+  });
+  check(engine.estimate(), config);
+  return mapOf(config);
 }
 
 const mapOf = ({width, height}) => ({data: floatsAt(engine.place(DEPTH), width * height), width, height});
@@ -95,7 +118,9 @@ const calls = {
     memory = makeMemory(shared);
     engine = await instantiate(module, memory);
     engine.begin();
-    setFields(engine.configure, given);
+    const {positions = [], ...fields} = given;
+    setFields(engine.configure, fields);
+    new Float64Array(memory.buffer, engine.positions()).set(positions.flat());
     check(engine.accept(count), {...given, threads: count});
     for (let worker = 1; worker < count; ++worker) await addHelper(module, worker);
     return {
@@ -104,23 +129,39 @@ const calls = {
     };
   },
 
-  /** Decodes the pictures of openPhoto, and keeps them for prepare. */
+  /** Decodes the pictures of openPhoto or estimateDisparity, and keeps them. Only openPhoto passes depth. */
   async decode({views, depth, disparity}) {
     const pictures = await Promise.all(views.map((view, index) => decodePicture(view, index ? `image[${index}]` : 'image')));
-    const map = await decodeDepth(depth);
-    decoded = {views: pictures.map(picture => picture.data), depth: map};
+    const sizes = pictures.map(({width, height, channels}) => ({width, height, channels}));
+    decoded = {views: pictures};
+    if (!depth) return {sizes};
+    const map = decoded.depth = await decodeDepth(depth);
     const {low, high} = disparity ? measure(map.data, map.channels) : measureRobustly(map);
-    return {
-      sizes: pictures.map(({width, height, channels}) => ({width, height, channels})),
-      depth: {width: map.width, height: map.height, low, high, brightIsNear: guessNear(map)}
-    };
+    return {sizes, depth: {width: map.width, height: map.height, low, high, brightIsNear: guessNear(map)}};
+  },
+
+  /** Returns the range of disparities of decoded views, {low, high}. The engine of this call is replaced by `open`. */
+  async findRange({positions, ...options}) {
+    const {views} = decoded, factor = factorFor(views[0].width), small = views.map(view => shrink(view, factor));
+    const [{width, height}] = small, most = mostIn(width, factor);
+    await calls.open({config: {width, height, views: views.length, positions, disparityMin: -most, disparityMax: most}, threads: 1, ...options});
+    const map = estimateMap(small);
+    return rangeOf(map, bytesAt(engine.place(CONFIDENCE), width * height), factor, !positions);
+  },
+
+  /** Estimates the map of the decoded views. */
+  estimate() {
+    const {data, width, height} = estimateMap(decoded.views);
+    return {data: data.slice(), width, height};
   },
 
   prepare(values) {
     const start = performance.now();
     prepared = null;
     engine.aim(current);
-    const {depth, ...rest} = values.views ? values : {...values, ...decoded, depth: {...decoded.depth, ...values.depth}};
+    const {depth, ...rest} = values.views ? values : {
+      ...values, views: decoded.views.map(({data}) => data), depth: {...decoded.depth, ...values.depth}
+    };
     decoded = null;
     const {width, height} = rest.repair ? config : depth;
     copyLightField({depth, ...rest}, {width, height});
@@ -157,8 +198,8 @@ const calls = {
     engine.aim(current);
     setFields(engine.set, params);
     if (blocks) engine.watch();
-    const inParts = watched && !blocks && !isShared && shift === 0 && !params.region;
-    const picture = inParts ? await refocusInParts(params) : refocusAtOnce(shift, {shift, ...params});
+    const given = {shift, ...params};
+    const picture = watched && !isShared ? await refocusInParts(given) : refocusAtOnce(given);
     if (blocks) picture.blocks = readBlocks();
     return {...picture, shift, milliseconds: performance.now() - start};
   },
@@ -181,25 +222,39 @@ function expectPrepared(what) {
   throw Object.assign(new Error(`${what}: there is no light field; call prepare first.`), {code: 'STATE'});
 }
 
-function refocusAtOnce(shift, given) {
-  check(engine.refocus(shift), given);
+function refocusAtOnce(given) {
+  check(engine.refocus(given.shift), given);
   const width = engine.picture_width(), height = engine.picture_height();
   return {data: new Uint8ClampedArray(bytesAt(engine.picture(), 4 * width * height)), width, height};
 }
 
-/** Computes the picture in regions of ROWS_AT_ONCE rows. After each region, the function reports progress and handles
- *  messages, so that the call can be cancelled. */
+/** Returns the region of a call, which is the whole picture by default, or null if it is not inside the picture. */
+function regionOf({region}) {
+  const whole = {x: 0, y: 0, width: config.width, height: config.height};
+  if (!region || Object.values(region).every(number => number === 0)) return whole;
+  const {x, y, width, height} = region, isInside = Math.min(x, y, width - 1, height - 1) >= 0;
+  return isInside && x + width <= whole.width && y + height <= whole.height ? region : null;
+}
+
+/** Computes the picture in parts of ROWS_AT_ONCE rows, which begin at multiples of this number. After each part, the
+ *  function reports progress and handles messages, so that the call can be cancelled. */
 async function refocusInParts(given) {
-  const {width, height} = config;
-  const data = new Uint8ClampedArray(4 * width * height);
-  for (let y = 0; y < height; y += ROWS_AT_ONCE) {
-    const region = {x: 0, y, width, height: Math.min(ROWS_AT_ONCE, height - y)};
-    setFields(engine.set, {region});
-    data.set(refocusAtOnce(0, given).data, 4 * width * y);
-    post({id: current, progress: [y + region.height, height]});
+  const {shift} = given, region = regionOf(given);
+  if (!region) return refocusAtOnce(given);
+  const {x, y, width, height} = region, end = y + height, step = ROWS_AT_ONCE << shift;
+  const reduced = (first, count) => (first + count - 1 >> shift) - (first >> shift) + 1;
+  const size = {width: reduced(x, width), height: reduced(y, height)};
+  const data = new Uint8ClampedArray(4 * size.width * size.height);
+  for (let top = y, bottom, at = 0; top < end; top = bottom) {
+    bottom = Math.min(end, (Math.trunc(top / step) + 1) * step);
+    setFields(engine.set, {region: {x, y: top, width, height: bottom - top}});
+    const part = refocusAtOnce(given).data;
+    data.set(part, at);
+    at += part.length;
+    post({id: current, progress: [bottom - y, height]});
     await turn();
   }
-  return {data, width, height};
+  return {data, ...size};
 }
 
 function readBlocks() {

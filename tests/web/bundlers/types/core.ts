@@ -2,9 +2,9 @@
 // Uses every part of the API that does not need the types of browsers.
 
 import {
-  createRefocuser, ErrorCode, Mode, openPhoto, Renderer, Shape, StarfocusError, Transfer, type Block, type Call,
+  createRefocuser, ErrorCode, estimateDisparity, Mode, openPhoto, Renderer, Shape, StarfocusError, Transfer, type Block, type Call,
   type DepthMap, type DepthSource, type Disposables, type Lens, type Options, type Params, type Photo, type PhotoLens,
-  type PhotoOptions, type Picture, type Pixels, type Point, type Progress, type Refocuser, type Refocusing,
+  type PhotoOptions, type Picture, type Pixels, type Point, type Positions, type EstimateOptions, type Progress, type Refocuser, type Refocusing,
   type Settings, type Signal, type Source, type View, type WorkerOptions
 } from 'starfocus';
 
@@ -64,6 +64,14 @@ export async function usePhoto(image: Source, depth: DepthSource): Promise<Uint8
   return other ? other.data : near && ends ? full.data : new Uint8ClampedArray(photo.focusMax + photo.fStopMin);
 }
 
+export async function useEstimate(pair: readonly Source[]): Promise<Photo> {
+  const positions: Positions = [[0, 0], [1, 0]];
+  const given: EstimateOptions = {...workers, ...call, ...progress, positions, disparityMin: -4, disparityMax: 9};
+  const map: DepthSource = await estimateDisparity(pair, given);
+  await createRefocuser({...options, views: 2, positions});
+  return openPhoto(pair, map, {disparity: true, positions});
+}
+
 export function useErrors(error: unknown): string {
   if (!(error instanceof StarfocusError)) return '';
   const code: ErrorCode = error.code, {field, value, message}: {field: string, value: unknown, message: string} = error;
@@ -72,7 +80,7 @@ export function useErrors(error: unknown): string {
 
 // @ts-expect-error: a lens of a photo requires the focus.
 export const noFocus: PhotoLens = {fStop: 2};
-// @ts-expect-error: three views are not a light field.
-export const threeViews: Options['views'] = 3;
+// @ts-expect-error: a position has two coordinates.
+export const flat: Positions = [[0, 0], [1]];
 // @ts-expect-error: a misspelled option
 export const misspelled: PhotoOptions = {treads: 2};
