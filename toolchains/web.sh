@@ -66,7 +66,7 @@ build_web() {
   rm -rf $site/starfocus
   cp -r build/web/npm $site/starfocus || exit 1
   add_heic_decoder $site/heic
-  cp examples/web/*.html examples/web/*.css examples/web/*.js $site || exit 1
+  cp examples/web/*.html examples/web/*.css examples/web/*.js platform/web/worker/png16.js $site || exit 1
 }
 
 # web [PORT]: serves the page on the loopback interface. `web build` only builds the page; `web test` tests the package

@@ -64,10 +64,10 @@ export function readFurtherPictures(file, end) {
   return pictures;
 }
 
-/** Returns the directory of EXIF data as {view, little, entries}, or null. `entries` is the position of the first
- *  entry. */
-function readDirectory(data) {
-  const view = new DataView(data.buffer, data.byteOffset + EXIF.length, data.length - EXIF.length);
+/** Returns the first directory of a TIFF header, which follows a name of `skip` bytes, as {view, little, entries, count},
+ *  or null. `entries` is the position of the first entry. */
+export function readDirectory(data, skip = EXIF.length) {
+  const view = new DataView(data.buffer, data.byteOffset + skip, data.length - skip);
   if (view.byteLength < 14) return null;
   const little = view.getUint16(0) === 0x4949, at = view.getUint32(4, little);
   if (at + 6 > view.byteLength) return null;
@@ -88,6 +88,14 @@ export function orientationOf(segments) {
   const directory = exif && readDirectory(exif.data), at = directory ? findOrientation(directory) : 0;
   const orientation = at ? directory.view.getUint16(at, directory.little) : 1;
   return orientation >= 1 && orientation <= 8 ? orientation : 1;
+}
+
+/** Returns a copy of a JPEG file whose EXIF states that the picture is upright. */
+export function unturned(bytes) {
+  const copy = bytes.slice(), exif = readJpeg(copy).segments.find(segment => hasName(segment, APP1, EXIF));
+  const directory = exif && readDirectory(exif.data), at = directory ? findOrientation(directory) : 0;
+  if (at) directory.view.setUint16(at, 1, directory.little);
+  return copy;
 }
 
 /** Returns a copy of EXIF for an upright picture, without the thumbnail of the original. */

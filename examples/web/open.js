@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recognizes the files that the user opens: a light-field folder, a depth photo, or a picture with its depth picture.
 // Returns {name, stem, images: [Blob], bitmap, depth, options, distances, kept}. `stem` names downloads, and `bitmap` is
-// the first image, or null if it is visible. `depth` and `options` are arguments of openPhoto. `distances` is
-// {far, near} in 1 / metre, or null. `kept` are segments of the downloaded JPEG. Other files cause an Error with a
+// the first image, or null if it is visible. `depth` and `options` are arguments of openPhoto; a stereo photo has no depth.
+// `distances` is {far, near} in 1 / metre, or null. Images of photos that are too large are ImageBitmaps. `kept` are segments of the downloaded JPEG. Other files cause an Error with a
 // message.
 
 import {heicRange, readDepth} from './depth_photo.js';
@@ -10,6 +10,8 @@ import {isJpeg, keepItems, keepSegments, orientationOf, readJpeg} from './jpeg.j
 import {parsePfm} from './pfm.js';
 import {call, decodeHeic} from './pixels.js';
 import {checkPicture, isHeif, namesDepth} from './problem.js';
+import {reduce} from './reduce.js';
+import {readStereo} from './stereo.js';
 
 // Positions in the order of starfocus_view_position. A set of views is a prefix of this list.
 const POSITIONS = [
@@ -62,7 +64,7 @@ async function openFolder(files, find) {
 /** Returns the depth, the options and the distances of a photo whose map has a `range` (see depth_photo.js). */
 async function understand(depth, {first, last, isDistance, metres, near}, orientation) {
   if (first === undefined) {
-    const file = orientation > 1 ? await call('upright', {file: depth, orientation}) : depth;
+    const file = orientation > 1 ? await call('levels', {file: depth, orientation}) : depth;
     return {depth: file, options: {near}, distances: null};
   }
   const {low, high} = await call('measure', {file: depth});
@@ -72,7 +74,7 @@ async function understand(depth, {first, last, isDistance, metres, near}, orient
   if (isDistance) {
     return {depth: await call('invert', {file: depth, orientation, first, last}), options: {near: 'bright'}, distances};
   }
-  const file = orientation > 1 ? await call('upright', {file: depth, orientation}) : depth;
+  const file = orientation > 1 ? await call('levels', {file: depth, orientation}) : depth;
   return {depth: file, options: {near}, distances};
 }
 
@@ -111,11 +113,28 @@ async function toReadable(file) {
   }
 }
 
+/** Opens a stereo photo, whose depth is estimated later. */
+async function openStereo(file, pair, kept) {
+  const [bitmap, right] = await Promise.all(pair.map((picture, k) => checkPicture(picture, k ? `The right picture of ${file.name}` : file.name)));
+  if (right.width !== bitmap.width || right.height !== bitmap.height) {
+    throw new Error(`The right picture of ${file.name} is ${right.width} x ${right.height}; expected ${bitmap.width} x ${bitmap.height}, the size of the left picture.`);
+  }
+  right.close();
+  return {
+    name: `stereo photo ${file.name}`, stem: stemOf(file.name), images: pair, bitmap, depth: null,
+    options: {disparity: true, positions: [[0, 0], [1, 0]]}, distances: null, kept
+  };
+}
+
 async function openDepthPhoto(file) {
   const {bytes, jpeg, kept, orientation} = await readPhoto(file);
   if (isHeif(bytes)) return openHeic(file, bytes);
-  const bitmap = await checkPicture(file);
-  const found = jpeg && await readDepth(file.name, bytes, jpeg);
+  const bitmap = await checkPicture(file), found = jpeg && await readDepth(file.name, bytes, jpeg);
+  const pair = jpeg && !found && readStereo(file.name, bytes, jpeg);
+  if (pair) {
+    bitmap.close();
+    return openStereo(file, pair, kept);
+  }
   if (!found) throw new Error(`${file.name} contains no depth map. ${HELP}`);
   const mapSize = await sizeOf(found.depth, `The depth map of ${file.name}`);
   const [width, height] = orientation >= 5 ? [mapSize.height, mapSize.width] : [mapSize.width, mapSize.height];
@@ -154,7 +173,7 @@ async function openPair(files) {
   const {kept, orientation} = await readPhoto(photo), {width, height} = bitmaps[index];
   // A map with the proportions of the stored photo is turned with the photo.
   const isStored = orientation >= 5 && (bitmap.width < bitmap.height) !== (width < height);
-  const depth = isStored ? await call('upright', {file: files[index], orientation}) : files[index];
+  const depth = isStored ? await call('levels', {file: files[index], orientation}) : files[index];
   checkSize(photo.name, bitmap, isStored ? depth : {width, height});
   bitmaps[index].close();
   return {
@@ -164,7 +183,9 @@ async function openPair(files) {
 }
 
 /** Returns the photo or light field in the files. */
-export async function open(files) {
+export const open = async files => reduce(await recognize(files));
+
+async function recognize(files) {
   const has = pattern => files.some(file => pattern.test(file.name));
   const find = stem => files.find(file => /\.(png|jpe?g|webp)$/i.test(file.name) && stemOf(file.name) === stem);
   if (has(/^view_[+-]/) || has(/^disparity\.pfm$/) && files.length > 2) return openFolder(files, find);

@@ -28,12 +28,13 @@ const engine = () => import('./starfocus/starfocus.js');
 
 /** Starts the engine for the photo `found`. */
 async function start(found, options, signal) {
-  const {openPhoto} = await engine();
+  const {estimateDisparity, openPhoto} = await engine();
   const image = found.images.length > 1 ? found.images : found.images[0];
-  return openPhoto(image, found.depth, {
-    ...found.options, threads, signal,
-    onProgress: (done, total) => say(`Preparing the depth: ${Math.round(100 * done / total)} %`, true), ...options
-  });
+  const call = {
+    threads, signal, onProgress: (done, total) => say(`Preparing the depth: ${Math.round(100 * done / total)} %`, true), ...options
+  };
+  found.depth ??= await estimateDisparity(found.images, {...call, positions: found.options.positions});
+  return openPhoto(image, found.depth, {...found.options, ...call});
 }
 
 /** Shows the version of the engine, the number of threads, and a sentence about the depth. */

@@ -4,28 +4,45 @@
 
 const SAMPLE = 512;  // longest side of the copies that isGray examines
 const GRAY = 8;      // largest difference of the channels of a grey pixel
+const MOST_PIXELS = 2 ** 24;  // of a canvas of iOS before version 18
 
-/** Returns the pixels of a picture file as ImageData. Pictures longer than `longest` are reduced. */
-async function decode(file, {longest = Infinity, orientation = 1} = {}) {
+/** Returns the pixels of a picture file as ImageData. Larger pictures are reduced to the longest side `longest`. */
+async function decode(file, {longest = Infinity} = {}) {
   const bitmap = await createImageBitmap(file, {colorSpaceConversion: 'none', premultiplyAlpha: 'none'});
-  const scale = Math.min(1, longest / Math.max(bitmap.width, bitmap.height));
-  const width = Math.max(1, Math.round(bitmap.width * scale)), height = Math.max(1, Math.round(bitmap.height * scale));
-  const [across, down] = orientation >= 5 ? [height, width] : [width, height];
-  const context = new OffscreenCanvas(across, down).getContext('2d', {willReadFrequently: true});
-  turn(context, orientation, width, height);
+  const most = Math.sqrt(MOST_PIXELS / (bitmap.width * bitmap.height));
+  const scale = Math.min(1, most, longest / Math.max(bitmap.width, bitmap.height));
+  const width = Math.max(1, Math.floor(bitmap.width * scale)), height = Math.max(1, Math.floor(bitmap.height * scale));
+  const context = new OffscreenCanvas(width, height).getContext('2d', {willReadFrequently: true});
+  context.imageSmoothingEnabled = longest < Infinity;
   context.drawImage(bitmap, 0, 0, width, height);
   bitmap.close();
-  return context.getImageData(0, 0, across, down);
+  return context.getImageData(0, 0, width, height);
 }
 
-/** Sets the transformation of a picture of width x height pixels with an EXIF orientation to its upright position. */
-function turn(context, orientation, width, height) {
-  const matrices = {
-    2: [-1, 0, 0, 1, width, 0], 3: [-1, 0, 0, -1, width, height], 4: [1, 0, 0, -1, 0, height], 5: [0, 1, 1, 0, 0, 0],
-    6: [0, 1, -1, 0, height, 0], 7: [0, -1, -1, 0, height, width], 8: [0, -1, 1, 0, 0, width]
-  };
-  if (matrices[orientation]) context.setTransform(...matrices[orientation]);
+/** Returns the levels of a depth picture as {data, width, height}. A PNG with 16 bits of grey keeps its bits. */
+async function decodeLevels(file) {
+  const {readPng16} = await import('./png16.js'), deep = await readPng16(file);
+  if (deep) return deep;
+  const {data, width, height} = await decode(file);
+  return {data: Uint8Array.from({length: width * height}, (_, i) => data[4 * i]), width, height};
 }
+
+/** Returns the levels in their upright position, for an EXIF orientation. */
+function turn({data, width, height}, orientation) {
+  if (orientation === 1) return {data, width, height};
+  const swaps = orientation >= 5, fromRight = [2, 3, 7, 8].includes(orientation), fromBelow = [3, 4, 6, 7].includes(orientation);
+  const [across, down] = swaps ? [height, width] : [width, height], turned = new data.constructor(data.length);
+  for (let y = 0, i = 0; y < down; ++y) {
+    for (let x = 0; x < across; ++x) {
+      const [column, row] = swaps ? [y, x] : [x, y];
+      turned[i++] = data[(fromBelow ? height - 1 - row : row) * width + (fromRight ? width - 1 - column : column)];
+    }
+  }
+  return {data: turned, width: across, height: down};
+}
+
+/** Returns the number of levels of an array. */
+const countLevels = data => data instanceof Uint16Array ? 65536 : 256;
 
 let shown = null;    // ImageData of the full picture that the page shows
 
@@ -42,27 +59,26 @@ const calls = {
   /** Returns the farthest levels of a depth picture that are no outliers, from 0 to 1: the quantiles of 0.1 % and
    *  99.9 %, which openPhoto also uses. */
   async measure({file}) {
-    const {data} = await decode(file), counts = new Uint32Array(256), pixels = data.length / 4;
-    for (let i = 0; i < data.length; i += 4) ++counts[data[i]];
-    const beyond = Math.trunc((pixels - 1) / 1000);
-    const levelAt = rank => counts.findIndex(count => (rank -= count) < 0) / 255;
-    return {low: levelAt(beyond), high: levelAt(pixels - 1 - beyond)};
+    const {data} = await decodeLevels(file), counts = new Uint32Array(countLevels(data));
+    for (const level of data) ++counts[level];
+    const beyond = Math.trunc((data.length - 1) / 1000);
+    const levelAt = rank => counts.findIndex(count => (rank -= count) < 0) / (counts.length - 1);
+    return {low: levelAt(beyond), high: levelAt(data.length - 1 - beyond)};
   },
 
-  /** Returns a depth picture as an array of bytes, turned by the EXIF orientation of its photo. */
-  async upright({file, orientation}) {
-    const {data, width, height} = await decode(file, {orientation});
-    return {data: Uint8Array.from({length: width * height}, (_, i) => data[4 * i]), width, height};
+  /** Returns the levels of a depth picture, turned by the EXIF orientation of its photo. */
+  async levels({file, orientation = 1}) {
+    return turn(await decodeLevels(file), orientation);
   },
 
   /** Converts a depth picture of distances from `first` to `last` to inverse distances. NaN is unknown. */
   async invert({file, orientation, first, last}) {
-    const {data, width, height} = await decode(file, {orientation});
-    const table = Float32Array.from({length: 256}, (_, level) => {
-      const distance = first + level / 255 * (last - first);
+    const {data, width, height} = turn(await decodeLevels(file), orientation), count = countLevels(data);
+    const table = Float32Array.from({length: count}, (_, level) => {
+      const distance = first + level / (count - 1) * (last - first);
       return distance > 0 ? 1 / distance : NaN;
     });
-    return {data: Float32Array.from({length: width * height}, (_, i) => table[data[4 * i]]), width, height};
+    return {data: Float32Array.from(data, level => table[level]), width, height};
   },
 
   /** Converts the demo's disparities, which are codes of 16 bits in the channels R (high) and G (low). */

@@ -3,7 +3,7 @@
 // these tests.
 
 import assert from 'node:assert/strict';
-import {existsSync, readFileSync} from 'node:fs';
+import {existsSync, readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 import sharp from 'sharp';
@@ -51,6 +51,56 @@ test('a depth picture with 16 bits keeps its bits', async () => {
   const depth = await shown(), row = depth.subarray(0, 3 * 320);
   assert.ok(Math.abs(row[3 * 310] - row[3 * 10]) > 100, 'the low bits are visible');
   await choose('picture');
+});
+
+/** Returns the JPEG with EXIF that states this orientation. */
+function turn(jpeg, orientation) {
+  const exif = makeExif();
+  exif[exif.indexOf('0112000300000001', 'hex') + 9] = orientation;
+  return Buffer.concat([jpeg.subarray(0, 2), exif, jpeg.subarray(2)]);
+}
+
+test('a depth map of 16 bits keeps its bits in every orientation', async () => {
+  const levels = Uint16Array.from({length: 64 * 48}, (_, i) => 0x1000 + i % 64 + 2 * Math.trunc(i / 64));
+  const png = await sharp(levels, {raw: {width: 64, height: 48, channels: 1}}).toColourspace('grey16').png().toBuffer();
+  const {jpeg} = await drawPhoto(64, 48);
+  // Corners of the stored map, 0 to 3, that are shown at the upper left, upper right, lower left and lower right.
+  const corners = {
+    1: [0, 1, 2, 3], 2: [1, 0, 3, 2], 3: [3, 2, 1, 0], 4: [2, 3, 0, 1], 5: [0, 2, 1, 3], 6: [2, 0, 3, 1], 7: [3, 1, 2, 0], 8: [1, 3, 0, 2]
+  };
+  for (let orientation = 1; orientation <= 8; ++orientation) {
+    const linear = {format: 'RangeLinear', units: 'm', far: 5};
+    for (const range of orientation === 6 ? [undefined, linear] : [undefined]) {
+      await opened(/^Opened: depth photo turned\.jpg/, file('turned.jpg', makeGDepth(turn(jpeg, orientation), png, range)));
+      await choose('depth');
+      await driver.page.waitForTimeout(300);
+      const depth = await shown(), across = orientation >= 5 ? 48 : 64, down = 112 - across;
+      const found = [0, across - 1, across * (down - 1), across * down - 1].map(at => depth[3 * at]);
+      const stored = [0, 1, 2, 3].map(corner => found[corners[orientation].indexOf(corner)]);
+      assert.ok(stored[0] > stored[1] + 50 && stored[1] > stored[2] + 20 && stored[2] > stored[3] + 50,
+                `orientation ${orientation}: levels of the stored corners ${stored}`);
+    }
+  }
+  await choose('picture');
+});
+
+test('opens stereo photos, and estimates their depth as the program does', async () => {
+  const [left, right] = await Promise.all(['view_+0.0_+0.0.png', 'view_+1.0_+0.0.png'].map(
+      name => sharp(join(small, name)).jpeg({quality: 95, chromaSubsampling: '4:4:4'}).toBuffer()));
+  const path = join(small, 'pair.mpo'), expected = () => refocusByProgram(path, '--focus-at', '100,120');
+  writeFileSync(path, Buffer.concat([left, right]));
+  await opened(/^Opened: stereo photo pair\.mpo, 320 x 240/, file('pair.mpo'));
+  await tap(100, 120);
+  assertSameBytes(await shown(), expected());
+  writeFileSync(path, Buffer.concat([turn(left, 6), right]));
+  await opened(/^Opened: stereo photo pair\.mpo, 320 x 240/, file('pair.mpo'));
+  await tap(100, 120);
+  assertSameBytes(await shown(), expected());
+  const cut = await sharp(right).extract({left: 0, top: 0, width: 300, height: 240}).jpeg().toBuffer();
+  await opened(/^Still open/, file('pair.mpo', Buffer.concat([left, cut])));
+  assert.match(await error(), /^The right picture of pair\.mpo is 300 x 240; expected 320 x 240/);
+  await opened(/^Still open/, file('pair.jpg', Buffer.concat([left, right])));
+  assert.match(await error(), /^pair\.jpg contains no depth map\./);
 });
 
 test('opens light fields, and pairs with disparities', async () => {

@@ -118,6 +118,34 @@ test('on a slow phone the centre view is visible before the picture can be tappe
   assert.ok(bytes < 2.5e6, `the demo has ${bytes} bytes`);
 });
 
+test('a photo above 16 megapixels is reduced before any canvas is drawn', async () => {
+  const {jpeg, png} = await drawPhoto(5000, 4000, 0.5);
+  await visit({}, async page => {
+    // Canvases above 2 ** 24 pixels fail, as on iOS before version 18, in the page and in its workers.
+    const context = page.context();
+    await context.route(/\.js$/, async route => {
+      const response = await route.fetch();
+      const body = (await response.text()).replace(/new OffscreenCanvas\((\w+(?:\.\w+)*), ?(\w+(?:\.\w+)*)\)/g,
+                                                   'new OffscreenCanvas($1*$2>16777216?$1.isTooLarge.forCanvas:$1,$2)');
+      await route.fulfill({response, body});
+    });
+    await page.reload();
+    await waitFor(/^Opened: the demo/);
+    await andWait(() => openFiles(file('large.jpg', jpeg), file('depth.png', png)),
+                  /^Opened: large\.jpg with depth\.png, reduced from 5000 x 4000, 4579 x 3663/);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download')]);
+    const bytes = readFileSync(await download.path());
+    assert.deepEqual(sizeOfJpeg(bytes), [4579, 3663]);
+    assert.ok(await page.isHidden('#error'));
+  });
+});
+
+/** Returns the width and height in the first frame header of a JPEG file. */
+function sizeOfJpeg(bytes) {
+  const at = bytes.indexOf(Buffer.from([0xFF, 0xC0]));
+  return [bytes.readUInt16BE(at + 7), bytes.readUInt16BE(at + 5)];
+}
+
 /** Opens a photo, taps on it and downloads it. Returns the times in ms until the sharp photo is visible and until the
  *  picture can be tapped, and the longest time for which the page did not respond. */
 async function openLarge(photo) {

@@ -14,6 +14,13 @@ copy_reference() {
     grep -q 'href="../index.html"' "$1/files.html"
 }
 
+# copy_page FOLDER: copies the page to tap, and links the name of the project to the start page.
+copy_page() {
+  cp -r build/web/site "$1" &&
+    sed -i 's|<h1>starfocus</h1>|<h1><a href="../index.html">starfocus</a></h1>|' "$1/index.html" &&
+    grep -q 'href="../index.html"' "$1/index.html"
+}
+
 # site: makes the static folder build/site from the documents, the reference, the gallery and the page to tap. Fails if
 # a link of the site is broken.
 site() {
@@ -26,7 +33,7 @@ site() {
   step gallery "making the pictures of docs/gallery.md" make_gallery build/gallery
   step pages "making the pages in $site" python3 toolchains/site/pages.py $site build/gallery
   step reference "copying the reference" copy_reference $site/reference
-  step tap "copying the page to tap" cp -r build/web/site $site/tap
+  step tap "copying the page to tap" copy_page $site/tap
   python3 toolchains/site/links.py $site || fail "$site has broken links"
   echo "the site: $site/index.html"
 }
