@@ -179,6 +179,55 @@ test('without shared memory: one thread, the same picture', async () => {
   assert.equal(driver.problem, undefined);
 });
 
+test('without shared memory, pictures in parts have the same bytes, and every call can be cancelled', async () => {
+  const found = await driver.page.evaluate(async () => {
+    const {createRefocuser} = await import('./starfocus/starfocus.js');
+    const width = 301, height = 2300, pixels = width * height, problems = [];
+    const made = await createRefocuser({width, height, views: 1, disparityMin: -1, disparityMax: 21, previews: 3});
+    const view = Uint8Array.from({length: 3 * pixels}, (_, i) => i % 903 * 7 + i / 9000 & 255);
+    const map = Float32Array.from({length: pixels}, (_, i) => i % 301 > 150 ? 20 : i / pixels);
+    await made.prepare([view], map);
+    const regions = [undefined, {x: 0, y: 0, width: 0, height: 0}, {x: 7, y: 500, width: 200, height: 30},
+                     {x: 0, y: 1023, width: 301, height: 1277}, {x: 33, y: 511, width: 64, height: 1025}];
+    const {signal} = new AbortController();
+    for (const region of regions) {
+      for (const shift of [0, 1, 2, 3]) {
+        for (const blocks of shift ? [false] : [false, true]) {
+          const call = extra => shift ? made.preview({focus: 12, region, shift, ...extra}) : made.refocus({focus: 12, region, blocks, ...extra});
+          const whole = await call({}), parts = await call({signal});
+          const isSame = whole.width === parts.width && whole.height === parts.height &&
+              whole.data.every((value, i) => value === parts.data[i]) && JSON.stringify(whole.blocks) === JSON.stringify(parts.blocks);
+          if (!isSame) problems.push(`${JSON.stringify(region)}, shift ${shift}, blocks ${blocks}`);
+        }
+      }
+    }
+    for (const region of [{x: 0, y: 0, width: 302, height: 5}, {x: 0, y: 2299, width: 3, height: 2}, {x: -1, y: 0, width: 3, height: 3}, {x: 0, y: 0, width: 0, height: 5}]) {
+      const error = await made.refocus({focus: 12, region, signal}).then(() => ({}), error => error);
+      if (error.code !== 'RANGE') problems.push(`${JSON.stringify(region)}: ${error.message}`);
+    }
+    // The worker ends a call after the part that is being computed.
+    for (const call of [signal => made.preview({focus: 12, shift: 1, signal}), signal => made.refocus({focus: 12, region: regions[3], signal}),
+                        signal => made.refocus({focus: 12, blocks: true, signal})]) {
+      const stop = new AbortController(), running = call(stop.signal), begin = performance.now();
+      await new Promise(resolve => setTimeout(resolve, 5));
+      stop.abort();
+      const error = await running.then(() => ({}), error => error);
+      await made.focusAt({x: 1, y: 1});
+      const time = performance.now() - begin, start = performance.now();
+      await call();
+      if (error.name !== 'AbortError' || time > 0.8 * (performance.now() - start)) problems.push(`${call}: ${error.name} ${time}`);
+    }
+    const stop = new AbortController(), preparing = made.prepare([view], map, {repair: true, signal: stop.signal});
+    setTimeout(() => stop.abort(), 20);
+    const error = await preparing.then(() => ({}), error => error);
+    await made.prepare([view], map);
+    if (error.name !== 'AbortError' || (await made.preview({focus: 12})).width !== 151) problems.push(`prepare: ${error.name}`);
+    made.close();
+    return problems;
+  });
+  assert.deepEqual(found, []);
+});
+
 test('without SIMD: one sentence', {skip: process.arch !== 'x64'}, async () => {
   await driver.browser.close();
   driver.browser = await launch('--js-flags=--no-enable-sse4-1');

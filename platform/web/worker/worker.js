@@ -257,12 +257,14 @@ async function refocusInParts(given) {
   return {data, ...size};
 }
 
+/** Returns the blocks of the picture. Parts of a picture overlap by rows of blocks, which are listed once. */
 function readBlocks() {
-  const numbers = new Int32Array(memory.buffer, engine.blocks(), BLOCK_NUMBERS * engine.block_count());
-  return Array.from({length: engine.block_count()}, (_, i) => {
-    const [x, y, width, height, layer, n] = numbers.subarray(BLOCK_NUMBERS * i);
-    return {x, y, width, height, layer, n};
-  });
+  const numbers = new Int32Array(memory.buffer, engine.blocks(), BLOCK_NUMBERS * engine.block_count()), found = new Map();
+  for (let i = 0; i < numbers.length; i += BLOCK_NUMBERS) {
+    const [x, y, width, height, layer, n] = numbers.subarray(i);
+    found.set(`${x},${y}`, {x, y, width, height, layer, n});
+  }
+  return [...found.values()];
 }
 
 /** Starts the helper with this number. */
