@@ -2,8 +2,8 @@
 // Recognizes the files that the user opens: a light-field folder, a depth photo, or a picture with its depth picture.
 // Returns {name, stem, images: [Blob], bitmap, depth, options, distances, kept}. `stem` names downloads, and `bitmap` is
 // the first image, or null if it is visible. `depth` and `options` are arguments of openPhoto; a stereo photo has no depth.
-// `distances` is {far, near} in 1 / metre, or null. Images of photos that are too large are ImageBitmaps. `kept` are segments of the downloaded JPEG. Other files cause an Error with a
-// message.
+// `distances` is {far, near} in 1 / metre, or null. Some images are ImageBitmaps or ImageData. `kept` are segments of the
+// downloaded JPEG. Other files cause an Error with a message.
 
 import {heicRange, readDepth} from './depth_photo.js';
 import {isJpeg, keepItems, keepSegments, orientationOf, readJpeg} from './jpeg.js';
@@ -115,13 +115,17 @@ async function toReadable(file) {
 
 /** Opens a stereo photo, whose depth is estimated later. */
 async function openStereo(file, pair, kept) {
-  const [bitmap, right] = await Promise.all(pair.map((picture, k) => checkPicture(picture, k ? `The right picture of ${file.name}` : file.name)));
+  const bitmap = await checkPicture(pair[0], file.name), right = await checkPicture(pair[1], `The right picture of ${file.name}`);
   if (right.width !== bitmap.width || right.height !== bitmap.height) {
     throw new Error(`The right picture of ${file.name} is ${right.width} x ${right.height}; expected ${bitmap.width} x ${bitmap.height}, the size of the left picture.`);
   }
   right.close();
+  const aligned = await call('align', {left: pair[0], right: pair[1]}).catch(({message}) => {
+    throw new Error(`${file.name} has two pictures, but ${message}.`);
+  });
+  const images = aligned ? [pair[0], new ImageData(aligned.data, aligned.width, aligned.height)] : pair;
   return {
-    name: `stereo photo ${file.name}`, stem: stemOf(file.name), images: pair, bitmap, depth: null,
+    name: `stereo photo ${file.name}`, stem: stemOf(file.name), images, bitmap, depth: null,
     options: {disparity: true, positions: [[0, 0], [1, 0]]}, distances: null, kept
   };
 }

@@ -88,6 +88,12 @@ const calls = {
     return {data: codes, width, height};
   },
 
+  /** Returns the right picture of a stereo photo at the heights of the left picture, or null if it has these heights. */
+  async align({left, right}) {
+    const {align} = await import('./align.js');
+    return align(await decode(left), await decode(right));
+  },
+
   /** Keeps a full picture for `encode`, and returns an ImageBitmap of at most across x down pixels. */
   async show({data, width, height, across, down}) {
     shown = new ImageData(data, width, height);
@@ -108,7 +114,7 @@ onmessage = async ({data: {id, name, values}}) => {
   try {
     const result = await calls[name](values);
     const isBitmap = result instanceof ImageBitmap;
-    postMessage({id, result}, isBitmap ? [result] : result.data ? [result.data.buffer] : []);
+    postMessage({id, result}, isBitmap ? [result] : result?.data ? [result.data.buffer] : []);
   } catch (error) {
     postMessage({id, error: error.message});
   }

@@ -96,6 +96,15 @@ test('opens stereo photos, and estimates their depth as the program does', async
   await opened(/^Opened: stereo photo pair\.mpo, 320 x 240/, file('pair.mpo'));
   await tap(100, 120);
   assertSameBytes(await shown(), expected());
+  // A right picture that is 3 pixels too low is moved; another scene is rejected.
+  const low = await sharp(right).extract({left: 0, top: 0, width: 320, height: 237}).extend({top: 3, extendWith: 'mirror'}).jpeg({quality: 95, chromaSubsampling: '4:4:4'}).toBuffer();
+  writeFileSync(path, Buffer.concat([left, low]));
+  await opened(/^Opened: stereo photo pair\.mpo, 320 x 240/, file('pair.mpo'));
+  await tap(100, 120);
+  assertSameBytes(await shown(), expected());
+  const upset = await sharp(right).rotate(180).jpeg({quality: 95}).toBuffer();
+  await opened(/^Still open/, file('pair.mpo', Buffer.concat([left, upset])));
+  assert.match(await error(), /^pair\.mpo has two pictures, but they are not two pictures of one scene/);
   const cut = await sharp(right).extract({left: 0, top: 0, width: 300, height: 240}).jpeg().toBuffer();
   await opened(/^Still open/, file('pair.mpo', Buffer.concat([left, cut])));
   assert.match(await error(), /^The right picture of pair\.mpo is 300 x 240; expected 320 x 240/);
