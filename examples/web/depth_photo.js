@@ -9,6 +9,7 @@ import {readXmp, valueOf, Xmp} from './xmp.js';
 const GOOGLE = 'http://ns.google.com/photos/1.0/', DYNAMIC = 'http://ns.google.com/photos/dd/1.0/';
 const DEPTH = `${GOOGLE}depthmap/`, IMAGE = `${GOOGLE}image/`, MAP = `${DYNAMIC}depthmap/`;
 const ITEMS = [`${DYNAMIC}item/`, `${GOOGLE}container/item/`];
+const GAIN = 'http://ns.adobe.com/hdr-gain-map/1.0/', ORIGINAL = 'android/original_image';
 const PIXELS = 'http://ns.apple.com/pixeldatainfo/1.0/', APPLE = 'http://ns.apple.com/depthData/1.0/';
 const METRES = {m: 1, meters: 1, mm: 0.001, millimeters: 0.001};
 
@@ -65,14 +66,22 @@ async function readGDepth(name, xmp) {
   return {depth, image, range: googleRange(format, near, far, units)};
 }
 
-/** Returns the position of item `index` of the directory, by the lengths of the items, or by its first bytes if the
- *  lengths are wrong. Returns -1 if there is no picture. */
+/** Returns true for the gain map of a photo with a high dynamic range, which is never depth. */
+const isGainMap = ({segments}) => readXmp(segments).get(GAIN, 'Version') !== undefined;
+
+/** Returns the position of item `index` of the directory: a picture of the length that the directory states; otherwise by
+ *  the lengths of the items before or behind it, or by its first bytes. Returns -1 if there is no picture. */
 function findItem(bytes, end, items, index) {
+  const pictures = readFurtherPictures(bytes, end), gains = pictures.filter(isGainMap);
+  const positionOf = picture => picture ? picture.bytes.byteOffset - bytes.byteOffset : -1;
+  const exact = pictures.find(picture => picture.bytes.length === items[index].length && !gains.includes(picture));
+  if (exact) return positionOf(exact);
   const sizeOf = ({length, padding}) => length + padding;
   let begin = end + items[0].padding, behind = 0;
   items.slice(1).forEach((item, k) => k + 1 < index ? begin += sizeOf(item) : behind += sizeOf(item));
   for (const at of [begin, bytes.length - behind]) {
-    if (at >= end && (isJpeg(bytes, at) || isPng(bytes, at))) return at;
+    const isGain = gains.some(picture => positionOf(picture) === at);
+    if (at >= end && !isGain && (isJpeg(bytes, at) || isPng(bytes, at))) return at;
   }
   if (items[index].mime === 'image/png') {
     let at = end - 1;
@@ -80,8 +89,7 @@ function findItem(bytes, end, items, index) {
     return at;
   }
   const jpegs = items.slice(1, index).filter(({mime}) => mime === 'image/jpeg').length;
-  const picture = readFurtherPictures(bytes, end)[jpegs];
-  return picture ? picture.bytes.byteOffset - bytes.byteOffset : -1;
+  return positionOf(pictures.filter(picture => !gains.includes(picture))[jpegs]);
 }
 
 function readItems(xmp) {
@@ -109,7 +117,10 @@ function readDynamicDepth(name, bytes, end, xmp) {
   const at = findItem(bytes, end, items, index);
   if (at < 0) throw new Error(`${name} lists a depth map that is not in the file.`);
   const range = map ? googleRange(...['Format', 'Near', 'Far', 'Units'].map(field => valueOf(map, MAP, field))) : {};
-  return {depth: new Blob([bytes.subarray(at)], {type: items[index].mime}), range};
+  const toBlob = (from, {mime}) => new Blob([bytes.subarray(from)], {type: mime});
+  // The sharp picture of a portrait, which the camera has blurred already.
+  const original = items.findIndex(item => item.uri === ORIGINAL), sharp = original > 0 ? findItem(bytes, end, items, original) : -1;
+  return {depth: toBlob(at, items[index]), image: sharp > 0 ? toBlob(sharp, items[original]) : undefined, range};
 }
 
 function readApple(bytes, end) {

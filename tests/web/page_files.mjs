@@ -8,7 +8,7 @@ import {join} from 'node:path';
 import test from 'node:test';
 import sharp from 'sharp';
 
-import {makeGDepth} from './gdepth_photo.mjs';
+import {makeDynamicDepth, makeGDepth, markGain} from './gdepth_photo.mjs';
 import {
   andFull, andWait, choose, drawPhoto, driver, error, file, focusText, load, openFiles, refocusByProgram, screenshot,
   setSlider, shown, site, small, sources, tap, waitFor
@@ -163,6 +163,23 @@ test('opens depth photos of phones, with distances where they are known', async 
   assert.deepEqual(await focusTexts(), ['farthest', 'nearest']);
   await opened(/^Opened: depth photo apple\.jpg, 8 x 6/, sample('apple.jpg'));
   assert.match((await focusTexts()).join(), /^1 m away,0\.25 m away$/);
+});
+
+test('portraits open with their original picture, and a gain map is never depth', async () => {
+  const flat = (r, g, b) => sharp({create: {width: 64, height: 48, channels: 3, background: {r, g, b}}}).jpeg({quality: 95}).toBuffer();
+  const [blurred, original, gain] = [await flat(40, 40, 200), await flat(200, 40, 40), markGain(await flat(90, 90, 90))];
+  const map = await sharp((await drawPhoto(64, 48)).png).jpeg({quality: 95}).toBuffer(), depth = ['android/depthmap', map];
+  for (const before of [undefined, gain]) {
+    for (const [items, red] of [[[depth], 40], [[['android/original_image', original], depth], 200], [[depth, ['android/original_image', original]], 200]]) {
+      await opened(/^Opened: depth photo portrait\.jpg, 64 x 48/, file('portrait.jpg', makeDynamicDepth(blurred, items, before)));
+      assert.ok(Math.abs((await shown())[0] - red) < 5);
+      await choose('depth');
+      await driver.page.waitForTimeout(300);
+      const shades = await shown();
+      assert.ok(shades[3 * 10] - shades[3 * 54] > 100, 'the map is a ramp');
+      await choose('picture');
+    }
+  }
 });
 
 test('keeps EXIF in the downloaded JPEG, which is upright', async () => {
