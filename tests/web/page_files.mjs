@@ -87,29 +87,29 @@ test('a depth map of 16 bits keeps its bits in every orientation', async () => {
 test('opens stereo photos, and estimates their depth as the program does', async () => {
   const [left, right] = await Promise.all(['view_+0.0_+0.0.png', 'view_+1.0_+0.0.png'].map(
       name => sharp(join(small, name)).jpeg({quality: 95, chromaSubsampling: '4:4:4'}).toBuffer()));
-  const path = join(small, 'pair.mpo'), expected = () => refocusByProgram(path, '--focus-at', '100,120');
+  const path = join(small, 'twins.mpo'), expected = () => refocusByProgram(path, '--focus-at', '100,120');
   writeFileSync(path, Buffer.concat([left, right]));
-  await opened(/^Opened: stereo photo pair\.mpo, 320 x 240/, file('pair.mpo'));
+  await opened(/^Opened: stereo photo twins\.mpo, 320 x 240/, file('twins.mpo'));
   await tap(100, 120);
   assertSameBytes(await shown(), expected());
   writeFileSync(path, Buffer.concat([turn(left, 6), right]));
-  await opened(/^Opened: stereo photo pair\.mpo, 320 x 240/, file('pair.mpo'));
+  await opened(/^Opened: stereo photo twins\.mpo, 320 x 240/, file('twins.mpo'));
   await tap(100, 120);
   assertSameBytes(await shown(), expected());
   // A right picture that is 3 pixels too low is moved; another scene is rejected.
   const low = await sharp(right).extract({left: 0, top: 0, width: 320, height: 237}).extend({top: 3, extendWith: 'mirror'}).jpeg({quality: 95, chromaSubsampling: '4:4:4'}).toBuffer();
   writeFileSync(path, Buffer.concat([left, low]));
-  await opened(/^Opened: stereo photo pair\.mpo, 320 x 240/, file('pair.mpo'));
+  await opened(/^Opened: stereo photo twins\.mpo, 320 x 240/, file('twins.mpo'));
   await tap(100, 120);
   assertSameBytes(await shown(), expected());
   const upset = await sharp(right).rotate(180).jpeg({quality: 95}).toBuffer();
-  await opened(/^Still open/, file('pair.mpo', Buffer.concat([left, upset])));
-  assert.match(await error(), /^pair\.mpo has two pictures, but they are not two pictures of one scene/);
+  await opened(/^Still open/, file('twins.mpo', Buffer.concat([left, upset])));
+  assert.match(await error(), /^twins\.mpo has two pictures, but they are not two pictures of one scene/);
   const cut = await sharp(right).extract({left: 0, top: 0, width: 300, height: 240}).jpeg().toBuffer();
-  await opened(/^Still open/, file('pair.mpo', Buffer.concat([left, cut])));
-  assert.match(await error(), /^The right picture of pair\.mpo is 300 x 240; expected 320 x 240/);
-  await opened(/^Still open/, file('pair.jpg', Buffer.concat([left, right])));
-  assert.match(await error(), /^pair\.jpg contains no depth map\./);
+  await opened(/^Still open/, file('twins.mpo', Buffer.concat([left, cut])));
+  assert.match(await error(), /^The right picture of twins\.mpo is 300 x 240; expected 320 x 240/);
+  await opened(/^Still open/, file('twins.jpg', Buffer.concat([left, right])));
+  assert.match(await error(), /^twins\.jpg contains no depth map\./);
 });
 
 test('opens light fields, and pairs with disparities', async () => {
