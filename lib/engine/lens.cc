@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/lens.h"
 
-#include <limits>
+#include <cstdint>
+#include <cstring>
 
 #include "lib/base/problem.h"
 #include "lib/base/rules.h"
@@ -11,6 +12,16 @@
 
 namespace starfocus {
 namespace {
+
+// Returns the largest number below `value` > 0. Also correct for numbers without full precision,
+// which a multiplication by less than 1 may not change.
+double NextBelow(double value) {
+  uint64_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  --bits;
+  std::memcpy(&value, &bits, sizeof(value));
+  return value;
+}
 
 // Returns the largest distance of a configured disparity from the range in focus.
 double LargestDistance(const starfocus_config& config, const starfocus_lens& lens) {
@@ -60,9 +71,9 @@ double LargestBlur(const starfocus_config& config, const starfocus_params& param
 double LargestAperture(const starfocus_config& config, const starfocus_lens& lens) {
   const double distance = LargestDistance(config, lens), most = config.max_blur;
   double aperture = distance <= most ? 1 : most / distance;
-  // The rounded quotient may be too large by one unit in the last place.
-  constexpr double kLess = 1 - std::numeric_limits<double>::epsilon();
-  while (aperture * distance > most) aperture *= kLess;
+  // The rounded quotient may be too large by one unit in the last place. The loop ends for any
+  // quotient, because each step makes `aperture` smaller, and the product with 0 is not too large.
+  while (aperture * distance > most) aperture = NextBelow(aperture);
   return aperture;
 }
 

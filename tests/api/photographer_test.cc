@@ -164,6 +164,33 @@ TEST_CASE("largest aperture: the engine accepts it, and no larger aperture") {
   starfocus_destroy(engine);
 }
 
+TEST_CASE("photographer: the largest aperture is right for every max_blur, however small") {
+  for (const double max_blur :
+       {5e-324, 1e-310, 2.2250738585072014e-308, 1e-300, 1e-9, 0.3, 128.0}) {
+    for (const double focus : {-STARFOCUS_MAX_FOCUS, -1.0, 0.0, 0.7, 3.0, STARFOCUS_MAX_FOCUS}) {
+      CAPTURE(max_blur);
+      CAPTURE(focus);
+      starfocus_config config;
+      starfocus_config_init(&config);
+      config.width = config.height = 8;
+      config.views = 1;
+      config.disparity_min = -1.5;
+      config.disparity_max = 1.5;
+      config.max_blur = max_blur;
+      starfocus_engine* engine = nullptr;
+      REQUIRE(starfocus_create(&config, nullptr, &engine) == STARFOCUS_OK);
+      starfocus_lens lens = test::Params(focus).lens;
+      double aperture = -77;
+      REQUIRE(starfocus_largest_aperture(engine, &lens, &aperture) == STARFOCUS_OK);
+      const double distance = std::max(1.5 - focus, focus + 1.5);
+      CHECK(aperture * distance <= max_blur);
+      CHECK((aperture == 1 || std::nextafter(aperture, 1) * distance > max_blur ||
+             std::nextafter(aperture, 1) > max_blur / distance));
+      starfocus_destroy(engine);
+    }
+  }
+}
+
 TEST_CASE(
     "focus at: the focus is the surface at the pixel, even if the surface is small or ends "
     "nearby") {
