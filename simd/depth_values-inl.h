@@ -43,7 +43,7 @@ inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
   const DepthTag df;
   const DepthBits d32;
   const hn::Rebind<uint16_t, DepthTag> d16;
-  const auto nan = hn::Set(d32, 0x7FC00000);
+  const auto infinity = hn::Set(d32, 0x7F800000), nan = hn::Set(d32, 0x7FC00000);
   const bool done = ForVectors(count, hn::Lanes(df), [&](size_t n) HWY_ATTR {
     const auto half = hn::PromoteTo(d32, hn::LoadU(d16, values + n));
     const auto magnitude = hn::And(half, hn::Set(d32, 0x7FFF));
@@ -53,9 +53,10 @@ inline void HalvesToDepth(const uint16_t* HWY_RESTRICT values, size_t count,
     const auto normal = hn::Add(hn::ShiftLeft<13>(magnitude), hn::Set(d32, 112 << 23));
     const auto small =
         hn::BitCast(d32, hn::Mul(hn::ConvertTo(df, magnitude), hn::Set(df, 1.0f / (1 << 24))));
-    const auto bits = hn::IfThenElse(hn::Lt(magnitude, hn::Set(d32, 1 << 10)), small, normal);
-    const auto infinite = hn::Gt(magnitude, hn::Set(d32, 0x7BFF));
-    hn::StoreU(hn::BitCast(df, hn::IfThenElse(infinite, nan, hn::Or(bits, sign))), df, z + n);
+    const auto finite = hn::IfThenElse(hn::Lt(magnitude, hn::Set(d32, 1 << 10)), small, normal);
+    const auto bits = hn::IfThenElse(hn::Eq(magnitude, hn::Set(d32, 0x7C00)), infinity, finite);
+    const auto is_nan = hn::Gt(magnitude, hn::Set(d32, 0x7C00));
+    hn::StoreU(hn::BitCast(df, hn::IfThenElse(is_nan, nan, hn::Or(bits, sign))), df, z + n);
   });
   if (!done) reference::HalvesToDepth(values, count, z);
 }

@@ -40,8 +40,8 @@ inline constexpr int kSpreadSpare = 8;
 namespace reference {
 
 // Convert bytes, 16-bit numbers, half-precision floats (IEEE 754 binary16) or DEPTH16 to z[n] for
-// n < count. Infinity and NaN are converted to NaN. DEPTH16 is a distance in the lower 13 bits,
-// where 0 is unknown (NaN).
+// n < count. Infinity remains infinity: an infinite distance has a known disparity. DEPTH16 is a
+// distance in the lower 13 bits, where 0 is unknown (NaN).
 void BytesToDepth(const uint8_t* values, size_t count, float* z);
 void WordsToDepth(const uint16_t* values, size_t count, float* z);
 void HalvesToDepth(const uint16_t* values, size_t count, float* z);

@@ -12,9 +12,11 @@ constexpr uint16_t kHalfSign = 0x8000, kHalfInfinity = 0x7C00;
 
 float HalfToFloat(uint16_t half) {
   const uint32_t magnitude = half & (kHalfSign - 1u);
-  if (magnitude >= kHalfInfinity) return std::numeric_limits<float>::quiet_NaN();
+  if (magnitude > kHalfInfinity) return std::numeric_limits<float>::quiet_NaN();
   float value = static_cast<float>(magnitude) / (1 << 24);
-  if (magnitude >= 1 << 10) {
+  if (magnitude == kHalfInfinity) {
+    value = std::numeric_limits<float>::infinity();
+  } else if (magnitude >= 1 << 10) {
     // The biased exponent of a float is larger by 112 than that of a half-precision float.
     const uint32_t bits = (magnitude << 13) + (112u << 23);
     std::memcpy(&value, &bits, sizeof(value));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/image_scene.h"
 #include "tests/support/test_scene.h"
 
 namespace disparity_test {
@@ -138,6 +139,75 @@ TEST_CASE("disparity: distances of 16 bits are measured as disparities") {
   REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
   CHECK(stats.max == 7);
   CHECK(stats.invalid == 598);
+}
+
+// Refocuses a picture whose depth map is `map`. Returns the status.
+starfocus_status RefocusWith(const starfocus_depth_map& map) {
+  starfocus_config config;
+  starfocus_config_init(&config);
+  config.width = map.width;
+  config.height = map.height;
+  config.views = 1;
+  config.disparity_min = -STARFOCUS_MAX_DISPARITY;
+  config.disparity_max = STARFOCUS_MAX_DISPARITY;
+  config.features |= STARFOCUS_FEATURE_IMAGES;
+  starfocus_engine* engine = nullptr;
+  REQUIRE(starfocus_create(&config, nullptr, &engine) == STARFOCUS_OK);
+  const size_t row = 3 * size_t(map.width);
+  const std::vector<uint8_t> view(row * size_t(map.height), 90);
+  std::vector<uint8_t> out(view.size());
+  starfocus_light_field field = {};
+  field.views[0] = starfocus_image_rgb(view.data(), row);
+  field.depth = map;
+  const starfocus_image picture = starfocus_image_rgb(out.data(), row);
+  starfocus_params params;
+  starfocus_params_init(&params);
+  params.lens.aperture = 0;
+  const starfocus_status status = starfocus_refocus(engine, &params, &field, &picture, nullptr);
+  starfocus_destroy(engine);
+  return status;
+}
+
+TEST_CASE("disparity: special values mean the same in maps of every type") {
+  constexpr double kSpecial[] = {0, -0.0, 1, 255, -1, 4096, 6.103515625e-05, kInf, -kInf, kNan};
+  constexpr int kValues = 19;  // more than a vector, and a remainder
+  for (const int type :
+       {STARFOCUS_DEPTH_FLOAT, STARFOCUS_DEPTH_HALF, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_U8}) {
+    for (const int meaning : {STARFOCUS_DEPTH_LINEAR, STARFOCUS_DEPTH_RECIPROCAL}) {
+      for (const double z : kSpecial) {
+        for (const int has_invalid : {0, 1}) {
+          test::DepthMemory memory;
+          memory.map.width = kValues;
+          memory.map.height = 1;
+          memory.map.type = type;
+          memory.map.meaning = meaning;
+          memory.map.stride = sizeof(float) * kValues;
+          memory.words.resize(kValues);
+          memory.map.data = memory.words.data();
+          memory.map.scale = 1.0 / 64;
+          memory.map.offset = 3;
+          memory.map.has_invalid = has_invalid;
+          memory.map.invalid = z;
+          for (int x = 0; x < kValues; ++x) memory.Put(x, 0, z);
+          if (!(double(memory.Get(0, 0)) == z) && z == z) continue;  // The type lacks this value.
+          if (std::isnan(z) && type != STARFOCUS_DEPTH_FLOAT && type != STARFOCUS_DEPTH_HALF) {
+            continue;
+          }
+          CAPTURE(type);
+          CAPTURE(meaning);
+          CAPTURE(z);
+          CAPTURE(has_invalid);
+          const double disparity = (meaning == STARFOCUS_DEPTH_LINEAR ? z / 64 : 1.0 / 64 / z) + 3;
+          const bool known = std::isfinite(disparity) && has_invalid == 0;
+          starfocus_disparity_stats stats;
+          REQUIRE(starfocus_measure_disparity(&memory.map, &stats) == STARFOCUS_OK);
+          CHECK(stats.invalid == (known ? 0 : kValues));
+          if (known) CHECK(double(stats.max) == doctest::Approx(disparity).epsilon(1e-6));
+          CHECK(RefocusWith(memory.map) == (known ? STARFOCUS_OK : STARFOCUS_ERROR_NOT_FINITE));
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("disparity: a map without finite values cannot be filled") {

@@ -237,7 +237,8 @@ struct DepthMemory {
   }
 
   static uint16_t HalfOf(double z) {
-    if (!std::isfinite(z)) return 0x7E00;
+    if (std::isnan(z)) return 0x7E00;
+    if (std::isinf(z)) return z < 0 ? 0xFC00 : 0x7C00;
     int exponent = 0;
     const double fraction = std::frexp(std::fabs(z), &exponent);
     if (z == 0 || exponent < -13) return 0;
@@ -246,7 +247,9 @@ struct DepthMemory {
   }
   static float FloatOf(uint16_t half) {
     const int exponent = half >> 10 & 31, fraction = half & 1023;
-    if (exponent == 31) return std::numeric_limits<float>::quiet_NaN();
+    using Limits = std::numeric_limits<float>;
+    if (exponent == 31 && fraction != 0) return Limits::quiet_NaN();
+    if (exponent == 31) return half >= 0x8000 ? -Limits::infinity() : Limits::infinity();
     const double size =
         exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
     return float(half >= 0x8000 ? -size : size);

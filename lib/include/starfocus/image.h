@@ -111,8 +111,9 @@ typedef enum starfocus_depth_meaning {
 /** Depth map of the centre view, as large as the picture or smaller in width, height or both.
  *
  *  Disparities are computed in single precision and rounded half up to 1/64 pixel. Disparities must
- *  lie in the configured range; otherwise the call returns STARFOCUS_ERROR_DISPARITY. Disparities
- *  that are not finite, and disparities of the invalid value, are unknown: see
+ *  lie in the configured range; otherwise the call returns STARFOCUS_ERROR_DISPARITY. An infinite
+ *  distance is known in float and half maps: its disparity is `offset`. Disparities that are not
+ *  finite, and disparities of the invalid value, are unknown: see
  *  STARFOCUS_FEATURE_FILL_UNKNOWN. Unknown values are filled along rows of the picture, not along
  *  rows of the map.
  *
