@@ -4,6 +4,7 @@
 #ifndef STARFOCUS_PLATFORM_READERS_DEPTH_OPTIONS_H_
 #define STARFOCUS_PLATFORM_READERS_DEPTH_OPTIONS_H_
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct DepthOptions {
   // an error.
   // If `estimate` is set, the other options do not apply to a depth map in the file of a photo.
   std::function<Result<Samples>(const Image& photo)> estimate = nullptr;
+  // Receives the bytes that decoding a photo or depth picture takes (decoding_memory.h), before it
+  // is decoded; null: not needed.
+  std::function<void(uint64_t bytes)> before_decoding = nullptr;
 };
 
 }  // namespace starfocus

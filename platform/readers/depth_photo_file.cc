@@ -11,6 +11,7 @@
 #include "platform/image_io.h"
 #include "platform/readers/apple_depth.h"
 #include "platform/readers/confined_photo.h"
+#include "platform/readers/decoding_memory.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/dynamic_depth.h"
 #include "platform/readers/exif.h"
@@ -250,6 +251,7 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   if (stream && bytes->empty()) return Expected(where, "a photo", "nothing");
   const Span file = {bytes->data(), bytes->size()};
   const Near near = options.estimate ? Near::kUnknown : options.near;
+  if (options.before_decoding) options.before_decoding(DecodingBytes(file));
   Result<DepthPhoto> decoded = ConfinedPhoto(
       where, file, [&] { return DecodeDepthPhoto(where, file, depth.empty(), near); });
   if (!decoded) return decoded;

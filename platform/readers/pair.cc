@@ -13,6 +13,7 @@
 
 #include "platform/depth_file.h"
 #include "platform/helper/helper.h"
+#include "platform/readers/decoding_memory.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/map_orientation.h"
 #include "platform/readers/robust_range.h"
@@ -201,6 +202,8 @@ Error ReadDepthPicture(const std::string& path, const DepthOptions& options, Dep
   photo->facts.emplace_back("depth picture", path);
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
+  if (options.before_decoding)
+    options.before_decoding(DecodingBytes({bytes->data(), bytes->size()}));
   Result<Samples> samples =
       Confined<Samples>(path, [&] { return DecodeDepthFile(path, options.use_alpha, *bytes); });
   if (!samples) return samples.error();

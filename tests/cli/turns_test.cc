@@ -5,7 +5,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <mutex>
+#include <random>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -17,7 +22,7 @@ using starfocus::Turns;
 // Runs eight inputs on four threads. Input 3 fails before its turn. Returns the inputs in the order
 // of their turns, and stores the largest number of turns at the same time in `*most`.
 std::vector<size_t> RunInputs(size_t limit, int* most) {
-  Turns turns(limit);
+  Turns turns(limit, 100);
   std::mutex mutex;
   std::vector<size_t> order;
   size_t next = 0;
@@ -39,7 +44,7 @@ std::vector<size_t> RunInputs(size_t limit, int* most) {
       lock.lock();
       --now;
       lock.unlock();
-      turn.End();
+      turn.End(0);
     }
   };
   std::vector<std::thread> threads;
@@ -62,6 +67,79 @@ TEST_CASE("Turns: at most the given number of inputs at a time") {
     CHECK(RunInputs(2, &most).size() == 7);
     CHECK(most <= 2);
   }
+}
+
+// Memory that the inputs of a batch hold at present.
+struct Memory {
+  std::mutex mutex;
+  std::multiset<uint64_t> held = {};  // bytes of each input
+
+  // Returns the bytes beside those of the `jobs` largest inputs.
+  uint64_t Beside(size_t jobs) const {
+    uint64_t sum = 0;
+    size_t k = held.size();
+    for (const uint64_t bytes : held) sum += k-- > jobs ? bytes : 0;
+    return sum;
+  }
+};
+
+TEST_CASE("Turns: beside the inputs of all jobs, at most the stated bytes are in memory") {
+  constexpr uint64_t kMost = 100;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    CAPTURE(seed);
+    const size_t jobs = 1 + seed % 3;
+    std::mt19937 random(seed);
+    std::vector<uint64_t> sizes(20);
+    for (uint64_t& size : sizes) size = random() % 3 == 0 ? 101 + random() % 900 : random() % 101;
+    Turns turns(jobs, kMost);
+    Memory memory;
+    std::atomic<size_t> next{0};
+    std::atomic<uint64_t> most{0};
+    const auto serve = [&] {
+      for (size_t i = next++; i < sizes.size(); i = next++) {
+        const uint64_t file = sizes[i] / 3;
+        Turn turn(&turns, i);
+        turn.Take(file);
+        turn.Take(sizes[i] - file);
+        std::unique_lock<std::mutex> lock(memory.mutex);
+        const auto its = memory.held.insert(sizes[i]);
+        most = std::max<uint64_t>(most, memory.Beside(jobs));
+        lock.unlock();
+        if (i % 5 != 4) {  // other inputs fail
+          turn.Begin();
+          std::this_thread::yield();
+          turn.End(sizes[i]);
+          std::this_thread::yield();
+        }
+        lock.lock();
+        memory.held.erase(its);
+      }
+    };
+    std::vector<std::thread> threads;
+    for (size_t k = 0; k < jobs + 1; ++k) threads.emplace_back(serve);
+    for (std::thread& thread : threads) thread.join();
+    CHECK(most <= kMost);
+  }
+}
+
+TEST_CASE("Turns: an input of unknown size waits for its turn") {
+  Turns turns(1, 100);
+  Turn first(&turns, 0), second(&turns, 1);
+  first.Begin();
+  std::atomic<bool> begun{false};
+  std::thread thread([&] {
+    second.Take(1);
+    second.Take(UINT64_MAX);
+    begun = true;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK(!begun);
+  first.End(101);  // too much outside the turn
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK(!begun);
+  first.End(100);
+  thread.join();
+  CHECK(begun);
 }
 
 }  // namespace

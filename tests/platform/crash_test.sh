@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # usage: crash_test.sh PROGRAM LIBRARY PHOTOS
 # Checks that a photo that makes a decoder crash causes one error, that a batch continues, and that no partial file
-# remains. Checks that commands that start no programs cannot connect to networks. LIBRARY makes libjpeg crash on the file
-# whose size is $CRASH_SIZE. PHOTOS is a folder with small depth photos.
+# remains. Checks that commands that start no programs cannot connect to networks. Checks that --threads limits the
+# threads of libraries. LIBRARY makes libjpeg crash on the file whose size is $CRASH_SIZE, and programs that run more
+# threads than $MOST_THREADS. PHOTOS is a folder with small depth photos, next to the folder heif.
 set -eu
 [ $# = 3 ] || { echo "usage: $0 PROGRAM LIBRARY PHOTOS" >&2; exit 2; }
 program=$1 library=$2
@@ -40,3 +41,12 @@ cp good.jpg lf/view_+0.0_+0.0.png
 LD_PRELOAD=$library "$program" info lf >log 2>&1 || fail "expected that a decoder cannot connect to a network"
 ! (LD_PRELOAD=$library "$program" info lf --depth-command 'cp {input} {output}') >log 2>&1 ||
   fail "expected that --depth-command keeps the network"
+
+# libde265 always starts a thread of its own, for which libheif waits. Decoders for AV1 can use the first thread.
+if LD_PRELOAD=$library "$program" info "$3/../heif/depth.heic" --near white >/dev/null 2>log; then
+  LD_PRELOAD=$library MOST_THREADS=1 "$program" refocus "$3/../heif/depth.heic" -o out.jpg --near white --threads 1 \
+    2>log || fail "expected that a decoder for HEVC starts one thread"
+  { printf 'P5 24 16 255\n' && head -c 384 "$program"; } >map.pgm
+  LD_PRELOAD=$library MOST_THREADS=0 "$program" refocus "$3/../heif/plain.avif" -o out.jpg --near white \
+    --depth map.pgm --threads 1 2>log || fail "expected that a decoder for AV1 starts no thread"
+fi

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,9 @@ namespace {
 
 // Largest number of pictures of a sweep, because file names have three digits.
 constexpr int kMostPictures = 1000;
+
+// Largest memory of an input outside its turn: photos of up to 32 megapixels.
+constexpr uint64_t kMostBytesAhead = uint64_t{512} << 20;
 
 struct RefocusOptions {
   std::vector<std::string> inputs;
@@ -129,9 +133,17 @@ Error CheckRegion(const Image& picture, const starfocus_region& region) {
 }
 
 Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
-  // The depth command runs in the turn of its input, so that --jobs limits the number of commands.
-  if (options.turn != nullptr && EstimatesDepth(options.input)) options.turn->Begin();
-  Result<Capture> capture = ReadInput(options.input);
+  InputOptions input = options.input;
+  if (options.turn != nullptr) {
+    // The depth command runs in the turn of its input, so that --jobs limits the number of
+    // commands.
+    if (EstimatesDepth(input)) options.turn->Begin();
+    std::error_code no_size;  // a folder: its pictures are read in its turn
+    const uintmax_t size = std::filesystem::file_size(input.path, no_size);
+    if (!no_size) options.turn->Take(size);
+    input.map.before_decoding = [&](uint64_t bytes) { options.turn->Take(bytes); };
+  }
+  Result<Capture> capture = ReadInput(input);
   if (options.turn != nullptr) options.turn->Begin();
   if (!capture) return capture;
   TellNotes(*capture);
@@ -187,6 +199,14 @@ void TellOutputs(const RefocusOptions& options, const LensPlan& plan) {
   if (outputs.empty()) TellLine(InputName(options.input.path) + lens);
 }
 
+// Returns the bytes of the pictures and maps that an input holds after it has been refocused.
+uint64_t BytesOf(const LightField& light_field, const Image& picture) {
+  uint64_t bytes = picture.pixels.size() + light_field.coverage.size() +
+                   light_field.disparity.values.size() * sizeof(float);
+  for (const Image& view : light_field.views) bytes += view.pixels.size();
+  return bytes;
+}
+
 // Computes and writes one picture. Shows the picture on `terminal`, unless this is nullopt.
 Error RunOne(const RefocusOptions& options, const PictureOptions& how, const LensPlan& plan,
              const EngineTask& one, const std::optional<GraphicsTerminal>& terminal, double start) {
@@ -203,7 +223,7 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, const Len
   result.picture = EngineRun::MakePicture(task);
   PictureWriter writer(options.output, how, &result.picture, task.threads);
   Error error = run.RefocusRows(InputName(options.input.path), task, writer.rows(), &result);
-  if (options.turn != nullptr) options.turn->End();
+  if (options.turn != nullptr) options.turn->End(BytesOf(*task.light_field, result.picture));
   if (!error) {
     Refocused refocused = {options.input.path, &task, &result.picture, plan.aperture.widest};
     if (plan.focus_option == "--focus-at") refocused.at = Pixel{plan.x, plan.y};
@@ -287,7 +307,7 @@ Error RunInputs(const RefocusOptions& options, const Batch& batch) {
   const int cores = std::max(1, starfocus_pool_cores() / options.jobs);
   const int threads = options.lens.threads > 0 ? options.lens.threads : cores;
   const int ahead = threads > 1 ? 1 : 0;
-  Turns turns(static_cast<size_t>(options.jobs));
+  Turns turns(static_cast<size_t>(options.jobs), kMostBytesAhead);
   return RunBatch(batch, options.jobs + ahead, [&](const BatchItem& item) {
     Turn turn(&turns, static_cast<size_t>(&item - batch.items.data()));
     RefocusOptions one = options;

@@ -6,20 +6,22 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 
 namespace starfocus {
 
 // Turns of the inputs of a batch. At most `most` inputs have their turn at the same time, and turns
-// begin in the order of the inputs.
+// begin in the order of the inputs. Outside its turn, an input may hold at most `most_bytes`.
 class Turns {
  public:
-  explicit Turns(size_t most) : most_(most) {}
+  Turns(size_t most, uint64_t most_bytes) : most_(most), most_bytes_(most_bytes) {}
 
  private:
   friend class Turn;
 
   const size_t most_;
+  const uint64_t most_bytes_;
   std::mutex mutex_;
   std::condition_variable changed_;
   size_t ended_ = 0;  // number of turns that have ended
@@ -30,7 +32,7 @@ class Turns {
 class Turn {
  public:
   Turn(Turns* turns, size_t index) : turns_(*turns), index_(index) {}
-  ~Turn() { End(); }
+  ~Turn() { Finish(); }
   Turn(const Turn&) = delete;
   Turn& operator=(const Turn&) = delete;
 
@@ -40,8 +42,22 @@ class Turn {
     turns_.changed_.wait(lock, [&] { return index_ < turns_.ended_ + turns_.most_; });
   }
 
-  // Ends the turn, which begins first if necessary. Does nothing if the turn has ended.
-  void End() {
+  // Declares that the input is about to take `bytes` more of memory. If it then exceeds the limit
+  // outside turns, waits until its turn begins.
+  void Take(uint64_t bytes) {
+    taken_ = bytes < UINT64_MAX - taken_ ? taken_ + bytes : UINT64_MAX;
+    if (taken_ > turns_.most_bytes_) Begin();
+  }
+
+  // Ends the turn, which begins first if necessary. The input still holds `bytes` of memory. If
+  // this exceeds the limit outside turns, the turn lasts until the input is destroyed instead. Does
+  // nothing if the turn has ended.
+  void End(uint64_t bytes) {
+    if (bytes <= turns_.most_bytes_) Finish();
+  }
+
+ private:
+  void Finish() {
     if (ended_) return;
     Begin();
     ended_ = true;
@@ -52,9 +68,9 @@ class Turn {
     turns_.changed_.notify_all();
   }
 
- private:
   Turns& turns_;
   const size_t index_;
+  uint64_t taken_ = 0;  // bytes
   bool ended_ = false;
 };
 
