@@ -78,16 +78,17 @@ struct Beginning {
   size_t at;
   const char* bytes;
   const char* what;
+  bool is_picture = false;  // True for a picture of a format that the program does not read.
 };
 constexpr Beginning kBeginnings[] = {
     {0, "\x89PNG", "a damaged PNG file"},
     {0, "\xff\xd8", "a damaged JPEG file"},
-    {0, "GIF8", "a GIF file"},
-    {0, "BM", "a BMP file"},
-    {0, "II*", "a TIFF or raw file"},
-    {0, "MM", "a TIFF or raw file"},
+    {0, "GIF8", "a GIF file", true},
+    {0, "BM", "a BMP file", true},
+    {0, "II*", "a TIFF or raw file", true},
+    {0, "MM", "a TIFF or raw file", true},
     {0, "\x93NUMPY", "a NumPy array"},
-    {0, "v/1\x01", "an OpenEXR file"},
+    {0, "v/1\x01", "an OpenEXR file", true},
     {0, "%PDF", "a PDF file"},
     {0, "PK\x03\x04", "a ZIP archive"},
     {0, "\x1f\x8b", "a gzip archive"},
@@ -112,13 +113,13 @@ Error Truncated(const std::string& where, const std::string& format) {
               " file is truncated (expected its last part, found the end of the file)"};
 }
 
-std::string DescribeFile(const Bytes& bytes) {
+std::string DescribeFile(const Bytes& bytes, const std::string& advice) {
   if (bytes.empty()) return "an empty file";
   for (const Beginning& beginning : kBeginnings) {
     const size_t size = std::strlen(beginning.bytes);
     if (bytes.size() >= beginning.at + size &&
         std::memcmp(&bytes[beginning.at], beginning.bytes, size) == 0) {
-      return beginning.what;
+      return beginning.what + (beginning.is_picture ? advice : "");
     }
   }
   const bool blank = std::all_of(bytes.begin(), bytes.end(), [](uint8_t c) { return c == 0; });

@@ -26,8 +26,9 @@ Container CheckContainer(const Bytes& bytes);
 Error Truncated(const std::string& where, const std::string& format);
 
 // Returns a description of an unsupported file, for use in error messages: "a text file", "a GIF
-// file", "an empty file". Returns "a file of an unknown format" if the format is not recognized.
-std::string DescribeFile(const Bytes& bytes);
+// file", "an empty file". Returns "a file of an unknown format" if the format is not recognized. If
+// the file is a picture of an unsupported format, appends `advice`, which states how to convert it.
+std::string DescribeFile(const Bytes& bytes, const std::string& advice = "");
 
 // Returns true if a PNG file ends within a chunk, or lacks its last chunk.
 bool IsTruncatedPng(const Bytes& png);

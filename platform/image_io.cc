@@ -59,7 +59,9 @@ Result<DecodedPicture> DecodeImage(const std::string& where, const Bytes& bytes)
   if (IsPng(bytes)) return DecodePng(where, bytes);
   if (IsWebp(bytes)) return DecodeWebp(where, bytes);
   if (IsJpegStart(bytes)) return WithoutMetadata(DecodeJpeg(where, bytes));
-  return Expected(where, kFormats, DescribeFile(bytes));
+  return Expected(
+      where, kFormats,
+      DescribeFile(bytes, " (convert it to PNG or JPEG, for example with ImageMagick)"));
 }
 
 Result<Image> ReadImage(const std::string& path) {

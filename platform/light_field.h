@@ -22,6 +22,7 @@ struct LightField {
   FloatMap disparity;
   // starfocus_light_field.coverage in rows without padding; empty: no coverage
   std::vector<uint8_t> coverage;
+  bool is_linear = false;  // true if the codes of the views are proportional to light
 
   int width() const { return disparity.width; }
   int height() const { return disparity.height; }

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "platform/colour_description.h"
 #include "platform/file.h"
 #include "platform/image.h"
 #include "platform/result.h"
@@ -20,12 +21,16 @@ struct Metadata {
   // descriptions contain title, caption, rating, copyright and so on, but no properties of the file
   // (kept_metadata.h).
   std::string xmp = {};
+  // Colours of a file without a profile, or of a PNG file whose chunk cICP overrides the profile.
+  // Readers convert the description to a profile if possible; PNG files can store the others.
+  ColourDescription colours = {};
 };
 
 // A picture with the metadata of its file.
 struct DecodedPicture {
   Image image;
   Metadata metadata;
+  bool is_transparent = false;  // True if the file has an alpha channel that is not opaque.
 };
 
 inline Result<DecodedPicture> WithoutMetadata(Result<Image> image) {

@@ -24,6 +24,9 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
+const Words<starfocus_transfer> kTransfers = {{"srgb", STARFOCUS_TRANSFER_SRGB},
+                                              {"none", STARFOCUS_TRANSFER_NONE}};
+
 std::optional<int> ReadWhole(const std::string& text) {
   if (text.empty() || text.size() > 9) return {};
   if (text.find_first_not_of("0123456789") != std::string::npos) return {};
@@ -143,9 +146,10 @@ Target Number(double low, double high, const std::string& expected, std::optiona
   return ReadNumberInto(low, high, expected, value, "");
 }
 
-Target Transfer(starfocus_transfer* value) {
-  return Choice<starfocus_transfer>(
-      {{"srgb", STARFOCUS_TRANSFER_SRGB}, {"none", STARFOCUS_TRANSFER_NONE}}, value);
+Target Transfer(starfocus_transfer* value) { return Choice<starfocus_transfer>(kTransfers, value); }
+
+Target Transfer(std::optional<starfocus_transfer>* value) {
+  return Choice<starfocus_transfer>(kTransfers, value);
 }
 
 Target FStop(std::optional<double>* value) {

@@ -36,9 +36,10 @@ Target Number(double low, double high, const std::string& expected, std::optiona
 // Target for one of several words, each of which stands for a value.
 template <class T>
 using Words = std::vector<std::pair<const char*, T>>;
-template <class T>
-Target Choice(const Words<T>& words, T* value);
+template <class T, class Value>
+Target Choice(const Words<T>& words, Value* value);
 Target Transfer(starfocus_transfer* value);
+Target Transfer(std::optional<starfocus_transfer>* value);
 
 // Target for an f-stop above 0. Accepts the ways in which f-stops are printed: 1.8, f/1.8
 // and f1.8.
@@ -79,8 +80,8 @@ std::string Decimal(double value, int decimals);
 // Formats words as "a, b or c".
 std::string OneOf(const std::vector<std::string>& words);
 
-template <class T>
-Target Choice(const Words<T>& words, T* value) {
+template <class T, class Value>
+Target Choice(const Words<T>& words, Value* value) {
   std::vector<std::string> names;
   std::string shown;
   for (const auto& [name, its] : words) {

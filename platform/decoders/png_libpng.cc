@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -24,6 +25,8 @@ struct Call : PngCall {
   bool truncated = false;
   Bytes exif = {};  // EXIF from a text chunk
   std::string xmp = {};
+  ColourDescription colours = {};  // from the chunk cICP
+  bool is_transparent = false;     // true if a pixel is not opaque
 };
 
 void Take(png_structp png, png_bytep data, png_size_t size) {
@@ -36,19 +39,31 @@ void Take(png_structp png, png_bytep data, png_size_t size) {
   call->at += size;
 }
 
+// Reads the chunk cICP (PNG specification, 11.3.2.6): primaries, transfer, matrix, range.
+void TakeCodePoints(const png_unknown_chunk& chunk, ColourDescription* colours) {
+  if (chunk.size != 4) return;
+  *colours = {kCicpForm, chunk.data[0], chunk.data[1], chunk.data[3] != 0};
+}
+
 // Handles text chunks and suggested palettes, which libpng would otherwise store and, if
-// compressed, inflate. Keeps only EXIF and XMP.
+// compressed, inflate. Keeps only EXIF, XMP and the chunk cICP, which older versions of libpng do
+// not read.
 int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   Call* call = static_cast<Call*>(png_get_user_chunk_ptr(png));
   const bool packed = std::memcmp(chunk->name, "zTXt", 4) == 0;
   const bool is_xmp = std::memcmp(chunk->name, "iTXt", 4) == 0;
-  if (!packed && !is_xmp && std::memcmp(chunk->name, "tEXt", 4) != 0) return 1;
   try {
+    if (std::memcmp(chunk->name, "cICP", 4) == 0) {
+      TakeCodePoints(*chunk, &call->colours);
+      return 1;
+    }
     if (is_xmp) {
       ReadXmpText(chunk->data, chunk->size, &call->xmp);
       return 1;
     }
-    ReadRawProfile(packed, chunk->data, chunk->size, &call->exif);
+    if (packed || std::memcmp(chunk->name, "tEXt", 4) == 0) {
+      ReadRawProfile(packed, chunk->data, chunk->size, &call->exif);
+    }
     return 1;
   } catch (const std::bad_alloc&) {
     call->no_memory = true;
@@ -56,6 +71,17 @@ int TakeChunk(png_structp png, png_unknown_chunkp chunk) {
   // Return -1 instead of calling Fail, because longjmp must not leave an exception handler. libpng
   // then calls Fail.
   return -1;
+}
+
+// Removes the alpha samples of a row of RGB and alpha, and records whether a pixel is not opaque.
+void DropAlpha(png_structp png, png_row_infop row, png_bytep samples) {
+  Call* call = static_cast<Call*>(png_get_user_transform_ptr(png));
+  uint8_t opaque = 255;
+  for (png_uint_32 x = 0; x < row->width; ++x) {
+    opaque &= samples[4 * size_t(x) + 3];
+    std::copy_n(samples + 4 * size_t(x), 3, samples + 3 * size_t(x));
+  }
+  call->is_transparent = call->is_transparent || opaque != 255;
 }
 
 // Owns libpng's structures.
@@ -73,7 +99,7 @@ struct Reader {
 // destructors.
 bool ReadHeader(Call* call, Reader* reader) {
   PngCall* const base = call;
-  constexpr char kOwn[] = "tEXt\0zTXt\0iTXt\0sPLT";
+  constexpr char kOwn[] = "tEXt\0zTXt\0iTXt\0sPLT\0cICP";
   reader->png =
       png_create_read_struct_2(PNG_LIBPNG_VER_STRING, base, PngCall::Fail, PngCall::KeepSilent,
                                base, PngCall::Allocate, PngCall::Free);
@@ -92,8 +118,13 @@ bool ReadHeader(Call* call, Reader* reader) {
   png_read_info(png, reader->info);
   png_set_packing(png);
   png_set_scale_16(png);
-  png_set_strip_alpha(png);
   const png_byte colour = png_get_color_type(png, reader->info);
+  const bool has_key = png_get_valid(png, reader->info, PNG_INFO_tRNS) != 0;
+  if (colour != PNG_COLOR_TYPE_PALETTE && (has_key || (colour & PNG_COLOR_MASK_ALPHA) != 0)) {
+    if (has_key) png_set_tRNS_to_alpha(png);
+    png_set_read_user_transform_fn(png, DropAlpha);
+    png_set_user_transform_info(png, call, 8, 3);
+  }
   if (colour == PNG_COLOR_TYPE_GRAY) png_set_expand_gray_1_2_4_to_8(png);
   if ((colour & PNG_COLOR_MASK_COLOR) == 0) png_set_gray_to_rgb(png);
   png_set_interlace_handling(png);
@@ -121,21 +152,48 @@ Error Failed(const std::string& where, const Call& call) {
 
 // Replaces palette indices by colours. Returns an error for an index outside the palette, for which
 // libpng would return black.
-Error LookUp(const std::string& where, const Reader& reader, const Bytes& indices, Image* image) {
+Error LookUp(const std::string& where, const Reader& reader, const Bytes& indices,
+             DecodedPicture* picture) {
+  Image* image = &picture->image;
   png_colorp palette = nullptr;
   int colours = 0;
   png_get_PLTE(reader.png, reader.info, &palette, &colours);
+  png_bytep opacities = nullptr;
+  int some = 0;  // the first colours, which have opacities
+  png_get_tRNS(reader.png, reader.info, &opacities, &some, nullptr);
   for (size_t i = 0; i < indices.size(); ++i) {
     if (indices[i] >= colours) {
       return Expected(where, "palette indices below " + std::to_string(colours),
                       std::to_string(indices[i]));
     }
+    picture->is_transparent |= indices[i] < some && opacities[indices[i]] < 255;
     const png_color& colour = palette[indices[i]];
     image->pixels[3 * i] = colour.red;
     image->pixels[3 * i + 1] = colour.green;
     image->pixels[3 * i + 2] = colour.blue;
   }
   return {};
+}
+
+// Returns the colours that the chunks gAMA and cHRM describe, unless a chunk sRGB overrides them.
+ColourDescription ColoursOf(const Reader& reader) {
+  ColourDescription colours;
+  int intent = 0;
+  if (png_get_sRGB(reader.png, reader.info, &intent) != 0) return colours;
+  png_fixed_point gamma = 0;
+  if (png_get_gAMA_fixed(reader.png, reader.info, &gamma) != 0 && gamma > 0) {
+    constexpr int64_t kUnit = 100000;
+    colours.form = "gAMA";
+    colours.transfer = ColourDescription::kGiven;
+    colours.gamma = static_cast<int32_t>(std::min<int64_t>(kUnit * kUnit / gamma, INT32_MAX));
+  }
+  Chromaticities& at = colours.chromaticities;
+  if (png_get_cHRM_fixed(reader.png, reader.info, &at[6], &at[7], &at[0], &at[1], &at[2], &at[3],
+                         &at[4], &at[5]) != 0) {
+    colours.form += colours.form.empty() ? "cHRM" : " and cHRM";
+    colours.primaries = ColourDescription::kGiven;
+  }
+  return colours;
 }
 
 Metadata TakeMetadata(const Reader& reader, Call* call) {
@@ -153,6 +211,7 @@ Metadata TakeMetadata(const Reader& reader, Call* call) {
   }
   if (metadata.exif.empty()) metadata.exif = std::move(call->exif);
   metadata.xmp = std::move(call->xmp);
+  metadata.colours = call->colours.form.empty() ? ColoursOf(reader) : std::move(call->colours);
   return metadata;
 }
 
@@ -163,17 +222,21 @@ Result<DecodedPicture> DecodePngPixels(const std::string& where, const Bytes& pn
   Reader reader;
   if (!ReadHeader(&call, &reader)) return Failed(where, call);
   const bool palette = png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE;
-  Image result(static_cast<int>(png_get_image_width(reader.png, reader.info)),
-               static_cast<int>(png_get_image_height(reader.png, reader.info)));
-  Bytes indices(palette ? result.pixels.size() / 3 : 0);
-  const size_t row_bytes = palette ? size_t(result.width) : result.stride();
+  DecodedPicture result = {};
+  result.image = Image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
+                       static_cast<int>(png_get_image_height(reader.png, reader.info)));
+  Image* image = &result.image;
+  Bytes indices(palette ? image->pixels.size() / 3 : 0);
+  const size_t row_bytes = palette ? size_t(image->width) : image->stride();
   if (png_get_rowbytes(reader.png, reader.info) != row_bytes) {
     return Expected(where, "a PNG picture that libpng can convert to RGB", "another format");
   }
-  uint8_t* const rows = palette ? indices.data() : result.pixels.data();
-  if (!ReadRows(reader, result.height, row_bytes, rows)) return Failed(where, call);
+  uint8_t* const rows = palette ? indices.data() : image->pixels.data();
+  if (!ReadRows(reader, image->height, row_bytes, rows)) return Failed(where, call);
+  result.is_transparent = call.is_transparent;
   if (Error error = palette ? LookUp(where, reader, indices, &result) : Error()) return error;
-  return DecodedPicture{std::move(result), TakeMetadata(reader, &call)};
+  result.metadata = TakeMetadata(reader, &call);
+  return result;
 }
 
 }  // namespace starfocus

@@ -140,10 +140,21 @@ void Pass(Channel* channel, FloatMap* map) {
   PassPixels(channel, &width, &height, 1, &values);
 }
 
+void Pass(Channel* channel, ColourDescription* colours) {
+  auto& [form, primaries, transfer, full_range, chromaticities, gamma] = *colours;
+  channel->Block(&form);
+  channel->Value(&primaries);
+  channel->Value(&transfer);
+  channel->Value(&full_range);
+  for (int32_t& value : chromaticities) channel->Value(&value);
+  channel->Value(&gamma);
+}
+
 void Pass(Channel* channel, Metadata* metadata) {
-  auto& [exif, icc, iptc, xmp] = *metadata;
+  auto& [exif, icc, iptc, xmp, colours] = *metadata;
   for (Bytes* block : {&exif, &icc, &iptc}) channel->Block(block);
   channel->Block(&xmp);
+  Pass(channel, &colours);
 }
 
 void Pass(Channel* channel, Samples* samples) {

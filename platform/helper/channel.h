@@ -116,6 +116,7 @@ class Channel {
 void Pass(Channel* channel, bool* value);
 void Pass(Channel* channel, Image* image);
 void Pass(Channel* channel, FloatMap* map);
+void Pass(Channel* channel, ColourDescription* colours);
 void Pass(Channel* channel, Metadata* metadata);
 void Pass(Channel* channel, Samples* samples);
 void Pass(Channel* channel, Error* error);

@@ -12,14 +12,16 @@ void Pass(Channel* channel, DepthPhoto* photo) {
   // complete.
   auto& [format, picture, map, map_problem, unused_path, right, meaning, guesses_near,
          unused_survey, orientation, focal_35mm, is_blurred, has_focus, focus_x, focus_y,
-         has_subject, subject_x, subject_y, is_ready, focus_value, metadata, facts, notes] = *photo;
+         has_subject, subject_x, subject_y, is_ready, is_linear, focus_value,
+         metadata, facts, notes] = *photo;
   for (Image* image : {&picture, &right}) Pass(channel, image);
   Pass(channel, &map);
   Pass(channel, &metadata);
   static_cast<void>(unused_path);
   static_cast<void>(unused_survey);
   for (std::string* text : {&format, &map_problem}) channel->Text(text);
-  for (bool* value : {&guesses_near, &is_blurred, &has_focus, &has_subject, &is_ready}) channel->Value(value);
+  for (bool* value : {&guesses_near, &is_blurred, &has_focus, &has_subject, &is_ready, &is_linear})
+    channel->Value(value);
   for (double* value : {&focus_x, &focus_y, &subject_x, &subject_y}) {
     channel->Value(value);
     channel->Require(*value >= 0 && *value <= 1);

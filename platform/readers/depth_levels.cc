@@ -51,7 +51,7 @@ Result<DepthPhoto> ReadJpegPicture(const std::string& where, Span file, const Jp
   photo.metadata = parts.metadata;
   if (!parts.ignored.empty()) photo.notes.push_back(parts.ignored);
   ReadExif(&photo);
-  CheckProfile(&photo);
+  ChooseProfile(&photo);
   return photo;
 }
 

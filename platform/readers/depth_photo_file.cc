@@ -224,8 +224,9 @@ Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool wi
   photo.picture = std::move(picture->image);
   photo.metadata = std::move(picture->metadata);
   NoteSampleBits(SampleBitsOf(bytes), &photo.notes);
+  NoteTransparency(picture->is_transparent, &photo.notes);
   ReadExif(&photo);
-  CheckProfile(&photo);
+  ChooseProfile(&photo);
   KeepCaptions(&photo);
   return photo;
 }

@@ -4,7 +4,9 @@
 #ifdef STARFOCUS_HAS_EXIF
 #include <libexif/exif-data.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #endif
 
 namespace starfocus {
@@ -62,6 +64,23 @@ void ReadSubject(ExifData* data, double width, double height, DepthPhoto* photo)
   photo->subject_y = (subject[1] + 0.5) / height;
 }
 
+// Reads the colour space of DCF 2.0: the interoperability index "R03" names Adobe RGB, for which
+// EXIF has no code. Some cameras write the code 2 instead.
+void ReadColourSpace(ExifData* data, ColourDescription* colours) {
+  constexpr int kAdobe = 2;
+  char index[5] = "";
+  ExifEntry* entry =
+      exif_content_get_entry(data->ifd[EXIF_IFD_INTEROPERABILITY], EXIF_TAG_INTEROPERABILITY_INDEX);
+  if (entry != nullptr && entry->data != nullptr) {
+    std::memcpy(index, entry->data, std::min<size_t>(entry->size, sizeof(index) - 1));
+  }
+  if (std::strcmp(index, "R03") != 0 &&
+      ShortOf(data, EXIF_IFD_EXIF, EXIF_TAG_COLOR_SPACE) != kAdobe) {
+    return;
+  }
+  *colours = {"EXIF", ColourDescription::kAdobeRgb, ColourDescription::kAdobeRgb};
+}
+
 #endif
 
 }  // namespace
@@ -85,6 +104,8 @@ void ReadExif(int width, int height, DepthPhoto* photo) {
   constexpr int kPortraitHdr = 7, kPortrait = 8;
   const int rendered = ShortOf(data, EXIF_IFD_EXIF, EXIF_TAG_CUSTOM_RENDERED);
   ReadSubject(data, width, height, photo);
+  ColourDescription* colours = &photo->metadata.colours;
+  if (colours->form.empty()) ReadColourSpace(data, colours);
   exif_data_unref(data);
   if (orientation >= 1 && orientation <= 8) photo->orientation = orientation;
   photo->focal_35mm = focal;

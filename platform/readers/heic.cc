@@ -149,6 +149,18 @@ Bytes ReadMetadata(const heif_image_handle* handle, const char* type, const char
   return {};
 }
 
+// Reads the code points of the box nclx, unless they are unspecified. The decoded pixels have the
+// full range.
+void ReadCodePoints(const heif_image_handle* handle, ColourDescription* colours) {
+  heif_color_profile_nclx* nclx = nullptr;
+  if (heif_image_handle_get_nclx_color_profile(handle, &nclx).code != heif_error_Ok) return;
+  constexpr int kUnspecified = ColourDescription::kUnspecified;
+  const int primaries = nclx->color_primaries, transfer = nclx->transfer_characteristics;
+  heif_nclx_color_profile_free(nclx);
+  if (primaries == kUnspecified && transfer == kUnspecified) return;
+  *colours = {"nclx", primaries, transfer};
+}
+
 void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   Bytes exif = ReadMetadata(handle, "Exif", nullptr);
   // The first four bytes of the EXIF item are the offset of the TIFF header, counted from the fifth
@@ -162,6 +174,7 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   // libheif has already rotated the pictures by the transformations of the file. In most HEIF
   // files, EXIF's orientation equals the transformations of the file and therefore applies to the
   // subject. If the size of the picture contradicts EXIF's orientation, the subject is ignored.
+  ReadCodePoints(handle, &photo->metadata.colours);
   const int stored_width = heif_image_handle_get_ispe_width(handle);
   const int stored_height = heif_image_handle_get_ispe_height(handle);
   ReadExif(stored_width, stored_height, photo);
@@ -171,11 +184,13 @@ void ReadProfiles(const heif_image_handle* handle, DepthPhoto* photo) {
   TurnPoint(photo->orientation, &photo->subject_x, &photo->subject_y);
   photo->orientation = 1;
   NoteSampleBits(heif_image_handle_get_luma_bits_per_pixel(handle), &photo->notes);
+  NoteTransparency(heif_image_handle_has_alpha_channel(handle) != 0, &photo->notes);
   const size_t profile = heif_image_handle_get_raw_color_profile_size(handle);
-  if (profile == 0 || profile > kMostMetadata) return;
-  photo->metadata.icc.resize(profile);
-  heif_image_handle_get_raw_color_profile(handle, photo->metadata.icc.data());
-  CheckProfile(photo);
+  if (profile > 0 && profile <= kMostMetadata) {
+    photo->metadata.icc.resize(profile);
+    heif_image_handle_get_raw_color_profile(handle, photo->metadata.icc.data());
+  }
+  ChooseProfile(photo);
 }
 
 // Reads the XMP properties that describe the photograph. Ignores XMP that is not well-formed.

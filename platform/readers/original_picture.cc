@@ -6,6 +6,7 @@
 #include "platform/image_io.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/map_orientation.h"
+#include "platform/readers/profile.h"
 #include "platform/text.h"
 
 namespace starfocus {
@@ -22,6 +23,7 @@ Result<DepthPhoto> Decode(const std::string& name, Span file) {
   DepthPhoto photo;
   photo.picture = std::move(picture->image);
   photo.metadata = std::move(picture->metadata);
+  ChooseProfile(&photo);
   return photo;
 }
 
@@ -47,7 +49,10 @@ void TakeOriginal(const std::string& name, Span file, DepthPhoto* photo) {
     return;
   }
   photo->picture = std::move(original->picture);
-  if (!original->metadata.icc.empty()) photo->metadata.icc = std::move(original->metadata.icc);
+  if (!original->metadata.icc.empty()) {
+    photo->metadata.icc = std::move(original->metadata.icc);
+    photo->is_linear = original->is_linear;
+  }
   photo->is_blurred = false;
   photo->facts.emplace_back("picture", "the sharp picture in the file (" + name + ")");
 }

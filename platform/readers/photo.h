@@ -50,6 +50,7 @@ struct DepthPhoto {
   double subject_x = 0, subject_y = 0;
   // True if the map requires no repair, because starfocus wrote the file.
   bool is_ready = false;
+  bool is_linear = false;    // True if light is proportional to the codes of `picture`.
   double focus_value = NAN;  // Value of `map` that is in focus; NaN: unknown.
   Metadata metadata;
   Facts facts;

@@ -221,6 +221,7 @@ Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo,
   light_field.disparity = std::move(map);
   light_field.views = {std::move(photo->picture)};
   light_field.positions = {{0, 0}};
+  light_field.is_linear = photo->is_linear;
   return light_field;
 }
 

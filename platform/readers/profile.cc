@@ -1,19 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/profile.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "platform/icc_profile.h"
 
 namespace starfocus {
+namespace {
+
+constexpr char kFact[] = "colour profile";
 
 void CheckProfile(DepthPhoto* photo) {
   Bytes* icc = &photo->metadata.icc;
   if (icc->empty()) return;
   const bool kept = IsRgbProfile(*icc);
-  photo->facts.emplace_back("colour profile",
+  photo->facts.emplace_back(kFact,
                             "ICC, " + std::to_string(icc->size()) + " bytes; " +
                                 (kept ? "pixels are not converted"
                                       : "ignored, because it is not a complete RGB profile"));
   if (!kept) icc->clear();
+}
+
+// Replaces a description that a profile can express.
+void ToProfile(DepthPhoto* photo) {
+  Metadata* metadata = &photo->metadata;
+  const ColourDescription colours = metadata->colours;
+  const std::string what = NameOf(colours) + " (" + colours.form + ")";
+  photo->is_linear = IsLinear(colours);
+  Bytes profile = ProfileOf(colours);
+  if (IsSrgb(colours) || !profile.empty()) {
+    metadata->colours = {};
+    metadata->icc.clear();
+    if (IsSrgb(colours)) return;
+    metadata->icc = std::move(profile);
+    photo->facts.emplace_back(kFact, what + ", written as an ICC profile");
+    return;
+  }
+  // Only code points of H.273 have a form in PNG files.
+  if (std::max(colours.primaries, colours.transfer) >= ColourDescription::kGiven) {
+    metadata->colours = {};
+    photo->notes.push_back("the description of the colours is ignored, because it is invalid: " +
+                           what);
+    return;
+  }
+  if (!IsRgbProfile(metadata->icc)) metadata->icc.clear();
+  photo->facts.emplace_back(kFact, what + ", kept in PNG files");
+  photo->notes.push_back("the colours are " + what +
+                         ", which the program does not decode: the picture is refocused as if it "
+                         "were sRGB, and only PNG files keep the description");
+}
+
+}  // namespace
+
+void ChooseProfile(DepthPhoto* photo) {
+  ColourDescription* colours = &photo->metadata.colours;
+  if (colours->form == kCicpForm) return ToProfile(photo);
+  CheckProfile(photo);
+  if (!photo->metadata.icc.empty()) *colours = {};
+  if (!colours->form.empty()) ToProfile(photo);
 }
 
 }  // namespace starfocus

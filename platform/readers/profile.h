@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the colour profile of a photograph, for the readers of all formats.
+// Chooses the ICC profile of a photo, and adds facts and notes about its colours.
 #ifndef STARFOCUS_PLATFORM_READERS_PROFILE_H_
 #define STARFOCUS_PLATFORM_READERS_PROFILE_H_
 
@@ -7,9 +7,12 @@
 
 namespace starfocus {
 
-// Adds an entry about photo->metadata.icc to photo->facts unless the profile is empty. Clears
-// photo->metadata.icc if the profile is incomplete or not for RGB (icc_profile.h).
-void CheckProfile(DepthPhoto* photo);
+// Clears photo->metadata.icc if it is not a complete RGB profile. Replaces photo->metadata.colours
+// by an equivalent profile if the photo has no profile, or if the description overrides the profile
+// (cICP). If no profile can express the description, the description remains, and a note reports
+// that only PNG files keep it. Call the function after the function ReadExif, which may set a
+// description.
+void ChooseProfile(DepthPhoto* photo);
 
 }  // namespace starfocus
 

@@ -30,4 +30,11 @@ void NoteSampleBits(int bits, std::vector<std::string>* notes) {
                    " bits for each colour, of which the program reads and writes the upper 8");
 }
 
+void NoteTransparency(bool is_transparent, std::vector<std::string>* notes) {
+  if (!is_transparent) return;
+  notes->push_back(
+      "the alpha channel of the picture is ignored: transparent pixels become opaque, and their "
+      "colours mix into blurred edges");
+}
+
 }  // namespace starfocus

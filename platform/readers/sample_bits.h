@@ -17,6 +17,9 @@ int SampleBitsOf(const Bytes& beginning);
 // Adds a note if a picture has more than 8 bits for each sample.
 void NoteSampleBits(int bits, std::vector<std::string>* notes);
 
+// Adds a note if transparent pixels lose their transparency.
+void NoteTransparency(bool is_transparent, std::vector<std::string>* notes);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_PLATFORM_READERS_SAMPLE_BITS_H_

@@ -146,6 +146,12 @@ bool Write(const Rows& rows, const Pixels& pixels, const Metadata& metadata, Byt
   const auto write = [png](const char* name, const uint8_t* data, size_t size) {
     png_write_chunk(png, reinterpret_cast<png_const_bytep>(name), data, size);
   };
+  const ColourDescription& colours = metadata.colours;
+  // The third code point, 0, means that the pixels are RGB.
+  const uint8_t code_points[] = {static_cast<uint8_t>(colours.primaries),
+                                 static_cast<uint8_t>(colours.transfer), 0,
+                                 static_cast<uint8_t>(colours.full_range)};
+  if (!colours.form.empty()) write("cICP", code_points, sizeof(code_points));
   write("IDAT", pixels.data.get(), pixels.size);
   write("IEND", nullptr, 0);
   png_destroy_write_struct(&png, &info);

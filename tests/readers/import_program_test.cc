@@ -49,11 +49,12 @@ void MakePhoto(const TempFolder& folder, const std::string& exif) {
   Write(folder.file("a-depth.png"), Encode(map, ".png"));
 }
 
-// Writes a grey photo and depth pictures. In the first picture, the left half is near. In the
-// second picture, all rows except the top rows are near.
+// Writes a grey photo, a photo of noise and depth pictures. In the first picture, the left half is
+// near. In the second picture, all rows except the top rows are near.
 void MakePhotoAndMap(const TempFolder& folder) {
   MakePhoto(folder, "");
   Write(folder.file("a.png"), Encode(Ramp(96, 64), ".png"));
+  Write(folder.file("noise.png"), Encode(Noise(96, 64), ".png"));
   Image map = Plain(96, 64, 255);
   for (int y = 0; y < 20; ++y) std::fill_n(map.row(y), map.stride(), uint8_t{0});
   Write(folder.file("map.png"), Encode(map, ".png"));

@@ -192,8 +192,9 @@ void AddLensOptions(Command* command, LensOptions* options) {
       {
           {"--transfer", "srgb|none",
            "Meaning of the pixel values: srgb values are converted to light before they "
-           "are averaged; none averages the values themselves",
-           Transfer(&options->transfer), Use::kDefault},
+           "are averaged; none averages the values themselves; default: srgb, or none for a photo "
+           "whose file describes its values as linear light",
+           Transfer(&options->transfer)},
           {"--highlights", "X", "Brightness of clipped lamps as a multiple of white, 1 to 64",
            Number(1, STARFOCUS_MAX_HIGHLIGHTS,
                   "a factor from 1 to " + Short(STARFOCUS_MAX_HIGHLIGHTS), &options->highlights),
@@ -359,7 +360,9 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.tuning.max_layer = plan.options.max_layer;
   task.config.tuning.deblocking = plan.options.deblocking;
   task.config.tuning.n_scale = plan.options.n_scale;
-  task.config.transfer = plan.options.transfer;
+  const starfocus_transfer own =
+      light_field.is_linear ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
+  task.config.transfer = plan.options.transfer.value_or(own);
   task.config.highlights = plan.options.highlights;
   task.params.mode = plan.options.mode;
   task.params.renderer = plan.options.renderer;

@@ -32,7 +32,7 @@ struct LensOptions {
   int superblock = 0;  // side of the superblocks; 0: chosen by the library
   int max_layer = 2, deblocking = 35;
   double n_scale = 1, highlights = 1;
-  starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB;
+  std::optional<starfocus_transfer> transfer;  // no value: as the light field's codes require
   std::string timing;
   ShapeOptions shape;
 };
