@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "platform/icc_profile.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/photo_scale.h"
 #include "platform/readers/stereo_pair.h"
@@ -38,6 +39,8 @@ inline void CheckPhoto(const uint8_t* data, size_t size) {
   if (!decoded) return;
   DepthPhoto& photo = *decoded;
   CheckCaptions(photo.metadata);
+  const Bytes& icc = photo.metadata.icc;
+  if (!icc.empty() && !IsRgbProfile(icc)) std::abort();
   if (photo.map.values.empty()) {
     if (ReadStereoPair("photo", {data, size}, &photo) &&
         photo.right.pixels.size() != photo.picture.pixels.size()) {

@@ -6,7 +6,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "tests/support/photo_files.h"
+#include "tests/support/portrait_files.h"
 
 namespace {
 
@@ -43,6 +43,17 @@ void WritePhotos(const std::string& folder) {
         MultiPicture(jpeg, AppleMap(jpeg, kDisparities), {true, 2, 9}));
   Write(folder + "/pair.jpg", MultiPicture(jpeg, jpeg, {true, 32, 0, 0x020002}));
   Write(folder + "/diopters.jpg", DynamicDepth(jpeg, png, kDiopters, 5));
+  std::vector<Part> portrait = PortraitParts(8, 6);
+  Write(folder + "/portrait.jpg", Portrait(jpeg, portrait, Directories::kLater, Lengths::kRight));
+  portrait.erase(portrait.begin() + 3, portrait.end());
+  Write(folder + "/two_directories.jpg",
+        Portrait(jpeg, portrait, Directories::kBoth, Lengths::kMissing, 2));
+  const std::string chroma = Big(31270, 4) + Big(32900, 4) + Big(64000, 4) + Big(33000, 4) +
+                             Big(21000, 4) + Big(71000, 4) + Big(15000, 4) + Big(6000, 4);
+  const std::string given = Chunk("gAMA", Big(55556, 4)) + Chunk("cHRM", chroma);
+  Write(folder + "/given_colours.png", Png(1, 1, {8, 6, given}, std::string("\1\2\3\4", 4), 4));
+  Write(folder + "/code_points.png",
+        Png(1, 1, {8, 2, Chunk("cICP", std::string("\x09\x10\0\1", 4))}, "abc", 3));
   const std::vector<std::string> parts = ProfileSegments(Profile(200), 2);
   Write(folder + "/captions.jpg",
         Insert(jpeg, parts[1] + IptcSegment("\x1c\2\x78") + parts[0] +

@@ -12,94 +12,21 @@
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/xmp.h"
 #include "tests/support/opened_photo.h"
+#include "tests/support/portrait_files.h"
 
 namespace starfocus::container_test {
 namespace {
 
 using namespace photos;
 
-constexpr int kOriginalLevel = 200;  // level of the original; the blurred picture has 128
-
-constexpr char kNames[] =
-    "xmlns:Camera=\"http://ns.google.com/photos/dd/1.0/camera/\" "
-    "xmlns:DepthMap=\"http://ns.google.com/photos/dd/1.0/depthmap/\" "
-    "xmlns:Image=\"http://ns.google.com/photos/dd/1.0/image/\" "
-    "xmlns:Old=\"http://ns.google.com/photos/dd/1.0/item/\" "
-    "xmlns:Item=\"http://ns.google.com/photos/1.0/container/item/\" "
-    "xmlns:GCamera=\"http://ns.google.com/photos/1.0/camera/\"";
-
-// A part of a portrait that follows the blurred picture.
-struct Part {
-  std::string semantic, uri, bytes, mime = "image/jpeg";
-};
-
-enum class Lengths { kRight, kMissing, kWrong };
-enum class Directories {
-  kBoth,     // Dynamic Depth lists original, depth and confidence; the later directory the others.
-  kLater,    // The later directory lists everything by its semantics.
-  kRepeated  // Both directories list everything.
-};
-
-std::string GainMapXmp() {
-  return XmpSegment(Packet("xmlns:hdrgm=\"http://ns.adobe.com/hdr-gain-map/1.0/\"",
-                           "hdrgm:Version=\"1.0\" hdrgm:GainMapMax=\"2.5\""));
-}
-
-// Returns a video whose data contain the start of a JPEG file.
-std::string Video() {
-  return Big(16, 4) + "ftypisom" + Big(0, 4) + Big(60, 4) + "mdat" + Photo().substr(0, 52);
-}
-
-std::vector<Part> Parts() {
-  return {
-      {"GainMap", "gainmap", Insert(Encode(Ramp(kWidth / 2, kHeight / 2), ".jpg"), GainMapXmp())},
-      {"Original", "android/original_image",
-       Encode(Plain(kWidth, kHeight, kOriginalLevel), ".jpg")},
-      {"Depth", "android/depthmap", Encode(Ramp(kWidth, kHeight), ".jpg")},
-      {"Confidence", "android/confidencemap", Encode(Plain(kWidth, kHeight, 255), ".jpg")},
-      {"MotionPhoto", "video", Video(), "video/mp4"},
-  };
-}
-
-std::string ItemXml(const std::string& prefix, const Part& part, Lengths lengths, size_t padding) {
-  std::string text = "<rdf:li rdf:parseType=\"Resource\"><Item:Item " + prefix + ":Mime=\"" +
-                     part.mime + "\" " + prefix + ":Semantic=\"" + part.semantic + "\" " + prefix +
-                     ":DataURI=\"" + part.uri + "\"";
-  const size_t length = part.bytes.size() + (lengths == Lengths::kWrong ? 3 : 0);
-  if (lengths != Lengths::kMissing && part.semantic != "Primary") {
-    text += " " + prefix + ":Length=\"" + std::to_string(length) + "\"";
-  }
-  if (padding > 0) text += " " + prefix + ":Padding=\"" + std::to_string(padding) + "\"";
-  return text + "/></rdf:li>";
-}
-
-// Returns a portrait with the given parts in the given order, each followed by `padding` bytes.
+// Returns a portrait whose blurred picture has the level 128.
 std::string Portrait(const std::vector<Part>& parts, Directories directories, Lengths lengths,
                      size_t padding = 0) {
-  const Part primary = {"Primary", "primary_image", ""};
-  std::string old = ItemXml("Old", primary, lengths, 0),
-              later = ItemXml("Item", primary, lengths, 0);
-  for (const Part& part : parts) {
-    const bool is_old =
-        part.semantic == "Original" || part.semantic == "Depth" || part.semantic == "Confidence";
-    if (directories != Directories::kBoth || !is_old) {
-      later += ItemXml("Item", part, lengths, padding);
-    }
-    if (directories == Directories::kRepeated || (directories == Directories::kBoth && is_old)) {
-      old += ItemXml("Old", part, lengths, padding);
-    }
-  }
-  const std::string map =
-      "<Camera:DepthMap DepthMap:ItemSemantic=\"Depth\" DepthMap:Format=\"RangeInverse\" "
-      "DepthMap:Near=\"0.5\" DepthMap:Far=\"4\" DepthMap:DepthURI=\"android/depthmap\"/>";
-  std::string inside = later + map;
-  if (directories != Directories::kLater) inside = old + later + map;
   static const std::string blurred = Photo();
-  std::string file =
-      Insert(blurred, XmpSegment(Packet(kNames, "GCamera:SpecialTypeID=\"PORTRAIT\"", inside)));
-  for (const Part& part : parts) file += part.bytes + std::string(padding, 'x');
-  return file;
+  return photos::Portrait(blurred, parts, directories, lengths, padding);
 }
+
+std::vector<Part> Parts() { return PortraitParts(kWidth, kHeight); }
 
 // Returns an empty text if `file` contains a picture of the level `level` and the ramp of the depth
 // map, and otherwise the difference.
