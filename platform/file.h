@@ -15,8 +15,8 @@ namespace starfocus {
 
 using Bytes = std::vector<uint8_t>;
 
-// Reads a regular file of at most 2 GiB. Rejects folders, devices and pipes without waiting, since a
-// device such as /dev/zero never ends, and a pipe may have no writer. The path "-" means standard
+// Reads a regular file of at most 2 GiB. Rejects folders, devices and pipes without waiting, since
+// a device such as /dev/zero never ends, and a pipe may have no writer. The path "-" means standard
 // input, which may be a pipe, in all functions of this header that read a file.
 Result<Bytes> ReadFile(const std::string& path);
 

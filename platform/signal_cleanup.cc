@@ -12,7 +12,7 @@ namespace {
 // Signals of users and systems that end a program. Profilers need SIGPROF for themselves.
 constexpr int kSignals[] = {SIGHUP, SIGINT, SIGQUIT, SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU};
 
-std::atomic<bool> taken{false};  // Spin lock of the list.
+std::atomic<bool> taken{false};    // Spin lock of the list.
 SignalCleanup* entries = nullptr;  // head of the list
 
 void Take() {

@@ -12,8 +12,8 @@ void Pass(Channel* channel, DepthPhoto* photo) {
   // complete.
   auto& [format, picture, map, map_problem, unused_path, right, meaning, guesses_near,
          unused_survey, orientation, focal_35mm, is_blurred, has_focus, focus_x, focus_y,
-         has_subject, subject_x, subject_y, is_ready, is_linear, focus_value,
-         metadata, facts, notes] = *photo;
+         has_subject, subject_x, subject_y, is_ready, is_linear, focus_value, metadata, facts,
+         notes] = *photo;
   for (Image* image : {&picture, &right}) Pass(channel, image);
   Pass(channel, &map);
   Pass(channel, &metadata);

@@ -45,7 +45,8 @@ struct MapSurvey {
   void Add(const MapSurvey& other);
 };
 
-// Returns a survey of the figures of a map that GuessNear requires. Unknown values (NaN) are ignored.
+// Returns a survey of the figures of a map that GuessNear requires. Unknown values (NaN) are
+// ignored.
 MapSurvey SurveyNear(const FloatMap& map);
 
 }  // namespace starfocus

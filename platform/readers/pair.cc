@@ -102,7 +102,8 @@ void NoteDistances(const DepthOptions& options, int largest, DepthPhoto* photo) 
   const float low = metres ? 0.2F : 200, high = metres ? 200 : 20000;
   if (!range.known || range.low < low || range.high > high || range.low == range.high) return;
   if (!metres && largest <= UINT8_MAX) return;
-  const Near near = options.near == Near::kUnknown ? SurveyNear(photo->map).GuessNear() : options.near;
+  const Near near =
+      options.near == Near::kUnknown ? SurveyNear(photo->map).GuessNear() : options.near;
   if (near == Near::kWhite) return;
   photo->notes.push_back("the values of the depth picture, " + NumberText(double(range.low)) +
                          " to " + NumberText(double(range.high)) + ", look like distances in " +

@@ -60,9 +60,9 @@ void MarkEnds(const DepthOptions& options, Samples* samples, DepthPhoto* photo) 
                                : ends.zeros > 0   ? "0,65535"
                                                   : "65535";
     photo->notes.push_back(taken + "a known depth, because " +
-                     (are_depths ? "other values are close"
-                                      : "larger values are nearer and 0 is the farthest depth") +
-                     " (--unknown " + listed + " overrides this)");
+                           (are_depths ? "other values are close"
+                                       : "larger values are nearer and 0 is the farthest depth") +
+                           " (--unknown " + listed + " overrides this)");
     return;
   }
   photo->notes.push_back(taken + "unknown depth (--unknown none overrides this)");

@@ -16,8 +16,9 @@ namespace starfocus {
 // If options.has_unknown is false, the following values may mean unknown depth: 0, negative values
 // and 65535 in maps of integers of more than 8 bits; 0 and negative values in maps of floats
 // without a unit, unless larger values are nearer. If larger values are nearer, 0 is the inverse
-// distance of infinitely distant points. The other values of the map, or of all maps of options.clip,
-// decide. The function adds a note about the decision to `photo`, and sets photo->survey.ends.
+// distance of infinitely distant points. The other values of the map, or of all maps of
+// options.clip, decide. The function adds a note about the decision to `photo`, and sets
+// photo->survey.ends.
 void MarkUnknown(const DepthOptions& options, Samples* samples, DepthPhoto* photo);
 
 // Marks pixels with the value `unknown` as unknown (NaN).

@@ -285,8 +285,9 @@ TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture" 
                        ValueOf(ReadImage(folder.file("out.png")))) < 6);
 }
 
-TEST_CASE("show: on other terminals, the other outputs are written, and the terminal keeps its mode" *
-          doctest::test_suite("terminal")) {
+TEST_CASE(
+    "show: on other terminals, the other outputs are written, and the terminal keeps its mode" *
+    doctest::test_suite("terminal")) {
   TempFolder folder;
   MakeField(folder);
   const std::string expected = "--show: expected a terminal with kitty or sixel graphics, found a ";

@@ -168,7 +168,8 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   }
   if (Error error = ChooseBlur(video->stats, plan).MoveTo(&video->max_blur)) return error;
   TellAperture(video->sources[0].path, plan->aperture);
-  TellBlurred(video->sources[0].path, video->stats, SharpRadius(video->width, video->height), *plan);
+  TellBlurred(video->sources[0].path, video->stats, SharpRadius(video->width, video->height),
+              *plan);
   return {};
 }
 
@@ -247,7 +248,7 @@ Command VideoCommand() {
       "frames by name, or else by number. Unless --focus or --focus-range is given, the first\n"
       "frame determines the focus of all frames: the focus at the pixel of --focus-at, or else\n"
       "the default focus. Modes frame and benchmark choose one number of views for all frames.",
-       {{"Input and output",
+      {{"Input and output",
         {{"SRC", "Frames, or one folder that contains the frames"},
          {"--output", "Folder for the pictures"},
          {"--depth", "Depth of the frames, if it is separate"},
