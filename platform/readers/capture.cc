@@ -14,6 +14,7 @@
 #include "platform/readers/photo_scale.h"
 #include "platform/readers/sample_bits.h"
 #include "platform/readers/stanford.h"
+#include "platform/readers/stereo_folders.h"
 #include "platform/readers/stereo_pair.h"
 #include "platform/readers/view_array.h"
 #include "platform/standard_stream.h"
@@ -135,7 +136,7 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
         "background again (an export without the portrait effect prevents this)");
   }
   if (pair) {
-    TakePair(path, two_files ? options.right : path, &photo, &capture);
+    TakePair(path, photo.right_path.empty() ? path : photo.right_path, &photo, &capture);
     return capture;
   }
   if (!options.small_map) FitMap(&capture.light_field);
@@ -155,6 +156,21 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   capture.subject_y = PixelAt(photo.subject_y, picture.height);
   capture.focus = photo.focus_value;
   return capture;
+}
+
+// Opens a folder of views, or a folder with the folders `left` and `right` of one stereo pair.
+Result<Capture> OpenDirectory(const std::string& path, const CaptureOptions& options) {
+  const Result<std::vector<StereoFiles>> pairs = FindStereoFolders(path);
+  if (!pairs) return pairs.error();
+  if (pairs->empty()) return OpenFolder(path);
+  const StereoFiles& first = pairs->front();
+  if (pairs->size() > 1) {
+    return Expected(path, "one stereo pair in left and right",
+                    std::to_string(pairs->size()) + " (" + first.left + " opens the first)");
+  }
+  CaptureOptions two_files = options;
+  two_files.right = first.right;
+  return OpenPhoto(first.left, two_files);
 }
 
 // Keeps only the chosen views of a light field.
@@ -209,7 +225,7 @@ Result<Capture> OpenCapture(const std::string& path, const CaptureOptions& optio
       if (!fs::exists(status)) return Cannot("read", path, failure);
       folder = fs::is_directory(status);
     }
-    Result<Capture> capture = folder ? OpenFolder(path) : OpenPhoto(path, options);
+    Result<Capture> capture = folder ? OpenDirectory(path, options) : OpenPhoto(path, options);
     if (capture) capture->path = InputName(path);
     return capture;
   } catch (const std::bad_alloc&) {

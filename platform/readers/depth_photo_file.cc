@@ -22,6 +22,7 @@
 #include "platform/readers/pair.h"
 #include "platform/readers/profile.h"
 #include "platform/readers/sample_bits.h"
+#include "platform/readers/stereo_folders.h"
 #include "platform/readers/stereo_pair.h"
 #include "platform/readers/xmp.h"
 #include "platform/standard_stream.h"
@@ -268,6 +269,10 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   if (photo.depth_path.empty()) {
     if (Error error = ReadStrayDepth(path, file, near, &photo).MoveTo(&photo)) return error;
     const bool has_map = !photo.map.values.empty();
+    const std::string right = stream || has_map ? "" : FindRightPicture(path);
+    if (photo.right.pixels.empty() && !right.empty()) {
+      if (Error error = ReadPictureFiles(path, right).MoveTo(&photo)) return error;
+    }
     if (has_map || !photo.right.pixels.empty()) {
       if (Error error = CheckOptions(where, options, !has_map)) return error;
       return decoded;

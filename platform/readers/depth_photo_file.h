@@ -14,7 +14,8 @@ namespace starfocus {
 // Reads a photograph and its depth map. The map is read from the depth picture `depth` if the path
 // is not empty. If `depth` is empty, the map is read from the file of the photograph. If this file
 // has no map, the map is read from a depth picture next to the file. A file without a map may be a
-// stereo pair; in this case, `right` of the result is the right picture. The function ignores
+// stereo pair, or the left picture of a pair in the folders `left` and `right`; in both cases,
+// `right` of the result is the right picture. The function ignores
 // damaged optional data and adds a note. For a photograph without depth, options.estimate computes
 // the depth picture if it is set. `options` apply to a separate depth picture. If the map is in the
 // file of the photograph, any option except `near` and `estimate` is an error. For a stereo pair,

@@ -35,6 +35,7 @@ struct DepthPhoto {
   std::string map_problem;  // Reason why the map in the file cannot be read; may be empty.
   std::string depth_path;   // Path of the depth picture; empty: the map is in the file.
   Image right;              // Right picture of a stereo pair; empty: no stereo pair.
+  std::string right_path;   // Path of the right picture; empty: both are in one file.
   MapMeaning meaning = MapMeaning::kOrder;
   bool guesses_near = false;  // True if it is unknown whether larger values of `map` are nearer.
   MapSurvey survey;           // Figures of `map`.

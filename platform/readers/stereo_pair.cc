@@ -106,6 +106,7 @@ Result<DepthPhoto> ReadPictureFiles(const std::string& left, const std::string& 
   }
   first->format = "stereo pair (two files)";
   first->right = std::move(second->picture);
+  first->right_path = right;
   return first;
 }
 

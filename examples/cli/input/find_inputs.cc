@@ -12,6 +12,7 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/pair.h"
+#include "platform/readers/stereo_folders.h"
 
 namespace starfocus {
 namespace {
@@ -60,6 +61,13 @@ bool IsLightField(const std::string& folder, bool estimates_depth) {
 Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
                                const std::string& out) {
   std::error_code ignored;
+  const Result<std::vector<StereoFiles>> pairs = FindStereoFolders(path);
+  if (!pairs) return pairs.error();
+  if (pairs->size() > 1) {
+    FoundInputs lefts;
+    for (const StereoFiles& pair : *pairs) lefts.paths.push_back(pair.left);
+    return lefts;
+  }
   if (!fs::is_directory(path, ignored) || IsLightField(path, estimates_depth)) {
     return FoundInputs{{path}, {}};
   }

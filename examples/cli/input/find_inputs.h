@@ -25,7 +25,9 @@ struct FoundInputs {
 // `path`. A PNG, WebP or PPM file is a photo if it has a depth picture next to it, or if
 // `estimates_depth` is true, which means that a depth command estimates the depth of photos without
 // depth. A row of pictures with numbers in their names is a light field unless one of the pictures
-// has depth or `estimates_depth` is true. Returns an error if the folder contains no input.
+// has depth or `estimates_depth` is true. If a folder contains several stereo pairs in the folders
+// `left` and `right`, the inputs are the left pictures. Returns an error if the folder contains no
+// input.
 Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
                                const std::string& out);
 

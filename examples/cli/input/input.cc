@@ -121,7 +121,9 @@ Result<Capture> ReadInput(const InputOptions& options) {
     capture->notes.push_back(std::string("--depth-command is not run, because the input has ") +
                              (capture->map_path.empty() ? "several views" : "depth"));
   }
-  if (!options.coverage.empty()) capture->coverage_path = options.coverage;
+  if (!options.coverage.empty() || options.ignores_coverage) {
+    capture->coverage_path = options.coverage;
+  }
   return capture;
 }
 

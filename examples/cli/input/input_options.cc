@@ -121,11 +121,16 @@ void AddRightOption(Command* command, InputOptions* options) {
 void AddCoverageOption(Command* command, InputOptions* options) {
   AddOptions(
       {
-          {"--coverage", "FILE",
+          {"--coverage", "FILE|none",
            "Picture of how much of each pixel the nearer surface covers, such as a "
            "matting network computes: its alpha channel, or grey levels with white for "
-           "full coverage; default: coverage.png of a light-field folder, otherwise none",
-           &options->coverage},
+           "full coverage; none ignores coverage.png of a light-field folder, which is the "
+           "default",
+           Target([options](const std::string& text) {
+             options->ignores_coverage = text == "none";
+             options->coverage = options->ignores_coverage ? "" : text;
+             return std::string();
+           })},
       },
       command);
 }

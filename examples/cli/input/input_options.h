@@ -14,6 +14,7 @@ namespace starfocus {
 
 struct InputOptions {
   std::string path, depth, right, coverage;
+  bool ignores_coverage = false;  // True: the coverage of a light-field folder is not read.
   DepthCommand command;
   DepthOptions map = {};
   KeptEstimates* kept = nullptr;  // Null: the depth command runs whenever the photo is opened.
