@@ -270,11 +270,7 @@ public final class RefocuserTest {
         new Image(Image.NV12, new ByteBuffer[] {outLuma, outChroma}, new int[] {WIDTH, WIDTH});
     result.range = Image.FULL;
     final ByteBuffer millimetres = bytes(2 * 40 * 30);
-    for (int i = 0; i < 40 * 30; ++i) millimetres.putShort(2 * i, (short) (i % 7 == 0 ? 0 : 500));
-    // DEPTH16 with a confidence of 6 / 7.
-    for (int i = 1; i < 40 * 30; i += 2) {
-      millimetres.putShort(2 * i, (short) (millimetres.getShort(2 * i) | 7 << 13));
-    }
+    for (int i = 0; i < 40 * 30; ++i) millimetres.putShort(2 * i, (short) (i % 2 * 500 | i << 13));
     final DepthMap depth = new DepthMap(DepthMap.DEPTH16, millimetres, 80, 40, 30);
     depth.meaning = DepthMap.RECIPROCAL;
     depth.scale = 1000;
