@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: readers of single files. The files are maps in PFM, NPY and TIFF, pictures in PNG,
-// PPM and JPEG, and small texts.
+// Fuzz target: readers of single files. The files are maps in PFM, NPY, NPZ and TIFF, pictures in
+// PNG, PPM and JPEG, and small texts.
 #include <sys/mman.h>
 #include <unistd.h>
 
