@@ -28,12 +28,22 @@ Result<std::vector<std::string>> ListFolder(const std::string& folder) {
   return names;
 }
 
-Error MakeFolder(const std::string& folder) {
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  for (; !made_.empty(); made_.pop_back()) std::filesystem::remove(made_.back(), ignored);
+}
+
+Error OutputFolder::Create(const std::string& folder) {
   std::error_code error;
   // A signal handler that removes a temporary folder ends the program before it can come back.
   const SignalCleanup::Turn turn;
-  std::filesystem::create_directories(folder, error);
-  if (error) return Cannot("create folder", folder, error);
+  std::filesystem::path path;
+  for (const std::filesystem::path& part : std::filesystem::path(folder)) {
+    path /= part;
+    const bool made = std::filesystem::create_directory(path, error);
+    if (error && error != std::errc::file_exists) return Cannot("create folder", folder, error);
+    if (made) made_.push_back(path.string());
+  }
   if (std::filesystem::is_directory(folder, error)) return {};
   return Cannot("create folder", folder, "a file of that name exists");
 }

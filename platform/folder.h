@@ -14,8 +14,21 @@ namespace starfocus {
 // 100 000 entries.
 Result<std::vector<std::string>> ListFolder(const std::string& folder);
 
-// Creates a folder and its parents unless they exist.
-Error MakeFolder(const std::string& folder);
+// A folder for output files. The destructor removes the folders that Create made if they are empty,
+// so that no folder remains if no file could be written.
+class OutputFolder {
+ public:
+  OutputFolder() = default;
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  // Creates the folder and its parents unless they exist. Call Create once.
+  Error Create(const std::string& folder);
+
+ private:
+  std::vector<std::string> made_;  // each folder after its parent
+};
 
 }  // namespace starfocus
 

@@ -43,10 +43,13 @@ struct SaveJob {
   std::vector<Error> errors;  // one per view
   Progress progress;
 
+  std::string PathOf(int32_t index) const {
+    return Join(folder, ViewName(positions[size_t(index)]) + ".png");
+  }
   static void Run(void* data, int32_t index, int32_t) {
     SaveJob* self = static_cast<SaveJob*>(data);
-    const std::string path = Join(self->folder, ViewName(self->positions[size_t(index)]) + ".png");
-    self->errors[size_t(index)] = WriteImage(path, self->light_field.views[size_t(index)]);
+    self->errors[size_t(index)] =
+        WriteImage(self->PathOf(index), self->light_field.views[size_t(index)]);
     self->progress.Step();
   }
 };
@@ -210,7 +213,8 @@ Result<LightField> LoadLightField(const std::string& folder, const Positions& wa
 
 Error SaveLightField(const std::string& folder, const LightField& light_field,
                      ThreadRunner* runner) {
-  if (Error error = MakeFolder(folder)) return error;
+  OutputFolder made;
+  if (Error error = made.Create(folder)) return error;
   const Positions& given = light_field.positions;
   const auto views = static_cast<int>(light_field.views.size());
   SaveJob save = {folder,
@@ -220,14 +224,22 @@ Error SaveLightField(const std::string& folder, const LightField& light_field,
                   {"writing views", views}};
   const int status = ThreadRunner::Run(runner, SaveJob::Run, &save, views);
   if (status != 0) return Expected(folder, "a thread runner", "none");
-  for (const Error& error : save.errors) {
-    if (error) return error;
+  const auto failed = std::find_if(save.errors.begin(), save.errors.end(),
+                                   [](const Error& error) { return bool(error); });
+  Error error = failed == save.errors.end() ? Error() : *failed;
+  const bool covers = !light_field.coverage.empty();
+  if (!error && covers) error = SaveCoverage(folder, light_field);
+  if (!error && !light_field.disparity.values.empty()) {
+    error = WritePfm(DisparityPath(folder), light_field.disparity);
   }
-  if (!light_field.coverage.empty()) {
-    if (Error error = SaveCoverage(folder, light_field)) return error;
+  if (!error) return {};
+  // Part of a light field would be taken for a damaged one.
+  std::error_code ignored;
+  for (int k = 0; k < views; ++k) {
+    if (!save.errors[size_t(k)]) fs::remove(save.PathOf(k), ignored);
   }
-  if (light_field.disparity.values.empty()) return {};
-  return WritePfm(DisparityPath(folder), light_field.disparity);
+  if (covers) fs::remove(Join(folder, kCoverageName), ignored);
+  return error;
 }
 
 }  // namespace starfocus

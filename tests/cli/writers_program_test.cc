@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "platform/image_io.h"
 #include "platform/light_field.h"
@@ -27,6 +28,32 @@ void MakeScene(const TempFolder& folder, const std::string& name, const std::str
 
 TEST_CASE("programs: every session of cli/sessions.txt succeeds") {
   RunSessions("cli/sessions.txt");
+}
+
+TEST_CASE("writers: a full disk leaves no folder and no part of a light field") {
+  TempFolder folder;
+  MakeScene(folder, "lf");
+  MakeScene(folder, "other");
+  // A limit on the size of files, in blocks of 512 bytes, fails like a full disk. With the larger
+  // limits, views are written, and the map of 6912 bytes is not.
+  for (const int blocks : {1, 8, 12}) {
+    const std::string full = "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; ";
+    const std::vector<std::string> calls =
+        blocks == 1
+            ? std::vector<std::string>{"import lf a/new", "video lf other -o a/new --focus 1",
+                                       "refocus lf other -o a/new --focus 1",
+                                       "steps lf -o a/new --focus 1",
+                                       "scene a/new --size 48x36 --views 5"}
+            : std::vector<std::string>{"import lf a/new", "scene a/new --size 48x36"};
+    for (const std::string& call : calls) {
+      CAPTURE(blocks);
+      CAPTURE(call);
+      const Outcome outcome = Call(folder, call, full);
+      CHECK(outcome.code == 1);
+      CHECK(!fs::exists(folder.file("a")));
+    }
+  }
+  Succeed(folder, "import lf a/new");
 }
 
 TEST_CASE("writers: a sweep writes an animation, or a sharp picture with the focus of each pixel") {

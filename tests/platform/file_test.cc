@@ -63,15 +63,28 @@ TEST_CASE("file: an error line names the cause of the error") {
   REQUIRE(WriteFile(folder.file("a"), FromText("x")) == "");
   CHECK(CheckOutputPath(folder.file("a/b")) ==
         "cannot write " + folder.file("a/b") + ": " + folder.file("a") + " is not a folder");
-  CHECK(MakeFolder(folder.file("a")) ==
-        "cannot create folder " + folder.file("a") + ": not a directory");
-  CHECK(MakeFolder(folder.file("b/c")) == "");
-  CHECK(fs::is_directory(folder.file("b/c")));
+  CHECK(OutputFolder().Create(folder.file("a")) ==
+        "cannot create folder " + folder.file("a") + ": a file of that name exists");
+  CHECK(OutputFolder().Create(folder.file("a/b")) ==
+        "cannot create folder " + folder.file("a/b") + ": not a directory");
+  {
+    OutputFolder made, again;
+    CHECK(made.Create(folder.file("b/c/d/")) == "");
+    CHECK(again.Create(folder.file("b/c")) == "");
+    REQUIRE(WriteFile(folder.file("b/file"), {}) == "");
+    CHECK(fs::is_directory(folder.file("b/c/d")));
+  }
+  // Only the folders that are empty and that the object made are removed.
+  CHECK(!fs::exists(folder.file("b/c")));
+  CHECK(fs::is_directory(folder.file("b")));
+  fs::remove(folder.file("b/file"));
+  CHECK(OutputFolder().Create(folder.file("b")) == "");
+  CHECK(fs::is_directory(folder.file("b")));
   if (geteuid() == 0) return;  // the user root may write to any folder
   REQUIRE(chmod(folder.file("a").c_str(), 0) == 0);
   REQUIRE(chmod(folder.file("b").c_str(), 0500) == 0);
   CHECK(ReadFile(folder.file("a")) == "cannot read " + folder.file("a") + ": permission denied");
-  CHECK(MakeFolder(folder.file("b/d")) ==
+  CHECK(OutputFolder().Create(folder.file("b/d")) ==
         "cannot create folder " + folder.file("b/d") + ": permission denied");
   CHECK(CheckOutputPath(folder.file("b/d")) ==
         "cannot write into folder " + folder.file("b") + ": permission denied");

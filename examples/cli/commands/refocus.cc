@@ -301,7 +301,8 @@ Error RunInputs(const RefocusOptions& options, const Batch& batch) {
       return Error::Usage(name, "a single input and a file for --output",
                           "several inputs or a folder");
   }
-  if (Error error = MakeBatchFolder(batch)) return error;
+  OutputFolder made;
+  if (Error error = MakeBatchFolder(batch, &made)) return error;
   // One more input than options.jobs is in memory, so that files are read and written during the
   // turns of other inputs.
   const int cores = std::max(1, starfocus_pool_cores() / options.jobs);

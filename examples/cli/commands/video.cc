@@ -216,7 +216,8 @@ Error Run(const VideoOptions& options) {
   }
   if (!error) error = CheckOutputs(options, video);
   if (!error) error = Scan(options, &*plan, &video);
-  if (!error) error = MakeFolder(options.out);
+  OutputFolder made;
+  if (!error) error = made.Create(options.out);
   if (error) return error;
   const Result<SeriesReport> report = RefocusFrames(options, *plan, video);
   error = report.error();

@@ -14,7 +14,6 @@
 #include "examples/command_line/outputs.h"
 #include "platform/console.h"
 #include "platform/file.h"
-#include "platform/folder.h"
 #include "platform/progress.h"
 #include "platform/standard_stream.h"
 #include "platform/writers/picture.h"
@@ -119,7 +118,7 @@ Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
   return std::optional<Batch>(std::move(batch));
 }
 
-Error MakeBatchFolder(const Batch& batch) {
+Error MakeBatchFolder(const Batch& batch, OutputFolder* folder) {
   std::vector<Output> outputs;
   Inputs read;
   for (const BatchItem& item : batch.items) {
@@ -129,7 +128,7 @@ Error MakeBatchFolder(const Batch& batch) {
   }
   if (Error error = CheckFolderApart({"--output", batch.folder}, read.folders)) return error;
   if (Error error = CheckApart(outputs, read)) return error;
-  return MakeFolder(batch.folder);
+  return folder->Create(batch.folder);
 }
 
 Error RunBatch(const Batch& batch, int jobs, const std::function<Error(const BatchItem&)>& run) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "examples/cli/input/find_inputs.h"
+#include "platform/folder.h"
 #include "platform/result.h"
 
 namespace starfocus {
@@ -35,7 +36,7 @@ Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
                                        const std::string& out, bool estimates_depth);
 
 // Creates the output folder. Returns an error if outputs coincide with each other or with inputs.
-Error MakeBatchFolder(const Batch& batch);
+Error MakeBatchFolder(const Batch& batch, OutputFolder* folder);
 
 // Runs all items, `jobs` at a time, and shows progress. Prints the skipped paths, each error
 // immediately, and finally the numbers of finished, skipped and failed inputs to stderr. The

@@ -34,9 +34,10 @@ Error Write(const fs::path& folder, const Figure& figure, bool draw) {
 }
 
 Error Run(const AnalyzeOptions& options) {
+  OutputFolder made;
   if (!options.folder.empty()) {
     if (Error error = CheckFolderOutput({"--output", options.folder})) return error;
-    if (Error error = MakeFolder(options.folder)) return error;
+    if (Error error = made.Create(options.folder)) return error;
   }
   constexpr int kEngineBlur = 40;  // larger radii take hours
   std::vector<Figure> figures = {AnalyseTableOne(), AnalyseViewNumber(),

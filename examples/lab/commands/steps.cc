@@ -40,7 +40,8 @@ Error Run(const StepsOptions& options) {
       {"disparity", disparity},  {"mean", drawn->mean},   {"slices", drawn->slices},
       {"hidden", drawn->hidden}, {"matte", drawn->matte}, {"coverage", drawn->coverage},
       {"view", drawn->view},     {"holes", drawn->holes}, {"gathered", drawn->gathered}};
-  if (Error error = MakeFolder(options.out)) return error;
+  OutputFolder made;
+  if (Error error = made.Create(options.out)) return error;
   for (const auto& [name, picture] : files) {
     const std::string file = std::string(name) + ".png";
     const std::string path = (std::filesystem::path(options.out) / file).string();
