@@ -53,52 +53,31 @@ std::vector<std::string> FindLinks(const std::string& folder) {
 }
 
 // Extensions of files whose kind is known. GIF files are listed with the videos, because starfocus
-// does not write them.
-struct KnownExtension {
-  const char* extension;
-  OutputKind kind;
-};
-constexpr KnownExtension kExtensions[] = {
-    {".png", OutputKind::kPicture},  {".ppm", OutputKind::kPicture},
-    {".jpg", OutputKind::kPicture},  {".jpeg", OutputKind::kPicture},
-    {".webp", OutputKind::kPicture}, {".bmp", OutputKind::kOther},
-    {".tif", OutputKind::kOther},    {".tiff", OutputKind::kOther},
-    {".pgm", OutputKind::kOther},    {".heic", OutputKind::kOther},
-    {".heif", OutputKind::kOther},   {".avif", OutputKind::kOther},
-    {".jxl", OutputKind::kOther},    {".exr", OutputKind::kOther},
-    {".svg", OutputKind::kOther},    {".mpo", OutputKind::kOther},
-    {".mp4", OutputKind::kVideo},    {".m4v", OutputKind::kVideo},
-    {".mov", OutputKind::kVideo},    {".mkv", OutputKind::kVideo},
-    {".webm", OutputKind::kVideo},   {".avi", OutputKind::kVideo},
-    {".gif", OutputKind::kVideo},    {".mpg", OutputKind::kVideo},
-    {".mpeg", OutputKind::kVideo},   {".wmv", OutputKind::kVideo},
-    {".flv", OutputKind::kVideo},    {".ogv", OutputKind::kVideo},
-    {".3gp", OutputKind::kVideo},    {".mts", OutputKind::kVideo},
-    {".pfm", OutputKind::kMap},      {".npy", OutputKind::kOther},
-    {".npz", OutputKind::kOther},    {".html", OutputKind::kPage},
-    {".htm", OutputKind::kPage},     {".xhtml", OutputKind::kPage},
-    {".json", OutputKind::kJson},    {".pdf", OutputKind::kOther},
-    {".ps", OutputKind::kOther},     {".doc", OutputKind::kOther},
-    {".docx", OutputKind::kOther},   {".odt", OutputKind::kOther},
-    {".md", OutputKind::kOther},     {".txt", OutputKind::kOther},
-    {".csv", OutputKind::kOther},    {".xml", OutputKind::kOther},
-    {".yaml", OutputKind::kOther},   {".zip", OutputKind::kOther},
-    {".tar", OutputKind::kOther},    {".gz", OutputKind::kOther},
-};
+// does not write them. A text file may contain JSON.
+constexpr const char* kVideos[] = {".mp4", ".m4v",  ".mov", ".mkv", ".webm", ".avi", ".gif",
+                                   ".mpg", ".mpeg", ".wmv", ".flv", ".ogv",  ".3gp", ".mts"};
+constexpr const char* kPages[] = {".html", ".htm", ".xhtml"};
+constexpr const char* kTexts[] = {".json", ".txt"};
+constexpr const char* kOthers[] = {
+    ".png",  ".ppm", ".jpg", ".jpeg", ".webp", ".bmp",  ".tif", ".tiff", ".pgm", ".heic", ".heif",
+    ".avif", ".jxl", ".exr", ".svg",  ".mpo",  ".pfm",  ".npy", ".npz",  ".pdf", ".ps",   ".doc",
+    ".docx", ".odt", ".md",  ".csv",  ".xml",  ".yaml", ".zip", ".tar",  ".gz"};
+
+// Returns nullopt for an unknown extension.
+std::optional<OutputKind> KindOf(const std::string& extension) {
+  const auto has = [&](const auto& list) {
+    return std::find(std::begin(list), std::end(list), extension) != std::end(list);
+  };
+  if (has(kVideos)) return OutputKind::kVideo;
+  if (has(kPages)) return OutputKind::kPage;
+  if (has(kTexts)) return OutputKind::kJson;
+  return has(kOthers) ? std::optional<OutputKind>(OutputKind::kOther) : std::nullopt;
+}
 
 std::string Describe(OutputKind written) {
-  switch (written) {
-    case OutputKind::kPage:
-      return "a name for a web page (.html)";
-    case OutputKind::kJson:
-      return "a name for a JSON file (.json)";
-    case OutputKind::kMap:
-      return "a name for a map (.pfm)";
-    case OutputKind::kFolder:
-      return "a folder for the pictures";
-    default:
-      return "a name for a picture";
-  }
+  return written == OutputKind::kPage   ? "a name for a web page (.html)"
+         : written == OutputKind::kJson ? "a name for a JSON file (.json)"
+                                        : "a folder for the pictures";
 }
 
 }  // namespace
@@ -161,16 +140,15 @@ Error CheckKind(const Output& output, OutputKind written) {
   const std::string& path = output.path;
   if (IsStandardStream(path) || path.empty() || path.back() == '/') return {};
   const std::string extension = LowerExtension(path);
-  const auto known = std::find_if(std::begin(kExtensions), std::end(kExtensions),
-                                  [&](const auto& one) { return extension == one.extension; });
-  if (known == std::end(kExtensions) || known->kind == written) return {};
+  const std::optional<OutputKind> kind = KindOf(extension);
+  if (!kind || kind == written) return {};
   std::error_code ignored;
   if (written == OutputKind::kFolder && fs::is_directory(path, ignored)) {
     return Cannot("write", path,
                   "it is a folder with the extension of a file (" + path + "/ writes into it)");
   }
   std::string expected = Describe(written);
-  if (written == OutputKind::kFolder && known->kind == OutputKind::kVideo) {
+  if (written == OutputKind::kFolder && kind == OutputKind::kVideo) {
     const std::string folder = fs::path(path).replace_extension().string();
     expected += ", such as " + folder + ", from which this command makes the video: cat $(ls -v " +
                 folder + "/*.png) | ffmpeg -f image2pipe -framerate 30 -i - ";

@@ -29,9 +29,9 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
 // input folder, output files would mix with the views.
 Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders);
 
-enum class OutputKind { kPicture, kMap, kPage, kJson, kFolder, kVideo, kOther };
+enum class OutputKind { kPage, kJson, kFolder, kVideo, kOther };
 
-// Returns an error if the extension of an output states another kind than the program writes. Other
+// Returns an error if the extension of a page, a JSON file or a folder states another kind. Other
 // extensions, and names without extension, fit every kind. The error for a video contains the
 // command of ffmpeg that makes the video. A folder may have any name that ends with "/".
 Error CheckKind(const Output& output, OutputKind written);

@@ -198,8 +198,8 @@ TEST_CASE("compare: a page needs one whole picture and a separate file") {
   CheckRefused(folder, call + "--compare p.html --region 0,0,8,8",
                "--compare: expected a whole picture");
   CheckRefused(folder, call + "--compare p.html -o p.html", "p.html");
-  CheckRefused(folder, call + "--compare p.png -o p.png", "which another output uses");
-  CheckRefused(folder, call + "--compare '<&>/disparity.pfm'", "a file of the light field");
+  CheckRefused(folder, call + "--compare p.png -o p.png", "a name for a web page (.html)");
+  CheckRefused(folder, call + "--compare '<&>/disparity.pfm'", "a name for a web page");
   CheckRefused(folder, call + "--compare none/p.html", "none");
   CheckRefused(folder, call + "--compare p.html --depth-photo", "--depth-photo");
   CheckRefused(folder, call + "--compare p.html -o new/", "--compare: expected a single input");

@@ -50,6 +50,11 @@ std::string ReadRange(const std::string& text, std::optional<DisparityRange>* ra
   return "";
 }
 
+// Returns the name of the picture of a map.
+std::string PictureOf(const std::string& map) {
+  return std::filesystem::path(map).replace_extension(".png").string();
+}
+
 std::vector<Output> PicturesOf(const DisparityOptions& options, const Plan& plan) {
   std::vector<Output> pictures;
   if (!plan.picture.empty()) pictures.push_back({"--output", plan.picture});
@@ -81,7 +86,7 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   if (std::filesystem::path(plan.map).extension() != ".pfm") {
     return Error::Usage("--output", "a name that ends in .pfm", plan.map);
   }
-  plan.picture = std::filesystem::path(plan.map).replace_extension(".png").string();
+  plan.picture = PictureOf(plan.map);
   if (options.repair && options.out.empty()) {
     return Error::Usage("--repair", "the name of the repaired map by --output", "none");
   }
@@ -96,8 +101,6 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
     return Expected(plan.map, "no existing map, or another name by --output", "an existing map");
   }
   if (std::filesystem::exists(std::filesystem::symlink_status(plan.picture, ignored))) {
-    std::fprintf(stderr, "%s: not replaced by a picture of the map, because it was not named\n",
-                 plan.picture.c_str());
     plan.picture.clear();
   }
   Error error = CheckOutputPath(plan.map);
@@ -182,7 +185,12 @@ Work ChooseWork(const DisparityOptions& options, const Capture& capture) {
 Error WriteMap(const DisparityOptions& options, const Plan& plan, const Image& centre,
                const DisparityEstimate& estimate) {
   Error error;
-  if (!plan.picture.empty()) error = WriteImage(plan.picture, DrawDisparity(estimate.map));
+  if (!plan.picture.empty()) {
+    error = WriteImage(plan.picture, DrawDisparity(estimate.map));
+  } else {
+    std::fprintf(stderr, "%s: no picture of the map is written, because %s exists\n",
+                 plan.map.c_str(), PictureOf(plan.map).c_str());
+  }
   if (!error && !options.confidence.empty()) {
     error = WriteImage(options.confidence, estimate.confidence);
   }
