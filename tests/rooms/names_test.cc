@@ -5,6 +5,7 @@
 
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 
 #include "tests/rooms/tree.h"
@@ -55,6 +56,18 @@ TEST_CASE("names: the programs write to stderr by platform/console.h only") {
     }
   }
   CHECK(counts == kAllowed);
+}
+
+TEST_CASE("names: the program prints names and contents of files by platform/console.h only") {
+  // printf prints only the help, the manual, the completion and the version.
+  std::set<std::string> files;
+  for (const std::filesystem::path& path :
+       tree::Files({"examples/cli", "examples/command_line"}, {".h", ".cc"})) {
+    const std::string code = tree::Read(path);
+    static const std::regex kPrint("\\b(printf|puts|fputs|fwrite|putchar|cout)\\b");
+    if (std::regex_search(code, kPrint)) files.insert(path.filename().string());
+  }
+  CHECK(files == std::set<std::string>{"help.cc", "parse.cc"});
 }
 
 }  // namespace

@@ -38,7 +38,21 @@ void Json::Set(const std::string& name, Json value) {
 void Json::Add(Json value) { value_->json.push_back(std::move(value.value_->json)); }
 
 std::string Json::Text(int indent) const {
-  return value_->json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+  const std::string text =
+      value_->json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string safe;
+  for (size_t i = 0; i < text.size(); ++i) {
+    // JSON allows U+007F to U+009F in strings, but terminals interpret these characters.
+    const bool pair = text[i] == '\xc2' && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+    if (!pair && text[i] != '\x7f') {
+      safe += text[i];
+      continue;
+    }
+    const auto code = static_cast<unsigned char>(text[pair ? ++i : i]);
+    constexpr char kDigits[] = "0123456789abcdef";
+    safe += std::string("\\u00") + kDigits[code / 16] + kDigits[code % 16];
+  }
+  return safe;
 }
 
 JsonObject ReadJsonObject(const std::vector<uint8_t>& text, const std::string& name) {
