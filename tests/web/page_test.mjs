@@ -208,14 +208,18 @@ test('without shared memory, pictures in parts have the same bytes, and every ca
     // The worker ends a call after the part that is being computed.
     for (const call of [signal => made.preview({focus: 12, shift: 1, signal}), signal => made.refocus({focus: 12, region: regions[3], signal}),
                         signal => made.refocus({focus: 12, blocks: true, signal})]) {
-      const stop = new AbortController(), running = call(stop.signal), begin = performance.now();
-      await new Promise(resolve => setTimeout(resolve, 5));
-      stop.abort();
-      const error = await running.then(() => ({}), error => error);
-      await made.focusAt({x: 1, y: 1});
-      const time = performance.now() - begin, start = performance.now();
-      await call();
-      if (error.name !== 'AbortError' || time > 0.8 * (performance.now() - start)) problems.push(`${call}: ${error.name} ${time}`);
+      let isFree = false;
+      for (let attempt = 0; attempt < 10 && !isFree; ++attempt) {  // other programs may delay one attempt
+        const stop = new AbortController(), running = call(stop.signal), begin = performance.now();
+        await new Promise(resolve => setTimeout(resolve, 5));
+        stop.abort();
+        const error = await running.then(() => ({}), error => error);
+        await made.focusAt({x: 1, y: 1});
+        const time = performance.now() - begin, start = performance.now();
+        await call();
+        isFree = error.name === 'AbortError' && time < 0.75 * (performance.now() - start);
+      }
+      if (!isFree) problems.push(`${call}: not free soon after the abort`);
     }
     const stop = new AbortController(), preparing = made.prepare([view], map, {repair: true, signal: stop.signal});
     setTimeout(() => stop.abort(), 20);
