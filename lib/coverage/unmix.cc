@@ -17,16 +17,19 @@ constexpr int32_t kMixedShare = kCoverageTile * kCoverageTile * kWhole * kWhole 
 // Colours are compared in 255ths of white with 3 fractional bits.
 constexpr int kColourBits = 3;
 constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
-// Smallest squared distance between near and far colours that allows alpha to be computed.
-constexpr int32_t kLeastContrast = 300 * kSquareOne;
-// Squared noise that is tolerated in mixed colours. The trust in a mixed colour decreases with the
-// distance of the colour from the line through the near and far colours. Let s^2 be kNoise plus a
-// sixteenth of the squared contrast. The trust is 1 at distances of at most s / 2 from the line,
-// and 0 at distances of at least 3 s / 2.
+// Alpha is computed from colours to the degree that the colours can be trusted. Noise must not
+// decide whether they are trusted, so the trust increases gradually with three quantities. The
+// squared distance between near and far colours: the trust is 0 at kLeastContrast and 1 at twice
+// kLeastContrast.
+constexpr int32_t kLeastContrast = 200 * kSquareOne;
+// Squared noise that is tolerated in mixed colours. The trust decreases with the distance of the
+// mixed colour from the line through the near and far colours. Let s^2 be kNoise plus a sixteenth
+// of the squared contrast. The trust is 1 at squared distances of at most s^2 / 4 from the line,
+// and 0 at squared distances of at least 17 s^2 / 4.
 constexpr int32_t kNoise = 81 * kSquareOne;
-// Alpha is computed only if the weights of the near samples around a pixel sum to at least
-// kLeastNear, in units of 2^-15.
-constexpr int32_t kLeastNear = 32;
+// The sum of the weights of the near samples around a pixel, in units of 2^-15: the trust is 1 if
+// the sum is at least 2^kNearBits.
+constexpr int kNearBits = 6;
 
 // The pixels in and around a tile: light, near disparities, and the weight of each pixel in a mean
 // of the near light.
@@ -74,28 +77,42 @@ void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const We
 
 using Rgb = int32_t[3];
 
-constexpr int32_t Compared(int32_t light) { return light >> (kLightBits - kColourBits); }
+// Returns a - b with kColourBits. Halves are rounded away from 0, so that inverted colours have the
+// same differences with opposite signs, and therefore the same coverage.
+int32_t Difference(int32_t a, int32_t b) {
+  const auto size = static_cast<int32_t>(RoundShift(Abs(a - b), kLightBits - kColourBits));
+  return a < b ? -size : size;
+}
 
-// Returns the part of a pixel that the near surface covers, if `mixed` is a mixture of `near` and
-// `far`. Returns `guess` if `mixed` is not such a mixture, or if the contrast is too small.
-int32_t AlphaOf(const Rgb& near, const Rgb& far, const Rgb& mixed, int32_t guess) {
+// Colours of a pixel and of its two surfaces.
+struct PartedColours {
+  Rgb near, far, mixed;
+  int32_t near_weight;  // sum of the weights of the samples of `near`
+};
+
+// Returns the part of a pixel that the near surface covers, as far as its colours can be trusted;
+// `guess` replaces the rest.
+int32_t AlphaOf(const PartedColours& colours, int32_t guess) {
   int32_t contrast = 0, along = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
-    const int32_t whole = near[c] - far[c], part = mixed[c] - far[c];
+    const int32_t whole = Difference(colours.near[c], colours.far[c]);
+    const int32_t part = Difference(colours.mixed[c], colours.far[c]);
     contrast += whole * whole;
     along += whole * part;
     distance += part * part;
   }
-  if (contrast < kLeastContrast) return guess;
+  if (contrast <= kLeastContrast) return guess;
   const int64_t beside = distance - int64_t{along} * along / contrast;
   const int64_t square = kNoise + contrast / 16;
-  // The trust is 1 if the squared distance from the line is at most 1/4 of `square`, and 0 from 9/4
-  // of `square` on.
-  const int64_t doubt = (4 * beside - square) * kWhole / (8 * square);
-  const int32_t trust = kWhole - Clamp(static_cast<int32_t>(doubt), 0, kWhole);
+  const int64_t doubt = (4 * beside - square) * kWhole / (16 * square);
+  const int32_t on_line = kWhole - Clamp(static_cast<int32_t>(doubt), 0, kWhole);
+  const int32_t clear = Min(contrast / (kLeastContrast / kWhole) - kWhole, kWhole);
+  const int32_t known = Min(colours.near_weight, 1 << kNearBits);
+  const int64_t trust = int64_t{on_line} * clear * known;
   const int32_t part = Clamp(along, 0, contrast);
   const auto alpha = static_cast<int32_t>((int64_t{part} * kWhole + contrast / 2) / contrast);
-  return guess + static_cast<int32_t>(RoundShift((alpha - guess) * trust, kAlphaBits));
+  return guess +
+         static_cast<int32_t>(RoundShift((alpha - guess) * trust, 2 * kAlphaBits + kNearBits));
 }
 
 // Calls visit(x, y, alpha, cell) for each pixel of the tile that is near an edge, if the light of
@@ -116,16 +133,17 @@ void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column
       if (map.alpha[to] == kUnparted || cell.weight == 0) continue;
       int32_t alpha = map.first[to];
       const int32_t weight = sums.weight[x];
-      if (weight >= kLeastNear) {
-        Rgb near, beyond, mixed;
+      if (weight > 0) {
+        PartedColours colours;
+        colours.near_weight = weight;
         for (int c = 0; c < 3; ++c) {
           const size_t at = static_cast<size_t>(c) * NearTile::kPlane;
-          near[c] = Compared((sums.light[c][x] << 15) / weight);
-          beyond[c] = Compared(cell.rgb[c]);
-          mixed[c] =
-              Compared(tile.light[at + static_cast<size_t>((y + kAround) * kSide + x + kAround)]);
+          colours.near[c] = (sums.light[c][x] << 15) / weight;
+          colours.far[c] = cell.rgb[c];
+          colours.mixed[c] =
+              tile.light[at + static_cast<size_t>((y + kAround) * kSide + x + kAround)];
         }
-        alpha = AlphaOf(near, beyond, mixed, alpha);
+        alpha = AlphaOf(colours, alpha);
       }
       visit(left + x, top + y, alpha, cell);
     }

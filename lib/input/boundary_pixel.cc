@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/input/boundary_pixel.h"
 
+#include <cmath>
+#include <cstdlib>
+
 namespace starfocus {
 namespace {
 
@@ -12,51 +15,58 @@ constexpr int64_t kSquareOne = 1 << (2 * kColourBits);
 // one channel. The measurements of kLeastContrast, kNoise and kContrastParts are in
 // docs/constants.md.
 constexpr int64_t kLeastContrast = 64 * kSquareOne;
-// Largest squared distance of a mixture from the line between the two colours: noise of 3/255 of
+// Tolerated squared distance of a mixture from the line between the two colours: noise of 3/255 of
 // white in each channel, plus 1/16 of the squared contrast.
 constexpr int64_t kNoise = 27 * kSquareOne;
 constexpr int64_t kContrastParts = 16;
+constexpr int64_t kShareOne = 1 << kShareBits;
+// Smallest share at which the far colour that was read replaces the colour of the pixel completely.
+constexpr int kPureParts = 16;
 
-int32_t Compared(int32_t light) {
-  return static_cast<int32_t>(RoundShift(light, kLightBits - kColourBits));
+int64_t Limited(int64_t fade) { return fade < 0 ? 0 : fade > kShareOne ? kShareOne : fade; }
+
+// Returns a - b with kColourBits. Halves are rounded away from 0, so that inverted colours have the
+// same differences with opposite signs, and therefore the same shares.
+int64_t Difference(int32_t a, int32_t b) {
+  const int64_t size = RoundShift(Abs(a - b), kLightBits - kColourBits);
+  return a < b ? -size : size;
 }
 
-// Position of a colour relative to the line from `far` to `near`: the position along the line, and
-// the squared distance from the line. Both values are multiplied by `contrast`, the squared length
-// of the line.
-struct LinePlace {
-  int64_t along = 0, contrast = 0, beside = 0;
-
-  LinePlace(const Colour& near, const Colour& far, const Colour& mixed) {
-    int64_t distance = 0;
-    for (int c = 0; c < 3; ++c) {
-      const int64_t whole = Compared(near[c]) - Compared(far[c]);
-      const int64_t part = Compared(mixed[c]) - Compared(far[c]);
-      along += part * whole;
-      contrast += whole * whole;
-      distance += part * part;
-    }
-    beside = distance * contrast - along * along;
-  }
-
-  // Returns the largest value of `kContrastParts * beside` at which a colour counts as a mixture.
-  int64_t Limit() const { return contrast * (kContrastParts * kNoise + contrast); }
-
-  int32_t Share() const {
-    return static_cast<int32_t>((static_cast<uint64_t>(along) << kShareBits) /
-                                static_cast<uint64_t>(contrast));
-  }
+// How a pixel is divided: the share of the nearer surface, and the weight with which the far colour
+// that was read replaces the colour of the pixel. Both have kShareBits.
+struct Division {
+  int32_t share = 0, weight = 0;
 };
 
-// Returns the share of `near` in `mixed`, kShareBits; the rest is `far`. The share is 0 if `mixed`
-// is not a mixture. The far surface covers the centre of the pixel, so a share above 4/5 means that
-// `far` is wrong. The share is rounded down, so that later rounding to fewer bits gives the rounded
-// exact value.
-int32_t ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
-  const LinePlace place(near, far, mixed);
-  if (place.contrast < kLeastContrast || place.along <= 0) return 0;
-  if (5 * place.along > 4 * place.contrast) return 0;
-  return kContrastParts * place.beside > place.Limit() ? 0 : place.Share();
+// Divides a pixel by the position of its colour relative to the line from `far` to `near`.
+//
+// Noise must not decide whether a pixel is split. At each limit, the share and the weight therefore
+// fade to 0 instead of stopping abruptly: at contrasts below twice kLeastContrast, for shares from
+// 13/20 to 19/20, and from 1/4 to 3/2 of the tolerated squared distance from the line. The far
+// surface covers the centre of the pixel, so a larger share means that `far` is wrong. For shares
+// below 1 / kPureParts, the weight also falls to 0, because the far colour differs from the colour
+// of the pixel by the distance from the line.
+Division DivisionOf(const BoundaryColours& colours) {
+  int64_t along = 0, contrast = 0, distance = 0;
+  for (int c = 0; c < 3; ++c) {
+    const int64_t whole = Difference(colours.near[c], colours.far[c]);
+    const int64_t part = Difference(colours.mixed[c], colours.far[c]);
+    along += part * whole;
+    contrast += whole * whole;
+    distance += part * part;
+  }
+  if (contrast <= kLeastContrast || along <= 0 || 20 * along >= 19 * contrast) return {};
+  // The distance from the line and its limit are multiplied by `contrast`.
+  const int64_t beside = kContrastParts * (distance * contrast - along * along);
+  const int64_t limit = contrast * (kContrastParts * kNoise + contrast);
+  if (2 * (beside >> kShareBits) >= 3 * (limit >> kShareBits)) return {};
+  const int64_t share = along * kShareOne / contrast;
+  const int64_t clear = Limited((contrast - kLeastContrast) * kShareOne / kLeastContrast);
+  const int64_t inside = Limited((6 * kShareOne - 4 * (beside / (limit >> kShareBits))) / 5);
+  const int64_t most = Limited((19 * kShareOne - 20 * share) / 6);
+  const int64_t fade = (clear * inside >> kShareBits) * most >> kShareBits;
+  return {static_cast<int32_t>(share * fade >> kShareBits),
+          static_cast<int32_t>(Limited(kPureParts * share) * fade >> kShareBits)};
 }
 
 // Returns the colour of the next pixel away from the nearer surface. If that pixel is on another
@@ -75,23 +85,44 @@ const OcclusionView& OcclusionViewAway(const Window& window, const BoundaryPixel
 }
 
 // Reads the colour of the far surface from the captured view that OcclusionViewAway returns.
-Colour ReadFar(const Window& window, const BoundaryPixel& pixel, const Colour& mixed) {
+Colour ReadFar(const Window& window, const BoundaryPixel& pixel) {
   const OcclusionView& look = OcclusionViewAway(window, pixel);
   constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
   const int32_t x = pixel.x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, kBits);
   const int32_t y = pixel.y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, kBits);
   int32_t sums[3];
   InterpolateCaptured(window, look.view, x, y, sums);
-  // Halves are rounded towards the colour of the pixel, so that an inverted picture gives the same
-  // shares.
-  constexpr uint32_t kHalf = 1 << (2 * kShiftBits - 1);
   Colour far;
-  for (int c = 0; c < 3; ++c) {
-    const bool up = (mixed[c] << (2 * kShiftBits)) > sums[c];
-    const uint32_t sum = static_cast<uint32_t>(sums[c]) + kHalf - (up ? 0 : 1);
-    far.rgb[c] = static_cast<int16_t>(sum >> (2 * kShiftBits));
-  }
+  for (int c = 0; c < 3; ++c)
+    far.rgb[c] = static_cast<int16_t>(RoundShift(sums[c], 2 * kShiftBits));
   return far;
+}
+
+// Reads the colours of a boundary pixel and of the two surfaces beside the edge.
+BoundaryColours ReadColours(const CentreView& centre, const BoundaryPixel& pixel) {
+  const int32_t x = pixel.x, y = pixel.y;
+  const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
+  const int32_t beyond = centre.Disparity(x + 2 * dx, y + 2 * dy);
+  const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
+  BoundaryColours colours;
+  colours.mixed = centre.ColourAt(x, y);
+  colours.near = centre.ColourAt(x + pure * dx, y + pure * dy);
+  colours.far = OcclusionViewAway(centre.window, pixel).view != 0
+                    ? ReadFar(centre.window, pixel)
+                    : ReadBeside(centre, pixel, colours.mixed);
+  return colours;
+}
+
+// Returns a mixture whose far colour changes from the colour of the pixel to the far colour that
+// was read as the weight increases.
+Mixture MixtureOf(const Division& division, const BoundaryColours& colours) {
+  Mixture mixture = {division.share, colours.near, colours.mixed};
+  for (int c = 0; c < 3; ++c) {
+    const int32_t change = colours.far[c] - colours.mixed[c];
+    mixture.far.rgb[c] = static_cast<int16_t>(
+        colours.mixed[c] + RoundShift(int64_t{division.weight} * change, kShareBits));
+  }
+  return mixture;
 }
 
 }  // namespace
@@ -103,45 +134,22 @@ Colour CentreView::ColourAt(int32_t x, int32_t y) const {
   return colour;
 }
 
+static double Env(const char* n, double d) {
+  const char* v = getenv(n);
+  return v ? atof(v) : d;
+}
+static const double kC0 = Env("C0", 64), kC1 = Env("C1", 128), kO0 = Env("O0", 1),
+                    kO1 = Env("O1", 2), kM0 = Env("M0", .8), kM1 = Env("M1", 1), kK = Env("K", 8),
+                    kMode = Env("MODE", 0);
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
-  const bool is_excess = centre.window.is_excess;
-  Mixture mixture = {};
-  if (is_excess) {
-    Window light = centre.window;
-    light.reader = light.light;
-    light.is_excess = false;
-    mixture.share = FindMixture({light}, pixel).share;
-    if (mixture.share == 0) return mixture;
-  }
-  const int32_t x = pixel.x, y = pixel.y;
-  const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
-  const Colour mixed = centre.ColourAt(x, y);
-  const int32_t beyond = centre.Disparity(x + 2 * dx, y + 2 * dy);
-  const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
-  mixture.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  mixture.far = OcclusionViewAway(centre.window, pixel).view != 0
-                    ? ReadFar(centre.window, pixel, mixed)
-                    : ReadBeside(centre, pixel, mixed);
-  if (!is_excess) mixture.share = ShareOf(mixture.near, mixture.far, mixed);
-  return mixture;
+  const BoundaryColours colours = ReadColours(centre, pixel);
+  if (!centre.window.is_excess) return Unmix(colours);
+  Window light = centre.window;
+  light.reader = light.light;
+  light.is_excess = false;
+  return MixtureOf(DivisionOf(ReadColours({light}, pixel)), colours);
 }
 
-int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
-  constexpr int64_t kOne = 1 << kShareBits;
-  const auto limited = [](int64_t fade) { return fade < 0 ? 0 : fade > kOne ? kOne : fade; };
-  const LinePlace place(near, far, mixed);
-  if (place.contrast <= kLeastContrast || place.along <= 0 || place.along >= place.contrast) {
-    return 0;
-  }
-  const int64_t contrast = limited((place.contrast - kLeastContrast) * kOne / kLeastContrast);
-  const int64_t outside = kContrastParts * place.beside / (place.Limit() >> kShareBits);
-  int64_t share = place.Share();
-  const int64_t most = limited(5 * (kOne - share));
-  const int64_t fades[] = {contrast, limited(2 * kOne - outside), most};
-  for (const int64_t fade : fades) {
-    share = share * fade >> kShareBits;
-  }
-  return static_cast<int32_t>(share);
-}
+Mixture Unmix(const BoundaryColours& colours) { return MixtureOf(DivisionOf(colours), colours); }
 
 }  // namespace starfocus

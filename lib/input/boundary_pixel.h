@@ -44,6 +44,11 @@ struct BoundaryPixel {
   int32_t disparity, near, step;
 };
 
+// Colour of a boundary pixel, and the colours of the two surfaces that it may mix.
+struct BoundaryColours {
+  Colour near, far, mixed;
+};
+
 // Result of the separation: the share of the nearer surface (kShareBits) and the colours of both
 // surfaces. A share of 0 means that the pixel is not a mixture.
 struct Mixture {
@@ -58,12 +63,10 @@ struct Mixture {
 // both colours are excess, but the share is computed from light.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
-// Returns the share of `near` in a pixel of layer 1 or 2, kShareBits. Rounding changes filtered
-// pixels slightly, so the share fades to 0 at the limits of FindMixture instead of stopping
-// abruptly. The share fades at contrasts below twice the smallest contrast, and for shares from 4/5
-// to 1. The share also fades between one and two times the largest squared distance at which
-// FindMixture accepts a colour as a mixture.
-int32_t FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
+// Separates a pixel by its colour and by the colours of both surfaces. Small changes of a colour
+// change the result little: as the share falls to 0, the far colour becomes the colour of the
+// pixel.
+Mixture Unmix(const BoundaryColours& colours);
 
 // Calls visit(column, row) for each pixel of a field if the disparity of one of its four neighbours
 // is larger by more than `step`. Pixels outside the picture and the outermost pixels of the field

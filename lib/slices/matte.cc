@@ -32,7 +32,8 @@ class MatteFinder {
     for (int side = 0; side < kSideCount; ++side) {
       const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
       if (near - disparity <= step_ || !Moves(near, disparity)) continue;
-      parts.Add(MixtureAt({column, row, side, disparity, near, step_}), near);
+      parts.nearest = Max(parts.nearest, near);
+      parts.Add(MixtureAt({column, row, side, disparity, near, step_}));
     }
     const int32_t share = RoundShift(parts.most * simd::kSliceWhole, kShareBits);
     if (share > 0) Part(column, row, disparity, share, parts);
@@ -52,11 +53,10 @@ class MatteFinder {
     int32_t shares = 0, most = 0, nearest = INT16_MIN;
     int32_t near[3] = {0, 0, 0}, far[3] = {0, 0, 0};
 
-    void Add(const Mixture& mixture, int32_t disparity) {
+    void Add(const Mixture& mixture) {
       if (mixture.share == 0) return;
       shares += mixture.share;
       most = Max(most, mixture.share);
-      nearest = Max(nearest, disparity);
       for (int c = 0; c < 3; ++c) {
         near[c] += mixture.share * mixture.near[c];
         far[c] += mixture.share * mixture.far[c];
@@ -87,23 +87,14 @@ class MatteFinder {
     return *field_.Disparity(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
   }
 
-  // Returns the mixture at a pixel of a subsampled layer. The far colour is the colour that remains
-  // after the near surface's share is removed from the pixel.
+  // Returns the mixture at a pixel of a subsampled layer.
   Mixture MixtureOfLevel(const BoundaryPixel& pixel) const {
     const int32_t x = pixel.x, y = pixel.y;
     const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
     const Colour mixed = ColourAt(x, y);
     const bool wide = Abs(DisparityAt(x + 2 * dx, y + 2 * dy) - pixel.near) <= pixel.step;
-    Mixture mixture;
-    mixture.near = ColourAt(x + (wide ? 2 : 1) * dx, y + (wide ? 2 : 1) * dy);
-    mixture.share = FadedShareOf(mixture.near, FarAt(pixel, mixed), mixed);
-    for (int c = 0; c < 3; ++c) {
-      const int32_t left = (1 << kShareBits) - mixture.share;
-      const int32_t far = (mixed[c] * (1 << kShareBits) - mixture.share * mixture.near[c]) / left;
-      mixture.far.rgb[c] =
-          static_cast<int16_t>(Clamp(far, ranges::kUnmixed.low, ranges::kUnmixed.high));
-    }
-    return mixture;
+    const Colour near = ColourAt(x + (wide ? 2 : 1) * dx, y + (wide ? 2 : 1) * dy);
+    return Unmix({near, FarAt(pixel, mixed), mixed});
   }
 
   // Estimates the colour of the far surface of a subsampled pixel. The colour is read from the

@@ -7,9 +7,9 @@
 namespace starfocus {
 namespace {
 
-// Pixels with a coverage above kMostPart belong to the near surface alone. Pixels with a coverage
-// of at most kLeastPart belong to the far surface alone.
-constexpr int32_t kMostPart = 115, kLeastPart = 2;
+// Coverage above kMostExact counts as more than it is: pixels with a coverage of at least
+// (kMostExact + kWhole) / 2 belong to the near surface alone.
+constexpr int32_t kMostExact = 102;
 // Smallest difference of disparity (kDisparityBits) between the near surface and a hidden surface.
 // Hidden surfaces with a smaller difference are dropped, because they are not opaque but other
 // strands of the thin structure.
@@ -22,11 +22,12 @@ class ThinParter {
 
   void PartPixel(int32_t x, int32_t y) {
     const size_t from = map_.At(x, y), at = surfaces_.At(x - field_.x, y - field_.y);
-    const int32_t alpha = map_.alpha[from];
-    if (alpha == kUnparted) {
+    if (map_.alpha[from] == kUnparted) {
       DropCopies(at);
       return;
     }
+    const int32_t found = map_.alpha[from];
+    const int32_t alpha = Min(found + Max(found - kMostExact, 0), kWhole);
     const FarCell& far = map_.FarAt(x, y);
     const int32_t row = y - field_.y;
     surfaces_.hiding[row] |= uint64_t{1}
@@ -34,13 +35,11 @@ class ThinParter {
     surfaces_.sources[0][at] = surfaces_.sources[1][at] = 0;
     surfaces_.disparity[2][at] = kNoSurface;
     const int16_t* const mixed = field_.Rgb(x - field_.x, row);
-    const bool whole = alpha <= kLeastPart || alpha > kMostPart;
-    SetDisparity(0, at, alpha <= kLeastPart ? far.disparity : map_.near[from]);
-    if (alpha <= kLeastPart) {
-      surfaces_.disparity[1][at] = kNoSurface;
-    } else {
-      SetDisparity(1, at, far.disparity);
-    }
+    const bool whole = alpha == kWhole;
+    // Pixels without coverage have a near surface too, with a share of 0, so that the disparities
+    // of all surfaces, and therefore the slices, do not depend on colours.
+    SetDisparity(0, at, map_.near[from]);
+    SetDisparity(1, at, far.disparity);
     surfaces_.share[at] = whole ? simd::kSliceEnd : static_cast<uint8_t>(alpha);
     for (size_t c = 0; c < 3; ++c) {
       const size_t sample = c * surfaces_.plane + at;
@@ -48,7 +47,7 @@ class ThinParter {
       int16_t& beyond = surfaces_.rgb[1][sample] =
           is_excess_ ? ExcessBehind(near, whole) : far.rgb[c];
       if (whole || is_excess_) continue;
-      near = RestOf(mixed[c], beyond, kWhole - alpha);
+      if (alpha > 0) near = RestOf(mixed[c], beyond, kWhole - alpha);
       // RestOf may have clipped the near surface's light. The far surface's light compensates for
       // the clipping, so that the mixture of the near and far surfaces still equals the light of
       // the pixel.

@@ -152,9 +152,10 @@ class Parter {
   // --- Coverage computed from colours ---
 
   // Computes the light of the near surface around a pixel. The weight of each neighbour (x, y)
-  // includes the factor shown(x, y). Returns false if the sum of weights is too small.
-  bool NearLight(int x, int y, const std::function<double(int x, int y)>& shown,
-                 Colour* light) const {
+  // includes the factor shown(x, y). Returns the trust in the light, which is 0 if all weights are
+  // 0.
+  double NearLight(int x, int y, const std::function<double(int x, int y)>& shown,
+                   Colour* light) const {
     constexpr double kTaps[3][3] = {{10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
     double weights = 0;
     *light = {0, 0, 0};
@@ -167,18 +168,21 @@ class Parter {
         for (size_t c = 0; c < 3; ++c) (*light)[c] += weight * Light(x + dx, y + dy)[c];
       }
     }
-    for (double& value : *light) value /= weights;
-    return weights >= 1 / 8.0;
+    for (double& value : *light) value /= weights > 0 ? weights : 1;
+    return std::min(1.0, 4 * weights);
   }
 
-  // Returns the coverage of a mixed pixel, or `guess` if the colours do not determine the coverage.
-  static double AlphaOf(const Colour& near, const Colour& far, const Colour& mixed, double guess) {
+  // Returns the coverage of a mixed pixel. The less the colours determine the coverage, the more
+  // `guess` replaces the result. `trust` is the trust in `near`.
+  static double AlphaOf(const Colour& near, const Colour& far, const Colour& mixed, double guess,
+                        double trust) {
     const Colour whole = Less(near, far), part = Less(mixed, far);
     const double contrast = Dot(whole, whole), along = Dot(whole, part);
-    if (contrast < 300) return guess;
+    if (contrast <= 200) return guess;
     const double beside = Dot(part, part) - along * along / contrast;
     const double square = 81 + contrast / 16;
-    const double trust = 1 - std::clamp((4 * beside - square) / (8 * square), 0.0, 1.0);
+    trust *= 1 - std::clamp((4 * beside - square) / (16 * square), 0.0, 1.0);
+    trust *= std::min(contrast / 200 - 1, 1.0);
     return guess + (std::clamp(along / contrast, 0.0, 1.0) - guess) * trust;
   }
 
@@ -200,8 +204,8 @@ class Parter {
       const FarLight far = far_.Filled(x, y);
       Colour near;
       if (!pixel.two || !Any(ragged_, x, y, 0) || far.known == 0) return;
-      if (!NearLight(x, y, shown, &near)) return;
-      pixel.first = RoundedCoverage(AlphaOf(near, far.light, Light(x, y), pixel.guess));
+      const double trust = NearLight(x, y, shown, &near);
+      pixel.first = RoundedCoverage(AlphaOf(near, far.light, Light(x, y), pixel.guess, trust));
     });
   }
 
@@ -270,9 +274,8 @@ class Parter {
     }
     const auto shown = [&](int column, int row) { return EighthPower(At(column, row).first); };
     Colour near;
-    if (NearLight(x, y, shown, &near)) {
-      parted.alpha = AlphaOf(near, far.light, Light(x, y), pixel.first);
-    }
+    const double trust = NearLight(x, y, shown, &near);
+    parted.alpha = AlphaOf(near, far.light, Light(x, y), pixel.first, trust);
     return parted;
   }
 

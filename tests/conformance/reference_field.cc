@@ -26,27 +26,6 @@ Colour ReadPicture(const LightField& field, const Position& view, double x, doub
   return colour;
 }
 
-// Rounds light as the engine rounds light for comparisons. The engine stores light in steps of
-// 1/128 and compares light in steps of 1/16.
-double Compared(double light) { return std::floor(std::floor(light * 128 + 0.5) / 8 + 0.5) / 16; }
-
-// Returns the position of the colour `mixed` on the line from the colour `far` to the colour
-// `near`, from 0 to 1. Returns 0 if `near` and `far` are too similar, if `mixed` is too far from
-// the line, or if the position is beyond 4/5.
-double ShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
-  double along = 0, contrast = 0, distance = 0;
-  for (size_t c = 0; c < 3; ++c) {
-    const double whole = Compared(near[c]) - Compared(far[c]);
-    const double part = Compared(mixed[c]) - Compared(far[c]);
-    along += part * whole;
-    contrast += whole * whole;
-    distance += part * part;
-  }
-  if (contrast < 64 || along <= 0 || 5 * along > 4 * contrast) return 0;
-  const double beside = distance * contrast - along * along;
-  return 16 * beside > contrast * (432 + contrast) ? 0 : along / contrast;
-}
-
 // Returns by how many pixels, at most 1, the blur of the near surface exceeds the blur of the far
 // surface. The result falls to 0 as the blur of the far surface grows from 2 to 3 pixels.
 double Strength(const Lens& lens, int near, int far) {
@@ -57,7 +36,7 @@ double Strength(const Lens& lens, int near, int far) {
 
 }  // namespace
 
-double FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed) {
+Division Divide(const Colour& near, const Colour& far, const Colour& mixed) {
   double along = 0, contrast = 0, distance = 0;
   for (size_t c = 0; c < 3; ++c) {
     const double whole = near[c] - far[c], part = mixed[c] - far[c];
@@ -65,11 +44,20 @@ double FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed) 
     contrast += whole * whole;
     distance += part * part;
   }
-  if (contrast <= 64 || along <= 0 || along >= contrast) return 0;
+  if (contrast <= 64 || along <= 0) return {0, 0};
   const double share = along / contrast;
   const double outside = 16 * (distance - along * share) / (432 + contrast);
   const auto fade = [](double value) { return std::clamp(value, 0.0, 1.0); };
-  return share * fade(contrast / 64 - 1) * fade(2 - outside) * fade(5 * (1 - share));
+  const double trust =
+      fade(contrast / 64 - 1) * fade(1.2 - 0.8 * outside) * fade((19 - 20 * share) / 6);
+  return {share * trust, fade(16 * share) * trust};
+}
+
+Mixed MixtureOf(const Division& division, const Colour& near, const Colour& far,
+                const Colour& mixed) {
+  Mixed result = {division.share, near, mixed};
+  for (size_t c = 0; c < 3; ++c) result.far[c] += division.weight * (far[c] - mixed[c]);
+  return result;
 }
 
 std::vector<Position> LooksOn(const LightField& field, const Direction& side) {
@@ -105,31 +93,25 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
   };
   const int disparity = picture.disparities[at(0)], near = picture.disparities[at(1)];
   const std::vector<Position> occlusion_views = LooksOn(field, {-side.x, -side.y});
-  const auto mixed_of = [&](std::vector<Colour> Picture::*colours) {
-    const Colour& mixed = (picture.*colours)[at(0)];
-    Mixed result;
+  const int beyond = std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1;
+  const auto far_of = [&](std::vector<Colour> Picture::*colours) {
     if (occlusion_views.empty()) {
       const bool same = std::abs(picture.disparities[at(-1)] - disparity) <= step;
-      result.far = (picture.*colours)[at(same ? -1 : 0)];
-    } else {
-      const Position& view = occlusion_views.back();
-      result.far = ReadPicture(field, view, x - Moved(view.first, disparity, 0),
-                               y - Moved(view.second, disparity, 0), colours);
-      // The far colour is rounded to 1/128, as in the engine; halves are rounded towards the colour
-      // of the pixel.
-      for (size_t c = 0; c < 3; ++c) {
-        double& far = result.far[c];
-        far = (mixed[c] > far ? std::floor(128 * far + 0.5) : std::ceil(128 * far - 0.5)) / 128;
-      }
+      return (picture.*colours)[at(same ? -1 : 0)];
     }
-    result.near =
-        (picture.*colours)[at(std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1)];
-    result.share = ShareOf(result.near, result.far, mixed);
-    return result;
+    const Position& view = occlusion_views.back();
+    return ReadPicture(field, view, x - Moved(view.first, disparity, 0),
+                       y - Moved(view.second, disparity, 0), colours);
   };
-  Mixed result = mixed_of(&Picture::colours);
-  if (!picture.light.empty()) result.share = mixed_of(&Picture::light).share;
-  return result;
+  struct Colours {
+    Colour near, far, mixed;
+  };
+  const auto read = [&](std::vector<Colour> Picture::*colours) {
+    return Colours{(picture.*colours)[at(beyond)], far_of(colours), (picture.*colours)[at(0)]};
+  };
+  const Colours of = read(&Picture::colours);
+  const Colours light = picture.light.empty() ? of : read(&Picture::light);
+  return MixtureOf(Divide(light.near, light.far, light.mixed), of.near, of.far, of.mixed);
 }
 
 void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre) {

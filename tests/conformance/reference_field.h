@@ -44,9 +44,14 @@ struct Mixed {
 };
 Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step);
 
-// Returns the share of the colour `near` in the colour of a subsampled pixel. The share fades to 0
-// where the colour of the pixel is hardly a mixture of `near` and `far`.
-double FadedShareOf(const Colour& near, const Colour& far, const Colour& mixed);
+// Share of the near colour in a pixel, and weight with which the far colour that was read replaces
+// the colour of the pixel. Both fade to 0 where the pixel is hardly a mixture of the two colours.
+struct Division {
+  double share, weight;
+};
+Division Divide(const Colour& near, const Colour& far, const Colour& mixed);
+Mixed MixtureOf(const Division& division, const Colour& near, const Colour& far,
+                const Colour& mixed);
 
 // Unmixes the rectangle's sharp pixels next to a more defocused near surface, at layer 0: the far
 // colour replaces the share of the near surface. The outermost pixels of the rectangle are not

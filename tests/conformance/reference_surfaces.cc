@@ -86,13 +86,13 @@ class SurfaceFinder {
       const Mixed mixed = lens_.layer == 0
                               ? MixtureAt(field_, x0_ + x, y0_ + y, side, unit_ * 3 / 4)
                               : MixtureOfLevel(x, y, side);
+      near.disparity = std::max(near.disparity, disparity);
       if (mixed.share == 0) continue;
       for (size_t c = 0; c < 3; ++c) {
         near.colour[c] += mixed.share * mixed.near[c];
         far.colour[c] += mixed.share * mixed.far[c];
       }
       near.share = std::max(near.share, mixed.share);
-      near.disparity = std::max(near.disparity, disparity);
       shares += mixed.share;
     }
     // The share is rounded to 1/128 as in the engine.
@@ -122,9 +122,8 @@ class SurfaceFinder {
     return x >= 0 && y >= 0 && x < width && y < height;
   }
 
-  // Returns the near share and both colours of a mixed pixel at layers 1 and 2. The share of the
-  // near surface is estimated from the colours of both surfaces in the neighbours or in a captured
-  // view. The rest of the pixel shows the far surface.
+  // Returns the near share and both colours of a mixed pixel at layers 1 and 2. The colours of both
+  // surfaces come from the neighbours or from a captured view.
   Mixed MixtureOfLevel(int x, int y, const Direction& side) const {
     const auto at = [&](int k) {
       return extended_.At(std::clamp(x + k * side.x, 0, extended_.width - 1),
@@ -143,14 +142,8 @@ class SurfaceFinder {
                  x0_ + x - Moved(u, disparity, lens_.layer),
                  y0_ + y - Moved(v, disparity, lens_.layer));
     }
-    Mixed result;
-    result.near = extended_.colours[at(same(2, 1) ? 2 : 1)];
-    result.share = FadedShareOf(result.near, far, mixed);
-    for (size_t c = 0; c < 3; ++c) {
-      result.far[c] =
-          std::clamp((mixed[c] - result.share * result.near[c]) / (1 - result.share), 0.0, 255.0);
-    }
-    return result;
+    const Colour& near = extended_.colours[at(same(2, 1) ? 2 : 1)];
+    return MixtureOf(Divide(near, far, mixed), near, far, mixed);
   }
 
   // Adds the hidden surfaces behind the visible surface of a pixel.

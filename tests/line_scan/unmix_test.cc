@@ -86,7 +86,7 @@ struct Scene {
 TEST_CASE("unmix: the near part of a sharp pixel next to a defocused surface is removed") {
   // Half of the mixed pixel shows the near surface.
   CHECK(Scene(0, 4, {40, 240, 140}).Mixed() == 40);
-  CHECK(Scene(0, 4, {40, 240, 180}).Mixed() == 40);
+  CHECK(Scene(0, 4, {40, 240, 170}).Mixed() == 40);
   // The mixed pixel shows a quarter of the near surface, and unmixing removes half of this quarter.
   CHECK(Scene(0, 4, {40, 240, 90}).Mixed() == 65);
   CHECK(Scene(0, 4, {240, 40, 190}).Mixed() == 215);
@@ -127,12 +127,12 @@ TEST_CASE("unmix: pixels that are blurred, not mixed, or sharp in the near surfa
   CHECK(Scene(-2.5, 8, {40, 240, 140}).Mixed() == 90);
   // The near surface is hardly more defocused.
   CHECK(Scene(-1.5, 2, {40, 240, 140}).Mixed() == 90);
-  CHECK(Scene(0, 4, {40, 240, 210}).Mixed() == 210);  // The near surface covers most of the pixel.
+  CHECK(Scene(0, 4, {40, 240, 232}).Mixed() == 232);  // The near surface covers most of the pixel.
   CHECK(Scene(0, 4, {40, 240, 20}).Mixed() == 20);  // The mixed colour lies beyond the far colour.
   CHECK(Scene(0, 4, {40, 44, 42}).Mixed() == 42);   // The surfaces differ by only 4 levels.
   CHECK(Scene(0, 4, {40, 240, 140}, 1).Mixed() == 140);  // No view sees behind the edge.
   CHECK(Scene(0, 4, {40, 240, 140}).Mixed(1) == 140);    // Pixels of layer 1 are not unmixed.
-  Scene colourful(0, 4, {40, 240, 140});
+  Scene colourful(0, 4, {40, 240, 70});
   for (int y = 0; y < kSize; ++y) colourful.centre[size_t(3 * (y * kSize + kEdge - 1))] = 255;
   CHECK(colourful.Mixed() == 255);
 }
