@@ -19,8 +19,11 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
       {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
       &check);
   if (check.status() != STARFOCUS_OK) return check.status();
+  check.Need(config.disparity_max > config.disparity_min, STARFOCUS_ERROR_RANGE,
+             {"disparity_max", config.disparity_max}, {"above disparity_min"});
   ViewSet views;
-  const starfocus_status status = FindViews(ViewsOf(config), &views);
+  const starfocus_status status =
+      check.status() == STARFOCUS_OK ? FindViews(ViewsOf(config), &views) : check.status();
   if (status != STARFOCUS_OK) return status;
   check.Need(views.count > 1 || repairs, STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
              {"at least 2 views, or 1 view for a repair"});

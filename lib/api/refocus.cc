@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: refocuses whole pictures, regions and previews.
+#include <cstring>
+
 #include "lib/api/call.h"
 #include "lib/api/preview.h"
 #include "lib/api/validate.h"
@@ -20,24 +22,76 @@ struct Request {
   const starfocus_image& out;
 };
 
+// Fields of params.previous that checks of light fields and pictures may reject.
+constexpr const char* kPreviousFields[] = {
+    "previous.light_field.views[].format",
+    "previous.light_field.views[].matrix",
+    "previous.light_field.views[].range",
+    "previous.light_field.views[].pixel_stride",
+    "previous.light_field.views[].planes",
+    "previous.light_field.views[].strides",
+    "previous.light_field.coverage_stride",
+    "previous.light_field.depth",
+    "previous.light_field.depth.data",
+    "previous.light_field.depth.type",
+    "previous.light_field.depth.meaning",
+    "previous.light_field.depth.has_invalid",
+    "previous.light_field.depth.scale",
+    "previous.light_field.depth.offset",
+    "previous.light_field.depth.width",
+    "previous.light_field.depth.height",
+    "previous.light_field.depth.stride",
+    "previous.out.format",
+    "previous.out.matrix",
+    "previous.out.range",
+    "previous.out.pixel_stride",
+    "previous.out.planes",
+    "previous.out.strides",
+};
+
+// Names the rejected field of a check of the previous frame as a field of params.previous. Returns
+// `status`.
+starfocus_status OfPrevious(starfocus_status status, starfocus_problem* problem) {
+  if (status == STARFOCUS_OK || problem == nullptr) return status;
+  const size_t length = std::strlen(problem->field);
+  for (const char* name : kPreviousFields) {
+    const size_t before = std::strlen(name) - length;
+    if (std::strlen(name) <= length || name[before - 1] != '.') continue;
+    if (std::strcmp(name + before, problem->field) == 0) {
+      problem->field = name;
+      break;
+    }
+  }
+  return status;
+}
+
+starfocus_status CheckFieldInPlace(const starfocus_config& config,
+                                   const starfocus_light_field& field) {
+  const starfocus_status status = CheckInPlace(field, config.views, config.problem);
+  if (status != STARFOCUS_OK) return status;
+  return CheckInPlace(field.depth, {config.width, config.height}, config.problem);
+}
+
 // Checks the previous frame unless params.previous is null. Frames can be compared only if both
 // frames are read in place.
 starfocus_status CheckPrevious(const starfocus_config& config, const Request& request,
                                const PictureSize& size) {
   const starfocus_previous* const previous = request.params.previous;
   if (previous == nullptr) return STARFOCUS_OK;
+  starfocus_status status = CheckFieldInPlace(config, request.light_field);
+  if (status != STARFOCUS_OK) return status;
+  status = CheckLightField(config, previous->light_field);
+  if (status == STARFOCUS_OK) status = CheckFieldInPlace(config, previous->light_field);
+  if (status == STARFOCUS_OK) status = CheckOutput(config, previous->out, size);
+  if (status != STARFOCUS_OK) return OfPrevious(status, config.problem);
   Checker check(config.problem);
-  check.Need(IsInPlace(request.out) && IsInPlace(previous->out), STARFOCUS_ERROR_FEATURE,
-             {"previous.out.format", double(previous->out.format)},
-             {"STARFOCUS_FORMAT_RGB without gaps, for out and previous.out"});
-  starfocus_status status = check.status();
-  if (status == STARFOCUS_OK) status = CheckLightField(config, previous->light_field);
-  for (const starfocus_light_field* field : {&request.light_field, &previous->light_field}) {
-    if (status == STARFOCUS_OK) status = CheckInPlace(*field, config.views, config.problem);
-    if (status != STARFOCUS_OK) break;
-    status = CheckInPlace(field->depth, {config.width, config.height}, config.problem);
-  }
-  return status == STARFOCUS_OK ? CheckOutput(config, previous->out, size) : status;
+  const auto need = [&](const starfocus_image& image, const char* name) {
+    check.Need(IsInPlace(image), STARFOCUS_ERROR_FEATURE, {name, double(image.format)},
+               {"STARFOCUS_FORMAT_RGB without gaps, for out and previous.out"});
+  };
+  need(request.out, "out.format");
+  need(previous->out, "previous.out.format");
+  return check.status();
 }
 
 // Returns the memory that `out` must not overlap: the inputs and the engine.

@@ -71,22 +71,32 @@ const Row kPictures[] = {
     {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, c->f.scene.disparity.data()); }},
     {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, &c->f.scene.disparity.back()); }},
 
-    {kAfter, "out.planes", kNull, [](Call* c) { c->before.out.planes[0] = nullptr; }},
-    {kAfter, "out.strides", kStride, [](Call* c) { c->before.out.strides[0] = 59; }},
-    {kAfter, "views[].planes", kNull,
+    {kAfter, "previous.out.planes", kNull, [](Call* c) { c->before.out.planes[0] = nullptr; }},
+    {kAfter, "previous.out.strides", kStride, [](Call* c) { c->before.out.strides[0] = 59; }},
+    {kAfter, "previous.light_field.views[].planes", kNull,
      [](Call* c) { c->before.light_field.views[4].planes[0] = nullptr; }},
-    {kAfter, "depth.stride", kStride, [](Call* c) { c->before.light_field.depth.stride = 4; }},
+    {kAfter, "previous.light_field.depth.stride", kStride,
+     [](Call* c) { c->before.light_field.depth.stride = 4; }},
     {kAfter, "out", kOverlap, [](Call* c) { PutOut(c, c->picture_before.Colour(1, 0, 0)); }},
     {kAfter, "out", kOverlap,
      [](Call* c) {
        c->before.light_field = c->f.image.converted.Field();
        PutOut(c, c->f.image.converted.pictures[2].data());
      }},
+    {kAfter, "previous.out.format", kRange, [](Call* c) { c->before.out.format = 99; }},
+    {kAfter, "out.format", kFeature, [](Call* c) { c->out.format = STARFOCUS_FORMAT_BGR; }},
+    {kAfter, "previous.out.pixel_stride", kRange, [](Call* c) { c->before.out.pixel_stride = 2; }},
+    {kAfter, "previous.light_field.coverage_stride", kStride,
+     [](Call* c) {
+       c->before.light_field.coverage = c->f.scene.pictures[0].data();
+       c->before.light_field.coverage_stride = 19;
+     }},
     {kAfter, "previous.out.format", kFeature,
      [](Call* c) { c->before.out.format = STARFOCUS_FORMAT_BGR; }},
-    {kAfter, "views[].format", kFeature,
+    {kAfter, "previous.light_field.views[].format", kFeature,
      [](Call* c) { c->before.light_field.views[2].format = STARFOCUS_FORMAT_BGR; }},
-    {kAfter, "depth", kFeature, [](Call* c) { c->before.light_field.depth.scale = 2; }},
+    {kAfter, "previous.light_field.depth", kFeature,
+     [](Call* c) { c->before.light_field.depth.scale = 2; }},
     {kPrepared | kPreview | kBegin, "previous", kRange,
      [](Call* c) { c->params.previous = &c->before; }},
     {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = -1; }},

@@ -139,6 +139,9 @@ const Refusal kConfigurations[] = {
        Place(2, {1, 0}, c);
      }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = 9; }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = 8; }},
+    {kBoth, STARFOCUS_ERROR_RANGE,
+     [](Call* c) { c->config.disparity_min = c->config.disparity_max = 0; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = NAN; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = 501; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.max_workers = 0; }},

@@ -52,7 +52,8 @@ typedef struct starfocus_depth_config {
    *  for starfocus_repair_disparity. With `positions`: 2 to STARFOCUS_MAX_VIEWS. Default 5. */
   int32_t views;
   double disparity_min; /**< Smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. */
-  /** Largest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. The disparity range is
+  /** Largest disparity, above disparity_min and at most STARFOCUS_MAX_DISPARITY; default 0, which
+   *  is not above the default of disparity_min, so that both must be set. The disparity range is
    *  searched in steps of half a pixel. In a disparity range wider than 64 pixels, the steps are
    *  one pixel or more. The number of steps is at most 128. Disparities between two steps are
    *  interpolated. */
