@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #ifdef __linux__
-#include <dirent.h>
 #include <sys/syscall.h>
 
 #include <cerrno>
@@ -23,16 +22,26 @@ namespace starfocus {
 namespace {
 
 constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+
+// An entry of a folder as the kernel returns it.
+struct Entry {
+  uint64_t inode;
+  int64_t next;
+  uint16_t length;  // of this entry
+  uint8_t type;
+  char name[1];
+};
+
 constexpr size_t kMostName = 256;  // bytes of a file name with its zero
 
 // Tries to remove each entry of a folder once. Returns true if an entry was removed. `child`
 // receives the name of a subfolder that is not empty, or an empty name.
 bool RemoveEntries(int folder, char* child) {
-  constexpr size_t kLengthAt = offsetof(dirent64, d_reclen), kNameAt = offsetof(dirent64, d_name);
+  constexpr size_t kLengthAt = offsetof(Entry, length), kNameAt = offsetof(Entry, name);
   bool removed = false;
   child[0] = '\0';
   lseek(folder, 0, SEEK_SET);
-  alignas(dirent64) char entries[2048];
+  alignas(Entry) char entries[2048];
   for (;;) {
     const long size = syscall(SYS_getdents64, folder, entries, sizeof(entries));
     if (size <= 0) return removed;
@@ -54,7 +63,7 @@ bool RemoveEntries(int folder, char* child) {
 
 void RemoveFolder(const char* path) {
   // Each round descends to one folder without subfolders, which the next round removes. This needs
-  // one open folder and a fixed stack at any depth.
+  // two open folders and a fixed stack at any depth.
   for (bool removed = true; removed && rmdir(path) != 0;) {
     removed = false;
     char child[kMostName];
