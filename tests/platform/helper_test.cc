@@ -184,7 +184,7 @@ void Trickle(Channel* channel) {
 TEST_CASE("helper: a decoder without progress causes one error within the limit") {
   if (!HasHelpers()) return;
   constexpr HelperLimits kImpatient = {uint64_t{1} << 30, 5, 20, 0.2};
-  const std::vector<std::pair<const char*, std::function<void(Channel*)>>> kinds = {
+  const std::vector<std::pair<std::string, std::function<void(Channel*)>>> kinds = {
       {"sleeps", [](Channel*) { sleep(100); }},
       {"waits for a lock",
        [](Channel*) {
