@@ -36,10 +36,16 @@ double Strength(const Lens& lens, int near, int far) {
 
 }  // namespace
 
+// Returns the difference of two colours, rounded to 1/16 as the engine rounds differences that it
+// compares.
+static double Difference(double a, double b) {
+  return std::copysign(std::floor(16 * std::fabs(a - b) + 0.5) / 16, a - b);
+}
+
 Division Divide(const Colour& near, const Colour& far, const Colour& mixed) {
   double along = 0, contrast = 0, distance = 0;
   for (size_t c = 0; c < 3; ++c) {
-    const double whole = near[c] - far[c], part = mixed[c] - far[c];
+    const double whole = Difference(near[c], far[c]), part = Difference(mixed[c], far[c]);
     along += part * whole;
     contrast += whole * whole;
     distance += part * part;
@@ -100,8 +106,10 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
       return (picture.*colours)[at(same ? -1 : 0)];
     }
     const Position& view = occlusion_views.back();
-    return ReadPicture(field, view, x - Moved(view.first, disparity, 0),
-                       y - Moved(view.second, disparity, 0), colours);
+    Colour far = ReadPicture(field, view, x - Moved(view.first, disparity, 0),
+                             y - Moved(view.second, disparity, 0), colours);
+    for (double& value : far) value = std::floor(128 * value + 0.5) / 128;
+    return far;
   };
   struct Colours {
     Colour near, far, mixed;
