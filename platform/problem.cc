@@ -30,6 +30,8 @@ ProblemText Describe(starfocus_status status, const starfocus_problem* problem) 
   }
   add(": %s (expected %s", sentence, problem->expected);
   if (!std::isnan(problem->value)) add(", found %.9g", problem->value);
+  if (problem->x >= 0)
+    add(" at (%d, %d)", static_cast<int>(problem->x), static_cast<int>(problem->y));
   add("%s", ")");
   return made;
 }

@@ -74,7 +74,7 @@ starfocus_status CheckGiven(const starfocus_depth_config& config, const starfocu
   check.Need(stats.min >= low && stats.max <= high, STARFOCUS_ERROR_DISPARITY,
              {"disparity", outside},
              {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
-  return check.status();
+  return TellPlace(check.status(), map, 0, config.problem);
 }
 
 starfocus_depth_config DefaultDepthConfig() {

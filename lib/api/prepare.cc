@@ -45,7 +45,9 @@ starfocus_status PrepareIn(const PrepareCall& call, const starfocus_light_field&
   MakeLightField(light_field, 0, engine, &field);
   UseLightField(field, engine);
   const starfocus_status status = Prepare(call, SourceOf(field), engine, prepared);
-  if (status != STARFOCUS_OK) return TellStatus(status, &engine->problem);
+  if (status != STARFOCUS_OK) {
+    return TellPlace(TellStatus(status, &engine->problem), light_field.depth, 0, &engine->problem);
+  }
   (*prepared)->light_field = light_field;
   return STARFOCUS_OK;
 }

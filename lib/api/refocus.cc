@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: refocuses whole pictures, regions and previews.
-#include <cstring>
 
 #include "lib/api/call.h"
 #include "lib/api/preview.h"
@@ -49,18 +48,27 @@ constexpr const char* kPreviousFields[] = {
     "previous.out.strides",
 };
 
+bool AreEqual(const char* a, const char* b) {
+  for (; *a != 0 && *a == *b; ++a) ++b;
+  return *a == *b;
+}
+
+// Returns true if `name` is `field` of a structure, such as "previous.out.format" of "out.format".
+bool EndsIn(const char* name, const char* field) {
+  for (; *name != 0; ++name) {
+    if (*name == '.' && AreEqual(name + 1, field)) return true;
+  }
+  return false;
+}
+
 // Names the rejected field of a check of the previous frame as a field of params.previous. Returns
 // `status`.
 starfocus_status OfPrevious(starfocus_status status, starfocus_problem* problem) {
   if (status == STARFOCUS_OK || problem == nullptr) return status;
-  const size_t length = std::strlen(problem->field);
   for (const char* name : kPreviousFields) {
-    const size_t before = std::strlen(name) - length;
-    if (std::strlen(name) <= length || name[before - 1] != '.') continue;
-    if (std::strcmp(name + before, problem->field) == 0) {
-      problem->field = name;
-      break;
-    }
+    if (!EndsIn(name, problem->field)) continue;
+    problem->field = name;
+    break;
   }
   return status;
 }
@@ -144,7 +152,8 @@ starfocus_status Refocus(const Request& request, EngineState* engine, starfocus_
     call.before = &previous->light_field;
     call.now = &request.light_field;
   }
-  return RunCall(call, engine, report);
+  return TellPlace(RunCall(call, engine, report), request.light_field.depth, 0,
+                   engine->config.problem);
 }
 
 }  // namespace

@@ -178,7 +178,14 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
   LightField field;
   MakeLightField(*light_field, e.stream.pushed, &e, &field);
   const int32_t unit = AnyYuv(e.config, *light_field) ? 2 : 1;
-  return PushRows(SourceOf(field), rows, unit, &e, consumed);
+  starfocus_depth_map map = light_field->depth;
+  int32_t first = 0;
+  if (map.height == e.config.height) {  // The map begins at the next row of the stream.
+    first = e.stream.pushed;
+    map.height = rows;
+  }
+  status = PushRows(SourceOf(field), rows, unit, &e, consumed);
+  return TellPlace(status, map, first, &e.problem);
 }
 
 starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus_image* out,

@@ -194,4 +194,24 @@ starfocus_status CheckOutputApart(const starfocus_image& image, const PictureSiz
   return status;
 }
 
+starfocus_status TellPlace(starfocus_status status, const starfocus_depth_map& map, int32_t first,
+                           starfocus_problem* problem) {
+  const bool range = status == STARFOCUS_ERROR_DISPARITY;
+  if (problem == nullptr || (!range && status != STARFOCUS_ERROR_NOT_FINITE)) return status;
+  const auto low = static_cast<float>(problem->low), high = static_cast<float>(problem->high);
+  for (int32_t y = 0; y < map.height; ++y) {
+    for (int32_t x = 0; x < map.width; ++x) {
+      float disparity;
+      ReadDisparities(map, x, y, 1, &disparity);
+      const bool inside = disparity >= low && disparity <= high;
+      if (range ? inside || !IsFinite(disparity) : IsFinite(disparity)) continue;
+      if (range) problem->value = double{disparity};
+      problem->x = x;
+      problem->y = first + y;
+      return status;
+    }
+  }
+  return status;
+}
+
 }  // namespace starfocus

@@ -53,6 +53,12 @@ starfocus_status CheckOutput(const starfocus_config& config, const starfocus_ima
 starfocus_status CheckOutputApart(const starfocus_image& image, const PictureSize& size,
                                   const Extents& read, starfocus_problem* problem);
 
+// If `status` is the error of a wrong disparity, adds the place of the first disparity of `map`
+// that is not finite or outside the range of *problem. `first` is the row of the whole map at which
+// `map` begins. `problem` may be null. Returns `status`.
+starfocus_status TellPlace(starfocus_status status, const starfocus_depth_map& map, int32_t first,
+                           starfocus_problem* problem);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_API_VALIDATE_IMAGE_H_

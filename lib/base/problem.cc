@@ -6,8 +6,8 @@ namespace starfocus {
 starfocus_status Refuse(starfocus_status status, const FieldValue& field, const Allowed& allowed,
                         starfocus_problem* problem) {
   if (problem != nullptr) {
-    *problem = {status,      field.index, field.name,  allowed.words,
-                field.value, allowed.low, allowed.high};
+    *problem = {status,       field.index, field.name, allowed.words, field.value, allowed.low,
+                allowed.high, -1,          -1};
   }
   return status;
 }
@@ -32,7 +32,9 @@ starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem)
 
 starfocus_status CheckPointers(std::initializer_list<Pointer> pointers,
                                starfocus_problem* problem) {
-  if (problem != nullptr) *problem = {STARFOCUS_OK, 0, "", "", kNoNumber, kNoNumber, kNoNumber};
+  if (problem != nullptr) {
+    *problem = {STARFOCUS_OK, 0, "", "", kNoNumber, kNoNumber, kNoNumber, -1, -1};
+  }
   Checker check(problem);
   for (const Pointer& argument : pointers) check.NotNull(argument.pointer, argument.name);
   return check.status();

@@ -88,6 +88,8 @@ TEST_CASE("stream: a row with a bad disparity is rejected, and the preceding row
       int32_t consumed = -1;
       CHECK(f.Push(engine.get(), f.scene.Field(), 5, &consumed) == bad.status);
       CHECK(consumed == row);
+      CHECK(starfocus_engine_problem(engine.get())->x == kWidth - 1);
+      CHECK(starfocus_engine_problem(engine.get())->y == row);
       // After a rejected row, the caller may correct the disparities of this row and continue.
       f.scene = good;
       test::Output out(kWidth, kHeight, 4);

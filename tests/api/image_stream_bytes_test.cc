@@ -138,6 +138,8 @@ TEST_CASE(
   images = field.Field();
   REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
   CHECK(starfocus_stream_push(engine.get(), &images, 51, &rows) == STARFOCUS_ERROR_DISPARITY);
+  CHECK(starfocus_engine_problem(engine.get())->x == 3);
+  CHECK(starfocus_engine_problem(engine.get())->y == field.depth.map.height - 1);
   CHECK(rows > 20);
   CHECK(rows < 51);
   CHECK(rows % 2 == 0);

@@ -267,6 +267,10 @@ TEST_CASE("calls: illegal disparity values are rejected at any position") {
         Check(
             &f, kRefocus | kAfter | kPrepare, [](Call*) {},
             finite ? STARFOCUS_ERROR_DISPARITY : STARFOCUS_ERROR_NOT_FINITE, "disparity");
+        const starfocus_problem& problem = *starfocus_engine_problem(f.engine.get());
+        CHECK(problem.x == x);
+        CHECK(problem.y == y);
+        CHECK((finite ? problem.value == double(bad) : problem.value != problem.value));
         f.scene.Disparity(x, y) = good;
       }
     }

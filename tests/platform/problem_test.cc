@@ -34,8 +34,15 @@ TEST_CASE("problem: the line names a field with its range and value") {
         "bytes: a required pointer is null (expected not null)");
 }
 
+TEST_CASE("problem: the line names the place of a wrong disparity") {
+  const starfocus_problem problem = {
+      STARFOCUS_ERROR_DISPARITY, 0, "disparity", "-1 to 1", 2.5, -1, 1, 7, 3};
+  const std::string text = Text(STARFOCUS_ERROR_DISPARITY, &problem);
+  CHECK(text.find("(expected -1 to 1, found 2.5 at (7, 3))") != std::string::npos);
+}
+
 TEST_CASE("problem: without a field or for another call, the line has only the status's sentence") {
-  starfocus_problem problem = {STARFOCUS_ERROR_RANGE, 0, "width", "1", std::nan(""), 0, 0};
+  starfocus_problem problem = {STARFOCUS_ERROR_RANGE, 0, "width", "1", std::nan(""), 0, 0, -1, -1};
   CHECK(Text(STARFOCUS_ERROR_RANGE, &problem) ==
         "width: a field or an argument is outside its range (expected 1)");
   CHECK(Text(STARFOCUS_ERROR_MEMORY, &problem) == "out of memory");

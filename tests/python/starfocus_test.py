@@ -200,7 +200,7 @@ class Errors(unittest.TestCase):
     def test_maps_that_are_not_finite(self):
         holes = DISPARITY.copy()
         holes[3, 4] = np.nan
-        with self.assertRaises(starfocus.DisparityError) as raised:
+        with self.assertRaisesRegex(starfocus.DisparityError, r"at \(4, 3\)") as raised:
             refocuser().refocus(VIEWS, holes, focus=0)
         self.assertEqual(raised.exception.status, starfocus.Status.NOT_FINITE)
 

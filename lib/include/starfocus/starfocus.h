@@ -96,7 +96,7 @@ extern "C" {
 
 /** Version of the ABI. The version grows when a public structure or the meaning of a function
  *  changes. */
-#define STARFOCUS_ABI_VERSION 2u
+#define STARFOCUS_ABI_VERSION 3u
 /** Alignment of workspaces and prepared light fields in bytes: the size of the widest vector
  *  (AVX-512). */
 #define STARFOCUS_ALIGNMENT 64

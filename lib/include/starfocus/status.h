@@ -53,6 +53,9 @@ typedef struct starfocus_problem {
   double value;         /**< Value that was given; NaN if unknown. */
   double low;           /**< Smallest allowed value; NaN if there is no range. */
   double high;          /**< Largest allowed value; NaN if there is no range. */
+  int32_t
+      x; /**< Column of the first wrong disparity in the depth map; -1 if no disparity is wrong. */
+  int32_t y; /**< Row of the same disparity, from the top of the whole map. */
 } starfocus_problem;
 
 /** Describes a status.

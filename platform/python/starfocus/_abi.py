@@ -14,7 +14,7 @@ from pathlib import Path
 MAX_VIEWS = 17
 MAX_SIZE = 65535
 ALIGNMENT = 64
-ABI_VERSION = 2
+ABI_VERSION = 3
 #: Names and bits of STARFOCUS_FEATURE_*, which are keywords of Refocuser.
 FEATURES = {"line_scan": 1, "coverage": 2, "streaming": 4, "images": 8, "fill_unknown": 16, "shapes": 32}
 
@@ -56,7 +56,7 @@ class Problem(Structure):
     """starfocus_problem"""
 
     _fields_ = [("status", c_int32), ("index", c_int32), ("field", c_char_p), ("expected", c_char_p),
-                ("value", c_double), ("low", c_double), ("high", c_double)]
+                ("value", c_double), ("low", c_double), ("high", c_double), ("x", c_int32), ("y", c_int32)]
 
 
 class Region(Structure):

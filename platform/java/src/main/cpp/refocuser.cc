@@ -172,8 +172,8 @@ bool CheckRange(JNIEnv* env, const PlaceValue& from) {
   char expected[40];
   std::snprintf(expected, sizeof expected, "%d to %d", from.low, from.high);
   const starfocus_problem problem = {
-      STARFOCUS_ERROR_RANGE, 0, from.name, expected, double(from.value), double(from.low),
-      double(from.high)};
+      STARFOCUS_ERROR_RANGE, 0,  from.name, expected, double(from.value), double(from.low),
+      double(from.high),     -1, -1};
   ThrowStatus(env, STARFOCUS_ERROR_RANGE, &problem);
   return false;
 }
