@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/input/boundary_pixel.h"
 
-#include <cmath>
-#include <cstdlib>
-
 namespace starfocus {
 namespace {
 
@@ -134,13 +131,6 @@ Colour CentreView::ColourAt(int32_t x, int32_t y) const {
   return colour;
 }
 
-static double Env(const char* n, double d) {
-  const char* v = getenv(n);
-  return v ? atof(v) : d;
-}
-static const double kC0 = Env("C0", 64), kC1 = Env("C1", 128), kO0 = Env("O0", 1),
-                    kO1 = Env("O1", 2), kM0 = Env("M0", .8), kM1 = Env("M1", 1), kK = Env("K", 8),
-                    kMode = Env("MODE", 0);
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const BoundaryColours colours = ReadColours(centre, pixel);
   if (!centre.window.is_excess) return Unmix(colours);

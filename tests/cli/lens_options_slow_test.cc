@@ -127,7 +127,7 @@ TEST_CASE("cli: sweeps, videos, pages and batches reduce the aperture to the lim
   // The note about the first input also applies to the second.
   const std::string batch = Call(folder, "refocus lf second --focus 0 -o batch/").err;
   CHECK(Count(batch, "aperture set to f/") == 1);
-  CHECK(Contains(batch, "starfocus: notes about lf also apply to second\n"));
+  CHECK(Contains(batch, "starfocus: notes like those about lf apply to second\n"));
   // The error for the aperture of a video must name an aperture that suits all frames.
   FloatMap map = ValueOf(ReadPfm(folder.file("second/disparity.pfm")));
   for (float& value : map.values) value *= 4.0f / 3;

@@ -12,6 +12,7 @@
 #include "examples/cli/disparity/estimate_run.h"
 #include "examples/cli/disparity/map_figures.h"
 #include "examples/cli/input/input.h"
+#include "examples/cli/input/notes.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/clock.h"
@@ -188,8 +189,8 @@ Error WriteMap(const DisparityOptions& options, const Plan& plan, const Image& c
   if (!plan.picture.empty()) {
     error = WriteImage(plan.picture, DrawDisparity(estimate.map));
   } else {
-    std::fprintf(stderr, "%s: no picture of the map is written, because %s exists\n",
-                 plan.map.c_str(), PictureOf(plan.map).c_str());
+    TellNote(plan.map,
+             "no picture of the map is written, because " + PictureOf(plan.map) + " exists");
   }
   if (!error && !options.confidence.empty()) {
     error = WriteImage(options.confidence, estimate.confidence);

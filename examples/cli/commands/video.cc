@@ -43,7 +43,6 @@ struct Video {
   MapSurvey survey;  // of the depth maps of all frames
   KeptEstimates estimates;
   FrameFolders converted;
-  ClipNotes notes;
   std::vector<FrameFiles> frames;  // frames that are open, in the order of `sources`
   int width = 0, height = 0;
   Positions views;
@@ -116,7 +115,7 @@ Result<Frame> OpenFrame(const VideoOptions& options, const FrameSource& source, 
   one.map.clip = &video->survey;
   Result<Capture> capture = ReadInput(one);
   if (!capture) return capture.error();
-  video->notes.Tell(*capture);
+  TellNotes(*capture);
   const bool is_first = video->frames.empty();
   if (is_first) {
     Error error = PlanAperture(options.lens.aperture, *capture).MoveTo(&plan->aperture);
@@ -225,7 +224,6 @@ Error Run(const VideoOptions& options) {
     error = WriteText(options.report, report->Text(Seconds() - start));
   }
   if (error) return error;
-  TellOtherInputs();
   TellLine(options.out + ": " + std::to_string(video.frames.size()) + " pictures, " +
            LensText(*plan));
   return {};
@@ -253,6 +251,7 @@ Command VideoCommand() {
         {{"SRC", "Frames, or one folder that contains the frames"},
          {"--output", "Folder for the pictures"},
          {"--depth", "Depth of the frames, if it is separate"},
+         {"--near", "Shade that is near in depth pictures: white or black"},
          {"--report", "JSON file with the measurements of each frame"}}},
        {"Focus and lens, the same for all frames",
         {{"--focus-at", "Pixel in focus in the first frame"},

@@ -6,19 +6,20 @@
 #include <set>
 
 #include "platform/console.h"
+#include "platform/natural_order.h"
 
 namespace starfocus {
 namespace {
 
-std::mutex mutex;                                        // protects the variables below
-std::map<std::string, std::string> inputs_of;            // the input of each printed note
+std::mutex mutex;                              // protects the variables below
+std::map<std::string, std::string> inputs_of;  // the input of each printed note without numbers
 std::map<std::string, std::set<std::string>> others_of;  // other inputs with a note of an input
 
 }  // namespace
 
 void TellNote(const std::string& input, const std::string& note) {
   const std::lock_guard<std::mutex> lock(mutex);
-  const auto [printed, is_new] = inputs_of.emplace(note, input);
+  const auto [printed, is_new] = inputs_of.emplace(ParseNumberedName(note).shape, input);
   if (is_new) {
     TellLine(input + ": " + note);
   } else if (printed->second != input) {
@@ -30,7 +31,7 @@ void TellOtherInputs() {
   const std::lock_guard<std::mutex> lock(mutex);
   for (const auto& [input, others] : others_of) {
     TellLine(
-        "starfocus: notes about " + input + " also apply to " +
+        "starfocus: notes like those about " + input + " apply to " +
         (others.size() == 1 ? *others.begin() : std::to_string(others.size()) + " other inputs"));
   }
 }

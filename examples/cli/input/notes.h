@@ -7,11 +7,12 @@
 
 namespace starfocus {
 
-// Prints "<input>: <note>", unless this run of the program has already printed the note for another
-// input. A note of a folder with a thousand photos is therefore one line. Thread-safe.
+// Prints "<input>: <note>", unless this run of the program has already printed a note for another
+// input that differs only in its numbers. A note of a folder with a thousand photos, or of the
+// frames of a clip, is therefore one line. Thread-safe.
 void TellNote(const std::string& input, const std::string& note);
 
-// Prints to how many other inputs the printed notes also apply. Called at the end of a batch.
+// Prints to how many other inputs notes like the printed ones apply. Called at the end of a batch.
 void TellOtherInputs();
 
 }  // namespace starfocus

@@ -80,6 +80,7 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
     return Error::Usage("--widest", "--f-stop N as well", "no --f-stop");
   }
   ApertureChoice aperture;
+  aperture.photo = capture.photo;
   if (capture.widest > 0) aperture.widest = capture.widest;
   if (capture.f_stop > 0) aperture.radius = capture.widest / capture.f_stop;
   if (options.aperture) aperture.radius = *options.aperture;
@@ -125,11 +126,10 @@ Error FitAperture(double range, ApertureChoice* aperture) {
 }
 
 void TellAperture(const std::string& path, const ApertureChoice& aperture) {
-  if (aperture.blur < 1 && aperture.radius > 0) {
-    std::fprintf(stderr,
-                 "%s: the blur is below a pixel everywhere, at most %s (another --depth-unit of a "
-                 "depth picture or a wider aperture changes this)\n",
-                 path.c_str(), ThreeDigits(aperture.blur).c_str());
+  if (aperture.photo && aperture.blur < 1 && aperture.radius > 0) {
+    TellNote(path,
+             "the blur is below a pixel everywhere, at most " + ThreeDigits(aperture.blur) +
+                 " (another --depth-unit of a depth picture or a wider aperture changes this)");
   }
   if (!aperture.narrowed) return;
   TellNote(path, "aperture set to f/" + ThreeDigits(aperture.widest / aperture.radius) +

@@ -2,11 +2,11 @@
 #include "examples/cli/video/clip.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "examples/cli/input/input.h"
 #include "platform/image_io.h"
-#include "platform/natural_order.h"
 #include "platform/text.h"
 
 namespace starfocus {
@@ -60,22 +60,14 @@ Result<MapSurvey> SurveyClip(const std::vector<FrameSource>& frames, const Input
       if (!capture) return capture.error();
       if (Error error = CheckFrame(*capture, sum, &first)) return error;
       const MapEnds& ends = capture->survey.ends;
-      if (ends.zeros + ends.tops > 0) judged.insert(ends.AreDepths());
+      if (ends.zeros + ends.negatives + ends.tops > 0) judged.insert(ends.AreDepths());
       sum.Add(capture->survey);
     }
     judged.insert(sum.ends.AreDepths());
-    if (clip != nullptr || sum.ends.zeros + sum.ends.tops == 0 || judged.size() == 1) return sum;
+    const size_t at_ends = sum.ends.zeros + sum.ends.negatives + sum.ends.tops;
+    if (clip != nullptr || at_ends == 0 || judged.size() == 1) return sum;
     before = std::move(sum);
   }
-}
-
-void ClipNotes::Tell(const Capture& frame) {
-  Capture first;
-  first.path = frame.path;
-  for (const std::string& note : frame.notes) {
-    if (told_.insert(ParseNumberedName(note).shape).second) first.notes.push_back(note);
-  }
-  TellNotes(first);
 }
 
 }  // namespace starfocus

@@ -3,7 +3,6 @@
 #ifndef STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
 #define STARFOCUS_EXAMPLES_CLI_VIDEO_CLIP_H_
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -22,16 +21,6 @@ InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame);
 // the sum of the figures of all depth maps, which stands for the figures of each map
 // (DepthOptions::clip). At most one frame is in memory.
 Result<MapSurvey> SurveyClip(const std::vector<FrameSource>& frames, const InputOptions& options);
-
-// Prints notes about frames to stderr. Prints only the first of several notes that differ only in
-// their numbers, because frames of a clip are alike.
-class ClipNotes {
- public:
-  void Tell(const Capture& frame);
-
- private:
-  std::set<std::string> told_;
-};
 
 }  // namespace starfocus
 

@@ -2,12 +2,12 @@
 #include "examples/cli/video/depth_folder.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <set>
 #include <system_error>
 
+#include "examples/cli/input/notes.h"
 #include "platform/file.h"
 #include "platform/folder.h"
 #include "platform/natural_order.h"
@@ -188,8 +188,8 @@ Result<std::vector<std::string>> PairWithFolder(const std::vector<std::string>& 
   std::copy_if(depths->begin(), depths->end(), std::back_inserter(unused),
                [&](const std::string& name) { return used.count(name) == 0; });
   if (!unused.empty()) {
-    std::fprintf(stderr, "%s: %zu depth pictures belong to no frame, such as %s\n", folder.c_str(),
-                 unused.size(), unused[0].c_str());
+    TellNote(folder, std::to_string(unused.size()) +
+                         " depth pictures belong to no frame, such as " + unused[0]);
   }
   for (std::string& name : *chosen) name = (fs::path(folder) / name).string();
   return chosen;

@@ -2,7 +2,9 @@
 #include "examples/cli/video/frames.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -39,8 +41,17 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
     if (Error error = PairWithFolder(paths, options.depth).MoveTo(&depths)) return error;
   }
   std::vector<FrameSource> frames;
+  std::set<std::string> names;
   for (size_t i = 0; i < paths.size(); ++i) {
     frames.push_back({paths[i], depths[i], NameOfInput(paths[i]) + ".png"});
+    names.insert(frames[i].picture);
+  }
+  if (names.size() == frames.size()) return frames;
+  // Inputs of different folders have equal names, so their pictures are numbered.
+  for (size_t i = 0; i < frames.size(); ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%04zu.png", i);
+    frames[i].picture = name;
   }
   return frames;
 }
