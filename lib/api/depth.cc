@@ -19,11 +19,8 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
       {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
       &check);
   if (check.status() != STARFOCUS_OK) return check.status();
-  check.Need(config.disparity_max > config.disparity_min, STARFOCUS_ERROR_RANGE,
-             {"disparity_max", config.disparity_max}, {"above disparity_min"});
   ViewSet views;
-  const starfocus_status status =
-      check.status() == STARFOCUS_OK ? FindViews(ViewsOf(config), &views) : check.status();
+  const starfocus_status status = FindViews(ViewsOf(config), &views);
   if (status != STARFOCUS_OK) return status;
   check.Need(views.count > 1 || repairs, STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
              {"at least 2 views, or 1 view for a repair"});
@@ -79,6 +76,7 @@ starfocus_status CheckGiven(const starfocus_depth_config& config, const starfocu
 
 starfocus_depth_config DefaultDepthConfig() {
   starfocus_depth_config config = {};
+  config.disparity_min = config.disparity_max = kNoNumber;  // rejected unless the caller sets them
   config.views = 5;
   config.max_workers = 1;
   return config;

@@ -139,9 +139,18 @@ const Refusal kConfigurations[] = {
        Place(2, {1, 0}, c);
      }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = 9; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = 8; }},
     {kBoth, STARFOCUS_ERROR_RANGE,
-     [](Call* c) { c->config.disparity_min = c->config.disparity_max = 0; }},
+     [](Call* c) {
+       starfocus_depth_config fresh;
+       starfocus_depth_config_init(&fresh);
+       c->config.disparity_min = fresh.disparity_min;
+     }},
+    {kBoth, STARFOCUS_ERROR_RANGE,
+     [](Call* c) {
+       starfocus_depth_config fresh;
+       starfocus_depth_config_init(&fresh);
+       c->config.disparity_max = fresh.disparity_max;
+     }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = NAN; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = 501; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.max_workers = 0; }},

@@ -51,10 +51,11 @@ typedef struct starfocus_depth_config {
   /** Number of views. Without `positions`: 5, 9 or 17 in the order of starfocus_view_position, or 1
    *  for starfocus_repair_disparity. With `positions`: 2 to STARFOCUS_MAX_VIEWS. Default 5. */
   int32_t views;
-  double disparity_min; /**< Smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default 0. */
-  /** Largest disparity, above disparity_min and at most STARFOCUS_MAX_DISPARITY; default 0, which
-   *  is not above the default of disparity_min, so that both must be set. The disparity range is
-   *  searched in steps of half a pixel. In a disparity range wider than 64 pixels, the steps are
+  /** Smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default NaN, which is rejected: a range
+   *  that is not set is no range. */
+  double disparity_min;
+  /** Largest disparity, disparity_min to STARFOCUS_MAX_DISPARITY; default NaN. The disparity range
+   * is searched in steps of half a pixel. In a disparity range wider than 64 pixels, the steps are
    *  one pixel or more. The number of steps is at most 128. Disparities between two steps are
    *  interpolated. */
   double disparity_max;

@@ -159,8 +159,7 @@ def repair_disparity(views: Views, disparity: Disparity, disparity_min: Optional
         disparity: map to repair: an array of shape (height, width), or a DepthMap that may be smaller than the views.
             The function does not change this map.
         disparity_min, disparity_max: range of the result in pixels per unit of u, within +-500. The range must contain
-            all finite values of the map. None: the smallest and the largest finite value of the map, or one pixel less
-            and more if all values are equal.
+            all finite values of the map. None: the smallest and the largest finite value of the map.
         workers: number of threads; 0: one for each big core of the machine.
         progress: receives the number of finished rows and the number of rows; a true result cancels the call.
 
@@ -170,9 +169,8 @@ def repair_disparity(views: Views, disparity: Disparity, disparity_min: Optional
     Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape.
     """
     stats = measure_disparity(disparity)
-    reach = 1.0 if stats.min == stats.max else 0.0
-    span = (max(stats.min - reach, -500.0) if disparity_min is None else disparity_min,
-            min(stats.max + reach, 500.0) if disparity_max is None else disparity_max)
+    span = (stats.min if disparity_min is None else disparity_min,
+            stats.max if disparity_max is None else disparity_max)
     return _make_map(library.starfocus_repair_workspace_size, library.starfocus_repair_disparity, views, disparity, span, workers,
                      progress)
 

@@ -239,8 +239,6 @@ static starfocus_status MakeMap(starfocus_status (*size_of)(const starfocus_dept
 /* Repairs the depth map of the light field. Replaces the map, and the coverage unless the light
  * field has coverage. */
 EXPORT(repair) starfocus_status Repair(void) {
-  /* A map of a single disparity has no edges to repair. */
-  if (config.disparity_min == config.disparity_max) return STARFOCUS_OK;
   rows_after = config.height; /* of Prepare */
   if (field.coverage != NULL) made.coverage = NULL;
   const starfocus_status status =
