@@ -15,6 +15,7 @@
 #include "platform/progress.h"
 #include "platform/result.h"
 #include "platform/text.h"
+#include "tests/support/terminal.h"
 
 namespace starfocus::console_test {
 namespace {
@@ -22,9 +23,8 @@ namespace {
 // Connects stderr to a terminal until the object is destroyed.
 class StderrTerminal {
  public:
-  StderrTerminal() : controller_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
-    REQUIRE(grantpt(controller_) == 0);
-    REQUIRE(unlockpt(controller_) == 0);
+  StderrTerminal() : controller_(OpenPseudoterminal()) {
+    REQUIRE(fcntl(controller_, F_SETFL, O_NONBLOCK) == 0);
     const int terminal = open(ptsname(controller_), O_RDWR | O_NOCTTY);
     REQUIRE(terminal >= 0);
     before_ = dup(STDERR_FILENO);
@@ -56,20 +56,10 @@ class StderrTerminal {
   int before_ = -1;
 };
 
-// A pseudoterminal needs /dev/pts.
-bool HasTerminals() {
-  const int controller = posix_openpt(O_RDWR | O_NOCTTY);
-  const char* const name = controller < 0 ? nullptr : ptsname(controller);
-  const bool has = name != nullptr && access(name, F_OK) == 0;
-  if (controller >= 0) close(controller);
-  if (!has) MESSAGE("SKIPPED: this system has no pseudoterminals");
-  return has;
-}
-
 constexpr char kErase[] = "\r\x1b[K";
 
-TEST_CASE("console: a line replaces the progress line, which appears again below the line") {
-  if (!HasTerminals()) return;
+TEST_CASE("console: a line replaces the progress line, which appears again below the line" *
+          doctest::test_suite("terminal")) {
   const StderrTerminal terminal;
   terminal.Resize(40);
   TellLine("first");
@@ -85,8 +75,8 @@ TEST_CASE("console: a line replaces the progress line, which appears again below
   CHECK(terminal.Read() == std::string(kErase) + "last\r\n");
 }
 
-TEST_CASE("console: the progress line is narrower than the terminal at every width") {
-  if (!HasTerminals()) return;
+TEST_CASE("console: the progress line is narrower than the terminal at every width" *
+          doctest::test_suite("terminal")) {
   const StderrTerminal terminal;
   const std::string label = "refocusing a photo with a long name", state = ": 43 %, 12 s left";
   for (const int columns : {200, 60, 40, 30, 20, 10, 4, 3, 2, 1, 60}) {
@@ -150,7 +140,10 @@ TEST_CASE("console: lines and errors contain no control characters, and keep all
     CHECK(Error(ErrorKind::kInput, raw).line() == " ");
     if (code >= 0x80) CHECK(Printable("a\xc2" + raw + "31mb") == "a  31mb");
   }
-  if (!HasTerminals()) return;
+}
+
+TEST_CASE("console: terminals receive no control characters of names" *
+          doctest::test_suite("terminal")) {
   const StderrTerminal terminal;
   terminal.Resize(40);
   TellLine("a\x1b[31m\nb\xc2\x9b");
