@@ -13,6 +13,7 @@
 #include "platform/writers/png.h"
 #include "tests/cli/session.h"
 #include "tests/support/error_line.h"
+#include "tests/support/photo_files.h"
 
 namespace starfocus::video_program_test {
 namespace {
@@ -165,6 +166,38 @@ TEST_CASE("video: frames that a folder of depth pictures does not pair are an er
   CheckRefused(folder, call, "depth: expected a folder with depth pictures, found none");
   Succeed(folder, "scene lf --size 40x30 --views 1");
   CheckRefused(folder, "video lf -o out --depth depth --focus 1", "depth");
+}
+
+TEST_CASE("video: frames keep their colours, and light is averaged as the colours say") {
+  TempFolder folder;
+  MakeClip(folder);
+  const std::string how = " --near white --focus 9";  // blurs by several pixels
+  CHECK(Call(folder, "video clip -o srgb" + how).code == 0);
+  for (int frame = kFirst; frame <= kLast; ++frame) {
+    const std::string path = folder.file("clip/frame_" + std::to_string(frame) + ".png");
+    const Bytes png = ValueOf(ReadFile(path));
+    std::string text(png.begin(), png.end());
+    text.insert(33, photos::Chunk("gAMA", photos::Big(100000, 4)));  // after signature and IHDR
+    REQUIRE(WriteFile(path, Bytes(text.begin(), text.end())) == "");
+  }
+  CHECK(Call(folder, "video clip -o linear" + how).code == 0);
+  const auto read = [&](const std::string& path) {
+    return ValueOf(DecodeImage(path, ValueOf(ReadFile(folder.file(path)))));
+  };
+  for (int frame = kFirst; frame <= kLast; ++frame) {
+    const std::string name = "/frame_" + std::to_string(frame) + ".png";
+    const DecodedPicture linear = read("linear" + name), srgb = read("srgb" + name);
+    CHECK(srgb.metadata.icc.empty());
+    CHECK(!linear.metadata.icc.empty());
+    CHECK(linear.image.pixels != srgb.image.pixels);
+  }
+  CHECK(Contains(Call(folder, "import clip/frame_8.png lf --near white").err, "colour profile"));
+  REQUIRE(WriteImage(folder.file("clip/frame_9.png"), MakeFrame(9)) == "");
+  const Outcome mixed = Call(folder, "video clip -o mixed" + how);
+  CHECK(mixed.code == 1);
+  CHECK(Contains(mixed.err, "frame_9.png: expected light coded as in the first frame"));
+  CHECK(!fs::exists(folder.file("mixed")));
+  CHECK(!Contains(Call(folder, "import clip/frame_9.png lf2 --near white").err, "profile"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "examples/cli/commands.h"
 #include "examples/cli/input/describe.h"
 #include "examples/cli/input/input.h"
+#include "examples/cli/input/notes.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/outputs.h"
 #include "platform/console.h"
@@ -60,6 +61,12 @@ Error Run(const ImportOptions& options) {
   Result<Capture> opened = OpenInput(options.input);
   if (!opened) return opened.error();
   Capture& capture = *opened;
+  const Metadata& kept = capture.metadata;
+  if (!kept.icc.empty() || !IsSrgb(kept.colours) || capture.light_field.is_linear) {
+    TellNote(capture.path,
+             "the light field does not keep the colour profile, and its views count as "
+             "sRGB (refocus and video read the photo itself, with its colours)");
+  }
   ThreadRunner runner(options.threads);
   if (Error error = LoadCapture(options.views, &capture, &runner)) return error;
   if (Error error = CareForMap(options.map, options.threads, &capture)) return error;

@@ -139,6 +139,10 @@ Error AddFrame(const VideoOptions& options, const std::string& input, Frame fram
   const bool is_first = video->frames.empty();
   if (is_first) video->width = frame.map.width, video->height = frame.map.height;
   if (Error error = CheckSize(input, frame.map, *video)) return error;
+  if (!is_first && frame.files.is_linear != video->frames[0].is_linear) {
+    return Expected(input, "light coded as in the first frame",
+                    frame.files.is_linear ? "linear light" : "codes that are not linear");
+  }
   const Result<starfocus_disparity_stats> stats = Prepare(options, frame.files.where, &frame.map);
   if (!stats) return stats.error();
   if (is_first) {
@@ -175,6 +179,7 @@ Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
 Result<LightField> LoadFrame(const VideoOptions& options, const Video& video, size_t index) {
   Result<LightField> frame = LoadLightField(video.frames[index].folder, video.views);
   if (!frame) return frame;
+  frame->is_linear = video.frames[index].is_linear;
   if (Error error = CheckSize(video.sources[index].path, frame->disparity, video)) return error;
   if (Error error = Prepare(options, video.frames[index].where, &frame->disparity).error())
     return error;
@@ -197,7 +202,10 @@ Result<SeriesReport> RefocusFrames(const VideoOptions& options, const LensPlan& 
     Result<EngineResult> result =
         i == 0 ? run.Refocus(input, task) : run.RefocusAfter(input, task, before, picture);
     if (!result) return result.error();
-    if (Error error = WriteImage(out, result->picture)) return error;
+    PictureOptions how;
+    how.metadata.icc = video.frames[i].icc;
+    how.metadata.colours = video.frames[i].colours;
+    if (Error error = WriteImage(out, result->picture, how)) return error;
     report.Add(out, task, *result);
     picture = std::move(result->picture);
   }

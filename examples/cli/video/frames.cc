@@ -59,6 +59,9 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
 Result<Frame> FrameFolders::Open(const MapOptions& options, const Positions& views, int threads,
                                  Capture* capture) {
   Frame frame;
+  frame.files.icc = std::move(capture->metadata.icc);
+  frame.files.colours = std::move(capture->metadata.colours);
+  frame.files.is_linear = capture->light_field.is_linear;
   if (!IsReady(options, *capture)) {
     if (Error error = Convert(options, views, threads, capture, &frame)) return error;
     return frame;

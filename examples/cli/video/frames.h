@@ -28,8 +28,11 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
                                             const InputOptions& options, const std::string& out);
 
 struct FrameFiles {
-  std::string folder;  // light-field folder, which may be temporary
-  std::string where;   // name of the map for error messages
+  std::string folder;         // light-field folder, which may be temporary
+  std::string where;          // name of the map for error messages
+  Bytes icc;                  // profile of the frame's colours; empty: none
+  ColourDescription colours;  // colours without a profile
+  bool is_linear = false;     // true if the codes of the views are proportional to light
 };
 
 struct Frame {
