@@ -53,7 +53,7 @@ make_bare_root() {
 try_bare() {
   local copy=$1/copy
   rm -rf "$copy"
-  cp -a "$1/root" "$copy" && git clone -q . "$copy/root/starfocus" || return
+  cp -a "$1/root" "$copy" && git clone -q . "$copy/srv/starfocus" || return
   unshare --mount --pid --fork --kill-child sh -ec '
     mount --bind "$1/copy" "$1/copy"
     cd "$1/copy"
@@ -62,7 +62,7 @@ try_bare() {
     mount -t proc proc proc
     pivot_root . mnt
     umount -l mnt
-    cd /root/starfocus
+    cd /srv/starfocus
     env -i --default-signal HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin ${http_proxy:+"http_proxy=$http_proxy"} \
       ${https_proxy:+"https_proxy=$https_proxy"} CCACHE_DIR=/var/cache/ccache CMAKE_C_COMPILER_LAUNCHER=ccache \
       CMAKE_CXX_COMPILER_LAUNCHER=ccache ./do $2' sh "$(realpath "$1")" "$2" &
