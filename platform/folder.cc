@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/folder.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
 
 #include "platform/file.h"
-#include "platform/signal_cleanup.h"
 
 namespace starfocus {
 
@@ -29,8 +30,15 @@ Result<std::vector<std::string>> ListFolder(const std::string& folder) {
 }
 
 OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  for (; !made_.empty(); made_.pop_back()) std::filesystem::remove(made_.back(), ignored);
+  if (made_.empty()) return;
+  const SignalCleanup::Turn turn;
+  cleanup_.Remove(turn);
+  RemoveEmpty();
+}
+
+// Calls only functions that are safe in a signal handler.
+void OutputFolder::RemoveEmpty() const {
+  for (size_t k = made_.size(); k-- > 0;) rmdir(made_[k].c_str());
 }
 
 Error OutputFolder::Create(const std::string& folder) {
@@ -41,8 +49,17 @@ Error OutputFolder::Create(const std::string& folder) {
   for (const std::filesystem::path& part : std::filesystem::path(folder)) {
     path /= part;
     const bool made = std::filesystem::create_directory(path, error);
-    if (error && error != std::errc::file_exists) return Cannot("create folder", folder, error);
+    if (error && error != std::errc::file_exists) {
+      RemoveEmpty();
+      made_.clear();
+      return Cannot("create folder", folder, error);
+    }
     if (made) made_.push_back(path.string());
+  }
+  if (!made_.empty()) {
+    cleanup_.Add(
+        turn, [](const void* made) { static_cast<const OutputFolder*>(made)->RemoveEmpty(); },
+        this);
   }
   if (std::filesystem::is_directory(folder, error)) return {};
   return Cannot("create folder", folder, "a file of that name exists");

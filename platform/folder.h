@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "platform/result.h"
+#include "platform/signal_cleanup.h"
 
 namespace starfocus {
 
@@ -14,8 +15,8 @@ namespace starfocus {
 // 100 000 entries.
 Result<std::vector<std::string>> ListFolder(const std::string& folder);
 
-// A folder for output files. The destructor removes the folders that Create made if they are empty,
-// so that no folder remains if no file could be written.
+// A folder for output files. The destructor, and a signal that ends the program, remove the folders
+// that Create made if they are empty, so that no folder remains if no file could be written.
 class OutputFolder {
  public:
   OutputFolder() = default;
@@ -27,7 +28,10 @@ class OutputFolder {
   Error Create(const std::string& folder);
 
  private:
+  void RemoveEmpty() const;
+
   std::vector<std::string> made_;  // each folder after its parent
+  SignalCleanup cleanup_;
 };
 
 }  // namespace starfocus

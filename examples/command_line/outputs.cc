@@ -15,6 +15,7 @@
 
 #include "platform/file.h"
 #include "platform/light_field.h"
+#include "platform/shell_command.h"
 #include "platform/standard_stream.h"
 #include "platform/writers/picture.h"
 
@@ -131,13 +132,16 @@ Error CheckFolderApart(const Output& output, const std::vector<std::string>& fol
   for (const std::string& folder : folders) {
     if (NameOf(folder) != NameOf(output.path)) continue;
     return Error::Usage(output.option, "a separate folder",
-                        output.path + ", which is an input light field");
+                        output.path + ", which is an input folder");
   }
   return {};
 }
 
 Error CheckKind(const Output& output, OutputKind written) {
   const std::string& path = output.path;
+  if (written == OutputKind::kFolder && IsStandardStream(path)) {
+    return Error::Usage(output.option, Describe(written), path + " (standard output)");
+  }
   if (IsStandardStream(path) || path.empty() || path.back() == '/') return {};
   const std::string extension = LowerExtension(path);
   const std::optional<OutputKind> kind = KindOf(extension);
@@ -150,12 +154,13 @@ Error CheckKind(const Output& output, OutputKind written) {
   std::string expected = Describe(written);
   if (written == OutputKind::kFolder && kind == OutputKind::kVideo) {
     const std::string folder = fs::path(path).replace_extension().string();
-    expected += ", such as " + folder + ", from which this command makes the video: cat $(ls -v " +
-                folder + "/*.png) | ffmpeg -f image2pipe -framerate 30 -i - ";
+    expected += ", such as " + folder + ", from which this command makes the video: (cd " +
+                ShellQuoted(folder) +
+                " && cat $(ls -v *.png)) | ffmpeg -f image2pipe -framerate 30 -i - ";
     if (extension != ".gif") {
       expected += "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p ";
     }
-    expected += path;
+    expected += ShellQuoted(path);
   }
   return Error::Usage(output.option, expected, path);
 }

@@ -142,9 +142,12 @@ void Pass(Channel* channel, FloatMap* map) {
 
 void Pass(Channel* channel, ColourDescription* colours) {
   auto& [form, primaries, transfer, full_range, chromaticities, gamma] = *colours;
-  channel->Block(&form);
+  channel->Text(&form);
   channel->Value(&primaries);
   channel->Value(&transfer);
+  for (const int code : {primaries, transfer}) {
+    channel->Require(code >= 0 && code <= ColourDescription::kAdobeRgb);
+  }
   channel->Value(&full_range);
   for (int32_t& value : chromaticities) channel->Value(&value);
   channel->Value(&gamma);

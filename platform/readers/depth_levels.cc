@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/depth_levels.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

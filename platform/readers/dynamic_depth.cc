@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/readers/dynamic_depth.h"
 
-#include <utility>
+#include <cmath>
 
 #include "platform/levels.h"
 #include "platform/readers/container_directory.h"
@@ -70,7 +70,9 @@ void UnderstandMask(const XmpNode* map, Near near, DepthPhoto* photo) {
                   "photo into two depths") +
       (near == Near::kBlack ? ": black is near (--near white overrides this)" : ""));
   TellMap("mask of the subject, used as two depths", photo);
-  for (float& level : photo->map.values) level = level < 0.5f ? 0.0f : 1.0f;
+  for (float& level : photo->map.values) {
+    if (!std::isnan(level)) level = level < 0.5f ? 0.0f : 1.0f;
+  }
   ToOrder(near, photo);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace starfocus {
 namespace {
@@ -32,6 +33,11 @@ double MeanOfRows(const FloatMap& map, int from, int to) {
   return count > 0 ? sum / count : 0;
 }
 
+bool HasKnown(const FloatMap& map, int y) {
+  const auto row = map.values.begin() + static_cast<ptrdiff_t>(y) * map.width;
+  return std::any_of(row, row + map.width, [](float value) { return std::isfinite(value); });
+}
+
 }  // namespace
 
 bool MapEnds::AreDepths() const {
@@ -51,12 +57,16 @@ void MapSurvey::Add(const MapSurvey& other) {
   Extend(other.range, &range);
   rise += other.rise;
   has_infinity |= other.has_infinity;
+  has_distances |= other.has_distances;
 }
 
 MapSurvey SurveyNear(const FloatMap& map) {
-  const int third = (map.height + 2) / 3;
+  int first = 0, end = map.height;
+  while (first < end && !HasKnown(map, first)) ++first;
+  while (first < end && !HasKnown(map, end - 1)) --end;
+  const int third = (end - first + 2) / 3;
   MapSurvey survey;
-  survey.rise = MeanOfRows(map, map.height - third, map.height) - MeanOfRows(map, 0, third);
+  survey.rise = MeanOfRows(map, end - third, end) - MeanOfRows(map, first, first + third);
   survey.has_infinity =
       std::find(map.values.begin(), map.values.end(), HUGE_VALF) != map.values.end();
   return survey;

@@ -34,13 +34,19 @@ struct MapSurvey {
   std::string kind;   // description of the values; empty: no map
   MapEnds ends;       // of the stored values
   RobustRange range;  // of the known values
-  double rise = 0;    // mean of the lower third of the map minus the mean of its upper third
+  // Mean of the lower third of the rows with known values minus the mean of the upper third.
+  double rise = 0;
   bool has_infinity = false;  // True if a value is +inf.
+  // True if the values look like distances: 0 is unknown in the map, and the other values are in
+  // the range of rooms and streets.
+  bool has_distances = false;
 
-  // Guesses which end of the value range is near. Only distances are infinite, so that small values
-  // are near in a map with +inf. For other maps, the guess assumes that the bottom of a photograph
-  // is nearer than its top.
-  Near GuessNear() const { return !has_infinity && rise > 0 ? Near::kWhite : Near::kBlack; }
+  // Guesses which end of the value range is near. Small values are near if the map has +inf or
+  // distances. For other maps, the guess assumes that the bottom of a photograph is nearer than its
+  // top.
+  Near GuessNear() const {
+    return !has_infinity && !has_distances && rise > 0 ? Near::kWhite : Near::kBlack;
+  }
   // Adds the figures of another map. Ranges become the smallest ranges that contain both ranges.
   void Add(const MapSurvey& other);
 };

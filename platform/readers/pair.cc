@@ -94,17 +94,20 @@ std::string NumberText(double value) {
   return text;
 }
 
-// Adds a note if the values of a map without a unit look like distances: they are larger for more
-// distant points, and in the range of rooms and streets.
+// Adds a note if the values of a map without a unit look like distances: they are in the range of
+// rooms and streets, and small values are near or 0 is unknown. Values up to 1 look normalized.
 void NoteDistances(const DepthOptions& options, int largest, DepthPhoto* photo) {
   const RobustRange range = RobustRangeOf(photo->map.values);
   const bool metres = largest == 0;
   const float low = metres ? 0.2F : 200, high = metres ? 200 : 20000;
   if (!range.known || range.low < low || range.high > high || range.low == range.high) return;
   if (!metres && largest <= UINT8_MAX) return;
-  const Near near =
-      options.near == Near::kUnknown ? SurveyNear(photo->map).GuessNear() : options.near;
-  if (near == Near::kWhite) return;
+  if (options.near == Near::kWhite || (metres && range.high <= 1)) return;
+  MapSurvey* const own = &photo->survey;
+  const MapEnds& ends = own->ends;
+  own->has_distances = ends.zeros + ends.negatives > 0 && !ends.AreDepths();
+  const Near near = own->has_distances ? Near::kBlack : SurveyNear(photo->map).GuessNear();
+  if (options.near == Near::kUnknown && near == Near::kWhite) return;
   photo->notes.push_back("the values of the depth picture, " + NumberText(double(range.low)) +
                          " to " + NumberText(double(range.high)) + ", look like distances in " +
                          (metres ? "metres" : "millimetres") +

@@ -166,8 +166,9 @@ RobustRange Survey(const MapSurvey* clip, DepthPhoto* photo) {
   const bool white = all.GuessNear() == Near::kWhite;
   photo->notes.push_back(
       std::string(white ? "white" : "black") + " is taken as near in the depth picture, because " +
-      (all.has_infinity ? "only distances are infinite"
-                        : "the lower part of the picture is assumed to be nearer") +
+      (all.has_infinity    ? "only distances are infinite"
+       : all.has_distances ? "its values look like distances"
+                           : "the lower part of the picture is assumed to be nearer") +
       " (--near " + (white ? "black" : "white") + " overrides this)");
   if (white) return all.range;
   ToRange(1, 0, &photo->map);

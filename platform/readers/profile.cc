@@ -27,12 +27,12 @@ void ToProfile(DepthPhoto* photo) {
   Metadata* metadata = &photo->metadata;
   const ColourDescription colours = metadata->colours;
   const std::string what = NameOf(colours) + " (" + colours.form + ")";
-  photo->is_linear = IsLinear(colours);
   Bytes profile = ProfileOf(colours);
   if (IsSrgb(colours) || !profile.empty()) {
     metadata->colours = {};
     metadata->icc.clear();
     if (IsSrgb(colours)) return;
+    photo->is_linear = IsLinear(colours);
     metadata->icc = std::move(profile);
     photo->facts.emplace_back(kFact, what + ", written as an ICC profile");
     return;

@@ -8,6 +8,7 @@
 
 #include "platform/file.h"
 #include "platform/folder.h"
+#include "platform/natural_order.h"
 
 namespace starfocus {
 namespace {
@@ -18,7 +19,7 @@ constexpr char kLeft[] = "left", kRight[] = "right";
 
 using Names = std::vector<std::string>;
 
-// Lists the pictures of a folder.
+// Lists the pictures of a folder, without hidden files and the map and coverage of a light field.
 Result<Names> ListPictures(const fs::path& folder) {
   constexpr const char* kPictureExtensions[] = {".png",  ".jpg",  ".jpeg", ".ppm",
                                                 ".webp", ".heic", ".heif", ".avif"};
@@ -27,6 +28,8 @@ Result<Names> ListPictures(const fs::path& folder) {
   Names pictures;
   std::copy_if(names->begin(), names->end(), std::back_inserter(pictures),
                [&](const std::string& name) {
+                 if (name[0] == '.' || name == "disparity.png" || name == "coverage.png")
+                   return false;
                  return std::find(std::begin(kPictureExtensions), std::end(kPictureExtensions),
                                   LowerExtension(name)) != std::end(kPictureExtensions);
                });
@@ -64,6 +67,8 @@ Result<std::vector<StereoFiles>> FindStereoFolders(const std::string& folder) {
   for (size_t k = 0; k < first->size(); ++k) {
     pairs.push_back({(left / (*first)[k]).string(), (right / (*second)[k]).string()});
   }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const StereoFiles& a, const StereoFiles& b) { return NaturalLess(a.left, b.left); });
   return pairs;
 }
 

@@ -23,13 +23,16 @@ namespace {
 
 constexpr uint32_t kUndefined = 0, kStereo = 0x020002;  // picture types of CIPA DC-007
 
+// Returns true if an XMP packet of a picture contains `text`.
+bool HasInXmp(const JpegParts& parts, const char* text) {
+  return std::any_of(parts.xmp.begin(), parts.xmp.end(),
+                     [&](const Span& xmp) { return Contains(xmp, text); });
+}
+
 // Returns true if the XMP of the picture marks it as an auxiliary picture, such as a gain map or a
 // matte.
 bool IsAuxiliary(const MultiPicture& picture) {
-  const std::vector<Span>& xmp_packets = picture.parts.xmp;
-  return picture.is_gain_map ||
-         std::any_of(xmp_packets.begin(), xmp_packets.end(),
-                     [](const Span& xmp) { return Contains(xmp, "AuxiliaryImageType"); });
+  return picture.is_gain_map || HasInXmp(picture.parts, "AuxiliaryImageType");
 }
 
 // Finds the picture of a JPEG file that may be the right picture of a stereo pair.
@@ -39,6 +42,8 @@ std::optional<MultiPicture> FindRight(const std::string& path, Span file) {
   if (!parts || (parts->multi_picture.empty() && LowerExtension(path) != ".mpo")) {
     return std::nullopt;
   }
+  // A directory lists the second picture as a gain map.
+  if (HasInXmp(*parts, "GainMap")) return std::nullopt;
   std::vector<MultiPicture> pictures =
       ListMultiPictures(file, *parts, ListAppendedPictures(file, parts->end)).pictures;
   if (pictures.empty() || IsAuxiliary(pictures[0])) return std::nullopt;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "platform/readers/robust_range.h"
@@ -47,8 +46,11 @@ void MarkEnds(const DepthOptions& options, Samples* samples, DepthPhoto* photo) 
   photo->survey.ends = MeasureEnds(!floats, samples->map);
   const MapEnds& ends = options.clip != nullptr ? options.clip->ends : photo->survey.ends;
   const bool are_depths = ends.AreDepths();
+  // Floats up to 1 are normalized. Networks store 0 for the sky in such maps.
+  const bool normalized = floats && ends.others.known && ends.others.high <= 1;
   const bool larger_is_nearer =
-      options.near == Near::kWhite || (samples->larger_is_nearer && options.near == Near::kUnknown);
+      options.near == Near::kWhite ||
+      ((samples->larger_is_nearer || normalized) && options.near == Near::kUnknown);
   // Floats that reach 0 without a gap need no note: 0 is an ordinary value.
   if (ends.zeros + ends.negatives + ends.tops == 0 || (floats && are_depths)) return;
   const bool one = ends.zeros * ends.tops == 0 && ends.negatives == 0;
@@ -76,6 +78,7 @@ void MarkEnds(const DepthOptions& options, Samples* samples, DepthPhoto* photo) 
 struct Gap {
   float value = kUnknown;
   int length = std::numeric_limits<int>::max();  // Length of the gap around the pixel.
+  bool at_start = false;                         // True if the line begins with the gap.
 };
 
 // Calls `visit` for each unknown pixel of a line, with the gap that contains the pixel. The line
@@ -104,7 +107,23 @@ void FindGaps(const float* line, size_t step, int count, float alike, const Visi
     const int length = (end - begin) * (before && after ? 1 : 2);
     for (; k < end; ++k) {
       const float between = first + slope * static_cast<float>(k - begin + 1);
-      visit(k, Gap{one_surface ? between : std::fmin(first, last), length});
+      visit(k, Gap{one_surface ? between : std::fmin(first, last), length, !before});
+    }
+  }
+}
+
+// Limits the values of gaps at the top of columns to the smallest value in and beside the unknown
+// part of the row. Sky that a sensor cannot measure would otherwise get the depth of the person
+// below it.
+void LimitTops(const float* row, int width, Gap* gaps) {
+  for (int begin = 0; begin < width; ++begin) {
+    if (!std::isnan(row[begin])) continue;
+    int end = begin;
+    float least = begin > 0 ? row[begin - 1] : HUGE_VALF;
+    for (; end < width && std::isnan(row[end]); ++end) least = std::fmin(least, gaps[end].value);
+    if (end < width) least = std::fmin(least, row[end]);
+    for (; begin < end; ++begin) {
+      if (gaps[begin].at_start) gaps[begin].value = least;
     }
   }
 }
@@ -117,7 +136,9 @@ size_t FillOnce(float alike, FloatMap* map) {
   for (int y = 0; y < map->height; ++y) {
     Gap* row = gaps.data() + size_t(y) * width;
     FindGaps(map->values.data() + size_t(y) * width, 1, map->width, alike,
-             [row](int x, const Gap& gap) { row[x] = gap; });
+             [row](int x, const Gap& gap) {
+               row[x] = {gap.value, gap.length, false};
+             });
   }
   for (int x = 0; x < map->width; ++x) {
     Gap* column = gaps.data() + x;
@@ -126,6 +147,9 @@ size_t FillOnce(float alike, FloatMap* map) {
       if (gap.length == at->length) at->value = std::fmin(at->value, gap.value);
       if (gap.length < at->length) *at = gap;
     });
+  }
+  for (size_t at = 0; at < gaps.size(); at += width) {
+    LimitTops(map->values.data() + at, map->width, gaps.data() + at);
   }
   size_t filled = 0;
   for (size_t k = 0; k < gaps.size(); ++k) {

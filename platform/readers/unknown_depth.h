@@ -25,10 +25,11 @@ void MarkUnknown(const DepthOptions& options, Samples* samples, DepthPhoto* phot
 void Forget(float unknown, FloatMap* map);
 
 // Replaces NaN by the background in a map in which larger values are nearer. For each unknown
-// pixel, uses the gap along its row or its column, whichever is shorter. The new value of an
-// unknown pixel is the smaller of the values at the ends of the gap. If the values at the ends of
-// the gap differ by at most 5 % of the value range, the new value is interpolated. At least one
-// value of the map must be known. Returns the number of filled pixels.
+// pixel, uses the gap along its row or its column, whichever is shorter. Gaps at the top of the
+// map, which often are sky, get the farthest value beside them. The new value of an unknown pixel
+// is the smaller of the values at the ends of the gap. If the values at the ends of the gap differ
+// by at most 5 % of the value range, the new value is interpolated. At least one value of the map
+// must be known. Returns the number of filled pixels.
 size_t FillBehind(FloatMap* map);
 
 }  // namespace starfocus

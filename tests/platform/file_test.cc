@@ -222,14 +222,16 @@ TEST_CASE("file: WriteFile returns an error if the device is full") {
   CHECK(WriteFile("/dev/full", FromText("x")) != "");
 }
 
-TEST_CASE("file: signals that end the program leave no temporary file") {
+TEST_CASE("file: signals that end the program leave no temporary file and no empty folder") {
   for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU}) {
     TempFolder folder;
     const int status = EndBySignal(signal, [&](const auto& begun) {
       constexpr rlimit kNoCore = {};
       setrlimit(RLIMIT_CORE, &kNoCore);
       SignalCleanup::Install();
-      TemporaryFile one(folder.path()), other(folder.path());
+      OutputFolder output;
+      if (output.Create(folder.file("a/b")) != "") _exit(1);
+      TemporaryFile one(folder.path()), other(folder.file("a/b"));
       if (folder.count() == 2 && begun()) {
         for (;;) pause();
       }

@@ -201,7 +201,9 @@ TEST_CASE("helper: a decoder without progress causes one error within the limit"
          for (;;) sleep(100);
        }},
       {"trickles", Trickle}};
-  for (const auto& [kind, misbehave] : kinds) {
+  for (const auto& one : kinds) {
+    const auto& kind = one.first;
+    const auto& misbehave = one.second;
     CAPTURE(kind);
     double seconds = 0;
     CHECK(
@@ -293,19 +295,19 @@ TEST_CASE("helper: a size is rejected before memory for it is allocated") {
   };
   rusage before, after;
   getrusage(RUSAGE_SELF, &before);
-  for (const auto& [width, height, count] : {std::tuple{65535, 65535, uint64_t{1} << 30},
-                                             {-1, -1, 3},
-                                             {0, 5, 0},
-                                             {1, 0, 0},
-                                             {20000, 20000, uint64_t{1200000000}},
-                                             {10, 10, uint64_t{1} << 30},
-                                             {10, 10, ~uint64_t{0}},
-                                             {10, 10, 299},
-                                             {INT_MIN, INT_MIN, 0},
-                                             {INT_MAX, INT_MAX, 1}}) {
-    CAPTURE(width);
-    CAPTURE(height);
-    CHECK(lie(width, height, count) ==
+  for (const auto& one : {std::tuple{65535, 65535, uint64_t{1} << 30},
+                          {-1, -1, 3},
+                          {0, 5, 0},
+                          {1, 0, 0},
+                          {20000, 20000, uint64_t{1200000000}},
+                          {10, 10, uint64_t{1} << 30},
+                          {10, 10, ~uint64_t{0}},
+                          {10, 10, 299},
+                          {INT_MIN, INT_MIN, 0},
+                          {INT_MAX, INT_MAX, 1}}) {
+    CAPTURE(std::get<0>(one));
+    CAPTURE(std::get<1>(one));
+    CHECK(std::apply(lie, one) ==
           "photo.jpg: expected a file that can be decoded, found one that makes the decoder crash "
           "(it sent no whole result)");
   }

@@ -105,6 +105,48 @@ TEST_CASE("unknown depth: 0 and negative floats are no distances, and the guess 
   CHECK(opened.capture.notes.empty());
 }
 
+TEST_CASE("near end: rows and sky that a sensor did not measure do not decide the guess") {
+  const struct {
+    Scene scene;
+    bool whole;  // the values are millimetres in whole numbers
+  } kKinds[] = {{{3, 1.5, 0.9}, false}, {kMillimetres, true}};
+  for (const auto& kind : kKinds) {
+    // Unmeasured: the first rows, or the wall around the box, so that only the box is known above.
+    for (const bool rows : {true, false}) {
+      CAPTURE(rows);
+      FloatMap map = MapOf(kind.scene);
+      for (int y = 0; y < 18; ++y) {
+        for (int x = 0; x < kColumns; ++x) {
+          if (rows ? y < 14 : map.at(x, y) == float(kind.scene.wall)) map.values[Index(x, y)] = 0;
+        }
+      }
+      std::vector<uint16_t> levels;
+      for (const float value : map.values) levels.push_back(static_cast<uint16_t>(value));
+      const Opened opened("map", kind.whole ? GreyPng(levels) : NpyOf(map), {});
+      REQUIRE(opened.error == "");
+      CHECK(opened.HasNote("black is taken as near"));
+      CHECK(opened.HasNote("look like distances in"));
+      CHECK(opened.At(kBox[0], kBox[1]) > opened.At(kWall[0], kWall[1]) + 1);
+      // The unmeasured part above the box is as far as the wall beside it.
+      if (!rows) CHECK(opened.At(20, 2) == doctest::Approx(opened.At(2, 2)));
+    }
+  }
+}
+
+TEST_CASE("near end: 0 is the farthest value of a normalized inverse depth") {
+  FloatMap map = MapOf({0.2, 0.5, 1});
+  for (int y = 0; y < 12; ++y) {
+    for (int x = 0; x < kColumns; ++x) {
+      if (map.at(x, y) == 0.2F) map.values[Index(x, y)] = 0;
+    }
+  }
+  const Opened guessed("map", NpyOf(map), {}), white("map", NpyOf(map), NearIs(Near::kWhite));
+  REQUIRE(guessed.error == "");
+  CHECK(guessed.capture.light_field.disparity.values == white.capture.light_field.disparity.values);
+  CHECK(!guessed.HasNote("look like distances"));
+  CHECK(!guessed.HasNote("were filled"));
+}
+
 TEST_CASE("depth units: DEPTH16 stores millimetres below a confidence, and 0 is unknown") {
   std::vector<uint16_t> levels = LevelsOf(kMillimetres);
   levels[Index(28, 15)] = 0;  // Next to the box.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus disparity: estimates or repairs a disparity map.
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -185,7 +184,8 @@ Work ChooseWork(const DisparityOptions& options, const Capture& capture) {
 
 Error WriteMap(const DisparityOptions& options, const Plan& plan, const Image& centre,
                const DisparityEstimate& estimate) {
-  Error error;
+  Error error = WritePfm(plan.map, estimate.map);
+  if (error) return error;
   if (!plan.picture.empty()) {
     error = WriteImage(plan.picture, DrawDisparity(estimate.map));
   } else {
@@ -198,7 +198,7 @@ Error WriteMap(const DisparityOptions& options, const Plan& plan, const Image& c
   if (!error && !estimate.coverage.empty()) {
     error = WriteImage(options.coverage, DrawLevels(estimate.coverage, centre));
   }
-  return error ? error : WritePfm(plan.map, estimate.map);
+  return error;
 }
 
 Error Run(const DisparityOptions& options) {

@@ -2,7 +2,6 @@
 // starfocus video: refocuses a sequence of light fields. In each frame, only blocks that changed
 // are computed.
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -74,8 +73,10 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
       error = CheckImageOutput(PicturePath(options.out, video.sources[i]));
     }
   } else if (!error) {
-    error = CheckOutputPath(options.out);
+    const std::string& out = options.out;
+    error = CheckOutputPath(out.substr(0, out.find_last_not_of('/') + 1));
   }
+  if (!error) error = CheckFolderApart({"--output", options.out}, options.inputs);
   std::vector<std::string> paths;
   for (const FrameSource& frame : video.sources) paths.push_back(frame.path);
   if (!error) error = CheckFolderApart({"--output", options.out}, paths);

@@ -15,9 +15,13 @@ std::string ReadUnknown(const std::string& text, DepthOptions* options) {
   options->has_unknown = true;
   options->use_alpha = text != "none";
   if (!options->use_alpha) return "";
-  options->unknown = ReadNumbers(text, ',');
-  if (text == "inf") options->unknown = {HUGE_VAL};
-  return options->unknown.empty() ? "none, inf or a list of values V,V,..." : "";
+  std::string numbers = "," + text + ",";
+  const size_t at = numbers.find(",inf,");
+  if (at != std::string::npos) numbers.erase(at, 4);
+  if (numbers != ",") options->unknown = ReadNumbers(numbers.substr(1, numbers.size() - 2), ',');
+  if (options->unknown.empty() && numbers != ",") return "none, inf or a list of values V,V,...";
+  if (at != std::string::npos) options->unknown.push_back(HUGE_VAL);
+  return "";
 }
 
 // Parses the name of a unit, or a number of metres.

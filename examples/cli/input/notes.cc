@@ -13,6 +13,7 @@ namespace {
 
 std::mutex mutex;                              // protects the variables below
 std::map<std::string, std::string> inputs_of;  // the input of each printed note without numbers
+std::set<std::string> told;                    // all printed notes
 std::map<std::string, std::set<std::string>> others_of;  // other inputs with a note of an input
 
 }  // namespace
@@ -20,7 +21,8 @@ std::map<std::string, std::set<std::string>> others_of;  // other inputs with a 
 void TellNote(const std::string& input, const std::string& note) {
   const std::lock_guard<std::mutex> lock(mutex);
   const auto [printed, is_new] = inputs_of.emplace(ParseNumberedName(note).shape, input);
-  if (is_new) {
+  if (is_new || (printed->second == input && told.insert(note).second)) {
+    told.insert(note);
     TellLine(input + ": " + note);
   } else if (printed->second != input) {
     others_of[printed->second].insert(input);

@@ -16,6 +16,7 @@
 #include "platform/file.h"
 #include "platform/progress.h"
 #include "platform/standard_stream.h"
+#include "platform/text.h"
 #include "platform/writers/picture.h"
 
 namespace starfocus {
@@ -57,7 +58,7 @@ struct Work {
       progress.Step();
       if (!error) continue;
       // Errors of an option do not contain the name of the input.
-      const bool named = error.line().find(items[i].input) != std::string::npos;
+      const bool named = error.line().find(Printable(items[i].input)) != std::string::npos;
       const std::lock_guard<std::mutex> lock(mutex);
       TellLine("starfocus: " + (named ? "" : items[i].input + ": ") + error.line());
       failed.push_back(items[i].input);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/video/clip.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 

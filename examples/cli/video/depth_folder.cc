@@ -31,15 +31,17 @@ struct Group {
   std::vector<Numbers> numbers;  // of each name
 };
 
-// The depth pictures that match each frame by one rule.
+// The depth pictures that match each frame by one rule, by the index of the frame. Frames without a
+// depth picture are absent, because a folder of other names has many pairings with few matches.
 struct Pairing {
-  std::vector<Names> matches;
+  std::map<size_t, Names> matches;
 
-  size_t Matched() const {
-    return static_cast<size_t>(std::count_if(matches.begin(), matches.end(),
-                                             [](const Names& names) { return !names.empty(); }));
+  void Add(size_t frame, const std::string& depth) {
+    matches[frame].push_back(depth);
+    ++depths;
   }
-  bool IsComplete() const { return Matched() == matches.size(); }
+
+  size_t depths = 0;  // over all frames
 };
 
 // Lists the depth pictures of a folder. Frames in the same folder are no depth pictures.
@@ -68,11 +70,11 @@ Pairing PairByName(const Names& frames, const Names& depths) {
     by_name[Lower(StemOf(depth))].push_back(depth);
   }
   Pairing pairing;
-  for (const std::string& frame : frames) {
-    Names found = with_ending.Of(fs::path(frame).filename().string());
-    const Names& equal = by_name[Lower(StemOf(frame))];
-    found.insert(found.end(), equal.begin(), equal.end());
-    pairing.matches.push_back(found);
+  for (size_t i = 0; i < frames.size(); ++i) {
+    for (const std::string& depth : with_ending.Of(fs::path(frames[i]).filename().string())) {
+      pairing.Add(i, depth);
+    }
+    for (const std::string& depth : by_name[Lower(StemOf(frames[i]))]) pairing.Add(i, depth);
   }
   return pairing;
 }
@@ -93,17 +95,16 @@ std::vector<Numbers> WithoutCommon(const std::vector<Numbers>& frames) {
   return result;
 }
 
-// Pairs each frame with the depth pictures of a group that have the numbers of the frame in
-// succession, from the number `first` on.
-Pairing PairByNumber(const std::vector<Numbers>& frames, const Group& group, size_t first) {
-  std::map<Numbers, Names> by_numbers;
-  const auto count = static_cast<ptrdiff_t>(frames[0].size());
+// Pairs the frames with the depth pictures of a group that have the numbers of the frame in
+// succession, from the number `first` on. `frames` has the index of the frame with given numbers.
+Pairing PairByNumber(const std::map<Numbers, size_t>& frames, const Group& group, size_t first) {
+  const auto count = static_cast<ptrdiff_t>(frames.begin()->first.size());
+  Pairing pairing;
   for (size_t k = 0; k < group.names.size(); ++k) {
     const auto begin = group.numbers[k].begin() + static_cast<ptrdiff_t>(first);
-    by_numbers[Numbers(begin, begin + count)].push_back(group.names[k]);
+    const auto found = frames.find(Numbers(begin, begin + count));
+    if (found != frames.end()) pairing.Add(found->second, group.names[k]);
   }
-  Pairing pairing;
-  for (const Numbers& numbers : frames) pairing.matches.push_back(by_numbers[numbers]);
   return pairing;
 }
 
@@ -124,12 +125,16 @@ std::vector<Pairing> PairByNumbers(const Names& frames, const Names& depths) {
   }
   std::vector<Pairing> pairings;
   for (const std::vector<Numbers>& keys : {numbers, WithoutCommon(numbers)}) {
-    if (std::set<Numbers>(keys.begin(), keys.end()).size() < keys.size()) continue;
-    const auto complete = [](const Pairing& pairing) { return pairing.IsComplete(); };
+    std::map<Numbers, size_t> indices;
+    for (size_t i = 0; i < keys.size(); ++i) indices.emplace(keys[i], i);
+    if (indices.size() < keys.size()) continue;
+    const auto complete = [&](const Pairing& pairing) {
+      return pairing.matches.size() == frames.size();
+    };
     if (std::any_of(pairings.begin(), pairings.end(), complete)) break;
     for (const auto& [shape, group] : groups) {
       for (size_t k = 0; k + keys[0].size() <= group.numbers[0].size(); ++k) {
-        pairings.push_back(PairByNumber(keys, group, k));
+        pairings.push_back(PairByNumber(indices, group, k));
       }
     }
   }
@@ -141,27 +146,28 @@ std::vector<Pairing> PairByNumbers(const Names& frames, const Names& depths) {
 // pairing does so.
 Result<Names> Choose(const Names& frames, const std::string& folder,
                      const std::vector<Pairing>& pairings) {
-  const auto figures = [](const Pairing& pairing) {
-    size_t depths = 0;
-    for (const Names& names : pairing.matches) depths += names.size();
-    return std::pair<size_t, size_t>(pairing.matches.size() - pairing.Matched(), depths);
+  const auto figures = [&](const Pairing& pairing) {
+    return std::pair<size_t, size_t>(frames.size() - pairing.matches.size(), pairing.depths);
   };
-  const Pairing best = *std::min_element(
+  const Pairing& best = *std::min_element(
       pairings.begin(), pairings.end(),
       [&](const Pairing& a, const Pairing& b) { return figures(a) < figures(b); });
+  const std::string expected = "one depth picture with the name or number of the frame in ";
+  std::vector<const Pairing*> equal;  // all pairings that are as good as the best one
+  for (const Pairing& pairing : pairings) {
+    if (figures(pairing) == figures(best)) equal.push_back(&pairing);
+  }
   Names chosen;
   for (size_t i = 0; i < frames.size(); ++i) {
-    std::set<std::string> found(best.matches[i].begin(), best.matches[i].end());
-    for (const Pairing& other : pairings) {
-      if (figures(other) == figures(best)) {
-        found.insert(other.matches[i].begin(), other.matches[i].end());
-      }
-    }
-    const std::string expected = "one depth picture with the name or number of the frame in ";
-    if (best.matches[i].empty()) {
+    if (best.matches.count(i) == 0) {
       return Expected(frames[i], expected + folder,
-                      "none (" + std::to_string(best.Matched()) + " of " +
+                      "none (" + std::to_string(best.matches.size()) + " of " +
                           std::to_string(frames.size()) + " frames have one)");
+    }
+    std::set<std::string> found;
+    for (const Pairing* pairing : equal) {
+      const auto names = pairing->matches.find(i);
+      if (names != pairing->matches.end()) found.insert(names->second.begin(), names->second.end());
     }
     if (found.size() > 1) {
       return Expected(frames[i], expected + folder, *found.begin() + " and " + *++found.begin());
@@ -178,7 +184,7 @@ Result<std::vector<std::string>> PairWithFolder(const std::vector<std::string>& 
   const Result<Names> depths = ListDepths(frames, folder);
   if (!depths) return depths;
   std::vector<Pairing> pairings = {PairByName(frames, *depths)};
-  if (!pairings[0].IsComplete()) {
+  if (pairings[0].matches.size() < frames.size()) {
     for (Pairing& pairing : PairByNumbers(frames, *depths)) pairings.push_back(std::move(pairing));
   }
   Result<Names> chosen = Choose(frames, folder, pairings);

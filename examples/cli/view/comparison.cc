@@ -2,7 +2,6 @@
 #include "examples/cli/view/comparison.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "examples/cli/disparity/map_figures.h"
 #include "examples/cli/pictures/shrink.h"

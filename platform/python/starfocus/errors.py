@@ -23,7 +23,7 @@ class StarfocusError(Exception):
         if problem is not None and problem.status == status and problem.field:
             self.field = problem.field.decode().replace("[]", f"[{problem.index}]")
             found = "" if math.isnan(problem.value) else f", found {problem.value:.9g}"
-            if status in (Status.NOT_FINITE, Status.DISPARITY):
+            if status in (Status.NOT_FINITE, Status.DISPARITY) and problem.x >= 0:
                 found += f" at ({problem.x}, {problem.y})"
             text = f"{self.field}: {text} (expected {problem.expected.decode()}{found})"
         super().__init__(text)
