@@ -71,9 +71,9 @@ Error Estimate(int threads, Capture* capture) {
   }
   const Result<DisparityRange> range = FindRange(capture->path, *light_field, threads);
   if (!range) return range.error();
-  TellLine(MapName(*capture) + ": no map found, so disparities from " + Short(range->min) + " to " +
-           Short(range->max) + " are estimated from " +
-           std::to_string(EstimateViews(light_field->positions)) + " views");
+  TellNote(MapName(*capture), "no map found, so disparities from " + Short(range->min) + " to " +
+                                  Short(range->max) + " are estimated from " +
+                                  std::to_string(EstimateViews(light_field->positions)) + " views");
   Result<DisparityEstimate> estimate =
       EstimateDisparity(capture->path, *light_field, *range, threads);
   if (estimate) light_field->disparity = std::move(estimate->map);
