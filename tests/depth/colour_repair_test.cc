@@ -39,6 +39,8 @@ starfocus::EstimatePlan PlanOf(const Photo& photo) {
   starfocus_depth_config_init(&config);
   config.width = photo.width;
   config.height = photo.height;
+  config.disparity_min = -500;
+  config.disparity_max = 500;
   return starfocus::MakePlan(config);
 }
 

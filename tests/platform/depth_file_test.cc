@@ -27,7 +27,7 @@ std::string BytesOf(const std::vector<T>& values) {
   return bytes;
 }
 
-std::string Little(uint32_t value, int bytes) {
+std::string Little(uint64_t value, int bytes) {
   std::string text;
   for (int k = 0; k < bytes; ++k) text += static_cast<char>(value >> 8 * k);
   return text;
