@@ -32,7 +32,8 @@ void CompareWith(const Call& call, EngineState* engine) {
 starfocus_status CheckCall(const starfocus_config& config, const starfocus_params& params,
                            const Prepared* prepared) {
   starfocus_status status = CheckParams(config, params);
-  if (status == STARFOCUS_OK) status = CheckRegion(config, params.region);
+  if (status == STARFOCUS_OK)
+    status = CheckRegion(params.region, config.width, config.height, config.problem);
   if (status != STARFOCUS_OK) return status;
   Checker check(config.problem);
   check.Need(prepared == nullptr || Fits(*prepared, config), STARFOCUS_ERROR_PREPARED, {"prepared"},

@@ -6,6 +6,7 @@
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
 #include "starfocus/depth.h"
+#include "starfocus/matte.h"
 #include "starfocus/starfocus.h"
 
 using namespace starfocus;
@@ -91,6 +92,9 @@ size_t starfocus_struct_size(const char* name) {
                               SIZE_OF(starfocus_image),
                               SIZE_OF(starfocus_depth_map),
                               SIZE_OF(starfocus_disparity_output),
+                              SIZE_OF(starfocus_matte),
+                              SIZE_OF(starfocus_matte_stats),
+                              SIZE_OF(starfocus_matte_depth),
                               SIZE_OF(starfocus_lens)};
 #undef SIZE_OF
   if (name == nullptr) return 0;

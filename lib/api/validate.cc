@@ -177,15 +177,16 @@ starfocus_status CheckCoverage(const starfocus_config& config, const uint8_t* co
   return check.status();
 }
 
-starfocus_status CheckRegion(const starfocus_config& config, const starfocus_region& region) {
+starfocus_status CheckRegion(const starfocus_region& region, int32_t width, int32_t height,
+                             starfocus_problem* problem) {
   if (IsWhole(region)) return STARFOCUS_OK;
-  Checker check(config.problem);
-  check.In({"region.x", double(region.x)}, {"inside the picture", 0, config.width - 1.0});
-  check.In({"region.y", double(region.y)}, {"inside the picture", 0, config.height - 1.0});
+  Checker check(problem);
+  check.In({"region.x", double(region.x)}, {"inside the picture", 0, width - 1.0});
+  check.In({"region.y", double(region.y)}, {"inside the picture", 0, height - 1.0});
   check.In({"region.width", double(region.width)},
-           {"inside the picture", 1, config.width - double(region.x)});
+           {"inside the picture", 1, width - double(region.x)});
   check.In({"region.height", double(region.height)},
-           {"inside the picture", 1, config.height - double(region.y)});
+           {"inside the picture", 1, height - double(region.y)});
   return check.status();
 }
 

@@ -78,8 +78,10 @@ bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 starfocus_status CheckCoverage(const starfocus_config& config, const uint8_t* coverage,
                                size_t stride);
 
-// Checks that all fields of a region are 0, or that the region lies inside the picture.
-starfocus_status CheckRegion(const starfocus_config& config, const starfocus_region& region);
+// Checks that all fields of a region are 0, or that the region lies inside a picture of
+// width x height.
+starfocus_status CheckRegion(const starfocus_region& region, int32_t width, int32_t height,
+                             starfocus_problem* problem);
 
 }  // namespace starfocus
 

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// C API: measures mattes, and computes disparity maps and coverage from mattes.
+#include "starfocus/matte.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "lib/api/validate.h"
+#include "lib/api/validate_image.h"
+#include "lib/convert/matte_rows.h"
+#include "lib/engine/lens.h"
+
+namespace starfocus {
+namespace {
+
+constexpr int32_t kSubject = 128;  // least alpha of the subject
+
+size_t StepOf(const starfocus_matte& matte) {
+  return static_cast<size_t>(Max(1, matte.pixel_stride));
+}
+
+size_t RowBytes(const starfocus_matte& matte) {
+  return static_cast<size_t>(matte.width - 1) * StepOf(matte) + 1;
+}
+
+starfocus_status CheckMatte(const starfocus_matte& matte) {
+  Checker check(nullptr);
+  check.NotNull(matte.data, "matte.data");
+  const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
+  check.In({"matte.width", double(matte.width)}, size);
+  check.In({"matte.height", double(matte.height)}, size);
+  check.In({"matte.pixel_stride", double(matte.pixel_stride)},
+           STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PIXEL_STRIDE));
+  if (check.status() != STARFOCUS_OK) return check.status();
+  check.Stride(ValidStride(matte.stride, RowBytes(matte), matte.height), "matte.stride",
+               matte.stride);
+  return check.status();
+}
+
+starfocus_status CheckMatteDepth(const starfocus_matte_depth& depth) {
+  Checker check(nullptr);
+  const Allowed disparity = STARFOCUS_FROM_TO(-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY);
+  check.In({"depth.subject", depth.subject}, disparity);
+  check.In({"depth.background", depth.background},
+           {"at most subject", disparity.low, depth.subject});
+  if (depth.horizon == 0 && depth.ground == 0) return check.status();
+  check.In({"depth.ground", depth.ground}, {"above horizon and at most 1", 0, 1});
+  check.Need(depth.horizon >= 0 && depth.horizon < depth.ground, STARFOCUS_ERROR_RANGE,
+             {"depth.horizon", depth.horizon}, {"at least 0 and below ground"});
+  return check.status();
+}
+
+// Checks the planes of an output for `area`. A null plane of coverage is valid.
+starfocus_status CheckPlanes(const starfocus_matte& matte, const Rect& area,
+                             const starfocus_disparity_output& out) {
+  starfocus_status status =
+      CheckMap({out.disparity, out.disparity_stride}, area.width, area.height, nullptr);
+  if (status != STARFOCUS_OK) return status;
+  const auto width = static_cast<size_t>(area.width);
+  if (out.coverage != nullptr && !ValidStride(out.coverage_stride, width, area.height)) {
+    return STARFOCUS_ERROR_STRIDE;
+  }
+  Extents taken;
+  taken.AddRows(matte.data, matte.stride, matte.height, RowBytes(matte));
+  const Extent map =
+      ExtentOf(out.disparity, out.disparity_stride, area.height, width * sizeof(float));
+  status = CheckApart(map, taken, "out", nullptr);
+  if (status != STARFOCUS_OK || out.coverage == nullptr) return status;
+  taken.Add(map);
+  return CheckApart(ExtentOf(out.coverage, out.coverage_stride, area.height, width), taken, "out",
+                    nullptr);
+}
+
+// Finds the part of a picture of width x height that `region` selects. A null region selects the
+// whole picture.
+starfocus_status FindArea(const starfocus_region* region, int32_t width, int32_t height,
+                          Rect* area) {
+  Checker check(nullptr);
+  const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
+  check.In({"width", double(width)}, size);
+  check.In({"height", double(height)}, size);
+  if (check.status() != STARFOCUS_OK) return check.status();
+  *area = {0, 0, width, height};
+  if (region == nullptr || IsWhole(*region)) return STARFOCUS_OK;
+  *area = {region->x, region->y, region->width, region->height};
+  return CheckRegion(*region, width, height, nullptr);
+}
+
+// Disparities of the background by row, in 1/64 pixel.
+class Background {
+ public:
+  Background(const starfocus_matte_depth& depth, int32_t height)
+      : far_(RoundDisparity(depth.background)),
+        near_(RoundDisparity(depth.subject)),
+        height_(height),
+        begin_(Fraction(depth.horizon)),
+        length_(Fraction(depth.ground) - begin_) {}
+
+  int32_t subject() const { return near_; }
+  int32_t At(int32_t y) const {
+    if (length_ <= 0) return far_;
+    const int64_t middle = ((2 * int64_t{y} + 1) << (kFractionBits - 1)) / height_;
+    const int64_t way = middle <= begin_             ? 0
+                        : middle >= begin_ + length_ ? length_
+                                                     : middle - begin_;
+    return far_ + static_cast<int32_t>(((near_ - far_) * way + length_ / 2) / length_);
+  }
+
+ private:
+  static constexpr int kFractionBits = 24;  // of positions as fractions of the height
+  static int32_t RoundDisparity(double disparity) {
+    return static_cast<int32_t>(std::floor(disparity * (1 << kDisparityBits) + 0.5));
+  }
+  static int64_t Fraction(double part) {
+    return static_cast<int64_t>(part * (1 << kFractionBits) + 0.5);
+  }
+
+  const int32_t far_, near_, height_;
+  const int64_t begin_, length_;
+};
+
+}  // namespace
+}  // namespace starfocus
+
+using namespace starfocus;
+
+starfocus_status starfocus_measure_matte(const starfocus_matte* matte,
+                                         starfocus_matte_stats* stats) {
+  if (matte == nullptr || stats == nullptr) return STARFOCUS_ERROR_NULL;
+  const starfocus_status status = CheckMatte(*matte);
+  if (status != STARFOCUS_OK) return status;
+  const int32_t width = matte->width, height = matte->height;
+  int32_t left = width, right = 0, top = height, bottom = 0;
+  uint64_t sum = 0;
+  for (int32_t y = 0; y < height; ++y) {
+    const uint8_t* sample = matte->data + static_cast<size_t>(y) * matte->stride;
+    for (int32_t x = 0; x < width; ++x, sample += StepOf(*matte)) {
+      sum += *sample;
+      if (*sample < kSubject) continue;
+      left = Min(left, x);
+      right = Max(right, x + 1);
+      top = Min(top, y);
+      bottom = y + 1;
+    }
+  }
+  *stats = {};
+  stats->covered = static_cast<double>(sum) / (255.0 * width * height);
+  if (bottom == 0) return STARFOCUS_OK;
+  stats->left = double(left) / width;
+  stats->top = double(top) / height;
+  stats->right = double(right) / width;
+  stats->bottom = double(bottom) / height;
+  stats->horizon = std::fmin(0.5, (stats->top + stats->bottom) / 2);
+  stats->ground = stats->bottom;
+  return STARFOCUS_OK;
+}
+
+starfocus_status starfocus_matte_field(const starfocus_matte* matte,
+                                       const starfocus_matte_depth* depth, int32_t width,
+                                       int32_t height, const starfocus_region* region,
+                                       starfocus_disparity_output* out) {
+  if (matte == nullptr || depth == nullptr || out == nullptr) return STARFOCUS_ERROR_NULL;
+  starfocus_status status = CheckMatte(*matte);
+  if (status == STARFOCUS_OK) status = CheckMatteDepth(*depth);
+  Rect area = {};
+  if (status == STARFOCUS_OK) status = FindArea(region, width, height, &area);
+  if (status == STARFOCUS_OK) status = CheckPlanes(*matte, area, *out);
+  if (status != STARFOCUS_OK) return status;
+  const Background background(*depth, height);
+  constexpr float kUnit = 1.0f / (1 << kDisparityBits);
+  const auto subject = static_cast<float>(background.subject()) * kUnit;
+  for (int32_t x = 0; x < area.width; x += kMattePiece) {
+    const int32_t count = Min(kMattePiece, area.width - x);
+    MatteRows rows(*matte, width, height, area.x + x, count);
+    for (int32_t y = 0; y < area.height; ++y) {
+      uint8_t alpha[kMattePiece];
+      rows.Read(area.y + y, alpha);
+      const auto row = static_cast<size_t>(y);
+      const auto behind = static_cast<float>(background.At(area.y + y)) * kUnit;
+      float* const map = out->disparity + row * (out->disparity_stride / sizeof(float)) + x;
+      for (int32_t k = 0; k < count; ++k) map[k] = alpha[k] >= kSubject ? subject : behind;
+      if (out->coverage == nullptr) continue;
+      std::memcpy(out->coverage + row * out->coverage_stride + x, alpha,
+                  static_cast<size_t>(count));
+    }
+  }
+  out->has_coverage = out->coverage != nullptr ? 1 : 0;
+  return STARFOCUS_OK;
+}
