@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Resamples mattes to the size of the picture. Along an axis on which the matte has fewer samples
-// than the picture, or equally many, alpha is interpolated by Catmull-Rom splines. Along other
-// axes, alpha is the mean over the area of the pixel.
+// Resamples mattes to the size of the picture. Along an axis on which the matte has at most as many
+// samples as the picture, alpha is interpolated by cubic splines. Along other axes, alpha is the
+// mean over the area of each pixel.
 #ifndef STARFOCUS_LIB_CONVERT_MATTE_ROWS_H_
 #define STARFOCUS_LIB_CONVERT_MATTE_ROWS_H_
 
@@ -15,25 +15,24 @@ namespace starfocus {
 // Largest number of columns of MatteRows, whose arrays lie on the stack.
 inline constexpr int32_t kMattePiece = 256;
 
-// Weights of neighbouring samples of an axis. The weights sum to MatteAxis::total().
+// Samples of one axis that determine the alpha of a pixel. `first` and the samples after it may lie
+// beyond the ends of the axis; the outermost samples are repeated there.
 struct MatteTaps {
-  int32_t first, count;     // samples; may lie beyond the ends of the axis
-  int32_t weights[4] = {};  // of a spline; or of the first, each middle, and the last sample
-  bool averages;
-
-  int32_t Weight(int32_t k) const {
-    return weights[!averages ? k : k == 0 ? 0 : k == count - 1 ? 2 : 1];
-  }
+  int32_t first, count;
+  int32_t weights[4];  // of the samples of a spline; or of the first, each middle, and the last
 };
 
-// Positions of the pixels of a row or column of the picture in the matte.
+// One axis of a matte and of the picture.
 struct MatteAxis {
   int32_t samples, pixels;
 
-  bool averages() const { return samples > pixels; }
-  int32_t total() const;
+  // Returns true if the alpha of a pixel is a mean. Otherwise, the alpha is interpolated.
+  bool Averages() const { return samples > pixels; }
+  // Returns the samples of a pixel. The weights of a mean sum to `samples`, and the weights of a
+  // spline to 1 << kSplineBits.
   MatteTaps At(int32_t pixel) const;
 };
+inline constexpr int kSplineBits = 14;
 
 // Columns of a picture whose alpha is read row by row. Neighbouring rows of the picture share
 // resampled rows of the matte.
@@ -49,10 +48,14 @@ class MatteRows {
  private:
   static constexpr int32_t kHeld = 4;  // rows that a spline reads
 
-  // Returns row `row` of the matte at the columns of the picture, in 1/64 (kAlphaBits).
+  // Returns row `row` of the matte at the columns of the picture, in 1/64.
   const int16_t* Row(int32_t row);
+  // Fill such a row from the first sample of a row of the matte.
+  void AverageRow(const uint8_t* from, int16_t* to) const;
+  void InterpolateRow(const uint8_t* from, int16_t* to) const;
 
   const starfocus_matte& matte_;
+  const size_t step_;  // bytes from sample to sample
   const MatteAxis across_, down_;
   const int32_t count_;
   MatteTaps columns_[kMattePiece];
