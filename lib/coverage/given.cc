@@ -43,34 +43,16 @@ class GivenStarter {
   }
 
  private:
-  // Finds the disparities of the two surfaces of a pixel. For a pixel on a ramp, the results are
-  // the surfaces at both ends of the ramp. For other pixels, the results are the pixel's own
-  // surface and the nearest other surface. Returns false if the search finds no second surface.
-  bool FindSurfaces(int32_t at, int32_t* low, int32_t* high) const {
-    const int32_t here = around_.disparity[at];
-    if (search_.IsOnRamp(at)) {
-      *high = search_.FindNearest(at, here + 1, INT16_MAX).disparity;
-      *low = search_.FindNearest(at, INT16_MIN, here - 1).disparity;
-      if (*high - *low > kThinStep) return true;
-    }
-    const Found nearer = search_.FindNearest(at, here + kThinStep + 1, INT16_MAX);
-    const Found farther = search_.FindNearest(at, INT16_MIN, here - kThinStep - 1);
-    const bool is_near = farther.distance <= nearer.distance;
-    *high = is_near ? here : nearer.disparity;
-    *low = is_near ? farther.disparity : here;
-    return Min(nearer.distance, farther.distance) != INT32_MAX;
-  }
-
   void StartPixel(int32_t x, int32_t y) {
     const size_t to = map_.At(x, y);
     const int32_t at = GivenDisparities::At(x - left_, y - top_);
     const int16_t here = around_.disparity[at];
     FarCell& far = map_.FarAt(x, y);
-    int32_t low, high;
-    if (FindSurfaces(at, &low, &high)) {
-      map_.near[to] = SmoothNear(around_, at, high);
-      far.disparity = static_cast<int16_t>(low);
-      map_.alpha[to] = 2 * here >= low + high ? uint8_t{kWhole} : uint8_t{0};
+    Surfaces surfaces;
+    if (search_.FindSurfaces(at, &surfaces)) {
+      map_.near[to] = SmoothNear(around_, at, surfaces.high);
+      far.disparity = static_cast<int16_t>(surfaces.low);
+      map_.alpha[to] = surfaces.IsNear(here) ? uint8_t{kWhole} : uint8_t{0};
       TakePixel(x, y);
     } else {
       map_.near[to] = here;

@@ -101,4 +101,18 @@ Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
   return {around_.disparity[at + dy * kSide + dx], DistanceOf(rank)};
 }
 
+bool SurfaceSearch::FindSurfaces(int32_t at, Surfaces* surfaces) const {
+  const int32_t here = around_.disparity[at];
+  if (on_ramp_[at]) {
+    *surfaces = {FindNearest(at, INT16_MIN, here - 1).disparity,
+                 FindNearest(at, here + 1, INT16_MAX).disparity};
+    if (surfaces->high - surfaces->low > kThinStep) return true;
+  }
+  const Found nearer = FindNearest(at, here + kThinStep + 1, INT16_MAX);
+  const Found farther = FindNearest(at, INT16_MIN, here - kThinStep - 1);
+  const bool is_near = farther.distance <= nearer.distance;
+  *surfaces = {is_near ? farther.disparity : here, is_near ? here : nearer.disparity};
+  return Min(nearer.distance, farther.distance) != INT32_MAX;
+}
+
 }  // namespace starfocus

@@ -22,6 +22,14 @@ struct Found {
   int32_t distance;   // Squared distance in pixels; INT32_MAX if no pixel is found.
 };
 
+// Disparities of the two surfaces of a pixel near an edge.
+struct Surfaces {
+  int32_t low, high;
+
+  // Returns true if a disparity belongs to the near surface, so that its implied coverage is 1.
+  bool IsNear(int32_t disparity) const { return 2 * disparity >= low + high; }
+};
+
 // Searches a tile and its surroundings. A search reads only the cells of kCellSide x kCellSide
 // pixels that contain the surface. All positions are indices of GivenDisparities::disparity.
 class SurfaceSearch {
@@ -34,6 +42,11 @@ class SurfaceSearch {
   // Finds the nearest pixel in the square of radius kGivenReach around a pixel of the tile that is
   // not on a ramp and has a disparity in [low, high].
   Found FindNearest(int32_t at, int32_t low, int32_t high) const;
+
+  // Finds the two surfaces of a pixel of the tile. For a pixel on a ramp, the results are the
+  // surfaces at both ends of the ramp. For other pixels, the results are the pixel's own surface
+  // and the nearest other surface. Returns false if the search finds no second surface.
+  bool FindSurfaces(int32_t at, Surfaces* surfaces) const;
 
  private:
   static constexpr int32_t kSide = GivenDisparities::kSide;
