@@ -7,7 +7,9 @@
 
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
+#include "lib/convert/depth_rows.h"
 #include "lib/convert/matte_rows.h"
+#include "lib/coverage/matte_coverage.h"
 #include "lib/engine/lens.h"
 
 namespace starfocus {
@@ -50,7 +52,7 @@ starfocus_status CheckMatteDepth(const starfocus_matte_depth& depth) {
   return check.status();
 }
 
-// Checks the planes of an output for `area`. A null plane of coverage is valid.
+// Checks the planes of the map and the coverage of `area`. A null plane of coverage is valid.
 starfocus_status CheckPlanes(const starfocus_matte& matte, const Rect& area,
                              const starfocus_disparity_output& out) {
   starfocus_status status =
@@ -68,6 +70,19 @@ starfocus_status CheckPlanes(const starfocus_matte& matte, const Rect& area,
   if (status != STARFOCUS_OK || out.coverage == nullptr) return status;
   taken.Add(map);
   return CheckApart(ExtentOf(out.coverage, out.coverage_stride, area.height, width), taken, "out",
+                    nullptr);
+}
+
+// Checks the plane of the coverage of `area`.
+starfocus_status CheckCoverageOf(const starfocus_matte& matte, const starfocus_depth_map& depth,
+                                 const Rect& area, const starfocus_disparity_output& out) {
+  if (out.coverage == nullptr) return STARFOCUS_ERROR_NULL;
+  const auto width = static_cast<size_t>(area.width);
+  if (!ValidStride(out.coverage_stride, width, area.height)) return STARFOCUS_ERROR_STRIDE;
+  Extents read;
+  read.AddRows(matte.data, matte.stride, matte.height, RowBytes(matte));
+  AddDepthMap(depth, &read);
+  return CheckApart(ExtentOf(out.coverage, out.coverage_stride, area.height, width), read, "out",
                     nullptr);
 }
 
@@ -185,5 +200,29 @@ starfocus_status starfocus_matte_field(const starfocus_matte* matte,
     }
   }
   out->has_coverage = out->coverage != nullptr ? 1 : 0;
+  return STARFOCUS_OK;
+}
+
+starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
+                                          const starfocus_depth_map* depth, int32_t width,
+                                          int32_t height, const starfocus_region* region,
+                                          starfocus_disparity_output* out) {
+  if (matte == nullptr || depth == nullptr || out == nullptr) return STARFOCUS_ERROR_NULL;
+  starfocus_status status = CheckMatte(*matte);
+  if (status == STARFOCUS_OK) status = CheckLoneMap(*depth, {width, height});
+  Rect area = {};
+  if (status == STARFOCUS_OK) status = FindArea(region, width, height, &area);
+  if (status == STARFOCUS_OK) status = CheckCoverageOf(*matte, *depth, area, *out);
+  if (status != STARFOCUS_OK) return status;
+  constexpr auto kMost = static_cast<float>(STARFOCUS_MAX_DISPARITY);
+  const DepthSource source = {*depth, RuleOf(*depth, -kMost, kMost), width, height, nullptr};
+  const simd::ImageKernels& kernels = simd::BestImageKernels();
+  const uint32_t flags =
+      CheckDepth(kernels, source,
+                 {Max(0, area.y - kMatteReach), Min(height, area.y + area.height + kMatteReach)});
+  if ((flags & simd::kUnknownDepth) != 0) return STARFOCUS_ERROR_NOT_FINITE;
+  if ((flags & simd::kDepthOutside) != 0) return STARFOCUS_ERROR_DISPARITY;
+  MatteCoverage(kernels, *matte, source, area, {out->coverage, out->coverage_stride, 0, area.y});
+  out->has_coverage = 1;
   return STARFOCUS_OK;
 }

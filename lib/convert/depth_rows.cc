@@ -63,7 +63,7 @@ class PieceReader {
   PieceReader(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x, int32_t count)
       : kernels_(kernels),
         depth_(depth),
-        columns_(depth.columns + x),
+        columns_(depth.columns + (x - depth.first_column)),
         count_(count),
         left_(static_cast<int32_t>(columns_[0] >> simd::kColumnBits)) {
     const auto last = static_cast<int32_t>(columns_[count - 1] >> simd::kColumnBits);
@@ -115,8 +115,9 @@ bool HasPictureSize(const DepthSource& depth) {
 
 }  // namespace
 
-void FillColumns(int32_t width, int32_t map_width, uint32_t* columns) {
-  for (int32_t x = 0; x < width; ++x) columns[x] = PlaceOf(x, width, map_width);
+void FillColumns(int32_t width, int32_t map_width, int32_t first_column, int32_t count,
+                 uint32_t* columns) {
+  for (int32_t k = 0; k < count; ++k) columns[k] = PlaceOf(first_column + k, width, map_width);
 }
 
 uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& rect,

@@ -22,15 +22,17 @@ struct DepthSource {
   starfocus_depth_map map;
   simd::DepthRule rule;
   int32_t width, height;  // size of the picture
-  // Position in the map of each column of the picture (simd::SpreadRow); null if the map is as wide
-  // as the picture.
+  // Positions in the map of columns of the picture (simd::SpreadRow), starting with
+  // `first_column`; null if the map has the size of the picture.
   const uint32_t* columns;
   // First row of the picture that `map` contains; 0 if the map has fewer rows than the picture.
   int32_t first = 0;
+  int32_t first_column = 0;
 };
 
-// Computes the position in the map for each column of a picture.
-void FillColumns(int32_t width, int32_t map_width, uint32_t* columns);
+// Computes the positions in a map for the columns of a picture, starting with `first_column`.
+void FillColumns(int32_t width, int32_t map_width, int32_t first_column, int32_t count,
+                 uint32_t* columns);
 
 // Writes the disparities of a rectangle of the picture in fixed point (kDisparityBits). Unknown
 // disparities are set to kNoSurface. out.Row(y) receives row y, starting with column rect.x.

@@ -90,8 +90,8 @@ void MatteRows::InterpolateRow(const uint8_t* from, int16_t* to) const {
   for (int32_t k = 0; k < count_; ++k) {
     const int32_t* const weights = columns_[k].weights;
     const uint8_t* const four = samples + (columns_[k].first - begin);
-    const int32_t sum = weights[0] * four[0] + weights[1] * four[1] + weights[2] * four[2] +
-                        weights[3] * four[3];
+    const int32_t sum =
+        weights[0] * four[0] + weights[1] * four[1] + weights[2] * four[2] + weights[3] * four[3];
     to[k] = static_cast<int16_t>(RoundShift(sum, kSplineBits - kRowBits));
   }
 }
@@ -119,8 +119,8 @@ void MatteRows::Read(int32_t y, uint8_t* alpha) {
   constexpr int kBits = kSplineBits + kRowBits;
   const int32_t total = down_.samples << kRowBits;
   for (int32_t k = 0; k < count_; ++k) {
-    const int32_t mean = averages ? (sums[k] + total / 2) / total
-                                  : (sums[k] + (1 << (kBits - 1))) >> kBits;
+    const int32_t mean =
+        averages ? (sums[k] + total / 2) / total : (sums[k] + (1 << (kBits - 1))) >> kBits;
     alpha[k] = static_cast<uint8_t>(Clamp(mean, 0, 255));
   }
 }

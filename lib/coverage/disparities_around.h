@@ -16,6 +16,7 @@ struct DisparitiesAround {
   static constexpr int32_t kSide = kCoverageTile + 2 * kAround;
   int16_t disparity[kSide * kSide];
 
+  DisparitiesAround() = default;
   DisparitiesAround(const Window& window, int32_t column, int32_t row) {
     const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
     for (int32_t y = 0; y < kSide; ++y) {

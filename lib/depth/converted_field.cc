@@ -110,7 +110,7 @@ starfocus_status ConvertField(const starfocus_depth_config& config, const Conver
   }
   starfocus_depth_map& map = field->depth;
   if (memory.disparity == nullptr || IsInPlace(map, width, height)) return STARFOCUS_OK;
-  FillColumns(width, map.width, memory.columns);
+  FillColumns(width, map.width, 0, width, memory.columns);
   const simd::DepthRule rule = RuleOf(map, static_cast<float>(config.disparity_min),
                                       static_cast<float>(config.disparity_max));
   job.depth = {map, rule, width, height, memory.columns};

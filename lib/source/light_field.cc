@@ -86,7 +86,7 @@ void MakeLightField(const starfocus_light_field& given, int32_t first, EngineSta
   ImageMemory& memory = engine->images;
   if (memory.columns != nullptr && memory.map_width != given.depth.width) {
     memory.map_width = given.depth.width;
-    FillColumns(engine->config.width, memory.map_width, memory.columns);
+    FillColumns(engine->config.width, memory.map_width, 0, engine->config.width, memory.columns);
   }
   const starfocus_config& config = engine->config;
   const DisparityRange range = RangeOf(config);

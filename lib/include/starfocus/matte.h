@@ -100,6 +100,31 @@ STARFOCUS_API starfocus_status starfocus_matte_field(const starfocus_matte* matt
                                                      const starfocus_region* region,
                                                      starfocus_disparity_output* out);
 
+/** Computes the coverage of a photo that has a matte and a depth map. At the outlines of the
+ *  subject, the coverage is the matte. At other edges of the map, the coverage is the coverage that
+ *  the map implies: 255 on the nearer surface, and 0 on the farther surface. Where the matte and
+ *  the map contradict each other, the map decides.
+ *
+ *  An edge of the map is an outline of the subject if the mean alpha around it is larger on the
+ *  nearer surface than on the farther surface by 1/2. Below a difference of 1/4, the map decides;
+ *  in between, the function mixes both. The means are taken over 33 places up to 26 pixels away.
+ *  The matte counts within 32 pixels of edges of more than 5 pixels, as in
+ *  starfocus_light_field.coverage. Elsewhere, the coverage is 255.
+ *  @param matte matte
+ *  @param depth map of any format without unknown values, at most as wide and as high as the
+ *         picture, and disparities within +-STARFOCUS_MAX_DISPARITY
+ *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
+ *  @param region part of the picture to fill; null: the whole picture
+ *  @param out receives the region in `coverage`, which must not overlap the matte or the map. The
+ *         function does not read or write the other planes
+ *  @return STARFOCUS_OK, an error of the arguments, STARFOCUS_ERROR_DISPARITY or
+ *          STARFOCUS_ERROR_NOT_FINITE */
+STARFOCUS_API starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
+                                                        const starfocus_depth_map* depth,
+                                                        int32_t width, int32_t height,
+                                                        const starfocus_region* region,
+                                                        starfocus_disparity_output* out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/coverage/matte_coverage.h"
+
+#include <cstring>
+
+#include "lib/convert/matte_rows.h"
+#include "lib/coverage/surface_search.h"
+
+namespace starfocus {
+namespace {
+
+static_assert(kMatteReach == kGivenReach + kRampReach, "the search reads kMatteReach pixels");
+
+// Disparities are first read in blocks, because most blocks contain no edge.
+constexpr int32_t kBlock = 4 * kCoverageTile;
+constexpr int32_t kBlockSide = kBlock + 2 * kMatteReach;
+
+// Places around a pixel at which the matte and the map are compared: rings of eight places.
+struct Offset {
+  int8_t x, y;
+};
+constexpr Offset kPlaces[] = {{0, 0},     {3, 0},    {2, 2},    {0, 3},    {-2, 2},    {-3, 0},
+                              {-2, -2},   {0, -3},   {2, -2},   {7, 3},    {3, 7},     {-3, 7},
+                              {-7, 3},    {-7, -3},  {-3, -7},  {3, -7},   {7, -3},    {16, 0},
+                              {11, 11},   {0, 16},   {-11, 11}, {-16, 0},  {-11, -11}, {0, -16},
+                              {11, -11},  {24, 10},  {10, 24},  {-10, 24}, {-24, 10},  {-24, -10},
+                              {-10, -24}, {10, -24}, {24, -10}};
+
+// Trust in the matte, from 0 (the map decides) to kTrusted.
+constexpr int kTrustBits = 8;
+constexpr int32_t kTrusted = 1 << kTrustBits;
+
+// Sum of the alpha of places of one surface.
+struct Mean {
+  int32_t sum = 0, count = 0;
+
+  void Add(int32_t alpha) {
+    sum += alpha;
+    ++count;
+  }
+  int32_t Get() const { return (sum << kTrustBits) / (255 * count); }
+};
+
+class TileCoverage {
+ public:
+  TileCoverage(const starfocus_matte& matte, const DepthSource& depth, const Rect& tile,
+               const GivenDisparities& around)
+      : matte_(matte), around_(around), search_(around) {
+    const auto step = static_cast<size_t>(Max(1, matte.pixel_stride));
+    for (int32_t k = 0; k < GivenDisparities::kSide; ++k) {
+      columns_[k] = step * Nearest(tile.x + k - kMatteReach, depth.width, matte.width);
+      rows_[k] = matte.stride * Nearest(tile.y + k - kMatteReach, depth.height, matte.height);
+    }
+  }
+
+  // Returns the coverage of pixel (x, y) of the tile, whose alpha is `alpha`.
+  int32_t At(int32_t x, int32_t y, int32_t alpha) const {
+    const int32_t at = GivenDisparities::At(x, y);
+    Surfaces surfaces;
+    if (!search_.FindSurfaces(at, &surfaces)) return 255;
+    const int32_t implied = surfaces.IsNear(around_.disparity[at]) ? 255 : 0;
+    if (alpha == implied) return implied;
+    const int32_t trust = Trust(at, surfaces);
+    return (implied * (kTrusted - trust) + alpha * trust + kTrusted / 2) >> kTrustBits;
+  }
+
+ private:
+  static size_t Nearest(int32_t pixel, int32_t pixels, int32_t samples) {
+    return static_cast<size_t>(int64_t{Clamp(pixel, 0, pixels - 1)} * samples / pixels);
+  }
+
+  int32_t Trust(int32_t at, const Surfaces& surfaces) const {
+    constexpr int32_t kSide = GivenDisparities::kSide;
+    const int32_t half = (surfaces.high - surfaces.low) / 2;
+    Mean near, far;
+    for (const Offset& offset : kPlaces) {
+      const int32_t there = at + offset.y * kSide + offset.x;
+      const int32_t disparity = around_.disparity[there];
+      if (disparity > surfaces.high + half) continue;
+      const int32_t alpha = matte_.data[rows_[there / kSide] + columns_[there % kSide]];
+      (surfaces.IsNear(disparity) ? near : far).Add(alpha);
+    }
+    if (near.count == 0 || far.count == 0) return 0;
+    const int32_t difference = near.Get() - far.Get();
+    const int32_t t = Clamp(4 * difference - kTrusted, 0, kTrusted);
+    return (t * t * (3 * kTrusted - 2 * t)) >> (2 * kTrustBits);
+  }
+
+  const starfocus_matte& matte_;
+  const GivenDisparities& around_;
+  const SurfaceSearch search_;
+  size_t columns_[GivenDisparities::kSide], rows_[GivenDisparities::kSide];
+};
+
+// Range of disparities, which shows whether pixels may have two surfaces.
+struct Range {
+  int16_t least = INT16_MAX, greatest = INT16_MIN;
+
+  void Add(const int16_t* disparities, int32_t count) {
+    for (int32_t k = 0; k < count; ++k) {
+      if (disparities[k] < least) least = disparities[k];
+      if (disparities[k] > greatest) greatest = disparities[k];
+    }
+  }
+  bool HasEdge() const { return greatest - least > kThinStep; }
+};
+
+class CoverageWriter {
+ public:
+  CoverageWriter(const simd::ImageKernels& kernels, const starfocus_matte& matte,
+                 const DepthSource& depth)
+      : kernels_(kernels), matte_(matte), depth_(depth) {}
+
+  // Writes the coverage of a block. `rows` reads the matte at the columns of the block.
+  void WriteBlock(const Rect& block, MatteRows* rows, const Plane<uint8_t>& out) const {
+    const bool has_edge = HasEdge(block);
+    const int32_t bottom = block.y + block.height;
+    for (int32_t top = block.y; top < bottom; top += kCoverageTile) {
+      const int32_t height = Min(kCoverageTile, bottom - top);
+      uint8_t alpha[kCoverageTile][kBlock];
+      for (int32_t y = 0; y < height; ++y) {
+        if (has_edge) rows->Read(top + y, alpha[y]);
+        std::memset(out.Row(top + y), 255, static_cast<size_t>(block.width));
+      }
+      for (int32_t x = 0; has_edge && x < block.width; x += kCoverageTile) {
+        const Rect tile = {block.x + x, top, Min(kCoverageTile, block.width - x), height};
+        GivenDisparities around;
+        ReadAround(tile, &around);
+        Range range;
+        range.Add(around.disparity, GivenDisparities::kSide * GivenDisparities::kSide);
+        if (!range.HasEdge()) continue;
+        const TileCoverage coverage(matte_, depth_, tile, around);
+        for (int32_t y = 0; y < height; ++y) {
+          for (int32_t k = 0; k < tile.width; ++k) {
+            out.Row(top + y)[x + k] = static_cast<uint8_t>(coverage.At(k, y, alpha[y][x + k]));
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  // Returns the part of `rect` inside the picture.
+  Rect Inside(const Rect& rect) const {
+    const int32_t left = Max(rect.x, 0), top = Max(rect.y, 0);
+    return {left, top, Min(rect.x + rect.width, depth_.width) - left,
+            Min(rect.y + rect.height, depth_.height) - top};
+  }
+
+  // Reads disparities of a rectangle that is at most kBlockSide pixels wide.
+  void Read(const Rect& rect, const Plane<int16_t>& out) const {
+    uint32_t columns[kBlockSide];
+    FillColumns(depth_.width, depth_.map.width, rect.x, rect.width, columns);
+    DepthSource part = depth_;
+    part.columns = columns;
+    part.first_column = rect.x;
+    ReadDepth(kernels_, part, rect, out);
+  }
+
+  // Returns true if the map has an edge in the block or within kMatteReach pixels of the block.
+  bool HasEdge(const Rect& block) const {
+    constexpr int32_t kRows = 8;
+    const Rect all = Inside(Extended(block, {kMatteReach, kMatteReach, kMatteReach, kMatteReach}));
+    Range range;
+    for (int32_t y = 0; y < all.height && !range.HasEdge(); y += kRows) {
+      int16_t disparities[kRows * kBlockSide];
+      const Rect rect = {all.x, all.y + y, all.width, Min(kRows, all.height - y)};
+      Read(rect, {disparities, static_cast<size_t>(all.width), 0, rect.y});
+      range.Add(disparities, rect.width * rect.height);
+    }
+    return range.HasEdge();
+  }
+
+  // Reads the disparities around a tile. Beyond the picture, the outermost pixels are repeated.
+  void ReadAround(const Rect& tile, GivenDisparities* around) const {
+    constexpr int32_t kSide = GivenDisparities::kSide;
+    const int32_t left = tile.x - kMatteReach, top = tile.y - kMatteReach;
+    const Rect rect = Inside({left, top, kSide, kSide});
+    const int32_t x = rect.x - left, y = rect.y - top;
+    int16_t* const disparity = around->disparity;
+    Read(rect, {disparity + y * kSide + x, kSide, 0, rect.y});
+    for (int32_t row = y; row < y + rect.height; ++row) {
+      int16_t* const to = disparity + row * kSide;
+      for (int32_t k = 0; k < x; ++k) to[k] = to[x];
+      for (int32_t k = x + rect.width; k < kSide; ++k) to[k] = to[x + rect.width - 1];
+    }
+    for (int32_t row = 0; row < kSide; ++row) {
+      const int32_t from = Clamp(row, y, y + rect.height - 1);
+      if (row == from) continue;
+      std::memcpy(disparity + row * kSide, disparity + from * kSide, kSide * sizeof(*disparity));
+    }
+  }
+
+  const simd::ImageKernels& kernels_;
+  const starfocus_matte& matte_;
+  const DepthSource& depth_;
+};
+
+}  // namespace
+
+void MatteCoverage(const simd::ImageKernels& kernels, const starfocus_matte& matte,
+                   const DepthSource& depth, const Rect& area, const Plane<uint8_t>& out) {
+  const CoverageWriter writer(kernels, matte, depth);
+  for (int32_t x = 0; x < area.width; x += kBlock) {
+    const int32_t width = Min(kBlock, area.width - x), left = area.x + x;
+    MatteRows rows(matte, depth.width, depth.height, left, width);
+    for (int32_t y = 0; y < area.height; y += kBlock) {
+      const int32_t top = area.y + y;
+      writer.WriteBlock({left, top, width, Min(kBlock, area.height - y)}, &rows,
+                        {out.Row(top) + x, out.stride, 0, top});
+    }
+  }
+}
+
+}  // namespace starfocus
