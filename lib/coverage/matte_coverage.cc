@@ -26,21 +26,28 @@ constexpr Offset kPlaces[] = {{0, 0},     {3, 0},    {2, 2},    {0, 3},    {-2, 
                               {11, -11},  {24, 10},  {10, 24},  {-10, 24}, {-24, 10},  {-24, -10},
                               {-10, -24}, {10, -24}, {24, -10}};
 
-// Trust in the matte, from 0 (the map decides) to kTrusted.
-constexpr int kTrustBits = 8;
-constexpr int32_t kTrusted = 1 << kTrustBits;
+constexpr int32_t kMostPlaces = sizeof(kPlaces) / sizeof(kPlaces[0]);
 
-// Sum of the alpha of places of one surface.
-struct Mean {
-  int32_t sum = 0, count = 0;
+// Difference of alpha between the surfaces of an outline of the subject. With kDoubted or less, the
+// map decides; with kTrusted or more, the matte (docs/constants.md).
+constexpr int32_t kDoubted = 64, kTrusted = 128;
 
-  void Add(int32_t alpha) {
-    sum += alpha;
-    ++count;
+// Alpha at places of one surface, in ascending order.
+struct SortedAlpha {
+  uint8_t alpha[kMostPlaces];
+  int32_t count = 0;
+
+  void Insert(uint8_t value) {
+    int32_t k = count++;
+    for (; k > 0 && alpha[k - 1] > value; --k) alpha[k] = alpha[k - 1];
+    alpha[k] = value;
   }
-  int32_t Get() const { return (sum << kTrustBits) / (255 * count); }
+  // The quartiles ignore places on the wrong side of outlines that the map displaces.
+  int32_t LowerQuartile() const { return alpha[(count - 1) / 4]; }
+  int32_t UpperQuartile() const { return alpha[3 * (count - 1) / 4]; }
 };
 
+// Coverage of the pixels of a tile.
 class TileCoverage {
  public:
   TileCoverage(const starfocus_matte& matte, const DepthSource& depth, const Rect& tile,
@@ -48,8 +55,8 @@ class TileCoverage {
       : matte_(matte), around_(around), search_(around) {
     const auto step = static_cast<size_t>(Max(1, matte.pixel_stride));
     for (int32_t k = 0; k < GivenDisparities::kSide; ++k) {
-      columns_[k] = step * Nearest(tile.x + k - kMatteReach, depth.width, matte.width);
-      rows_[k] = matte.stride * Nearest(tile.y + k - kMatteReach, depth.height, matte.height);
+      columns_[k] = step * SampleOf(tile.x + k - kMatteReach, depth.width, matte.width);
+      rows_[k] = matte.stride * SampleOf(tile.y + k - kMatteReach, depth.height, matte.height);
     }
   }
 
@@ -60,30 +67,36 @@ class TileCoverage {
     if (!search_.FindSurfaces(at, &surfaces)) return 255;
     const int32_t implied = surfaces.IsNear(around_.disparity[at]) ? 255 : 0;
     if (alpha == implied) return implied;
-    const int32_t trust = Trust(at, surfaces);
-    return (implied * (kTrusted - trust) + alpha * trust + kTrusted / 2) >> kTrustBits;
+    SortedAlpha near, far;
+    Compare(at, surfaces, &near, &far);
+    if (near.count == 0 || far.count == 0) return implied;
+    const int32_t most = near.UpperQuartile(), least = far.LowerQuartile();
+    const int32_t trust = Clamp(most - least - kDoubted, 0, kTrusted - kDoubted);
+    if (trust == 0) return implied;
+    // Where a false part of the matte surrounds the outline, `least` is the alpha of this part.
+    const int32_t matte = Clamp((alpha - least) * 255 / (most - least), 0, 255);
+    return implied + (matte - implied) * trust / (kTrusted - kDoubted);
   }
 
  private:
-  static size_t Nearest(int32_t pixel, int32_t pixels, int32_t samples) {
-    return static_cast<size_t>(int64_t{Clamp(pixel, 0, pixels - 1)} * samples / pixels);
+  // Returns the sample of the matte at the middle of a pixel, along one axis.
+  static size_t SampleOf(int32_t pixel, int32_t pixels, int32_t samples) {
+    return static_cast<size_t>((2 * int64_t{Clamp(pixel, 0, pixels - 1)} + 1) * samples /
+                               (2 * pixels));
   }
 
-  int32_t Trust(int32_t at, const Surfaces& surfaces) const {
+  // Collects the alpha of both surfaces around a pixel. Places of objects in front of the near
+  // surface are left out.
+  void Compare(int32_t at, const Surfaces& surfaces, SortedAlpha* near, SortedAlpha* far) const {
     constexpr int32_t kSide = GivenDisparities::kSide;
-    const int32_t half = (surfaces.high - surfaces.low) / 2;
-    Mean near, far;
+    const int32_t highest = surfaces.high + (surfaces.high - surfaces.low) / 2;
     for (const Offset& offset : kPlaces) {
       const int32_t there = at + offset.y * kSide + offset.x;
       const int32_t disparity = around_.disparity[there];
-      if (disparity > surfaces.high + half) continue;
-      const int32_t alpha = matte_.data[rows_[there / kSide] + columns_[there % kSide]];
-      (surfaces.IsNear(disparity) ? near : far).Add(alpha);
+      if (disparity > highest) continue;
+      const uint8_t alpha = matte_.data[rows_[there / kSide] + columns_[there % kSide]];
+      (surfaces.IsNear(disparity) ? near : far)->Insert(alpha);
     }
-    if (near.count == 0 || far.count == 0) return 0;
-    const int32_t difference = near.Get() - far.Get();
-    const int32_t t = Clamp(4 * difference - kTrusted, 0, kTrusted);
-    return (t * t * (3 * kTrusted - 2 * t)) >> (2 * kTrustBits);
   }
 
   const starfocus_matte& matte_;
