@@ -10,6 +10,7 @@
 #include <limits>
 #include <new>
 
+#include "starfocus/matte.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/image_field.h"
 #include "tests/support/sanitizers.h"
@@ -308,6 +309,30 @@ TEST_CASE("measuring, filling and focusing with disparity maps make no heap call
   CHECK(measured == STARFOCUS_OK);
   CHECK(filled == STARFOCUS_OK);
   CHECK(stats.invalid == 41);
+}
+
+TEST_CASE("maps and coverage from mattes make no heap call") {
+  const test::Scene scene = test::RandomScene(40, 30, 1, -30, 30, 6);
+  const std::vector<uint8_t> alpha(90 * 20, 200);
+  const starfocus_matte matte = {alpha.data(), 90, 1, 90, 20};
+  const starfocus_matte_depth surfaces = {20, 0, 0.4, 0.9};
+  const starfocus_depth_map depth = starfocus_depth_float(scene.disparity.data(), 160, 40, 30);
+  std::vector<float> disparity(40 * 30);
+  std::vector<uint8_t> coverage(40 * 30);
+  starfocus_disparity_output out = {};
+  out.disparity = disparity.data();
+  out.disparity_stride = 160;
+  out.coverage = coverage.data();
+  out.coverage_stride = 40;
+  HeapWatch watch;
+  starfocus_matte_stats stats;
+  const starfocus_status measured = starfocus_measure_matte(&matte, &stats);
+  const starfocus_status field = starfocus_matte_field(&matte, &surfaces, 40, 30, nullptr, &out);
+  const starfocus_status covered = starfocus_matte_coverage(&matte, &depth, 40, 30, nullptr, &out);
+  CHECK(watch.Stop() == 0);
+  CHECK(measured == STARFOCUS_OK);
+  CHECK(field == STARFOCUS_OK);
+  CHECK(covered == STARFOCUS_OK);
 }
 
 }  // namespace
