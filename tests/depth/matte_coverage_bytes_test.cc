@@ -1,242 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the maps and the coverage that starfocus/matte.h computes from mattes.
+// Tests coverage from a matte and a map, and arguments and regions of all calls with mattes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <string>
 #include <vector>
 
 #include "lib/coverage/matte_coverage.h"
-#include "starfocus/matte.h"
+#include "tests/depth/matte_planes.h"
 #include "tests/support/simd_targets.h"
-#include "tests/support/test_scene.h"
 
-namespace matte_bytes_test {
+namespace matte_coverage_bytes_test {
 namespace {
 
-constexpr uint8_t kUnset = 77;
-
-struct Matte {
-  Matte(int w, int h, int pixel_stride = 1, int padding = 0)
-      : width(w),
-        height(h),
-        step(pixel_stride),
-        row(w * step + padding),
-        bytes(size_t(row) * size_t(h), kUnset) {}
-  uint8_t& At(int x, int y) { return bytes[size_t(y * row + x * step + step - 1)]; }
-  starfocus_matte Get() const {
-    return {bytes.data() + step - 1, size_t(row), step == 1 ? 0 : step, width, height};
-  }
-
-  int width, height, step, row;
-  std::vector<uint8_t> bytes;
-};
-
-Matte RandomMatte(int width, int height, int pixel_stride = 1, int padding = 0) {
-  Matte matte(width, height, pixel_stride, padding);
-  test::Random random(uint64_t(width + 1000 * height));
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) matte.At(x, y) = uint8_t(random.Int(0, 255));
-  }
-  return matte;
-}
-
-// Planes of a result, with padding after each row.
-struct Planes {
-  static constexpr int kPadding = 3;
-  Planes(int w, int h)
-      : width(w),
-        height(h),
-        row(w + kPadding),
-        map(size_t(row * h), kUnset),
-        coverage(size_t(row * h), kUnset) {}
-  starfocus_disparity_output Out() {
-    starfocus_disparity_output out = {};
-    out.disparity = map.data();
-    out.disparity_stride = sizeof(float) * size_t(row);
-    out.coverage = coverage.data();
-    out.coverage_stride = size_t(row);
-    return out;
-  }
-  float Map(int x, int y) const { return map[size_t(y * row + x)]; }
-  int Coverage(int x, int y) const { return coverage[size_t(y * row + x)]; }
-  bool PaddingIsUnset() const {
-    for (int y = 0; y < height; ++y) {
-      for (int x = width; x < row; ++x) {
-        if (Map(x, y) != kUnset || Coverage(x, y) != kUnset) return false;
-      }
-    }
-    return true;
-  }
-
-  int width, height, row;
-  std::vector<float> map;
-  std::vector<uint8_t> coverage;
-};
-
-constexpr starfocus_matte_depth kFlat = {9.5, -2, 0, 0};
-
-Planes Field(const starfocus_matte& matte, const starfocus_matte_depth& depth, int width,
-             int height) {
-  Planes planes(width, height);
-  starfocus_disparity_output out = planes.Out();
-  REQUIRE(starfocus_matte_field(&matte, &depth, width, height, nullptr, &out) == STARFOCUS_OK);
-  CHECK(out.has_coverage == 1);
-  CHECK(planes.PaddingIsUnset());
-  return planes;
-}
-
-// Weights of a cubic spline at the distance `x`: 0 is a Catmull-Rom spline, and 1 is a B-spline.
-double Spline(double x, double smooth) {
-  x = std::fabs(x);
-  const double sharp = x < 1 ? 1 + x * x * (1.5 * x - 2.5) : 2 + x * (-4 + x * (2.5 - 0.5 * x));
-  const double round = x < 1 ? 2.0 / 3 - x * x * (1 - x / 2) : (2 - x) * (2 - x) * (2 - x) / 6;
-  return x >= 2 ? 0 : sharp + smooth * (round - sharp);
-}
-
-// Resamples a line of `samples` values in double precision. `value(k)` returns value k.
-template <class Value>
-double Resampled(int pixel, int pixels, int samples, const Value& value) {
-  const double scale = double(samples) / pixels, begin = pixel * scale, end = begin + scale;
-  double sum = 0;
-  if (samples > pixels) {
-    for (int k = int(begin); k < std::min(double(samples), end); ++k) {
-      sum += value(k) * std::max(0.0, std::min(end, k + 1.0) - std::max(begin, double(k)));
-    }
-    return sum / scale;
-  }
-  const double smooth = std::clamp((1 / scale - 2) / 6, 0.0, 1.0), at = (begin + end) / 2 - 0.5;
-  for (int k = int(std::floor(at)) - 1; k <= int(std::floor(at)) + 2; ++k) {
-    sum += value(std::clamp(k, 0, samples - 1)) * Spline(at - k, smooth);
-  }
-  return sum;
-}
-
-TEST_CASE("matte: the box, the mean and the proposed floor are measured") {
-  Matte matte(40, 20, 4, 5);
-  std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{255});  // colours and padding
-  for (int y = 0; y < 20; ++y) {
-    for (int x = 0; x < 40; ++x) {
-      const bool inside = x >= 10 && x < 30 && y >= 4 && y < 18;
-      matte.At(x, y) = uint8_t(inside ? 128 : x == 9 ? 127 : 0);
-    }
-  }
-  const starfocus_matte given = matte.Get();
-  starfocus_matte_stats stats;
-  REQUIRE(starfocus_measure_matte(&given, &stats) == STARFOCUS_OK);
-  CHECK(stats.covered == doctest::Approx((20 * 14 * 128 + 20 * 127) / (255.0 * 800)));
-  CHECK(stats.left == 0.25);
-  CHECK(stats.right == 0.75);
-  CHECK(stats.top == 0.2);
-  CHECK(stats.bottom == 0.9);
-  CHECK(stats.ground == 0.9);
-  CHECK(stats.horizon == 0.5);
-  for (int y = 8; y < 20; ++y) {
-    for (int x = 0; x < 40; ++x) matte.At(x, y) = 0;
-  }
-  REQUIRE(starfocus_measure_matte(&given, &stats) == STARFOCUS_OK);
-  CHECK(stats.horizon == doctest::Approx(0.3));
-}
-
-TEST_CASE("matte: without a subject, the box and the floor are 0") {
-  Matte matte(7, 5);
-  std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{127});
-  const starfocus_matte given = matte.Get();
-  starfocus_matte_stats stats;
-  REQUIRE(starfocus_measure_matte(&given, &stats) == STARFOCUS_OK);
-  CHECK(stats.covered == doctest::Approx(127 / 255.0));
-  for (const double zero :
-       {stats.left, stats.top, stats.right, stats.bottom, stats.horizon, stats.ground}) {
-    CHECK(zero == 0);
-  }
-}
-
-TEST_CASE("matte: the coverage is the resampled matte, and the map follows the coverage") {
-  struct Sizes {
-    int width, height, wide, high;  // of the matte and the picture
-  };
-  for (const Sizes& sizes : {Sizes{9, 7, 9, 7},
-                             {9, 7, 17, 14},
-                             {9, 7, 40, 29},
-                             {9, 7, 108, 64},
-                             {300, 211, 77, 40},
-                             {50, 9, 23, 31},
-                             {5, 90, 600, 89},
-                             {1, 1, 3, 2},
-                             {23, 1, 1, 9}}) {
-    CAPTURE(sizes.width);
-    CAPTURE(sizes.wide);
-    Matte matte = RandomMatte(sizes.width, sizes.height);
-    const Planes made = Field(matte.Get(), kFlat, sizes.wide, sizes.high);
-    int wrong = 0;
-    for (int y = 0; y < sizes.high; ++y) {
-      for (int x = 0; x < sizes.wide; ++x) {
-        const double alpha = Resampled(y, sizes.high, sizes.height, [&](int row) {
-          return Resampled(x, sizes.wide, sizes.width, [&](int k) { return matte.At(k, row); });
-        });
-        const int coverage = made.Coverage(x, y);
-        wrong += std::fabs(std::clamp(alpha, 0.0, 255.0) - coverage) > 0.6 ? 1 : 0;
-        wrong += made.Map(x, y) != (coverage >= 128 ? 9.5F : -2.0F) ? 1 : 0;
-      }
-    }
-    CHECK(wrong == 0);
-  }
-}
-
-TEST_CASE("matte: a matte of the picture's size is the coverage, byte for byte") {
-  Matte matte = RandomMatte(300, 50, 4, 9);
-  const Planes made = Field(matte.Get(), kFlat, 300, 50);
-  int wrong = 0;
-  for (int y = 0; y < 50; ++y) {
-    for (int x = 0; x < 300; ++x) wrong += made.Coverage(x, y) != matte.At(x, y) ? 1 : 0;
-  }
-  CHECK(wrong == 0);
-}
-
-TEST_CASE("matte: a constant matte stays constant at every size") {
-  for (const int value : {0, 1, 100, 255}) {
-    for (const int samples : {1, 3, 200, STARFOCUS_MAX_SIZE}) {
-      for (const int pixels : {1, 7, 199, STARFOCUS_MAX_SIZE}) {
-        Matte matte(samples, 1);
-        std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t(value));
-        const Planes made = Field(matte.Get(), kFlat, pixels, 1);
-        const auto end = made.coverage.begin() + pixels;
-        CHECK(std::all_of(made.coverage.begin(), end, [&](int c) { return c == value; }));
-      }
-    }
-  }
-}
-
-TEST_CASE("matte: the floor rises from the horizon to the ground") {
-  constexpr int kHeight = 120;
-  Matte matte(4, 4);
-  std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{0});
-  const starfocus_matte_depth depth = {20, -3.5, 0.4, 0.85};
-  const Planes made = Field(matte.Get(), depth, 2, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    const double way = std::clamp(((y + 0.5) / kHeight - 0.4) / 0.45, 0.0, 1.0);
-    CHECK(std::fabs(made.Map(1, y) - (-3.5 + 23.5 * way)) < 0.009);
-  }
-  CHECK(made.Map(0, 47) == -3.5F);
-  CHECK(made.Map(0, 102) == 20);
-  CHECK(made.Map(0, kHeight - 1) == 20);
-}
-
-TEST_CASE("matte: the coverage is optional, and disparities are rounded to 1/64") {
-  Matte matte(1, 1);
-  matte.At(0, 0) = 128;
-  const starfocus_matte given = matte.Get();
-  const starfocus_matte_depth depth = {1 + 1 / 128.0, -500, 0, 0};
-  float map = 0;
-  starfocus_disparity_output out = {};
-  out.disparity = &map;
-  out.disparity_stride = sizeof map;
-  REQUIRE(starfocus_matte_field(&given, &depth, 1, 1, nullptr, &out) == STARFOCUS_OK);
-  CHECK(map == 1 + 1 / 64.0F);
-  CHECK(out.has_coverage == 0);
-}
+using test::kUnset;
+using test::Matte;
+using test::Planes;
 
 // A portrait: a subject with the disparity 20 left of x = 60, and two surfaces behind the subject,
 // which meet in an edge at y = 150. The map's outline of the subject is `error` pixels too wide.
@@ -376,7 +155,8 @@ TEST_CASE("matte: illegal arguments are rejected, and nothing is written") {
   enum Use { kField = 1, kCoverage = 2, kBoth = 3 };
   const auto expect = [&](starfocus_status status, int use, const auto& change) {
     CAPTURE(status);
-    Call call = {portrait.matte.Get(), kFlat, portrait.Depth(), kWidth, kHeight, {}, planes.Out()};
+    Call call = {portrait.matte.Get(), test::kFlatSurfaces, portrait.Depth(), kWidth, kHeight, {},
+                 planes.Out()};
     change(&call);
     if (use != kCoverage) {
       CHECK(starfocus_matte_field(&call.matte, &call.depth, call.width, call.height, &call.region,
@@ -444,7 +224,8 @@ TEST_CASE("matte: illegal arguments are rejected, and nothing is written") {
   CHECK(std::all_of(planes.map.begin(), planes.map.end(), unset));
   CHECK(std::all_of(planes.coverage.begin(), planes.coverage.end(), unset));
 
-  const Call call = {portrait.matte.Get(), kFlat, portrait.Depth(), kWidth, kHeight, {}, {}};
+  const Call call = {
+      portrait.matte.Get(), test::kFlatSurfaces, portrait.Depth(), kWidth, kHeight, {}, {}};
   starfocus_disparity_output out = planes.Out();
   starfocus_matte_stats stats;
   const S null = STARFOCUS_ERROR_NULL;
@@ -463,7 +244,7 @@ TEST_CASE("matte: regions have the bytes of the whole picture") {
   constexpr int kWidth = Portrait::kWidth, kHeight = Portrait::kHeight;
   const Portrait portrait(3);
   const starfocus_matte own = portrait.matte.Get();
-  const Matte small = RandomMatte(30, 20, 4, 7), large = RandomMatte(500, 430);
+  const Matte small = test::RandomMatte(30, 20, 4, 7), large = test::RandomMatte(500, 430);
   const starfocus_depth_map map = portrait.Depth();
   const starfocus_matte_depth depth = {20, 0, 0.2, 0.9};
   for (const starfocus_matte& matte : {own, small.Get(), large.Get()}) {
@@ -499,4 +280,4 @@ TEST_CASE("matte: regions have the bytes of the whole picture") {
 }
 
 }  // namespace
-}  // namespace matte_bytes_test
+}  // namespace matte_coverage_bytes_test
