@@ -39,6 +39,44 @@ class DepthMaps(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "expected uint16 for depth16, found float32"):
             starfocus.measure_disparity(starfocus.DepthMap(codes.astype(np.float32), depth16=True))
 
+    def test_a_matte_gives_a_map_and_coverage(self):
+        rows, columns = np.mgrid[:12, :20]
+        matte = np.where((columns >= 5) & (columns < 15) & (rows >= 3), 255, 0).astype(np.uint8)
+        rgba = np.zeros((12, 20, 4), np.uint8)
+        rgba[..., 3] = matte
+        stats = starfocus.measure_matte(matte)
+        self.assertEqual(stats, (90 / 240, 0.25, 0.25, 0.75, 1, 0.5, 1))
+        for given in (matte, rgba[..., 3], np.asfortranarray(matte), matte[None]):
+            field = starfocus.matte_field(given, 20, 12, 9, -2)
+            np.testing.assert_array_equal(field.coverage, matte)
+            np.testing.assert_array_equal(field.disparity, np.where(matte > 0, 9, -2).astype(np.float32))
+        field = starfocus.matte_field(matte, 40, 48, 10, horizon=stats.horizon, ground=stats.ground)
+        np.testing.assert_array_equal(field.disparity[[0, 23], 0], 0)
+        np.testing.assert_allclose(field.disparity[24:, 0], 10 * (np.arange(24) + 0.5) / 24, atol=1 / 64)
+        self.assertEqual(set(np.unique(field.disparity[13:, 20])), {10})
+
+    def test_a_matte_is_the_coverage_where_it_agrees_with_the_map(self):
+        columns = np.arange(120) * np.ones((80, 1), np.int64)
+        matte = np.clip(255 - 32 * (columns - 46), 0, 255).astype(np.uint8)
+        depth = starfocus.DepthMap(np.where(columns[::2, ::2] < 50, 80, 0).astype(np.uint8), scale=0.25)
+        coverage = starfocus.matte_coverage(matte, depth, 120, 80)
+        np.testing.assert_array_equal(coverage[:, 25:75], matte[:, 25:75])
+        implied = starfocus.matte_coverage(np.zeros_like(matte), depth, 120, 80)
+        np.testing.assert_array_equal(implied[:, 25:75], np.where(columns < 50, 255, 0)[:, 25:75])
+        with self.assertRaises(starfocus.DisparityError):
+            starfocus.matte_coverage(matte, np.full((80, 120), np.nan, np.float32), 120, 80)
+        for call, field, message in (
+                (lambda: starfocus.matte_field(matte, 0, 80, 1), "width", "1 to 65535, found 0"),
+                (lambda: starfocus.matte_field(matte, 9, 9, 501), "subject", "-500 to 500, found 501"),
+                (lambda: starfocus.matte_field(matte, 9, 9, 3, 4), "background", "-500 to subject, 3, found 4"),
+                (lambda: starfocus.matte_field(matte, 9, 9, 3, horizon=0.5), "horizon", "less than ground, 0"),
+                (lambda: starfocus.matte_coverage(matte, depth, 59, 80), "width", "60, the size of the map")):
+            with self.assertRaisesRegex(starfocus.ArgumentError, message) as caught:
+                call()
+            self.assertEqual(caught.exception.field, field)
+        with self.assertRaisesRegex(TypeError, "matte: expected uint8, found bool"):
+            starfocus.measure_matte(matte > 0)
+
     def test_the_largest_aperture_is_accepted(self):
         engine = starfocus.Refocuser(8, 8, 1, disparity_min=2, disparity_max=16, max_blur=7)
         self.assertEqual(engine.largest_aperture(2), 0.5)

@@ -443,7 +443,7 @@ class Headers(unittest.TestCase):
     """The package declares the same values and structures as the C headers."""
 
     text = "\n".join((HEADERS / name).read_text(encoding="utf-8")
-                     for name in ("status.h", "tuning.h", "lens.h", "callbacks.h", "starfocus.h", "depth.h", "image.h"))
+                     for name in ("status.h", "tuning.h", "lens.h", "callbacks.h", "starfocus.h", "depth.h", "image.h", "matte.h"))
     text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
 
     def values(self, name: str) -> dict:

@@ -20,6 +20,7 @@ from .errors import ArgumentError, Cancelled, DisparityError, OutOfMemory, Starf
 from .images import DepthMap, Image
 from .maps import (DisparityMap, DisparityStats, aperture_of_f_stop, estimate_disparity, fill_disparity,
                    focus_at, measure_disparity, repair_disparity, view_positions)
+from .mattes import MatteField, MatteStats, matte_coverage, matte_field, measure_matte
 from .quality import Quality, evaluate
 from .reader import InputError, LightField, read_light_field, read_pfm, read_picture
 from .refocuser import Prepared, Refocuser
@@ -35,8 +36,9 @@ def simd_target() -> str:
 
 __all__ = [
     "ArgumentError", "Cancelled", "DepthMap", "DepthMeaning", "DisparityError", "DisparityMap", "DisparityStats",
-    "Format", "Image", "InputError", "LightField", "Matrix", "Mode", "OutOfMemory", "Prepared", "Quality", "Range",
-    "Refocuser", "Renderer", "Shape", "StarfocusError", "Status", "Transfer", "aperture_of_f_stop",
-    "estimate_disparity", "evaluate", "fill_disparity", "focus_at", "measure_disparity", "read_light_field",
-    "read_pfm", "read_picture", "repair_disparity", "simd_target", "view_positions",
+    "Format", "Image", "InputError", "LightField", "MatteField", "MatteStats", "Matrix", "Mode", "OutOfMemory",
+    "Prepared", "Quality", "Range", "Refocuser", "Renderer", "Shape", "StarfocusError", "Status", "Transfer",
+    "aperture_of_f_stop", "estimate_disparity", "evaluate", "fill_disparity", "focus_at", "matte_coverage",
+    "matte_field", "measure_disparity", "measure_matte", "read_light_field", "read_pfm", "read_picture",
+    "repair_disparity", "simd_target", "view_positions",
 ]

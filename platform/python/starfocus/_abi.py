@@ -13,6 +13,7 @@ from pathlib import Path
 
 MAX_VIEWS = 17
 MAX_SIZE = 65535
+MAX_DISPARITY = 500.0
 ALIGNMENT = 64
 ABI_VERSION = 3
 #: Names and bits of STARFOCUS_FEATURE_*, which are keywords of Refocuser.
@@ -169,6 +170,25 @@ class Map(Structure):
     ]
 
 
+class Matte(Structure):
+    """starfocus_matte"""
+
+    _fields_ = [("data", c_void_p), ("stride", c_size_t), ("pixel_stride", c_int32), ("width", c_int32),
+                ("height", c_int32)]
+
+
+class MatteStats(Structure):
+    """starfocus_matte_stats"""
+
+    _fields_ = [(name, c_double) for name in ("covered", "left", "top", "right", "bottom", "horizon", "ground")]
+
+
+class MatteDepth(Structure):
+    """starfocus_matte_depth"""
+
+    _fields_ = [(name, c_double) for name in ("subject", "background", "horizon", "ground")]
+
+
 STRUCTURES = {
     "starfocus_problem": Problem, "starfocus_timing": Timing, "starfocus_tuning": Tuning, "starfocus_position": Position, "starfocus_config": Config,
     "starfocus_region": Region, "starfocus_lens": Lens, "starfocus_params": Params, "starfocus_light_field": LightField,
@@ -176,6 +196,7 @@ STRUCTURES = {
     "starfocus_report": Report, "starfocus_disparity_stats": DisparityStats,
     "starfocus_depth_config": DepthConfig, "starfocus_image": Image,
     "starfocus_depth_map": DepthMap, "starfocus_disparity_output": Map, "starfocus_callbacks": Callbacks,
+    "starfocus_matte": Matte, "starfocus_matte_stats": MatteStats, "starfocus_matte_depth": MatteDepth,
 }
 
 _ENGINE_CALLS = {
@@ -199,6 +220,9 @@ _MAP_CALLS = {
     "starfocus_repair_workspace_size": (POINTER(DepthConfig), POINTER(c_size_t)),
     "starfocus_estimate_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
     "starfocus_repair_disparity": (POINTER(DepthConfig), POINTER(LightField), POINTER(Map), c_void_p, c_size_t),
+    "starfocus_measure_matte": (POINTER(Matte), POINTER(MatteStats)),
+    "starfocus_matte_field": (POINTER(Matte), POINTER(MatteDepth), c_int32, c_int32, POINTER(Region), POINTER(Map)),
+    "starfocus_matte_coverage": (POINTER(Matte), POINTER(DepthMap), c_int32, c_int32, POINTER(Region), POINTER(Map)),
     "starfocus_view_position": (c_int32, POINTER(c_double), POINTER(c_double)),
 }
 _OTHERS = {
