@@ -8,6 +8,7 @@ static float disparity[320 * 200];
 ]])
 set(of_library [[
 #include <starfocus/depth.h>
+#include <starfocus/matte.h>
 #include <starfocus/pool.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static starfocus_status status;
 static int32_t width, height, x, y, written, rows_at_hand, rows_wanted;
 static size_t stride, luma_stride, chroma_stride;
 static float* better;
-static uint8_t *luma, *chroma;
+static uint8_t *luma, *chroma, *alpha, *coverage;
 static uint16_t* millimetres;
 static double focal_length, baseline;
 static void* my_arena;

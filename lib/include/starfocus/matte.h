@@ -84,9 +84,11 @@ typedef struct starfocus_matte_depth {
  *  at the size of the picture. The map contains the disparity of the subject where the coverage is
  *  at least 128, and the disparity of the background elsewhere.
  *
- *  A matte that is smaller than the picture is interpolated by Catmull-Rom splines. A matte that is
- *  larger than the picture is averaged over the area of each pixel. Along each axis, the rule
- *  depends on the sizes along this axis.
+ *  A matte that is smaller than the picture is interpolated by cubic splines: Catmull-Rom splines
+ *  up to twice the size of the matte, B-splines from 8 times the size, and a mixture between these
+ *  sizes. A matte that is larger than the picture is averaged over the area of each pixel. A matte
+ *  of the picture's size is not changed. Along each axis, the rule depends on the sizes along this
+ *  axis.
  *  @param matte matte
  *  @param depth disparities of both surfaces
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
@@ -105,11 +107,12 @@ STARFOCUS_API starfocus_status starfocus_matte_field(const starfocus_matte* matt
  *  the map implies: 255 on the nearer surface, and 0 on the farther surface. Where the matte and
  *  the map contradict each other, the map decides.
  *
- *  An edge of the map is an outline of the subject if the mean alpha around it is larger on the
- *  nearer surface than on the farther surface by 1/2. Below a difference of 1/4, the map decides;
- *  in between, the function mixes both. The means are taken over 33 places up to 26 pixels away.
- *  The matte counts within 32 pixels of edges of more than 5 pixels, as in
- *  starfocus_light_field.coverage. Elsewhere, the coverage is 255.
+ *  For each pixel within 32 pixels of an edge of more than 5 pixels, the function compares alpha at
+ *  33 places up to 26 pixels away. Let N be the upper quartile of alpha on the nearer surface, and F
+ *  the lower quartile on the farther surface. The edge is an outline of the subject if N - F is 128
+ *  or more. The coverage is then 255 (alpha - F) / (N - F), limited to 0 to 255, so that haze beside
+ *  the subject does not count. If N - F is 64 or less, the map decides. In between, the function
+ *  mixes both. Farther from edges, the coverage is 255.
  *  @param matte matte
  *  @param depth map of any format without unknown values, at most as wide and as high as the
  *         picture, and disparities within +-STARFOCUS_MAX_DISPARITY
