@@ -8,8 +8,8 @@ namespace starfocus {
 namespace {
 
 // Coverage above kMostExact counts as more than it is: pixels with a coverage of at least
-// (kMostExact + kWhole) / 2 belong to the near surface alone.
-constexpr int32_t kMostExact = 102;
+// kLeastWhole belong to the near surface alone.
+constexpr int32_t kMostExact = 102, kLeastWhole = (kMostExact + kWhole) / 2;
 // Smallest difference of disparity (kDisparityBits) between the near surface and a hidden surface.
 // Hidden surfaces with a smaller difference are dropped, because they are not opaque but other
 // strands of the thin structure.
@@ -40,7 +40,9 @@ class ThinParter {
     // of all surfaces, and therefore the slices, do not depend on colours.
     SetDisparity(0, at, map_.near[from]);
     SetDisparity(1, at, far.disparity);
-    surfaces_.share[at] = whole ? simd::kSliceEnd : static_cast<uint8_t>(alpha);
+    surfaces_.share[at] = !whole           ? static_cast<uint8_t>(alpha)
+                          : IsInside(x, y) ? uint8_t{simd::kSliceWhole}
+                                           : simd::kSliceEnd;
     for (size_t c = 0; c < 3; ++c) {
       const size_t sample = c * surfaces_.plane + at;
       int16_t& near = surfaces_.rgb[0][sample] = mixed[c];
@@ -56,6 +58,24 @@ class ThinParter {
   }
 
  private:
+  // Returns true if the near surface also covers the four neighbours of a pixel, so that slices on
+  // both sides of a step within the surface overlap. Otherwise, the far surface would show between
+  // the slices.
+  bool IsInside(int32_t x, int32_t y) const {
+    for (const auto& side : kSides) {
+      if (IsPartial(x + side[0], y + side[1])) return false;
+    }
+    return true;
+  }
+
+  // Returns true if a pixel of the field has a far surface that is not hidden.
+  bool IsPartial(int32_t x, int32_t y) const {
+    const bool in_field = x >= Max(0, field_.x) && x < Min(field_.x + field_.width, map_.width) &&
+                          y >= Max(0, field_.y) && y < Min(field_.y + field_.height, map_.height);
+    return in_field && map_.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
+           map_.alpha[map_.At(x, y)] < kLeastWhole;
+  }
+
   // Returns the far surface's excess (light beyond white): the excess of the whole pixel, or 0 if
   // the near surface covers the whole pixel.
   static int16_t ExcessBehind(int16_t excess, bool whole) { return whole ? int16_t{0} : excess; }

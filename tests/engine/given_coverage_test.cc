@@ -105,6 +105,32 @@ TEST_CASE("given coverage: coverage shows gaps of a comb that the disparity map 
   CHECK(with > without + 6);
 }
 
+TEST_CASE("given coverage: a slanted surface that covers its pixels stays closed") {
+  constexpr int kEdge = 60, kDark = 20, kBright = 240, kBlur = 20;
+  test::Scene scene = test::EmptyScene(128, 96, 1, 0, 40);
+  for (int y = 0; y < 96; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      const bool near = x < kEdge;
+      // The disparity changes by 0.2 every 8 rows, as in a repaired map.
+      scene.Disparity(x, y) = near ? 36 + float(y / 8) * 0.2F : 0;
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(near ? kDark : kBright));
+      scene.coverage.push_back(uint8_t(near ? 255 : 0));
+    }
+    scene.coverage[size_t(y * 128 + kEdge - 1)] = 200;
+  }
+  const starfocus_config config = test::ConfigFor(scene, kBlur);
+  for (const double focus : {34.0, 37.0}) {
+    CAPTURE(focus);
+    const starfocus_params params = test::Params(focus, 0.5, STARFOCUS_MODE_BLOCK);
+    const test::Output out = test::OutputOf(config, params, scene);
+    int lightest = 0;
+    for (int y = 8; y < 88; ++y) {
+      for (int x = 8; x < kEdge - 8; ++x) lightest = std::max<int>(lightest, out.Pixel(x, y)[0]);
+    }
+    CHECK(lightest <= kDark + 1);
+  }
+}
+
 TEST_CASE("given coverage: the wall ends where coverage ends, even deep inside a silhouette") {
   constexpr int kEdge = 88, kOff = 3, kRadius = 40, kDark = 30, kBright = 200;
   test::Scene scene = test::EmptyScene(192, 96, 1, 0, kRadius);
