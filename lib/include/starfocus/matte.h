@@ -108,11 +108,11 @@ STARFOCUS_API starfocus_status starfocus_matte_field(const starfocus_matte* matt
  *  the map contradict each other, the map decides.
  *
  *  For each pixel within 32 pixels of an edge of more than 5 pixels, the function compares alpha at
- *  33 places up to 26 pixels away. Let N be the upper quartile of alpha on the nearer surface, and
- * F the lower quartile on the farther surface. The edge is an outline of the subject if N - F is
- * 128 or more. The coverage is then 255 (alpha - F) / (N - F), limited to 0 to 255, so that haze
- * beside the subject does not count. If N - F is 64 or less, the map decides. In between, the
- * function mixes both. Farther from edges, the coverage is 255.
+ *  33 places up to 26 pixels away. Let N be the upper quartile of alpha on the nearer surface. Let
+ *  F be the lower quartile on the farther surface. The edge is an outline of the subject if N - F
+ *  is 128 or more. The coverage is then 255 (alpha - F) / (N - F), limited to 0 to 255, so that
+ *  haze beside the subject does not count. If N - F is 64 or less, the map decides. In between, the
+ *  function mixes both. Farther from edges, the coverage is 255.
  *  @param matte matte
  *  @param depth map of any format without unknown values, at most as wide and as high as the
  *         picture, and disparities within +-STARFOCUS_MAX_DISPARITY
