@@ -123,8 +123,12 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   Capture capture;
   Error error =
       pair ? AlignPair(InputName(path), &photo)
-           : MakePhotoField(InputName(path), &photo, options.map.clip).MoveTo(&capture.light_field);
+           : MakePhotoField(InputName(path), &photo, options.map).MoveTo(&capture.light_field);
   if (error) return error;
+  if (!pair && !photo.matte.values.empty()) {
+    capture.matte = Matte(photo.matte);
+    photo.facts.emplace_back("matte", Description(capture.matte));
+  }
   capture.format = photo.format;
   capture.metadata = std::move(photo.metadata);
   capture.facts = std::move(photo.facts);
@@ -144,8 +148,10 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   capture.photo = true;
   capture.survey = std::move(photo.survey);
   capture.files = {{{0, 0}, path}};
-  capture.map_path = photo.depth_path.empty() ? path : photo.depth_path;
-  capture.care = photo.is_ready ? MapCare::kNone : MapCare::kRepair;
+  const bool two_surfaces = !capture.light_field.coverage.empty();
+  const std::string& map_path = two_surfaces ? photo.matte_path : photo.depth_path;
+  capture.map_path = map_path.empty() ? path : map_path;
+  capture.care = photo.is_ready || two_surfaces ? MapCare::kNone : MapCare::kRepair;
   capture.widest = 1;
   capture.f_stop = kPhotoFStop;
   capture.has_focus = photo.has_focus;

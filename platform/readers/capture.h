@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens any input that can be refocused: a folder of views in one of several layouts, or a
-// photograph with a depth map. OpenCapture detects the type of an input from its content.
+// photograph with a depth map or a matte. OpenCapture detects the type of an input from its
+// content.
 #ifndef STARFOCUS_PLATFORM_READERS_CAPTURE_H_
 #define STARFOCUS_PLATFORM_READERS_CAPTURE_H_
 
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "platform/light_field.h"
+#include "platform/readers/matte.h"
 #include "platform/readers/photo.h"
 #include "platform/result.h"
 
@@ -32,7 +34,10 @@ struct Capture {
   std::vector<ViewFile> files;  // Files of the views, the centre first.
   std::string map_path;         // File of the map, for reading and for errors; empty: no map.
   std::string coverage_path;    // File of the coverage; empty: no coverage.
-  MapSurvey survey;             // Figures of the map of a photo.
+  // Matte of a photo; empty: no matte. A photo without a map is a light field of two surfaces, with
+  // the coverage of the matte.
+  Matte matte;
+  MapSurvey survey;      // Figures of the map of a photo.
   double map_scale = 1;  // Factor that converts values in the file of the map to disparities.
   MapCare care = MapCare::kNone;
   double widest = 0;  // The f-stop of an aperture of radius 1; 0: unknown.

@@ -10,14 +10,15 @@ void Pass(Channel* channel, DepthPhoto* photo) {
   // The structured binding fails to compile if DepthPhoto gets another field. A helper process must
   // not choose files, so that no path is passed. `survey` has no figures before the map is
   // complete.
-  auto& [format, picture, map, map_problem, unused_path, right, unused_right_path, meaning,
-         guesses_near, unused_survey, orientation, focal_35mm, is_blurred, has_focus, focus_x,
-         focus_y, has_subject, subject_x, subject_y, is_ready, is_linear, focus_value, metadata,
-         facts, notes] = *photo;
+  auto& [format, picture, map, map_problem, unused_path, matte, unused_matte_path, right,
+         unused_right_path, meaning, guesses_near, unused_survey, orientation, focal_35mm,
+         is_blurred, has_focus, focus_x, focus_y, has_subject, subject_x, subject_y, is_ready,
+         is_linear, focus_value, metadata, facts, notes] = *photo;
   for (Image* image : {&picture, &right}) Pass(channel, image);
-  Pass(channel, &map);
+  for (FloatMap* values : {&map, &matte}) Pass(channel, values);
   Pass(channel, &metadata);
   static_cast<void>(unused_path);
+  static_cast<void>(unused_matte_path);
   static_cast<void>(unused_right_path);
   static_cast<void>(unused_survey);
   for (std::string* text : {&format, &map_problem}) channel->Text(text);

@@ -41,6 +41,8 @@ struct DepthOptions {
   std::vector<double> unknown;
   bool use_alpha = true;            // True: transparent pixels have unknown depth.
   const MapSurvey* clip = nullptr;  // Figures of all maps of a clip; null: a single photo.
+  // True: the background of a matte comes nearer towards the lower edge of the picture.
+  bool floor = false;
   // Computes a depth picture of an upright photo for which no depth is found; null: such a photo is
   // an error.
   // If `estimate` is set, the other options do not apply to a depth map in the file of a photo.

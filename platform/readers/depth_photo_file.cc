@@ -213,6 +213,34 @@ Error EstimateDepth(const std::string& where, const DepthOptions& options, Depth
   return TakeDepthPicture(where, options, std::move(*samples), photo);
 }
 
+// Finds or estimates the depth of a decoded photo. The map and the right picture remain empty if
+// the photo has no depth.
+Error FindDepth(const std::string& path, Span file, const DepthOptions& options,
+                const std::string& depth, DepthPhoto* photo) {
+  const bool stream = path == "-";  // standard input has no depth picture next to it
+  const std::string where = InputName(path);
+  const Near near = options.estimate ? Near::kUnknown : options.near;
+  if (depth.empty() && !photo->map.values.empty()) return CheckOptions(where, options, false);
+  photo->depth_path = depth;
+  if (depth.empty() && !stream) {
+    if (Error error = FindDepthPicture(path, photo).MoveTo(&photo->depth_path)) return error;
+  }
+  if (!photo->depth_path.empty()) {
+    NoteProblem(photo);
+    return ReadDepthPicture(photo->depth_path, options, photo);
+  }
+  if (Error error = ReadStrayDepth(path, file, near, photo).MoveTo(photo)) return error;
+  const bool has_map = !photo->map.values.empty();
+  const std::string right = stream || has_map ? "" : FindRightPicture(path);
+  if (photo->right.pixels.empty() && !right.empty()) {
+    if (Error error = ReadPictureFiles(path, right).MoveTo(photo)) return error;
+  }
+  if (has_map || !photo->right.pixels.empty()) return CheckOptions(where, options, !has_map);
+  if (!options.estimate) return {};
+  NoteProblem(photo);
+  return EstimateDepth(where, options, photo);
+}
+
 }  // namespace
 
 Result<DepthPhoto> DecodeDepthPhoto(const std::string& where, Span file, bool with_map, Near near) {
@@ -246,45 +274,21 @@ bool StoresDepth(const std::string& path) {
 
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const std::string& depth) {
-  const bool stream = path == "-";  // standard input has no depth picture next to it
   const std::string where = InputName(path);
   const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
   if (!bytes) return bytes.error();
-  if (stream && bytes->empty()) return Expected(where, "a photo", "nothing");
+  if (path == "-" && bytes->empty()) return Expected(where, "a photo", "nothing");
   const Span file = {bytes->data(), bytes->size()};
   const Near near = options.estimate ? Near::kUnknown : options.near;
   if (options.before_decoding) options.before_decoding(DecodingBytes(file));
   Result<DepthPhoto> decoded = ConfinedPhoto(
       where, file, [&] { return DecodeDepthPhoto(where, file, depth.empty(), near); });
   if (!decoded) return decoded;
-  DepthPhoto& photo = *decoded;
-  if (depth.empty() && !photo.map.values.empty()) {
-    if (Error error = CheckOptions(where, options, false)) return error;
-    return decoded;
+  if (Error error = FindDepth(path, file, options, depth, &*decoded)) return error;
+  const DepthPhoto& photo = *decoded;
+  if (photo.map.values.empty() && photo.right.pixels.empty() && photo.matte.values.empty()) {
+    return NoMap(where, photo.map_problem);
   }
-  photo.depth_path = depth;
-  if (depth.empty() && !stream) {
-    if (Error error = FindDepthPicture(path, &photo).MoveTo(&photo.depth_path)) return error;
-  }
-  if (photo.depth_path.empty()) {
-    if (Error error = ReadStrayDepth(path, file, near, &photo).MoveTo(&photo)) return error;
-    const bool has_map = !photo.map.values.empty();
-    const std::string right = stream || has_map ? "" : FindRightPicture(path);
-    if (photo.right.pixels.empty() && !right.empty()) {
-      if (Error error = ReadPictureFiles(path, right).MoveTo(&photo)) return error;
-    }
-    if (has_map || !photo.right.pixels.empty()) {
-      if (Error error = CheckOptions(where, options, !has_map)) return error;
-      return decoded;
-    }
-    if (!options.estimate) return NoMap(where, photo.map_problem);
-  }
-  NoteProblem(&photo);
-  if (photo.depth_path.empty()) {
-    if (Error error = EstimateDepth(where, options, &photo)) return error;
-    return decoded;
-  }
-  if (Error error = ReadDepthPicture(photo.depth_path, options, &photo)) return error;
   return decoded;
 }
 

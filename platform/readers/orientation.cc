@@ -76,6 +76,7 @@ void ApplyOrientation(DepthPhoto* photo) {
   if (orientation <= 1 || orientation > 8) return;
   TurnPicture(orientation, &photo->picture);
   TurnMap(orientation, &photo->map);
+  TurnMap(orientation, &photo->matte);
   TurnPoint(orientation, &photo->focus_x, &photo->focus_y);
   TurnPoint(orientation, &photo->subject_x, &photo->subject_y);
   photo->facts.emplace_back("orientation",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the result of all readers of depth photographs: a picture, a depth map of any size, and
-// the meaning of the values of the map.
+// Defines the result of all readers of depth photographs: a picture, a depth map or a matte of any
+// size, and the meaning of the values of the map.
 #ifndef STARFOCUS_PLATFORM_READERS_PHOTO_H_
 #define STARFOCUS_PLATFORM_READERS_PHOTO_H_
 
@@ -34,6 +34,8 @@ struct DepthPhoto {
   FloatMap map;             // Depth map; NaN: unknown depth; empty: no readable map.
   std::string map_problem;  // Reason why the map in the file cannot be read; may be empty.
   std::string depth_path;   // Path of the depth picture; empty: the map is in the file.
+  FloatMap matte;           // Alpha of the subject, 0 to 1, of any size; empty: no matte.
+  std::string matte_path;   // Path of the matte; empty: the matte is in the file, or computed.
   Image right;              // Right picture of a stereo pair; empty: no stereo pair.
   std::string right_path;   // Path of the right picture; empty: both are in one file.
   MapMeaning meaning = MapMeaning::kOrder;

@@ -9,6 +9,7 @@
 
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/map_orientation.h"
+#include "platform/readers/matte.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/robust_range.h"
 #include "platform/readers/unknown_depth.h"
@@ -100,6 +101,11 @@ void Scale(double factor, double zero, double most, DepthPhoto* photo) {
   }
 }
 
+// Returns the disparity of the nearest surface if neither the file nor the map states distances.
+double NearestDisparity(double diagonal_pixels) {
+  return DisparityPerDiopter(kPortraitLens, diagonal_pixels) / kPortraitDistance;
+}
+
 void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
   if (photo->meaning == MapMeaning::kInverseMetres) {
     const double focal = photo->focal_35mm > 0 ? photo->focal_35mm : kPortraitLens;
@@ -110,7 +116,7 @@ void ToDisparity(const RobustRange& range, double diagonal, DepthPhoto* photo) {
     return;
   }
   const bool order = photo->meaning == MapMeaning::kOrder;
-  const double nearest = DisparityPerDiopter(kPortraitLens, diagonal) / kPortraitDistance;
+  const double nearest = NearestDisparity(diagonal);
   const double zero = order ? double(range.low) : 0, extent = double(range.high) - zero;
   if (order) {
     for (float& value : photo->map.values) value = std::max(value, range.low);
@@ -184,6 +190,51 @@ void FillUnknown(DepthPhoto* photo) {
       " pixels of the depth map are unknown and were filled from the background");
 }
 
+// Converts the map of an upright photo to disparities.
+Result<FloatMap> ConvertMap(const std::string& where, const MapSurvey* clip, DepthPhoto* photo) {
+  const Image& picture = photo->picture;
+  const FloatMap& map = photo->map;
+  if (!HasSameProportions(map, picture.width, picture.height)) {
+    return Expected(
+        where, "a depth map with the proportions of the picture",
+        SizeText(map.width, map.height) + " for " + SizeText(picture.width, picture.height));
+  }
+  const RobustRange range = Survey(clip, photo);
+  if (!photo->survey.range.known) return Expected(where, "a map with known depths", "none");
+  FillUnknown(photo);
+  if (photo->meaning == MapMeaning::kDisparity) {
+    if (Error error = CheckDisparities(where, photo)) return error;
+  } else {
+    ToDisparity(range, std::hypot(picture.width, picture.height), photo);
+  }
+  return std::move(photo->map);
+}
+
+// Removes a matte that cannot be used, and adds a note. Returns an error if the photo then has
+// neither a matte nor a map.
+Error JudgeMatte(const std::string& where, DepthPhoto* photo) {
+  if (photo->matte.values.empty()) return {};
+  const Error error = CheckMatte(where, photo->matte, photo->picture);
+  if (!error || photo->map.values.empty()) return error;
+  photo->notes.push_back("the matte in the file is ignored: " + error.line());
+  photo->matte = {};
+  return {};
+}
+
+// Fills map and coverage of an upright photo without depth from its matte.
+Error FillSurfaces(const std::string& where, bool floor, DepthPhoto* photo,
+                   LightField* light_field) {
+  const Image& picture = light_field->views[0];
+  const double nearest = NearestDisparity(std::hypot(picture.width, picture.height));
+  photo->survey.kind = "a matte without depth";
+  photo->facts.emplace_back("scale",
+                            std::string("unknown: the subject is assumed to be 1.5 m and the ") +
+                                (floor ? "upper part of the " : "") +
+                                "background infinitely far in front of a 50 mm lens on full frame");
+  const double subject = std::min(nearest, STARFOCUS_MAX_DISPARITY);
+  return FillTwoSurfaces(where, Matte(photo->matte), subject, floor, light_field);
+}
+
 }  // namespace
 
 FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner) {
@@ -201,28 +252,20 @@ FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner
 }
 
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo,
-                                  const MapSurvey* clip) {
+                                  const DepthOptions& options) {
   ApplyOrientation(photo);
-  const Image& picture = photo->picture;
-  FloatMap& map = photo->map;
-  if (!HasSameProportions(map, picture.width, picture.height)) {
-    return Expected(
-        where, "a depth map with the proportions of the picture",
-        SizeText(map.width, map.height) + " for " + SizeText(picture.width, picture.height));
-  }
-  const RobustRange range = Survey(clip, photo);
-  if (!photo->survey.range.known) return Expected(where, "a map with known depths", "none");
-  FillUnknown(photo);
-  if (photo->meaning == MapMeaning::kDisparity) {
-    if (Error error = CheckDisparities(where, photo)) return error;
-  } else {
-    ToDisparity(range, std::hypot(picture.width, picture.height), photo);
-  }
+  if (Error error = JudgeMatte(where, photo)) return error;
+  const bool has_map = !photo->map.values.empty();
   LightField light_field;
-  light_field.disparity = std::move(map);
+  if (has_map) {
+    const Error error = ConvertMap(where, options.clip, photo).MoveTo(&light_field.disparity);
+    if (error) return error;
+  }
   light_field.views = {std::move(photo->picture)};
   light_field.positions = {{0, 0}};
   light_field.is_linear = photo->is_linear;
+  if (has_map) return light_field;
+  if (Error error = FillSurfaces(where, options.floor, photo, &light_field)) return error;
   return light_field;
 }
 

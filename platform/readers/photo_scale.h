@@ -18,10 +18,18 @@ FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner
 // Applies the EXIF orientation of the photo, and converts the map to disparities in pixels of the
 // picture. With the resulting disparities, an aperture of radius 1 is a lens of f/1 on full frame
 // (docs/formats.md). Moves the picture and the map to the light field. The map keeps its size.
-// Converts photo->focus_value to a disparity as well. Measures photo->survey. If `clip` is not
-// null, its figures determine the near end and the scale instead of the figures of the map.
+// Converts photo->focus_value to a disparity as well. Measures photo->survey. If options.clip is
+// not null, its figures determine the near end and the scale instead of the figures of the map.
+//
+// A photo without a map must have a matte. Its light field has two surfaces at the ends of the
+// scale of maps without distances: the subject and the background. options.floor selects a
+// background that comes nearer towards the lower edge. Map and coverage have the size of the
+// picture.
+//
+// The matte of a photo with a map stays in photo->matte. A matte that CheckMatte (matte.h) rejects
+// is removed, with a note, if the photo has a map.
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo,
-                                  const MapSurvey* clip = nullptr);
+                                  const DepthOptions& options = {});
 
 // Resizes the disparity map of a one-view light field to the size of the view.
 void FitMap(LightField* light_field, ThreadRunner* runner = nullptr);

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/matte.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "platform/problem.h"
+#include "platform/readers/map_orientation.h"
+#include "platform/text.h"
+#include "starfocus/matte.h"
+
+namespace starfocus {
+namespace {
+
+starfocus_matte EngineMatte(const Matte& matte) {
+  return {matte.alpha.data(), size_t(matte.width), 1, matte.width, matte.height};
+}
+
+// Returns an error unless a call of the engine succeeded. CheckMatte leaves only sizes beyond the
+// limit of the engine.
+Error Judge(const std::string& where, starfocus_status status) {
+  if (status == STARFOCUS_OK) return {};
+  return Expected(where,
+                  "a picture and a matte of up to " + std::to_string(STARFOCUS_MAX_SIZE) +
+                      " pixels in width and height",
+                  std::string("the error \"") + Describe(status, nullptr).text + "\"");
+}
+
+}  // namespace
+
+Matte::Matte(const FloatMap& map) : width(map.width), height(map.height) {
+  alpha.reserve(map.values.size());
+  for (const float value : map.values) {
+    const float level = std::isnan(value) ? 0 : std::clamp(value, 0.0F, 1.0F);
+    alpha.push_back(static_cast<uint8_t>(level * 255 + 0.5F));
+  }
+}
+
+std::string Description(const Matte& matte) {
+  starfocus_matte_stats stats = {};
+  const starfocus_matte engine = EngineMatte(matte);
+  starfocus_measure_matte(&engine, &stats);
+  return SizeText(matte.width, matte.height) + ", the subject covers " +
+         std::to_string(std::lround(100 * stats.covered)) + " % of the picture";
+}
+
+Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& picture) {
+  if (!HasSameProportions(matte, picture.width, picture.height)) {
+    return Expected(
+        where, "a matte with the proportions of the picture",
+        SizeText(matte.width, matte.height) + " for " + SizeText(picture.width, picture.height));
+  }
+  const auto is_subject = [](float alpha) { return alpha >= 0.5F; };
+  const auto subject = std::count_if(matte.values.begin(), matte.values.end(), is_subject);
+  if (subject == 0) return Expected(where, "a matte with a subject", "an empty matte");
+  if (size_t(subject) < matte.values.size()) return {};
+  return Expected(where, "a matte with a background", "a matte that is full everywhere");
+}
+
+Error FillTwoSurfaces(const std::string& where, const Matte& matte, double subject, bool floor,
+                      LightField* light_field) {
+  const Image& picture = light_field->views[0];
+  const size_t pixels = size_t(picture.width) * size_t(picture.height);
+  FloatMap& map = light_field->disparity;
+  map = {picture.width, picture.height, std::vector<float>(pixels)};
+  light_field->coverage.resize(pixels);
+  starfocus_disparity_output out = {};
+  out.disparity = map.values.data();
+  out.disparity_stride = map.stride();
+  out.coverage = light_field->coverage.data();
+  out.coverage_stride = size_t(picture.width);
+  starfocus_matte_depth depth = {subject, 0, 0, 0};
+  const starfocus_matte engine = EngineMatte(matte);
+  if (floor) {
+    starfocus_matte_stats stats = {};
+    if (Error error = Judge(where, starfocus_measure_matte(&engine, &stats))) return error;
+    depth.horizon = stats.horizon;
+    depth.ground = stats.ground;
+  }
+  return Judge(
+      where, starfocus_matte_field(&engine, &depth, picture.width, picture.height, nullptr, &out));
+}
+
+}  // namespace starfocus
