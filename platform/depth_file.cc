@@ -45,7 +45,7 @@ std::string Conversion(const Bytes& bytes) {
 
 }  // namespace
 
-Result<Samples> DecodeDepthFile(const std::string& where, bool use_alpha, const Bytes& bytes) {
+Result<Samples> DecodeDepthFile(const std::string& where, Alpha alpha, const Bytes& bytes) {
   if (IsPfm(bytes)) {
     Samples samples;
     samples.larger_is_nearer = true;
@@ -55,8 +55,10 @@ Result<Samples> DecodeDepthFile(const std::string& where, bool use_alpha, const 
   if (IsNpy(bytes)) return DecodeNpy(where, bytes);
   if (IsZip(bytes)) return DecodeNpz(where, bytes);
   if (IsTiff(bytes)) return DecodeTiff(where, bytes);
-  if (IsPicture(bytes)) return DecodeSamples(where, use_alpha, bytes);
-  return Expected(where, "a depth picture (PFM, TIFF, NPY, NPZ, PNG, PGM, PPM, JPEG or WebP)",
+  if (IsPicture(bytes)) return DecodeSamples(where, alpha, bytes);
+  return Expected(where,
+                  std::string(alpha == Alpha::kTaken ? "a matte" : "a depth picture") +
+                      " (PFM, TIFF, NPY, NPZ, PNG, PGM, PPM, JPEG or WebP)",
                   DescribeFile(bytes) + Conversion(bytes));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the grey levels of depth pictures (PNG, PGM, PPM, JPEG and WebP) at full precision, for
-// the readers of depth photos. Rejects colour pictures, because colours do not define an order of
-// depth.
+// Decodes the grey levels of depth pictures, and the alpha channel or the grey levels of mattes
+// (PNG, PGM, PPM, JPEG and WebP) at full precision, for the readers of depth photos.
 #ifndef STARFOCUS_PLATFORM_LEVELS_H_
 #define STARFOCUS_PLATFORM_LEVELS_H_
 
@@ -19,13 +18,16 @@ struct Samples {
   bool larger_is_nearer = false;  // True if the format defines that larger values are nearer.
 };
 
-// Decodes the samples of a depth picture. `where` appears only in error messages. If `use_alpha` is
-// true, the samples of pixels that are less than half opaque (alpha channel or tRNS) are NaN.
-Result<Samples> DecodeSamples(const std::string& where, bool use_alpha, const Bytes& bytes);
+// Treatment of the alpha channel (or tRNS) of a picture.
+enum class Alpha {
+  kIgnored,
+  kTransparent,  // Depth pictures: samples of pixels that are less than half opaque are NaN.
+  kTaken  // Mattes and coverage: the samples are the alpha channel, unless it is opaque everywhere.
+};
 
-// Decodes coverage, which is the alpha channel of a PNG file, or the grey levels of a picture
-// without alpha channel.
-Result<Samples> DecodeCoverage(const std::string& where, const Bytes& bytes);
+// Decodes the grey levels or the alpha channel of a picture. Returns an error if grey levels are
+// requested from a colour picture. `where` appears only in error messages.
+Result<Samples> DecodeSamples(const std::string& where, Alpha alpha, const Bytes& bytes);
 
 // Decodes the grey levels of a depth picture and scales them to the range from 0 (black) to 1
 // (white). The levels of transparent pixels are NaN.

@@ -186,7 +186,7 @@ Error LoadCoverage(const std::string& path, LightField* light_field) {
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
   const Result<Samples> samples =
-      Confined<Samples>(path, [&] { return DecodeCoverage(path, *bytes); });
+      Confined<Samples>(path, [&] { return DecodeSamples(path, Alpha::kTaken, *bytes); });
   if (!samples) return samples.error();
   const FloatMap& map = samples->map;
   if (Error error = CheckSize(path, map.width, map.height, light_field->views[0])) return error;

@@ -39,8 +39,8 @@ struct DepthOptions {
   // MarkUnknown decides whether values up to 0 and 65535 are depths.
   bool has_unknown = false;
   std::vector<double> unknown;
-  bool use_alpha = true;            // True: transparent pixels have unknown depth.
-  const MapSurvey* clip = nullptr;  // Figures of all maps of a clip; null: a single photo.
+  Alpha alpha = Alpha::kTransparent;  // By default, transparent pixels have unknown depth.
+  const MapSurvey* clip = nullptr;    // Figures of all maps of a clip; null: a single photo.
   // True: the background of a matte comes nearer towards the lower edge of the picture.
   bool floor = false;
   // Computes a depth picture of an upright photo for which no depth is found; null: such a photo is

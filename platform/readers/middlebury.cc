@@ -134,7 +134,7 @@ Error LoadGreyMap(Capture* capture) {
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
   Result<Samples> samples =
-      Confined<Samples>(path, [&] { return DecodeSamples(path, true, *bytes); });
+      Confined<Samples>(path, [&] { return DecodeSamples(path, Alpha::kTransparent, *bytes); });
   if (!samples) return samples.error();
   std::replace(samples->map.values.begin(), samples->map.values.end(), 0.0F,
                std::numeric_limits<float>::quiet_NaN());

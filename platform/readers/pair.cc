@@ -209,7 +209,7 @@ Error ReadDepthPicture(const std::string& path, const DepthOptions& options, Dep
   if (options.before_decoding)
     options.before_decoding(DecodingBytes({bytes->data(), bytes->size()}));
   Result<Samples> samples =
-      Confined<Samples>(path, [&] { return DecodeDepthFile(path, options.use_alpha, *bytes); });
+      Confined<Samples>(path, [&] { return DecodeDepthFile(path, options.alpha, *bytes); });
   if (!samples) return samples.error();
   return TakeDepthPicture(path, options, std::move(*samples), photo);
 }

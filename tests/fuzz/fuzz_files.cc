@@ -53,11 +53,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       if (level < 0 || level > 1) std::abort();
     }
   }
-  if (const auto samples = starfocus::DecodeDepthFile("depth", true, bytes)) {
+  if (const auto samples =
+          starfocus::DecodeDepthFile("depth", starfocus::Alpha::kTransparent, bytes)) {
     const starfocus::FloatMap& map = samples->map;
     if (map.values.size() != size_t(map.width) * size_t(map.height)) std::abort();
   }
-  if (const auto samples = starfocus::DecodeCoverage("coverage", bytes)) {
+  if (const auto samples = starfocus::DecodeSamples("coverage", starfocus::Alpha::kTaken, bytes)) {
     for (const float sample : samples->map.values) {
       if (!(sample >= 0 && sample <= static_cast<float>(samples->largest))) std::abort();
     }

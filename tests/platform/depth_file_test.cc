@@ -17,7 +17,7 @@ namespace starfocus::depth_file_test {
 namespace {
 
 Result<Samples> Decode(const std::string& file) {
-  return DecodeDepthFile("map", true, Bytes(file.begin(), file.end()));
+  return DecodeDepthFile("map", Alpha::kTransparent, Bytes(file.begin(), file.end()));
 }
 
 template <class T>

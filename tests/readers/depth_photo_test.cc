@@ -373,13 +373,14 @@ TEST_CASE("photos: profiles of grey pictures and incomplete profiles are omitted
 TEST_CASE("coverage: the alpha channel of a 16-bit picture is used, or else the grey levels") {
   const std::string file = Seed("files/rgba16.png"), grey = Seed("files/gray.png");
   Bytes bytes(file.begin(), file.end());
-  Samples samples = ValueOf(DecodeCoverage("rgba16.png", bytes));
+  Samples samples = ValueOf(DecodeSamples("rgba16.png", Alpha::kTaken, bytes));
   CHECK(samples.largest == 65535);
   CHECK(samples.map.values[0] == 0x0607);
   CHECK(samples.map.values[1] == 0x0e0f);
   bytes.assign(grey.begin(), grey.end());
-  samples = ValueOf(DecodeCoverage("gray.png", bytes));
-  CHECK(samples.map.values == ValueOf(DecodeSamples("gray.png", false, bytes)).map.values);
+  samples = ValueOf(DecodeSamples("gray.png", Alpha::kTaken, bytes));
+  CHECK(samples.map.values ==
+        ValueOf(DecodeSamples("gray.png", Alpha::kIgnored, bytes)).map.values);
 }
 
 TEST_CASE("HEIF: the brands of still pictures and sequences are found anywhere in the list") {

@@ -40,7 +40,7 @@ TEST_CASE(
     CHECK(opened.HasNote("--unknown none"));
     DepthOptions none = NearIs(Near::kBlack);
     none.has_unknown = true;
-    none.use_alpha = false;
+    none.alpha = Alpha::kIgnored;
     const Opened known("map.png", GreyPng(levels), none);
     REQUIRE(known.error == "");
     CHECK(known.capture.notes.empty());
@@ -123,7 +123,7 @@ TEST_CASE("unknown depth: transparent pixels are unknown, by alpha channel, colo
     CHECK(opened.HasNote("216 of 1728 pixels"));
     DepthOptions none = NearIs(Near::kWhite);
     none.has_unknown = true;
-    none.use_alpha = false;
+    none.alpha = Alpha::kIgnored;
     CHECK(Opened("map.png", files[k], none).At(40, 4) == doctest::Approx(kNearest * 43 / 197));
   }
 }
@@ -205,7 +205,7 @@ TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected")
   for (const uint16_t level : LevelsOf(kMillimetres)) pgm += Big(level, 2);
   CheckScene(Opened("map.pgm", pgm, NearIs(Near::kBlack)));
   Bytes bytes(pgm.begin(), pgm.end());
-  Samples samples = ValueOf(DecodeSamples("x", true, bytes));
+  Samples samples = ValueOf(DecodeSamples("x", Alpha::kTransparent, bytes));
   CHECK(samples.largest == 4095);
   CHECK(samples.map.values[Index(kBox[0], kBox[1])] == 900);
   Image colours(kColumns, kRows);

@@ -52,8 +52,8 @@ std::string CheckDepthCommand(const std::string& text) {
   return complete ? "" : "a command with {input} and {output}";
 }
 
-Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& command,
-                                bool use_alpha, const Image& photo) {
+Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& command, Alpha alpha,
+                                const Image& photo) {
   const std::string where = name + " (depth command)";
   TemporaryFolder folder;
   if (Error error = folder.Create()) return error;
@@ -73,11 +73,11 @@ Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& com
   const Result<Bytes> bytes = ReadFile(*output);
   if (!bytes) return bytes.error();
   const std::string result = name + " (depth picture of the depth command)";
-  return Confined<Samples>(result, [&] { return DecodeDepthFile(result, use_alpha, *bytes); });
+  return Confined<Samples>(result, [&] { return DecodeDepthFile(result, alpha, *bytes); });
 }
 
-Result<Samples> KeptEstimates::Of(const std::string& name, const DepthCommand& command,
-                                  bool use_alpha, const Image& photo) {
+Result<Samples> KeptEstimates::Of(const std::string& name, const DepthCommand& command, Alpha alpha,
+                                  const Image& photo) {
   const auto found = kept_.find(name);
   if (found != kept_.end()) {
     Samples samples;
@@ -86,7 +86,7 @@ Result<Samples> KeptEstimates::Of(const std::string& name, const DepthCommand& c
     if (Error error = ReadPfm(found->second.path).MoveTo(&samples.map)) return error;
     return samples;
   }
-  Result<Samples> samples = RunDepthCommand(name, command, use_alpha, photo);
+  Result<Samples> samples = RunDepthCommand(name, command, alpha, photo);
   if (!samples) return samples;
   if (Error error = folder_.path().empty() ? folder_.Create() : Error()) return error;
   const std::string path = folder_.path() + "/" + std::to_string(kept_.size()) + ".pfm";

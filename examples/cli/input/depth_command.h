@@ -24,18 +24,18 @@ std::string CheckDepthCommand(const std::string& text);
 // Writes `photo` to a PNG file in a temporary folder, and runs the command with the paths of the
 // PNG file and of the depth picture in place of {input} and {output}. Reads the depth picture
 // (depth_file.h) and removes the folder. The command may add text to the name of the depth picture.
-// If `use_alpha` is true, transparent pixels of the depth picture are NaN. Error messages start
+// `alpha` states how transparent pixels of the depth picture are treated. Error messages start
 // with `name`, which is the name of the photo. Several threads may call the function at the same
 // time.
-Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& command,
-                                bool use_alpha, const Image& photo);
+Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& command, Alpha alpha,
+                                const Image& photo);
 
 // Estimates that are kept in temporary files, so that a photo can be opened several times. The name
 // of a photo identifies its estimate. Only one thread may use the object.
 class KeptEstimates {
  public:
   // Returns the kept estimate of the photo `name`, or runs the command (RunDepthCommand).
-  Result<Samples> Of(const std::string& name, const DepthCommand& command, bool use_alpha,
+  Result<Samples> Of(const std::string& name, const DepthCommand& command, Alpha alpha,
                      const Image& photo);
 
  private:

@@ -110,9 +110,9 @@ Result<Capture> ReadInput(const InputOptions& options) {
     wanted.map.estimate = [&](const Image& photo) {
       estimates = true;
       const std::string name = InputName(options.path);
-      const bool use_alpha = options.map.use_alpha;
-      return options.kept != nullptr ? options.kept->Of(name, options.command, use_alpha, photo)
-                                     : RunDepthCommand(name, options.command, use_alpha, photo);
+      const Alpha alpha = options.map.alpha;
+      return options.kept != nullptr ? options.kept->Of(name, options.command, alpha, photo)
+                                     : RunDepthCommand(name, options.command, alpha, photo);
     };
   }
   Result<Capture> capture = OpenCapture(options.path, wanted);

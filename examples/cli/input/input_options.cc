@@ -13,8 +13,8 @@ constexpr int kMostSeconds = 86400;
 // Parses "none" or a list of numbers separated by commas, of which one may be inf.
 std::string ReadUnknown(const std::string& text, DepthOptions* options) {
   options->has_unknown = true;
-  options->use_alpha = text != "none";
-  if (!options->use_alpha) return "";
+  options->alpha = text == "none" ? Alpha::kIgnored : Alpha::kTransparent;
+  if (text == "none") return "";
   std::string numbers = "," + text + ",";
   const size_t at = numbers.find(",inf,");
   if (at != std::string::npos) numbers.erase(at, 4);
