@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "examples/cli/disparity/estimate_run.h"
-#include "examples/cli/input/depth_command.h"
+#include "examples/cli/input/picture_command.h"
 #include "examples/cli/input/notes.h"
 #include "examples/command_line/options.h"
 #include "platform/console.h"

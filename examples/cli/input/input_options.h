@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "examples/cli/input/depth_command.h"
+#include "examples/cli/input/picture_command.h"
 #include "examples/command_line/command.h"
 #include "platform/readers/depth_options.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the depth of photos by a command of the user (--depth-command).
-#ifndef STARFOCUS_EXAMPLES_CLI_INPUT_DEPTH_COMMAND_H_
-#define STARFOCUS_EXAMPLES_CLI_INPUT_DEPTH_COMMAND_H_
+#ifndef STARFOCUS_EXAMPLES_CLI_INPUT_PICTURE_COMMAND_H_
+#define STARFOCUS_EXAMPLES_CLI_INPUT_PICTURE_COMMAND_H_
 
 #include <map>
 #include <string>
@@ -51,4 +51,4 @@ class KeptEstimates {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_EXAMPLES_CLI_INPUT_DEPTH_COMMAND_H_
+#endif  // STARFOCUS_EXAMPLES_CLI_INPUT_PICTURE_COMMAND_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "examples/cli/input/depth_command.h"
+#include "examples/cli/input/picture_command.h"
 
 #include <vector>
 
