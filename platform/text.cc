@@ -2,6 +2,7 @@
 #include "platform/text.h"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 namespace starfocus {
@@ -35,6 +36,12 @@ std::optional<double> ParseNumber(const std::string& text) {
 
 std::string SizeText(int64_t width, int64_t height) {
   return std::to_string(width) + "x" + std::to_string(height);
+}
+
+std::string NumberText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.6g", value);
+  return text;
 }
 
 std::string Lower(std::string text) {

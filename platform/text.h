@@ -15,6 +15,9 @@ std::optional<double> ParseNumber(const std::string& text);
 // Formats a size as "640x480".
 std::string SizeText(int64_t width, int64_t height);
 
+// Formats a number with six significant digits.
+std::string NumberText(double value);
+
 // Converts the letters A to Z to lower case.
 std::string Lower(std::string text);
 

@@ -115,11 +115,16 @@ int PixelAt(double share, int pixels) {
 
 Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options) {
   const bool two_files = !options.right.empty();
-  Result<DepthPhoto> read = two_files ? ReadPictureFiles(path, options.right)
-                                      : ReadDepthPhotoFile(path, options.map, options.depth);
+  Result<DepthPhoto> read =
+      two_files ? ReadPictureFiles(path, options.right)
+                : ReadDepthPhotoFile(path, options.map, {options.depth, options.matte});
   if (!read) return read.error();
   DepthPhoto& photo = *read;
   const bool pair = !photo.right.pixels.empty();
+  if (options.map.floor && (pair || !photo.map.values.empty())) {
+    return Expected(InputName(path), "a photo with a matte and without depth for --floor",
+                    "a photo with depth");
+  }
   Capture capture;
   Error error =
       pair ? AlignPair(InputName(path), &photo)

@@ -23,6 +23,7 @@ struct CaptureOptions {
   DepthOptions map;        // Interpretation of the depth picture.
   bool small_map = false;  // True: LoadCapture, not OpenCapture, resizes the map of a photo.
   std::string right = {};  // Path of the right picture of a stereo pair; empty: no second file.
+  std::string matte = {};  // Path of the matte; empty: in the photo's file.
 };
 
 struct Capture {

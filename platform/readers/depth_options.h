@@ -47,6 +47,8 @@ struct DepthOptions {
   // an error.
   // If `estimate` is set, the other options do not apply to a depth map in the file of a photo.
   std::function<Result<Samples>(const Image& photo)> estimate = nullptr;
+  // Computes the matte of an upright photo that has no matte; null: such a photo has none.
+  std::function<Result<Samples>(const Image& photo)> estimate_matte = nullptr;
   // Receives the bytes that decoding a photo or depth picture takes (decoding_memory.h), before it
   // is decoded; null: not needed.
   std::function<void(uint64_t bytes)> before_decoding = nullptr;

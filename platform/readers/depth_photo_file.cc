@@ -18,6 +18,7 @@
 #include "platform/readers/gdepth.h"
 #include "platform/readers/heic.h"
 #include "platform/readers/kept_metadata.h"
+#include "platform/readers/matte_file.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/pair.h"
 #include "platform/readers/profile.h"
@@ -117,17 +118,26 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   return photo;
 }
 
-// Returns an error if an option would override a property that the map in the photo states. No
-// option applies to a stereo pair, because its map is estimated.
-Error CheckOptions(const std::string& path, const DepthOptions& options, bool is_pair) {
-  const char* option = options.unit != DepthUnit::kNone                    ? "--depth-unit"
-                       : options.has_unknown                               ? "--unknown"
-                       : options.orientation != DepthOrientation::kUnknown ? "--depth-orientation"
-                       : is_pair && options.near != Near::kUnknown         ? "--near"
-                                                                           : nullptr;
+// The depth in the file of a photo.
+enum class FileDepth { kMap, kPair, kMatteOnly };
+
+// Returns an error if an option would override a property that the map in the photo states, or if
+// it does not apply because the photo has no depth picture. `has_matte` is true if the matte has a
+// file of its own. For a mask of the subject in the photo, `near` states the shade of the subject.
+Error CheckOptions(const std::string& path, const DepthOptions& options, FileDepth depth,
+                   bool has_matte) {
+  const bool has_near = depth == FileDepth::kMap || (depth == FileDepth::kMatteOnly && !has_matte);
+  const bool turns = options.orientation != DepthOrientation::kUnknown;
+  const char* option = options.unit != DepthUnit::kNone              ? "--depth-unit"
+                       : options.has_unknown                         ? "--unknown"
+                       : turns && !has_matte                         ? "--depth-orientation"
+                       : !has_near && options.near != Near::kUnknown ? "--near"
+                                                                     : nullptr;
   if (option == nullptr || options.estimate) return {};
   return Expected(path, std::string("a separate depth picture (--depth FILE) for ") + option,
-                  is_pair ? "a stereo pair, whose map is estimated" : "a depth map in the photo");
+                  depth == FileDepth::kMap    ? "a depth map in the photo"
+                  : depth == FileDepth::kPair ? "a stereo pair, whose map is estimated"
+                                              : "a matte without depth");
 }
 
 // Reads the map from extended XMP that no packet refers to. Editors that rewrite the XMP packet
@@ -180,7 +190,7 @@ Error NoMap(const std::string& path, const std::string& problem) {
   return Expected(
       path,
       "a depth map in the file, in NAME-depth.png or .jpg beside the file, or by --depth "
-      "or --depth-command",
+      "or --depth-command, or a matte by --matte or --matte-command",
       found);
 }
 
@@ -216,13 +226,16 @@ Error EstimateDepth(const std::string& where, const DepthOptions& options, Depth
 // Finds or estimates the depth of a decoded photo. The map and the right picture remain empty if
 // the photo has no depth.
 Error FindDepth(const std::string& path, Span file, const DepthOptions& options,
-                const std::string& depth, DepthPhoto* photo) {
+                const PhotoFiles& files, DepthPhoto* photo) {
   const bool stream = path == "-";  // standard input has no depth picture next to it
   const std::string where = InputName(path);
   const Near near = options.estimate ? Near::kUnknown : options.near;
-  if (depth.empty() && !photo->map.values.empty()) return CheckOptions(where, options, false);
-  photo->depth_path = depth;
-  if (depth.empty() && !stream) {
+  const bool has_matte = !files.matte.empty();
+  if (files.depth.empty() && !photo->map.values.empty()) {
+    return CheckOptions(where, options, FileDepth::kMap, has_matte);
+  }
+  photo->depth_path = files.depth;
+  if (files.depth.empty() && !stream) {
     if (Error error = FindDepthPicture(path, photo).MoveTo(&photo->depth_path)) return error;
   }
   if (!photo->depth_path.empty()) {
@@ -235,10 +248,33 @@ Error FindDepth(const std::string& path, Span file, const DepthOptions& options,
   if (photo->right.pixels.empty() && !right.empty()) {
     if (Error error = ReadPictureFiles(path, right).MoveTo(photo)) return error;
   }
-  if (has_map || !photo->right.pixels.empty()) return CheckOptions(where, options, !has_map);
+  if (has_map || !photo->right.pixels.empty()) {
+    return CheckOptions(where, options, has_map ? FileDepth::kMap : FileDepth::kPair, has_matte);
+  }
   if (!options.estimate) return {};
   NoteProblem(photo);
   return EstimateDepth(where, options, photo);
+}
+
+// Reads or computes the matte of a photo after FindDepth. Returns an error if the photo has neither
+// depth nor a matte.
+Error FindMatte(const std::string& path, const DepthOptions& options, const PhotoFiles& files,
+                DepthPhoto* photo) {
+  const std::string where = InputName(path);
+  if (!photo->right.pixels.empty()) {
+    if (files.matte.empty()) return {};
+    return Expected(where, "a photo of one view for --matte", "a stereo pair");
+  }
+  Error error;
+  if (!files.matte.empty()) {
+    error = ReadMatteFile(files.matte, options, photo);
+  } else if (photo->matte.values.empty() && options.estimate_matte) {
+    error = EstimateMatte(where, options, photo);
+  }
+  if (error || !photo->map.values.empty()) return error;
+  if (photo->matte.values.empty()) return NoMap(where, photo->map_problem);
+  NoteProblem(photo);
+  return CheckOptions(where, options, FileDepth::kMatteOnly, !files.matte.empty());
 }
 
 }  // namespace
@@ -273,7 +309,7 @@ bool StoresDepth(const std::string& path) {
 }
 
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
-                                      const std::string& depth) {
+                                      const PhotoFiles& files) {
   const std::string where = InputName(path);
   const Result<Bytes> bytes = ReadFileIf(path, MayBePicture);
   if (!bytes) return bytes.error();
@@ -282,13 +318,10 @@ Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOption
   const Near near = options.estimate ? Near::kUnknown : options.near;
   if (options.before_decoding) options.before_decoding(DecodingBytes(file));
   Result<DepthPhoto> decoded = ConfinedPhoto(
-      where, file, [&] { return DecodeDepthPhoto(where, file, depth.empty(), near); });
+      where, file, [&] { return DecodeDepthPhoto(where, file, files.depth.empty(), near); });
   if (!decoded) return decoded;
-  if (Error error = FindDepth(path, file, options, depth, &*decoded)) return error;
-  const DepthPhoto& photo = *decoded;
-  if (photo.map.values.empty() && photo.right.pixels.empty() && photo.matte.values.empty()) {
-    return NoMap(where, photo.map_problem);
-  }
+  if (Error error = FindDepth(path, file, options, files, &*decoded)) return error;
+  if (Error error = FindMatte(path, options, files, &*decoded)) return error;
   return decoded;
 }
 

@@ -47,14 +47,13 @@ struct Uprightness {
   bool upright, sure;
 };
 
-Uprightness JudgeByEdges(const DepthPhoto& photo) {
+Uprightness JudgeByEdges(const DepthPhoto& photo, FloatMap map) {
   constexpr double kSure = 1.05;
   const Image& picture = photo.picture;
   const int longer = std::max(picture.width, picture.height);
   const int factor = (longer + kSmall - 1) / kSmall;
   FloatMap small = Brightness(picture, factor);
   if (small.values.empty()) return {false, false};
-  FloatMap map = photo.map;
   const RobustRange range = RobustRangeOf(map.values);
   for (float& value : map.values) {
     if (std::isfinite(value)) value = std::clamp(value, range.low, range.high);
@@ -68,9 +67,9 @@ Uprightness JudgeByEdges(const DepthPhoto& photo) {
 
 // Decides by the edges of picture and map whether the map is upright. Used if the proportions of
 // the map fit both the upright and the stored orientation. Adds a note.
-bool ChooseByEdges(DepthPhoto* photo) {
-  const auto [upright, sure] = JudgeByEdges(*photo);
-  photo->notes.push_back(std::string("the depth picture is taken to be ") +
+bool ChooseByEdges(const std::string& kind, const FloatMap& map, DepthPhoto* photo) {
+  const auto [upright, sure] = JudgeByEdges(*photo, map);
+  photo->notes.push_back("the " + kind + " is taken to be " +
                          (upright ? "upright already" : "rotated like the stored photo") +
                          (sure ? ", because its edges then match the photo better"
                                : ", although its edges do not confirm this") +
@@ -89,23 +88,21 @@ bool HasSameProportions(const FloatMap& map, int width, int height) {
   return std::fabs(a - b) <= std::max({kTolerance * std::min(a, b), double(width), double(height)});
 }
 
-void StandWithPhoto(DepthOrientation choice, DepthPhoto* photo) {
+void StandWithPhoto(DepthOrientation choice, const std::string& kind, DepthPhoto* photo,
+                    FloatMap* map) {
   const int orientation = photo->orientation;
   if (orientation <= 1) return;
   const Image& picture = photo->picture;
   bool upright = choice == DepthOrientation::kUpright;
   if (choice == DepthOrientation::kUnknown) {
     const bool swaps = orientation >= 5;
-    const bool as_file = HasSameProportions(photo->map, picture.width, picture.height);
+    const bool as_file = HasSameProportions(*map, picture.width, picture.height);
     const bool as_turned =
-        swaps ? HasSameProportions(photo->map, picture.height, picture.width) : as_file;
-    upright = as_file && as_turned ? ChooseByEdges(photo) : as_turned;
+        swaps ? HasSameProportions(*map, picture.height, picture.width) : as_file;
+    upright = as_file && as_turned ? ChooseByEdges(kind, *map, photo) : as_turned;
   }
-  if (!upright) return;
-  FloatMap map;
-  std::swap(map, photo->map);
   ApplyOrientation(photo);
-  std::swap(map, photo->map);
+  if (!upright) TurnMap(orientation, map);
 }
 
 }  // namespace starfocus

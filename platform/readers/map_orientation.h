@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides whether the orientation in EXIF applies to a depth picture or only to its photo. Compares
-// the proportions of a depth picture with the proportions of its photo.
+// Decides whether the orientation in EXIF applies to a depth picture or a matte, or only to its
+// photo. Compares the proportions of such a picture with the proportions of its photo.
 #ifndef STARFOCUS_PLATFORM_READERS_MAP_ORIENTATION_H_
 #define STARFOCUS_PLATFORM_READERS_MAP_ORIENTATION_H_
+
+#include <string>
 
 #include "platform/readers/photo.h"
 
@@ -12,11 +14,12 @@ namespace starfocus {
 // map and picture may differ by rounding, or by 3 % because networks round sizes to whole blocks.
 bool HasSameProportions(const FloatMap& map, int width, int height);
 
-// Applies EXIF's orientation only to the picture if photo->map was read from an upright depth
-// picture. `choice` states whether the map is upright. If `choice` is kUnknown, the proportions of
-// picture and map decide. If the proportions fit the upright and the stored orientation, the edges
-// of picture and map decide, and a note reports the result.
-void StandWithPhoto(DepthOrientation choice, DepthPhoto* photo);
+// Makes a photo and `map`, which is its separate depth picture or matte, upright. `choice` states
+// whether `map` is upright already. If `choice` is kUnknown, the proportions of picture and map
+// decide. If the proportions fit the upright and the stored orientation, the edges of picture and
+// map decide, and a note reports the result; `kind` is the name of the map in this note.
+void StandWithPhoto(DepthOrientation choice, const std::string& kind, DepthPhoto* photo,
+                    FloatMap* map);
 
 }  // namespace starfocus
 

@@ -52,9 +52,13 @@ Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& p
   }
   const auto is_subject = [](float alpha) { return alpha >= 0.5F; };
   const auto subject = std::count_if(matte.values.begin(), matte.values.end(), is_subject);
-  if (subject == 0) return Expected(where, "a matte with a subject", "an empty matte");
+  if (subject == 0) {
+    const float largest = *std::max_element(matte.values.begin(), matte.values.end());
+    return Expected(where, "a matte with a subject, alpha 0.5 or more",
+                    "an empty matte, alpha up to " + NumberText(double(largest)));
+  }
   if (size_t(subject) < matte.values.size()) return {};
-  return Expected(where, "a matte with a background", "a matte that is full everywhere");
+  return Expected(where, "a matte with a background", "a full matte, alpha 0.5 or more everywhere");
 }
 
 Error FillTwoSurfaces(const std::string& where, const Matte& matte, double subject, bool floor,

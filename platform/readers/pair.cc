@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <system_error>
@@ -86,12 +85,6 @@ Error DecodeDepth16(const std::string& where, Samples* samples) {
     value = static_cast<float>(static_cast<int>(value) % (1 << kDistanceBits));
   }
   return {};
-}
-
-std::string NumberText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
 }
 
 // Adds a note if the values of a map without a unit look like distances: they are in the range of
@@ -201,15 +194,18 @@ Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo)
   return (file.parent_path() / found[0]).string();
 }
 
-Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {
-  photo->format = "photo and depth picture";
-  photo->facts.emplace_back("depth picture", path);
+Result<Samples> ReadSamples(const std::string& path, Alpha alpha, const DepthOptions& options) {
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes) return bytes.error();
   if (options.before_decoding)
     options.before_decoding(DecodingBytes({bytes->data(), bytes->size()}));
-  Result<Samples> samples =
-      Confined<Samples>(path, [&] { return DecodeDepthFile(path, options.alpha, *bytes); });
+  return Confined<Samples>(path, [&] { return DecodeDepthFile(path, alpha, *bytes); });
+}
+
+Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {
+  photo->format = "photo and depth picture";
+  photo->facts.emplace_back("depth picture", path);
+  Result<Samples> samples = ReadSamples(path, options.alpha, options);
   if (!samples) return samples.error();
   return TakeDepthPicture(path, options, std::move(*samples), photo);
 }
@@ -222,8 +218,8 @@ Error TakeDepthPicture(const std::string& where, const DepthOptions& options, Sa
   photo->survey.kind =
       samples.largest == 0 ? "floats" : "levels up to " + std::to_string(samples.largest);
   MarkUnknown(options, &samples, photo);
+  StandWithPhoto(options.orientation, "depth picture", photo, &samples.map);
   photo->map = std::move(samples.map);
-  StandWithPhoto(options.orientation, photo);
   Understand(options, samples, photo);
   return {};
 }

@@ -43,6 +43,9 @@ Result<DepthPictures> ListDepthPictures(const std::string& folder);
 // folder has several depth pictures of the photograph, a note names the depth picture that is used.
 Result<std::string> FindDepthPicture(const std::string& path, DepthPhoto* photo);
 
+// Reads the samples of a depth picture or a matte (depth_file.h). Calls options.before_decoding.
+Result<Samples> ReadSamples(const std::string& path, Alpha alpha, const DepthOptions& options);
+
 // Reads the depth picture (depth_file.h). The caller must have set photo->picture. By default,
 // larger values are nearer in PFM files, and the near end of other formats is guessed.
 Error ReadDepthPicture(const std::string& path, const DepthOptions& options, DepthPhoto* photo);

@@ -70,7 +70,9 @@ TEST_CASE("photos: every session of the tables succeeds") {
   };
   RunSessions("readers/plain_sessions.txt",
               {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
-  RunSessions("readers/depth_command_sessions.txt", {{"photo and map", MakePhotoAndMap}});
+  for (const char* table : {"readers/depth_command_sessions.txt", "readers/matte_sessions.txt"}) {
+    RunSessions(table, {{"photo and map", MakePhotoAndMap}});
+  }
   if (CanReadXmp()) RunSessions("readers/sessions.txt", {{"GDepth photo", write_photo}});
 }
 

@@ -108,8 +108,9 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
     if (!error) error = CheckImageOutput(picture.path);
   }
   if (!error)
-    error = CheckApart(OutputsOf(options, plan),
-                       {{input}, {input, options.input.depth, options.input.right}});
+    error = CheckApart(
+        OutputsOf(options, plan),
+        {{input}, {input, options.input.depth, options.input.matte, options.input.right}});
   if (error) return error;
   return plan;
 }

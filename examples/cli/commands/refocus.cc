@@ -77,8 +77,8 @@ Error CheckOutputs(const RefocusOptions& options) {
   }
   if (error) return error;
   return CheckApart(outputs, {{options.input.path},
-                              {options.input.path, options.input.depth, options.input.right,
-                               options.input.coverage, options.lens.timing}});
+                              {options.input.path, options.input.depth, options.input.matte,
+                               options.input.right, options.input.coverage, options.lens.timing}});
 }
 
 // Parses D0:D1:N.
@@ -135,9 +135,8 @@ Error CheckRegion(const Image& picture, const starfocus_region& region) {
 Result<Capture> Open(const RefocusOptions& options, LensPlan* plan) {
   InputOptions input = options.input;
   if (options.turn != nullptr) {
-    // The depth command runs in the turn of its input, so that --jobs limits the number of
-    // commands.
-    if (EstimatesDepth(input)) options.turn->Begin();
+    // Commands run in the turn of their input, so that --jobs limits the number of commands.
+    if (RunsCommand(input)) options.turn->Begin();
     std::error_code no_size;  // a folder: its pictures are read in its turn
     const uintmax_t size = std::filesystem::file_size(input.path, no_size);
     if (!no_size) options.turn->Take(size);
@@ -295,6 +294,7 @@ Error RunInputs(const RefocusOptions& options, const Batch& batch) {
                                     {"--compare", !options.output.compare.empty()},
                                     {"--show", options.output.show},
                                     {"--coverage", !options.input.coverage.empty()},
+                                    {"--matte", !options.input.matte.empty()},
                                     {"--right", !options.input.right.empty()},
                                     {"--sweep", !options.sweep.empty()}}) {
     if (typed)
@@ -323,7 +323,7 @@ Error RunInputs(const RefocusOptions& options, const Batch& batch) {
 Error Run(const RefocusOptions& options) {
   SetDecoderThreads(options.lens.threads);
   const Result<std::optional<Batch>> batch =
-      PlanBatch(options.inputs, options.output.out, EstimatesDepth(options.input));
+      PlanBatch(options.inputs, options.output.out, RunsCommand(options.input));
   if (!batch) return batch.error();
   if (*batch) return RunInputs(options, **batch);
   RefocusOptions one = options;

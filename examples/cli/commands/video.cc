@@ -40,7 +40,7 @@ struct VideoOptions {
 struct Video {
   std::vector<FrameSource> sources;
   MapSurvey survey;  // of the depth maps of all frames
-  KeptEstimates estimates;
+  KeptPictures computed;
   FrameFolders converted;
   std::vector<FrameFiles> frames;  // frames that are open, in the order of `sources`
   int width = 0, height = 0;
@@ -59,6 +59,7 @@ std::vector<std::string> FilesOf(const VideoOptions& options, const Video& video
   for (const FrameSource& frame : video.sources) {
     files.push_back(frame.path);
     files.push_back(frame.depth);
+    files.push_back(frame.matte);
   }
   return files;
 }
@@ -112,7 +113,7 @@ Result<starfocus_disparity_stats> Prepare(const VideoOptions& options, const std
 Result<Frame> OpenFrame(const VideoOptions& options, const FrameSource& source, LensPlan* plan,
                         Video* video) {
   InputOptions one = OptionsOf(options.input, source);
-  one.kept = &video->estimates;
+  one.kept = &video->computed;
   one.map.clip = &video->survey;
   Result<Capture> capture = ReadInput(one);
   if (!capture) return capture.error();
@@ -163,7 +164,7 @@ Error AddFrame(const VideoOptions& options, const std::string& input, Frame fram
 // Opens all frames and measures their maps.
 Error Scan(const VideoOptions& options, LensPlan* plan, Video* video) {
   InputOptions input = options.input;
-  input.kept = &video->estimates;
+  input.kept = &video->computed;
   if (Error error = SurveyClip(video->sources, input).MoveTo(&video->survey)) return error;
   for (const FrameSource& source : video->sources) {
     Result<Frame> frame = OpenFrame(options, source, plan, video);

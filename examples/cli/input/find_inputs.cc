@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 // Returns the reason why a file is no photo, or an empty string if the file is a photo. Judges a
 // file by its name only. `has_depth` states that the file has a depth picture next to it, or that a
-// depth command estimates its depth.
+// command computes its depth or matte.
 std::string ReasonToSkip(const std::string& name, bool has_depth) {
   const std::string extension = LowerExtension(name);
   if (IsDepthPictureName(name)) return "a depth picture that no photo uses";
@@ -44,13 +44,13 @@ Error NothingFound(const std::string& path, const std::vector<SkippedPath>& skip
 }
 
 // Returns true if the folder is one light field. A row of pictures with numbers in their names is
-// not a light field if one of the pictures has depth, or if `estimates_depth` states that a depth
-// command estimates the depth of each picture.
-bool IsLightField(const std::string& folder, bool estimates_depth) {
+// not a light field if one of the pictures has depth, or if `has_command` states that a command
+// computes the depth or the matte of each picture.
+bool IsLightField(const std::string& folder, bool has_command) {
   const Result<Capture> capture = OpenCapture(folder, {});
   if (!capture || capture->row.empty() || !capture->map_path.empty()) return bool(capture);
   const Result<DepthPictures> pictures = ListDepthPictures(folder);
-  if (estimates_depth || !pictures) return false;
+  if (has_command || !pictures) return false;
   return std::none_of(capture->row.begin(), capture->row.end(), [&](const std::string& path) {
     return !pictures->Of(fs::path(path).filename().string()).empty() || StoresDepth(path);
   });
@@ -58,8 +58,7 @@ bool IsLightField(const std::string& folder, bool estimates_depth) {
 
 }  // namespace
 
-Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
-                               const std::string& out) {
+Result<FoundInputs> FindInputs(const std::string& path, bool has_command, const std::string& out) {
   std::error_code ignored;
   const Result<std::vector<StereoFiles>> pairs = FindStereoFolders(path);
   if (!pairs) return pairs.error();
@@ -68,7 +67,7 @@ Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
     for (const StereoFiles& pair : *pairs) lefts.paths.push_back(pair.left);
     return lefts;
   }
-  if (!fs::is_directory(path, ignored) || IsLightField(path, estimates_depth)) {
+  if (!fs::is_directory(path, ignored) || IsLightField(path, has_command)) {
     return FoundInputs{{path}, {}};
   }
   const Result<DepthPictures> pictures = ListDepthPictures(path);
@@ -81,10 +80,10 @@ Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
     if (name[0] == '.' || fs::equivalent(entry.path(), out, ignored)) continue;
     std::string reason;
     if (entry.is_directory(ignored)) {
-      if (!IsLightField(one, estimates_depth)) reason = "a folder that is not a light field";
+      if (!IsLightField(one, has_command)) reason = "a folder that is not a light field";
     } else {
       const std::vector<std::string> depth = pictures->Of(name);
-      reason = ReasonToSkip(name, estimates_depth || !depth.empty());
+      reason = ReasonToSkip(name, has_command || !depth.empty());
       if (reason.empty() && !depth.empty()) used.insert((fs::path(path) / depth[0]).string());
     }
     if (reason.empty()) {

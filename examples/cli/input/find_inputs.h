@@ -23,13 +23,12 @@ struct FoundInputs {
 // Returns the inputs that `path` stands for. If `path` is a folder but not a light field, these are
 // the photos and light fields in the folder, without the folder `out`. Otherwise the only input is
 // `path`. A PNG, WebP or PPM file is a photo if it has a depth picture next to it, or if
-// `estimates_depth` is true, which means that a depth command estimates the depth of photos without
-// depth. A row of pictures with numbers in their names is a light field unless one of the pictures
-// has depth or `estimates_depth` is true. If a folder contains several stereo pairs in the folders
+// `has_command` is true, which means that a command computes the depth or the matte of photos. A
+// row of pictures with numbers in their names is a light field unless one of the pictures
+// has depth or `has_command` is true. If a folder contains several stereo pairs in the folders
 // `left` and `right`, the inputs are the left pictures. Returns an error if the folder contains no
 // input.
-Result<FoundInputs> FindInputs(const std::string& path, bool estimates_depth,
-                               const std::string& out);
+Result<FoundInputs> FindInputs(const std::string& path, bool has_command, const std::string& out);
 
 // Returns the name of an input without folders, and without extension if the input is a file.
 // Output pictures get this name.

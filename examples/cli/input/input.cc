@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 
 #include "examples/cli/disparity/estimate_run.h"
-#include "examples/cli/input/picture_command.h"
 #include "examples/cli/input/notes.h"
 #include "examples/command_line/options.h"
 #include "platform/console.h"
@@ -26,19 +26,22 @@ Error CheckNear(const DepthOptions& options) {
       disparity ? "black" : "white");
 }
 
-// Returns the name of the first depth-picture option that is set, in the order of the help. Returns
-// null if all of these options are unset.
-const char* DepthOption(const InputOptions& options) {
+// Returns the name of the first option of a depth picture or a matte that is set. Returns null if
+// all of these options are unset.
+const char* PhotoOption(const InputOptions& options) {
   if (!options.depth.empty()) return "--depth";
   if (options.map.near != Near::kUnknown) return "--near";
   if (options.map.unit != DepthUnit::kNone) return "--depth-unit";
   if (options.map.orientation != DepthOrientation::kUnknown) return "--depth-orientation";
-  return options.map.has_unknown ? "--unknown" : nullptr;
+  if (options.map.has_unknown) return "--unknown";
+  if (!options.matte.empty()) return "--matte";
+  return options.map.floor ? "--floor" : nullptr;
 }
 
 // Rejects pipes by name, such as the process substitution `<(cat photo.jpg)` of shells.
 Error CheckPipes(const InputOptions& options) {
-  for (const std::string& path : {options.path, options.depth, options.right, options.coverage}) {
+  for (const std::string& path :
+       {options.path, options.depth, options.matte, options.right, options.coverage}) {
     std::error_code ignored;
     if (path.empty() || path == "-" || !std::filesystem::is_fifo(path, ignored)) continue;
     return Cannot("read", path,
@@ -56,11 +59,59 @@ Error CheckRight(const InputOptions& options) {
   if (std::filesystem::is_directory(options.path, ignored)) {
     return Error::Usage("--right", "a photo as SRC", "the folder " + options.path);
   }
-  const char* option = DepthOption(options);
+  const char* option = PhotoOption(options);
   if (option == nullptr) return {};
   return Error::Usage("--right", std::string("no ") + option + ", because the map is estimated",
                       "both");
 }
+
+// Checks the files of the options, apart from --right.
+Error CheckFiles(const InputOptions& options) {
+  const bool is_stream = options.path == "-";
+  const bool covers = !options.coverage.empty() || options.ignores_coverage;
+  if (covers && (!options.matte.empty() || !options.matte_command.line.empty())) {
+    return Error::Usage("--coverage", "either --coverage or a matte", "both");
+  }
+  for (const auto& [name, file] :
+       {std::pair("--depth", options.depth), {"--matte", options.matte}}) {
+    if (is_stream && file == "-") {
+      return Error::Usage(name, "a file, because SRC is standard input", "-");
+    }
+  }
+  if (is_stream && isatty(STDIN_FILENO) == 1) {
+    return Expected(InputName(options.path), "a photo from a file or pipe", "a terminal");
+  }
+  const char* option = PhotoOption(options);
+  std::error_code ignored;
+  if (option == nullptr || is_stream || !std::filesystem::is_directory(options.path, ignored)) {
+    return {};
+  }
+  return Error::Usage(option, "a photo as SRC", "the folder " + options.path);
+}
+
+// Runs a command, if it is given, when the reader of the photo needs the picture.
+struct CommandRun {
+  const InputOptions& options;
+  const PictureCommand& command;
+  Alpha alpha;
+  bool has_run = false;
+
+  std::function<Result<Samples>(const Image&)> call() {
+    if (command.line.empty()) return nullptr;
+    return [this](const Image& photo) {
+      has_run = true;
+      const CommandInput input = {InputName(options.path), photo, alpha, options.seconds};
+      return options.kept != nullptr ? options.kept->Of(command, input)
+                                     : RunPictureCommand(command, input);
+    };
+  }
+  // Adds a note if the command was given but has not run.
+  void NoteUnused(const std::string& present, Capture* capture) const {
+    if (command.line.empty() || has_run) return;
+    capture->notes.push_back(std::string("--") + command.kind +
+                             "-command is not run, because the input has " + present);
+  }
+};
 
 // Estimates a map from the loaded views.
 Error Estimate(int threads, Capture* capture) {
@@ -85,44 +136,26 @@ Error Estimate(int threads, Capture* capture) {
 Result<Capture> ReadInput(const InputOptions& options) {
   if (Error error = CheckPipes(options)) return error;
   if (Error error = CheckRight(options)) return error;
-  if (options.path == "-") {
-    if (options.depth == "-") {
-      return Error::Usage("--depth", "a file, because SRC is standard input", "-");
-    }
-    if (isatty(STDIN_FILENO) == 1) {
-      return Expected(InputName(options.path), "a photo from a file or pipe", "a terminal");
-    }
-  }
+  if (Error error = CheckFiles(options)) return error;
+  if (Error error = CheckNear(options.map)) return error;
+  CommandRun depth = {options, options.depth_command, options.map.alpha};
+  CommandRun matte = {options, options.matte_command, Alpha::kTaken};
   CaptureOptions wanted;
   wanted.depth = options.depth;
+  wanted.matte = options.matte;
   wanted.right = options.right;
   wanted.small_map = true;
   wanted.map = options.map;
-  if (Error error = CheckNear(options.map)) return error;
-  std::error_code ignored;
-  const char* option = DepthOption(options);
-  if (option != nullptr && options.path != "-" &&
-      std::filesystem::is_directory(options.path, ignored)) {
-    return Error::Usage(option, "a photo as SRC", "the folder " + options.path);
-  }
-  bool estimates = false;
-  if (EstimatesDepth(options)) {
-    wanted.map.estimate = [&](const Image& photo) {
-      estimates = true;
-      const std::string name = InputName(options.path);
-      const Alpha alpha = options.map.alpha;
-      return options.kept != nullptr ? options.kept->Of(name, options.command, alpha, photo)
-                                     : RunDepthCommand(name, options.command, alpha, photo);
-    };
-  }
+  wanted.map.estimate = depth.call();
+  wanted.map.estimate_matte = matte.call();
   Result<Capture> capture = OpenCapture(options.path, wanted);
   if (!capture) return capture;
-  if (wanted.map.estimate && !estimates) {
-    capture->notes.push_back(std::string("--depth-command is not run, because the input has ") +
-                             (capture->map_path.empty() ? "several views" : "depth"));
-  }
+  depth.NoteUnused(capture->map_path.empty() ? "several views" : "depth", &*capture);
+  matte.NoteUnused(capture->photo ? "a matte" : "several views", &*capture);
   if (!options.coverage.empty() || options.ignores_coverage) {
     capture->coverage_path = options.coverage;
+    capture->light_field.coverage.clear();
+    capture->matte = {};
   }
   return capture;
 }

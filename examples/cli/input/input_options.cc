@@ -42,9 +42,33 @@ std::string ReadUnit(const std::string& text, DepthOptions* options) {
   return "";
 }
 
-std::string ReadCommand(const std::string& text, DepthCommand* command) {
-  command->command = text;
-  return CheckDepthCommand(text);
+Target ReadCommand(PictureCommand* command) {
+  return Target([command](const std::string& text) {
+    command->line = text;
+    return CheckPictureCommand(text);
+  });
+}
+
+// Adds the options of the matte of a photo.
+void AddMatteOptions(Command* command, InputOptions* options) {
+  AddOptions(
+      {
+          {"--matte", "FILE",
+           "Matte of the photo: its alpha channel, or grey levels with white for the subject, of "
+           "any size and in the formats of --depth. Without depth, the photo becomes the subject "
+           "and a background far behind it; with depth, the matte is the coverage of the outlines "
+           "of the subject. Default: the matte in the photo",
+           &options->matte},
+          {"--matte-command", "CMD",
+           "Shell command that computes the matte of a photo without matte: it reads the PNG "
+           "picture {input} and writes a matte to {output}; default: none",
+           ReadCommand(&options->matte_command), Use::kOptional, "--matte"},
+          {"--floor", nullptr,
+           "For a photo with a matte and without depth: the background comes nearer from the "
+           "middle of the picture downwards, and reaches the subject at its feet",
+           &options->map.floor},
+      },
+      command);
 }
 
 // Adds the options for properties of a depth picture.
@@ -62,8 +86,8 @@ void AddDepthPictureOptions(Command* command, DepthOptions* options) {
            "unit, so that only the order of the values matters",
            Target([options](const std::string& text) { return ReadUnit(text, options); })},
           {"--depth-orientation", "photo|upright",
-           "Orientation of a depth picture: photo rotates the depth picture by the "
-           "photo's EXIF, upright does not; default: guessed from proportions and edges",
+           "Orientation of a depth picture or matte: photo rotates it by the photo's EXIF, "
+           "upright does not; default: guessed from proportions and edges",
            Choice<DepthOrientation>(
                {{"photo", DepthOrientation::kPhoto}, {"upright", DepthOrientation::kUpright}},
                &options->orientation)},
@@ -100,15 +124,15 @@ void AddInputOptions(Command* command, InputOptions* options, std::vector<std::s
           {"--depth-command", "CMD",
            "Shell command that estimates the depth of a photo without depth: it reads the "
            "PNG picture {input} and writes a depth picture to {output}; default: none",
-           Target(
-               [options](const std::string& text) { return ReadCommand(text, &options->command); }),
-           Use::kOptional, "--depth"},
-          {"--depth-timeout", "S", "Time limit of --depth-command in seconds, 1 to 86400",
-           Whole(1, kMostSeconds, &options->command.seconds), Use::kDefault},
+           ReadCommand(&options->depth_command), Use::kOptional, "--depth"},
+          {"--depth-timeout", "S",
+           "Time limit of --depth-command and --matte-command in seconds, 1 to 86400",
+           Whole(1, kMostSeconds, &options->seconds), Use::kDefault},
       },
       command);
   AddDepthPictureOptions(command, &options->map);
-  command->starts_programs = [options] { return EstimatesDepth(*options); };
+  AddMatteOptions(command, options);
+  command->starts_programs = [options] { return RunsCommand(*options); };
 }
 
 void AddRightOption(Command* command, InputOptions* options) {
@@ -128,8 +152,8 @@ void AddCoverageOption(Command* command, InputOptions* options) {
           {"--coverage", "FILE|none",
            "Picture of how much of each pixel the nearer surface covers, such as a "
            "matting network computes: its alpha channel, or grey levels with white for "
-           "full coverage; none ignores coverage.png of a light-field folder, which is the "
-           "default",
+           "full coverage; none ignores coverage.png of a light-field folder and the matte in a "
+           "photo, which are the default",
            Target([options](const std::string& text) {
              options->ignores_coverage = text == "none";
              options->coverage = options->ignores_coverage ? "" : text;

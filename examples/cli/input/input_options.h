@@ -13,11 +13,12 @@
 namespace starfocus {
 
 struct InputOptions {
-  std::string path, depth, right, coverage;
-  bool ignores_coverage = false;  // True: the coverage of a light-field folder is not read.
-  DepthCommand command;
+  std::string path, depth, matte, right, coverage;
+  bool ignores_coverage = false;  // True: the coverage or the matte in the input is not used.
+  PictureCommand depth_command = {"depth", "depth picture"}, matte_command = {"matte", "matte"};
+  int seconds = 600;  // time limit of a command
   DepthOptions map = {};
-  KeptEstimates* kept = nullptr;  // Null: the depth command runs whenever the photo is opened.
+  KeptPictures* kept = nullptr;  // Null: the commands run whenever the photo is opened.
 };
 
 // Options for processing the map. By default, the format of the input determines the processing.
@@ -25,8 +26,11 @@ struct MapOptions {
   bool repair = false, no_repair = false, fill = false;
 };
 
-// Returns true if a depth command estimates the depth of photos without depth.
-inline bool EstimatesDepth(const InputOptions& options) { return !options.command.command.empty(); }
+// Returns true if a command computes the depth or the matte of photos, so that photos without depth
+// are inputs.
+inline bool RunsCommand(const InputOptions& options) {
+  return !options.depth_command.line.empty() || !options.matte_command.line.empty();
+}
 
 // Adds the input and the options of its depth. If `several` is not null, the command takes several
 // paths and stores the paths in `several` instead of in `options`.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates the depth of photos by a command of the user (--depth-command).
+// Computes depth pictures and mattes of photos by commands of the user (--depth-command and
+// --matte-command).
 #ifndef STARFOCUS_EXAMPLES_CLI_INPUT_PICTURE_COMMAND_H_
 #define STARFOCUS_EXAMPLES_CLI_INPUT_PICTURE_COMMAND_H_
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "platform/image.h"
 #include "platform/levels.h"
@@ -13,30 +15,37 @@
 
 namespace starfocus {
 
-struct DepthCommand {
-  std::string command;  // empty: none
-  int seconds = 600;    // time limit
+struct PictureCommand {
+  const char* kind;       // "depth" or "matte": part of the names of files and of error messages
+  const char* picture;    // what the command computes, for error messages
+  std::string line = {};  // shell command with {input} and {output}; empty: none
 };
 
-// Returns a description of the expected command if `text` lacks {input} or {output}, otherwise "".
-std::string CheckDepthCommand(const std::string& text);
+// Returns a description of the expected command if `line` lacks {input} or {output}, otherwise "".
+std::string CheckPictureCommand(const std::string& line);
 
-// Writes `photo` to a PNG file in a temporary folder, and runs the command with the paths of the
-// PNG file and of the depth picture in place of {input} and {output}. Reads the depth picture
-// (depth_file.h) and removes the folder. The command may add text to the name of the depth picture.
-// `alpha` states how transparent pixels of the depth picture are treated. Error messages start
-// with `name`, which is the name of the photo. Several threads may call the function at the same
+// A photo from which a command computes a picture.
+struct CommandInput {
+  std::string name;  // name of the photo
+  const Image& photo;
+  Alpha alpha;  // treatment of the alpha channel of the computed picture
+  int seconds;  // time limit
+};
+
+// Writes the photo to a PNG file in a temporary folder, and runs the command with the paths of the
+// PNG file and of the computed picture in place of {input} and {output}. Reads the computed picture
+// (depth_file.h) and removes the folder. The command may add text to the name of the picture. Error
+// messages start with the name of the photo. Several threads may call the function at the same
 // time.
-Result<Samples> RunDepthCommand(const std::string& name, const DepthCommand& command, Alpha alpha,
-                                const Image& photo);
+Result<Samples> RunPictureCommand(const PictureCommand& command, const CommandInput& input);
 
-// Estimates that are kept in temporary files, so that a photo can be opened several times. The name
-// of a photo identifies its estimate. Only one thread may use the object.
-class KeptEstimates {
+// Computed pictures that are kept in temporary files, so that a photo can be opened several times.
+// The name of a photo and the kind of the command identify a picture. Only one thread may use the
+// object.
+class KeptPictures {
  public:
-  // Returns the kept estimate of the photo `name`, or runs the command (RunDepthCommand).
-  Result<Samples> Of(const std::string& name, const DepthCommand& command, Alpha alpha,
-                     const Image& photo);
+  // Returns the kept picture of the photo, or runs the command (RunPictureCommand).
+  Result<Samples> Of(const PictureCommand& command, const CommandInput& input);
 
  private:
   struct Kept {
@@ -46,7 +55,7 @@ class KeptEstimates {
   };
 
   TemporaryFolder folder_;
-  std::map<std::string, Kept> kept_;
+  std::map<std::pair<std::string, std::string>, Kept> kept_;
 };
 
 }  // namespace starfocus

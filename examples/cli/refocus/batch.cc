@@ -90,7 +90,7 @@ std::vector<std::string> RunItems(const std::vector<BatchItem>& items, int jobs,
 }  // namespace
 
 Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
-                                       const std::string& out, bool estimates_depth) {
+                                       const std::string& out, bool has_command) {
   std::error_code ignored;
   const bool to_folder =
       inputs.size() > 1 || (!out.empty() && out.back() == '/') || fs::is_directory(out, ignored);
@@ -108,7 +108,7 @@ Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
     if (input == "-") {
       return Error::Usage("SRC", "files as inputs, or a file for --output", "- (standard input)");
     }
-    Result<FoundInputs> found = FindInputs(input, estimates_depth, out);
+    Result<FoundInputs> found = FindInputs(input, has_command, out);
     if (!found) return found.error();
     if (!to_folder && found->paths == inputs) return std::optional<Batch>();
     for (const std::string& part : found->paths) {

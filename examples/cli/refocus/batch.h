@@ -30,10 +30,10 @@ struct Batch {
 // nullopt. An output file has the name of its input. Inputs of the formats .jpg, .png, .ppm and
 // .webp keep their format. Inputs of other file formats get the output format .jpg, and light
 // fields get the output format .png. A folder that is not a light field is replaced by the
-// photographs and light fields in it. `estimates_depth` is true if a depth command estimates
-// missing depth (find_inputs.h).
+// photographs and light fields in it. `has_command` is true if a command computes the
+// depth or the matte of photos (find_inputs.h).
 Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
-                                       const std::string& out, bool estimates_depth);
+                                       const std::string& out, bool has_command);
 
 // Creates the output folder. Returns an error if outputs coincide with each other or with inputs.
 Error MakeBatchFolder(const Batch& batch, OutputFolder* folder);

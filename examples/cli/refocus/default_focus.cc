@@ -97,9 +97,36 @@ int Scaled(int at, int from, int to) {
   return static_cast<int>((2 * int64_t{at} + 1) * to / (2 * int64_t{from}));
 }
 
+// Returns the median disparity of the subject of a matte, or NaN if the subject is too small for a
+// regular grid of samples.
+double SubjectDisparity(const Matte& matte, const FloatMap& map) {
+  constexpr int kGrid = 256, kLeastAlpha = 192;
+  std::vector<float> disparities;
+  for (int row = 0; row < kGrid; ++row) {
+    for (int column = 0; column < kGrid; ++column) {
+      const auto place = [&](int width, int height) {
+        return size_t(Scaled(row, kGrid, height)) * size_t(width) +
+               size_t(Scaled(column, kGrid, width));
+      };
+      const float disparity = map.values[place(map.width, map.height)];
+      const bool is_subject = matte.alpha[place(matte.width, matte.height)] >= kLeastAlpha;
+      if (is_subject && std::isfinite(disparity)) disparities.push_back(disparity);
+    }
+  }
+  if (disparities.empty()) return NAN;
+  const auto middle = disparities.begin() + static_cast<ptrdiff_t>(disparities.size() / 2);
+  std::nth_element(disparities.begin(), middle, disparities.end());
+  return double(*middle);
+}
+
 }  // namespace
 
 DefaultFocus FindDefaultFocus(const Capture& capture) {
+  const FloatMap& map = capture.light_field.disparity;
+  if (!capture.matte.alpha.empty()) {
+    const double subject = SubjectDisparity(capture.matte, map);
+    if (std::isfinite(subject)) return {false, 0, 0, subject, "the subject of the matte"};
+  }
   if (capture.has_subject) {
     return AtPixel(capture.subject_x, capture.subject_y, "the subject in the photo's EXIF");
   }
@@ -109,7 +136,6 @@ DefaultFocus FindDefaultFocus(const Capture& capture) {
   if (std::isfinite(capture.focus)) {
     return {false, 0, 0, capture.focus, "the focus distance stored in the file"};
   }
-  const FloatMap& map = capture.light_field.disparity;
   const Image& picture = capture.light_field.views[0];
   DefaultFocus focus = FindSurface(map);
   focus.x = Scaled(focus.x, map.width, picture.width);

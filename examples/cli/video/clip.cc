@@ -41,6 +41,7 @@ InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame) {
   InputOptions one = options;
   one.path = frame.path;
   one.depth = frame.depth;
+  one.matte = frame.matte;
   return one;
 }
 

@@ -45,7 +45,7 @@ struct Pairing {
 };
 
 // Lists the depth pictures of a folder. Frames in the same folder are no depth pictures.
-Result<Names> ListDepths(const Names& frames, const std::string& folder) {
+Result<Names> ListDepths(const Names& frames, const std::string& folder, const std::string& kind) {
   const Result<Names> names = ListFolder(folder);
   if (!names) return names;
   std::error_code ignored;
@@ -58,7 +58,7 @@ Result<Names> ListDepths(const Names& frames, const std::string& folder) {
     if (!HasDepthExtension(name) && !IsPictureExtension(LowerExtension(name))) continue;
     if (taken.count(fs::weakly_canonical(path, ignored)) == 0) depths.push_back(name);
   }
-  if (depths.empty()) return Expected(folder, "a folder with depth pictures", "none");
+  if (depths.empty()) return Expected(folder, "a folder with " + kind + "s", "none");
   return depths;
 }
 
@@ -144,7 +144,7 @@ std::vector<Pairing> PairByNumbers(const Names& frames, const Names& depths) {
 // Chooses the pairing that matches the most frames, and among these the first with the fewest depth
 // pictures. Returns an error unless it matches each frame with one depth picture, and no other
 // pairing does so.
-Result<Names> Choose(const Names& frames, const std::string& folder,
+Result<Names> Choose(const Names& frames, const std::string& folder, const std::string& kind,
                      const std::vector<Pairing>& pairings) {
   const auto figures = [&](const Pairing& pairing) {
     return std::pair<size_t, size_t>(frames.size() - pairing.matches.size(), pairing.depths);
@@ -152,7 +152,7 @@ Result<Names> Choose(const Names& frames, const std::string& folder,
   const Pairing& best = *std::min_element(
       pairings.begin(), pairings.end(),
       [&](const Pairing& a, const Pairing& b) { return figures(a) < figures(b); });
-  const std::string expected = "one depth picture with the name or number of the frame in ";
+  const std::string expected = "one " + kind + " with the name or number of the frame in " + folder;
   std::vector<const Pairing*> equal;  // all pairings that are as good as the best one
   for (const Pairing& pairing : pairings) {
     if (figures(pairing) == figures(best)) equal.push_back(&pairing);
@@ -160,7 +160,7 @@ Result<Names> Choose(const Names& frames, const std::string& folder,
   Names chosen;
   for (size_t i = 0; i < frames.size(); ++i) {
     if (best.matches.count(i) == 0) {
-      return Expected(frames[i], expected + folder,
+      return Expected(frames[i], expected,
                       "none (" + std::to_string(best.matches.size()) + " of " +
                           std::to_string(frames.size()) + " frames have one)");
     }
@@ -170,7 +170,7 @@ Result<Names> Choose(const Names& frames, const std::string& folder,
       if (names != pairing->matches.end()) found.insert(names->second.begin(), names->second.end());
     }
     if (found.size() > 1) {
-      return Expected(frames[i], expected + folder, *found.begin() + " and " + *++found.begin());
+      return Expected(frames[i], expected, *found.begin() + " and " + *++found.begin());
     }
     chosen.push_back(*found.begin());
   }
@@ -180,22 +180,23 @@ Result<Names> Choose(const Names& frames, const std::string& folder,
 }  // namespace
 
 Result<std::vector<std::string>> PairWithFolder(const std::vector<std::string>& frames,
-                                                const std::string& folder) {
-  const Result<Names> depths = ListDepths(frames, folder);
+                                                const std::string& folder,
+                                                const std::string& kind) {
+  const Result<Names> depths = ListDepths(frames, folder, kind);
   if (!depths) return depths;
   std::vector<Pairing> pairings = {PairByName(frames, *depths)};
   if (pairings[0].matches.size() < frames.size()) {
     for (Pairing& pairing : PairByNumbers(frames, *depths)) pairings.push_back(std::move(pairing));
   }
-  Result<Names> chosen = Choose(frames, folder, pairings);
+  Result<Names> chosen = Choose(frames, folder, kind, pairings);
   if (!chosen) return chosen;
   const std::set<std::string> used(chosen->begin(), chosen->end());
   Names unused;
   std::copy_if(depths->begin(), depths->end(), std::back_inserter(unused),
                [&](const std::string& name) { return used.count(name) == 0; });
   if (!unused.empty()) {
-    TellNote(folder, std::to_string(unused.size()) +
-                         " depth pictures belong to no frame, such as " + unused[0]);
+    TellNote(folder, std::to_string(unused.size()) + " " + kind + "s belong to no frame, such as " +
+                         unused[0]);
   }
   for (std::string& name : *chosen) name = (fs::path(folder) / name).string();
   return chosen;

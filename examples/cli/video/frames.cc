@@ -21,11 +21,20 @@ bool IsReady(const MapOptions& options, const Capture& capture) {
          IsViewFile(std::filesystem::path(capture.files[0].path).filename().string());
 }
 
+// Returns the path of the depth picture or matte of each frame. `path` is one file for all frames,
+// a folder with a file for each frame, or empty.
+Result<std::vector<std::string>> FindPictures(const std::vector<std::string>& frames,
+                                              const std::string& path, const std::string& kind) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return PairWithFolder(frames, path, kind);
+  return std::vector<std::string>(frames.size(), path);
+}
+
 }  // namespace
 
 Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
                                             const InputOptions& options, const std::string& out) {
-  std::vector<std::string> paths = inputs, depths(inputs.size(), options.depth);
+  std::vector<std::string> paths = inputs;
   if (std::find(paths.begin(), paths.end(), "-") != paths.end()) {
     return Error::Usage("SRC", "files or folders as frames", "- (standard input)");
   }
@@ -34,16 +43,15 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
     if (!found) return found.error();
     TellSkipped(found->skipped);
     paths = std::move(found->paths);
-    depths.assign(paths.size(), options.depth);
   }
-  std::error_code ignored;
-  if (std::filesystem::is_directory(options.depth, ignored)) {
-    if (Error error = PairWithFolder(paths, options.depth).MoveTo(&depths)) return error;
-  }
+  std::vector<std::string> depths, mattes;
+  Error error = FindPictures(paths, options.depth, "depth picture").MoveTo(&depths);
+  if (!error) error = FindPictures(paths, options.matte, "matte").MoveTo(&mattes);
+  if (error) return error;
   std::vector<FrameSource> frames;
   std::set<std::string> names;
   for (size_t i = 0; i < paths.size(); ++i) {
-    frames.push_back({paths[i], depths[i], NameOfInput(paths[i]) + ".png"});
+    frames.push_back({paths[i], depths[i], mattes[i], NameOfInput(paths[i]) + ".png"});
     names.insert(frames[i].picture);
   }
   if (names.size() == frames.size()) return frames;

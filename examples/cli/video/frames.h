@@ -16,14 +16,15 @@ namespace starfocus {
 struct FrameSource {
   std::string path;
   std::string depth;    // path of the depth picture; empty: part of the input, or next to it
+  std::string matte;    // path of the matte; empty: part of the input, or none
   std::string picture;  // name of the output picture, which is the name of the input
 };
 
 // Returns the frames. If the only input is a folder but not a light field, the frames are the
 // photos and light fields in the folder in natural order, without the folder `out`. A row of
-// pictures with numbers in their names is a clip and not a light field. If options.depth is a
-// folder, each frame gets a depth picture of this folder (depth_folder.h). Prints other files in
-// the folders to stderr.
+// pictures with numbers in their names is a clip and not a light field. If options.depth or
+// options.matte is a folder, each frame gets a picture of this folder (depth_folder.h). Prints
+// other files in the folders to stderr.
 Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
                                             const InputOptions& options, const std::string& out);
 

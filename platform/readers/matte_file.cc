@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/readers/matte_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "platform/levels.h"
+#include "platform/readers/map_orientation.h"
+#include "platform/readers/matte.h"
+#include "platform/readers/orientation.h"
+#include "platform/readers/pair.h"
+#include "platform/text.h"
+
+namespace starfocus {
+namespace {
+
+// Part of the range by which values may lie outside it, because networks and resampling round.
+constexpr float kTolerance = 0.01F;
+
+// Converts the values of a matte to alpha from 0 to 1.
+Error ToAlpha(const std::string& where, Samples* samples) {
+  std::vector<float>& values = samples->map.values;
+  if (!std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
+    return Expected(where, "a matte of finite values", "NaN or infinity");
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const bool has_white = samples->largest > 0 && samples->largest <= UINT16_MAX;
+  const float white = *high <= 1 + kTolerance ? 1
+                      : has_white             ? static_cast<float>(samples->largest)
+                                              : 255;
+  if (*low < -kTolerance * white || *high > (1 + kTolerance) * white) {
+    return Expected(where, "alpha from 0 to 1 or from 0 to 255",
+                    "values from " + NumberText(double(*low)) + " to " + NumberText(double(*high)));
+  }
+  for (float& value : values) value = std::clamp(value / white, 0.0F, 1.0F);
+  return {};
+}
+
+Error TakeMatte(const std::string& where, const DepthOptions& options, Samples samples,
+                DepthPhoto* photo) {
+  if (Error error = ToAlpha(where, &samples)) return error;
+  StandWithPhoto(options.orientation, "matte", photo, &samples.map);
+  if (Error error = CheckMatte(where, samples.map, photo->picture)) return error;
+  photo->matte = std::move(samples.map);
+  return {};
+}
+
+}  // namespace
+
+Error ReadMatteFile(const std::string& path, const DepthOptions& options, DepthPhoto* photo) {
+  Result<Samples> samples = ReadSamples(path, Alpha::kTaken, options);
+  if (!samples) return samples.error();
+  if (photo->map.values.empty()) photo->format = "photo and matte";
+  photo->facts.emplace_back("matte picture", path);
+  photo->matte_path = path;
+  return TakeMatte(path, options, std::move(*samples), photo);
+}
+
+Error EstimateMatte(const std::string& where, const DepthOptions& options, DepthPhoto* photo) {
+  ApplyOrientation(photo);
+  Result<Samples> samples = options.estimate_matte(photo->picture);
+  if (!samples) return samples.error();
+  if (photo->map.values.empty()) photo->format = "photo with computed matte";
+  photo->facts.emplace_back("matte picture", "computed by --matte-command");
+  return TakeMatte(where + " (matte of the matte command)", options, std::move(*samples), photo);
+}
+
+}  // namespace starfocus

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens photos with the mattes that segmentation programs write: alpha channels, grey levels and
+// arrays of floats, in every orientation.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "platform/readers/matte.h"
+#include "platform/readers/orientation.h"
+#include "tests/readers/depth_scene.h"
+
+namespace starfocus::photo_matte_test {
+namespace {
+
+using namespace depth_scene;
+
+// Alpha of a subject that is opaque in the box of the scene. Its left border is half covered.
+FloatMap MatteMap() {
+  FloatMap matte = MapOf({0, 0, 1});
+  for (int y = 8; y < 26; ++y) matte.values[Index(16, y)] = 0.4F;
+  return matte;
+}
+
+FloatMap Times(FloatMap map, float factor) {
+  for (float& value : map.values) value *= factor;
+  return map;
+}
+
+// Returns a PNG file whose alpha channel, or whose grey channel if `channels` is 1, is the matte.
+// The colours are random.
+std::string PngOf(const FloatMap& matte, int channels) {
+  const int colour = channels == 4 ? 6 : 0;
+  const Image noise = Noise(matte.width, matte.height);
+  std::string samples;
+  for (size_t k = 0; k < matte.values.size(); ++k) {
+    if (channels == 4)
+      samples.append(noise.pixels.begin() + int(3 * k), noise.pixels.begin() + int(3 * k + 3));
+    samples += static_cast<char>(std::lround(255 * double(matte.values[k])));
+  }
+  return Png(uint32_t(matte.width), uint32_t(matte.height), {8, colour}, samples,
+             size_t(matte.width) * size_t(channels));
+}
+
+// Opens a photo with the orientation and a matte of the given content.
+Result<Capture> Open(int orientation, const Image& picture, const std::string& matte,
+                     const DepthOptions& options = {}) {
+  TempFolder folder;
+  Write(folder.file("photo.jpg"), Insert(Encode(picture, ".jpg"), ExifSegment(orientation, 0)));
+  Write(folder.file("matte"), matte);
+  CaptureOptions wanted;
+  wanted.map = options;
+  wanted.matte = folder.file("matte");
+  return OpenCapture(folder.file("photo.jpg"), wanted);
+}
+
+std::string ErrorOf(const std::string& matte) {
+  return Open(1, Plain(kColumns, kRows, 90), matte).error().line();
+}
+
+TEST_CASE("mattes: a photo without depth becomes two surfaces with the matte as coverage") {
+  const Capture capture = ValueOf(Open(1, Plain(kColumns, kRows, 90), PngOf(MatteMap(), 1)));
+  const LightField& field = capture.light_field;
+  REQUIRE(field.coverage.size() == size_t(kColumns) * kRows);
+  for (size_t k = 0; k < field.coverage.size(); ++k) {
+    const float alpha = MatteMap().values[k];
+    CHECK(int(field.coverage[k]) == std::lround(255 * double(alpha)));
+    // The engine rounds disparities to 1/64 pixel.
+    CHECK(double(field.disparity.values[k]) ==
+          doctest::Approx(alpha > 0.5F ? kNearest : 0).epsilon(0.5 / 64 / kNearest));
+  }
+  CHECK(capture.care == MapCare::kNone);
+  CHECK(capture.format == "photo and matte");
+}
+
+TEST_CASE("mattes: every format of one matte gives the same light field") {
+  const Image photo = Plain(kColumns, kRows, 90);
+  // Values of 102/255 are exact in all formats.
+  const FloatMap matte = MatteMap();
+  const LightField field = ValueOf(Open(1, photo, PngOf(matte, 1))).light_field;
+  for (const std::string& file :
+       {PngOf(matte, 4), PfmOf(matte), PfmOf(Times(matte, 255)), NpyOf(matte),
+        NpyOf(Times(matte, 255)), NpyOf(Times(matte, 1.005F))}) {
+    const LightField other = ValueOf(Open(1, photo, file)).light_field;
+    CHECK(other.disparity.values == field.disparity.values);
+    CHECK(std::equal(field.coverage.begin(), field.coverage.end(), other.coverage.begin(),
+                     [](int a, int b) { return std::abs(a - b) <= 1; }));
+  }
+  // Masks of labels contain 0 and 1 only.
+  FloatMap labels = MapOf({0, 0, 1.0 / 255});
+  const LightField mask = ValueOf(Open(1, photo, PngOf(labels, 1))).light_field;
+  CHECK(mask.coverage[Index(kBox[0], kBox[1])] == 255);
+}
+
+TEST_CASE("mattes: an alpha channel that is opaque everywhere does not replace the grey levels") {
+  std::string samples;
+  for (const float alpha : MatteMap().values) {
+    samples += static_cast<char>(std::lround(255 * double(alpha)));
+    samples += '\xff';
+  }
+  const std::string file = Png(kColumns, kRows, {8, 4}, samples, 2 * size_t(kColumns));
+  const Image photo = Plain(kColumns, kRows, 90);
+  CHECK(ValueOf(Open(1, photo, file)).light_field.coverage ==
+        ValueOf(Open(1, photo, PngOf(MatteMap(), 1))).light_field.coverage);
+}
+
+#ifdef STARFOCUS_HAS_EXIF
+TEST_CASE("mattes: a matte is rotated with its photo, unless it is upright already") {
+  const FloatMap matte = MatteMap();
+  Image picture = Plain(kColumns, kRows, 60);
+  for (int y = 8; y < 26; ++y) std::fill_n(picture.row(y) + 3 * 16, 3 * 12, uint8_t{200});
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    CAPTURE(orientation);
+    FloatMap upright = matte;
+    TurnMap(orientation, &upright);
+    const Capture by_file = ValueOf(Open(orientation, picture, PngOf(matte, 4)));
+    const Capture by_upright = ValueOf(Open(orientation, picture, PngOf(upright, 1)));
+    CHECK(by_file.light_field.disparity.width == upright.width);
+    CHECK(by_file.light_field.disparity.values == by_upright.light_field.disparity.values);
+    CHECK(by_file.light_field.coverage == by_upright.light_field.coverage);
+    CHECK(by_file.light_field.coverage == Matte(upright).alpha);
+    const bool judged = orientation > 1 && orientation < 5;
+    CHECK(HasNote(by_upright, "the matte is taken to be upright already") == judged);
+    DepthOptions options;
+    options.orientation = DepthOrientation::kUpright;
+    const Capture told = ValueOf(Open(orientation, picture, PngOf(upright, 1), options));
+    CHECK(told.light_field.coverage == by_file.light_field.coverage);
+    CHECK(told.notes.empty());
+  }
+}
+#endif
+
+TEST_CASE("mattes: the floor reaches the subject at its feet") {
+  DepthOptions options;
+  options.floor = true;
+  const FloatMap map = ValueOf(Open(1, Plain(kColumns, kRows, 90), PngOf(MatteMap(), 1), options))
+                           .light_field.disparity;
+  // The subject is in rows 8 to 25 of 36, so that the horizon is at row 17 and the feet at row 26.
+  CHECK(map.at(0, 16) == 0);
+  CHECK(map.at(0, 17) > 0);
+  CHECK(map.at(0, 21) == doctest::Approx(kNearest * 4.5 / 9).epsilon(0.05));
+  for (const int y : {26, 35})
+    CHECK(double(map.at(0, y)) == doctest::Approx(kNearest).epsilon(0.05));
+}
+
+TEST_CASE("mattes: unsuitable mattes are rejected with their cause") {
+  const std::string size = std::to_string(kColumns) + "x" + std::to_string(kRows);
+  FloatMap nan = MatteMap();
+  nan.values[5] = kNan;
+  for (const auto& [file, cause] : std::vector<std::pair<std::string, std::string>>{
+           {Encode(Plain(kColumns, kRows, 0), ".png"), "an empty matte, alpha up to 0"},
+           {Encode(Plain(kColumns, kRows, 100), ".png"), "an empty matte, alpha up to 0.392157"},
+           {Encode(Plain(kColumns, kRows, 255), ".png"), "a full matte"},
+           {Encode(Noise(kColumns, kRows), ".png"), "found an opaque colour picture"},
+           {Encode(Ramp(40, 36), ".png"),
+            "a matte with the proportions of the picture, found 40x36 for " + size},
+           {NpyOf(MapOf({-12, -12, 9})), "found values from -12 to 9"},
+           {NpyOf(MapOf({0, 0, 3000})), "found values from 0 to 3000"},
+           {NpyOf(nan), "found NaN or infinity"},
+           {"no picture", "expected a matte (PFM, TIFF"}}) {
+    CAPTURE(cause);
+    CHECK(Contains(ErrorOf(file), cause));
+  }
+}
+
+}  // namespace
+}  // namespace starfocus::photo_matte_test
