@@ -35,8 +35,8 @@ struct Capture {
   std::vector<ViewFile> files;  // Files of the views, the centre first.
   std::string map_path;         // File of the map, for reading and for errors; empty: no map.
   std::string coverage_path;    // File of the coverage; empty: no coverage.
-  // Matte of a photo; empty: no matte. A photo without a map is a light field of two surfaces, with
-  // the coverage of the matte.
+  // Matte of a photo; empty: no matte. A photo without a map is a light field of two surfaces with
+  // coverage. For a photo with a map, CoverByMatte makes the coverage when the map is final.
   Matte matte;
   MapSurvey survey;      // Figures of the map of a photo.
   double map_scale = 1;  // Factor that converts values in the file of the map to disparities.

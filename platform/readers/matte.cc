@@ -85,4 +85,16 @@ Error FillTwoSurfaces(const std::string& where, const Matte& matte, double subje
       where, starfocus_matte_field(&engine, &depth, picture.width, picture.height, nullptr, &out));
 }
 
+Error CoverByMatte(const std::string& where, const Matte& matte, LightField* light_field) {
+  const FloatMap& map = light_field->disparity;
+  light_field->coverage.resize(map.values.size());
+  starfocus_disparity_output out = {};
+  out.coverage = light_field->coverage.data();
+  out.coverage_stride = size_t(map.width);
+  const starfocus_matte engine = EngineMatte(matte);
+  const starfocus_depth_map depth = EngineMap(map);
+  return Judge(where,
+               starfocus_matte_coverage(&engine, &depth, map.width, map.height, nullptr, &out));
+}
+
 }  // namespace starfocus

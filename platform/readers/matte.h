@@ -39,6 +39,10 @@ Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& p
 Error FillTwoSurfaces(const std::string& where, const Matte& matte, double subject, bool floor,
                       LightField* light_field);
 
+// Adds the coverage of a matte to a light field with a map (starfocus_matte_coverage). The light
+// field must have one view of the size of the map.
+Error CoverByMatte(const std::string& where, const Matte& matte, LightField* light_field);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_PLATFORM_READERS_MATTE_H_

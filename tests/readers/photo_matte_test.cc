@@ -144,6 +144,21 @@ TEST_CASE("mattes: the floor reaches the subject at its feet") {
     CHECK(double(map.at(0, y)) == doctest::Approx(kNearest).epsilon(0.05));
 }
 
+TEST_CASE("mattes: with a map, the matte is the coverage of the outline that both share") {
+  LightField field;
+  field.views = {Plain(kColumns, kRows, 90)};
+  // The map has a second surface at the right, which the matte does not contain.
+  field.disparity = MapOf({0, 0, 20});
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = 40; x < kColumns; ++x) field.disparity.values[Index(x, y)] = 20;
+  }
+  REQUIRE(CoverByMatte("photo", Matte(MatteMap()), &field) == "");
+  CHECK(field.coverage[Index(20, 15)] == 255);
+  CHECK(std::abs(field.coverage[Index(16, 15)] - 102) <= 10);
+  CHECK(field.coverage[Index(34, 15)] == 0);
+  CHECK(field.coverage[Index(45, 15)] == 255);
+}
+
 TEST_CASE("mattes: unsuitable mattes are rejected with their cause") {
   const std::string size = std::to_string(kColumns) + "x" + std::to_string(kRows);
   FloatMap nan = MatteMap();

@@ -191,19 +191,22 @@ bool WillRepair(const MapOptions& options, const Capture& capture) {
 
 Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   if (capture->map_path.empty()) return {};
+  // If the input provides coverage, keep this coverage instead of searching for coverage.
+  LightField& light_field = capture->light_field;
+  const bool has_coverage = !light_field.coverage.empty();
+  const bool has_matte = !capture->matte.alpha.empty();
   if (WillRepair(options, *capture)) {
-    // If the input provides coverage, keep this coverage instead of searching for coverage.
-    LightField& light_field = capture->light_field;
-    const bool covers = light_field.coverage.empty();
+    const bool covers = !has_coverage && !has_matte;
     Result<DisparityEstimate> repaired =
         RepairDisparity(MapName(*capture), light_field, {threads, covers, false});
     if (!repaired) return repaired.error();
     light_field.disparity = std::move(repaired->map);
     if (covers) light_field.coverage = std::move(repaired->coverage);
-    return {};
+  } else if (options.fill || capture->care != MapCare::kNone) {
+    if (Error error = FillHoles(MapName(*capture), &light_field.disparity)) return error;
   }
-  if (!options.fill && capture->care == MapCare::kNone) return {};
-  return FillHoles(MapName(*capture), &capture->light_field.disparity);
+  if (has_coverage || !has_matte) return {};
+  return CoverByMatte(capture->path, capture->matte, &light_field);
 }
 
 Error FillHoles(const std::string& where, FloatMap* map) {

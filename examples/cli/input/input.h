@@ -31,7 +31,7 @@ Error LoadInput(const Positions& views, int threads, Capture* capture);
 bool WillRepair(const MapOptions& options, const Capture& capture);
 
 // Repairs the map or fills its holes, as the options or the format of the map require. Does not
-// change an estimated map.
+// change an estimated map. Then makes the coverage from the matte, unless the input has coverage.
 Error CareForMap(const MapOptions& options, int threads, Capture* capture);
 
 // Replaces unknown values of a map by the nearest known values. Error messages start with `where`.
