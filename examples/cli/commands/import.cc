@@ -94,6 +94,7 @@ Command ImportCommand() {
                        {{"--depth", "Depth picture of the photo, if it is separate"},
                         {"--near", "Shade that is near in the depth picture"},
                         {"--depth-unit", "Unit of the values of the depth picture"},
+                        {"--matte", "Matte of the subject, for a photo without depth"},
                         {"--no-repair", "Keep the map as it is in the photo"}}}}};
   AddInputOptions(&command, &options->input);
   AddRightOption(&command, &options->input);

@@ -120,6 +120,7 @@ Command InfoCommand() {
                      {{"Input and output",
                        {{"SRC", "Photo with depth, or light-field folder"},
                         {"--depth", "Depth picture of the photo, if it is a separate file"},
+                        {"--matte", "Matte of the subject, for a photo without depth"},
                         {"--json", "Print JSON instead of text"}}}}};
   AddInputOptions(&command, &options->input);
   AddRightOption(&command, &options->input);

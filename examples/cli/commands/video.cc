@@ -253,14 +253,15 @@ Command VideoCommand() {
       "Frames must have the same size and are taken in the order of SRC. If SRC is one folder\n"
       "that is not a light field, the frames are the light fields or photos in this folder,\n"
       "sorted by the numbers in their names. Depth maps without distances get one scale and one\n"
-      "near end for all frames. If --depth is a folder, its depth pictures are paired with the\n"
-      "frames by name, or else by number. Unless --focus or --focus-range is given, the first\n"
+      "near end for all frames. If --depth or --matte is a folder, its pictures are paired with\n"
+      "the frames by name, or else by number. Unless --focus or --focus-range is given, the first\n"
       "frame determines the focus of all frames: the focus at the pixel of --focus-at, or else\n"
       "the default focus. Modes frame and benchmark choose one number of views for all frames.",
       {{"Input and output",
         {{"SRC", "Frames, or one folder that contains the frames"},
          {"--output", "Folder for the pictures"},
          {"--depth", "Depth of the frames, if it is separate"},
+         {"--matte", "Mattes of the frames, if they have no depth"},
          {"--near", "Shade that is near in depth pictures: white or black"},
          {"--report", "JSON file with the measurements of each frame"}}},
        {"Focus and lens, the same for all frames",

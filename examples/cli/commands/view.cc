@@ -217,6 +217,7 @@ Command ViewCommand() {
       {{"Input and output",
         {{"SRC", "Photo with depth, or light-field folder"},
          {"--depth", "Depth picture of the photo, if it is a separate file"},
+         {"--matte", "Matte of the subject, for a photo without depth"},
          {"--output", "Web page to write"}}},
        {"Lens (default: f/1.8 for a photo)",
         {{"--f-stop", "F-stop, such as 2.8; a smaller one blurs more"},

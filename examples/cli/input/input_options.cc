@@ -54,10 +54,10 @@ void AddMatteOptions(Command* command, InputOptions* options) {
   AddOptions(
       {
           {"--matte", "FILE",
-           "Matte of the photo: its alpha channel, or grey levels with white for the subject, of "
-           "any size and in the formats of --depth. Without depth, the photo becomes the subject "
+           "Matte of the photo, of any size and in the formats of --depth: its alpha channel, or "
+           "grey levels with white for the subject. Without depth, the photo becomes the subject "
            "and a background far behind it; with depth, the matte is the coverage of the outlines "
-           "of the subject. Default: the matte in the photo",
+           "of the subject; default: the matte in the photo",
            &options->matte},
           {"--matte-command", "CMD",
            "Shell command that computes the matte of a photo without matte: it reads the PNG "

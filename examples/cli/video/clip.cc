@@ -32,7 +32,7 @@ Error CheckFrame(const Capture& capture, const MapSurvey& sum, First* first) {
   if (kind.empty()) return {};
   if (sum.kind.empty()) first->kind_path = capture.path;
   if (sum.kind.empty() || kind == sum.kind) return {};
-  return Expected(capture.path, "a depth map of " + sum.kind + " as in " + first->kind_path, kind);
+  return Expected(capture.path, sum.kind + " as in " + first->kind_path, kind);
 }
 
 }  // namespace
