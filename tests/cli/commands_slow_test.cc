@@ -112,8 +112,8 @@ Outcome RunScript(const std::string& folder, const std::string& script) {
 }
 
 // Makes inputs with the names that documents use. starfocus-lab renders scenes of 80x60 pixels,
-// whatever the size in the command. CMD and python3 stand for depth estimators, and srun for the
-// command of Slurm.
+// whatever the size in the command. CMD, python3 and rembg stand for programs that compute depth or
+// mattes, and srun for the command of Slurm.
 constexpr char kInputs[] = R"(
 ln -s "$PROGRAM" starfocus
 cat >starfocus-lab <<'SCRIPT'
@@ -124,8 +124,9 @@ exec "$PROGRAM-lab" "$@"
 SCRIPT
 printf '#!/bin/sh\ncp MAP.png "$2"\n' >CMD
 printf '#!/bin/sh\ncp MAP.png "$3"\n' >python3
+printf '#!/bin/sh\nfor last; do :; done\ncp MATTE.png "$last"\n' >rembg
 printf '#!/bin/sh\nexec "$@"\n' >srun
-chmod +x starfocus-lab CMD python3 srun
+chmod +x starfocus-lab CMD python3 rembg srun
 "$PROGRAM-lab" scene DIR --size 480x432 --views 5
 starfocus-lab scene field
 starfocus-lab scene lf --views 5
@@ -149,6 +150,11 @@ mkdir clip rgb depth
 cp photo.jpg clip/1.jpg
 cp IMG.jpg rgb/1.jpg
 cp MAP.png depth/1.png
+mkdir photos
+cp IMG.jpg photos
+cp IMG.jpg portrait.jpg
+cp MAP.png MATTE.png
+cp MAP.png cutout.png
 )";
 
 void MakeInputs(const TempFolder& folder) {
