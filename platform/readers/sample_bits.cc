@@ -33,8 +33,8 @@ void NoteSampleBits(int bits, std::vector<std::string>* notes) {
 void NoteTransparency(bool is_transparent, std::vector<std::string>* notes) {
   if (!is_transparent) return;
   notes->push_back(
-      "the alpha channel of the picture is ignored: transparent pixels become opaque, and their "
-      "colours mix into blurred edges");
+      "transparent pixels of the picture become opaque, and their colours mix into blurred edges "
+      "(--matte FILE takes the alpha channel of a picture as the matte of its subject)");
 }
 
 }  // namespace starfocus

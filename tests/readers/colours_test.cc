@@ -329,7 +329,8 @@ TEST_CASE("alpha: a note reports transparent pixels, but not an opaque alpha cha
     CHECK(photo.picture.pixels.size() == 6);
     bool noted = false;
     for (const std::string& note : photo.notes) {
-      noted = noted || note.find("alpha channel of the picture is ignored") != std::string::npos;
+      noted = noted ||
+              note.find("transparent pixels of the picture become opaque") != std::string::npos;
     }
     CHECK(noted == one.transparent);
   }
