@@ -17,6 +17,7 @@
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
+#include "tests/support/seed_file.h"
 
 namespace starfocus::depth_photo_test {
 namespace {
@@ -309,11 +310,6 @@ TEST_CASE("XMP: errors name the limits, and document types are rejected") {
   CHECK(!XmpNumber(FindProperty(root, "space|r")));
 }
 
-std::string Seed(const std::string& name) {
-  const Bytes bytes = ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/" + name));
-  return {bytes.begin(), bytes.end()};
-}
-
 Span SpanOf(const std::string& bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
@@ -427,15 +423,6 @@ TEST_CASE("HEIF: a picture of more than 8 bits is read, and a note states the lo
 }
 #endif
 
-// Returns a seed file in which `bytes` are written `behind` bytes after the end of `text`.
-std::string Changed(const std::string& name, const std::string& text, size_t behind,
-                    const std::string& bytes) {
-  std::string file = Seed(name);
-  const size_t at = file.find(text);
-  REQUIRE(at != std::string::npos);
-  return file.replace(at + text.size() + behind, bytes.size(), bytes);
-}
-
 TEST_CASE("HEIF: a picture that refers to itself or declares a wrong size is rejected at once") {
   const auto error = [](const std::string& file) { return CheckHeif("a.heic", SpanOf(file)); };
   CHECK(error(Seed("heif/depth.heic")) == "");
@@ -443,7 +430,7 @@ TEST_CASE("HEIF: a picture that refers to itself or declares a wrong size is rej
   CHECK(Contains(error(Seed("heif/grid_of_itself.heic")), "found a 'grid' picture"));
   CHECK(Contains(error(Seed("heif/malformed_references.heic")), "boxes"));
   CHECK(Contains(error(Seed("heif/input_of_unknown_type.heic")), "found a 'hvc2' picture"));
-  const std::string depth = "heif/depth.heic", size("\0\0\0\0", 4);
+  const std::string depth = Seed("heif/depth.heic"), size("\0\0\0\0", 4);
   // The grid in idat has two columns with one tile, and a width that differs from the width in
   // ispe.
   CHECK(Contains(error(Changed(depth, "idat", 3, "\1")), "grid"));
@@ -456,9 +443,8 @@ TEST_CASE("HEIF: a picture that refers to itself or declares a wrong size is rej
   CHECK(Contains(error(Changed(depth, "ispe", 4, std::string("\xff\xff\xff\xff\xff\0\0\0", 8))),
                  "16384 pixels wide and high"));
   CHECK(Contains(error(Changed(depth, "dimg", 4, std::string("\0\x09", 2))), "a missing picture"));
-  const std::string whole = Seed(depth);
-  for (size_t cut = 40; cut < whole.size(); cut += 7)
-    static_cast<void>(error(whole.substr(0, cut)));
+  for (size_t cut = 40; cut < depth.size(); cut += 7)
+    static_cast<void>(error(depth.substr(0, cut)));
 }
 
 }  // namespace
