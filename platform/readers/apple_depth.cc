@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "platform/levels.h"
+#include "platform/readers/apple_mattes.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/multi_picture.h"
 
@@ -13,9 +14,14 @@ namespace {
 const std::string kPixels = "http://ns.apple.com/pixeldatainfo/1.0/|";
 const std::string kDepth = "http://ns.apple.com/depthData/1.0/|";
 
+// Returns the type of an auxiliary picture. The portrait effects matte has the type "depth" like
+// maps of distances, and a subtype.
 std::string TypeOf(const XmpNode& xmp) {
-  const std::string* type = FindProperty(xmp, kPixels + "AuxiliaryImageType");
-  return type == nullptr ? "" : *type;
+  for (const char* name : {"AuxiliaryImageSubType", "AuxiliaryImageType"}) {
+    const std::string* type = FindProperty(xmp, kPixels + name);
+    if (type != nullptr) return *type;
+  }
+  return "";
 }
 
 bool IsMap(const std::string& type) { return type == "disparity" || type == "depth"; }
@@ -87,6 +93,21 @@ Error ReadAppleJpeg(Span file, const JpegParts& parts, std::vector<AppendedPictu
   if (error || !listed.missing) return error;
   return Expected("multi-picture index", "all listed pictures in the file",
                   "a missing or truncated picture");
+}
+
+void ReadAppleMattes(const std::vector<AppendedPicture>& appended, DepthPhoto* photo) {
+  if (!CanReadXmp()) return;
+  std::vector<AuxiliaryPicture> pictures;
+  for (const AppendedPicture& picture : appended) {
+    const Span file = picture.file;
+    pictures.push_back({TypeOf(ReadPackets(picture.parts)), [file](const std::string& where) {
+                          return DecodeLevels(where, Bytes(file.data, file.data + file.size));
+                        }});
+  }
+  ChooseMatte(pictures, photo);
+  if (photo->map.values.empty() && !photo->matte.values.empty()) {
+    photo->format = "Apple photo with a matte (JPEG)";
+  }
 }
 
 }  // namespace starfocus

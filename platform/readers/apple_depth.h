@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads depth maps that are stored as Apple's auxiliary pictures. Interprets the XMP of auxiliary
-// pictures in HEIC and JPEG files, and finds auxiliary pictures in JPEG files.
+// Reads depth maps and mattes that are stored as Apple's auxiliary pictures. Interprets the XMP of
+// auxiliary pictures in HEIC and JPEG files, and finds auxiliary pictures in JPEG files.
 #ifndef STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 #define STARFOCUS_PLATFORM_READERS_APPLE_DEPTH_H_
 
@@ -22,6 +22,10 @@ void UnderstandApple(const XmpNode& xmp, DepthPhoto* photo);
 // of a JPEG file, `appended`. The caller must have set photo->picture.
 Error ReadAppleJpeg(Span file, const JpegParts& parts, std::vector<AppendedPicture> appended,
                     DepthPhoto* photo);
+
+// Sets photo->matte to the matte of the subject (apple_mattes.h) among the pictures that follow the
+// primary picture of a JPEG file. The caller must have read photo->picture and photo->map.
+void ReadAppleMattes(const std::vector<AppendedPicture>& appended, DepthPhoto* photo);
 
 }  // namespace starfocus
 

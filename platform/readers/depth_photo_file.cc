@@ -34,6 +34,10 @@ namespace {
 constexpr char kSpecialType[] = "http://ns.google.com/photos/1.0/camera/|SpecialTypeID";
 constexpr char kExtendedXmp[] = "http://ns.adobe.com/xmp/note/|HasExtendedXMP";
 
+bool HasMapOrMatte(const DepthPhoto& photo) {
+  return !photo.map.values.empty() || !photo.matte.values.empty();
+}
+
 void IgnoreXmp(const Error& error, DepthPhoto* photo) {
   photo->notes.push_back(error.line());
   if (photo->map_problem.empty()) photo->map_problem = error.line();
@@ -72,14 +76,14 @@ XmpNode ReadXmp(const JpegParts& parts, bool all, DepthPhoto* photo) {
   return root;
 }
 
-// Reads the depth map of a file by trying each format. The first format whose reader succeeds is
-// used. `appended` are the pictures that follow the first picture.
+// Reads the depth map or the matte of a file by trying each format. The first format whose reader
+// succeeds is used. `appended` are the pictures that follow the first picture.
 void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
              std::vector<AppendedPicture>* appended, DepthPhoto* photo) {
   const auto read = [photo](const Error& error) {
     if (error) photo->map = {};
     if (photo->map_problem.empty()) photo->map_problem = error.line();
-    return !photo->map.values.empty();
+    return HasMapOrMatte(*photo);
   };
   if (HasGdepth(xmp) && read(ReadGdepth(xmp, near, photo))) return;
   if (HasDynamicDepth(xmp) && read(ReadDynamicDepth(file, xmp, near, appended, photo))) return;
@@ -111,6 +115,7 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   if (Mentions(xmp, kSpecialType, "PORTRAIT")) photo->is_blurred = true;
   std::vector<AppendedPicture> appended = ListAppendedPictures(file, parts->end);
   if (with_map) ReadMap(file, *parts, xmp, near, &appended, &*photo);
+  if (photo->matte.values.empty()) ReadAppleMattes(appended, &*photo);
   const bool has_gain_map =
       std::any_of(appended.begin(), appended.end(),
                   [](const AppendedPicture& picture) { return picture.is_gain_map; });
@@ -163,7 +168,8 @@ bool JpegStoresDepth(const std::string& path, Span file) {
   DepthPhoto photo;
   std::vector<AppendedPicture> appended = ListAppendedPictures(file, parts->end);
   ReadMap(file, *parts, ReadXmp(*parts, false, &photo), Near::kUnknown, &appended, &photo);
-  if (!photo.map.values.empty() || ReadStrayMap(file, Near::kUnknown, &photo)) return true;
+  if (photo.matte.values.empty()) ReadAppleMattes(appended, &photo);
+  if (HasMapOrMatte(photo) || ReadStrayMap(file, Near::kUnknown, &photo)) return true;
   if (!MayBeStereoPair(path, file)) return false;
   if (ReadJpegPicture(path, file, *parts).MoveTo(&photo)) return false;
   return ReadStereoPair(path, file, &photo);
@@ -171,7 +177,7 @@ bool JpegStoresDepth(const std::string& path, Span file) {
 
 bool HeifStoresDepth(const std::string& path, Span file) {
   Result<DepthPhoto> photo = ReadHeif(path, file, Near::kUnknown);
-  return photo && (!photo->map.values.empty() || ReadStereoPair(path, file, &*photo));
+  return photo && (HasMapOrMatte(*photo) || ReadStereoPair(path, file, &*photo));
 }
 
 // Searches a photo without a map for a stray map or the right picture of a stereo pair.

@@ -33,8 +33,8 @@ struct PhotoFiles {
 Result<DepthPhoto> ReadDepthPhotoFile(const std::string& path, const DepthOptions& options,
                                       const PhotoFiles& files);
 
-// Returns true if the file of a photograph stores a readable depth map or a stereo pair. Reads a
-// depth map in a JPEG file without the picture.
+// Returns true if the file of a photograph stores a readable depth map, matte or stereo pair. Reads
+// a depth map in a JPEG file without the picture.
 bool StoresDepth(const std::string& path);
 
 // Decodes a photograph in memory, and its depth map if `with_map` is true. The map is empty if the

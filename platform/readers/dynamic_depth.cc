@@ -2,6 +2,8 @@
 #include "platform/readers/dynamic_depth.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <utility>
 
 #include "platform/levels.h"
 #include "platform/readers/container_directory.h"
@@ -60,20 +62,43 @@ const ContainerItem* FindOriginal(const Items& items, const XmpNode& xmp) {
   return Find(items, named == nullptr ? &usual : named, "Original");
 }
 
-// Interprets a mask as two depths. Level 0 is the near end of the range that cameras state for a
-// mask, so black is the subject. Without a range, the lower part of the picture is near.
-void UnderstandMask(const XmpNode* map, Near near, DepthPhoto* photo) {
-  const bool stated = map != nullptr && OwnProperty(*map, kMap + "Format") != nullptr;
-  if (stated && near == Near::kUnknown) near = Near::kBlack;
-  photo->notes.push_back(
-      std::string("the file has a mask of the subject instead of a depth map, which divides the "
-                  "photo into two depths") +
-      (near == Near::kBlack ? ": black is near (--near white overrides this)" : ""));
-  TellMap("mask of the subject, used as two depths", photo);
-  for (float& level : photo->map.values) {
-    if (!std::isnan(level)) level = level < 0.5f ? 0.0f : 1.0f;
+// Returns true if the subject of a mask is white. The subject is more often in the middle and at
+// the lower edge of a picture than at the upper edge and the upper half of the sides.
+bool HasWhiteSubject(const FloatMap& mask) {
+  double inside = 0, outside = 0, insides = 0, outsides = 0;
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      const float level = mask.at(x, y);
+      const bool upper = 2 * y < mask.height, side = x == 0 || x == mask.width - 1;
+      const bool middle = std::abs(2 * x - mask.width) <= mask.width / 3;
+      if (std::isnan(level)) continue;
+      if (y == 0 || (upper && side)) {
+        outside += double(level);
+        ++outsides;
+      } else if (!upper && middle) {
+        inside += double(level);
+        ++insides;
+      }
+    }
   }
-  ToOrder(near, photo);
+  return inside * outsides >= outside * insides;
+}
+
+// Takes a mask of the subject as the matte of the photo. Level 0 is the near end of the range that
+// cameras state for a mask, so black is the subject.
+void TakeMask(const XmpNode* map, Near near, FloatMap mask, DepthPhoto* photo) {
+  const bool stated = map != nullptr && OwnProperty(*map, kMap + "Format") != nullptr;
+  const bool guessed = near == Near::kUnknown && !stated;
+  if (guessed) near = HasWhiteSubject(mask) ? Near::kWhite : Near::kBlack;
+  const bool white = near == Near::kWhite;
+  photo->notes.push_back(
+      std::string("the file has a mask of the subject instead of a depth map, in which ") +
+      (white ? "white" : "black") + " is the subject" +
+      (guessed ? ", because it is nearer to the middle of the lower edge" : "") + " (--near " +
+      (white ? "black" : "white") + " overrides this)");
+  photo->facts.emplace_back("mattes", "mask of the subject");
+  if (!white) ToRange(1, 0, &mask);
+  photo->matte = std::move(mask);
 }
 
 void Understand(const XmpNode* map, Near near, DepthPhoto* photo) {
@@ -87,46 +112,61 @@ void Understand(const XmpNode* map, Near near, DepthPhoto* photo) {
              near, photo);
 }
 
+// Returns true if the XMP describes a depth map or, if `mask` is true, a mask of the subject. The
+// description of a mask overrides the semantics of the directory.
+bool Describes(const XmpNode& xmp, bool mask) {
+  if (FindMap(xmp, mask) != nullptr) return true;
+  return HasContainerSemantic(xmp, SemanticOf(mask)) && (mask || FindMap(xmp, true) == nullptr);
+}
+
+// Reads the depth map or, if `mask` is true, the mask of the subject.
+Error ReadItem(const XmpNode& xmp, const Items& items, bool mask, Near near, DepthPhoto* photo) {
+  const XmpNode* map = FindMap(xmp, mask);
+  const std::string name = mask ? "mask of the subject" : "depth map";
+  const ContainerItem* item = FindDepth(items, map, mask);
+  if (item == nullptr) {
+    return Expected("Dynamic Depth",
+                    "the " + name + " that the XMP lists, stored behind the picture",
+                    "no complete picture there");
+  }
+  const Span data = item->picture->file;
+  Result<FloatMap> levels = DecodeLevels("Dynamic Depth", Bytes(data.data, data.data + data.size));
+  if (!levels) return levels.error();
+  if (!item->by_length) {
+    photo->notes.push_back((item->length > 0 ? "the wrong lengths of the container are ignored"
+                                             : "the container states no length of the " + name) +
+                           ": the " + name + " was found behind the picture");
+  }
+  if (mask) {
+    TakeMask(map, near, std::move(*levels), photo);
+  } else {
+    photo->map = std::move(*levels);
+    Understand(map, near, photo);
+  }
+  return {};
+}
+
 }  // namespace
 
-bool HasDynamicDepth(const XmpNode& xmp) {
-  for (const bool mask : {false, true}) {
-    if (FindMap(xmp, mask) != nullptr || HasContainerSemantic(xmp, SemanticOf(mask))) return true;
-  }
-  return false;
-}
+bool HasDynamicDepth(const XmpNode& xmp) { return Describes(xmp, false) || Describes(xmp, true); }
 
 Error ReadDynamicDepth(Span file, const XmpNode& xmp, Near near,
                        std::vector<AppendedPicture>* appended, DepthPhoto* photo) {
   const Result<Items> items = ReadContainerItems(file, xmp, appended);
   if (!items) return items.error();
-  const XmpNode* map = FindMap(xmp, false);
-  bool mask = false;
-  if (map == nullptr) {
-    map = FindMap(xmp, true);
-    // The description of a mask overrides the semantics of the directory.
-    mask = map != nullptr || !HasContainerSemantic(xmp, SemanticOf(false));
+  Error error;
+  if (Describes(xmp, false)) error = ReadItem(xmp, *items, false, near, photo);
+  if (Describes(xmp, true)) {
+    // A mask has no soft outlines, so that it would not improve the coverage of a map.
+    if (!photo->map.values.empty()) {
+      photo->facts.emplace_back("mattes", "ignored: mask of the subject");
+    } else {
+      photo->map_problem = error.line();
+      error = ReadItem(xmp, *items, true, near, photo);
+    }
   }
-  const ContainerItem* item = FindDepth(*items, map, mask);
-  if (item == nullptr) {
-    return Expected("Dynamic Depth", "the depth map that the XMP lists, stored behind the picture",
-                    "no complete picture there");
-  }
-  const Span data = item->picture->file;
-  const Bytes bytes(data.data, data.data + data.size);
-  if (Error error = DecodeLevels("Dynamic Depth", bytes).MoveTo(&photo->map)) return error;
-  if (!item->by_length) {
-    photo->notes.push_back(std::string(item->length > 0
-                                           ? "the wrong lengths of the container are ignored"
-                                           : "the container states no length of the depth map") +
-                           ": the depth map was found behind the picture");
-  }
+  if (error) return error;
   photo->format = "Dynamic Depth photo (JPEG)";
-  if (mask) {
-    UnderstandMask(map, near, photo);
-  } else {
-    Understand(map, near, photo);
-  }
   const ContainerItem* original = FindOriginal(*items, xmp);
   if (original != nullptr) TakeOriginal(original->uri, original->picture->file, photo);
   return {};

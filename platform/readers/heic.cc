@@ -19,6 +19,7 @@
 
 #include "platform/helper/decoder_threads.h"
 #include "platform/readers/apple_depth.h"
+#include "platform/readers/apple_mattes.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/exif.h"
 #include "platform/readers/heif_limits.h"
@@ -108,7 +109,7 @@ Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* 
   const heif_channel channel =
       heif_image_has_channel(raw, heif_channel_Y) ? heif_channel_Y : heif_channel_G;
   if (!heif_image_has_channel(raw, channel)) {
-    return Expected(where, "a depth map with grey levels", "none");
+    return Expected(where, "a picture with grey levels", "none");
   }
   int stride = 0;
   const uint8_t* rows = heif_image_get_plane_readonly(raw, channel, &stride);
@@ -116,7 +117,7 @@ Result<FloatMap> DecodePlane(const std::string& where, const heif_image_handle* 
   const int width = heif_image_get_width(raw, channel);
   const int height = heif_image_get_height(raw, channel);
   if (rows == nullptr || bits < 1 || bits > 16 || width < 1 || height < 1) {
-    return Expected(where, "a depth map of 8 to 16 bits", "another bit depth");
+    return Expected(where, "a picture of 8 to 16 bits", "another bit depth");
   }
   FloatMap map = {width, height, {}};
   map.values.reserve(size_t(width) * size_t(height));
@@ -201,21 +202,47 @@ void ReadCaptions(const heif_image_handle* handle, DepthPhoto* photo) {
   if (root) photo->metadata.xmp = KeptXmp(*root);
 }
 
-// Adds an entry to photo->facts if an auxiliary picture is a gain map. Refocusing does not use gain
-// maps.
-void TellGainMap(const heif_image_handle* handle, DepthPhoto* photo) {
-  heif_item_id ids[16];
-  const int count = heif_image_handle_get_list_of_auxiliary_image_IDs(handle, 0, ids, 16);
-  for (int k = 0; k < count && k < 16; ++k) {
+// Returns the type of an auxiliary picture, or an empty string if it has no type.
+std::string TypeOf(const heif_image_handle* auxiliary) {
+  const char* type = nullptr;
+  if (heif_image_handle_get_auxiliary_type(auxiliary, &type).code != heif_error_Ok) return "";
+  const std::string text = type;
+  heif_image_handle_free_auxiliary_types(auxiliary, &type);
+  return text;
+}
+
+// Lists the auxiliary pictures of a picture, which must remain valid until they are decoded.
+// `file` is the size of the file in bytes.
+std::vector<AuxiliaryPicture> ListAuxiliaries(const heif_image_handle* primary, size_t file) {
+  heif_item_id ids[64];
+  const int count = heif_image_handle_get_list_of_auxiliary_image_IDs(primary, 0, ids, 64);
+  std::vector<AuxiliaryPicture> pictures;
+  for (int k = 0; k < count; ++k) {
     heif_image_handle* raw = nullptr;
-    if (heif_image_handle_get_auxiliary_image_handle(handle, ids[k], &raw).code != heif_error_Ok) {
+    if (heif_image_handle_get_auxiliary_image_handle(primary, ids[k], &raw).code != heif_error_Ok) {
       continue;
     }
-    const Handle auxiliary(raw);
-    const char* type = nullptr;
-    if (heif_image_handle_get_auxiliary_type(raw, &type).code != heif_error_Ok) continue;
-    if (std::strstr(type, "gainmap") != nullptr) photo->facts.emplace_back("gain map", "ignored");
-    heif_image_handle_free_auxiliary_types(raw, &type);
+    const std::shared_ptr<heif_image_handle> handle(raw, ReleaseHandle);
+    pictures.push_back({TypeOf(raw), [handle, file](const std::string& where) -> Result<FloatMap> {
+                          if (Error error = CheckSize(where, handle.get(), file)) return error;
+                          return DecodePlane(where, handle.get());
+                        }});
+  }
+  return pictures;
+}
+
+// Reads the mattes among the auxiliary pictures. Adds an entry to photo->facts if an auxiliary
+// picture is a gain map. Refocusing does not use gain maps.
+void ReadAuxiliaries(const heif_image_handle* primary, size_t file, DepthPhoto* photo) {
+  const std::vector<AuxiliaryPicture> pictures = ListAuxiliaries(primary, file);
+  const bool has_gain_map =
+      std::any_of(pictures.begin(), pictures.end(), [](const AuxiliaryPicture& picture) {
+        return picture.type.find("gainmap") != std::string::npos;
+      });
+  if (has_gain_map) photo->facts.emplace_back("gain map", "ignored");
+  ChooseMatte(pictures, photo);
+  if (photo->map.values.empty() && !photo->matte.values.empty()) {
+    photo->format = "HEIF photo with a matte";
   }
 }
 
@@ -357,9 +384,9 @@ Result<DepthPhoto> Read(const std::string& where, Span file, Near near) {
   if (Error error = DecodePicture(where, raw).MoveTo(&photo.picture)) return error;
   ReadProfiles(raw, &photo);
   ReadCaptions(raw, &photo);
-  TellGainMap(raw, &photo);
   photo.map_problem = ReadMap(where, raw, file.size, near, &photo).line();
   if (!photo.map_problem.empty()) photo.map = {};
+  ReadAuxiliaries(raw, file.size, &photo);
   return photo;
 }
 

@@ -41,14 +41,16 @@ inline void CheckPhoto(const uint8_t* data, size_t size) {
   CheckCaptions(photo.metadata);
   const Bytes& icc = photo.metadata.icc;
   if (!icc.empty() && !IsRgbProfile(icc)) std::abort();
-  if (photo.map.values.empty()) {
+  if (photo.map.values.empty() && photo.matte.values.empty()) {
     if (ReadStereoPair("photo", {data, size}, &photo) &&
         photo.right.pixels.size() != photo.picture.pixels.size()) {
       std::abort();
     }
     return;
   }
-  if (photo.map.values.size() != size_t(photo.map.width) * size_t(photo.map.height)) std::abort();
+  for (const FloatMap* map : {&photo.map, &photo.matte}) {
+    if (map->values.size() != size_t(map->width) * size_t(map->height)) std::abort();
+  }
   // Only small photos are processed further, since the engine has its own fuzz target.
   if (photo.picture.pixels.size() > 1 << 20) return;
   Result<LightField> made = MakePhotoField("photo", &photo);

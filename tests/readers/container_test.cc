@@ -129,38 +129,5 @@ TEST_CASE("portraits: a gain map alone is never depth") {
   }
 }
 
-TEST_CASE("portraits: a mask of the subject gives two depths, the near one in the mask") {
-  if (!CanReadXmp()) return;
-  const auto open = [](const std::string& format, Near near) {
-    std::string file = Portrait(Parts(), Directories::kBoth, Lengths::kRight);
-    const std::string semantic = "ItemSemantic=\"Depth\" DepthMap:Format=\"RangeInverse\"";
-    const size_t at = file.find(semantic);
-    REQUIRE(at != std::string::npos);
-    // The length of the segment must remain.
-    std::string mask = "ItemSemantic=\"Segmentation\" " + format;
-    mask.resize(semantic.size(), ' ');
-    file.replace(at, semantic.size(), mask);
-    CaptureOptions options;
-    options.map.near = near;
-    Capture capture;
-    REQUIRE(Open(file, &capture, options) == "");
-    CHECK(HasNote(capture, "a mask of the subject instead of a depth map"));
-    CHECK(Contains(FactOf(capture, "map"), "mask of the subject"));
-    CHECK(FactOf(capture, "picture") != "");
-    return capture;
-  };
-  const std::string linear = "DepthMap:Format=\"x\"";
-  const auto check = [&](const Capture& capture, double black, double white) {
-    CheckRamp(capture, black, white);
-    for (const float value : capture.light_field.disparity.values) {
-      CHECK((value == 0 || double(value) == doctest::Approx(kPortrait)));
-    }
-  };
-  check(open(linear, Near::kUnknown), kPortrait, 0);
-  check(open(linear, Near::kBlack), kPortrait, 0);
-  check(open(linear, Near::kWhite), 0, kPortrait);
-  check(open("", Near::kWhite), 0, kPortrait);
-}
-
 }  // namespace
 }  // namespace starfocus::container_test

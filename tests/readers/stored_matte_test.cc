@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens photos whose files store mattes: Apple's mattes in HEIC and JPEG files, and masks of
+// Dynamic Depth. The seed heif/mattes.heic shows a person, with a depth map and the mattes of the
+// person, the hair, the skin and the sky, all of 128x64 pixels.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "platform/readers/capture.h"
+#include "platform/readers/depth_photo_file.h"
+#include "platform/readers/heif_boxes.h"
+#include "platform/readers/xmp.h"
+#include "tests/support/error_line.h"
+#include "tests/support/opened_photo.h"
+#include "tests/support/photo_files.h"
+#include "tests/support/portrait_files.h"
+#include "tests/support/seed_file.h"
+
+namespace starfocus::stored_matte_test {
+namespace {
+
+using namespace photos;
+
+// Returns the mean difference between the levels of a matte and the expected levels, 0 to 255.
+template <class Level>
+double Apart(const Matte& matte, const Level& expected) {
+  double sum = 0;
+  for (int y = 0; y < matte.height; ++y) {
+    for (int x = 0; x < matte.width; ++x) {
+      sum += std::fabs(matte.alpha[size_t(y) * size_t(matte.width) + size_t(x)] - expected(x, y));
+    }
+  }
+  return sum / std::max(1.0, double(matte.width) * matte.height);
+}
+
+#ifdef STARFOCUS_HAS_HEIF
+const std::string kWhole = "urn:com:apple:photo:2018:aux:portraiteffectsmatte";
+
+// Level of a soft edge, `inside` pixels from the outline.
+double Soft(double inside) { return 255 * std::clamp(inside / 3 + 0.5, 0.0, 1.0); }
+
+// Levels of the mattes in the seed, as its author has drawn them.
+double Head(int x, int y) { return Soft(14 - std::hypot(x + 0.5 - 48, y + 0.5 - 24)); }
+double Person(int x, int y) {
+  return std::max(Head(x, y), Soft(std::min(26 - std::fabs(x + 0.5 - 48), y + 0.5 - 36)));
+}
+
+// Returns the seed without its depth map.
+std::string WithoutDepth() { return Changed(Seed("heif/mattes.heic"), "auxid:", 0, "9"); }
+
+// Returns the file in which the type of an auxiliary picture is not the type of a matte.
+std::string Without(std::string file, const std::string& type) {
+  return file.replace(file.find(type) + type.size() - 1, 1, "x");
+}
+
+// Returns the file in which the data of the item `id` are damaged.
+std::string Damaged(std::string file, uint32_t id) {
+  const Span span = {reinterpret_cast<const uint8_t*>(file.data()), file.size()};
+  const Bytes head = ReadHeifItems(span).value().at(id).head;
+  const size_t at = file.find(std::string(head.begin(), head.begin() + 40));
+  REQUIRE(at != std::string::npos);
+  return file.replace(at, 40, std::string(40, '\0'));
+}
+
+TEST_CASE("HEIC: beside a depth map, the portrait effects matte gives the matte of the subject") {
+  Capture capture;
+  REQUIRE(Open(Seed("heif/mattes.heic"), &capture) == "");
+  CHECK(capture.format == "HEIF depth photo");
+  CHECK(FactOf(capture, "mattes") == "portrait effects; ignored: hair, skin, sky");
+  CHECK(capture.notes.empty());
+  REQUIRE(capture.matte.width == 128);
+  REQUIRE(capture.matte.height == 64);
+  CHECK(Apart(capture.matte, Person) < 2);
+  const FloatMap& map = capture.light_field.disparity;
+  CHECK(map.at(48, 24) > 2 * map.at(100, 24));
+}
+
+TEST_CASE("HEIC: without a depth map, the matte divides the photo into two surfaces") {
+  Capture capture;
+  REQUIRE(Open(WithoutDepth(), &capture) == "");
+  CHECK(capture.format == "HEIF photo with a matte");
+  const FloatMap& map = capture.light_field.disparity;
+  CHECK(map.at(100, 24) == 0);
+  const double nearest = PerDiopter(50) / 1.5 * std::hypot(128, 64) / std::hypot(kWidth, kHeight);
+  CHECK(double(map.at(48, 24)) == doctest::Approx(nearest).epsilon(0.01));
+  REQUIRE(capture.light_field.coverage.size() == 128 * 64);
+  CHECK(capture.light_field.coverage[24 * 128 + 48] > 250);
+  CHECK(capture.light_field.coverage[24 * 128 + 100] < 5);
+  TempFolder folder;
+  Write(folder.file("photo.heic"), WithoutDepth());
+  CHECK(StoresDepth(folder.file("photo.heic")));
+  Write(folder.file("photo.heic"), Without(WithoutDepth(), kWhole));
+  CHECK(StoresDepth(folder.file("photo.heic")));
+}
+
+TEST_CASE("HEIC: without a portrait effects matte, hair and skin are the subject, with a note") {
+  for (const std::string& file :
+       {Without(Seed("heif/mattes.heic"), kWhole), Damaged(Seed("heif/mattes.heic"), 3)}) {
+    Capture capture;
+    REQUIRE(Open(file, &capture) == "");
+    CHECK(HasNote(capture, "the matte of the subject contains only hair, skin"));
+    // Where hair and skin meet, both are half transparent.
+    CHECK(Apart(capture.matte, Head) < 3);
+  }
+}
+
+TEST_CASE("HEIC: mattes turn with the picture") {
+  Capture capture;
+  REQUIRE(Open(Changed(Seed("heif/mattes.heic"), "irot", 0, "\1"), &capture) == "");
+  REQUIRE(capture.matte.width == 64);
+  REQUIRE(capture.matte.height == 128);
+  CHECK(capture.light_field.views[0].width == 64);
+  CHECK(Apart(capture.matte, [](int x, int y) { return Person(127 - y, x); }) < 2);
+}
+
+TEST_CASE("HEIC: damaged mattes are ignored with a note if the photo has depth") {
+  const std::string depth = Damaged(Damaged(Damaged(Seed("heif/mattes.heic"), 3), 4), 5);
+  Capture capture;
+  REQUIRE(Open(depth, &capture) == "");
+  for (const std::string name : {"portrait effects", "hair", "skin"}) {
+    CHECK(HasNote(capture, "the " + name + " matte in the file is ignored: "));
+  }
+  CHECK(FactOf(capture, "mattes") == "ignored: hair, portrait effects, skin, sky");
+  CHECK(capture.matte.alpha.empty());
+  const Error error = Open(Changed(depth, "auxid:", 0, "9"), &capture);
+  CHECK(Contains(error, "that can be read (the portrait effects matte in the file is ignored"));
+  // A damaged depth map is ignored if the photo has a matte.
+  REQUIRE(Open(Damaged(Seed("heif/mattes.heic"), 2), &capture) == "");
+  CHECK(HasNote(capture, "the depth map in the file is ignored: "));
+  CHECK(capture.format == "HEIF photo with a matte");
+}
+
+TEST_CASE("HEIC: a matte that is too large for its file is not decoded") {
+  // The first declared size belongs to all pictures.
+  const std::string large("\0\0\x30\0\0\0\x30\0", 8);
+  Capture capture;
+  CHECK(Contains(Open(Changed(Seed("heif/mattes.heic"), "ispe", 4, large), &capture),
+                 "32768 pixels for each byte"));
+}
+#endif
+
+// Elements of the XMP of auxiliary pictures, as Apple's cameras write them.
+std::string TypeXml(const std::string& type) {
+  return "<apdi:AuxiliaryImageType>" + type + "</apdi:AuxiliaryImageType>";
+}
+const std::string kWholeXml = TypeXml("depth") +
+                              "<apdi:AuxiliaryImageSubType>portraiteffectsmatte"
+                              "</apdi:AuxiliaryImageSubType>";
+
+// Returns a grey picture whose left half has the level `left`, and whose right half has the level
+// `right`.
+Image Halves(int width, int height, int left, int right) {
+  Image image = Plain(width, height, right);
+  for (int y = 0; y < height; ++y) {
+    std::fill_n(image.row(y), image.stride() / 2, static_cast<uint8_t>(left));
+  }
+  return image;
+}
+
+// Returns a photo with a matte.
+std::string AppleJpeg(const Image& matte, const std::string& elements) {
+  return MultiPicture(Photo(), AppleMap(Encode(matte, ".jpg"), elements));
+}
+
+TEST_CASE("Apple's JPEG: a matte is never a depth map, and gives the matte of the subject") {
+  if (!CanReadXmp()) return;
+  const std::string disparity = AppleMap(Encode(Ramp(kWidth, kHeight), ".jpg"),
+                                         TypeXml("disparity") +
+                                             "<apdi:FloatMinValue>0.5</apdi:FloatMinValue>"
+                                             "<apdi:FloatMaxValue>2</apdi:FloatMaxValue>");
+  const Image matte = Halves(kWidth, kHeight, 255, 0);
+  const auto is_left = [](int x, int) { return 2 * x < kWidth ? 255 : 0; };
+  for (const std::string& type :
+       {kWholeXml, TypeXml("urn:com:apple:photo:2018:aux:portraiteffectsmatte"),
+        TypeXml("urn:com:apple:photo:2019:aux:semantichairmatte")}) {
+    Capture capture;
+    REQUIRE(Open(AppleJpeg(matte, type) + disparity, &capture) == "");
+    CHECK(capture.format == "Apple depth photo (JPEG)");
+    CHECK(double(capture.light_field.disparity.at(0, 5)) ==
+          doctest::Approx(kPortrait / 4).epsilon(0.05));
+    CHECK(Apart(capture.matte, is_left) < 2);
+    REQUIRE(Open(AppleJpeg(matte, type), &capture) == "");
+    CHECK(capture.format == "Apple photo with a matte (JPEG)");
+    CHECK(capture.light_field.disparity.at(kWidth - 2, 5) == 0);
+    CHECK(double(capture.light_field.disparity.at(2, 5)) ==
+          doctest::Approx(kPortrait).epsilon(0.01));
+    CHECK(Apart(capture.matte, is_left) < 2);
+  }
+}
+
+TEST_CASE("Apple's JPEG: a useless matte is an error without depth, and else a note") {
+  if (!CanReadXmp()) return;
+  const auto check = [](const Image& matte, const std::string& problem) {
+    TempFolder folder;
+    Write(folder.file("photo.jpg"), AppleJpeg(matte, kWholeXml));
+    const Error error = OpenCapture(folder.file("photo.jpg"), {}).error();
+    CHECK(Contains(error, "photo.jpg: expected a depth map"));
+    CHECK(Contains(error, "the portrait effects matte in the file is ignored: expected a matte"));
+    CHECK(Contains(error, problem));
+    const bool fits = matte.width == kWidth;  // only opening decodes the picture
+    CHECK(StoresDepth(folder.file("photo.jpg")) == !fits);
+    Require(WriteImage(folder.file("photo-depth.png"), Ramp(kWidth, kHeight)));
+    const Capture capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {}));
+    CHECK(HasNote(capture, problem));
+    CHECK(capture.matte.alpha.empty());
+  };
+  check(Plain(kWidth, kHeight, 0), "an empty matte");
+  check(Plain(kWidth, kHeight, 255), "full everywhere");
+  check(Halves(kHeight, kWidth, 255, 0), "24x40 for 40x24");
+}
+
+// Opens a portrait of Google's camera with the mask of the subject `mask`, whose range `format`
+// describes. If `with_depth` is true, the portrait has a depth map, too.
+Capture OpenMasked(const Image& mask, const std::string& format, Near near = Near::kUnknown,
+                   bool with_depth = false) {
+  std::vector<Part> parts = PortraitParts(kWidth, kHeight);
+  if (!with_depth) parts.erase(parts.begin() + 2);
+  parts.push_back({"Segmentation", "android/mask", Encode(mask, ".jpg")});
+  std::string file = Portrait(Photo(), parts, Directories::kLater, Lengths::kRight);
+  const std::string map = "ItemSemantic=\"Depth\" DepthMap:Format=\"RangeInverse\"",
+                    uri = "\"android/depthmap\"/>";
+  if (!with_depth) {
+    std::string described = "ItemSemantic=\"Segmentation\" " + format;
+    described.resize(map.size(), ' ');  // the length of the segment must remain
+    file.replace(file.find(map), map.size(), described);
+    file.replace(file.find(uri), uri.size(), "\"android/mask\"/>    ");
+  }
+  CaptureOptions options;
+  options.map.near = near;
+  Capture capture;
+  REQUIRE(Open(file, &capture, options) == "");
+  CHECK(FactOf(capture, "picture") != "");
+  CHECK(capture.format == "Dynamic Depth photo (JPEG)");
+  return capture;
+}
+
+TEST_CASE("Dynamic Depth: a mask of the subject becomes the matte, with its soft levels") {
+  if (!CanReadXmp()) return;
+  const Image ramp = Ramp(kWidth, kHeight);
+  const auto white = [](int x, int) { return x * 255 / (kWidth - 1); };
+  const auto black = [&](int x, int y) { return 255 - white(x, y); };
+  const std::string linear = "DepthMap:Format=\"x\"";
+  for (const Near near : {Near::kUnknown, Near::kBlack}) {
+    const Capture capture = OpenMasked(ramp, linear, near);
+    CHECK(HasNote(capture, "a mask of the subject instead of a depth map, in which black is"));
+    CHECK(FactOf(capture, "mattes") == "mask of the subject");
+    CHECK(Apart(capture.matte, black) < 2);
+    CHECK(double(capture.light_field.disparity.at(0, 3)) ==
+          doctest::Approx(kPortrait).epsilon(0.01));
+    CHECK(capture.light_field.disparity.at(kWidth - 1, 3) == 0);
+  }
+  CHECK(Apart(OpenMasked(ramp, linear, Near::kWhite).matte, white) < 2);
+  CHECK(Apart(OpenMasked(ramp, "", Near::kWhite).matte, white) < 2);
+}
+
+TEST_CASE("Dynamic Depth: in a mask without a range, the subject is in the middle at the bottom") {
+  if (!CanReadXmp()) return;
+  for (const int subject : {0, 255}) {
+    // A person in the left half, and a cloud.
+    Image mask = Plain(kWidth, kHeight, 255 - subject);
+    for (int y = 4; y < kHeight; ++y) {
+      const int from = y < 16 ? 10 : 5, to = y < 16 ? 20 : 25;
+      std::fill(mask.row(y) + 3 * from, mask.row(y) + 3 * to, static_cast<uint8_t>(subject));
+    }
+    std::fill_n(mask.row(0) + 3 * 30, 18, static_cast<uint8_t>(subject));
+    const Capture capture = OpenMasked(mask, "");
+    CHECK(HasNote(capture, "because it is nearer to the middle of the lower edge"));
+    CHECK(capture.matte.alpha[20 * size_t(kWidth) + 15] > 250);
+    CHECK(capture.matte.alpha[20 * size_t(kWidth) + 35] < 5);
+  }
+}
+
+TEST_CASE("Dynamic Depth: a mask is ignored if the file has a depth map") {
+  if (!CanReadXmp()) return;
+  const Capture capture = OpenMasked(Ramp(kWidth, kHeight), "", Near::kUnknown, true);
+  CHECK(FactOf(capture, "mattes") == "ignored: mask of the subject");
+  CHECK(capture.matte.alpha.empty());
+  CHECK(double(capture.light_field.disparity.at(0, 3)) == doctest::Approx(kPortrait).epsilon(0.02));
+}
+
+}  // namespace
+}  // namespace starfocus::stored_matte_test
