@@ -19,6 +19,9 @@ const std::string kDisparities =
     "<apdi:AuxiliaryImageType>disparity</apdi:AuxiliaryImageType>"
     "<apdi:FloatMinValue>1</apdi:FloatMinValue><apdi:FloatMaxValue>4</apdi:FloatMaxValue>"
     "<depthData:Accuracy>absolute</depthData:Accuracy>";
+const std::string kMatte =
+    "<apdi:AuxiliaryImageType>depth</apdi:AuxiliaryImageType>"
+    "<apdi:AuxiliaryImageSubType>portraiteffectsmatte</apdi:AuxiliaryImageSubType>";
 const std::string kMap =
     "DepthMap:Format=\"RangeLinear\" DepthMap:Near=\"1\" DepthMap:Far=\"9\" "
     "DepthMap:Units=\"Meters\"";
@@ -36,6 +39,8 @@ void WritePhotos(const std::string& folder) {
         Gdepth(jpeg, kRange, "GDepth:Data=\"" + Base64(Png16(2, 2, {0, 9, 99, 65535})) + "\""));
   Write(folder + "/dynamic.jpg", DynamicDepth(jpeg, png, kMap));
   Write(folder + "/apple.jpg", MultiPicture(jpeg, AppleMap(jpeg, kDisparities)));
+  Write(folder + "/mattes.jpg",
+        MultiPicture(jpeg, AppleMap(jpeg, kMatte)) + AppleMap(jpeg, kDisparities));
   // Unusual photos: no index, a wrong index, a pair, diopters with wrong lengths, two packets, and
   // a profile with unordered parts.
   Write(folder + "/no_index.jpg", jpeg + AppleMap(jpeg, kDisparities));
@@ -45,6 +50,10 @@ void WritePhotos(const std::string& folder) {
   Write(folder + "/diopters.jpg", DynamicDepth(jpeg, png, kDiopters, 5));
   std::vector<Part> portrait = PortraitParts(8, 6);
   Write(folder + "/portrait.jpg", Portrait(jpeg, portrait, Directories::kLater, Lengths::kRight));
+  std::vector<Part> masked = portrait;
+  masked[2].semantic = "Segmentation";
+  masked[2].uri = "android/mask";
+  Write(folder + "/mask.jpg", Portrait(jpeg, masked, Directories::kLater, Lengths::kRight));
   portrait.erase(portrait.begin() + 3, portrait.end());
   Write(folder + "/two_directories.jpg",
         Portrait(jpeg, portrait, Directories::kBoth, Lengths::kMissing, 2));
