@@ -79,6 +79,47 @@ class Reader(unittest.TestCase):
                                               depth_unit="disparity", no_repair=True)
         np.testing.assert_array_equal(covered.coverage.ravel(), np.arange(DISPARITY.size, dtype=np.uint8))
 
+    def test_a_picture_and_its_matte(self):
+        Image.fromarray(VIEWS[0]).save("photo.png")
+        matte = np.zeros(DISPARITY.shape, np.uint8)
+        matte[40:, 80:200] = 255
+        matte[40:, 200:204] = 100
+        Image.fromarray(matte).save("matte.png")
+        given = starfocus.read_light_field("photo.png", matte="matte.png")
+        np.testing.assert_array_equal(given.coverage, matte)
+        self.assertEqual(given.disparity.min(), 0)
+        np.testing.assert_array_equal(given.disparity > 0, matte >= 128)
+        cutout = np.dstack([VIEWS[0], matte])
+        for name, array in (("bytes", matte), ("floats", np.float32(matte) / 255), ("doubles", matte / 255),
+                            ("cutout", cutout), ("flipped", matte[::-1].copy()[::-1]), ("words", np.uint16(matte) * 257)):
+            with self.subTest(name):
+                same = starfocus.read_light_field("photo.png", matte=array)
+                np.testing.assert_array_equal(same.coverage, matte)
+                np.testing.assert_array_equal(same.disparity, given.disparity)
+        hard = starfocus.read_light_field("photo.png", matte=matte == 255)
+        np.testing.assert_array_equal(hard.coverage, np.where(matte == 255, 255, 0))
+        floor = starfocus.read_light_field("photo.png", matte=matte, floor=True).disparity
+        self.assertTrue((floor[-1] == given.disparity.max()).all())
+        self.assertEqual(floor[0].max(), 0)
+        command = starfocus.read_light_field("photo.png", matte_command="cp matte.png {output} && test -s {input}")
+        np.testing.assert_array_equal(command.coverage, matte)
+        for wrong, message in ((VIEWS[0], r"^matte: expected an array of shape \(height, width\) or \(height, width, 4\), found"),
+                               (np.zeros_like(matte), "matte.npy: expected a matte with a subject, found an empty matte"),
+                               (matte[:, :99], "expected a matte with the proportions of the picture")):
+            with self.assertRaisesRegex(ValueError, message):
+                starfocus.read_light_field("photo.png", matte=wrong)
+
+    def test_a_matte_beside_depth(self):
+        Image.fromarray(VIEWS[0]).save("photo.png")
+        matte = np.where(DISPARITY > np.median(DISPARITY), 200, 0).astype(np.uint8)
+        depth = np.ma.array(DISPARITY, mask=np.zeros_like(DISPARITY, bool))
+        depth.mask[:2] = True
+        with self.assertWarnsRegex(UserWarning, "pixels of the depth map are unknown"):
+            scene = starfocus.read_light_field("photo.png", depth=depth, depth_unit="disparity", matte=matte,
+                                               no_repair=True)
+        np.testing.assert_array_equal(scene.disparity[2:], DISPARITY[2:])
+        self.assertEqual((scene.coverage.dtype, scene.coverage.shape), (np.uint8, matte.shape))
+
     def test_a_depth_map_in_tiff(self):
         Image.fromarray(VIEWS[0]).save("photo.png")
         Image.fromarray(DISPARITY).save("depth.tiff")

@@ -14,7 +14,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._types import Bytes, Floats
+from ._types import Array, Bytes, Floats
 from .maps import view_positions
 
 _GAP = rb"\s(?:\s|#[^\n]*\n)*"  # white space and comments
@@ -24,8 +24,9 @@ _PFM_HEADER = re.compile(rb"Pf%b([1-9]\d{0,8})%b([1-9]\d{0,8})%b([+-]?(?:\d+\.?\
 _PROGRAM = Path(__file__).parent / "bin" / "starfocus"
 #: Path of a file or folder.
 AnyPath = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
-#: Value of an option of `starfocus import`. True sets an option without a value. None and False do not set an option.
-Option = Union[AnyPath, int, float, bool, None]
+#: Value of an option of `starfocus import`. True sets an option without a value. None and False do not set an option. An
+#: array replaces a file, for example of `depth` or `matte`.
+Option = Union[AnyPath, Array, int, float, bool, None]
 
 
 class InputError(ValueError):
@@ -41,7 +42,7 @@ class LightField:
         disparity: disparity map of the centre view in pixels per unit of u, float32 of shape (height, width); None if
             the input has no map.
         coverage: alpha of the foreground, uint8 of shape (height, width), for `Refocuser.refocus`; None if neither the
-            input nor the repair of its map has coverage.
+            input, nor a matte, nor the repair of its map has coverage.
         positions: positions (u, v) of the views, each from -1 to 1, for `Refocuser.for_light_field`.
         format: name of the format of the input.
         facts: other facts in the files of the input, by name.
@@ -60,7 +61,9 @@ class LightField:
 def read_light_field(path: AnyPath, *,
                      views: Union[int, Sequence[Tuple[float, float]], None] = None, estimate: bool = False,
                      **options: Option) -> LightField:
-    """Reads a light field, or a photo with depth, in any format that the program `starfocus` reads (docs/formats.md).
+    """Reads a light field, or a photo with depth or a matte, in any format that the program `starfocus` reads.
+
+    docs/formats.md describes the formats.
 
     Args:
         path: folder of views, or photo.
@@ -68,7 +71,11 @@ def read_light_field(path: AnyPath, *,
         estimate: True estimates the disparity map of an input without a map, which must have several views.
         options: other options of `starfocus import`, with underscores for hyphens; `starfocus help import` describes
             them. For example, `depth="depth.png", near="white"` reads a photo and its depth picture, and
-            `right="right.jpg"` reads a stereo pair. As in the program, maps of photos are repaired by default;
+            `right="right.jpg"` reads a stereo pair. `matte="matte.png"` reads a photo and the matte of its subject, which
+            gives two surfaces and their coverage; `floor=True` adds the ground below the subject. Files such as depth,
+            matte and coverage may be arrays of shape (height, width), or of shape (height, width, 4), whose last channel
+            is used. Integers reach from 0 to the largest value of their type, and floats of a matte from 0 to 1. Masked
+            values are unknown. As in the program, maps of photos are repaired by default;
             `no_repair=True` returns them unchanged. `threads=4` uses 4 threads.
 
     The function writes the light field to a temporary folder. Notes of the program are issued as warnings.
@@ -84,7 +91,8 @@ def read_light_field(path: AnyPath, *,
         wanted = ":".join(f"{u},{v}" for u, v in views)
     with tempfile.TemporaryDirectory(prefix="starfocus-") as temporary:
         folder = Path(temporary) / "light_field"
-        described = json.loads(_run(["import", source, str(folder)], {**options, "views": wanted, "json": True}))
+        files = {name: _as_file(name, value, temporary) for name, value in options.items()}
+        described = json.loads(_run(["import", source, str(folder)], {**files, "views": wanted, "json": True}))
         if estimate and not (folder / "disparity.pfm").exists():
             _run(["disparity", folder.name], {"threads": options.get("threads")}, temporary)
         return _read_folder(folder, described)
@@ -113,6 +121,23 @@ def read_pfm(path: AnyPath) -> Floats:
         raise ValueError(f"{path}: expected {expected} bytes of values, found {found}")
     values = np.frombuffer(data, "<f4" if scale < 0 else ">f4", width * height, header.end()).reshape(height, width)
     return np.ascontiguousarray(values[::-1], np.float32)
+
+
+def _as_file(name: str, value: Option, folder: str) -> Option:
+    """Writes an array to a file in `folder`, and returns its path. Returns other values of the option `name` as they are."""
+    if not isinstance(value, np.ndarray) or value.ndim == 0:
+        return value
+    plane = value[:, :, 3] if value.ndim == 3 and value.shape[2] == 4 else value
+    if plane.ndim != 2:
+        raise ValueError(f"{name}: expected an array of shape (height, width) or (height, width, 4), found shape "
+                         f"{value.shape}")
+    if plane.dtype == bool:
+        plane = plane * np.uint8(255)
+    if isinstance(plane, np.ma.MaskedArray):
+        plane = plane.astype(np.float32).filled(np.nan)
+    path = os.path.join(folder, f"{name}.npy")
+    np.save(path, plane)
+    return path
 
 
 def _run(command: List[str], options: Dict[str, Option], working_folder: Optional[str] = None) -> str:
