@@ -90,8 +90,8 @@ class Reader(unittest.TestCase):
         self.assertEqual(given.disparity.min(), 0)
         np.testing.assert_array_equal(given.disparity > 0, matte >= 128)
         cutout = np.dstack([VIEWS[0], matte])
-        for name, array in (("bytes", matte), ("floats", np.float32(matte) / 255), ("doubles", matte / 255),
-                            ("cutout", cutout), ("flipped", matte[::-1].copy()[::-1]), ("words", np.uint16(matte) * 257)):
+        for name, array in (("bytes", matte), ("words", np.uint16(matte) * 257), ("floats", np.float32(matte) / 255),
+                            ("doubles", matte / 255), ("cutout", cutout), ("flipped", matte[::-1].copy()[::-1])):
             with self.subTest(name):
                 same = starfocus.read_light_field("photo.png", matte=array)
                 np.testing.assert_array_equal(same.coverage, matte)
@@ -99,12 +99,12 @@ class Reader(unittest.TestCase):
         hard = starfocus.read_light_field("photo.png", matte=matte == 255)
         np.testing.assert_array_equal(hard.coverage, np.where(matte == 255, 255, 0))
         floor = starfocus.read_light_field("photo.png", matte=matte, floor=True).disparity
-        self.assertTrue((floor[-1] == given.disparity.max()).all())
+        self.assertGreater(floor[-1].min(), 0.97 * given.disparity.max())
         self.assertEqual(floor[0].max(), 0)
         command = starfocus.read_light_field("photo.png", matte_command="cp matte.png {output} && test -s {input}")
         np.testing.assert_array_equal(command.coverage, matte)
-        for wrong, message in ((VIEWS[0], r"^matte: expected an array of shape \(height, width\) or \(height, width, 4\), found"),
-                               (np.zeros_like(matte), "matte.npy: expected a matte with a subject, found an empty matte"),
+        for wrong, message in ((VIEWS[0], "^matte: expected an array of shape .* found shape .240, 320, 3.$"),
+                               (np.zeros_like(matte), "^matte.npy: expected a matte with a subject, .* empty matte"),
                                (matte[:, :99], "expected a matte with the proportions of the picture")):
             with self.assertRaisesRegex(ValueError, message):
                 starfocus.read_light_field("photo.png", matte=wrong)

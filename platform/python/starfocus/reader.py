@@ -24,8 +24,8 @@ _PFM_HEADER = re.compile(rb"Pf%b([1-9]\d{0,8})%b([1-9]\d{0,8})%b([+-]?(?:\d+\.?\
 _PROGRAM = Path(__file__).parent / "bin" / "starfocus"
 #: Path of a file or folder.
 AnyPath = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
-#: Value of an option of `starfocus import`. True sets an option without a value. None and False do not set an option. An
-#: array replaces a file, for example of `depth` or `matte`.
+#: Value of an option of `starfocus import`. True sets an option without a value. None and False do not set an option.
+#: An array replaces the file of `depth` or `matte`.
 Option = Union[AnyPath, Array, int, float, bool, None]
 
 
@@ -71,12 +71,12 @@ def read_light_field(path: AnyPath, *,
         estimate: True estimates the disparity map of an input without a map, which must have several views.
         options: other options of `starfocus import`, with underscores for hyphens; `starfocus help import` describes
             them. For example, `depth="depth.png", near="white"` reads a photo and its depth picture, and
-            `right="right.jpg"` reads a stereo pair. `matte="matte.png"` reads a photo and the matte of its subject, which
-            gives two surfaces and their coverage; `floor=True` adds the ground below the subject. Files such as depth,
-            matte and coverage may be arrays of shape (height, width), or of shape (height, width, 4), whose last channel
-            is used. Integers reach from 0 to the largest value of their type, and floats of a matte from 0 to 1. Masked
-            values are unknown. As in the program, maps of photos are repaired by default;
-            `no_repair=True` returns them unchanged. `threads=4` uses 4 threads.
+            `right="right.jpg"` reads a stereo pair. `matte="matte.png"` reads a photo and the matte of its subject,
+            which gives two surfaces and their coverage; `floor=True` adds the ground below the subject. `depth` and
+            `matte` may be arrays of shape (height, width), or of shape (height, width, 4), whose last channel is
+            used. Integers of a matte reach from 0 to the largest value of their type, and floats from 0 to 1. Masked
+            values of depth are unknown. As in the program, maps of photos are repaired by default; `no_repair=True`
+            returns them unchanged. `threads=4` uses 4 threads.
 
     The function writes the light field to a temporary folder. Notes of the program are issued as warnings.
 
@@ -92,9 +92,10 @@ def read_light_field(path: AnyPath, *,
     with tempfile.TemporaryDirectory(prefix="starfocus-") as temporary:
         folder = Path(temporary) / "light_field"
         files = {name: _as_file(name, value, temporary) for name, value in options.items()}
-        described = json.loads(_run(["import", source, str(folder)], {**files, "views": wanted, "json": True}))
+        described = json.loads(_run(["import", source, str(folder)], {**files, "views": wanted, "json": True},
+                                    temporary))
         if estimate and not (folder / "disparity.pfm").exists():
-            _run(["disparity", folder.name], {"threads": options.get("threads")}, temporary)
+            _run(["disparity", str(folder)], {"threads": options.get("threads")}, temporary)
         return _read_folder(folder, described)
 
 
@@ -124,7 +125,7 @@ def read_pfm(path: AnyPath) -> Floats:
 
 
 def _as_file(name: str, value: Option, folder: str) -> Option:
-    """Writes an array to a file in `folder`, and returns its path. Returns other values of the option `name` as they are."""
+    """Writes an array to a file in `folder`, and returns its path. Returns other values as they are."""
     if not isinstance(value, np.ndarray) or value.ndim == 0:
         return value
     plane = value[:, :, 3] if value.ndim == 3 and value.shape[2] == 4 else value
@@ -134,16 +135,17 @@ def _as_file(name: str, value: Option, folder: str) -> Option:
     if plane.dtype == bool:
         plane = plane * np.uint8(255)
     if isinstance(plane, np.ma.MaskedArray):
-        plane = plane.astype(np.float32).filled(np.nan)
+        plane = np.where(np.asarray(plane.mask), np.float32(np.nan), np.asarray(plane, np.float32))
     path = os.path.join(folder, f"{name}.npy")
     np.save(path, plane)
     return path
 
 
-def _run(command: List[str], options: Dict[str, Option], working_folder: Optional[str] = None) -> str:
+def _run(command: List[str], options: Dict[str, Option], temporary: str) -> str:
     """Runs a command of the program, and returns its output. Issues its notes as warnings.
 
-    If the program fails, its error is the last line that starts with the name of the program.
+    If the program fails, its error is the last line that starts with the name of the program. All texts name files in
+    the folder `temporary` without the folder.
     """
     if not _PROGRAM.exists():
         raise RuntimeError("read_light_field: expected a package with the program starfocus, found one that was built "
@@ -155,8 +157,9 @@ def _run(command: List[str], options: Dict[str, Option], working_folder: Optiona
             text = os.fsdecode(value) if isinstance(value, (bytes, os.PathLike)) else value
             arguments.append(flag if value is True else f"{flag}={text}")
     done = subprocess.run(arguments, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
-                          cwd=working_folder, check=False)
-    notes = done.stderr.strip().splitlines()
+                          check=False)
+    output, errors = (text.replace(os.path.join(temporary, ""), "") for text in (done.stdout, done.stderr))
+    notes = errors.strip().splitlines()
     error = ""
     if done.returncode != 0:
         at = max((at for at, note in enumerate(notes) if note.startswith("starfocus: ")), default=None)
@@ -166,7 +169,7 @@ def _run(command: List[str], options: Dict[str, Option], working_folder: Optiona
         warnings.warn(note, stacklevel=3)
     if error:
         raise InputError(error.removeprefix("starfocus: "))
-    return done.stdout
+    return output
 
 
 def _read_folder(folder: Path, described: Dict[str, Any]) -> LightField:
