@@ -209,7 +209,7 @@ TEST_CASE("Apple's JPEG: a useless matte is an error without depth, and else a n
     CHECK(capture.matte.alpha.empty());
   };
   check(Plain(kWidth, kHeight, 0), "an empty matte");
-  check(Plain(kWidth, kHeight, 255), "full everywhere");
+  check(Plain(kWidth, kHeight, 255), "a full matte");
   check(Halves(kHeight, kWidth, 255, 0), "24x40 for 40x24");
 }
 
