@@ -19,6 +19,7 @@
 #include "platform/runner.h"
 #include "tests/cli/session.h"
 #include "tests/support/photo_files.h"
+#include "tests/support/seed_file.h"
 
 namespace starfocus::import_program_test {
 namespace {
@@ -68,12 +69,19 @@ TEST_CASE("photos: every session of the tables succeeds") {
   const auto write_photo = [](const TempFolder& folder) {
     Write(folder.file("photo.jpg"), GdepthPhoto());
   };
+  const auto copy_seeds = [](const TempFolder& folder) {
+    for (const std::string name : {"mask.jpg", "mattes.jpg"}) {
+      Write(folder.file(name), Seed("photo/" + name));
+    }
+  };
   RunSessions("readers/plain_sessions.txt",
               {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
   for (const char* table : {"readers/depth_command_sessions.txt", "readers/matte_sessions.txt"}) {
     RunSessions(table, {{"photo and map", MakePhotoAndMap}});
   }
-  if (CanReadXmp()) RunSessions("readers/sessions.txt", {{"GDepth photo", write_photo}});
+  if (!CanReadXmp()) return;
+  RunSessions("readers/sessions.txt",
+              {{"GDepth photo", write_photo}, {"stored mattes", copy_seeds}});
 }
 
 TEST_CASE("photos: the depth command runs if the parent of the program ignores SIGCHLD") {
