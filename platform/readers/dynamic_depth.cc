@@ -157,7 +157,7 @@ Error ReadDynamicDepth(Span file, const XmpNode& xmp, Near near,
   Error error;
   if (Describes(xmp, false)) error = ReadItem(xmp, *items, false, near, photo);
   if (Describes(xmp, true)) {
-    // A mask has no soft outlines, so that it would not improve the coverage of a map.
+    // The repair of a map finds outlines more accurately than a mask (docs/formats.md).
     if (!photo->map.values.empty()) {
       photo->facts.emplace_back("mattes", "ignored: mask of the subject");
     } else {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "platform/readers/capture.h"
@@ -213,10 +214,9 @@ TEST_CASE("Apple's JPEG: a useless matte is an error without depth, and else a n
   check(Halves(kHeight, kWidth, 255, 0), "24x40 for 40x24");
 }
 
-// Opens a portrait of Google's camera with the mask of the subject `mask`, whose range `format`
+// Returns a portrait of Google's camera with the mask of the subject `mask`, whose range `format`
 // describes. If `with_depth` is true, the portrait has a depth map, too.
-Capture OpenMasked(const Image& mask, const std::string& format, Near near = Near::kUnknown,
-                   bool with_depth = false) {
+std::string Masked(const Image& mask, const std::string& format, bool with_depth) {
   std::vector<Part> parts = PortraitParts(kWidth, kHeight);
   if (!with_depth) parts.erase(parts.begin() + 2);
   parts.push_back({"Segmentation", "android/mask", Encode(mask, ".jpg")});
@@ -229,10 +229,15 @@ Capture OpenMasked(const Image& mask, const std::string& format, Near near = Nea
     file.replace(file.find(map), map.size(), described);
     file.replace(file.find(uri), uri.size(), "\"android/mask\"/>    ");
   }
+  return file;
+}
+
+Capture OpenMasked(const Image& mask, const std::string& format, Near near = Near::kUnknown,
+                   bool with_depth = false) {
   CaptureOptions options;
   options.map.near = near;
   Capture capture;
-  REQUIRE(Open(file, &capture, options) == "");
+  REQUIRE(Open(Masked(mask, format, with_depth), &capture, options) == "");
   CHECK(FactOf(capture, "picture") != "");
   CHECK(capture.format == "Dynamic Depth photo (JPEG)");
   return capture;
@@ -271,6 +276,17 @@ TEST_CASE("Dynamic Depth: in a mask without a range, the subject is in the middl
     CHECK(HasNote(capture, "because it is nearer to the middle of the lower edge"));
     CHECK(capture.matte.alpha[20 * size_t(kWidth) + 15] > 250);
     CHECK(capture.matte.alpha[20 * size_t(kWidth) + 35] < 5);
+  }
+}
+
+TEST_CASE("Dynamic Depth: an empty or full mask is an error that names the file") {
+  if (!CanReadXmp()) return;
+  Capture capture;
+  for (const auto& [level, found] : {std::pair(255, "an empty matte"), {0, "a full matte"}}) {
+    const Image mask = Plain(kWidth, kHeight, level);
+    const Error error = Open(Masked(mask, "DepthMap:Format=\"x\"", false), &capture);
+    CHECK(Contains(error, "photo.jpg: expected a matte with a "));
+    CHECK(Contains(error, found));
   }
 }
 
