@@ -126,7 +126,8 @@ function readDynamicDepth(name, bytes, end, xmp) {
 function readApple(bytes, end) {
   for (const picture of readFurtherPictures(bytes, end)) {
     const xmp = readXmp(picture.segments), type = xmp.get(PIXELS, 'AuxiliaryImageType');
-    if (type !== 'disparity' && type !== 'depth') continue;
+    // The portrait effects matte has the type depth and a subtype.
+    if (xmp.get(PIXELS, 'AuxiliaryImageSubType') !== undefined || type !== 'disparity' && type !== 'depth') continue;
     return {depth: new Blob([picture.bytes], {type: 'image/jpeg'}), range: appleRange(xmp)};
   }
   return null;
