@@ -7,20 +7,11 @@ namespace starfocus {
 namespace {
 
 constexpr int kPositionBits = 12;  // of positions between two samples
-constexpr int kSmoothBits = 8;     // of the part of the B-spline
 constexpr int kRowBits = 6;        // of the alpha of resampled rows
 
-// Returns the part of the B-spline in the weights of an axis, in 1/2^kSmoothBits. The B-spline
-// avoids stairs in the outlines of small mattes. Where the matte is enlarged less, a Catmull-Rom
-// spline keeps outlines sharp, and keeps the samples of mattes of the picture's size
-// (docs/constants.md).
-int64_t SmoothPart(const MatteAxis& axis) {
-  constexpr int64_t kSharp = 2, kSmooth = 8;  // enlargements
-  const int64_t samples = axis.samples, beyond = axis.pixels - kSharp * samples;
-  if (beyond <= 0) return 0;
-  const int64_t part = (beyond << kSmoothBits) / ((kSmooth - kSharp) * samples);
-  return part < (1 << kSmoothBits) ? part : 1 << kSmoothBits;
-}
+// Increase of the contrast by B-splines, in 1 / (1 << kSmoothBits), which makes up for the width of
+// their outlines (docs/constants.md).
+constexpr int32_t kContrast = 77;
 
 // Returns the weights of four samples at the position t between the second and the third sample.
 MatteTaps SplineAt(int32_t first, int64_t t, int64_t smooth) {
@@ -42,6 +33,17 @@ MatteTaps SplineAt(int32_t first, int64_t t, int64_t smooth) {
 
 }  // namespace
 
+// The B-spline avoids stairs in the outlines of small mattes. Where the matte is enlarged less, a
+// Catmull-Rom spline keeps outlines sharp, and keeps the samples of mattes of the picture's size
+// (docs/constants.md).
+int32_t MatteAxis::Smooth() const {
+  constexpr int64_t kSharp = 2, kSmooth = 8;  // enlargements
+  const int64_t beyond = pixels - kSharp * samples;
+  if (beyond <= 0) return 0;
+  const int64_t part = (beyond << kSmoothBits) / ((kSmooth - kSharp) * samples);
+  return static_cast<int32_t>(part < (1 << kSmoothBits) ? part : 1 << kSmoothBits);
+}
+
 MatteTaps MatteAxis::At(int32_t pixel) const {
   // On this scale, a sample is `pixels` long, and a pixel is `samples` long.
   const int64_t begin = int64_t{pixel} * samples, end = begin + samples;
@@ -57,7 +59,7 @@ MatteTaps MatteAxis::At(int32_t pixel) const {
   constexpr int64_t kOne = int64_t{1} << kPositionBits;
   const int64_t at = (((begin + end) << kPositionBits) / pixels + kOne) / 2;
   const auto left = static_cast<int32_t>(at >> kPositionBits) - 1;
-  return SplineAt(left - 1, at & (kOne - 1), SmoothPart(*this));
+  return SplineAt(left - 1, at & (kOne - 1), Smooth());
 }
 
 MatteRows::MatteRows(const starfocus_matte& matte, int32_t width, int32_t height, int32_t x,
@@ -66,7 +68,9 @@ MatteRows::MatteRows(const starfocus_matte& matte, int32_t width, int32_t height
       step_(static_cast<size_t>(Max(1, matte.pixel_stride))),
       across_{matte.width, width},
       down_{matte.height, height},
-      count_(count) {
+      count_(count),
+      contrast_((1 << kSmoothBits) +
+                ((across_.Smooth() + down_.Smooth()) * kContrast >> (kSmoothBits + 1))) {
   for (int32_t k = 0; k < count; ++k) columns_[k] = across_.At(x + k);
 }
 
@@ -116,12 +120,14 @@ void MatteRows::Read(int32_t y, uint8_t* alpha) {
     const int16_t* const row = Row(taps.first + n);
     for (int32_t k = 0; k < count_; ++k) sums[k] += weight * row[k];
   }
-  constexpr int kBits = kSplineBits + kRowBits;
-  const int32_t total = down_.samples << kRowBits;
+  constexpr int32_t kMiddle = 255 << (kRowBits - 1);
+  const int32_t total = down_.samples;
   for (int32_t k = 0; k < count_; ++k) {
-    const int32_t mean =
-        averages ? (sums[k] + total / 2) / total : (sums[k] + (1 << (kBits - 1))) >> kBits;
-    alpha[k] = static_cast<uint8_t>(Clamp(mean, 0, 255));
+    const int32_t mean = averages ? (sums[k] + total / 2) / total
+                                  : (sums[k] + (1 << (kSplineBits - 1))) >> kSplineBits;
+    const int32_t value = kMiddle + ((mean - kMiddle) * contrast_ >> kSmoothBits);
+    const int32_t rounded = (value + (1 << (kRowBits - 1))) >> kRowBits;
+    alpha[k] = static_cast<uint8_t>(Clamp(rounded, 0, 255));
   }
 }
 

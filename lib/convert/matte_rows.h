@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Resamples mattes to the size of the picture. Along an axis on which the matte has at most as many
-// samples as the picture, alpha is interpolated by cubic splines. Along other axes, alpha is the
-// mean over the area of each pixel.
+// samples as the picture, alpha is interpolated by cubic splines, and the contrast of small mattes
+// is raised. Along other axes, alpha is the mean over the area of each pixel.
 #ifndef STARFOCUS_LIB_CONVERT_MATTE_ROWS_H_
 #define STARFOCUS_LIB_CONVERT_MATTE_ROWS_H_
 
@@ -31,8 +31,11 @@ struct MatteAxis {
   // Returns the samples of a pixel. The weights of a mean sum to `samples`, and the weights of a
   // spline to 1 << kSplineBits.
   MatteTaps At(int32_t pixel) const;
+  // Returns the part of the B-spline in the weights of a spline, in 1 / (1 << kSmoothBits).
+  int32_t Smooth() const;
 };
 inline constexpr int kSplineBits = 14;
+inline constexpr int kSmoothBits = 8;
 
 // Columns of a picture whose alpha is read row by row. Neighbouring rows of the picture share
 // resampled rows of the matte.
@@ -58,6 +61,7 @@ class MatteRows {
   const size_t step_;  // bytes from sample to sample
   const MatteAxis across_, down_;
   const int32_t count_;
+  const int32_t contrast_;  // in 1 / (1 << kSmoothBits)
   MatteTaps columns_[kMattePiece];
   int32_t held_[kHeld] = {-1, -1, -1, -1};  // rows of the matte in rows_
   int16_t rows_[kHeld][kMattePiece];

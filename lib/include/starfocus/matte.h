@@ -86,9 +86,10 @@ typedef struct starfocus_matte_depth {
  *
  *  A matte that is smaller than the picture is interpolated by cubic splines: Catmull-Rom splines
  *  up to twice the size of the matte, B-splines from 8 times the size, and a mixture between these
- *  sizes. A matte that is larger than the picture is averaged over the area of each pixel. A matte
- *  of the picture's size is not changed. Along each axis, the rule depends on the sizes along this
- *  axis.
+ *  sizes. B-splines raise the contrast around 1/2 by 30 %, because small mattes show sharp outlines
+ *  as wide ones. A matte that is larger than the picture is averaged over the area of each pixel. A
+ * matte of the picture's size is not changed. Along each axis, the rule depends on the sizes along
+ * this axis.
  *  @param matte matte
  *  @param depth disparities of both surfaces
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
