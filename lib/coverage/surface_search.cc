@@ -12,6 +12,7 @@ constexpr int32_t kRampRatio = 4;
 // Returns true if the middle of three adjacent pixels is on a ramp. The arguments are the
 // disparities of the pixels in kDisparityBits.
 bool IsRamp(int32_t before, int32_t here, int32_t after) {
+  if (Abs(after - before) < 2 * kLeastRamp) return false;  // most pixels
   const int32_t sign = after < before ? -1 : 1;
   const int32_t a = sign * (here - before), b = sign * (after - here);
   return Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b);
@@ -52,10 +53,13 @@ SurfaceSearch::SurfaceSearch(const GivenDisparities& around) : around_(around) {
       const int32_t at = y * kSide + x;
       on_ramp_[at] = IsBetweenNeighbours(around.disparity + at);
       if (on_ramp_[at]) continue;
-      Cell& cell = cells_[y / kCellSide * kCells + x / kCellSide];
-      if (around.disparity[at] < cell.least) cell.least = around.disparity[at];
-      if (around.disparity[at] > cell.greatest) cell.greatest = around.disparity[at];
+      cells_[y / kCellSide * kCells + x / kCellSide].Add(around.disparity[at]);
     }
+  }
+  for (const Cell& cell : cells_) {
+    if (cell.least > cell.greatest) continue;
+    all_.Add(cell.least);
+    all_.Add(cell.greatest);
   }
 }
 
@@ -82,6 +86,7 @@ uint32_t SurfaceSearch::LeastRank(const Target& target, int32_t column, int32_t 
 }
 
 Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
+  if (high < all_.least || low > all_.greatest) return {around_.disparity[at], INT32_MAX};
   const Target target = {at % kSide, at / kSide, low, high};
   const int32_t column = target.x / kCellSide, row = target.y / kCellSide;
   uint32_t rank = kNotFound;

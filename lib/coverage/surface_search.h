@@ -56,6 +56,11 @@ class SurfaceSearch {
   // Range of the disparities of a cell, without pixels on ramps; empty if least > greatest.
   struct Cell {
     int16_t least = INT16_MAX, greatest = INT16_MIN;
+
+    void Add(int16_t disparity) {
+      if (disparity < least) least = disparity;
+      if (disparity > greatest) greatest = disparity;
+    }
   };
   struct Target {
     int32_t x, y;  // column and row of the start
@@ -68,6 +73,7 @@ class SurfaceSearch {
   const GivenDisparities& around_;
   bool on_ramp_[kSide * kSide] = {};  // false for the outermost kRampReach pixels
   Cell cells_[kCells * kCells];
+  Cell all_;  // range of all cells, at which most searches end
 };
 
 }  // namespace starfocus
