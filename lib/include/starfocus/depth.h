@@ -80,16 +80,17 @@ typedef struct starfocus_depth_config {
   starfocus_position positions[STARFOCUS_MAX_VIEWS];
 } starfocus_depth_config;
 
-/** Output planes of an estimate or repair of a disparity map. The planes must not overlap the
- *  views, the given map, the workspace or each other. */
+/** Output planes of an estimate or repair of a disparity map, and of the functions of
+ *  starfocus/matte.h. The planes must not overlap the views, the given map, the workspace or each
+ *  other. */
 typedef struct starfocus_disparity_output {
   float* disparity;         /**< Disparities, aligned to 4 bytes. */
   size_t disparity_stride;  /**< Bytes from row to row, >= 4 * width, a multiple of 4. */
   uint8_t* confidence;      /**< Confidence of each disparity; 0: no confidence; may be null. */
   size_t confidence_stride; /**< Bytes from row to row, >= width. */
-  uint8_t* coverage; /**< starfocus_repair_disparity of one view: receives the coverage of hair, for
-                        starfocus_light_field.coverage; may be null. */
-  size_t coverage_stride; /**< Bytes from row to row, >= width. */
+  uint8_t* coverage;        /**< Receives coverage for starfocus_light_field.coverage; may be null.
+                               starfocus_repair_disparity of one view writes the coverage of hair. */
+  size_t coverage_stride;   /**< Bytes from row to row, >= width. */
   int32_t has_coverage; /**< Set by the call: 1 if `coverage` contains coverage that belongs to the
                            map; 0 if `coverage` is unspecified. */
 } starfocus_disparity_output;
