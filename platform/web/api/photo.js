@@ -4,12 +4,14 @@
 import {checkFields, expect, StarfocusError} from './errors.js';
 import {CALL, ENGINE, LENS} from './fields.js';
 import {checkPositions, isBytes, isDepth} from './light_field.js';
+import {checkMatteOptions, checkMatteSize} from './matte.js';
 import {Refocusing} from './refocusing.js';
 import {checkEngine, Refocuser} from './refocuser.js';
 import {WorkerCalls} from './worker_calls.js';
 
 const OPTIONS = {
-  ...ENGINE, ...CALL, near: 'any', blur: 'number', disparity: 'boolean', repair: 'boolean', positions: 'any'
+  ...ENGINE, ...CALL, near: 'any', blur: 'number', disparity: 'boolean', repair: 'boolean', positions: 'any', matte: 'any',
+  floor: 'boolean'
 };
 const VIEWS = [1, 5, 9, 17];
 const MAX_BLUR = 128;      // pixels, STARFOCUS_MAX_BLUR
@@ -24,10 +26,12 @@ const F_STOP = 1.8;        // default f-stop of photos; light fields have the de
 const BLUR = 50 / 43.2666 * 50 / 1000 / 2 / 1.5;
 
 const PREVIEWS = 3;
+const UNITS = 64;  // steps of disparities per pixel
 
-/** Returns pixels in memory, with one value or 3 or 4 bytes per pixel for depth, and 3 or 4 bytes for pictures. */
+/** Returns pixels in memory, with one value or 3 or 4 bytes per pixel for depth and mattes, and 3 or 4 bytes for
+ *  pictures. */
 function checkPixels({data, width, height}, what) {
-  const isMap = what === 'depth', channels = data.length / (width * height);
+  const isMap = what === 'depth' || what === 'matte', channels = data.length / (width * height);
   expect(isMap ? isDepth(data) : isBytes(data), `${what}.data`,
          `${isMap ? 'a Float32Array, a Uint16Array, ' : ''}a Uint8Array or a Uint8ClampedArray`, data);
   expect(Number.isInteger(width) && width > 0, `${what}.width`, 'an integer above 0', width, 'RANGE');
@@ -52,7 +56,7 @@ export async function toSendable(source, what) {
 }
 
 /** Returns the range of disparities, and the conversion of depth values to disparities. */
-function chooseRange({low, high, brightIsNear}, size, {near, blur = BLUR, disparity}) {
+function chooseRange({low, high, brightIsNear}, size, {near, blur = BLUR, disparity = false}) {
   if (!(high > low) && !disparity) {
     throw new StarfocusError('NOT_FINITE', 'depth: all values are equal, so there is nothing to focus on.', {field: 'depth'});
   }
@@ -66,6 +70,12 @@ function chooseRange({low, high, brightIsNear}, size, {near, blur = BLUR, dispar
   const most = Math.min(blur * Math.hypot(size.width, size.height), MAX_DISPARITY);
   const order = {zero: bright ? low : high, factor: (bright ? most : -most) / (high - low), most};
   return {low: 0, high: most, order, near: bright ? 'bright' : 'dark'};
+}
+
+/** Returns the range of disparities of a photo with a matte and without depth. The background has disparity 0. */
+function chooseSurfaces({width, height}, {blur = BLUR, floor = false}) {
+  const nearest = Math.min(blur * Math.hypot(width, height), MAX_DISPARITY), high = Math.floor(UNITS * nearest + 0.5) / UNITS;
+  return {low: 0, high, surfaces: {subject: high, floor}, near: 'bright'};
 }
 
 /** Returns the values that move to the worker. */
@@ -87,11 +97,11 @@ export class Photo {
   #fStop;         // default f-stop
   #latest = null; // AbortController of the last request
 
-  constructor(refocuser, {width, height, low, high, near, widest, order}) {
+  constructor(refocuser, {width, height, low, high, near, widest, isPhoto, subjectFocus}) {
     this.#refocuser = refocuser;
     this.#widest = widest;
-    this.#fStop = Math.max(order ? F_STOP : 1, 1 / widest);
-    Object.assign(this, {width, height, focusMin: low, focusMax: high, near, fStopMin: Math.max(1, 1 / widest)});
+    this.#fStop = Math.max(isPhoto ? F_STOP : 1, 1 / widest);
+    Object.assign(this, {width, height, focusMin: low, focusMax: high, near, fStopMin: Math.max(1, 1 / widest), subjectFocus});
   }
 
   get threads() {
@@ -147,33 +157,58 @@ async function warmUp(refocuser, {width, height, low, high, signal}) {
   await refocuser.refocus({focus, region, signal});
 }
 
-export async function openPhoto(image, depth, options = {}) {
+/** Returns the range of disparities of decoded pictures, and checks the sizes of the depth and the matte. */
+function measurePhoto({depth, matte}, size, options) {
+  const {width, height} = size;
+  if (matte) checkMatteSize(matte, size);
+  if (!depth) return chooseSurfaces(size, options);
+  const range = chooseRange(depth, size, options);
+  expect(depth.width <= width && depth.height <= height, 'depth',
+         `at most ${width} x ${height} pixels, the size of the picture`, `${depth.width} x ${depth.height}`, 'RANGE');
+  return range;
+}
+
+/** Checks the options of openPhoto. */
+function checkOptions(images, hasDepth, options) {
   checkFields('openPhoto', options, OPTIONS);
   checkEngine(options);
-  const {threads, worker, signal, onProgress, near, blur, disparity = false, repair = !disparity, positions} = options;
+  checkMatteOptions(options, hasDepth);
+  const {near, blur, disparity, positions} = options;
   expect([undefined, 'bright', 'dark'].includes(near), 'near', `'bright' or 'dark'`, near);
   expect(blur === undefined || blur > 0 && blur <= 1, 'blur', 'more than 0, at most 1', blur, 'RANGE');
-  const images = Array.isArray(image) ? image : [image];
   if (positions) checkPositions(positions, images.length);
   else expect(VIEWS.includes(images.length), 'image', 'one picture, or 5, 9 or 17 views', images.length, 'RANGE');
   expect(images.length === 1 || disparity, 'disparity', 'true for several views', disparity, 'RANGE');
+}
+
+/** Decodes the pictures in the worker. Returns their sizes and the range of the depth. */
+async function decode(calls, {images, depth, hasDepth}, {matte, disparity, signal}) {
+  const views = await Promise.all(images.map((view, index) => toSendable(view, index ? `image[${index}]` : 'image')));
+  const pictures = {};
+  if (hasDepth) pictures.depth = await toSendable(depth, 'depth');
+  if (matte !== undefined) pictures.matte = await toSendable(matte, 'matte');
+  return calls.call('decode', {views, ...pictures, disparity},
+                    {signal, stops: true, transfer: toTransfer([...views, ...Object.values(pictures)])});
+}
+
+export async function openPhoto(image, depth, options = {}) {
+  if (depth?.matte !== undefined && arguments.length === 2) return openPhoto(image, undefined, depth);
+  const images = Array.isArray(image) ? image : [image], hasDepth = depth !== undefined || options?.matte === undefined;
+  checkOptions(images, hasDepth, options);
+  const {threads, worker, signal, onProgress, disparity = false, repair = hasDepth && !disparity, positions} = options;
   const calls = new WorkerCalls(worker);
   try {
-    const views = await Promise.all(images.map((view, index) => toSendable(view, index ? `image[${index}]` : 'image')));
-    const map = await toSendable(depth, 'depth');
-    const found = await calls.call('decode', {views, depth: map, disparity}, {signal, stops: true, transfer: toTransfer([...views, map])});
-    const {width, height} = checkSizes(found.sizes), range = chooseRange(found.depth, {width, height}, {near, blur, disparity});
-    expect(found.depth.width <= width && found.depth.height <= height, 'depth',
-           `at most ${width} x ${height} pixels, the size of the picture`, `${found.depth.width} x ${found.depth.height}`, 'RANGE');
+    const found = await decode(calls, {images, depth, hasDepth}, options);
+    const {width, height} = checkSizes(found.sizes), range = measurePhoto(found, {width, height}, options);
     const margin = repair ? REPAIR_MARGIN : 0;
-    const largest = BLUR_MARGIN * (range.high - range.low + 2 * REPAIR_MARGIN + 1 / 64), maxBlur = Math.min(MAX_BLUR, largest);
+    const largest = BLUR_MARGIN * (range.high - range.low + 2 * REPAIR_MARGIN + 1 / UNITS), maxBlur = Math.min(MAX_BLUR, largest);
     const refocuser = await Refocuser.start({
       width, height, views: images.length, positions, disparityMin: range.low - margin, disparityMax: range.high + margin, maxBlur,
       previews: PREVIEWS, fillUnknown: true, shapes: true, threads
     }, {calls, signal});
-    await refocuser._prepare({depth: {order: range.order}, repair}, {signal, onProgress});
+    const {subjectFocus} = await refocuser._prepare({depth: {order: range.order}, surfaces: range.surfaces, repair}, {signal, onProgress});
     await warmUp(refocuser, {width, height, signal, ...range});
-    return new Photo(refocuser, {width, height, widest: maxBlur / largest, ...range});
+    return new Photo(refocuser, {width, height, widest: maxBlur / largest, isPhoto: !disparity, subjectFocus, ...range});
   } catch (error) {
     calls.end(error);
     throw error;

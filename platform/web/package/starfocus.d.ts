@@ -347,6 +347,29 @@ export type DepthSource = Source | {
   readonly height: number;
 };
 
+/** A matte for openPhoto: the alpha of the subject, of any size with the proportions of the picture. In pictures, the
+ *  alpha channel counts unless it is opaque everywhere. Otherwise, grey levels count. */
+export type MatteSource = Source | {
+  /** width * height values from 0 (background) to 1 (floats) or to the largest integer (subject); or 3 or 4 bytes per
+   *  pixel. */
+  readonly data: Uint8Array | Uint8ClampedArray | Uint16Array | Float32Array;
+  /** Width in samples. */
+  readonly width: number;
+  /** Height in samples. */
+  readonly height: number;
+};
+
+/** Options of openPhoto for a photo with a matte and without depth. */
+export interface MatteOptions extends WorkerOptions, Call, Progress {
+  /** Alpha of the subject. */
+  matte: MatteSource;
+  /** True: the background comes nearer towards the lower edge of the picture, so that the ground on which the subject
+   *  stands stays sharp. Default false: the background is infinitely far. */
+  floor?: boolean;
+  /** Blur radius at f/1 of the background if the subject is in focus (see PhotoOptions.blur). */
+  blur?: number;
+}
+
 /** Options of openPhoto. */
 export interface PhotoOptions extends WorkerOptions, Call, Progress {
   /** The end of the depth values that is near: 'bright', the large values, or 'dark'. Default: 'bright' if the lower
@@ -395,9 +418,11 @@ export interface Photo extends Disposables {
   readonly focusMin: number;
   /** Focus of the nearest point. */
   readonly focusMax: number;
+  /** Focus of the subject of the matte, or undefined without a matte. */
+  readonly subjectFocus?: number;
   /** Smallest f-stop: 1, or more if the blur at f/1 would exceed 128 pixels. */
   readonly fStopMin: number;
-  /** The end of the depth values that is near. */
+  /** The end of the depth values that is near. For a photo with a matte and without depth: 'bright'. */
   readonly near: 'bright' | 'dark';
   /** Version of the library. */
   readonly version: string;
@@ -424,6 +449,9 @@ export interface Photo extends Disposables {
  *  @throws StarfocusError, for example with the code DECODE if a file is not a picture; the reason of `signal` if the
  *      signal is aborted */
 export declare function openPhoto(image: Source | readonly Source[], depth: DepthSource, options?: PhotoOptions): Promise<Photo>;
+/** Opens a photo with a matte and without depth. The subject and the background become two surfaces, and the matte their
+ *  coverage. */
+export declare function openPhoto(image: Source, options: MatteOptions): Promise<Photo>;
 
 /** Options of estimateDisparity. */
 export interface EstimateOptions extends WorkerOptions, Call, Progress {

@@ -8,6 +8,7 @@
 #include "platform/web/src/fields.h"
 #include "platform/web/src/threads.h"
 #include "starfocus/depth.h"
+#include "starfocus/matte.h"
 #include "starfocus/starfocus.h"
 
 #define EXPORT(name) __attribute__((export_name(#name)))
@@ -34,6 +35,7 @@ static uintptr_t stacks_end;                    /* end of the stacks; 0 before R
 static uintptr_t field_end;                     /* end of the light field */
 static starfocus_light_field field;
 static starfocus_disparity_output made;
+static starfocus_matte matte;
 static void* prepared_memory;
 static size_t prepared_bytes;
 static starfocus_prepared* prepared;
@@ -251,6 +253,51 @@ EXPORT(repair) starfocus_status Repair(void) {
     field.coverage_stride = made.coverage_stride;
   }
   return STARFOCUS_OK;
+}
+
+/* Allocates memory for a matte of `matte_width` x `matte_height` bytes, which is valid until the
+ * next call of Repair or MakeEngine. Frees the engine. Returns the address, or null if there is no
+ * memory. */
+EXPORT(matte_room) const uint8_t* MakeRoomForMatte(int32_t matte_width, int32_t matte_height) {
+  engine = NULL;
+  top = field_end;
+  matte.data = (uint8_t*)Allocate((size_t)matte_width * (size_t)matte_height);
+  matte.stride = (size_t)matte_width;
+  matte.width = matte_width;
+  matte.height = matte_height;
+  return matte.data;
+}
+
+/* Fills the map and the coverage of the light field from the matte. The background has disparity 0
+ * and, if `floor` is 1, comes nearer towards the lower edge of the picture. */
+EXPORT(fill_surfaces) starfocus_status FillSurfaces(double subject, int32_t floor) {
+  starfocus_disparity_output out = {.disparity = (float*)field.depth.data,
+                                    .disparity_stride = field.depth.stride,
+                                    .coverage = (uint8_t*)field.coverage,
+                                    .coverage_stride = field.coverage_stride};
+  starfocus_matte_depth depth = {.subject = subject};
+  refused = NULL;
+  if (floor != 0) {
+    starfocus_matte_stats stats;
+    const starfocus_status status = starfocus_measure_matte(&matte, &stats);
+    if (status != STARFOCUS_OK) return status;
+    depth.horizon = stats.horizon;
+    depth.ground = stats.ground;
+  }
+  return starfocus_matte_field(&matte, &depth, config.width, config.height, NULL, &out);
+}
+
+/* Computes the coverage of the light field from the matte and the map, which is final. Replaces the
+ * coverage that Repair estimated. */
+EXPORT(cover) starfocus_status Cover(void) {
+  if (field.coverage == NULL) {
+    field.coverage = made.coverage;
+    field.coverage_stride = made.coverage_stride;
+  }
+  starfocus_disparity_output out = {.coverage = (uint8_t*)field.coverage,
+                                    .coverage_stride = field.coverage_stride};
+  refused = NULL;
+  return starfocus_matte_coverage(&matte, &field.depth, config.width, config.height, NULL, &out);
 }
 
 /* Estimates the depth map of the light field and its confidence. */

@@ -6,6 +6,7 @@
 import {decodeDepth, decodePicture} from './decode.js';
 import {guessNear, measure, measureRobustly, resize, writeDisparities} from './depth.js';
 import {compile, instantiate, makeMemory, readText, writeText} from './engine.js';
+import {findSubject, toMatte} from './matte.js';
 import {listen, post, startHelper} from 'worker-port';
 import {errorOf, locate} from './problem.js';
 import {factorFor, mostIn, rangeOf, shrink} from './range.js';
@@ -22,7 +23,7 @@ const ROWS_AT_ONCE = 512;
 let memory, engine, threads, isShared;
 let config;            // options of createRefocuser
 let prepared = null;   // size of the disparity map of the prepared light field, or null
-let decoded = null;    // pictures of openPhoto or estimateDisparity: {views, depth}, where `views` are decodePicture()
+let decoded = null;    // pictures of openPhoto or estimateDisparity: {views, depth, matte}; `views` are decodePicture()
 let current = 0;       // id of the running call
 
 const bytesAt = (address, length) => new Uint8Array(memory.buffer, address, length);
@@ -71,18 +72,29 @@ function copyDepth(depth, {width, height}) {
   resize({data, width: depth.width, height: depth.height}, width, height, to);
 }
 
-function copyLightField({views, depth, coverage, repair}, size) {
+/** Copies a light field. applyMatte computes the coverage later if `matte` is present, and the map if `surfaces` is. */
+function copyLightField({views, depth, coverage, matte, surfaces, repair}, size) {
   const pixels = config.width * config.height;
   const pixelBytes = repair ? 3 : views[0].length / pixels;
-  const flags = (coverage ? HAS_COVERAGE : 0) | (repair ? REPAIR : 0);
+  const flags = (coverage || matte && !repair ? HAS_COVERAGE : 0) | (repair ? REPAIR : 0);
   check(engine.room(pixelBytes, size.width, size.height, flags));
   views.forEach((view, index) => {
     expectRunning();
     copyRgb(view, bytesAt(engine.place(index), pixelBytes * pixels));
   });
-  copyDepth(depth, size);
+  if (!surfaces) copyDepth(depth, size);
   expectRunning();
   if (coverage) bytesAt(engine.place(COVERAGE), pixels).set(coverage);
+}
+
+/** Computes the coverage from a matte and, if `surfaces` is {subject, floor}, also the map. Returns the focus of the
+ *  subject. */
+function applyMatte(matte, surfaces, size) {
+  const {data, width, height} = matte, address = engine.matte_room(width, height);
+  if (!address) throw new RangeError('There is not enough memory for the matte.');
+  bytesAt(address, data.length).set(data);
+  check(surfaces ? engine.fill_surfaces(surfaces.subject, Number(surfaces.floor)) : engine.cover());
+  return findSubject(matte, mapOf(size));
 }
 
 /** Estimates the map of the pictures `views`, and returns it. */
@@ -129,15 +141,22 @@ const calls = {
     };
   },
 
-  /** Decodes the pictures of openPhoto or estimateDisparity, and keeps them. Only openPhoto passes depth. */
-  async decode({views, depth, disparity}) {
+  /** Decodes the pictures of openPhoto or estimateDisparity, and keeps them. Only openPhoto passes depth or a matte. */
+  async decode({views, depth, matte, disparity}) {
     const pictures = await Promise.all(views.map((view, index) => decodePicture(view, index ? `image[${index}]` : 'image')));
     const sizes = pictures.map(({width, height, channels}) => ({width, height, channels}));
     decoded = {views: pictures};
-    if (!depth) return {sizes};
-    const map = decoded.depth = await decodeDepth(depth);
-    const {low, high} = disparity ? measure(map.data, map.channels) : measureRobustly(map);
-    return {sizes, depth: {width: map.width, height: map.height, low, high, brightIsNear: guessNear(map)}};
+    const found = {sizes};
+    if (matte) {
+      const {width, height} = decoded.matte = toMatte(await decodePicture(matte, 'matte'));
+      found.matte = {width, height};
+    }
+    if (depth) {
+      const map = decoded.depth = await decodeDepth(depth);
+      const {low, high} = disparity ? measure(map.data, map.channels) : measureRobustly(map);
+      found.depth = {width: map.width, height: map.height, low, high, brightIsNear: guessNear(map)};
+    }
+    return found;
   },
 
   /** Returns the range of disparities of decoded views, {low, high}. The engine of this call is replaced by `open`. */
@@ -159,21 +178,22 @@ const calls = {
     const start = performance.now();
     prepared = null;
     engine.aim(current);
-    const {depth, ...rest} = values.views ? values : {
-      ...values, views: decoded.views.map(({data}) => data), depth: {...decoded.depth, ...values.depth}
+    const given = values.views ? values : {
+      ...values, views: decoded.views.map(({data}) => data), depth: {...decoded.depth, ...values.depth}, matte: decoded.matte
     };
+    const {depth, matte, surfaces, repair} = given, {width, height} = repair || surfaces ? config : depth, result = {};
     decoded = null;
-    const {width, height} = rest.repair ? config : depth;
-    copyLightField({depth, ...rest}, {width, height});
+    copyLightField(given, {width, height});
     try {
-      if (rest.repair) check(engine.repair());
+      if (repair) check(engine.repair());
+      if (matte) result.subjectFocus = applyMatte(matte, surfaces, {width, height});
       check(engine.make_engine());
       check(engine.prepare());
     } catch (error) {
       throw locate(error, mapOf({width, height}), config);
     }
     prepared = {width, height};
-    return {milliseconds: performance.now() - start};
+    return {milliseconds: performance.now() - start, ...result};
   },
 
   configure(values) {

@@ -52,6 +52,8 @@ export async function useRefocuser(): Promise<string> {
 export async function usePhoto(image: Source, depth: DepthSource): Promise<Uint8ClampedArray> {
   const given: PhotoOptions = {...workers, ...call, ...progress, near: 'bright', blur: 0.03, disparity: false, repair: true};
   const photo: Photo = await openPhoto(image, depth, given);
+  const matte = {data: new Float32Array(16), width: 4, height: 4}, matted: Photo = await openPhoto(image, {matte, floor: true});
+  const subject: number | undefined = matted.subjectFocus;
   await openPhoto([pixels, pixels, pixels, pixels, pixels], {data: new Float32Array(16), width: 4, height: 4});
   const middle: Point = {x: photo.width / 2, y: photo.height / 2};
   const request: PhotoLens = {...lens, focus: await photo.focusAt(middle), fStop: 2, highlights: 1, blocks: true};
