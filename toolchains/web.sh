@@ -32,27 +32,31 @@ make_web_demo() {
   printf 'made the demo %s (%d s)\n' "$1" $((SECONDS - start))
 }
 
-# Copies the decoder of HEIC files to the folder $1: libheif-js, which npm fetches once. The page works without the
-# decoder, but opens no HEIC depth photos.
-add_heic_decoder() {
-  local version=1.23.2 fetched=build/web/heic decoder=build/web/heic/node_modules/libheif-js/libheif-wasm
-  rm -rf "$1"
-  is_heic_decoder $decoder || npm install --prefix $fetched --no-save --prefer-offline --no-audit --no-fund \
-    --ignore-scripts libheif-js@$version >/dev/null 2>&1
-  if ! is_heic_decoder $decoder; then
-    echo "note: the page opens no HEIC depth photos, because npm cannot fetch libheif-js $version"
-    return
-  fi
-  mkdir -p "$1" && cp $decoder/libheif.js $decoder/LICENSE "$1" &&
-    gzip -9nc $decoder/libheif.wasm >"$1/libheif.wasm.gzip" || exit 1
+# Fetches version $2 of the npm package $1 once. Prints the folder of the package, and returns 0, if its files have the
+# checksums on stdin.
+fetch_package() {
+  local fetched=build/web/fetched/$1 sums
+  sums=$(cat)
+  has_files() { (cd "$fetched/node_modules/$1" && printf '%s\n' "$sums" | sha256sum --check --status) 2>/dev/null; }
+  has_files "$1" || npm install --prefix "$fetched" --no-save --prefer-offline --no-audit --no-fund --ignore-scripts \
+    "$1@$2" >/dev/null 2>&1
+  echo "$fetched/node_modules/$1"
+  has_files "$1"
 }
 
-# Returns 0 if the folder $1 contains the files of libheif-js with the expected checksums.
-is_heic_decoder() {
-  sha256sum --check --status 2>/dev/null <<SUMS
-f148d9ff173e5a6d6781e80dccb8336f54bfbb032392ceb2d37e0e92923c4bf3  $1/libheif.js
-e4aa8333fbe55ec7c6c776f735236f40bed9103188498f8131d4e52b73cdfee8  $1/libheif.wasm
+# Copies the decoder of HEIC files to the folder $1. The page works without the decoder, but opens no HEIC depth photos.
+add_heic_decoder() {
+  local package version=1.23.2
+  rm -rf "$1"
+  if ! package=$(fetch_package libheif-js $version); then
+    echo "note: the page opens no HEIC depth photos, because npm cannot fetch libheif-js $version"
+    return
+  fi <<SUMS
+f148d9ff173e5a6d6781e80dccb8336f54bfbb032392ceb2d37e0e92923c4bf3  libheif-wasm/libheif.js
+e4aa8333fbe55ec7c6c776f735236f40bed9103188498f8131d4e52b73cdfee8  libheif-wasm/libheif.wasm
 SUMS
+  mkdir -p "$1" && cp $package/libheif-wasm/libheif.js $package/libheif-wasm/LICENSE "$1" &&
+    gzip -9nc $package/libheif-wasm/libheif.wasm >"$1/libheif.wasm.gzip" || exit 1
 }
 
 # Builds the npm package in build/web/npm, and the page with the package and a demo in build/web/site. The demo is made
