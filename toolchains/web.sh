@@ -59,6 +59,27 @@ SUMS
     gzip -9nc $package/libheif-wasm/libheif.wasm >"$1/libheif.wasm.gzip" || exit 1
 }
 
+# Copies the segmenter, which finds people in photos, to the folder $1. The page works without the segmenter, but opens
+# no photos without depth or matte. The package has the licence of this project and contains no copy of the licence.
+add_segmenter() {
+  local package version=0.1.1675465747 name=selfie_segmentation file
+  rm -rf "$1"
+  if ! package=$(fetch_package @mediapipe/$name $version); then
+    echo "note: the page opens no photos without depth, because npm cannot fetch @mediapipe/$name $version"
+    return
+  fi <<SUMS
+a4720d2d2374ec9df3510461ff186a4af427fb5bd402375e135875a991467da3  selfie_segmentation.js
+0007be42c754f111063c0121bba7104880b7c56277d3a9681cdcb17709236aee  selfie_segmentation.binarypb
+8d13b7fae74af625c641226813616a2117bd6bca19eb3b75574621fc08557f27  selfie_segmentation.tflite
+9406e7e30843bdca189689d4bea413f3e468f71e381560e583ef12792d26d46a  selfie_segmentation_solution_simd_wasm_bin.js
+d93e73677ef1fe791ff5407083c0f9ced6d6050a705bd6c20823fc05919d8dc4  selfie_segmentation_solution_simd_wasm_bin.wasm
+SUMS
+  mkdir -p "$1" && cp LICENSE $package/package.json "$1" || exit 1
+  for file in $name.js $name.binarypb $name.tflite ${name}_solution_simd_wasm_bin.js ${name}_solution_simd_wasm_bin.wasm; do
+    gzip -9nc $package/$file >"$1/$file.gzip" || exit 1
+  done
+}
+
 # Builds the npm package in build/web/npm, and the page with the package and a demo in build/web/site. The demo is made
 # only if the demo is missing. The programs of the release build make the demo if these programs exist.
 build_web() {
@@ -70,6 +91,7 @@ build_web() {
   rm -rf $site/starfocus
   cp -r build/web/npm $site/starfocus || exit 1
   add_heic_decoder $site/heic
+  add_segmenter $site/segmenter
   cp examples/web/*.html examples/web/*.css examples/web/*.js platform/web/worker/png16.js $site || exit 1
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the depth map in a JPEG file: GDepth (in XMP), Dynamic Depth (a picture behind the photo that XMP lists), or
-// Apple's depth (an auxiliary picture behind the photo). platform/readers does the same for the programs.
+// Finds the depth map in a JPEG file: GDepth (in XMP), Dynamic Depth (a picture behind the photo that XMP lists, also a
+// mask of the subject instead of a map), or Apple's depth (an auxiliary picture behind the photo). platform/readers does
+// the same for the programs.
 
 import {isJpeg, readFurtherPictures} from './jpeg.js';
 import {isPng} from './problem.js';
@@ -104,23 +105,32 @@ function readItems(xmp) {
   return [];
 }
 
+const isMask = map => valueOf(map, MAP, 'ItemSemantic') === 'Segmentation';
+
+/** Returns {map, index}: the element that describes the depth map and its place among the items or, with `wantsMask`, the
+ *  mask. `map` is undefined and `index` is -1 if they are missing. */
+function findMap(xmp, items, wantsMask) {
+  const map = ['DepthURI', 'Format', 'Near'].flatMap(field => xmp.owners(MAP, field)).find(one => isMask(one) === wantsMask);
+  const uri = map && valueOf(map, MAP, 'DepthURI'), find = test => items.findIndex((item, k) => k > 0 && test(item));
+  const named = uri ? find(item => item.uri === uri) : -1;
+  return {map, index: named >= 0 ? named : find(({semantic}) => semantic === (wantsMask ? 'Segmentation' : 'Depth'))};
+}
+
 function readDynamicDepth(name, bytes, end, xmp) {
-  const map = ['DepthURI', 'Format', 'Near'].flatMap(field => xmp.owners(MAP, field))
-      .find(element => valueOf(element, MAP, 'ItemSemantic') !== 'Segmentation');
-  const items = readItems(xmp), uri = map && valueOf(map, MAP, 'DepthURI');
-  let index = uri ? items.findIndex((item, k) => k > 0 && item.uri === uri) : -1;
-  if (index < 0) index = items.findIndex((item, k) => k > 0 && item.semantic === 'Depth');
-  if (index < 0) {
-    if (map) throw new Error(`${name} lists a depth map that is not in the file.`);
-    return null;
-  }
-  const at = findItem(bytes, end, items, index);
+  const items = readItems(xmp), found = [false, true].map(wantsMask => findMap(xmp, items, wantsMask));
+  const has = ({map, index}) => map || index >= 0, isMasked = !has(found[0]) || !found[0].map && Boolean(found[1].map);
+  const {map, index} = found[Number(isMasked)];
+  if (!has({map, index})) return null;
+  const at = index < 0 ? -1 : findItem(bytes, end, items, index);
   if (at < 0) throw new Error(`${name} lists a depth map that is not in the file.`);
-  const range = map ? googleRange(...['Format', 'Near', 'Far', 'Units'].map(field => valueOf(map, MAP, field))) : {};
-  const toBlob = (from, {mime}) => new Blob([bytes.subarray(from)], {type: mime});
+  const toBlob = (from, {mime}) => new Blob([bytes.subarray(from)], {type: mime}), file = toBlob(at, items[index]);
+  const fields = ['Format', 'Near', 'Far', 'Units'].map(field => map && valueOf(map, MAP, field));
   // The sharp picture of a portrait, which the camera has blurred already.
   const original = items.findIndex(item => item.uri === ORIGINAL), sharp = original > 0 ? findItem(bytes, end, items, original) : -1;
-  return {depth: toBlob(at, items[index]), image: sharp > 0 ? toBlob(sharp, items[original]) : undefined, range};
+  const image = sharp > 0 ? toBlob(sharp, items[original]) : undefined;
+  // Level 0 is the near end of the range that cameras state for a mask.
+  return isMasked ? {mask: file, isBlack: fields[0] === undefined ? undefined : true, image}
+                  : {depth: file, range: map ? googleRange(...fields) : {}, image};
 }
 
 function readApple(bytes, end) {
@@ -133,8 +143,9 @@ function readApple(bytes, end) {
   return null;
 }
 
-/** Returns the depth map in a JPEG file as {depth: Blob, range, image}, or null if the file has none. `image` is the
- *  sharp picture, if the file has one besides the photo. */
+/** Returns the depth map in a JPEG file as {depth: Blob, range, image}, a mask of the subject as {mask: Blob, isBlack,
+ *  image}, or null if the file has neither. `image` is the sharp picture, if the file has one besides the photo. `isBlack`
+ *  is true if black is the subject, and undefined if that is unknown. */
 export async function readDepth(name, bytes, {segments, end}) {
   const xmp = readXmp(segments);
   return await readGDepth(name, xmp) ?? readDynamicDepth(name, bytes, end, xmp) ?? readApple(bytes, end);

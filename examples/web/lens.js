@@ -66,10 +66,10 @@ export function setRanges({focusMin, focusMax, fStopMin}) {
   get('f-stop').min = Math.floor(20 * Math.log2(fStopMin)) / 10;
 }
 
-/** Sets the f-stop to its default, and the focus to the middle. */
-export function resetLens(isLightField) {
+/** Sets the f-stop to its default, and the focus to the middle or to the subject. */
+export function resetLens(isLightField, subjectFocus) {
   const {min, max} = get('focus');
-  get('focus').value = (Number(min) + Number(max)) / 2;
+  get('focus').value = subjectFocus ?? (Number(min) + Number(max)) / 2;
   get('f-stop').value = 2 * Math.log2(isLightField ? LIGHT_FIELD_F_STOP : PHOTO_F_STOP);
 }
 

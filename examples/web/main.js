@@ -3,7 +3,7 @@
 
 import {filesOfDrop, findFiles} from './files.js';
 import {fromHash} from './lens.js';
-import {demo, openFiles, openWith, recognize, swap, withNear} from './opening.js';
+import {demo, findPerson, openFiles, openWith, recognize, swap, withNear} from './opening.js';
 import {get, say, viewer} from './page.js';
 import {changeLens, download, focusAt, pull, refocus, showDepth, showLens} from './pictures.js';
 import {keepState} from './visit.js';
@@ -81,6 +81,7 @@ function connect() {
   get('pull').addEventListener('click', pull);
   get('swap').addEventListener('click', swap);
   get('download').addEventListener('click', download);
+  get('find-person').addEventListener('click', findPerson);
   get('open-demo').addEventListener('click', () => demo());
   get('controls').addEventListener('submit', event => event.preventDefault());
   addEventListener('hashchange', () => {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recognizes the files that the user opens: a light-field folder, a depth photo, or a picture with its depth picture.
-// Returns {name, stem, images: [Blob], bitmap, depth, options, distances, kept}. `stem` names downloads, and `bitmap` is
-// the first image, or null if it is visible. `depth` and `options` are arguments of openPhoto; a stereo photo has no depth.
-// `distances` is {far, near} in 1 / metre, or null. Some images are ImageBitmaps or ImageData. `kept` are segments of the
-// downloaded JPEG. Other files cause an Error with a message.
+// Recognizes the files that the user opens: a light-field folder, a depth photo, or a picture with its depth picture, its
+// matte or both. Returns {name, stem, images: [Blob], bitmap, depth, options, distances, kept, orientation, isFlat}. `stem`
+// names downloads, and `bitmap` is the first image, or null if it is visible. `depth` and `options` are arguments of
+// openPhoto; stereo photos and photos with a matte have no depth. `distances` is {far, near} in 1 / metre, or null. Some
+// images are ImageBitmaps or ImageData. `kept` are segments of the downloaded JPEG. `orientation` is that of EXIF. `isFlat`
+// is true for a photo without depth and matte, in the file `file`, in which segment() of pixels.js can find a person.
+// Other files cause an Error with a message.
 
 import {heicRange, readDepth} from './depth_photo.js';
 import {isJpeg, keepItems, keepSegments, orientationOf, readJpeg} from './jpeg.js';
 import {parsePfm} from './pfm.js';
-import {call, decodeHeic} from './pixels.js';
+import {call, decodeHeic, hasSegmenter} from './pixels.js';
 import {checkPicture, isHeif, namesDepth} from './problem.js';
 import {reduce} from './reduce.js';
 import {readStereo} from './stereo.js';
@@ -19,7 +21,12 @@ const POSITIONS = [
   [.5, 0], [-.5, 0], [0, .5], [0, -.5], [.5, .5], [-.5, .5], [.5, -.5], [-.5, -.5]
 ];
 const SETS = [17, 9, 5, 1];
-const HELP = 'Open a depth photo (a file with photo and depth map), or a picture together with its depth picture.';
+const HELP = 'Open a depth photo (a file with photo and depth map), or a picture together with its depth picture or matte.';
+const DEPTH_NAME = /depth|disp|\.pfm$/i, MATTE_NAME = /matte|mask|alpha/i;
+
+/** Returns the error for files that do not belong together. */
+const unrelated = ({length}) => new Error(
+    `Expected a light-field folder, a depth photo, or a picture with its depth picture or matte, found ${length} files.`);
 
 const signed = value => (value < 0 ? '-' : '+') + Math.abs(value).toFixed(1);
 const viewName = ([u, v]) => `view_${signed(u)}_${signed(v)}`;
@@ -78,6 +85,9 @@ async function understand(depth, {first, last, isDistance, metres, near}, orient
   return {depth: file, options: {near}, distances};
 }
 
+/** Returns true if a map or matte has the proportions of the stored photo, and is turned with the photo. */
+const isAsStored = (orientation, photo, {width, height}) => orientation >= 5 && (photo.width < photo.height) !== (width < height);
+
 /** Reads a JPEG file. Returns {bytes, jpeg, kept, orientation}; jpeg is null for other files. */
 async function readPhoto(file) {
   const bytes = new Uint8Array(await file.arrayBuffer());
@@ -86,31 +96,36 @@ async function readPhoto(file) {
   return {bytes, jpeg, kept: keepSegments(jpeg.segments), orientation: orientationOf(jpeg.segments)};
 }
 
-async function openHeic(file, bytes) {
-  const found = namesDepth(bytes) && await decodeHeic(file);
+/** Returns a photo without depth. A matte may be added to it. `reason` is the end of the error if the site has no
+ *  segmenter and `isMatted` is false. */
+async function openFlat(file, found, isMatted, reason = `contains no depth map. ${HELP}`) {
+  if (!isMatted && !await hasSegmenter()) throw new Error(`${file.name} ${reason}`);
+  return {name: file.name, stem: stemOf(file.name), depth: null, options: {}, distances: null, isFlat: true, file, ...found};
+}
+
+async function openHeic(file, bytes, isMatted) {
+  const hasDepth = namesDepth(bytes), found = hasDepth || !await isReadable(file) ? await decodeHeic(file) : null;
+  const image = found?.image ?? file, bitmap = await checkPicture(image, file.name);
+  const kept = found ? keepItems(found.exif, found.profile) : [];
   if (!found?.depth) {
-    if (found !== null) throw new Error(`${file.name} contains no depth map. ${HELP}`);
-    (await checkPicture(file)).close();
-    throw new Error(`${file.name} is a HEIC picture, whose depth browsers cannot read. Open the picture together with its depth picture.`);
+    return openFlat(file, {images: [image], bitmap, kept}, isMatted, hasDepth && !found ?
+        'is a HEIC picture, whose depth browsers cannot read. Open the picture together with its depth picture.' : undefined);
   }
-  const {image, exif, profile, depth} = found, bitmap = await checkPicture(image, file.name);
-  checkSize(file.name, bitmap, depth);
+  checkSize(file.name, bitmap, found.depth);
   return {
-    name: `depth photo ${file.name}`, stem: stemOf(file.name), images: [image], bitmap, kept: keepItems(exif, profile),
-    ...await understand(depth.file, heicRange(depth.xmp), 1)
+    name: `depth photo ${file.name}`, stem: stemOf(file.name), images: [image], bitmap, kept,
+    ...await understand(found.depth.file, heicRange(found.depth.xmp), 1)
   };
 }
 
+/** Returns true if the browser decodes the picture file. */
+const isReadable = file => createImageBitmap(file).then(bitmap => (bitmap.close(), true), () => false);
+
 /** Returns a file that the browser decodes: `file`, or the picture in a HEIC file that the browser cannot decode. */
 async function toReadable(file) {
-  if (!isHeif(new Uint8Array(await file.slice(0, 12).arrayBuffer()))) return file;
-  try {
-    (await createImageBitmap(file)).close();
-    return file;
-  } catch {
-    const found = await decodeHeic(file).catch(() => null);
-    return found ? new File([found.image], file.name) : file;  // checkPicture reports failures
-  }
+  if (!isHeif(new Uint8Array(await file.slice(0, 12).arrayBuffer())) || await isReadable(file)) return file;
+  const found = await decodeHeic(file).catch(() => null);
+  return found ? new File([found.image], file.name) : file;  // checkPicture reports failures
 }
 
 /** Opens a stereo photo, whose depth is estimated later. */
@@ -130,29 +145,33 @@ async function openStereo(file, pair, kept) {
   };
 }
 
-async function openDepthPhoto(file) {
+/** Opens a photo with its depth map or mask in the same file, or without depth. The caller adds a matte if `isMatted` is
+ *  true. */
+async function openDepthPhoto(file, isMatted) {
   const {bytes, jpeg, kept, orientation} = await readPhoto(file);
-  if (isHeif(bytes)) return openHeic(file, bytes);
+  if (isHeif(bytes)) return openHeic(file, bytes, isMatted);
   const bitmap = await checkPicture(file), found = jpeg && await readDepth(file.name, bytes, jpeg);
   const pair = jpeg && !found && readStereo(file.name, bytes, jpeg);
   if (pair) {
     bitmap.close();
     return openStereo(file, pair, kept);
   }
-  if (!found) throw new Error(`${file.name} contains no depth map. ${HELP}`);
+  if (!found) return openFlat(file, {images: [file], bitmap, kept, orientation}, isMatted);
+  const sharp = found.image && await checkPicture(found.image, `The sharp picture of ${file.name}`);
+  const photo = {stem: stemOf(file.name), images: [found.image ?? file], bitmap: sharp ?? bitmap, kept, orientation};
+  if (found.mask) {
+    const {mask, isBlack} = found, matte = await call('mask', {file: mask, orientation, isBlack});
+    return {...photo, name: `portrait ${file.name}`, depth: null, options: {matte}, distances: null};
+  }
   const mapSize = await sizeOf(found.depth, `The depth map of ${file.name}`);
   const [width, height] = orientation >= 5 ? [mapSize.height, mapSize.width] : [mapSize.width, mapSize.height];
-  const sharp = found.image && await checkPicture(found.image, `The sharp picture of ${file.name}`);
-  checkSize(file.name, sharp ?? bitmap, {width, height});
-  return {
-    name: `depth photo ${file.name}`, stem: stemOf(file.name), images: [found.image ?? file], bitmap: sharp ?? bitmap,
-    kept, ...await understand(found.depth, found.range, orientation)
-  };
+  checkSize(file.name, photo.bitmap, {width, height});
+  return {...photo, name: `depth photo ${file.name}`, ...await understand(found.depth, found.range, orientation)};
 }
 
 /** Returns the index of the depth picture among two pictures. */
 async function findDepth(files) {
-  const named = files.findIndex(file => /depth|disp/i.test(file.name));
+  const named = files.findIndex(file => DEPTH_NAME.test(file.name));
   if (named >= 0) return named;
   const grays = await Promise.all(files.map(file => call('isGray', {file})));
   if (grays.includes(true)) return grays.indexOf(true);
@@ -175,15 +194,39 @@ async function openPair(files) {
   for (const file of files) bitmaps.push(await checkPicture(file));
   const index = await findDepth(files), photo = files[1 - index], bitmap = bitmaps[1 - index];
   const {kept, orientation} = await readPhoto(photo), {width, height} = bitmaps[index];
-  // A map with the proportions of the stored photo is turned with the photo.
-  const isStored = orientation >= 5 && (bitmap.width < bitmap.height) !== (width < height);
-  const depth = isStored ? await call('levels', {file: files[index], orientation}) : files[index];
+  const isStored = isAsStored(orientation, bitmap, {width, height}), depth = isStored ? await call('levels', {file: files[index], orientation}) : files[index];
   checkSize(photo.name, bitmap, isStored ? depth : {width, height});
   bitmaps[index].close();
   return {
     name: `${photo.name} with ${files[index].name}`, stem: stemOf(photo.name), images: [photo], bitmap, depth, options: {},
-    distances: null, kept
+    distances: null, kept, orientation
   };
+}
+
+/** Returns the matte among the files, which also contain another picture, or null. */
+async function findMatte(files) {
+  const pictures = files.filter(({name}) => !DEPTH_NAME.test(name)), named = pictures.filter(({name}) => MATTE_NAME.test(name));
+  if (pictures.length < 2) return null;
+  if (named.length === 1) return named[0];
+  for (const file of named.length ? named : pictures) if (await call('hasAlpha', {file}).catch(() => false)) return file;
+  return named.at(-1) ?? null;
+}
+
+/** Adds the matte in a file to a photo. */
+async function addMatte(found, file) {
+  const {orientation = 1, bitmap} = found, isStored = isAsStored(orientation, bitmap, await sizeOf(file, file.name));
+  const matte = isStored ? await call('turn', {file, orientation}) : file;
+  return {...found, name: `${found.name} with ${file.name}`, options: {...found.options, matte}, isFlat: false};
+}
+
+/** Opens a picture with its depth picture, its matte or both. */
+async function openTogether(files) {
+  const readable = await Promise.all(files.map(toReadable)), matte = await findMatte(readable);
+  const rest = files.filter((_, index) => readable[index] !== matte);
+  if (rest.length === 1) return addMatte(await openDepthPhoto(rest[0], true), matte);
+  if (rest.length > 2) throw unrelated(files);
+  const pair = await openPair(readable.filter(file => file !== matte));
+  return matte ? addMatte(pair, matte) : pair;
 }
 
 /** Returns the photo or light field in the files. */
@@ -202,7 +245,7 @@ async function recognize(files) {
   if (files.length === 1 && /\.pfm$/i.test(files[0].name)) {
     throw new Error(`${files[0].name} is a depth map without its picture. Open both together.`);
   }
-  if (files.length === 1) return openDepthPhoto(files[0]);
-  if (files.length === 2) return openPair(await Promise.all(files.map(toReadable)));
-  throw new Error(`Expected a light-field folder, a depth photo, or a picture with its depth picture, found ${files.length} files.`);
+  if (files.length === 1) return openDepthPhoto(files[0], false);
+  if (files.length <= 3) return openTogether(files);
+  throw unrelated(files);
 }

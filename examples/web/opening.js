@@ -6,6 +6,7 @@ import {openDemo} from './demo.js';
 import {keepFiles} from './files.js';
 import {resetLens, setRanges} from './lens.js';
 import {chosen, fail, get, say, state, viewer} from './page.js';
+import {segment} from './pixels.js';
 import {focusAt, refocus, showDepth, showLens, stop} from './pictures.js';
 import {keepState} from './visit.js';
 
@@ -33,8 +34,8 @@ async function start(found, options, signal) {
   const call = {
     threads, signal, onProgress: (done, total) => say(`Preparing the depth: ${Math.round(100 * done / total)} %`, true), ...options
   };
-  found.depth ??= await estimateDisparity(found.images, {...call, positions: found.options.positions});
-  return openPhoto(image, found.depth, {...found.options, ...call});
+  if (found.images.length > 1) found.depth ??= await estimateDisparity(found.images, {...call, positions: found.options.positions});
+  return openPhoto(image, found.depth ?? undefined, {...found.options, ...call});
 }
 
 /** Shows the version of the engine, the number of threads, and a sentence about the depth. */
@@ -48,7 +49,7 @@ function take(photo, found, isRough = false) {
   state.current = {photo, found, isRough, view: null};
   setRanges(photo);
   showLens();
-  get('swap').disabled = Boolean(found.options.disparity);
+  get('swap').disabled = Boolean(found.options.disparity) || !found.depth;
   showEngine(photo, isRough ? ' The depth is being repaired.' : '');
   viewer.setDepth(null);
   if (chosen('show') === 'depth') showDepth();
@@ -71,12 +72,13 @@ async function repair() {
  *  another photo is opened meanwhile. On failure, the previous photo remains open. */
 export async function openWith(find, afterwards = () => {}) {
   stop();
-  const {current, isSharp} = state;
-  if (!state.opening && current) current.view = {state: viewer.state, isSharp};
+  const before = state.current ?? state.offered, {isSharp} = state;
+  if (!state.opening && before) before.view = {state: viewer.state, isSharp};
   state.opening?.abort();
   repairing?.abort();
   const {signal} = state.opening = new AbortController();
   let name;
+  get('offer').hidden = true;
   say('Opening.', true);
   try {
     const found = await find(signal);
@@ -84,9 +86,10 @@ export async function openWith(find, afterwards = () => {}) {
     name = found.name;
     if (found.bitmap) viewer.showPhoto(found.bitmap);
     else viewer.showSharp();
-    const isLarge = !found.options.disparity && viewer.width * viewer.height > LARGE;
+    if (found.isFlat) return offer(found);
+    const isLarge = found.depth && !found.options.disparity && viewer.width * viewer.height > LARGE;
     const photo = await start(found, isLarge ? {repair: false} : {}, signal);
-    Object.assign(state, {opening: null, isFull: false, isSharp: true});
+    Object.assign(state, {opening: null, offered: null, isFull: false, isSharp: true});
     get('error').hidden = true;
     take(photo, found, isLarge);
     finish(found, afterwards);
@@ -95,10 +98,11 @@ export async function openWith(find, afterwards = () => {}) {
   }
 }
 
-/** Sets the lens of a photo that was opened, and focuses on a point that was tapped meanwhile. */
+/** Sets the lens of a photo that was opened, and focuses on a point that was tapped meanwhile, or else on the subject of
+ *  a matte. */
 function finish(found, afterwards) {
-  const {photo, isRough} = state.current, {tapped} = state;
-  if (!found.isAgain) resetLens(found.options.disparity);
+  const {photo, isRough} = state.current, {tapped} = state, {subjectFocus} = photo;
+  if (!found.isAgain) resetLens(found.options.disparity, subjectFocus);
   showLens();
   say(`Opened: ${found.name}, ${photo.width} x ${photo.height}. Tap to focus.`);
   afterwards();
@@ -106,16 +110,32 @@ function finish(found, afterwards) {
   keepState();
   state.tapped = null;
   if (tapped) focusAt(tapped);
+  else if (subjectFocus !== undefined && state.isSharp && !found.isAgain) refocus();
+}
+
+/** Shows a photo without depth, which replaces the open photo, and offers to find the person in it. */
+function offer(found) {
+  state.current?.photo.close();
+  Object.assign(state, {opening: null, current: null, offered: {found, view: null}, tapped: null, isSharp: true});
+  get('error').hidden = true;
+  get('swap').disabled = true;
+  showOffer();
+}
+
+function showOffer() {
+  get('offer').hidden = false;
+  say(`${state.offered.found.name} has no depth.`);
 }
 
 /** Shows the reason of a failure, and shows the previous photo again. */
 function stay(error, name) {
+  const {current, offered} = state, before = current ?? offered;
   state.opening = state.tapped = null;
   fail(error, name);
-  const {current} = state;
-  if (!current) return say('Nothing is open.');
-  viewer.state = current.view.state;
-  state.isSharp = current.view.isSharp;
+  if (!before) return say('Nothing is open.');
+  viewer.state = before.view.state;
+  state.isSharp = before.view.isSharp;
+  if (offered) return showOffer();
   if (chosen('show') === 'depth') showDepth();
   if (current.isRough) repair();
   say(`Still open: ${current.found.name}.`);
@@ -129,10 +149,25 @@ export const demo = afterwards => openWith(signal => openDemo(bitmap => {
   engine().catch(() => {});  // start() reports failures
 }), afterwards);
 
-/** Opens files of the user, and keeps them for the return to the page. */
-export function openFiles(files) {
+/** Opens the files that `find` returns, and keeps them for the return to the page. */
+function openKept(find) {
   const key = `${Date.now()}-${Math.random()}`;
-  return openWith(async () => ({...await recognize(await files), key}), async () => keepFiles(key, await files));
+  let files;
+  return openWith(async signal => {
+    files = await find(signal);
+    return {...await recognize(files), key};
+  }, () => keepFiles(key, files));
+}
+
+export const openFiles = files => openKept(() => files);
+
+/** Finds the person in the photo without depth that is shown, and opens the photo with this matte. */
+export function findPerson() {
+  const {images: [image], name, stem, file} = state.offered.found;
+  return openKept(async signal => {
+    say('Loading the segmenter, and finding the person.', true);
+    return [file, new File([await segment(image, name, signal)], `${stem}-matte.png`)];
+  });
 }
 
 /** Returns `found` with this near end. Its distances are known only for the near end that the file states. */

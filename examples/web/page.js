@@ -13,6 +13,7 @@ export const viewer = new Viewer(get('picture'));
 
 export const state = {
   current: null,   // the open photo: {photo, found, isRough, view}
+  offered: null,   // the photo without depth that is shown instead: {found, view}, or null
   opening: null,   // AbortController of the photo that is being opened, or null
   tapped: null,    // point that was tapped while a photo was being opened
   isSharp: true,   // true until the first refocusing

@@ -81,6 +81,7 @@ export async function refocus() {
 
 /** Focuses on a point of the photo. */
 export async function focusAt(point) {
+  if (state.offered && !state.opening) return say('This photo has no depth: first find the person.');
   if (state.opening || !state.current) {
     state.tapped = point;
     return say('This point is focused as soon as the engine is ready.', true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls the functions of pixels_worker.js and heic.js.
+// Calls the functions of pixels_worker.js, heic.js and segmenter.js.
 
 let worker = null, lastId = 0;
 const waiting = new Map();
@@ -29,16 +29,26 @@ export function call(name, values, transfer = []) {
   });
 }
 
-/** Decodes a HEIC file, as read() of heic.js. The memory of the decoder is freed with its worker. Resolves with null if
- *  the site has no decoder. */
-export function decodeHeic(file) {
-  const decoder = new Worker(new URL('heic.js', import.meta.url));
+/** Sends a message to a worker of its own, whose memory is freed after its answer. Resolves with the result. The error of
+ *  a failure begins with `problem`. An aborted signal ends the worker. */
+function ask(script, message, problem, signal) {
+  const asked = new Worker(new URL(script, import.meta.url));
   return new Promise((resolve, reject) => {
-    decoder.onmessage = ({data: {result, error}}) => {
+    asked.onmessage = ({data: {result, error}}) => {
       if (error === undefined) resolve(result);
-      else reject(new Error(`${file.name} cannot be decoded: ${error}.`));
+      else reject(new Error(`${problem}: ${error}.`));
     };
-    decoder.onerror = () => reject(new Error(`${file.name} cannot be decoded: the decoder failed.`));
-    decoder.postMessage(file);
-  }).finally(() => decoder.terminate());
+    asked.onerror = () => reject(new Error(`${problem}: a part of the page failed.`));
+    signal?.addEventListener('abort', () => reject(signal.reason));
+    asked.postMessage(message);
+  }).finally(() => asked.terminate());
 }
+
+/** Decodes a HEIC file, as read() of heic.js. Resolves with null if the site has no decoder. */
+export const decodeHeic = file => ask('heic.js', file, `${file.name} cannot be decoded`);
+
+/** Finds the person in a photo, a Blob or an ImageBitmap. Resolves with the matte, a grey PNG file. */
+export const segment = (photo, name, signal) => ask('segmenter.js', photo, `No person was found in ${name}`, signal);
+
+/** Returns true if the site has a segmenter. */
+export const hasSegmenter = () => fetch('segmenter/package.json', {method: 'HEAD'}).then(({ok}) => ok, () => false);

@@ -41,6 +41,15 @@ function turn({data, width, height}, orientation) {
   return {data: turned, width: across, height: down};
 }
 
+/** Returns the matte in the levels of a mask. If `isBlack` is undefined, the subject is black if the lower third of the
+ *  mask is darker than the upper third. */
+function toMatte({data, width, height}, isBlack) {
+  const most = countLevels(data) - 1, third = Math.trunc((height + 2) / 3) * width;
+  const sum = part => part.reduce((sum, level) => sum + level, 0);
+  const inverts = isBlack ?? sum(data.subarray(-third)) < sum(data.subarray(0, third));
+  return {data: data.map(level => inverts ? most - level : level), width, height};
+}
+
 /** Returns the number of levels of an array. */
 const countLevels = data => data instanceof Uint16Array ? 65536 : 256;
 
@@ -56,6 +65,12 @@ const calls = {
     return true;
   },
 
+  /** Returns whether any pixel is transparent. */
+  async hasAlpha({file}) {
+    const {data} = await decode(file, {longest: SAMPLE});
+    return data.some((value, i) => i % 4 === 3 && value < 255);
+  },
+
   /** Returns the farthest levels of a depth picture that are no outliers, from 0 to 1: the quantiles of 0.1 % and
    *  99.9 %, which openPhoto also uses. */
   async measure({file}) {
@@ -69,6 +84,17 @@ const calls = {
   /** Returns the levels of a depth picture, turned by the EXIF orientation of its photo. */
   async levels({file, orientation = 1}) {
     return turn(await decodeLevels(file), orientation);
+  },
+
+  /** Returns a matte with its colours and alpha, turned by the EXIF orientation of its photo. */
+  async turn({file, orientation}) {
+    const {data, width, height} = await decode(file), turned = turn({data: new Uint32Array(data.buffer), width, height}, orientation);
+    return {...turned, data: new Uint8ClampedArray(turned.data.buffer)};
+  },
+
+  /** Returns the matte in a mask that a photo stores, turned by the EXIF orientation of the photo. */
+  async mask({file, orientation, isBlack}) {
+    return toMatte(turn(await decodeLevels(file), orientation), isBlack);
   },
 
   /** Converts a depth picture of distances from `first` to `last` to inverse distances. NaN is unknown. */

@@ -62,5 +62,6 @@ export function toSentence(error, name) {
   if (error.code === 'UNSUPPORTED' && /SIMD/.test(error.message)) {
     return 'WebAssembly has no SIMD here, which the engine needs. Use a newer browser.';
   }
+  if (/^matte/.test(error.field)) return error.message.replace(/^[\w.]+/, `The matte of ${name} cannot be used`);
   return SENTENCES[error.code]?.(name) ?? `${name} cannot be refocused here.`;
 }

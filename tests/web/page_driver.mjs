@@ -172,6 +172,14 @@ export async function load(url, options = {}) {
   await waitFor(/^Opened: the demo/);
 }
 
+/** Performs an action while the site has no files in one of its folders. */
+export async function without(folder, action) {
+  const context = driver.page.context(), pattern = `**/${folder}/*`;
+  await context.route(pattern, route => route.fulfill({status: 404}));
+  await action();
+  await context.unroute(pattern);
+}
+
 /** Opens the page in a new context, performs an action, and closes the context. */
 export async function visit(options, action) {
   const before = driver.page;

@@ -11,7 +11,7 @@ import sharp from 'sharp';
 import {makeDynamicDepth, makeGDepth, markGain} from './gdepth_photo.mjs';
 import {
   andFull, andWait, choose, drawPhoto, driver, error, file, focusText, load, openFiles, refocusByProgram, screenshot,
-  setSlider, shown, site, small, sources, tap, waitFor
+  setSlider, shown, site, small, sources, tap, waitFor, without
 } from './page_driver.mjs';
 import {assertSameBytes} from './pictures.mjs';
 
@@ -108,7 +108,7 @@ test('opens stereo photos, and estimates their depth as the program does', async
   const cut = await sharp(right).extract({left: 0, top: 0, width: 300, height: 240}).jpeg().toBuffer();
   await opened(/^Still open/, file('twins.mpo', Buffer.concat([left, cut])));
   assert.match(await error(), /^The right picture of twins\.mpo is 300 x 240; expected 320 x 240/);
-  await opened(/^Still open/, file('twins.jpg', Buffer.concat([left, right])));
+  await without('segmenter', () => opened(/^Still open/, file('twins.jpg', Buffer.concat([left, right]))));
   assert.match(await error(), /^twins\.jpg contains no depth map\./);
 });
 
@@ -211,20 +211,25 @@ test('rejects what it cannot read in a true sentence, and keeps what was open', 
     [[file('a.png', centre.buffer), file('map.pfm', pfm.subarray(0, 5000))], /^map\.pfm is cut off: 320 x 240 values need/],
     [[file('a.png', centre.buffer), file('map.pfm', jpeg)], /^map\.pfm is not a depth map/],
     [[file('phone.heic', heic), file('depth.png', centre.buffer)], /^phone\.heic is a HEIC picture, which this browser cannot read\./],
-    [[file('phone.heic', heic)], /^phone\.heic contains no depth map\./],
+    [[file('phone.heic', heic)], /^phone\.heic (cannot be decoded|is a HEIC picture, which this browser cannot read)/],
     [[file('photo.jpg', jpeg), flat], /^The depth of photo\.jpg is 320 x 240; expected at most 64 x 48/],
     [[file('input_Cam000.png', jpeg), file('parameters.cfg', jpeg)], /HCI benchmark/],
     [[file('out_00_00_-1_1_.png', jpeg)], /Stanford archive/],
     [[centre, file('view_+1.0_+0.0.png'), file('view_-1.0_+0.0.png')], /no disparity\.pfm/],
     [[file('view_+1.0_+0.0.png'), file('view_-1.0_+0.0.png')], /no centre view/],
     [[file('disparity.pfm')], /depth map without its picture/],
-    [[1, 2, 3].map(i => file(`${i}.png`, jpeg)), /found 3 files/]
+    [[1, 2, 3].map(i => file(`${i}.png`, jpeg)), /found 3 files/],
+    [[file('photo.jpg', jpeg), file('mask.png', flat.buffer)], /^The matte of photo\.jpg with mask\.png cannot be used: expected alpha or grey levels, found colours\.$/],
+    [[file('photo.jpg', jpeg), file('matte.jpg', await sharp(jpeg).greyscale().resize(64, 64, {fit: 'fill'}).toBuffer())],
+     /^The matte of photo\.jpg .*: expected the proportions of the picture, 64 x 48, found '64 x 64'\.$/]
   ];
-  for (const [files, message] of rejected) {
-    await opened(/^Still open: depth photo phone\.jpg\.$/, ...files);
-    assert.match(await error(), message);
-    assert.doesNotMatch(await error(), /starfocus_|STARFOCUS|undefined|\bNaN\b/);
-  }
+  await without('segmenter', async () => {
+    for (const [files, message] of rejected) {
+      await opened(/^Still open: depth photo phone\.jpg\.$/, ...files);
+      assert.match(await error(), message);
+      assert.doesNotMatch(await error(), /starfocus_|STARFOCUS|undefined|\bNaN\b/);
+    }
+  });
   await screenshot('error');
   await tap(10, 10);
   assert.ok(await driver.page.isHidden('#error'), 'an alert disappears after the next success');
@@ -270,20 +275,19 @@ test('decodes HEIC, and loads the decoder only if it is needed', {skip: noDecode
   plain[plain.indexOf('auxid:2') + 6] = '1'.charCodeAt();  // alpha instead of depth
   const requests = [], note = request => requests.push(request.url());
   driver.page.context().on('request', note);
-  await opened(/^Still open/, file('plain.heic', plain));
-  assert.match(await error(), /^plain\.heic contains no depth map\. Open a depth photo/);
+  await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', png));
   assert.ok(!requests.some(url => url.includes('heic')), 'the decoder is not loaded');
   await opened(/^Opened: depth photo small\.heic, 16 x 16/, file('small.heic', heic));
   assert.ok(requests.some(url => url.includes('libheif.wasm')), 'the decoder is loaded');
   driver.page.context().off('request', note);
   await opened(/^Opened: plain\.heic with depth\.png, 16 x 16/, file('plain.heic', plain), file('depth.png', png));
+  await without('segmenter', () => opened(/^Still open/, file('plain.heic', plain)));
+  assert.match(await error(), /^plain\.heic contains no depth map\. Open a depth photo/);
   await opened(/^Still open/, file('cut.heic', heic.subarray(0, -200)));
   assert.match(await error(), /^cut\.heic cannot be decoded: the file is damaged, or of a kind/);
 });
 
 test('names HEIC as the reason if the site has no decoder', async () => {
-  await driver.page.context().route('**/heic/*', route => route.fulfill({status: 404}));
-  await opened(/^Still open/, file('small.heic', heicSample()));
+  await without('heic', () => opened(/^Still open/, file('small.heic', heicSample())));
   assert.match(await error(), /^small\.heic is a HEIC picture, which this browser cannot read\./);
-  await driver.page.context().unroute('**/heic/*');
 });

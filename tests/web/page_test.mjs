@@ -132,6 +132,7 @@ test('keys focus, and every control says what it is', async () => {
 });
 
 await import('./page_files.mjs');
+await import('./page_matte.mjs');
 await import('./page_visit.mjs');
 await import('./page_races.mjs');
 
