@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the depth map in a JPEG file: GDepth (in XMP), Dynamic Depth (a picture behind the photo that XMP lists, also a
-// mask of the subject instead of a map), or Apple's depth (an auxiliary picture behind the photo). platform/readers does
-// the same for the programs.
+// mask of the subject instead of a map), or Apple's depth and matte (auxiliary pictures behind the photo).
+// platform/readers does the same for the programs.
 
 import {isJpeg, readFurtherPictures} from './jpeg.js';
 import {isPng} from './problem.js';
@@ -134,17 +134,19 @@ function readDynamicDepth(name, bytes, end, xmp) {
 }
 
 function readApple(bytes, end) {
+  const found = {};
   for (const picture of readFurtherPictures(bytes, end)) {
-    const xmp = readXmp(picture.segments), type = xmp.get(PIXELS, 'AuxiliaryImageType');
-    // The portrait effects matte has the type depth and a subtype.
-    if (xmp.get(PIXELS, 'AuxiliaryImageSubType') !== undefined || type !== 'disparity' && type !== 'depth') continue;
-    return {depth: new Blob([picture.bytes], {type: 'image/jpeg'}), range: appleRange(xmp)};
+    // Mattes have the type of maps of distances, and a subtype.
+    const xmp = readXmp(picture.segments), [subtype, main] = ['SubType', 'Type'].map(name => xmp.get(PIXELS, `AuxiliaryImage${name}`));
+    const type = subtype ?? main, file = new Blob([picture.bytes], {type: 'image/jpeg'});
+    if (type === 'portraiteffectsmatte') Object.assign(found, {mask: file, isBlack: false});
+    if ((type === 'disparity' || type === 'depth') && !found.depth) Object.assign(found, {depth: file, range: appleRange(xmp)});
   }
-  return null;
+  return found.depth || found.mask ? found : null;
 }
 
-/** Returns the depth map in a JPEG file as {depth: Blob, range, image}, a mask of the subject as {mask: Blob, isBlack,
- *  image}, or null if the file has neither. `image` is the sharp picture, if the file has one besides the photo. `isBlack`
+/** Returns the depth map in a JPEG file as {depth: Blob, range, image}, a mask or matte of the subject as {mask: Blob,
+ *  isBlack, image}, both together, or null if the file has neither. `image` is the sharp picture, if the file has one besides the photo. `isBlack`
  *  is true if black is the subject, and undefined if that is unknown. */
 export async function readDepth(name, bytes, {segments, end}) {
   const xmp = readXmp(segments);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worker that decodes one HEIC file and its depth map with libheif-js, which toolchains/web.sh copies to the folder
+// Worker that decodes one HEIC file with its depth map and matte with libheif-js, which toolchains/web.sh copies to the folder
 // heic. The message is the file. The answer is {result}, which is read() or null without a decoder, or {error}.
 
 const RGB = [1, 10], STORED = [99, 99];       // heif_colorspace and heif_chroma
 const LUMA = 0, GREEN = 4, INTERLEAVED = 10;  // heif_channel
 const HEADER = 54;                            // bytes of the headers of a BMP file
 const MOST_METADATA = 1 << 26;
+const MATTE = 'portraiteffectsmatte', MOST_AUXILIARIES = 64;
 
 let heif;  // the C functions of libheif. Handles are addresses. The worker ends after one file, so nothing is freed.
 
@@ -85,29 +86,55 @@ function readProfile(handle) {
   return callIfSmall((error, to) => heif._heif_image_handle_get_raw_color_profile(error, handle, to), size);
 }
 
-/** Returns the depth map as {file, width, height, xmp}, or null. Levels are reduced to 8 bits. */
-function readDepth(primary) {
-  const id = heif._malloc(4);
-  if (heif._heif_image_handle_get_list_of_depth_image_IDs(primary, id, 1) < 1) return null;
-  const item = integerAt(id);
-  const handle = call((error, to) => heif._heif_image_handle_get_depth_image_handle(error, primary, item, to));
+/** Returns the levels of a depth map or matte as {file, width, height}. Levels are reduced to 8 bits. */
+function readLevels(handle) {
   const plane = decode(handle, STORED, [LUMA, GREEN]), {at, stride, width, height, bits} = plane;
   for (let y = 0; bits > 8 && y < height; ++y) {  // 16-bit integers in little-endian order
     for (let x = 0, from = at + y * stride; x < width; ++x, from += 2) {
       heif.HEAPU8[from] = (heif.HEAPU8[from] | heif.HEAPU8[from + 1] << 8) >> bits - 8;
     }
   }
-  const xmp = readMetadata(handle, 'mime');
-  return {file: toBmp(plane, bits > 8 ? 2 : 1, [0, 0, 0]), width, height, xmp: xmp && new TextDecoder().decode(xmp)};
+  return {file: toBmp(plane, bits > 8 ? 2 : 1, [0, 0, 0]), width, height};
 }
 
-/** Returns {image, exif, profile, depth}: a picture file, the EXIF item, the colour profile, and readDepth(). */
+/** Returns the depth map as {file, width, height, xmp}, or null. */
+function readDepth(primary) {
+  const id = heif._malloc(4);
+  if (heif._heif_image_handle_get_list_of_depth_image_IDs(primary, id, 1) < 1) return null;
+  const item = integerAt(id);
+  const handle = call((error, to) => heif._heif_image_handle_get_depth_image_handle(error, primary, item, to));
+  const xmp = readMetadata(handle, 'mime');
+  return {...readLevels(handle), xmp: xmp && new TextDecoder().decode(xmp)};
+}
+
+/** Returns the null-terminated string at an address. */
+const textAt = address => String.fromCharCode(...heif.HEAPU8.subarray(address, heif.HEAPU8.indexOf(0, address)));
+
+/** Returns the portrait effects matte as a picture file, or null if the file has none or the matte is damaged. */
+function readMatte(primary) {
+  const ids = heif._malloc(4 * MOST_AUXILIARIES);
+  const count = heif._heif_image_handle_get_list_of_auxiliary_image_IDs(primary, 0, ids, MOST_AUXILIARIES);
+  for (let k = 0; k < count; ++k) {
+    const item = integerAt(ids + 4 * k);
+    try {
+      const handle = call((error, to) => heif._heif_image_handle_get_auxiliary_image_handle(error, primary, item, to));
+      const type = call((error, to) => heif._heif_image_handle_get_auxiliary_type(error, handle, to));
+      if (textAt(type).endsWith(MATTE)) return readLevels(handle).file;
+    } catch {
+      // The photo is useful without this picture.
+    }
+  }
+  return null;
+}
+
+/** Returns {image, exif, profile, depth, matte}: a picture file, the EXIF item, the colour profile, and the results of
+ *  readDepth() and readMatte(). */
 function read(bytes) {
   const context = heif._heif_context_alloc(), data = copy(bytes);
   call(error => heif._heif_context_read_from_memory_without_copy(error, context, data, bytes.length, 0));
   const primary = call((error, to) => heif._heif_context_get_primary_image_handle(error, context, to));
   const image = toBmp(decode(primary, RGB, [INTERLEAVED]), 3, [2, 1, 0]);
-  return {image, exif: readMetadata(primary, 'Exif'), profile: readProfile(primary), depth: readDepth(primary)};
+  return {image, exif: readMetadata(primary, 'Exif'), profile: readProfile(primary), depth: readDepth(primary), matte: readMatte(primary)};
 }
 
 onmessage = async ({data: file}) => {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recognizes the files that the user opens: a light-field folder, a depth photo, or a picture with its depth picture, its
-// matte or both. Returns {name, stem, images: [Blob], bitmap, depth, options, distances, kept, orientation, isFlat}. `stem`
-// names downloads, and `bitmap` is the first image, or null if it is visible. `depth` and `options` are arguments of
-// openPhoto; stereo photos and photos with a matte have no depth. `distances` is {far, near} in 1 / metre, or null. Some
-// images are ImageBitmaps or ImageData. `kept` are segments of the downloaded JPEG. `orientation` is that of EXIF. `isFlat`
-// is true for a photo without depth and matte, in the file `file`, in which segment() of pixels.js can find a person.
-// Other files cause an Error with a message.
+// matte or both. Returns {name, stem, images: [Blob], bitmap, depth, options, distances, kept, orientation, storesMatte,
+// isFlat, file}. `stem` names downloads, and `bitmap` is the first image, or null if it is visible. `depth` and `options`
+// are arguments of openPhoto; stereo photos and photos with a matte have no depth. `distances` is {far, near} in 1 / metre,
+// or null. Some images are ImageBitmaps or ImageData. `kept` are segments of the downloaded JPEG. `orientation` is that of
+// EXIF. `storesMatte` is true if the file of a photo with depth may also have stored the matte. `isFlat` is true for a
+// photo `file` without depth and matte, in which segment() of pixels.js can find a person. Other files cause an Error with
+// a message.
 
 import {heicRange, readDepth} from './depth_photo.js';
 import {isJpeg, keepItems, keepSegments, orientationOf, readJpeg} from './jpeg.js';
@@ -106,16 +107,16 @@ async function openFlat(file, found, isMatted, reason = `contains no depth map. 
 async function openHeic(file, bytes, isMatted) {
   const hasDepth = namesDepth(bytes), found = hasDepth || !await isReadable(file) ? await decodeHeic(file) : null;
   const image = found?.image ?? file, bitmap = await checkPicture(image, file.name);
-  const kept = found ? keepItems(found.exif, found.profile) : [];
+  const kept = found ? keepItems(found.exif, found.profile) : [], matte = found?.matte ?? undefined;
+  const photo = {stem: stemOf(file.name), images: [image], bitmap, kept};
+  if (matte && !found.depth) return {...photo, name: `portrait ${file.name}`, depth: null, options: {matte}, distances: null};
   if (!found?.depth) {
     return openFlat(file, {images: [image], bitmap, kept}, isMatted, hasDepth && !found ?
         'is a HEIC picture, whose depth browsers cannot read. Open the picture together with its depth picture.' : undefined);
   }
   checkSize(file.name, bitmap, found.depth);
-  return {
-    name: `depth photo ${file.name}`, stem: stemOf(file.name), images: [image], bitmap, kept,
-    ...await understand(found.depth.file, heicRange(found.depth.xmp), 1)
-  };
+  const depth = await understand(found.depth.file, heicRange(found.depth.xmp), 1);
+  return {...photo, name: `depth photo ${file.name}`, ...depth, options: {...depth.options, matte}, storesMatte: true};
 }
 
 /** Returns true if the browser decodes the picture file. */
@@ -159,14 +160,13 @@ async function openDepthPhoto(file, isMatted) {
   if (!found) return openFlat(file, {images: [file], bitmap, kept, orientation}, isMatted);
   const sharp = found.image && await checkPicture(found.image, `The sharp picture of ${file.name}`);
   const photo = {stem: stemOf(file.name), images: [found.image ?? file], bitmap: sharp ?? bitmap, kept, orientation};
-  if (found.mask) {
-    const {mask, isBlack} = found, matte = await call('mask', {file: mask, orientation, isBlack});
-    return {...photo, name: `portrait ${file.name}`, depth: null, options: {matte}, distances: null};
-  }
+  const {mask, isBlack} = found, matte = mask && await call('mask', {file: mask, orientation, isBlack});
+  if (!found.depth) return {...photo, name: `portrait ${file.name}`, depth: null, options: {matte}, distances: null};
   const mapSize = await sizeOf(found.depth, `The depth map of ${file.name}`);
   const [width, height] = orientation >= 5 ? [mapSize.height, mapSize.width] : [mapSize.width, mapSize.height];
   checkSize(file.name, photo.bitmap, {width, height});
-  return {...photo, name: `depth photo ${file.name}`, ...await understand(found.depth, found.range, orientation)};
+  const depth = await understand(found.depth, found.range, orientation);
+  return {...photo, name: `depth photo ${file.name}`, ...depth, options: {...depth.options, matte}, storesMatte: true};
 }
 
 /** Returns the index of the depth picture among two pictures. */
@@ -216,7 +216,7 @@ async function findMatte(files) {
 async function addMatte(found, file) {
   const {orientation = 1, bitmap} = found, isStored = isAsStored(orientation, bitmap, await sizeOf(file, file.name));
   const matte = isStored ? await call('turn', {file, orientation}) : file;
-  return {...found, name: `${found.name} with ${file.name}`, options: {...found.options, matte}, isFlat: false};
+  return {...found, name: `${found.name} with ${file.name}`, options: {...found.options, matte}, storesMatte: false, isFlat: false};
 }
 
 /** Opens a picture with its depth picture, its matte or both. */

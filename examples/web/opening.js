@@ -35,7 +35,13 @@ async function start(found, options, signal) {
     threads, signal, onProgress: (done, total) => say(`Preparing the depth: ${Math.round(100 * done / total)} %`, true), ...options
   };
   if (found.images.length > 1) found.depth ??= await estimateDisparity(found.images, {...call, positions: found.options.positions});
-  return openPhoto(image, found.depth ?? undefined, {...found.options, ...call});
+  try {
+    return await openPhoto(image, found.depth ?? undefined, {...found.options, ...call});
+  } catch (error) {
+    if (!found.storesMatte || !/^matte/.test(error.field)) throw error;
+    found.options.matte = undefined;  // the photo has depth
+    return openPhoto(image, found.depth, {...found.options, ...call});
+  }
 }
 
 /** Shows the version of the engine, the number of threads, and a sentence about the depth. */
@@ -124,7 +130,7 @@ function offer(found) {
 
 function showOffer() {
   get('offer').hidden = false;
-  say(`${state.offered.found.name} has no depth.`);
+  say(`${state.offered.found.file.name} has no depth.`);
 }
 
 /** Shows the reason of a failure, and shows the previous photo again. */
@@ -163,10 +169,10 @@ export const openFiles = files => openKept(() => files);
 
 /** Finds the person in the photo without depth that is shown, and opens the photo with this matte. */
 export function findPerson() {
-  const {images: [image], name, stem, file} = state.offered.found;
+  const {images: [image], stem, file} = state.offered.found;
   return openKept(async signal => {
     say('Loading the segmenter, and finding the person.', true);
-    return [file, new File([await segment(image, name, signal)], `${stem}-matte.png`)];
+    return [file, new File([await segment(image, file.name, signal)], `${stem}-matte.png`)];
   });
 }
 

@@ -5,12 +5,12 @@
 import {isJpeg, latin, readJpeg} from './jpeg.js';
 
 const HEIF_BRANDS = /^(hei[cxms]|hev[cxms]|mif1|msf1)$/;
-const DEPTH_TYPE = /urn:mpeg:(hevc:2015:auxid:2|mpegB:cicp:systems:auxiliary:depth)\0/;
+const DEPTH_TYPE = /urn:(mpeg:(hevc:2015:auxid:2|mpegB:cicp:systems:auxiliary:depth)|com:apple:photo:2018:aux:portraiteffectsmatte)\0/;
 
 /** Returns true if the bytes start a HEIC file. */
 export const isHeif = bytes => latin(bytes.subarray(4, 8)) === 'ftyp' && HEIF_BRANDS.test(latin(bytes.subarray(8, 12)));
 
-/** Returns true if a HEIC file names the type of auxiliary pictures with depth. */
+/** Returns true if a HEIC file names the type of auxiliary pictures with depth or the matte of a person. */
 export const namesDepth = bytes => DEPTH_TYPE.test(latin(bytes));
 
 /** Returns true if a PNG file starts at this position. */

@@ -38,6 +38,11 @@ const insert = (jpeg, part) => Buffer.concat([jpeg.subarray(0, 2), part, jpeg.su
 export const markGain = jpeg => insert(jpeg, segment('http://ns.adobe.com/xap/1.0/\0',
     '<x:xmpmeta xmlns:x="adobe:ns:meta/" xmlns:hdrgm="http://ns.adobe.com/hdr-gain-map/1.0/"><d hdrgm:Version="1.0"/></x:xmpmeta>'));
 
+/** Marks a JPEG as an auxiliary picture of Apple, which is appended to its photo. `kind` are XMP elements without prefix. */
+export const markApple = (jpeg, kind) => insert(jpeg, segment('http://ns.adobe.com/xap/1.0/\0',
+    `<x:xmpmeta xmlns:x="adobe:ns:meta/" xmlns:apdi="http://ns.apple.com/pixeldatainfo/1.0/">${Object.entries(kind)
+        .map(([name, text]) => `<apdi:${name}>${text}</apdi:${name}>`).join('')}</x:xmpmeta>`));
+
 /** Makes a Dynamic Depth photo. `items` are [URI, JPEG] of its directory; one URI is 'android/depthmap'. `gain` is a
  *  picture before the items that the directory does not list. `semantic` is that of the map: 'Depth' or 'Segmentation'. */
 export function makeDynamicDepth(jpeg, items, gain = Buffer.alloc(0), semantic = 'Depth') {

@@ -8,14 +8,15 @@ import {join} from 'node:path';
 import test from 'node:test';
 import sharp from 'sharp';
 
-import {makeDynamicDepth} from './gdepth_photo.mjs';
+import {makeDynamicDepth, markApple} from './gdepth_photo.mjs';
 import {
   andFull, andWait, choose, driver, error, file, focusText, full, openFiles, place, refocusByProgram, screenshot, shown, site,
-  small, tap, visit, waitFor
+  small, sources, tap, visit, waitFor
 } from './page_driver.mjs';
 import {assertSameBytes, readLightField} from './pictures.mjs';
 
 const segmenter = join(site, 'segmenter');
+const noDecoder = !existsSync(join(site, 'heic'));
 const noSegmenter = !existsSync(segmenter) && 'the site has no segmenter';
 const {width, height, disparity} = readLightField(small);
 const F_STOP = ['--f-stop', String(2 ** 0.85)];  // of the slider, which has steps
@@ -87,6 +88,36 @@ test('a portrait that stores a mask instead of a map opens with two surfaces', a
   const map = await shown(), at = ([x, y]) => map[3 * (Math.trunc(y * height / 768) * width + Math.trunc(x * width / 1024))];
   assert.deepEqual([at(place('near')), map[3 * (5 * width + width - 9)]], [255, 0]);
   await choose('picture');
+});
+
+test('portraits of Apple open with the matte that they store, with and without depth', async () => {
+  const seed = (...path) => readFileSync(join(sources, 'tests', 'fuzz', 'corpus', ...path));
+  const jpeg = seed('photo', 'mattes.jpg'), heic = seed('heif', 'mattes.heic'), flat = Buffer.from(heic);
+  flat[flat.indexOf('auxid:') + 6] = '9'.charCodeAt();  // no type of depth
+  const files = [file('mattes.jpg', jpeg), ...(noDecoder ? [] : [file('mattes.heic', heic), file('mattes.heic', flat)])];
+  for (const one of files) {
+    await andFull(() => openFiles(one));
+    assert.ok(await driver.page.isHidden('#offer') && await driver.page.isHidden('#error'));
+    assert.equal(await driver.page.isDisabled('#swap'), one.buffer === flat);
+  }
+  if (noDecoder) return;
+  assert.equal(await focusText(), 'nearest');
+  await choose('depth');
+  await driver.page.waitForTimeout(300);
+  const map = await shown();
+  assert.deepEqual([map[3 * (24 * 128 + 48)], map[3 * (24 * 128 + 100)]], [255, 0]);
+  await choose('picture');
+});
+
+test('a stored matte that cannot be used is ignored if the photo has depth', async () => {
+  const levels = Uint8Array.from(disparity.data, value => 100 + 8 * value), raw = {raw: {width, height, channels: 1}};
+  const map = markApple(await sharp(levels, raw).jpeg({quality: 95}).toBuffer(), {AuxiliaryImageType: 'disparity'});
+  const empty = markApple(await sharp(levels.map(() => 0), raw).jpeg().toBuffer(),
+                          {AuxiliaryImageType: 'depth', AuxiliaryImageSubType: 'portraiteffectsmatte'});
+  const picture = await sharp(photo().buffer).jpeg({quality: 95}).toBuffer();
+  await andWait(() => openFiles(file('apple.jpg', Buffer.concat([picture, empty, map]))), /^Opened: depth photo apple\.jpg/);
+  await andWait(() => openFiles(file('apple.jpg', Buffer.concat([picture, empty]))), /^Still open: depth photo apple\.jpg/);
+  assert.equal(await error(), 'The matte of portrait apple.jpg cannot be used: expected a matte with a subject, found an empty matte.');
 });
 
 test('finds the person in a photo without depth, and sends nothing', {skip: noSegmenter}, async () => {
