@@ -29,8 +29,8 @@ export function call(name, values, transfer = []) {
   });
 }
 
-/** Sends a message to a worker of its own, whose memory is freed after its answer. Resolves with the result. The error of
- *  a failure begins with `problem`. An aborted signal ends the worker. */
+/** Sends a message to a new worker, and resolves with the result. The worker ends after its answer, or if the signal is
+ *  aborted, so that its memory is freed. The error of a failure begins with `problem`. */
 function ask(script, message, problem, signal) {
   const asked = new Worker(new URL(script, import.meta.url));
   return new Promise((resolve, reject) => {

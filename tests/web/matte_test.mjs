@@ -38,7 +38,7 @@ function writeGrey(name, {data, width: across, height: down}) {
   return path;
 }
 
-/** Refocuses the photo with the program, beside a PGM of the matte. */
+/** Refocuses the photo with the program, which reads the matte from a PGM. */
 function refocusByProgram(given, ...values) {
   const picture = join(folder, 'matted.ppm'), out = join(folder, 'matted-out.png');
   writeFileSync(picture, Buffer.concat([Buffer.from(`P6 ${width} ${height} 255\n`), image.data]));
@@ -70,16 +70,14 @@ test('a matte gives two surfaces, and the pictures of the program', () => withPh
 }));
 
 test('a floor and mattes of other sizes give the pictures of the program', async () => {
-  for (const [across, down] of [[64, 48], [80, 61], [900, 675]]) {
+  for (const [across, down, floor] of [[64, 48, true], [80, 61, false], [900, 675, true]]) {
     const other = {data: makeAlpha(across, down), width: across, height: down};
-    for (const floor of [false, true]) {
-      assertSameBytes(dropAlpha(await refocused({matte: other, floor})), refocusByProgram(other, ...(floor ? ['--floor'] : [])));
-    }
+    assertSameBytes(dropAlpha(await refocused({matte: other, floor})), refocusByProgram(other, ...(floor ? ['--floor'] : [])));
   }
 });
 
 test('with depth, the matte changes the outlines as in the program', async () => {
-  // A map whose edges are 4 pixels beside those of the picture.
+  // The edges of the map are 4 pixels beside the edges of the picture.
   const data = Uint8Array.from({length: width * height}, (_, i) => 100 + 8 * disparity.data[Math.max(0, i - 4)]);
   const depth = {data, width, height}, file = writeGrey('beside', depth);
   const plain = await withPhoto({}, async photo => (await photo.refocus({focus: photo.focusMax})).data, depth);
@@ -101,9 +99,8 @@ test('each kind of matte gives the same picture', async () => {
     'a cut-out': pixels(4, (alpha, channel) => channel < 3 ? 50 * channel : alpha),
     'floats': Float32Array.from(data, alpha => alpha / 255), '16 bits': Uint16Array.from(data, alpha => 257 * alpha)
   };
-  for (const [kind, values] of Object.entries(kinds)) {
-    assert.deepEqual(await refocused({matte: {...matte, data: values}}), expected, kind);
-  }
+  await Promise.all(Object.entries(kinds).map(
+      async ([kind, data]) => assert.deepEqual(await refocused({matte: {...matte, data}}), expected, kind)));
 });
 
 test('wrong mattes and options are one line each', async () => {
@@ -119,6 +116,7 @@ test('wrong mattes and options are one line each', async () => {
     [{matte, repair: true}, 'ARGUMENT', /^repair: expected no value/],
     [{matte, floor: true}, 'ARGUMENT', /^floor: expected false for a photo with depth, found true\.$/, disparity]
   ];
+  await assert.rejects(openPhoto(Array(5).fill(image), {matte}), /^StarfocusError: depth: expected a map for several views/);
   for (const [options, code, message, depth] of wrong) {
     await assert.rejects(withPhoto(options, () => {}, depth), error => {
       assert.ok(error instanceof StarfocusError, error.stack);

@@ -128,7 +128,7 @@ test('finds the person in a photo without depth, and sends nothing', {skip: noSe
     await andWait(() => openFiles(portrait), /^portrait\.jpg has no depth\.$/);
     const megabytes = readdirSync(segmenter).filter(name => /\.gzip$/.test(name))
         .reduce((sum, name) => sum + statSync(join(segmenter, name)).size, 0) / 1e6;
-    assert.match(await page.innerText('#offer'), new RegExp(`Loads a segmenter of ${megabytes.toFixed(1)} MB from this site\\. Nothing leaves your browser\\.`));
+    assert.match(await page.innerText('#offer'), new RegExp(`Loads a segmenter of ${megabytes.toFixed(1)}\\sMB from this site\\. Nothing leaves your browser\\.`));
     await screenshot('offer');
     await page.click('#picture');
     await waitFor(/^This photo has no depth: first find the person\.$/);

@@ -178,6 +178,7 @@ function checkOptions(images, hasDepth, options) {
   expect(blur === undefined || blur > 0 && blur <= 1, 'blur', 'more than 0, at most 1', blur, 'RANGE');
   if (positions) checkPositions(positions, images.length);
   else expect(VIEWS.includes(images.length), 'image', 'one picture, or 5, 9 or 17 views', images.length, 'RANGE');
+  expect(images.length === 1 || hasDepth, 'depth', 'a map for several views', undefined);
   expect(images.length === 1 || disparity, 'disparity', 'true for several views', disparity, 'RANGE');
 }
 

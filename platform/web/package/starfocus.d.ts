@@ -385,6 +385,9 @@ export interface PhotoOptions extends WorkerOptions, Call, Progress {
   positions?: Positions;
   /** True: the depth is repaired (see Refocuser.prepare). Default: true unless `disparity` is true. */
   repair?: boolean;
+  /** Alpha of the subject. At the outlines of the subject, the matte takes precedence over the depth
+   *  (starfocus_matte_coverage). Default: none. With a matte, disparities that are not repaired must be known. */
+  matte?: MatteSource;
 }
 
 /** Lens of Photo.refocus. */

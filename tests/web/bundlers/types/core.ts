@@ -54,6 +54,7 @@ export async function usePhoto(image: Source, depth: DepthSource): Promise<Uint8
   const photo: Photo = await openPhoto(image, depth, given);
   const matte = {data: new Float32Array(16), width: 4, height: 4}, matted: Photo = await openPhoto(image, {matte, floor: true});
   const subject: number | undefined = matted.subjectFocus;
+  await openPhoto(image, depth, {matte: image});
   await openPhoto([pixels, pixels, pixels, pixels, pixels], {data: new Float32Array(16), width: 4, height: 4});
   const middle: Point = {x: photo.width / 2, y: photo.height / 2};
   const request: PhotoLens = {...lens, focus: await photo.focusAt(middle), fStop: 2, highlights: 1, blocks: true};
