@@ -41,13 +41,27 @@ function turn({data, width, height}, orientation) {
   return {data: turned, width: across, height: down};
 }
 
-/** Returns the matte in the levels of a mask. If `isBlack` is undefined, the subject is black if the lower third of the
- *  mask is darker than the upper third. */
-function toMatte({data, width, height}, isBlack) {
-  const most = countLevels(data) - 1, third = Math.trunc((height + 2) / 3) * width;
-  const sum = part => part.reduce((sum, level) => sum + level, 0);
-  const inverts = isBlack ?? sum(data.subarray(-third)) < sum(data.subarray(0, third));
-  return {data: data.map(level => inverts ? most - level : level), width, height};
+/** Returns true if the subject of a mask is white, by the same rule as the program (platform/readers/dynamic_depth.cc). The
+ *  subject is more often in the middle and at the lower edge than at the upper edge and the upper half of the sides. */
+function hasWhiteSubject({data, width, height}) {
+  let inside = 0, outside = 0, insides = 0, outsides = 0;
+  data.forEach((level, i) => {
+    const x = i % width, y = Math.trunc(i / width), isUpper = 2 * y < height;
+    if (y === 0 || isUpper && (x === 0 || x === width - 1)) {
+      outside += level;
+      ++outsides;
+    } else if (!isUpper && Math.abs(2 * x - width) <= Math.trunc(width / 3)) {
+      inside += level;
+      ++insides;
+    }
+  });
+  return inside * outsides >= outside * insides;
+}
+
+/** Returns the matte in the levels of a mask. If `isBlack` is undefined, the end of the subject is guessed. */
+function toMatte(mask, isBlack = !hasWhiteSubject(mask)) {
+  const most = countLevels(mask.data) - 1;
+  return {...mask, data: mask.data.map(level => isBlack ? most - level : level)};
 }
 
 /** Returns the number of levels of an array. */

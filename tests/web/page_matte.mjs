@@ -79,15 +79,18 @@ test('a picture with its depth picture and its matte opens, focused on the subje
 
 test('a portrait that stores a mask instead of a map opens with two surfaces', async () => {
   const flat = (r, g, b) => sharp({create: {width, height, channels: 3, background: {r, g, b}}}).jpeg({quality: 95}).toBuffer();
-  const mask = await makeMatte(1, alpha => 255 - alpha).jpeg({quality: 95}).toBuffer();
-  const portrait = makeDynamicDepth(await flat(40, 40, 200), [['android/depthmap', mask]], undefined, 'Segmentation');
-  await andFull(() => openFiles(file('portrait.jpg', portrait)));
-  assert.equal(await focusText(), 'nearest');
-  await choose('depth');
-  await driver.page.waitForTimeout(300);
-  const map = await shown(), at = ([x, y]) => map[3 * (Math.trunc(y * height / 768) * width + Math.trunc(x * width / 1024))];
-  assert.deepEqual([at(place('near')), map[3 * (5 * width + width - 9)]], [255, 0]);
-  await choose('picture');
+  const black = await makeMatte(1, alpha => 255 - alpha).jpeg({quality: 95}).toBuffer();
+  const white = await makeMatte(1).jpeg({quality: 95}).toBuffer();
+  for (const [mask, isStated] of [[black, true], [black, false], [white, false]]) {
+    const portrait = makeDynamicDepth(await flat(40, 40, 200), [['android/depthmap', mask]], undefined, 'Segmentation', isStated);
+    await andFull(() => openFiles(file('portrait.jpg', portrait)));
+    assert.equal(await focusText(), 'nearest');
+    await choose('depth');
+    await driver.page.waitForTimeout(300);
+    const map = await shown(), at = ([x, y]) => map[3 * (Math.trunc(y * height / 768) * width + Math.trunc(x * width / 1024))];
+    assert.deepEqual([at(place('near')), map[3 * (5 * width + width - 9)]], [255, 0]);
+    await choose('picture');
+  }
 });
 
 test('portraits of Apple open with the matte that they store, with and without depth', async () => {
