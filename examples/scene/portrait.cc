@@ -167,6 +167,8 @@ Scene MakePortrait() {
   AddHead(&scene.surfaces);
   AddEyes(&scene.surfaces);
   AddClothes(&scene.surfaces);
+  for (Surface& surface : scene.surfaces) surface.foreground = true;
+  scene.is_matte = true;
   AddTable(&scene.surfaces);
   AddPlant(&scene.surfaces);
   AddBooks(&scene.surfaces);

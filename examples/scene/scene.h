@@ -62,7 +62,7 @@ struct Surface {
   double slope_x = 0, slope_y = 0;  // Change of a plane's disparity per unit of x and of y.
   double thickness = 0;             // Width of a ring.
   std::shared_ptr<const Strands> strands;
-  bool foreground = false;  // true if the surface counts in the coverage of the centre view
+  bool foreground = false;  // true if the surface counts in the coverage or matte
   Paint paint = nullptr;
   Color color, second;
   double scale = 1;  // scale of the texture
@@ -86,17 +86,20 @@ struct Scene {
   std::string name;
   std::string description;
   std::vector<Surface> surfaces;
-  std::vector<NamedPoint> points;  // Points to focus on: near, middle, far.
+  std::vector<NamedPoint> points;  // Points to focus on, from near to far.
   bool seeded = false;             // True if the scene depends on the seed.
+  // True if other near surfaces do not belong to the foreground. The share of a pixel that the
+  // foreground covers is then the matte of a subject, and not the coverage of the disparity map.
+  bool is_matte = false;
 
-  // Returns true if the scene has a foreground, and therefore a coverage map.
+  // Returns true if the scene has a foreground, and therefore a coverage map or a matte.
   bool HasForeground() const;
 };
 
 inline constexpr uint32_t kSceneSeed = 1;  // default seed
 
-// Creates the scene "portrait", "wires", "ramp", "lamps", "hair" or "grass". Returns nullopt for
-// any other name. The seed determines the strands of hair and grass.
+// Creates the scene "portrait", "wires", "ramp", "lamps", "hair", "grass" or "cutout". Returns
+// nullopt for any other name. The seed determines the strands of hair, grass and cutout.
 std::optional<Scene> MakeScene(const std::string& name, uint32_t seed = kSceneSeed);
 
 Scene MakePortrait();
@@ -105,6 +108,7 @@ Scene MakeRamp();
 Scene MakeLamps();
 Scene MakeHair(uint32_t seed);
 Scene MakeGrass(uint32_t seed);
+Scene MakeCutout(uint32_t seed);
 
 }  // namespace starfocus
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes `hair` and `grass`: strands thinner and thicker than a pixel in front of a far wall.
-// All near disparities lie within a few pixels, so that coverage separates two surfaces.
+// The scenes `hair`, `grass` and `cutout`: strands thinner and thicker than a pixel in front of a
+// far wall. All near disparities lie within a few pixels, so that coverage separates two surfaces.
 #include <cmath>
 
 #include "examples/scene/builders.h"
@@ -72,6 +72,69 @@ Strand Blade(int index, Dice dice) {
           dice.Between(7, 11)};
 }
 
+// Disparity of the person of the scene `cutout`. The disparity of the wall is 0.
+constexpr double kPerson = 24;
+constexpr double kPersonX = -90;
+
+// Creates a curl that starts at an ellipse around the face.
+Strand Curl(Dice dice) {
+  const double side = dice.Between(0, 1) < 0.5 ? -1 : 1, down = dice.Between(-0.5, 1);
+  const double radius = dice.Between(0.25, 0.8), length = dice.Between(40, 130);
+  const double bend = dice.Between(-0.5, 0.5);
+  const Point root = {kPersonX + side * 118 * std::sqrt(1 - 0.6 * down * down), -20 + 120 * down};
+  const Point middle = {root.x + side * 0.6 * length, root.y + 0.3 * length};
+  return {root,   middle, {middle.x + side * bend * length, middle.y + 0.6 * length},
+          radius, radius, kPerson};
+}
+
+// Creates a hair of the hat's fur.
+Strand Fur(Dice dice) {
+  const double x = dice.Between(-1, 1), y = dice.Between(-1, 1), length = dice.Between(56, 76);
+  const Point centre = {kPersonX + 6, -268};
+  const Point tip = {centre.x + length * x, centre.y + length * y};
+  return {centre, {centre.x + 0.5 * length * x + 4 * y, centre.y + 0.5 * length * y}, tip, 1.2, 0.4,
+          kPerson};
+}
+
+// Adds a person of one disparity. Of surfaces with equal disparities, the first one is visible.
+void AddPerson(uint32_t seed, std::vector<Surface>* out) {
+  const Material knit = {PaintKnit, {186, 44, 44}, {238, 226, 206}, 1.15, 701};
+  const Material brim = {PaintKnit, {238, 226, 206}, {214, 196, 170}, 1.3, 702};
+  const Material face = {PaintFace, {248, 196, 164}, {230, 168, 136}, 1, 703};
+  const Material eye = {PaintEye, {72, 128, 140}, {}, 1, 704};
+  const Material rim = {PaintTwist, {46, 24, 18}, {150, 84, 40}, 0.6, 705};
+  const Material hair = {PaintHair, {58, 28, 16}, {186, 104, 50}, 1, 706};
+  const Material coat = {PaintTweed, {70, 72, 84}, {148, 146, 146}, 1.1, 707};
+  const Material scarf = {PaintKnit, {44, 104, 116}, {224, 172, 66}, 1.25, 708};
+  const Material fur = {PaintStrand, {206, 190, 166}, {252, 246, 234}, 1, 709};
+  const Material curl = {PaintStrand, {112, 70, 40}, {44, 28, 18}, 1, 710};
+  const auto ellipse = [&](double x, double y, const Radii& radii, const Material& material) {
+    out->push_back(Piece(Outline::kEllipse, {kPersonX + x, y, kPerson}, radii, material));
+  };
+  const auto ring = [&](double x, double y, const Radii& radii, double thickness,
+                        const Material& material) {
+    out->push_back(Piece(Outline::kRing, {kPersonX + x, y, kPerson}, radii, material));
+    out->back().thickness = thickness;
+  };
+  for (double side : {-1.0, 1.0}) {
+    ring(side * 41, -38, {36, 33}, 4, rim);
+    ellipse(side * 41, -40, {20, 15}, eye);
+  }
+  std::vector<Strand> furs, curls;
+  for (int i = 0; i < 500; ++i) furs.push_back(Fur(Dice(i, seed)));
+  for (int i = 0; i < 350; ++i) curls.push_back(Curl(Dice(i, seed + 1)));
+  out->push_back(Tuft(furs, fur));
+  ellipse(0, -116, {124, 36}, brim);
+  ellipse(0, -142, {116, 112}, knit);
+  ellipse(0, -38, {104, 134}, face);
+  out->push_back(Tuft(curls, curl));
+  ellipse(0, 20, {124, 130}, hair);
+  ellipse(0, 160, {132, 44}, scarf);
+  ellipse(0, 420, {170, 262}, coat);
+  // Arms with gaps through which the wall is visible.
+  for (double side : {-1.0, 1.0}) ring(side * 150, 320, {122, 130}, 46, coat);
+}
+
 }  // namespace
 
 Scene MakeHair(uint32_t seed) {
@@ -111,6 +174,27 @@ Scene MakeGrass(uint32_t seed) {
   out->push_back(Tuft(strands, {PaintStrand, {104, 150, 58}, {44, 74, 30}, 1, 603}));
   out->back().foreground = true;
   scene.points = {{"near", 330, 300}, {"middle", 280, 300}, {"far", 300, -340}};
+  return scene;
+}
+
+Scene MakeCutout(uint32_t seed) {
+  Scene scene;
+  scene.name = "cutout";
+  scene.description = "a person of one disparity before a wall of another disparity";
+  scene.seeded = true;
+  std::vector<Surface>* out = &scene.surfaces;
+  AddPerson(seed, out);
+  for (Surface& surface : *out) surface.foreground = true;
+  for (int i = 0; i < 14; ++i) {
+    const double x = -500 + 76 * i, y = -330 + 90 * HashUnit(i, 0, 720 + seed);
+    out->push_back(Piece(Outline::kEllipse, {x, y, 0}, {9, 11},
+                         {PaintBulb, {255, 190, 90}, {}, 1, 721u + uint32_t(i)}));
+  }
+  out->push_back(Piece(Outline::kBox, {330, -40, 0}, {104, 122},
+                       {PaintLandscape, {120, 82, 34}, {222, 178, 92}, 1, 740 + seed}));
+  out->push_back(Piece(Outline::kNone, {0, 0, 0}, {0, 0},
+                       {PaintWallpaper, {34, 62, 74}, {112, 132, 112}, 1, 750 + seed}));
+  scene.points = {{"near", kPersonX, 0}, {"far", 330, -40}};
   return scene;
 }
 

@@ -111,6 +111,7 @@ std::optional<Scene> MakeScene(const std::string& name, uint32_t seed) {
   if (name == "lamps") return MakeLamps();
   if (name == "hair") return MakeHair(seed);
   if (name == "grass") return MakeGrass(seed);
+  if (name == "cutout") return MakeCutout(seed);
   return {};
 }
 

@@ -13,6 +13,7 @@
 #include "examples/command_line/shape.h"
 #include "examples/lab/commands.h"
 #include "examples/scene/render.h"
+#include "platform/file.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
 #include "platform/text.h"
@@ -27,8 +28,8 @@ namespace fs = std::filesystem;
 // Largest number of pixels per view. The limit is necessary because memory holds all views at once.
 constexpr int64_t kMostPixels = int64_t{1} << 25;
 constexpr int kMostSeed = 1000000;
-constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair or grass";
-constexpr char kCoverageFile[] = "coverage.png";
+constexpr char kSceneNames[] = "portrait, wires, ramp, lamps, hair, grass or cutout";
+constexpr char kCoverageFile[] = "coverage.png", kMatteFile[] = "matte.png";
 
 struct Truth {
   SceneFocus focus;
@@ -78,11 +79,18 @@ std::string TruthName(const Truth& truth, const ShapeOptions& shape) {
          Short(truth.aperture) + ShapeSuffix(shape) + ".png";
 }
 
+// Returns the name of the file that stores how much of each pixel the foreground covers, or an
+// empty string if the scene has no foreground.
+std::string AlphaFile(const Scene& scene) {
+  if (!scene.HasForeground()) return {};
+  return scene.is_matte ? kMatteFile : kCoverageFile;
+}
+
 Result<Scene> ChooseScene(const SceneOptions& options) {
   std::optional<Scene> scene = MakeScene(options.name, uint32_t(options.seed.value_or(kSceneSeed)));
   if (!scene) return Error::Usage("--name", kSceneNames, "'" + options.name + "'");
   if (options.seed && !scene->seeded) {
-    return Error::Usage("--seed", "--name hair or --name grass", "--name " + options.name);
+    return Error::Usage("--seed", "--name hair, grass or cutout", "--name " + options.name);
   }
   return std::move(*scene);
 }
@@ -106,8 +114,8 @@ Result<Plan> MakePlan(const SceneOptions& options) {
   return plan;
 }
 
-// Rejects folders that contain the coverage of another scene, or old views that would mix with the
-// new views.
+// Rejects folders that contain the coverage or the matte of another scene, or old views that would
+// mix with the new views.
 Error CheckFolder(const SceneOptions& options, const Plan& plan) {
   const std::string& folder = options.folder;
   const Positions& views = options.views;
@@ -121,7 +129,7 @@ Error CheckFolder(const SceneOptions& options, const Plan& plan) {
     if (IsViewFile(name) && !replaced) {
       return Expected(entry.path().string(), "no view of another light field", "one");
     }
-    if (name == kCoverageFile && !plan.scene.HasForeground()) {
+    if ((name == kCoverageFile || name == kMatteFile) && name != AlphaFile(plan.scene)) {
       return Expected(entry.path().string(), "no coverage of another scene", "one");
     }
   }
@@ -146,7 +154,7 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
   }
   if (plan.scene.HasForeground()) {
     text +=
-        std::string(kCoverageFile) +
+        AlphaFile(plan.scene) +
         ": share of each pixel of the centre view that the foreground covers, of 256 rays; 255 is "
         "all of it\n";
   }
@@ -165,6 +173,7 @@ std::string MetaText(const SceneOptions& options, const Plan& plan, const RayTra
 
 struct Pictures {
   LightField light_field;
+  GreyImage matte;  // no levels: the scene has no matte
   std::vector<Image> truths;
 };
 
@@ -181,6 +190,11 @@ Pictures Render(const SceneOptions& options, const Plan& plan, const RayTracer& 
   }
   pictures.light_field.disparity = renderer.Disparity();
   if (covers) pictures.light_field.coverage = renderer.Coverage(&progress);
+  if (plan.scene.is_matte) {
+    std::vector<uint8_t>& alpha = pictures.light_field.coverage;
+    pictures.matte = {options.size.x, options.size.y, {alpha.begin(), alpha.end()}};
+    alpha.clear();
+  }
   for (const Truth& truth : plan.truths) {
     pictures.truths.push_back(renderer.Truth(truth.focus, truth.aperture, opening, &progress));
   }
@@ -196,6 +210,10 @@ Error Run(const SceneOptions& options) {
   const RayTracer renderer(plan.scene, options.size.x, options.size.y, options.transfer, &runner);
   const Pictures pictures = Render(options, plan, renderer);
   Error error = SaveLightField(options.folder, pictures.light_field, &runner);
+  if (!error && !pictures.matte.levels.empty()) {
+    const std::string path = (fs::path(options.folder) / kMatteFile).string();
+    error = WriteFile(path, EncodeGreyPng(path, pictures.matte));
+  }
   for (size_t i = 0; i < pictures.truths.size() && !error; ++i) {
     const std::string name = TruthName(plan.truths[i], options.shape);
     error = WriteImage((fs::path(options.folder) / name).string(), pictures.truths[i]);
@@ -218,10 +236,10 @@ Command SceneCommand() {
   AddOptions(
       {
           {"DIR", "DIR", "Light-field folder to write", &options->folder, Use::kRequired},
-          {"--name", "portrait|wires|ramp|lamps|hair|grass", "Scene to render", &options->name,
-           Use::kDefault},
+          {"--name", "portrait|wires|ramp|lamps|hair|grass|cutout", "Scene to render",
+           &options->name, Use::kDefault},
           {"--seed", "N",
-           "Seed for the positions of the strands of hair and grass, 0 to 1000000; "
+           "Seed for the positions of the strands of hair, grass and cutout, 0 to 1000000; "
            "default: 1",
            Whole(0, kMostSeed, &options->seed)},
           {"--size", "WxH",
