@@ -9,13 +9,13 @@
 
 namespace starfocus {
 
-// For each pixel of the tile near an edge, writes the disparities of both surfaces and the given
-// coverage. Sets `mixed` if the given coverage of any pixel differs from the coverage that the
-// disparity map implies.
+// For each pixel of the tile near an edge, writes the disparities of both surfaces, the given
+// coverage, and the light of the centre view as light of the far surface. Sets `mixed` if the given
+// coverage of any pixel differs from the coverage that the disparity map implies.
 void StartGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 // Writes the final coverage of a tile, and the light of the far surface in the tile. LookBehindTile
-// (look.h) must have read the light of the far surface.
+// (look.h) must have read the light of the far surface, unless the light field has only one view.
 void TakeGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus

@@ -2,12 +2,17 @@
 #include "lib/coverage/passes.h"
 
 #include "lib/coverage/band.h"
+#include "lib/coverage/far_detail.h"
 #include "lib/coverage/given.h"
 #include "lib/coverage/look.h"
 #include "lib/coverage/unmix.h"
 
 namespace starfocus {
 namespace {
+
+// Returns true if the light field contains coverage, and no side view that shows far surfaces.
+// StartGiven has then already read the light of the far surfaces.
+bool IsGivenAlone(const CoverageInput& in) { return HasGiven(in) && in.window->views == 1; }
 
 void Start(const CoverageInput& in, int32_t column, int32_t row) {
   if (!in.map->IsStarted(column, row)) {
@@ -23,7 +28,7 @@ void Look(const CoverageInput& in, int32_t column, int32_t row) {
   CoverageTile& tile = in.map->Tile(column, row);
   const bool thin = in.map->AnyAround(column, row, 1, &CoverageTile::mixed);
   tile.thin = thin && in.map->IsStarted(column, row) ? 1 : 0;
-  if (tile.thin != 0) LookBehindTile(in, column, row);
+  if (tile.thin != 0 && !IsGivenAlone(in)) LookBehindTile(in, column, row);
 }
 
 }  // namespace
@@ -47,6 +52,7 @@ void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int
     if (pass != kUnmixAgain || tile.thin == 0) continue;
     if (given) {
       TakeGiven(in, column, row);
+      if (IsGivenAlone(in)) AddFarDetail(in, column, row);
     } else {
       UnmixAgain(in, column, row);
     }

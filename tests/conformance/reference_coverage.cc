@@ -48,10 +48,12 @@ class Parter {
     far_.Fill();
     if (given_.empty()) FirstPass();
     MarkMixed();
-    ForEach([&](int x, int y) {
-      if (At(x, y).two && IsThin(x, y)) LookBehind(x, y);
-    });
-    far_.Fill();
+    if (!IsGivenAlone()) {
+      ForEach([&](int x, int y) {
+        if (At(x, y).two && IsThin(x, y)) LookBehind(x, y);
+      });
+      far_.Fill();
+    }
     std::vector<PartedPixel> parted(pixels_.size());
     ForEach([&](int x, int y) {
       if (At(x, y).two && IsThin(x, y)) parted[Index(x, y)] = Parted(x, y);
@@ -70,6 +72,9 @@ class Parter {
   Pixel& At(int x, int y) { return pixels_[Index(x, y)]; }
   const Pixel& At(int x, int y) const { return pixels_[Index(x, y)]; }
   const Colour& Light(int x, int y) const { return centre_.colours[Index(x, y)]; }
+
+  // Returns true if coverage is given, and no side view shows far surfaces.
+  bool IsGivenAlone() const { return !given_.empty() && field_.size() == 1; }
 
   // --- Tiles ---
 
@@ -259,6 +264,30 @@ class Parter {
     for (size_t c = 0; c < 3 && known > 0; ++c) far.light[c] = sum[c] / known;
   }
 
+  // Returns the light of the far surface of a pixel that no side view shows. The far surface gets
+  // (1 - coverage)^3 of the light that `far` and the mean light of the near surface do not explain.
+  Colour WithDetail(int x, int y, const Colour& far) const {
+    constexpr int kReach = 3;
+    Colour near = {0, 0, 0};
+    double weights = 0;
+    for (int row = y - kReach; row <= y + kReach; ++row) {
+      for (int column = x - kReach; column <= x + kReach; ++column) {
+        if (!centre_.Inside(column, row)) continue;
+        const double weight = EighthPower(RoundedCoverage(given_[Index(column, row)] / 255.0));
+        weights += weight;
+        for (size_t c = 0; c < 3; ++c) near[c] += weight * Light(column, row)[c];
+      }
+    }
+    const double alpha = At(x, y).first, known = std::min(64 * weights, 1.0);
+    Colour light = far;
+    for (size_t c = 0; c < 3; ++c) {
+      const double mean = weights > 0 ? near[c] / weights : 0;
+      const double detail = Light(x, y)[c] - far[c] - alpha * known * (mean - far[c]);
+      light[c] = std::clamp(far[c] + std::pow(1 - alpha, 3) * detail, 0.0, 255.0);
+    }
+    return light;
+  }
+
   PartedPixel Parted(int x, int y) const {
     const Pixel& pixel = At(x, y);
     const FarLight far = far_.Filled(x, y);
@@ -266,6 +295,8 @@ class Parter {
     PartedPixel parted = {true, pixel.first, pixel.near, pixel.far, far.light};
     if (!given_.empty()) {
       parted.parted = known;
+      const bool is_mixed = pixel.first > 0 && pixel.first < 1;
+      if (IsGivenAlone() && is_mixed) parted.light = WithDetail(x, y, far.light);
       return parted;
     }
     if (!known) {
