@@ -13,8 +13,11 @@
 #include "examples/scene/builders.h"
 #include "examples/scene/noise.h"
 #include "examples/scene/render.h"
+#include "starfocus/matte.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/psnr.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
 
 namespace starfocus::scene_slow_test {
 namespace {
@@ -384,6 +387,56 @@ TEST_CASE("strand scenes: the coverage of a pixel is the share that a half plane
   CHECK(level(511) == 0);
   CHECK(std::abs(level(512) - 0.7 * 255) <= 1);
   CHECK(level(513) == 255);
+}
+
+// Returns the picture of a lens of radius 1 that is focused at disparity `focus`.
+std::vector<uint8_t> Refocused(const test::Scene& photo, double focus) {
+  starfocus_config config = test::ConfigFor(photo);
+  config.transfer = STARFOCUS_TRANSFER_NONE;
+  return test::OutputOf(config, test::Params(focus), photo).bytes;
+}
+
+TEST_CASE("cutout: a photo and its matte show 36 dB of the picture that a lens takes") {
+  // The lens of the truth is larger than the lens of the engine, so that disparities of the engine
+  // are larger than those of a scene of 128x96 pixels: the subject is 7.5 pixels nearer.
+  constexpr int kSmall = 128;
+  constexpr double kAperture = 2.5, kNear = kAperture * 3;
+  ThreadRunner runner(2);
+  const Scene scene = Made("cutout");
+  const RayTracer tracer(scene, kSmall, kSmall * 3 / 4, STARFOCUS_TRANSFER_NONE, &runner);
+  const Image view = tracer.View(0, 0, nullptr);
+  test::Scene photo = test::EmptyScene(view.width, view.height, 1, 0, kNear);
+  photo.pictures[0] = view.pixels;
+  const std::vector<uint8_t> alpha = tracer.Coverage(nullptr);
+  photo.coverage.resize(alpha.size());
+  const starfocus_matte matte = {alpha.data(), kSmall, 1, view.width, view.height};
+  const starfocus_matte_depth depth = {kNear, 0, 0, 0};
+  starfocus_disparity_output out = {};
+  out.disparity = photo.disparity.data();
+  out.disparity_stride = kSmall * sizeof(float);
+  out.coverage = photo.coverage.data();
+  out.coverage_stride = kSmall;
+  REQUIRE(starfocus_matte_field(&matte, &depth, view.width, view.height, nullptr, &out) ==
+          STARFOCUS_OK);
+  test::Scene hard = photo, flat = photo;
+  hard.coverage.clear();
+  flat.coverage.clear();
+  for (const double focus : {kNear, 0.0}) {
+    const double point = focus / kAperture;
+    const std::vector<uint8_t> truth =
+        tracer.Truth({point, point}, kAperture, DefaultOpening(), nullptr).pixels;
+    const double refocused = test::Psnr(Refocused(photo, focus), truth);
+    const double without = test::Psnr(Refocused(hard, focus), truth);
+    std::fill(flat.disparity.begin(), flat.disparity.end(), float(kNear - focus));
+    const double blurred = test::Psnr(Refocused(flat, focus), truth);
+    const double unchanged = test::Psnr(view.pixels, truth);
+    MESSAGE("focus ", focus, ": matte ", refocused, ", without coverage ", without, ", one blur ",
+            blurred, ", photo ", unchanged, " dB");
+    CHECK(refocused > 36);
+    CHECK(refocused > without + 0.5);
+    CHECK(refocused > blurred + 6);
+    CHECK(refocused > unchanged + 6);
+  }
 }
 
 }  // namespace
