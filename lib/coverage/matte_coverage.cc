@@ -42,9 +42,10 @@ struct SortedAlpha {
     for (; k > 0 && alpha[k - 1] > value; --k) alpha[k] = alpha[k - 1];
     alpha[k] = value;
   }
-  // The quartiles ignore places on the wrong side of outlines that the map displaces.
-  int32_t LowerQuartile() const { return alpha[(count - 1) / 4]; }
-  int32_t UpperQuartile() const { return alpha[3 * (count - 1) / 4]; }
+  // Quantiles ignore places on the wrong side of outlines that the map displaces. Most places on a
+  // map's closed outline of hair lie between strands, so the near surface needs a high quantile.
+  int32_t FarLevel() const { return alpha[(count - 1) / 4]; }
+  int32_t NearLevel() const { return alpha[(count - 1) * 9 / 10]; }
 };
 
 // Coverage of the pixels of a tile.
@@ -70,7 +71,7 @@ class TileCoverage {
     SortedAlpha near, far;
     Compare(at, surfaces, &near, &far);
     if (near.count == 0 || far.count == 0) return implied;
-    const int32_t most = near.UpperQuartile(), least = far.LowerQuartile();
+    const int32_t most = near.NearLevel(), least = far.FarLevel();
     const int32_t trust = Clamp(most - least - kDoubted, 0, kTrusted - kDoubted);
     if (trust == 0) return implied;
     // Where a false part of the matte surrounds the outline, `least` is the alpha of this part.

@@ -74,9 +74,7 @@ TEST_CASE("matte and map: at other edges, the coverage is what the map implies")
 
 TEST_CASE("matte and map: haze beside the subject and a doubtful interior do not count") {
   Portrait portrait(0, 70);
-  for (int y = 0; y < Portrait::kHeight; ++y) {
-    for (int x = 0; x < 50; ++x) portrait.matte.At(x, y) = 235;
-  }
+  for (uint8_t& alpha : portrait.matte.bytes) alpha = std::min<uint8_t>(alpha, 235);
   const Planes made = portrait.Coverage();
   for (int x = 0; x < 50; ++x) CHECK(made.Coverage(x, 60) == 255);
   for (int x = 66; x < 90; ++x) CHECK(made.Coverage(x, 60) == 0);

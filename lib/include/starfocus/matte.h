@@ -109,7 +109,7 @@ STARFOCUS_API starfocus_status starfocus_matte_field(const starfocus_matte* matt
  *  the map contradict each other, the map decides.
  *
  *  For each pixel within 32 pixels of an edge of more than 5 pixels, the function compares alpha at
- *  33 places up to 26 pixels away. Let N be the upper quartile of alpha on the nearer surface. Let
+ *  33 places up to 26 pixels away. Let N be the highest tenth of alpha on the nearer surface. Let
  *  F be the lower quartile on the farther surface. The edge is an outline of the subject if N - F
  *  is 128 or more. The coverage is then 255 (alpha - F) / (N - F), limited to 0 to 255, so that
  *  haze beside the subject does not count. If N - F is 64 or less, the map decides. In between, the
