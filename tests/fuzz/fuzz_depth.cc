@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: estimates and repairs maps with any configuration, size, stride and content. Every
-// buffer is on the heap and has exactly the required size, so that AddressSanitizer reports all
-// accesses outside it.
+// Fuzz target: estimates and repairs maps with any configuration, size, stride and content, and
+// computes maps and coverage from mattes. Every buffer is on the heap and has exactly the required
+// size, so that AddressSanitizer reports all accesses outside it.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "starfocus/depth.h"
+#include "starfocus/matte.h"
 #include "tests/fuzz/input.h"
 #include "tests/support/strands.h"
 
@@ -121,6 +122,37 @@ void CheckMap(const starfocus_depth_config& config, const Rows<float>& map) {
   }
 }
 
+// Computes coverage from a matte and a map of known values, and both planes from the matte alone.
+void UseMatte(const starfocus_depth_config& config, const Rows<float>& map, Input* input) {
+  const int32_t width = input->Int(1, 90), height = input->Int(1, 90), step = input->Int(0, 4);
+  Rows<uint8_t> samples(static_cast<size_t>((width - 1) * std::max(step, 1) + 1), height, input);
+  FillPicture(input, &samples);
+  const starfocus_matte matte = {samples.values.get(), samples.stride, step, width, height};
+  starfocus_region region = {input->Int(0, config.width - 1), input->Int(0, config.height - 1), 1,
+                             1};
+  region.width = input->Int(1, config.width - region.x);
+  region.height = input->Int(1, config.height - region.y);
+  Rows<float> field(static_cast<size_t>(region.width), region.height, input);
+  Rows<uint8_t> coverage(static_cast<size_t>(region.width), region.height, input);
+  starfocus_disparity_output out = {};
+  out.disparity = field.values.get();
+  out.disparity_stride = field.stride * sizeof(float);
+  out.coverage = coverage.values.get();
+  out.coverage_stride = coverage.stride;
+  const starfocus_depth_map depth = starfocus_depth_float(
+      map.values.get(), map.stride * sizeof(float), config.width, config.height);
+  const starfocus_matte_depth surfaces = {config.disparity_max, config.disparity_min,
+                                          input->Real(0, 0.5), input->Real(0.6, 1)};
+  starfocus_matte_stats stats;
+  if (starfocus_measure_matte(&matte, &stats) != STARFOCUS_OK ||
+      starfocus_matte_coverage(&matte, &depth, config.width, config.height, &region, &out) !=
+          STARFOCUS_OK ||
+      starfocus_matte_field(&matte, &surfaces, config.width, config.height, &region, &out) !=
+          STARFOCUS_OK) {
+    std::abort();
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -162,7 +194,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (input.Rarely()) out.confidence = nullptr;
   if (input.Rarely()) out.coverage = nullptr;
   const starfocus_status status = make(&config, &field, &out, workspace, bytes);
-  if (status == STARFOCUS_OK) CheckMap(config, map);
+  if (status == STARFOCUS_OK) {
+    CheckMap(config, map);
+    UseMatte(config, map, &input);
+  }
   const bool may_cover = repairs && config.views == 1 && out.coverage != nullptr;
   if (status == STARFOCUS_OK && out.has_coverage != 0 && (out.has_coverage != 1 || !may_cover)) {
     std::abort();
