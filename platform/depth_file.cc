@@ -35,12 +35,14 @@ bool IsPicture(const Bytes& bytes) {
          HasMagic(bytes, "P6");
 }
 
-// Returns how to convert a file to a format that can be read.
-std::string Conversion(const Bytes& bytes) {
+// Returns how to convert a depth map or matte to a format that can be read.
+std::string Conversion(bool is_matte, const Bytes& bytes) {
   if (!StartsWith(bytes, "v/1\x01")) {
-    return " (convert the map to PFM or NPY, or to PNG of 16 bits)";
+    return is_matte ? " (convert the matte to PNG)"
+                    : " (convert the map to PFM or NPY, or to PNG of 16 bits)";
   }
-  return " (oiiotool FILE --ch Z -d float -o map.tif writes its channel Z as TIFF)";
+  return is_matte ? " (oiiotool FILE --ch A -o matte.png writes its alpha channel)"
+                  : " (oiiotool FILE --ch Z -d float -o map.tif writes its channel Z as TIFF)";
 }
 
 }  // namespace
@@ -56,10 +58,11 @@ Result<Samples> DecodeDepthFile(const std::string& where, Alpha alpha, const Byt
   if (IsZip(bytes)) return DecodeNpz(where, bytes);
   if (IsTiff(bytes)) return DecodeTiff(where, bytes);
   if (IsPicture(bytes)) return DecodeSamples(where, alpha, bytes);
+  const bool is_matte = alpha == Alpha::kTaken;
   return Expected(where,
-                  std::string(alpha == Alpha::kTaken ? "a matte" : "a depth picture") +
+                  std::string(is_matte ? "a matte" : "a depth picture") +
                       " (PFM, TIFF, NPY, NPZ, PNG, PGM, PPM, JPEG or WebP)",
-                  DescribeFile(bytes) + Conversion(bytes));
+                  DescribeFile(bytes) + Conversion(is_matte, bytes));
 }
 
 }  // namespace starfocus

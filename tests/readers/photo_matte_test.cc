@@ -173,7 +173,8 @@ TEST_CASE("mattes: unsuitable mattes are rejected with their cause") {
            {NpyOf(MapOf({-12, -12, 9})), "found values from -12 to 9"},
            {NpyOf(MapOf({0, 0, 3000})), "found values from 0 to 3000"},
            {NpyOf(nan), "found NaN or infinity"},
-           {"no picture", "expected a matte (PFM, TIFF"}}) {
+           {"no picture", "(convert the matte to PNG)"},
+           {"v/1\x01 and more", "(oiiotool FILE --ch A -o matte.png writes its alpha channel)"}}) {
     CAPTURE(cause);
     CHECK(Contains(ErrorOf(file), cause));
   }
