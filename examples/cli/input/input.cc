@@ -136,8 +136,8 @@ Error Estimate(int threads, Capture* capture) {
 Result<Capture> ReadInput(const InputOptions& options) {
   if (Error error = CheckPipes(options)) return error;
   if (Error error = CheckRight(options)) return error;
-  if (Error error = CheckFiles(options)) return error;
   if (Error error = CheckNear(options.map)) return error;
+  if (Error error = CheckFiles(options)) return error;
   CommandRun depth = {options, options.depth_command, options.map.alpha};
   CommandRun matte = {options, options.matte_command, Alpha::kTaken};
   CaptureOptions wanted;
