@@ -86,8 +86,8 @@ async function understand(depth, {first, last, isDistance, metres, near}, orient
   return {depth: file, options: {near}, distances};
 }
 
-/** Returns true if a map or matte has the proportions of the stored photo, and is turned with the photo. */
-const isAsStored = (orientation, photo, {width, height}) => orientation >= 5 && (photo.width < photo.height) !== (width < height);
+/** Returns true if a map or matte has the proportions of the stored photo, and is turned with the photo. Squares are upright. */
+const isAsStored = (orientation, photo, {width, height}) => orientation >= 5 && width !== height && (photo.width < photo.height) !== (width < height);
 
 /** Reads a JPEG file. Returns {bytes, jpeg, kept, orientation}; jpeg is null for other files. */
 async function readPhoto(file) {

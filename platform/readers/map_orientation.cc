@@ -88,6 +88,10 @@ bool HasSameProportions(const FloatMap& map, int width, int height) {
   return std::fabs(a - b) <= std::max({kTolerance * std::min(a, b), double(width), double(height)});
 }
 
+bool IsStretched(const FloatMap& map, int width, int height) {
+  return map.width == map.height && !HasSameProportions(map, width, height);
+}
+
 void StandWithPhoto(DepthOrientation choice, const std::string& kind, DepthPhoto* photo,
                     FloatMap* map) {
   const int orientation = photo->orientation;
@@ -99,7 +103,9 @@ void StandWithPhoto(DepthOrientation choice, const std::string& kind, DepthPhoto
     const bool as_file = HasSameProportions(*map, picture.width, picture.height);
     const bool as_turned =
         swaps ? HasSameProportions(*map, picture.height, picture.width) : as_file;
-    upright = as_file && as_turned ? ChooseByEdges(kind, *map, photo) : as_turned;
+    const bool by_edges =
+        (as_file && as_turned) || IsStretched(*map, picture.width, picture.height);
+    upright = by_edges ? ChooseByEdges(kind, *map, photo) : as_turned;
   }
   ApplyOrientation(photo);
   if (!upright) TurnMap(orientation, map);

@@ -14,10 +14,15 @@ namespace starfocus {
 // map and picture may differ by rounding, or by 3 % because networks round sizes to whole blocks.
 bool HasSameProportions(const FloatMap& map, int width, int height);
 
+// Returns true if `map` may be the output of a network that stretches pictures to squares: `map` is
+// square, and the picture of `width` x `height` pixels is not.
+bool IsStretched(const FloatMap& map, int width, int height);
+
 // Makes a photo and `map`, which is its separate depth picture or matte, upright. `choice` states
 // whether `map` is upright already. If `choice` is kUnknown, the proportions of picture and map
-// decide. If the proportions fit the upright and the stored orientation, the edges of picture and
-// map decide, and a note reports the result; `kind` is the name of the map in this note.
+// decide. If the proportions fit the upright and the stored orientation, or if the map is square,
+// the edges of picture and map decide, and a note reports the result; `kind` is the name of the map
+// in this note.
 void StandWithPhoto(DepthOrientation choice, const std::string& kind, DepthPhoto* photo,
                     FloatMap* map);
 

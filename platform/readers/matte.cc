@@ -26,6 +26,27 @@ Error Judge(const std::string& where, starfocus_status status) {
                   std::string("the error \"") + Describe(status, nullptr).text + "\"");
 }
 
+// The jobs of CoverByMatte, each of which fills kRows rows.
+struct CoverTask {
+  static constexpr int kRows = 128;
+
+  const starfocus_matte matte;
+  const starfocus_depth_map depth;
+  uint8_t* const coverage;
+  std::vector<starfocus_status> statuses;  // one per job
+
+  static void Run(void* data, int32_t index, int32_t) {
+    CoverTask& task = *static_cast<CoverTask*>(data);
+    const int32_t width = task.depth.width, height = task.depth.height, top = index * kRows;
+    const starfocus_region rows = {0, top, width, std::min(kRows, height - top)};
+    starfocus_disparity_output out = {};
+    out.coverage = task.coverage + size_t(top) * size_t(width);
+    out.coverage_stride = size_t(width);
+    task.statuses[size_t(index)] =
+        starfocus_matte_coverage(&task.matte, &task.depth, width, height, &rows, &out);
+  }
+};
+
 }  // namespace
 
 Matte::Matte(const FloatMap& map) : width(map.width), height(map.height) {
@@ -45,9 +66,10 @@ std::string Description(const Matte& matte) {
 }
 
 Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& picture) {
-  if (!HasSameProportions(matte, picture.width, picture.height)) {
+  if (!HasSameProportions(matte, picture.width, picture.height) &&
+      !IsStretched(matte, picture.width, picture.height)) {
     return Expected(
-        where, "a matte with the proportions of the picture",
+        where, "a matte with the proportions of the picture, or a square matte of a network",
         SizeText(matte.width, matte.height) + " for " + SizeText(picture.width, picture.height));
   }
   const auto is_subject = [](float alpha) { return alpha >= 0.5F; };
@@ -85,16 +107,17 @@ Error FillTwoSurfaces(const std::string& where, const Matte& matte, double subje
       where, starfocus_matte_field(&engine, &depth, picture.width, picture.height, nullptr, &out));
 }
 
-Error CoverByMatte(const std::string& where, const Matte& matte, LightField* light_field) {
+Error CoverByMatte(const std::string& where, const Matte& matte, ThreadRunner* runner,
+                   LightField* light_field) {
   const FloatMap& map = light_field->disparity;
   light_field->coverage.resize(map.values.size());
-  starfocus_disparity_output out = {};
-  out.coverage = light_field->coverage.data();
-  out.coverage_stride = size_t(map.width);
-  const starfocus_matte engine = EngineMatte(matte);
-  const starfocus_depth_map depth = EngineMap(map);
-  return Judge(where,
-               starfocus_matte_coverage(&engine, &depth, map.width, map.height, nullptr, &out));
+  const int jobs = (map.height + CoverTask::kRows - 1) / CoverTask::kRows;
+  CoverTask task = {EngineMatte(matte), EngineMap(map), light_field->coverage.data(),
+                    std::vector<starfocus_status>(size_t(jobs))};
+  ThreadRunner::Run(runner, CoverTask::Run, &task, jobs);
+  const auto failed = std::find_if(task.statuses.begin(), task.statuses.end(),
+                                   [](starfocus_status status) { return status != STARFOCUS_OK; });
+  return failed == task.statuses.end() ? Error() : Judge(where, *failed);
 }
 
 }  // namespace starfocus

@@ -12,6 +12,7 @@
 #include "platform/light_field.h"
 #include "platform/pfm.h"
 #include "platform/result.h"
+#include "platform/runner.h"
 
 namespace starfocus {
 
@@ -29,7 +30,8 @@ struct Matte {
 std::string Description(const Matte& matte);
 
 // Returns an error unless `matte`, alpha from 0 to 1, has a subject and a background and can belong
-// to `picture` by its proportions. Picture and matte must be upright.
+// to `picture` by its proportions. A square matte can belong to any picture, because many networks
+// stretch pictures to squares. Picture and matte must be upright.
 Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& picture);
 
 // Fills map and coverage of a light field from a matte (starfocus_matte_field). The subject has the
@@ -40,8 +42,9 @@ Error FillTwoSurfaces(const std::string& where, const Matte& matte, double subje
                       LightField* light_field);
 
 // Adds the coverage of a matte to a light field with a map (starfocus_matte_coverage). The light
-// field must have one view of the size of the map.
-Error CoverByMatte(const std::string& where, const Matte& matte, LightField* light_field);
+// field must have one view of the size of the map. Runs jobs on `runner`.
+Error CoverByMatte(const std::string& where, const Matte& matte, ThreadRunner* runner,
+                   LightField* light_field);
 
 }  // namespace starfocus
 

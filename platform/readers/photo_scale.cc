@@ -210,11 +210,19 @@ Result<FloatMap> ConvertMap(const std::string& where, const MapSurvey* clip, Dep
   return std::move(photo->map);
 }
 
-// Removes a matte that cannot be used, and adds a note. Returns an error if the photo then has
-// neither a matte nor a map.
+// Removes a matte that cannot be used, and adds a note, as for square mattes of other pictures.
+// Returns an error if the photo then has neither a matte nor a map.
 Error JudgeMatte(const std::string& where, DepthPhoto* photo) {
   if (photo->matte.values.empty()) return {};
-  const Error error = CheckMatte(where, photo->matte, photo->picture);
+  const FloatMap& matte = photo->matte;
+  const Image& picture = photo->picture;
+  const Error error = CheckMatte(where, matte, picture);
+  if (!error && IsStretched(matte, picture.width, picture.height)) {
+    photo->notes.push_back("the square matte of " + SizeText(matte.width, matte.height) +
+                           " pixels is stretched over the picture of " +
+                           SizeText(picture.width, picture.height) +
+                           " pixels, as networks compute it");
+  }
   if (!error || photo->map.values.empty()) return error;
   photo->notes.push_back("the matte in the file is ignored: " + error.line());
   photo->matte = {};

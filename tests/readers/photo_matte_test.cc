@@ -131,6 +131,25 @@ TEST_CASE("mattes: a matte is rotated with its photo, unless it is upright alrea
 }
 #endif
 
+TEST_CASE("mattes: a square matte is stretched over the picture, with a note") {
+  const FloatMap matte = MatteMap();
+  Image picture = Plain(kColumns, kRows, 60);
+  for (int y = 8; y < 26; ++y) std::fill_n(picture.row(y) + 3 * 16, 3 * 12, uint8_t{200});
+  for (const int orientation : {1, 6}) {
+    const Capture capture =
+        ValueOf(Open(orientation, picture, PngOf(Resize(matte, 2 * kColumns, 2 * kColumns), 1)));
+    FloatMap upright = matte;
+    TurnMap(orientation, &upright);
+    CHECK(HasNote(capture, "is stretched over the picture"));
+    const std::vector<uint8_t>&given = capture.light_field.coverage,
+          expected = Matte(upright).alpha;
+    REQUIRE(given.size() == expected.size());
+    int differing = 0;  // pixels beside outlines, which resampling softens
+    for (size_t k = 0; k < given.size(); ++k) differing += std::abs(given[k] - expected[k]) > 60;
+    CHECK(differing < 20);
+  }
+}
+
 TEST_CASE("mattes: the floor reaches the subject at its feet") {
   DepthOptions options;
   options.floor = true;
@@ -152,7 +171,8 @@ TEST_CASE("mattes: with a map, the matte is the coverage of the outline that bot
   for (int y = 0; y < kRows; ++y) {
     for (int x = 40; x < kColumns; ++x) field.disparity.values[Index(x, y)] = 20;
   }
-  REQUIRE(CoverByMatte("photo", Matte(MatteMap()), &field) == "");
+  ThreadRunner runner(2);
+  REQUIRE(CoverByMatte("photo", Matte(MatteMap()), &runner, &field) == "");
   CHECK(field.coverage[Index(20, 15)] == 255);
   CHECK(std::abs(field.coverage[Index(16, 15)] - 102) <= 10);
   CHECK(field.coverage[Index(34, 15)] == 0);
@@ -169,7 +189,9 @@ TEST_CASE("mattes: unsuitable mattes are rejected with their cause") {
            {Encode(Plain(kColumns, kRows, 255), ".png"), "a full matte"},
            {Encode(Noise(kColumns, kRows), ".png"), "found an opaque colour picture"},
            {Encode(Ramp(40, 36), ".png"),
-            "a matte with the proportions of the picture, found 40x36 for " + size},
+            "a matte with the proportions of the picture, or a square matte of a network, found "
+            "40x36 for " +
+                size},
            {NpyOf(MapOf({-12, -12, 9})), "found values from -12 to 9"},
            {NpyOf(MapOf({0, 0, 3000})), "found values from 0 to 3000"},
            {NpyOf(nan), "found NaN or infinity"},

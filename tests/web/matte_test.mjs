@@ -107,7 +107,7 @@ test('wrong mattes and options are one line each', async () => {
   const wrong = [
     [{matte: {...matte, data: matte.data.map(() => 127)}}, 'RANGE', /^matte: expected a matte with a subject, found an empty matte\.$/],
     [{matte: {...matte, data: matte.data.map(() => 128)}}, 'RANGE', /^matte: expected a matte with a background, found a matte that is full everywhere\.$/],
-    [{matte: {data: makeAlpha(100, 100), width: 100, height: 100}}, 'RANGE', /^matte: expected the proportions of the picture, 320 x 240, found '100 x 100'\.$/],
+    [{matte: {data: makeAlpha(100, 50), width: 100, height: 50}}, 'RANGE', /^matte: expected the proportions of the picture, 320 x 240, found '100 x 50'\.$/],
     [{matte: image}, 'RANGE', /^matte: expected alpha or grey levels, found colours\.$/],
     [{matte: {...matte, data: Float32Array.from(matte.data)}}, 'RANGE', /^matte\.data: expected values from 0 to 1, found \d+\.$/],
     [{matte: {...matte, data: matte.data.subarray(1)}}, 'RANGE', /^matte\.data: expected 320 x 240 x 1 or 3 or 4 values, found 76799\.$/],

@@ -206,7 +206,8 @@ Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
     if (Error error = FillHoles(MapName(*capture), &light_field.disparity)) return error;
   }
   if (has_coverage || !has_matte) return {};
-  return CoverByMatte(capture->path, capture->matte, &light_field);
+  ThreadRunner runner(threads);
+  return CoverByMatte(capture->path, capture->matte, &runner, &light_field);
 }
 
 Error FillHoles(const std::string& where, FloatMap* map) {

@@ -13,8 +13,10 @@ export function checkMatteOptions(options, hasDepth) {
   expect(!wrong, wrong, 'no value for a photo without depth', options[wrong]);
 }
 
-/** Checks the proportions of a matte. Sizes are rounded to whole pixels. */
+/** Checks the proportions of a matte. Sizes are rounded to whole pixels. Square mattes fit all pictures, because many
+ *  networks stretch pictures to squares. */
 export function checkMatteSize(matte, {width, height}) {
+  if (matte.width === matte.height) return;
   const a = matte.width * height, b = matte.height * width;
   expect(Math.abs(a - b) <= Math.max(TOLERANCE * Math.min(a, b), width, height), 'matte',
          `the proportions of the picture, ${width} x ${height}`, `${matte.width} x ${matte.height}`, 'RANGE');

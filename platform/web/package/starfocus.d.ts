@@ -347,8 +347,8 @@ export type DepthSource = Source | {
   readonly height: number;
 };
 
-/** A matte for openPhoto: the alpha of the subject, of any size with the proportions of the picture. In pictures, the
- *  alpha channel counts unless it is opaque everywhere. Otherwise, grey levels count. */
+/** A matte for openPhoto: the alpha of the subject, of any size with the proportions of the picture, or square. In
+ *  pictures, the alpha channel counts unless it is opaque everywhere. Otherwise, grey levels count. */
 export type MatteSource = Source | {
   /** width * height values from 0 (background) to 1 (floats) or to the largest integer (subject); or 3 or 4 bytes per
    *  pixel. */
