@@ -109,11 +109,11 @@ class Background {
         near_(RoundDisparity(depth.subject)),
         height_(height),
         begin_(Fraction(depth.horizon)),
-        length_(Fraction(depth.ground) - begin_) {}
+        length_(LengthOf(depth)) {}
 
   int32_t subject() const { return near_; }
   int32_t At(int32_t y) const {
-    if (length_ <= 0) return far_;
+    if (length_ == 0) return far_;
     const int64_t middle = ((2 * int64_t{y} + 1) << (kFractionBits - 1)) / height_;
     const int64_t way = middle <= begin_             ? 0
                         : middle >= begin_ + length_ ? length_
@@ -129,9 +129,13 @@ class Background {
   static int64_t Fraction(double part) {
     return static_cast<int64_t>(part * (1 << kFractionBits) + 0.5);
   }
+  static int64_t LengthOf(const starfocus_matte_depth& depth) {
+    const int64_t length = Fraction(depth.ground) - Fraction(depth.horizon);
+    return depth.ground > 0 && length == 0 ? 1 : length;
+  }
 
   const int32_t far_, near_, height_;
-  const int64_t begin_, length_;
+  const int64_t begin_, length_;  // length_ is 0 without a floor
 };
 
 }  // namespace

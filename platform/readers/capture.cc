@@ -153,10 +153,10 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   capture.photo = true;
   capture.survey = std::move(photo.survey);
   capture.files = {{{0, 0}, path}};
-  const bool two_surfaces = !capture.light_field.coverage.empty();
-  const std::string& map_path = two_surfaces ? photo.matte_path : photo.depth_path;
+  capture.two_surfaces = !capture.light_field.coverage.empty();
+  const std::string& map_path = capture.two_surfaces ? photo.matte_path : photo.depth_path;
   capture.map_path = map_path.empty() ? path : map_path;
-  capture.care = photo.is_ready || two_surfaces ? MapCare::kNone : MapCare::kRepair;
+  capture.care = photo.is_ready || capture.two_surfaces ? MapCare::kNone : MapCare::kRepair;
   capture.widest = 1;
   capture.f_stop = kPhotoFStop;
   capture.has_focus = photo.has_focus;

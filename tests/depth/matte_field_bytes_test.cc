@@ -167,6 +167,13 @@ TEST_CASE("matte: the floor rises from the horizon to the ground") {
   CHECK(made.Map(0, 47) == -3.5F);
   CHECK(made.Map(0, 102) == 20);
   CHECK(made.Map(0, kHeight - 1) == 20);
+  // The ground may be immediately below the horizon.
+  for (const double horizon : {0.0, 0.5 - 1e-9}) {
+    const starfocus_matte_depth cliff = {20, -3.5, horizon, horizon + 1e-9};
+    const Planes steep = Field(matte.Get(), cliff, 2, kHeight);
+    CHECK(steep.Map(0, 0) == (horizon == 0 ? 20 : -3.5F));
+    CHECK(steep.Map(0, kHeight - 1) == 20);
+  }
 }
 
 TEST_CASE("matte: the coverage is optional, and disparities are rounded to 1/64") {

@@ -97,19 +97,19 @@ int Scaled(int at, int from, int to) {
   return static_cast<int>((2 * int64_t{at} + 1) * to / (2 * int64_t{from}));
 }
 
-// Returns the median disparity of the subject of a matte, or NaN if the subject is too small for a
-// regular grid of samples.
-double SubjectDisparity(const Matte& matte, const FloatMap& map) {
-  constexpr int kGrid = 256, kLeastAlpha = 192;
+// Returns the median disparity of the places of a regular grid at which the matte has at least
+// `least_alpha`, or NaN if there are no such places.
+double MedianDisparity(const Matte& matte, const FloatMap& map, int columns, int rows,
+                       int least_alpha) {
   std::vector<float> disparities;
-  for (int row = 0; row < kGrid; ++row) {
-    for (int column = 0; column < kGrid; ++column) {
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
       const auto place = [&](int width, int height) {
-        return size_t(Scaled(row, kGrid, height)) * size_t(width) +
-               size_t(Scaled(column, kGrid, width));
+        return size_t(Scaled(row, rows, height)) * size_t(width) +
+               size_t(Scaled(column, columns, width));
       };
       const float disparity = map.values[place(map.width, map.height)];
-      const bool is_subject = matte.alpha[place(matte.width, matte.height)] >= kLeastAlpha;
+      const bool is_subject = matte.alpha[place(matte.width, matte.height)] >= least_alpha;
       if (is_subject && std::isfinite(disparity)) disparities.push_back(disparity);
     }
   }
@@ -119,14 +119,28 @@ double SubjectDisparity(const Matte& matte, const FloatMap& map) {
   return double(*middle);
 }
 
+// Returns the disparity of the subject of a photo with a matte. With a map, the result is the
+// median of the pixels that certainly belong to the subject, or of all its pixels if the subject is
+// small or uncertain. Returns NaN without a matte, or if the map is unknown there.
+double SubjectDisparity(const Capture& capture) {
+  constexpr int kGrid = 256, kCertain = 192, kLeastAlpha = 128;
+  const FloatMap& map = capture.light_field.disparity;
+  const Matte& matte = capture.matte;
+  if (capture.two_surfaces) {
+    return double(*std::max_element(map.values.begin(), map.values.end()));
+  }
+  if (matte.alpha.empty()) return NAN;
+  const double certain = MedianDisparity(matte, map, kGrid, kGrid, kCertain);
+  if (std::isfinite(certain)) return certain;
+  return MedianDisparity(matte, map, matte.width, matte.height, kLeastAlpha);
+}
+
 }  // namespace
 
 DefaultFocus FindDefaultFocus(const Capture& capture) {
   const FloatMap& map = capture.light_field.disparity;
-  if (!capture.matte.alpha.empty()) {
-    const double subject = SubjectDisparity(capture.matte, map);
-    if (std::isfinite(subject)) return {false, 0, 0, subject, "the subject of the matte"};
-  }
+  const DefaultFocus subject = {false, 0, 0, SubjectDisparity(capture), "the subject of the matte"};
+  if (capture.two_surfaces) return subject;
   if (capture.has_subject) {
     return AtPixel(capture.subject_x, capture.subject_y, "the subject in the photo's EXIF");
   }
@@ -136,6 +150,7 @@ DefaultFocus FindDefaultFocus(const Capture& capture) {
   if (std::isfinite(capture.focus)) {
     return {false, 0, 0, capture.focus, "the focus distance stored in the file"};
   }
+  if (std::isfinite(subject.disparity)) return subject;
   const Image& picture = capture.light_field.views[0];
   DefaultFocus focus = FindSurface(map);
   focus.x = Scaled(focus.x, map.width, picture.width);

@@ -45,9 +45,9 @@ void AddOpticsOptions(Command* command, LensOptions* options) {
       {
           {"--focus", "D",
            "Disparity in focus, in pixels per unit of u, from -1000000 to 1000000; "
-           "default: the subject of the matte, the subject in the photo's EXIF, the focus stored "
-           "in "
-           "the file, or the nearest large surface near the centre",
+           "default: the subject of the matte if the photo has no depth, otherwise the subject in "
+           "the photo's EXIF, the focus stored in the file, the subject of the matte, or the "
+           "nearest large surface near the centre",
            Number(&options->focus)},
           {"--focus-at", "X,Y",
            "Pixel whose surface is in focus, counted from 0,0 at the top left; the focus "
