@@ -101,6 +101,26 @@ starfocus_status FindArea(const starfocus_region* region, int32_t width, int32_t
   return CheckRegion(*region, width, height, nullptr);
 }
 
+int64_t CountSubject(const starfocus_matte& matte, int32_t y) {
+  const uint8_t* sample = matte.data + static_cast<size_t>(y) * matte.stride;
+  int64_t count = 0;
+  for (int32_t x = 0; x < matte.width; ++x, sample += StepOf(matte)) {
+    count += *sample >= kSubject ? 1 : 0;
+  }
+  return count;
+}
+
+// Returns the number of rows, from row `y` in steps of `step`, that contain at most `most` samples
+// of the subject together.
+int32_t CountRows(const starfocus_matte& matte, int32_t y, int32_t step, int64_t most) {
+  int32_t rows = 0;
+  for (int64_t samples = 0; rows < matte.height; ++rows, y += step) {
+    samples += CountSubject(matte, y);
+    if (samples > most) break;
+  }
+  return rows;
+}
+
 // Disparities of the background by row, in 1/64 pixel.
 class Background {
  public:
@@ -151,11 +171,13 @@ starfocus_status starfocus_measure_matte(const starfocus_matte* matte,
   const int32_t width = matte->width, height = matte->height;
   int32_t left = width, right = 0, top = height, bottom = 0;
   uint64_t sum = 0;
+  int64_t subject = 0;
   for (int32_t y = 0; y < height; ++y) {
     const uint8_t* sample = matte->data + static_cast<size_t>(y) * matte->stride;
     for (int32_t x = 0; x < width; ++x, sample += StepOf(*matte)) {
       sum += *sample;
       if (*sample < kSubject) continue;
+      ++subject;
       left = Min(left, x);
       right = Max(right, x + 1);
       top = Min(top, y);
@@ -169,8 +191,12 @@ starfocus_status starfocus_measure_matte(const starfocus_matte* matte,
   stats->top = double(top) / height;
   stats->right = double(right) / width;
   stats->bottom = double(bottom) / height;
-  stats->horizon = std::fmin(0.5, (stats->top + stats->bottom) / 2);
-  stats->ground = stats->bottom;
+  // Wrong samples of a network, such as a speck in the last row, must not move the floor.
+  constexpr int64_t kSpecks = 256;
+  const int64_t specks = subject / kSpecks;
+  const double head = double(CountRows(*matte, 0, 1, specks)) / height;
+  stats->ground = double(height - CountRows(*matte, height - 1, -1, specks)) / height;
+  stats->horizon = std::fmin(0.5, (head + stats->ground) / 2);
   return STARFOCUS_OK;
 }
 

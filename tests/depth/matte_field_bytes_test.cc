@@ -81,6 +81,23 @@ TEST_CASE("matte: the box, the mean and the proposed floor are measured") {
   CHECK(stats.horizon == doctest::Approx(0.3));
 }
 
+TEST_CASE("matte: a wrong sample does not move the proposed floor") {
+  Matte matte(64, 80);
+  std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{0});
+  for (int y = 16; y < 48; ++y) {
+    for (int x = 16; x < 48; ++x) matte.At(x, y) = 255;
+  }
+  for (const int specks : {0, 1, 2}) {
+    if (specks > 0) matte.At(3, specks == 1 ? 79 : 0) = 255;
+    const starfocus_matte given = matte.Get();
+    starfocus_matte_stats stats;
+    REQUIRE(starfocus_measure_matte(&given, &stats) == STARFOCUS_OK);
+    CHECK(stats.ground == 0.6);
+    CHECK(stats.horizon == doctest::Approx(0.4));
+    CHECK(stats.bottom == (specks == 0 ? 0.6 : 1));
+  }
+}
+
 TEST_CASE("matte: without a subject, the box and the floor are 0") {
   Matte matte(7, 5);
   std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{127});

@@ -183,22 +183,23 @@ TEST_CASE("mattes: unsuitable mattes are rejected with their cause") {
   const std::string size = std::to_string(kColumns) + "x" + std::to_string(kRows);
   FloatMap nan = MatteMap();
   nan.values[5] = kNan;
-  for (const auto& [file, cause] : std::vector<std::pair<std::string, std::string>>{
-           {Encode(Plain(kColumns, kRows, 0), ".png"), "an empty matte, alpha up to 0"},
-           {Encode(Plain(kColumns, kRows, 100), ".png"), "an empty matte, alpha up to 0.392157"},
-           {Encode(Plain(kColumns, kRows, 255), ".png"), "a full matte"},
-           {Encode(Noise(kColumns, kRows), ".png"), "found an opaque colour picture"},
-           {Encode(Ramp(40, 36), ".png"),
-            "a matte with the proportions of the picture, or a square matte of a network, found "
-            "40x36 for " +
-                size},
-           {NpyOf(MapOf({-12, -12, 9})), "found values from -12 to 9"},
-           {NpyOf(MapOf({0, 0, 3000})), "found values from 0 to 3000"},
-           {NpyOf(nan), "found NaN or infinity"},
-           {"no picture", "(convert the matte to PNG)"},
-           {"v/1\x01 and more", "(oiiotool FILE --ch A -o matte.png writes its alpha channel)"}}) {
-    CAPTURE(cause);
-    CHECK(Contains(ErrorOf(file), cause));
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {Encode(Plain(kColumns, kRows, 0), ".png"), "an empty matte, alpha up to 0"},
+      {Encode(Plain(kColumns, kRows, 100), ".png"), "an empty matte, alpha up to 0.392157"},
+      {Encode(Plain(kColumns, kRows, 255), ".png"), "a full matte"},
+      {Encode(Noise(kColumns, kRows), ".png"), "found an opaque colour picture"},
+      {Encode(Ramp(40, 36), ".png"),
+       "a matte with the proportions of the picture, or a square matte of a network, found "
+       "40x36 for " +
+           size},
+      {NpyOf(MapOf({-12, -12, 9})), "found values from -12 to 9"},
+      {NpyOf(MapOf({0, 0, 3000})), "found values from 0 to 3000"},
+      {NpyOf(nan), "found NaN or infinity"},
+      {"no picture", "(convert the matte to PNG)"},
+      {"v/1\x01 and more", "(oiiotool FILE --ch A -o matte.png writes its alpha channel)"}};
+  for (const auto& wrong : cases) {
+    CAPTURE(wrong.second);
+    CHECK(Contains(ErrorOf(wrong.first), wrong.second));
   }
 }
 

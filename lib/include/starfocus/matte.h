@@ -55,8 +55,10 @@ typedef struct starfocus_matte_stats {
   double right;   /**< Right edge of the box. */
   double bottom;  /**< Bottom edge of the box. */
   double horizon; /**< Proposed starfocus_matte_depth.horizon: the smaller of 1/2 and the middle
-                       between `top` and `bottom`. */
-  double ground;  /**< Proposed starfocus_matte_depth.ground: `bottom`, where the subject stands. */
+                       between the head of the subject and `ground`. */
+  double ground;  /**< Proposed starfocus_matte_depth.ground, where the subject stands: the row
+                       below which 1/256 of its samples lie, which may be wrong. The head is the row
+                       above which 1/256 of the samples lie. */
 } starfocus_matte_stats;
 
 /** Measures a matte.
