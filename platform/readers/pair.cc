@@ -25,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kSeparators[] = "-_.", kDepth[] = "depth";
-constexpr size_t kDepthLength = sizeof(kDepth) - 1;
 constexpr const char* kExtensions[] = {".png", ".pgm",  ".pfm", ".jpg", ".jpeg",
                                        ".tif", ".tiff", ".npy", ".npz", ".exr"};
 
@@ -33,12 +32,12 @@ bool EndsIn(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// Returns the part of the name of a depth picture before "-depth", "_depth" or ".depth", or an
-// empty string for other names.
-std::string NameBefore(const std::string& stem) {
+// Returns the part of a name before "-depth", "_depth" or ".depth", where `ending` is "depth".
+// Returns an empty string for other names.
+std::string NameBefore(const std::string& stem, const std::string& ending) {
   const std::string lower = Lower(stem);
-  if (!EndsIn(lower, kDepth)) return "";
-  const size_t at = lower.size() - kDepthLength - 1;
+  if (!EndsIn(lower, ending)) return "";
+  const size_t at = lower.size() - ending.size() - 1;
   return std::string(kSeparators).find(lower[at]) == std::string::npos ? "" : stem.substr(0, at);
 }
 
@@ -137,7 +136,7 @@ void Understand(const DepthOptions& options, const Samples& samples, DepthPhoto*
 }  // namespace
 
 bool IsDepthPictureName(const std::string& name) {
-  return !NameBefore(fs::path(name).stem().string()).empty();
+  return !NameBefore(fs::path(name).stem().string(), kDepth).empty();
 }
 
 bool HasDepthExtension(const std::string& name) {
@@ -145,7 +144,7 @@ bool HasDepthExtension(const std::string& name) {
 }
 
 void DepthPictures::Add(const std::string& name) {
-  const std::string photo = NameBefore(fs::path(name).stem().string());
+  const std::string photo = NameBefore(fs::path(name).stem().string(), ending_);
   if (photo.empty() || !HasDepthExtension(name)) return;
   names_[Lower(photo)].push_back(name);
 }
@@ -157,7 +156,7 @@ std::vector<std::string> DepthPictures::Of(const std::string& name) const {
   std::vector<Candidate> candidates;
   for (const std::string& file : found->second) {
     const std::string stem = fs::path(file).stem().string();
-    candidates.push_back({NameBefore(stem) != photo,
+    candidates.push_back({NameBefore(stem, ending_) != photo,
                           std::string(kSeparators).find(stem[photo.size()]), ExtensionIndex(file),
                           file});
   }

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "platform/levels.h"
@@ -20,18 +21,22 @@ bool IsDepthPictureName(const std::string& name);
 // Returns true if `name` has an extension of depth pictures, which DepthPictures lists.
 bool HasDepthExtension(const std::string& name);
 
-// Finds the depth pictures of photographs among the files of a folder. The depth picture of a
+// Finds the depth pictures of photographs among the files of a folder, or mattes with the ending
+// "matte" instead of "depth". The depth picture of a
 // photograph NAME.jpg or NAME-image.jpg is named NAME-depth, NAME_depth or NAME.depth, with .png,
 // .pgm, .pfm, .jpg, .jpeg, .tif, .tiff, .npy, .npz or .exr, in upper or lower case. Files in the
 // format OpenEXR (.exr) are found so that their error states how to convert them.
 class DepthPictures {
  public:
+  DepthPictures() = default;
+  explicit DepthPictures(std::string ending) : ending_(std::move(ending)) {}
   // Adds a file of the folder. Ignores files whose names are not names of depth pictures.
   void Add(const std::string& name);
   // Returns the names of the depth pictures of the photograph `name`, the best match first.
   std::vector<std::string> Of(const std::string& name) const;
 
  private:
+  std::string ending_ = "depth";
   // Names of files by the name of the photograph in lower case, without extension.
   std::map<std::string, std::vector<std::string>> names_;
 };

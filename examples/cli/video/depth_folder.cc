@@ -62,8 +62,8 @@ Result<Names> ListDepths(const Names& frames, const std::string& folder, const s
   return depths;
 }
 
-Pairing PairByName(const Names& frames, const Names& depths) {
-  DepthPictures with_ending;
+Pairing PairByName(const Names& frames, const Names& depths, const std::string& ending) {
+  DepthPictures with_ending(ending);
   std::map<std::string, Names> by_name;
   for (const std::string& depth : depths) {
     with_ending.Add(depth);
@@ -181,10 +181,11 @@ Result<Names> Choose(const Names& frames, const std::string& folder, const std::
 
 Result<std::vector<std::string>> PairWithFolder(const std::vector<std::string>& frames,
                                                 const std::string& folder,
-                                                const std::string& kind) {
+                                                const std::string& ending) {
+  const std::string kind = ending == "depth" ? "depth picture" : ending;
   const Result<Names> depths = ListDepths(frames, folder, kind);
   if (!depths) return depths;
-  std::vector<Pairing> pairings = {PairByName(frames, *depths)};
+  std::vector<Pairing> pairings = {PairByName(frames, *depths, ending)};
   if (pairings[0].matches.size() < frames.size()) {
     for (Pairing& pairing : PairByNumbers(frames, *depths)) pairings.push_back(std::move(pairing));
   }

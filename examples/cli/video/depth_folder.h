@@ -10,17 +10,18 @@
 
 namespace starfocus {
 
-// Returns the path of the depth picture or matte of each frame; `kind` is its name in messages. A
-// picture belongs to a frame
+// Returns the path of the depth picture of each frame or, if `ending` is "matte" and not "depth",
+// of its matte. A picture belongs to a frame
 // - if their names without extension are equal, or the name of the picture ends in -depth, _depth
-//   or .depth in addition; or
+//   or .depth (with the given ending) in addition; or
 // - if this pairs not all frames, by the numbers in the names, with or without leading zeros. All
 //   pictures then have one name apart from their numbers. Numbers that all frames have in common,
 //   such as the number of a shot, may be missing in the names of the pictures.
 // Returns an error unless each frame has exactly one picture. Prints a note if the folder has other
 // pictures.
 Result<std::vector<std::string>> PairWithFolder(const std::vector<std::string>& frames,
-                                                const std::string& folder, const std::string& kind);
+                                                const std::string& folder,
+                                                const std::string& ending);
 
 }  // namespace starfocus
 

@@ -24,9 +24,9 @@ bool IsReady(const MapOptions& options, const Capture& capture) {
 // Returns the path of the depth picture or matte of each frame. `path` is one file for all frames,
 // a folder with a file for each frame, or empty.
 Result<std::vector<std::string>> FindPictures(const std::vector<std::string>& frames,
-                                              const std::string& path, const std::string& kind) {
+                                              const std::string& path, const std::string& ending) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return PairWithFolder(frames, path, kind);
+  if (std::filesystem::is_directory(path, ignored)) return PairWithFolder(frames, path, ending);
   return std::vector<std::string>(frames.size(), path);
 }
 
@@ -45,7 +45,7 @@ Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inpu
     paths = std::move(found->paths);
   }
   std::vector<std::string> depths, mattes;
-  Error error = FindPictures(paths, options.depth, "depth picture").MoveTo(&depths);
+  Error error = FindPictures(paths, options.depth, "depth").MoveTo(&depths);
   if (!error) error = FindPictures(paths, options.matte, "matte").MoveTo(&mattes);
   if (error) return error;
   std::vector<FrameSource> frames;
