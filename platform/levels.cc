@@ -58,6 +58,7 @@ Result<Samples> TakeLevels(const std::string& where, const Sample* first, int ch
   std::vector<float>& values = result.map.values;
   values.reserve(count);
   if (alpha == Alpha::kTaken && !pixels.IsOpaque(result.largest)) {
+    result.is_alpha = true;
     for (size_t k = 0; k < count; ++k) values.push_back(static_cast<float>(pixels.AlphaAt(k)));
     return result;
   }

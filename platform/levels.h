@@ -13,8 +13,10 @@
 namespace starfocus {
 
 struct Samples {
-  FloatMap map;                   // Sample values, 0 to `largest`; NaN for transparent pixels.
-  int largest = 0;                // Sample value of white; 0 for floats, which have no limits.
+  FloatMap map;           // Sample values, 0 to `largest`; NaN for transparent pixels.
+  int largest = 0;        // Sample value of white; 0 for floats, which have no limits.
+  bool is_wide = false;   // True if values have more than 16 bits, so that white is unknown.
+  bool is_alpha = false;  // True if the values are an alpha channel.
   bool larger_is_nearer = false;  // True if the format defines that larger values are nearer.
 };
 

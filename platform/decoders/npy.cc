@@ -121,7 +121,8 @@ Result<Samples> DecodeNpy(const std::string& where, const Bytes& npy) {
   if (Error error = CheckMap(where, *header, npy.size())) return error;
   auto width = static_cast<int>(header->sizes[1]), height = static_cast<int>(header->sizes[0]);
   if (header->is_fortran_order) std::swap(width, height);
-  Samples samples = {{width, height, {}}, LargestNumber(*header->numbers)};
+  Samples samples = {
+      {width, height, {}}, LargestNumber(*header->numbers), header->numbers->bytes > 2};
   FloatMap& map = samples.map;
   map.values.resize(size_t(width) * size_t(height));
   ReadNumbers(*header->numbers, npy.data() + header->end, map.values.size(), map.values.data());

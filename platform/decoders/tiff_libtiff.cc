@@ -179,7 +179,8 @@ Result<Samples> DecodeTiff(const std::string& where, const Bytes& bytes) {
   }
   const NumberType type = layout.type();
   Samples samples = {{static_cast<int>(layout.width), static_cast<int>(layout.height), {}},
-                     LargestNumber(type)};
+                     LargestNumber(type),
+                     type.bytes > 2};
   samples.map.values.resize(size_t{layout.width} * layout.height);
   std::vector<uint8_t> row(
       std::max(static_cast<size_t>(TIFFScanlineSize(tiff.get())), layout.width * type.bytes));

@@ -161,10 +161,10 @@ void Pass(Channel* channel, Metadata* metadata) {
 }
 
 void Pass(Channel* channel, Samples* samples) {
-  auto& [map, largest, larger_is_nearer] = *samples;
+  auto& [map, largest, is_wide, is_alpha, larger_is_nearer] = *samples;
   Pass(channel, &map);
   channel->Value(&largest);
-  channel->Value(&larger_is_nearer);
+  for (bool* value : {&is_wide, &is_alpha, &larger_is_nearer}) channel->Value(value);
   channel->Require(largest >= 0 && largest <= 65535);
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -20,16 +19,23 @@ namespace {
 // Part of the range by which values may lie outside it, because networks and resampling round.
 constexpr float kTolerance = 0.01F;
 
+// Returns the value of full alpha of a matte whose largest value is `high`.
+float FullAlpha(const Samples& samples, float high) {
+  // No subject has an alpha up to 2 of 255, so that such a matte exceeds the range from 0 to 1.
+  constexpr float kLeastLevel = 2;
+  // An alpha channel contains no labels.
+  if (high <= 1 + kTolerance && !samples.is_alpha) return 1;
+  if (samples.largest > 0 && !samples.is_wide) return static_cast<float>(samples.largest);
+  return high <= kLeastLevel ? 1 : 255;
+}
+
 // Converts the values of a matte to alpha from 0 to 1.
 Error ToAlpha(const std::string& where, Samples* samples) {
   std::vector<float>& values = samples->map.values;
   if (!std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); }))
     return Expected(where, "a matte of finite values", "NaN or infinity");
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  const bool has_white = samples->largest > 0 && samples->largest <= UINT16_MAX;
-  const float white = *high <= 1 + kTolerance ? 1
-                      : has_white             ? static_cast<float>(samples->largest)
-                                              : 255;
+  const float white = FullAlpha(*samples, *high);
   if (*low < -kTolerance * white || *high > (1 + kTolerance) * white) {
     return Expected(where, "alpha from 0 to 1 or from 0 to 255",
                     "values from " + NumberText(double(*low)) + " to " + NumberText(double(*high)));

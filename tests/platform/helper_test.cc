@@ -60,7 +60,7 @@ TEST_CASE("helper: the result of a decoder arrives unchanged") {
   samples.map = {700, 500, std::vector<float>(350000, NAN)};  // more than a part of a block
   samples.map.values[349999] = -2.5F;
   samples.largest = 65535;
-  samples.larger_is_nearer = true;
+  samples.is_wide = samples.is_alpha = samples.larger_is_nearer = true;
   const Result<Samples> sent = Confined<Samples>("map", [&] { return Result<Samples>(samples); });
   REQUIRE(sent);
   CHECK(sent->map.width == 700);
@@ -69,6 +69,8 @@ TEST_CASE("helper: the result of a decoder arrives unchanged") {
   CHECK(std::isnan(sent->map.values[349998]));
   CHECK(sent->map.values[349999] == -2.5F);
   CHECK(sent->largest == 65535);
+  CHECK(sent->is_wide);
+  CHECK(sent->is_alpha);
   CHECK(sent->larger_is_nearer);
   const Result<bool> failed =
       Confined<bool>("map", [&] { return Result<bool>(Expected("map", "a", "b")); });

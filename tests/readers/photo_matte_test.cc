@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,17 @@ FloatMap MatteMap() {
 FloatMap Times(FloatMap map, float factor) {
   for (float& value : map.values) value *= factor;
   return map;
+}
+
+// Returns an NPY file of 32-bit integers.
+std::string IntegersOf(const FloatMap& map) {
+  FloatMap bits = map;
+  for (float& value : bits.values) {
+    const auto integer = static_cast<int32_t>(std::lround(value));
+    std::memcpy(&value, &integer, sizeof value);
+  }
+  const std::string npy = NpyOf(bits);
+  return std::string(npy).replace(npy.find("<f4"), 3, "<i4");
 }
 
 // Returns a PNG file whose alpha channel, or whose grey channel if `channels` is 1, is the matte.
@@ -81,7 +95,7 @@ TEST_CASE("mattes: every format of one matte gives the same light field") {
   const LightField field = ValueOf(Open(1, photo, PngOf(matte, 1))).light_field;
   for (const std::string& file :
        {PngOf(matte, 4), PfmOf(matte), PfmOf(Times(matte, 255)), NpyOf(matte),
-        NpyOf(Times(matte, 255)), NpyOf(Times(matte, 1.005F))}) {
+        NpyOf(Times(matte, 255)), NpyOf(Times(matte, 1.005F)), IntegersOf(Times(matte, 255))}) {
     const LightField other = ValueOf(Open(1, photo, file)).light_field;
     CHECK(other.disparity.values == field.disparity.values);
     CHECK(std::equal(field.coverage.begin(), field.coverage.end(), other.coverage.begin(),
@@ -89,8 +103,10 @@ TEST_CASE("mattes: every format of one matte gives the same light field") {
   }
   // Masks of labels contain 0 and 1 only.
   FloatMap labels = MapOf({0, 0, 1.0 / 255});
-  const LightField mask = ValueOf(Open(1, photo, PngOf(labels, 1))).light_field;
-  CHECK(mask.coverage[Index(kBox[0], kBox[1])] == 255);
+  for (const std::string& file : {PngOf(labels, 1), IntegersOf(MapOf({0, 0, 1}))}) {
+    const LightField mask = ValueOf(Open(1, photo, file)).light_field;
+    CHECK(mask.coverage[Index(kBox[0], kBox[1])] == 255);
+  }
 }
 
 TEST_CASE("mattes: an alpha channel that is opaque everywhere does not replace the grey levels") {
@@ -192,6 +208,11 @@ TEST_CASE("mattes: unsuitable mattes are rejected with their cause") {
        "a matte with the proportions of the picture, or a square matte of a network, found "
        "40x36 for " +
            size},
+      {PngOf(MapOf({0, 0, 1.0 / 255}), 4), "an empty matte, alpha up to 0.00392157"},
+      {NpyOf(MapOf({0, 0, 1.03})),
+       "expected alpha from 0 to 1 or from 0 to 255, found values from 0 to 1.03"},
+      {IntegersOf(MapOf({0, 0, 2})), "found values from 0 to 2"},
+      {IntegersOf(MapOf({0, 0, 65535})), "found values from 0 to 65535"},
       {NpyOf(MapOf({-12, -12, 9})), "found values from -12 to 9"},
       {NpyOf(MapOf({0, 0, 3000})), "found values from 0 to 3000"},
       {NpyOf(nan), "found NaN or infinity"},

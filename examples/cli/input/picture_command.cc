@@ -83,9 +83,7 @@ Result<Samples> KeptPictures::Of(const PictureCommand& command, const CommandInp
   const std::pair<std::string, std::string> key = {input.name, command.kind};
   const auto found = kept_.find(key);
   if (found != kept_.end()) {
-    Samples samples;
-    samples.largest = found->second.largest;
-    samples.larger_is_nearer = found->second.larger_is_nearer;
+    Samples samples = found->second.rest;
     if (Error error = ReadPfm(found->second.path).MoveTo(&samples.map)) return error;
     return samples;
   }
@@ -94,7 +92,10 @@ Result<Samples> KeptPictures::Of(const PictureCommand& command, const CommandInp
   if (Error error = folder_.path().empty() ? folder_.Create() : Error()) return error;
   const std::string path = folder_.path() + "/" + std::to_string(kept_.size()) + ".pfm";
   if (Error error = WritePfm(path, samples->map)) return error;
-  kept_[key] = {path, samples->largest, samples->larger_is_nearer};
+  FloatMap map = std::move(samples->map);
+  samples->map = {};
+  kept_[key] = {path, *samples};
+  samples->map = std::move(map);
   return samples;
 }
 

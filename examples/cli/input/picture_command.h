@@ -49,9 +49,8 @@ class KeptPictures {
 
  private:
   struct Kept {
-    std::string path;
-    int largest;
-    bool larger_is_nearer;
+    std::string path;  // Path of the map.
+    Samples rest;      // Without the map.
   };
 
   TemporaryFolder folder_;

@@ -74,9 +74,10 @@ def read_light_field(path: AnyPath, *,
             `right="right.jpg"` reads a stereo pair. `matte="matte.png"` reads a photo and the matte of its subject,
             which gives two surfaces and their coverage; `floor=True` adds the ground below the subject. `depth` and
             `matte` may be arrays of shape (height, width), or of shape (height, width, 4), whose last channel is
-            used. Integers of a matte reach from 0 to the largest value of their type, and floats from 0 to 1. Masked
-            values of depth are unknown. As in the program, maps of photos are repaired by default; `no_repair=True`
-            returns them unchanged. `threads=4` uses 4 threads.
+            used. Values of a matte reach from 0 to 1, which also applies to integers up to 1; larger integers of 8 or
+            16 bits reach to the largest value of their type, and all other values to 255. Masked values of depth are
+            unknown. As in the program, maps of photos are repaired by default; `no_repair=True` returns them
+            unchanged. `threads=4` uses 4 threads.
 
     The function writes the light field to a temporary folder. Notes of the program are issued as warnings.
 
