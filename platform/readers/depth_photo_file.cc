@@ -226,7 +226,9 @@ Error EstimateDepth(const std::string& where, const DepthOptions& options, Depth
   if (!samples) return samples.error();
   photo->format = "photo with estimated depth";
   photo->facts.emplace_back("depth", "computed by --depth-command");
-  return TakeDepthPicture(where, options, std::move(*samples), photo);
+  DepthOptions upright = options;
+  upright.orientation = DepthOrientation::kUpright;
+  return TakeDepthPicture(where, upright, std::move(*samples), photo);
 }
 
 // Finds or estimates the depth of a decoded photo. The map and the right picture remain empty if

@@ -47,20 +47,20 @@ struct Uprightness {
   bool upright, sure;
 };
 
-Uprightness JudgeByEdges(const DepthPhoto& photo, FloatMap map) {
+// `picture` is upright. `orientation` is the orientation of its file.
+Uprightness JudgeByEdges(const Image& picture, int orientation, FloatMap map) {
   constexpr double kSure = 1.05;
-  const Image& picture = photo.picture;
   const int longer = std::max(picture.width, picture.height);
   const int factor = (longer + kSmall - 1) / kSmall;
-  FloatMap small = Brightness(picture, factor);
+  const FloatMap small = Brightness(picture, factor);
   if (small.values.empty()) return {false, false};
   const RobustRange range = RobustRangeOf(map.values);
   for (float& value : map.values) {
     if (std::isfinite(value)) value = std::clamp(value, range.low, range.high);
   }
-  const double turned = Agreement(small, Resize(map, small.width, small.height));
-  TurnMap(photo.orientation, &small);
   const double upright = Agreement(small, Resize(map, small.width, small.height));
+  TurnMap(orientation, &map);
+  const double turned = Agreement(small, Resize(map, small.width, small.height));
   const bool sure = std::max(turned, upright) > kSure * std::min(turned, upright);
   return {sure && upright > turned, sure};
 }
@@ -68,7 +68,7 @@ Uprightness JudgeByEdges(const DepthPhoto& photo, FloatMap map) {
 // Decides by the edges of picture and map whether the map is upright. Used if the proportions of
 // the map fit both the upright and the stored orientation. Adds a note.
 bool ChooseByEdges(const std::string& kind, const FloatMap& map, DepthPhoto* photo) {
-  const auto [upright, sure] = JudgeByEdges(*photo, map);
+  const auto [upright, sure] = JudgeByEdges(photo->picture, photo->applied_orientation, map);
   photo->notes.push_back("the " + kind + " is taken to be " +
                          (upright ? "upright already" : "rotated like the stored photo") +
                          (sure ? ", because its edges then match the photo better"
@@ -92,22 +92,22 @@ bool IsStretched(const FloatMap& map, int width, int height) {
   return map.width == map.height && !HasSameProportions(map, width, height);
 }
 
-void StandWithPhoto(DepthOrientation choice, const std::string& kind, DepthPhoto* photo,
-                    FloatMap* map) {
-  const int orientation = photo->orientation;
+void StandWithPhoto(DepthOrientation choice, bool is_matte, DepthPhoto* photo, FloatMap* map) {
+  ApplyOrientation(photo);
+  const int orientation = photo->applied_orientation;
   if (orientation <= 1) return;
   const Image& picture = photo->picture;
   bool upright = choice == DepthOrientation::kUpright;
   if (choice == DepthOrientation::kUnknown) {
     const bool swaps = orientation >= 5;
-    const bool as_file = HasSameProportions(*map, picture.width, picture.height);
-    const bool as_turned =
-        swaps ? HasSameProportions(*map, picture.height, picture.width) : as_file;
-    const bool by_edges =
-        (as_file && as_turned) || IsStretched(*map, picture.width, picture.height);
+    const bool as_turned = HasSameProportions(*map, picture.width, picture.height);
+    const bool as_file =
+        swaps ? HasSameProportions(*map, picture.height, picture.width) : as_turned;
+    const bool stretched = is_matte && IsStretched(*map, picture.width, picture.height);
+    const std::string kind = is_matte ? "matte" : "depth picture";
+    const bool by_edges = (as_file && as_turned) || stretched;
     upright = by_edges ? ChooseByEdges(kind, *map, photo) : as_turned;
   }
-  ApplyOrientation(photo);
   if (!upright) TurnMap(orientation, map);
 }
 

@@ -20,11 +20,10 @@ bool IsStretched(const FloatMap& map, int width, int height);
 
 // Makes a photo and `map`, which is its separate depth picture or matte, upright. `choice` states
 // whether `map` is upright already. If `choice` is kUnknown, the proportions of picture and map
-// decide. If the proportions fit the upright and the stored orientation, or if the map is square,
-// the edges of picture and map decide, and a note reports the result; `kind` is the name of the map
-// in this note.
-void StandWithPhoto(DepthOrientation choice, const std::string& kind, DepthPhoto* photo,
-                    FloatMap* map);
+// decide. If the proportions fit the upright and the stored orientation, or if a matte is square,
+// the edges of picture and map decide, and a note reports the result. The picture may be upright
+// already, because another map or matte was read before.
+void StandWithPhoto(DepthOrientation choice, bool is_matte, DepthPhoto* photo, FloatMap* map);
 
 }  // namespace starfocus
 

@@ -44,10 +44,10 @@ Error ToAlpha(const std::string& where, Samples* samples) {
   return {};
 }
 
-Error TakeMatte(const std::string& where, const DepthOptions& options, Samples samples,
+Error TakeMatte(const std::string& where, DepthOrientation choice, Samples samples,
                 DepthPhoto* photo) {
   if (Error error = ToAlpha(where, &samples)) return error;
-  StandWithPhoto(options.orientation, "matte", photo, &samples.map);
+  StandWithPhoto(choice, true, photo, &samples.map);
   if (Error error = CheckMatte(where, samples.map, photo->picture)) return error;
   photo->matte = std::move(samples.map);
   return {};
@@ -61,7 +61,7 @@ Error ReadMatteFile(const std::string& path, const DepthOptions& options, DepthP
   if (photo->map.values.empty()) photo->format = "photo and matte";
   photo->facts.emplace_back("matte picture", path);
   photo->matte_path = path;
-  return TakeMatte(path, options, std::move(*samples), photo);
+  return TakeMatte(path, options.orientation, std::move(*samples), photo);
 }
 
 Error EstimateMatte(const std::string& where, const DepthOptions& options, DepthPhoto* photo) {
@@ -70,7 +70,8 @@ Error EstimateMatte(const std::string& where, const DepthOptions& options, Depth
   if (!samples) return samples.error();
   if (photo->map.values.empty()) photo->format = "photo with computed matte";
   photo->facts.emplace_back("matte picture", "computed by --matte-command");
-  return TakeMatte(where + " (matte of the matte command)", options, std::move(*samples), photo);
+  return TakeMatte(where + " (matte of the matte command)", DepthOrientation::kUpright,
+                   std::move(*samples), photo);
 }
 
 }  // namespace starfocus

@@ -81,6 +81,7 @@ void ApplyOrientation(DepthPhoto* photo) {
   TurnPoint(orientation, &photo->subject_x, &photo->subject_y);
   photo->facts.emplace_back("orientation",
                             std::to_string(orientation) + " of EXIF, applied to picture and map");
+  photo->applied_orientation = orientation;
   photo->orientation = 1;
 }
 

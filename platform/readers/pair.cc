@@ -217,7 +217,7 @@ Error TakeDepthPicture(const std::string& where, const DepthOptions& options, Sa
   photo->survey.kind =
       samples.largest == 0 ? "floats" : "levels up to " + std::to_string(samples.largest);
   MarkUnknown(options, &samples, photo);
-  StandWithPhoto(options.orientation, "depth picture", photo, &samples.map);
+  StandWithPhoto(options.orientation, false, photo, &samples.map);
   photo->map = std::move(samples.map);
   Understand(options, samples, photo);
   return {};

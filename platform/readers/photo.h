@@ -42,7 +42,9 @@ struct DepthPhoto {
   bool guesses_near = false;  // True if it is unknown whether larger values of `map` are nearer.
   MapSurvey survey;           // Figures of `map`.
   int orientation = 1;        // EXIF orientation that has not been applied yet.
-  double focal_35mm = 0;      // Equivalent focal length on full frame in millimetres; 0: unknown.
+  // EXIF orientation that has been applied to `picture`, `map` and `matte`.
+  int applied_orientation = 1;
+  double focal_35mm = 0;  // Equivalent focal length on full frame in millimetres; 0: unknown.
   // True if the camera has blurred the background of `picture`, as its EXIF states.
   bool is_blurred = false;
   bool has_focus = false;

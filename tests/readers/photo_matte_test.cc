@@ -145,6 +145,43 @@ TEST_CASE("mattes: a matte is rotated with its photo, unless it is upright alrea
     CHECK(told.notes.empty());
   }
 }
+
+TEST_CASE("mattes: depth picture and matte are rotated independently") {
+  // The map and the matte show the same box, which is not symmetric in any orientation.
+  Image picture = Plain(kColumns, kRows, 60);
+  for (int y = 8; y < 26; ++y) std::fill_n(picture.row(y) + 3 * 16, 3 * 12, uint8_t{200});
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    for (const int upright : {0, 1, 2, 3}) {
+      CAPTURE(orientation);
+      CAPTURE(upright);
+      FloatMap depth = MatteMap(), matte = MatteMap(), expected = MatteMap();
+      TurnMap(orientation, &expected);
+      if ((upright & 1) != 0) depth = expected;
+      if ((upright & 2) != 0) matte = expected;
+      TempFolder folder;
+      Write(folder.file("photo.jpg"), Insert(Encode(picture, ".jpg"), ExifSegment(orientation, 0)));
+      Write(folder.file("depth.pfm"), PfmOf(depth));
+      Write(folder.file("matte.png"), PngOf(matte, 1));
+      CaptureOptions options;
+      options.depth = folder.file("depth.pfm");
+      options.matte = folder.file("matte.png");
+      const Capture capture = ValueOf(OpenCapture(folder.file("photo.jpg"), options));
+      CHECK(capture.matte.alpha == Matte(expected).alpha);
+      CHECK(capture.light_field.disparity.width == expected.width);
+      for (size_t k = 0; k < expected.values.size(); ++k) {
+        REQUIRE((capture.light_field.disparity.values[k] > 0.5 * kNearest) ==
+                (expected.values[k] > 0.5F));
+      }
+      // The picture that a command receives is upright, and so is its map.
+      options.depth.clear();
+      options.map.near = Near::kWhite;
+      options.map.estimate = [&](const Image&) -> Result<Samples> { return Samples{expected}; };
+      const Capture computed = ValueOf(OpenCapture(folder.file("photo.jpg"), options));
+      CHECK(computed.matte.alpha == Matte(expected).alpha);
+      CHECK(computed.light_field.disparity.values == capture.light_field.disparity.values);
+    }
+  }
+}
 #endif
 
 TEST_CASE("mattes: a square matte is stretched over the picture, with a note") {
