@@ -86,7 +86,11 @@ void ReadMap(Span file, const JpegParts& parts, const XmpNode& xmp, Near near,
     return HasMapOrMatte(*photo);
   };
   if (HasGdepth(xmp) && read(ReadGdepth(xmp, near, photo))) return;
-  if (HasDynamicDepth(xmp) && read(ReadDynamicDepth(file, xmp, near, appended, photo))) return;
+  if (HasDynamicDepth(xmp)) {
+    const bool is_read = read(ReadDynamicDepth(file, xmp, near, appended, photo));
+    ReadDynamicOriginal(file, xmp, appended, photo);
+    if (is_read) return;
+  }
   read(ReadAppleJpeg(file, parts, *appended, photo));
 }
 
@@ -114,7 +118,11 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   photo->metadata.xmp = KeptXmp(xmp);
   if (Mentions(xmp, kSpecialType, "PORTRAIT")) photo->is_blurred = true;
   std::vector<AppendedPicture> appended = ListAppendedPictures(file, parts->end);
-  if (with_map) ReadMap(file, *parts, xmp, near, &appended, &*photo);
+  if (with_map) {
+    ReadMap(file, *parts, xmp, near, &appended, &*photo);
+  } else if (HasDynamicDepth(xmp)) {
+    ReadDynamicOriginal(file, xmp, &appended, &*photo);
+  }
   if (photo->matte.values.empty()) ReadAppleMattes(appended, &*photo);
   const bool has_gain_map =
       std::any_of(appended.begin(), appended.end(),
@@ -124,14 +132,15 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
 }
 
 // The depth in the file of a photo.
-enum class FileDepth { kMap, kPair, kMatteOnly };
+enum class FileDepth { kMap, kPair, kMask, kMatte };
 
 // Returns an error if an option would override a property that the map in the photo states, or if
 // it does not apply because the photo has no depth picture. `has_matte` is true if the matte has a
-// file of its own. For a mask of the subject in the photo, `near` states the shade of the subject.
+// file of its own.
+// For a mask of the subject in the photo, `near` states the shade of the subject.
 Error CheckOptions(const std::string& path, const DepthOptions& options, FileDepth depth,
                    bool has_matte) {
-  const bool has_near = depth == FileDepth::kMap || (depth == FileDepth::kMatteOnly && !has_matte);
+  const bool has_near = depth == FileDepth::kMap || depth == FileDepth::kMask;
   const bool turns = options.orientation != DepthOrientation::kUnknown;
   const char* option = options.unit != DepthUnit::kNone              ? "--depth-unit"
                        : options.has_unknown                         ? "--unknown"
@@ -264,11 +273,28 @@ Error FindDepth(const std::string& path, Span file, const DepthOptions& options,
   return EstimateDepth(where, options, photo);
 }
 
+// Keeps or removes the mask in the file of a photo, which is needed only without depth and without
+// another matte. The repair of a map finds outlines more accurately (docs/formats.md).
+void JudgeMask(const PhotoFiles& files, DepthPhoto* photo) {
+  if (photo->mask_note.empty()) return;
+  const bool has_depth = !photo->map.values.empty() || !photo->right.pixels.empty();
+  const bool used = !has_depth && files.matte.empty();
+  photo->facts.emplace_back("mattes",
+                            used ? "mask of the subject" : "ignored: mask of the subject");
+  if (used) {
+    photo->notes.push_back(photo->mask_note);
+  } else {
+    photo->mask_note.clear();
+    photo->matte = {};
+  }
+}
+
 // Reads or computes the matte of a photo after FindDepth. Returns an error if the photo has neither
 // depth nor a matte.
 Error FindMatte(const std::string& path, const DepthOptions& options, const PhotoFiles& files,
                 DepthPhoto* photo) {
   const std::string where = InputName(path);
+  JudgeMask(files, photo);
   if (!photo->right.pixels.empty()) {
     if (files.matte.empty()) return {};
     return Expected(where, "a photo of one view for --matte", "a stereo pair");
@@ -282,7 +308,8 @@ Error FindMatte(const std::string& path, const DepthOptions& options, const Phot
   if (error || !photo->map.values.empty()) return error;
   if (photo->matte.values.empty()) return NoMap(where, photo->map_problem);
   NoteProblem(photo);
-  return CheckOptions(where, options, FileDepth::kMatteOnly, !files.matte.empty());
+  const FileDepth depth = photo->mask_note.empty() ? FileDepth::kMatte : FileDepth::kMask;
+  return CheckOptions(where, options, depth, !files.matte.empty());
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "platform/readers/container_directory.h"
 #include "platform/readers/depth_levels.h"
 #include "platform/readers/depth_range.h"
+#include "platform/readers/orientation.h"
 #include "platform/readers/original_picture.h"
 
 namespace starfocus {
@@ -62,8 +63,8 @@ const ContainerItem* FindOriginal(const Items& items, const XmpNode& xmp) {
   return Find(items, named == nullptr ? &usual : named, "Original");
 }
 
-// Returns true if the subject of a mask is white. The subject is more often in the middle and at
-// the lower edge of a picture than at the upper edge and the upper half of the sides.
+// Returns true if the subject of an upright mask is white. The subject is more often in the middle
+// and at the lower edge of a picture than at the upper edge and the upper half of the sides.
 bool HasWhiteSubject(const FloatMap& mask) {
   double inside = 0, outside = 0, insides = 0, outsides = 0;
   for (int y = 0; y < mask.height; ++y) {
@@ -89,14 +90,17 @@ bool HasWhiteSubject(const FloatMap& mask) {
 void TakeMask(const XmpNode* map, Near near, FloatMap mask, DepthPhoto* photo) {
   const bool stated = map != nullptr && OwnProperty(*map, kMap + "Format") != nullptr;
   const bool guessed = near == Near::kUnknown && !stated;
-  if (guessed) near = HasWhiteSubject(mask) ? Near::kWhite : Near::kBlack;
+  if (guessed) {
+    FloatMap upright = mask;
+    TurnMap(photo->orientation, &upright);
+    near = HasWhiteSubject(upright) ? Near::kWhite : Near::kBlack;
+  }
   const bool white = near == Near::kWhite;
-  photo->notes.push_back(
+  photo->mask_note =
       std::string("the file has a mask of the subject instead of a depth map, in which ") +
       (white ? "white" : "black") + " is the subject" +
       (guessed ? ", because it is nearer to the middle of the lower edge" : "") + " (--near " +
-      (white ? "black" : "white") + " overrides this)");
-  photo->facts.emplace_back("mattes", "mask of the subject");
+      (white ? "black" : "white") + " overrides this)";
   if (!white) ToRange(1, 0, &mask);
   photo->matte = std::move(mask);
 }
@@ -165,11 +169,16 @@ Error ReadDynamicDepth(Span file, const XmpNode& xmp, Near near,
       error = ReadItem(xmp, *items, true, near, photo);
     }
   }
-  if (error) return error;
-  photo->format = "Dynamic Depth photo (JPEG)";
+  if (!error) photo->format = "Dynamic Depth photo (JPEG)";
+  return error;
+}
+
+void ReadDynamicOriginal(Span file, const XmpNode& xmp, std::vector<AppendedPicture>* appended,
+                         DepthPhoto* photo) {
+  const Result<Items> items = ReadContainerItems(file, xmp, appended);
+  if (!items) return;
   const ContainerItem* original = FindOriginal(*items, xmp);
   if (original != nullptr) TakeOriginal(original->uri, original->picture->file, photo);
-  return {};
 }
 
 }  // namespace starfocus

@@ -279,6 +279,63 @@ TEST_CASE("Dynamic Depth: in a mask without a range, the subject is in the middl
   }
 }
 
+TEST_CASE("Dynamic Depth: the subject of a mask is found in the upright picture") {
+  if (!CanReadXmp()) return;
+  // Orientation 6: the left edge of the file is the upper edge of the picture.
+  Image mask = Plain(kWidth, kHeight, 0);
+  for (int y = 6; y < 18; ++y) std::fill(mask.row(y) + 30, mask.row(y) + 3 * kWidth, uint8_t{255});
+  Capture capture;
+  REQUIRE(Open(Insert(Masked(mask, "", false), ExifSegment(6, 0)), &capture) == "");
+  CHECK(HasNote(capture, "in which white is the subject"));
+  REQUIRE(capture.matte.width == kHeight);
+  CHECK(capture.matte.alpha[35 * size_t(kHeight) + 12] > 250);
+  CHECK(capture.matte.alpha[5 * size_t(kHeight) + 12] < 5);
+}
+
+TEST_CASE("Dynamic Depth: a mask is ignored if the photo has depth of any origin") {
+  if (!CanReadXmp()) return;
+  TempFolder folder;
+  const std::string photo = folder.file("photo.jpg"), depth = folder.file("photo-depth.png");
+  Write(photo, Masked(Ramp(kWidth, kHeight), "", false));
+  const Image ramp = Ramp(kWidth, kHeight);
+  CaptureOptions estimated;
+  estimated.map.estimate = [&](const Image&) -> Result<Samples> {
+    return DecodeSamples("", Alpha::kIgnored, ValueOf(ReadFile(folder.file("other.png"))));
+  };
+  Require(WriteImage(folder.file("other.png"), ramp));
+  CaptureOptions named;
+  named.depth = folder.file("other.png");
+  std::vector<Capture> captures;
+  for (CaptureOptions* options : {&estimated, &named}) {
+    options->map.near = Near::kWhite;
+    captures.push_back(ValueOf(OpenCapture(photo, *options)));
+  }
+  CaptureOptions beside;
+  beside.map.near = Near::kWhite;
+  Require(WriteImage(depth, ramp));
+  captures.push_back(ValueOf(OpenCapture(photo, beside)));
+  for (const Capture& capture : captures) {
+    CHECK(capture.matte.alpha.empty());
+    CHECK(!HasNote(capture, "mask of the subject"));
+    CHECK(capture.light_field.coverage.empty());
+    CHECK(capture.light_field.disparity.values == captures[0].light_field.disparity.values);
+    // All of them show the original of the portrait.
+    CHECK(capture.light_field.views[0].pixels == captures[0].light_field.views[0].pixels);
+    CHECK(std::abs(capture.light_field.views[0].pixels[0] - kOriginalLevel) <= 2);
+  }
+  CHECK(FactOf(captures[2], "mattes") == "ignored: mask of the subject");
+}
+
+TEST_CASE("stored mattes: --near applies to masks only") {
+  if (!CanReadXmp()) return;
+  CaptureOptions options;
+  options.map.near = Near::kWhite;
+  Capture capture;
+  const Error error =
+      Open(AppleJpeg(Halves(kWidth, kHeight, 255, 0), kWholeXml), &capture, options);
+  CHECK(Contains(error, "for --near, found a matte without depth"));
+}
+
 TEST_CASE("Dynamic Depth: an empty or full mask is an error that names the file") {
   if (!CanReadXmp()) return;
   Capture capture;
