@@ -70,7 +70,7 @@ test('a matte gives two surfaces, and the pictures of the program', () => withPh
 }));
 
 test('a floor and mattes of other sizes give the pictures of the program', async () => {
-  for (const [across, down, floor] of [[64, 48, true], [80, 61, false], [900, 675, true]]) {
+  for (const [across, down, floor] of [[64, 48, true], [80, 61, false], [900, 675, true], [128, 128, false]]) {
     const other = {data: makeAlpha(across, down), width: across, height: down};
     assertSameBytes(dropAlpha(await refocused({matte: other, floor})), refocusByProgram(other, ...(floor ? ['--floor'] : [])));
   }
@@ -91,13 +91,28 @@ test('with depth, the matte changes the outlines as in the program', async () =>
       refocusByProgram(matte, '--depth', file, '--near', 'white', '--no-repair')), depth);
 });
 
+test('soft and small subjects are in focus, as in the program', async () => {
+  const soft = {...matte, data: matte.data.map(alpha => 0.7 * alpha)};  // at most 178
+  // One pixel, between the samples of a regular grid.
+  const large = {data: new Uint8Array(1280 * 960), width: 1280, height: 960}, [x, y] = [4 * 132, 4 * 129];
+  large.data[y * large.width + x] = 255;
+  const data = Uint8Array.from(disparity.data, value => 100 + 8 * value), depth = {data, width, height};
+  const file = writeGrey('soft-depth', depth);
+  for (const given of [soft, large]) {
+    await withPhoto({matte: given}, async photo => assert.equal(photo.subjectFocus, photo.focusMax));
+    await withPhoto({matte: given}, async photo => assertSameBytes(
+        dropAlpha((await photo.refocus({focus: photo.subjectFocus})).data),
+        refocusByProgram(given, '--depth', file, '--near', 'white')), depth);
+  }
+});
+
 test('each kind of matte gives the same picture', async () => {
   const {data} = matte, expected = await refocused({matte});
   const pixels = (channels, value) => Uint8Array.from({length: channels * data.length}, (_, i) => value(data[Math.trunc(i / channels)], i % channels));
   const kinds = {
     'grey R, G, B': pixels(3, alpha => alpha), 'opaque grey': pixels(4, (alpha, channel) => channel < 3 ? alpha : 255),
     'a cut-out': pixels(4, (alpha, channel) => channel < 3 ? 50 * channel : alpha),
-    'floats': Float32Array.from(data, alpha => alpha / 255), '16 bits': Uint16Array.from(data, alpha => 257 * alpha)
+    'floats': Float32Array.from(data, alpha => alpha / 255), 'floats beside 0 and 1': Float32Array.from(data, alpha => 1.0002 * alpha / 255 - 0.0001), '16 bits': Uint16Array.from(data, alpha => 257 * alpha)
   };
   await Promise.all(Object.entries(kinds).map(
       async ([kind, data]) => assert.deepEqual(await refocused({matte: {...matte, data}}), expected, kind)));

@@ -421,7 +421,7 @@ export interface Photo extends Disposables {
   readonly focusMin: number;
   /** Focus of the nearest point. */
   readonly focusMax: number;
-  /** Focus of the subject of the matte, or undefined without a matte. */
+  /** Focus of the subject of the matte, or undefined without a matte or if the depth there is unknown. */
   readonly subjectFocus?: number;
   /** Smallest f-stop: 1, or more if the blur at f/1 would exceed 128 pixels. */
   readonly fStopMin: number;

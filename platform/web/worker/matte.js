@@ -2,19 +2,23 @@
 // Converts the pictures that callers pass as mattes to one byte of alpha per sample, and finds the focus of the subject in
 // the same operations as the program (examples/cli/refocus/default_focus.cc).
 
-const GRAY = 8;      // largest difference of the channels of a grey pixel: JPEG files change colours
-const SUBJECT = 128;       // least alpha of a sample that belongs to the subject
-const SURE_SUBJECT = 192;  // least alpha of a sample whose disparity counts
-const GRID = 256;          // rows and columns of the samples
+const GRAY = 8;          // largest difference of the channels of a grey pixel: JPEG files change colours
+const TOLERANCE = 0.01;  // by which floats may lie outside their range, because networks and resampling round
+const SUBJECT = 128;     // least alpha of a sample that belongs to the subject
+const CERTAIN = 192;     // least alpha of a sample that certainly belongs to the subject
+const GRID = 256;        // rows and columns of samples
 
 function fail(field, expected, found, value) {
   throw Object.assign(new Error(`${field}: expected ${expected}, found ${found}.`), {code: 'RANGE', field, value});
 }
 
-/** Returns the alpha channel, or null if the picture is opaque everywhere. */
+/** Returns the alpha channel, or null if the picture is opaque everywhere. Loops are several times as fast as
+ *  Uint8Array.from() with a function. */
 function alphaOf(data) {
-  const alpha = Uint8Array.from({length: data.length / 4}, (_, i) => data[4 * i + 3]);
-  return alpha.every(value => value === 255) ? null : alpha;
+  const alpha = new Uint8Array(data.length / 4);
+  let least = 255;
+  for (let i = 0; i < alpha.length; ++i) least &= alpha[i] = data[4 * i + 3];
+  return least === 255 ? null : alpha;
 }
 
 /** Returns the levels of a grey picture with `channels` bytes per pixel. */
@@ -30,16 +34,27 @@ function levelsOf(data, channels) {
   return levels;
 }
 
-/** Returns the alpha of floats from 0 to 1. */
+/** Returns the alpha of floats from 0 to 1. Values outside by at most TOLERANCE are clamped, as in the program. */
 function alphaOfFloats(data) {
-  const wrong = data.find(value => !(value >= 0 && value <= 1));
-  if (wrong !== undefined) fail('matte.data', 'values from 0 to 1', wrong, wrong);
-  return Uint8Array.from(data, value => value * 255 + 0.5);
+  const alpha = new Uint8Array(data.length);
+  for (let i = 0; i < alpha.length; ++i) {
+    const value = data[i];
+    if (!(value >= -TOLERANCE && value <= 1 + TOLERANCE)) fail('matte.data', 'values from 0 to 1', value, value);
+    alpha[i] = Math.min(Math.max(value, 0), 1) * 255 + 0.5;
+  }
+  return alpha;
+}
+
+/** Returns the alpha of integers of 16 bits. */
+function alphaOf16Bits(data) {
+  const alpha = new Uint8Array(data.length);
+  for (let i = 0; i < alpha.length; ++i) alpha[i] = data[i] / 257 + 0.5;
+  return alpha;
 }
 
 function convert({data, channels}) {
   if (data instanceof Float32Array) return alphaOfFloats(data);
-  if (data instanceof Uint16Array) return Uint8Array.from(data, value => value / 257 + 0.5);
+  if (data instanceof Uint16Array) return alphaOf16Bits(data);
   if (channels === 1) return data;
   return channels === 4 && alphaOf(data) || levelsOf(data, channels);
 }
@@ -55,14 +70,20 @@ export function toMatte(pixels) {
   return {data, width, height};
 }
 
-/** Returns the median disparity of the subject, or undefined if the subject is too small for a regular grid of samples. */
-export function findSubject(matte, map) {
-  const placeOf = (k, size) => Math.trunc((2 * k + 1) * size / (2 * GRID)), found = [];
-  for (let row = 0; row < GRID; ++row) {
-    for (let column = 0; column < GRID; ++column) {
-      const at = ({data, width, height}) => data[placeOf(row, height) * width + placeOf(column, width)];
-      if (at(matte) >= SURE_SUBJECT && Number.isFinite(at(map))) found.push(at(map));
+/** Returns the median disparity of the places of a regular grid at which the matte has at least `leastAlpha`, or undefined
+ *  if there are no such places. */
+function findMedian(matte, map, columns, rows, leastAlpha) {
+  const placeOf = (k, count, size) => Math.trunc((2 * k + 1) * size / (2 * count)), found = [];
+  for (let row = 0; row < rows; ++row) {
+    for (let column = 0; column < columns; ++column) {
+      const at = ({data, width, height}) => data[placeOf(row, rows, height) * width + placeOf(column, columns, width)];
+      if (at(matte) >= leastAlpha && Number.isFinite(at(map))) found.push(at(map));
     }
   }
   return Float32Array.from(found).sort()[found.length >> 1];
 }
+
+/** Returns the median disparity of the pixels that certainly belong to the subject, or of all its pixels if the subject is
+ *  small or uncertain. Returns undefined if the map is unknown there. */
+export const findSubject = (matte, map) =>
+    findMedian(matte, map, GRID, GRID, CERTAIN) ?? findMedian(matte, map, matte.width, matte.height, SUBJECT);

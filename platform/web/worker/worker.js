@@ -94,7 +94,7 @@ function applyMatte(matte, surfaces, size) {
   if (!address) throw new RangeError('There is not enough memory for the matte.');
   bytesAt(address, data.length).set(data);
   check(surfaces ? engine.fill_surfaces(surfaces.subject, Number(surfaces.floor)) : engine.cover());
-  return findSubject(matte, mapOf(size));
+  return surfaces ? surfaces.subject : findSubject(matte, mapOf(size));
 }
 
 /** Estimates the map of the pictures `views`, and returns it. */
