@@ -18,10 +18,11 @@ STARFOCUS_GOLDEN_FILE=$sources/tests/engine/golden.txt STARFOCUS_SERVER=$sources
 STARFOCUS_SCREENSHOTS=$web/screenshots
 export STARFOCUS_PROGRAM STARFOCUS_FIELD STARFOCUS_SITE STARFOCUS_GOLDEN_FILE STARFOCUS_SERVER STARFOCUS_SCREENSHOTS
 
-# quietly COMMAND...: runs a command. Prints the end of the output only if the command fails.
+# quietly COMMAND...: runs a command. Only if the command fails, prints each failed test case with the reason, and the end
+# of the output.
 log=$work/log
 quietly() {
-  "$@" >"$log" 2>&1 || { tail -n 60 "$log" >&2; echo "web: failed: $*" >&2; exit 1; }
+  "$@" >"$log" 2>&1 || { grep -A 30 '^ *not ok ' "$log" >&2 || :; tail -n 60 "$log" >&2; echo "web: failed: $*" >&2; exit 1; }
 }
 
 # run NAME: runs a test in the project, and prints the number of passed cases and the measured times.
