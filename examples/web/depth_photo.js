@@ -117,11 +117,13 @@ function findMap(xmp, items, wantsMask) {
 }
 
 function readDynamicDepth(name, bytes, end, xmp) {
-  const items = readItems(xmp), found = [false, true].map(wantsMask => findMap(xmp, items, wantsMask));
-  const has = ({map, index}) => map || index >= 0, isMasked = !has(found[0]) || !found[0].map && Boolean(found[1].map);
-  const {map, index} = found[Number(isMasked)];
-  if (!has({map, index})) return null;
-  const at = index < 0 ? -1 : findItem(bytes, end, items, index);
+  const items = readItems(xmp), [depth, mask] = [false, true].map(wantsMask => {
+    const found = findMap(xmp, items, wantsMask);
+    return {...found, at: found.index < 0 ? -1 : findItem(bytes, end, items, found.index)};
+  });
+  const hasDepth = depth.map || depth.index >= 0 && !mask.map;
+  if (!hasDepth && !mask.map && mask.index < 0) return null;
+  const isMasked = !hasDepth || depth.at < 0 && mask.at >= 0, {map, index, at} = isMasked ? mask : depth;
   if (at < 0) throw new Error(`${name} lists a depth map that is not in the file.`);
   const toBlob = (from, {mime}) => new Blob([bytes.subarray(from)], {type: mime}), file = toBlob(at, items[index]);
   const fields = ['Format', 'Near', 'Far', 'Units'].map(field => map && valueOf(map, MAP, field));

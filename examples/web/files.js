@@ -44,13 +44,13 @@ async function inStore(mode, action) {
   }
 }
 
-/** Keeps the files that were opened last under a key. Failures, for example for lack of space, have no effect. */
-export function keepFiles(key, files) {
-  return inStore('readwrite', store => store.put({key, files}, LAST)).catch(() => {});
+/** Keeps what open() of open.js opened last under a key. Failures, for example for lack of space, have no effect. */
+export function keepOpened(key, opened) {
+  return inStore('readwrite', store => store.put({key, ...opened}, LAST)).catch(() => {});
 }
 
-/** Returns the files that were kept with this key, or null. */
-export async function findFiles(key) {
+/** Returns what was kept with this key, or null. */
+export async function findOpened(key) {
   const kept = await inStore('readonly', store => store.get(LAST)).catch(() => null);
-  return kept?.key === key ? kept.files : null;
+  return kept?.key === key ? kept : null;
 }

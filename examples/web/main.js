@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connects the controls of the page, and opens the first photo.
 
-import {filesOfDrop, findFiles} from './files.js';
+import {filesOfDrop, findOpened} from './files.js';
 import {fromHash} from './lens.js';
 import {demo, findPerson, openFiles, openWith, recognize, swap, withNear} from './opening.js';
 import {get, say, viewer} from './page.js';
@@ -103,10 +103,10 @@ async function begin() {
   viewer.wipe = wipe / 100;
   fromHash(location.hash);
   showLens();
-  const files = key ? await findFiles(key) : null;
-  if (!files) return demo(restore);
+  const kept = key ? await findOpened(key) : null;
+  if (!kept) return demo(restore);
   await openWith(async () => {
-    const found = {...await recognize(files), key};
+    const found = {...await recognize(kept), key};
     return near === undefined ? found : withNear(found, near);
   }, restore);
 }

@@ -4,7 +4,7 @@
 // isFlat, file}. `stem` names downloads, and `bitmap` is the first image, or null if it is visible. `depth` and `options`
 // are arguments of openPhoto; stereo photos and photos with a matte have no depth. `distances` is {far, near} in 1 / metre,
 // or null. Some images are ImageBitmaps or ImageData. `kept` are segments of the downloaded JPEG. `orientation` is that of
-// EXIF. `storesMatte` is true if the file of a photo with depth may also have stored the matte. `isFlat` is true for a
+// EXIF. `storesMatte` is true if the matte may come from the photo's file. Such photos have `file`. `isFlat` is true for a
 // photo `file` without depth and matte, in which segment() of pixels.js can find a person. Other files cause an Error with
 // a message.
 
@@ -23,7 +23,7 @@ const POSITIONS = [
 ];
 const SETS = [17, 9, 5, 1];
 const HELP = 'Open a depth photo (a file with photo and depth map), or a picture together with its depth picture or matte.';
-const DEPTH_NAME = /depth|disp|\.pfm$/i, MATTE_NAME = /matte|mask|alpha/i;
+const DEPTH_NAME = /depth|disp(?!lay)|\.pfm$/i, MATTE_NAME = /matte|mask|alpha/i;
 
 /** Returns the error for files that do not belong together. */
 const unrelated = ({length}) => new Error(
@@ -32,6 +32,13 @@ const unrelated = ({length}) => new Error(
 const signed = value => (value < 0 ? '-' : '+') + Math.abs(value).toFixed(1);
 const viewName = ([u, v]) => `view_${signed(u)}_${signed(v)}`;
 const stemOf = name => name.replace(/\.\w+$/, '');
+
+/** Returns the part of a file's name that states the kind of the file: the end, if all names begin with the stem of one of
+ *  the files, the photo. */
+function kindOf({name}, files) {
+  const stem = files.map(file => stemOf(file.name)).find(one => files.every(file => file.name.startsWith(one))) ?? '';
+  return name.slice(stem.length);
+}
 
 function checkSize(name, image, {width, height}) {
   if (width <= image.width && height <= image.height) return;
@@ -108,7 +115,7 @@ async function openHeic(file, bytes, isMatted) {
   const hasDepth = namesDepth(bytes), found = hasDepth || !await isReadable(file) ? await decodeHeic(file) : null;
   const image = found?.image ?? file, bitmap = await checkPicture(image, file.name);
   const kept = found ? keepItems(found.exif, found.profile) : [], matte = found?.matte ?? undefined;
-  const photo = {stem: stemOf(file.name), images: [image], bitmap, kept};
+  const photo = {stem: stemOf(file.name), images: [image], bitmap, kept, file, storesMatte: true};
   if (matte && !found.depth) return {...photo, name: `portrait ${file.name}`, depth: null, options: {matte}, distances: null};
   if (!found?.depth) {
     return openFlat(file, {images: [image], bitmap, kept}, isMatted, hasDepth && !found ?
@@ -116,7 +123,7 @@ async function openHeic(file, bytes, isMatted) {
   }
   checkSize(file.name, bitmap, found.depth);
   const depth = await understand(found.depth.file, heicRange(found.depth.xmp), 1);
-  return {...photo, name: `depth photo ${file.name}`, ...depth, options: {...depth.options, matte}, storesMatte: true};
+  return {...photo, name: `depth photo ${file.name}`, ...depth, options: {...depth.options, matte}};
 }
 
 /** Returns true if the browser decodes the picture file. */
@@ -146,8 +153,8 @@ async function openStereo(file, pair, kept) {
   };
 }
 
-/** Opens a photo with its depth map or mask in the same file, or without depth. The caller adds a matte if `isMatted` is
- *  true. */
+/** Opens a photo with its depth map or mask in the same file, or without depth. A damaged mask does not matter if there is
+ *  a map. The caller adds a matte if `isMatted` is true. */
 async function openDepthPhoto(file, isMatted) {
   const {bytes, jpeg, kept, orientation} = await readPhoto(file);
   if (isHeif(bytes)) return openHeic(file, bytes, isMatted);
@@ -159,19 +166,22 @@ async function openDepthPhoto(file, isMatted) {
   }
   if (!found) return openFlat(file, {images: [file], bitmap, kept, orientation}, isMatted);
   const sharp = found.image && await checkPicture(found.image, `The sharp picture of ${file.name}`);
-  const photo = {stem: stemOf(file.name), images: [found.image ?? file], bitmap: sharp ?? bitmap, kept, orientation};
-  const {mask, isBlack} = found, matte = mask && await call('mask', {file: mask, orientation, isBlack});
+  const photo = {stem: stemOf(file.name), images: [found.image ?? file], bitmap: sharp ?? bitmap, kept, orientation, file, storesMatte: true};
+  const {mask, isBlack} = found, matte = mask && !isMatted && await call('mask', {file: mask, orientation, isBlack}).catch(() => null);
+  if (!found.depth && !matte) {
+    return openFlat(file, photo, isMatted, 'has a damaged mask of its subject, and no depth map.');
+  }
   if (!found.depth) return {...photo, name: `portrait ${file.name}`, depth: null, options: {matte}, distances: null};
   const mapSize = await sizeOf(found.depth, `The depth map of ${file.name}`);
   const [width, height] = orientation >= 5 ? [mapSize.height, mapSize.width] : [mapSize.width, mapSize.height];
   checkSize(file.name, photo.bitmap, {width, height});
   const depth = await understand(found.depth, found.range, orientation);
-  return {...photo, name: `depth photo ${file.name}`, ...depth, options: {...depth.options, matte}, storesMatte: true};
+  return {...photo, name: `depth photo ${file.name}`, ...depth, options: {...depth.options, matte: matte || undefined}};
 }
 
 /** Returns the index of the depth picture among two pictures. */
 async function findDepth(files) {
-  const named = files.findIndex(file => DEPTH_NAME.test(file.name));
+  const named = files.findIndex(file => DEPTH_NAME.test(kindOf(file, files)));
   if (named >= 0) return named;
   const grays = await Promise.all(files.map(file => call('isGray', {file})));
   if (grays.includes(true)) return grays.indexOf(true);
@@ -205,7 +215,8 @@ async function openPair(files) {
 
 /** Returns the matte among the files, which also contain another picture, or null. */
 async function findMatte(files) {
-  const pictures = files.filter(({name}) => !DEPTH_NAME.test(name)), named = pictures.filter(({name}) => MATTE_NAME.test(name));
+  const pictures = files.filter(file => !DEPTH_NAME.test(kindOf(file, files)));
+  const named = pictures.filter(file => MATTE_NAME.test(kindOf(file, files)));
   if (pictures.length < 2) return null;
   if (named.length === 1) return named[0];
   for (const file of named.length ? named : pictures) if (await call('hasAlpha', {file}).catch(() => false)) return file;
@@ -229,8 +240,10 @@ async function openTogether(files) {
   return matte ? addMatte(pair, matte) : pair;
 }
 
-/** Returns the photo or light field in the files. */
-export const open = async files => reduce(await recognize(files));
+/** Returns the photo or light field in the files. If `matte` is given, it is the matte of the only file. */
+export async function open({files, matte}) {
+  return reduce(matte ? await addMatte(await openDepthPhoto(files[0], true), matte) : await recognize(files));
+}
 
 async function recognize(files) {
   const has = pattern => files.some(file => pattern.test(file.name));

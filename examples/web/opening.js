@@ -3,10 +3,10 @@
 // picture is visible.
 
 import {openDemo} from './demo.js';
-import {keepFiles} from './files.js';
+import {keepOpened} from './files.js';
 import {resetLens, setRanges} from './lens.js';
 import {chosen, fail, get, say, state, viewer} from './page.js';
-import {segment} from './pixels.js';
+import {hasSegmenter, segment} from './pixels.js';
 import {focusAt, refocus, showDepth, showLens, stop} from './pictures.js';
 import {keepState} from './visit.js';
 
@@ -18,16 +18,17 @@ let repairing = null;  // AbortController of the repair of a large photo, or nul
 const query = new URLSearchParams(location.search);
 const threads = query.has('threads') ? Number(query.get('threads')) : undefined;
 
-/** Recognizes files, as open() of open.js. */
-export async function recognize(files) {
+/** Recognizes the opened files, as open() of open.js. */
+export async function recognize(opened) {
   const {open} = await import('./open.js');
-  return open(files);
+  return open(opened);
 }
 
 /** Loads the engine. */
 const engine = () => import('./starfocus/starfocus.js');
 
-/** Starts the engine for the photo `found`. */
+/** Starts the engine for the photo `found`. Returns null if the photo has no depth, its stored matte cannot be used, and the
+ *  site has a segmenter. */
 async function start(found, options, signal) {
   const {estimateDisparity, openPhoto} = await engine();
   const image = found.images.length > 1 ? found.images : found.images[0];
@@ -39,8 +40,10 @@ async function start(found, options, signal) {
     return await openPhoto(image, found.depth ?? undefined, {...found.options, ...call});
   } catch (error) {
     if (!found.storesMatte || !/^matte/.test(error.field)) throw error;
-    found.options.matte = undefined;  // the photo has depth
-    return openPhoto(image, found.depth, {...found.options, ...call});
+    if (!found.depth && !await hasSegmenter()) throw error;
+    signal.throwIfAborted();
+    found.options.matte = undefined;
+    return found.depth && openPhoto(image, found.depth, {...found.options, ...call});
   }
 }
 
@@ -92,9 +95,9 @@ export async function openWith(find, afterwards = () => {}) {
     name = found.name;
     if (found.bitmap) viewer.showPhoto(found.bitmap);
     else viewer.showSharp();
-    if (found.isFlat) return offer(found);
     const isLarge = found.depth && !found.options.disparity && viewer.width * viewer.height > LARGE;
-    const photo = await start(found, isLarge ? {repair: false} : {}, signal);
+    const photo = found.isFlat ? null : await start(found, isLarge ? {repair: false} : {}, signal);
+    if (!photo) return offer(found);
     Object.assign(state, {opening: null, offered: null, isFull: false, isSharp: true});
     get('error').hidden = true;
     take(photo, found, isLarge);
@@ -155,24 +158,26 @@ export const demo = afterwards => openWith(signal => openDemo(bitmap => {
   engine().catch(() => {});  // start() reports failures
 }), afterwards);
 
-/** Opens the files that `find` returns, and keeps them for the return to the page. */
+/** Opens the files that `find` returns for open() of open.js, and keeps them for the return to the page. */
 function openKept(find) {
   const key = `${Date.now()}-${Math.random()}`;
-  let files;
+  let opened;
   return openWith(async signal => {
-    files = await find(signal);
-    return {...await recognize(files), key};
-  }, () => keepFiles(key, files));
+    opened = await find(signal);
+    return {...await recognize(opened), key};
+  }, () => keepOpened(key, opened));
 }
 
-export const openFiles = files => openKept(() => files);
+/** Opens files, an array or a promise of an array. */
+export const openFiles = files => openKept(async () => ({files: await files}));
 
 /** Finds the person in the photo without depth that is shown, and opens the photo with this matte. */
 export function findPerson() {
   const {images: [image], stem, file} = state.offered.found;
   return openKept(async signal => {
     say('Loading the segmenter, and finding the person.', true);
-    return [file, new File([await segment(image, file.name, signal)], `${stem}-matte.png`)];
+    const matte = new File([await segment(image, file.name, signal)], `${stem}-matte.png`);
+    return {files: [file], matte};
   });
 }
 

@@ -42,9 +42,11 @@ async function load(file) {
 /** Returns the photo with a shortest side of SIDE pixels. A larger picture gives the same matte. */
 async function shrink(photo) {
   const bitmap = await createImageBitmap(photo), {width, height} = bitmap, scale = SIDE / Math.min(width, height);
-  return createImageBitmap(bitmap, {
+  const small = await createImageBitmap(bitmap, {
     resizeWidth: Math.round(width * scale), resizeHeight: Math.round(height * scale), resizeQuality: 'medium'
   });
+  bitmap.close();
+  return small;
 }
 
 /** Returns the alpha of the person in a picture, as an ImageData whose alpha channel counts. */

@@ -45,13 +45,14 @@ export const markApple = (jpeg, kind) => insert(jpeg, segment('http://ns.adobe.c
 
 /** Makes a Dynamic Depth photo. `items` are [URI, JPEG] of its directory; one URI is 'android/depthmap'. `gain` is a
  *  picture before the items that the directory does not list. `semantic` is that of the map: 'Depth' or 'Segmentation'. If
- *  `isStated` is false, the map has no range. */
-export function makeDynamicDepth(jpeg, items, gain = Buffer.alloc(0), semantic = 'Depth', isStated = true) {
+ *  `isStated` is false, the map has no range. `isLost` adds the description of a depth map that is missing. */
+export function makeDynamicDepth(jpeg, items, gain = Buffer.alloc(0), semantic = 'Depth', isStated = true, isLost = false) {
   const DD = 'http://ns.google.com/photos/dd/1.0/';
   const listed = [['primary_image', Buffer.alloc(0)], ...items].map(([uri, {length}]) =>
     `<li Item:Mime="image/jpeg" Item:Length="${length}" Item:DataURI="${uri}"/>`).join('');
   const xmp = `<x:xmpmeta xmlns:x="adobe:ns:meta/" xmlns:Item="${DD}item/" xmlns:DepthMap="${DD}depthmap/">${listed}` +
       `<d DepthMap:ItemSemantic="${semantic}" DepthMap:DepthURI="android/depthmap" ` +
-      `${isStated ? 'DepthMap:Format="RangeInverse" DepthMap:Near="1" DepthMap:Far="9" DepthMap:Units="m"' : ''}/></x:xmpmeta>`;
+      `${isStated ? 'DepthMap:Format="RangeInverse" DepthMap:Near="1" DepthMap:Far="9" DepthMap:Units="m"' : ''}/>` +
+      `${isLost ? '<d DepthMap:ItemSemantic="Depth" DepthMap:DepthURI="lost" DepthMap:Near="1"/>' : ''}</x:xmpmeta>`;
   return Buffer.concat([insert(jpeg, segment('http://ns.adobe.com/xap/1.0/\0', xmp)), gain, ...items.map(([, picture]) => picture)]);
 }

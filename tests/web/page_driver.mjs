@@ -134,6 +134,19 @@ export const setSlider = (id, value) => driver.page.locator(`#${id}`).evaluate((
 }, String(value));
 
 export const choose = what => driver.page.check(`input[name=show][value=${what}]`);
+
+/** Shows the depth instead of a picture, and returns its R, G, B bytes. The picture is visible until the depth arrives. */
+export async function shownDepth() {
+  await choose('picture');
+  const picture = await shown(), end = Date.now() + 20000;
+  await choose('depth');
+  for (;;) {
+    const depth = await shown();
+    if (Buffer.compare(depth, picture) !== 0) return depth;
+    assert.ok(Date.now() < end, 'expected the depth within 20 s, found the picture');
+  }
+}
+
 export const focusText = () => driver.page.getAttribute('#focus', 'aria-valuetext');
 export const screenshot = (name, page = driver.page) =>
     page.screenshot({path: join(process.env.STARFOCUS_SCREENSHOTS, `${name}.png`)});

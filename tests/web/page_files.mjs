@@ -11,7 +11,7 @@ import sharp from 'sharp';
 import {makeDynamicDepth, makeGDepth, markGain} from './gdepth_photo.mjs';
 import {
   andFull, andWait, choose, drawPhoto, driver, error, file, focusText, load, openFiles, refocusByProgram, screenshot,
-  setSlider, shown, site, small, sources, tap, waitFor, without
+  setSlider, shown, shownDepth, site, small, sources, tap, waitFor, without
 } from './page_driver.mjs';
 import {assertSameBytes} from './pictures.mjs';
 
@@ -46,9 +46,7 @@ const makePng16 = () => sharp(Uint16Array.from({length: 64 * 48}, (_, i) => 0x10
 
 test('a depth picture with 16 bits keeps its bits', async () => {
   await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', await makePng16()));
-  await choose('depth');
-  await driver.page.waitForTimeout(500);
-  const depth = await shown(), row = depth.subarray(0, 3 * 320);
+  const depth = await shownDepth(), row = depth.subarray(0, 3 * 320);
   assert.ok(Math.abs(row[3 * 310] - row[3 * 10]) > 100, 'the low bits are visible');
   await choose('picture');
 });
@@ -72,9 +70,7 @@ test('a depth map of 16 bits keeps its bits in every orientation', async () => {
     const linear = {format: 'RangeLinear', units: 'm', far: 5};
     for (const range of orientation === 6 ? [undefined, linear] : [undefined]) {
       await opened(/^Opened: depth photo turned\.jpg/, file('turned.jpg', makeGDepth(turn(jpeg, orientation), png, range)));
-      await choose('depth');
-      await driver.page.waitForTimeout(300);
-      const depth = await shown(), across = orientation >= 5 ? 48 : 64, down = 112 - across;
+      const depth = await shownDepth(), across = orientation >= 5 ? 48 : 64, down = 112 - across;
       const found = [0, across - 1, across * (down - 1), across * down - 1].map(at => depth[3 * at]);
       const stored = [0, 1, 2, 3].map(corner => found[corners[orientation].indexOf(corner)]);
       assert.ok(stored[0] > stored[1] + 50 && stored[1] > stored[2] + 20 && stored[2] > stored[3] + 50,
@@ -128,9 +124,7 @@ test('guesses the near end of a depth picture, and swaps it', async () => {
   const {png} = await drawPhoto(64, 48);
   await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', png));
   const brightness = async () => {
-    await choose('depth');
-    await driver.page.waitForTimeout(300);
-    const depth = await shown();
+    const depth = await shownDepth();
     return depth[3 * 310] - depth[3 * 10];  // right minus left in the first row
   };
   const before = await brightness();
@@ -175,9 +169,7 @@ test('portraits open with their original picture, and a gain map is never depth'
     for (const [items, red] of [[[depth], 40], [[['android/original_image', original], depth], 200], [[depth, ['android/original_image', original]], 200]]) {
       await opened(/^Opened: depth photo portrait\.jpg, 64 x 48/, file('portrait.jpg', makeDynamicDepth(blurred, items, before)));
       assert.ok(Math.abs((await shown())[0] - red) < 5);
-      await choose('depth');
-      await driver.page.waitForTimeout(300);
-      const shades = await shown();
+      const shades = await shownDepth();
       assert.ok(shades[3 * 10] - shades[3 * 54] > 100, 'the map is a ramp');
       await choose('picture');
     }
@@ -255,8 +247,7 @@ test('opens a portrait of a phone in HEIC', {skip: noPug}, async () => {
   const {page} = driver;
   await load(driver.address);  // a new page, and the memory of the old page is freed
   await opened(/^Opened: depth photo pug\.heic, 4032 x 3024/, file('pug.heic', readFileSync(join(photos, 'pug.heic'))));
-  await choose('depth');
-  await driver.page.waitForTimeout(500);
+  await shownDepth();
   const likeness = await correlateWith(readFileSync(join(photos, 'pug_depth.png')));
   assert.ok(likeness > 0.98, `expected the depth of pug_depth.png, found a correlation of ${likeness}`);
   await choose('picture');

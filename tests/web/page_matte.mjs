@@ -10,8 +10,8 @@ import sharp from 'sharp';
 
 import {makeDynamicDepth, markApple} from './gdepth_photo.mjs';
 import {
-  andFull, andWait, choose, driver, error, file, focusText, full, openFiles, place, refocusByProgram, screenshot, shown, site,
-  small, sources, tap, visit, waitFor
+  andFull, andWait, choose, driver, error, file, focusText, full, openFiles, place, refocusByProgram, screenshot, shown, shownDepth,
+  site, small, sources, tap, visit, waitFor, without
 } from './page_driver.mjs';
 import {assertSameBytes, readLightField} from './pictures.mjs';
 
@@ -48,7 +48,8 @@ test('opens a picture with its matte, focused on the subject, as the program doe
   await tap(width - 9, 5);
   assert.equal(await focusText(), 'farthest');
   assertSameBytes(await shown(), refocusByProgram(centre, '--matte', path, '--focus-at', `${width - 9},5`, ...F_STOP));
-  for (const files of [[file('cut-out.png', await makeMatte(4).toBuffer()), photo()], [photo('mask.png'), file('mask-alpha.png', await makeMatte(4).toBuffer())]]) {
+  for (const files of [[file('cut-out.png', await makeMatte(4).toBuffer()), photo()], [photo('mask.png'), file('mask-alpha.png', await makeMatte(4).toBuffer())],
+                       [photo('no-depth.png'), file('no-depth-matte.png', grey)], [file('matte.png', grey), photo('display.png')]]) {
     assertSameBytes(await openMatted(...files), near);
   }
 });
@@ -59,9 +60,7 @@ test('a matte turns with its photo', async () => {
   const matte = await makeMatte(4).toBuffer(), pixels = [];
   for (const kind of [matte, await sharp(matte).rotate(90).png().toBuffer()]) {
     await openMatted(file('turned.jpg', turned), file('matte.png', kind));
-    await choose('depth');
-    await driver.page.waitForTimeout(300);
-    pixels.push(await shown());
+    pixels.push(await shownDepth());
     await choose('picture');
   }
   assertSameBytes(...pixels);
@@ -81,13 +80,11 @@ test('a portrait that stores a mask instead of a map opens with two surfaces', a
   const flat = (r, g, b) => sharp({create: {width, height, channels: 3, background: {r, g, b}}}).jpeg({quality: 95}).toBuffer();
   const black = await makeMatte(1, alpha => 255 - alpha).jpeg({quality: 95}).toBuffer();
   const white = await makeMatte(1).jpeg({quality: 95}).toBuffer();
-  for (const [mask, isStated] of [[black, true], [black, false], [white, false]]) {
-    const portrait = makeDynamicDepth(await flat(40, 40, 200), [['android/depthmap', mask]], undefined, 'Segmentation', isStated);
+  for (const [mask, isStated, isLost] of [[black, true], [black, false], [white, false], [black, true, true]]) {
+    const portrait = makeDynamicDepth(await flat(40, 40, 200), [['android/depthmap', mask]], undefined, 'Segmentation', isStated, isLost);
     await andFull(() => openFiles(file('portrait.jpg', portrait)));
     assert.equal(await focusText(), 'nearest');
-    await choose('depth');
-    await driver.page.waitForTimeout(300);
-    const map = await shown(), at = ([x, y]) => map[3 * (Math.trunc(y * height / 768) * width + Math.trunc(x * width / 1024))];
+    const map = await shownDepth(), at = ([x, y]) => map[3 * (Math.trunc(y * height / 768) * width + Math.trunc(x * width / 1024))];
     assert.deepEqual([at(place('near')), map[3 * (5 * width + width - 9)]], [255, 0]);
     await choose('picture');
   }
@@ -105,37 +102,44 @@ test('portraits of Apple open with the matte that they store, with and without d
   }
   if (noDecoder) return;
   assert.equal(await focusText(), 'nearest');
-  await choose('depth');
-  await driver.page.waitForTimeout(300);
-  const map = await shown();
+  const map = await shownDepth();
   assert.deepEqual([map[3 * (24 * 128 + 48)], map[3 * (24 * 128 + 100)]], [255, 0]);
   await choose('picture');
 });
 
-test('a stored matte that cannot be used is ignored if the photo has depth', async () => {
+test('a stored matte that cannot be used is ignored', async () => {
   const levels = Uint8Array.from(disparity.data, value => 100 + 8 * value), raw = {raw: {width, height, channels: 1}};
   const map = markApple(await sharp(levels, raw).jpeg({quality: 95}).toBuffer(), {AuxiliaryImageType: 'disparity'});
   const empty = markApple(await sharp(levels.map(() => 0), raw).jpeg().toBuffer(),
                           {AuxiliaryImageType: 'depth', AuxiliaryImageSubType: 'portraiteffectsmatte'});
   const picture = await sharp(photo().buffer).jpeg({quality: 95}).toBuffer();
-  await andWait(() => openFiles(file('apple.jpg', Buffer.concat([picture, empty, map]))), /^Opened: depth photo apple\.jpg/);
-  await andWait(() => openFiles(file('apple.jpg', Buffer.concat([picture, empty]))), /^Still open: depth photo apple\.jpg/);
-  assert.equal(await error(), 'The matte of portrait apple.jpg cannot be used: expected a matte with a subject, found an empty matte.');
+  const damaged = Buffer.from(empty);
+  damaged.fill(0, damaged.indexOf('ffc0', 'hex') + 5, damaged.indexOf('ffc0', 'hex') + 9);  // its size
+  const open = (...parts) => openFiles(file('apple.jpg', Buffer.concat([picture, ...parts])));
+  for (const [matte, reason] of [
+    [empty, 'The matte of portrait apple.jpg cannot be used: expected a matte with a subject, found an empty matte.'],
+    [damaged, 'apple.jpg has a damaged mask of its subject, and no depth map.']
+  ]) {
+    await andWait(() => open(matte, map), /^Opened: depth photo apple\.jpg/);
+    await without('segmenter', () => andWait(() => open(matte), /^Still open: depth photo apple\.jpg/));
+    assert.equal(await error(), reason);
+    if (!noSegmenter) await andWait(() => open(matte), /^apple\.jpg has no depth\.$/);
+  }
 });
 
 test('finds the person in a photo without depth, and sends nothing', {skip: noSegmenter}, async () => {
-  const portrait = file('portrait.jpg', readFileSync(join(site, 'demo', 'view_+0.0_+0.0.jpg')));
+  const portrait = file('display.jpg', readFileSync(join(site, 'demo', 'view_+0.0_+0.0.jpg')));
   await visit({}, async page => {
     const requests = [], note = request => requests.push(request);
     page.context().on('request', note);
-    await andWait(() => openFiles(portrait), /^portrait\.jpg has no depth\.$/);
+    await andWait(() => openFiles(portrait), /^display\.jpg has no depth\.$/);
     const megabytes = readdirSync(segmenter).filter(name => /\.gzip$/.test(name))
         .reduce((sum, name) => sum + statSync(join(segmenter, name)).size, 0) / 1e6;
     assert.match(await page.innerText('#offer'), new RegExp(`Loads a segmenter of ${megabytes.toFixed(1)}\\sMB from this site\\. Nothing leaves your browser\\.`));
     await screenshot('offer');
     await page.click('#picture');
     await waitFor(/^This photo has no depth: first find the person\.$/);
-    await andWait(() => openFiles(file('notes.txt', Buffer.from('no picture'))), /^portrait\.jpg has no depth\.$/);
+    await andWait(() => openFiles(file('notes.txt', Buffer.from('no picture'))), /^display\.jpg has no depth\.$/);
     assert.match(await error(), /^notes\.txt is not a picture\.$/);
     assert.ok(!requests.some(request => /segmenter\.js|gzip/.test(request.url())), 'the segmenter is not loaded');
     await andFull(() => page.click('#find-person'));
@@ -147,7 +151,7 @@ test('finds the person in a photo without depth, and sends nothing', {skip: noSe
     }
     const wrong = requests.filter(request => request.method() === 'POST' || ![driver.address, 'blob:', 'data:'].some(start => request.url().startsWith(start)));
     assert.deepEqual(wrong.map(request => request.url()), []);
-    await page.waitForTimeout(500);  // until the address contains the lens
+    await page.waitForURL(/#/);  // the address contains the lens
     page.context().off('request', note);
     await page.reload();
     await full();  // the matte was kept
