@@ -54,11 +54,11 @@ Result<Samples> DecodeDepthFile(const std::string& where, Alpha alpha, const Byt
     if (Error error = DecodePfm(where, bytes).MoveTo(&samples.map)) return error;
     return samples;
   }
-  if (IsNpy(bytes)) return DecodeNpy(where, bytes);
-  if (IsZip(bytes)) return DecodeNpz(where, bytes);
-  if (IsTiff(bytes)) return DecodeTiff(where, bytes);
-  if (IsPicture(bytes)) return DecodeSamples(where, alpha, bytes);
   const bool is_matte = alpha == Alpha::kTaken;
+  if (IsNpy(bytes)) return DecodeNpy(where, is_matte, bytes);
+  if (IsZip(bytes)) return DecodeNpz(where, is_matte, bytes);
+  if (IsTiff(bytes)) return DecodeTiff(where, is_matte, bytes);
+  if (IsPicture(bytes)) return DecodeSamples(where, alpha, bytes);
   return Expected(where,
                   std::string(is_matte ? "a matte" : "a depth picture") +
                       " (PFM, TIFF, NPY, NPZ, PNG, PGM, PPM, JPEG or WebP)",

@@ -16,10 +16,11 @@ constexpr size_t kSignatureSize = 6;
 // bytes.
 constexpr size_t kMostHeaderBytes = 1024;
 
-Error Reject(const std::string& where, const std::string& expected, const std::string& found) {
-  return Expected(
-      where, expected,
-      found + " (numpy.save(FILE, depth.astype('float32')) writes a file that can be read)");
+Error Reject(const std::string& where, bool is_matte, const std::string& expected,
+             const std::string& found) {
+  return Expected(where, expected,
+                  found + " (numpy.save(FILE, " + (is_matte ? "matte" : "depth") +
+                      ".astype('float32')) writes a file that can be read)");
 }
 
 // Loads a little-endian integer.
@@ -69,13 +70,14 @@ FloatMap Transposed(const FloatMap& columns) {
 
 // Returns an error unless the array is a map of a supported type and size whose file has `bytes`
 // bytes.
-Error CheckMap(const std::string& where, const NpyHeader& header, uint64_t bytes) {
+Error CheckMap(const std::string& where, bool is_matte, const NpyHeader& header, uint64_t bytes) {
   if (!header.numbers) {
-    return Reject(where, "an array of floats of 16, 32 or 64 bits, integers or booleans",
+    return Reject(where, is_matte, "an array of floats of 16, 32 or 64 bits, integers or booleans",
                   "the type " + header.type);
   }
   if (!header.is_map()) {
-    return Reject(where, "an array of rows and columns", "the shape (" + header.shape + ")");
+    return Reject(where, is_matte, "an array of rows and columns",
+                  "the shape (" + header.shape + ")");
   }
   if (Error error = CheckPictureSize(where, header.sizes[1], header.sizes[0])) return error;
   const uint64_t expected =
@@ -115,10 +117,11 @@ std::optional<NpyHeader> ParseNpyHeader(const Bytes& npy) {
   return header;
 }
 
-Result<Samples> DecodeNpy(const std::string& where, const Bytes& npy) {
+Result<Samples> DecodeNpy(const std::string& where, bool is_matte, const Bytes& npy) {
   const std::optional<NpyHeader> header = ParseNpyHeader(npy);
-  if (!header) return Reject(where, "an NPY file of one array of numbers", "another header");
-  if (Error error = CheckMap(where, *header, npy.size())) return error;
+  if (!header)
+    return Reject(where, is_matte, "an NPY file of one array of numbers", "another header");
+  if (Error error = CheckMap(where, is_matte, *header, npy.size())) return error;
   auto width = static_cast<int>(header->sizes[1]), height = static_cast<int>(header->sizes[0]);
   if (header->is_fortran_order) std::swap(width, height);
   Samples samples = {

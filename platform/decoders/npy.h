@@ -36,8 +36,8 @@ std::optional<NpyHeader> ParseNpyHeader(const Bytes& npy);
 
 // Decodes an array with two dimensions, rows and columns, in C or Fortran order. Further dimensions
 // before or after these two must be 1. The values are floats of 16, 32 or 64 bits, integers, or
-// booleans. `where` appears only in error messages.
-Result<Samples> DecodeNpy(const std::string& where, const Bytes& npy);
+// booleans. `where` and `is_matte` affect only error messages.
+Result<Samples> DecodeNpy(const std::string& where, bool is_matte, const Bytes& npy);
 
 }  // namespace starfocus
 

@@ -13,7 +13,7 @@
 namespace starfocus {
 namespace {
 
-constexpr char kExtension[] = ".npy", kDepth[] = "depth";
+constexpr char kExtension[] = ".npy";
 
 // An array of an archive that may be the map.
 struct Array {
@@ -30,9 +30,10 @@ std::string ArrayName(const ZipEntry& entry) {
   return entry.name.compare(at, length, kExtension) == 0 ? entry.name.substr(0, at) : "";
 }
 
-bool IsSecondary(const NpyHeader& header) {
+bool IsSecondary(const NpyHeader& header, bool is_matte) {
   constexpr int64_t kMostMatrix = 4;
-  return header.type == "|b1" || std::max(header.sizes[0], header.sizes[1]) <= kMostMatrix;
+  return (header.type == "|b1" && !is_matte) ||
+         std::max(header.sizes[0], header.sizes[1]) <= kMostMatrix;
 }
 
 std::string NamesOf(const std::vector<Array>& arrays) {
@@ -41,14 +42,24 @@ std::string NamesOf(const std::vector<Array>& arrays) {
   return names;
 }
 
-Error RejectArrays(const std::string& where, const std::string& found) {
-  return Expected(where, "an array named depth, or a single array of rows and columns",
-                  found + " (numpy.save('depth.npy', numpy.load(FILE)['NAME']) writes one array)");
+Error RejectArrays(const std::string& where, bool is_matte, const std::string& found) {
+  const std::string names = is_matte ? "matte or alpha" : "depth";
+  return Expected(where, "an array named " + names + ", or a single array of rows and columns",
+                  found + " (numpy.save('" + (is_matte ? "matte" : "depth") +
+                      ".npy', numpy.load(FILE)['NAME']) writes one array)");
 }
+
+// Returns true if the name of an array states that it is the map or the matte.
+bool IsNamed(const std::string& name, bool is_matte) {
+  return is_matte ? name == "matte" || name == "alpha" : name == "depth";
+}
+
+// A mask of booleans or a matrix is the map only if no other array has rows and columns. For a
+// matte, booleans are as likely as other values.
 
 // Finds the map among the arrays with rows and columns. Decompresses all arrays to read their
 // headers.
-Result<const ZipEntry*> ChooseArray(const std::string& where, const Bytes& npz,
+Result<const ZipEntry*> ChooseArray(const std::string& where, bool is_matte, const Bytes& npz,
                                     const std::vector<Array>& arrays) {
   std::vector<Array> maps;
   for (const Array& array : arrays) {
@@ -56,20 +67,21 @@ Result<const ZipEntry*> ChooseArray(const std::string& where, const Bytes& npz,
     if (!npy) return npy.error();
     const std::optional<NpyHeader> header = ParseNpyHeader(*npy);
     if (!header || !header->is_map()) continue;
-    maps.push_back({array.name, array.entry, IsSecondary(*header)});
+    maps.push_back({array.name, array.entry, IsSecondary(*header, is_matte)});
   }
   std::vector<Array> primary;
   std::copy_if(maps.begin(), maps.end(), std::back_inserter(primary),
                [](const Array& array) { return !array.is_secondary; });
   if (!primary.empty()) maps = primary;
   if (maps.size() == 1) return maps[0].entry;
-  return RejectArrays(where, maps.empty() ? "other arrays: " + NamesOf(arrays)
-                                          : std::to_string(maps.size()) + ": " + NamesOf(maps));
+  return RejectArrays(where, is_matte,
+                      maps.empty() ? "other arrays: " + NamesOf(arrays)
+                                   : std::to_string(maps.size()) + ": " + NamesOf(maps));
 }
 
 }  // namespace
 
-Result<Samples> DecodeNpz(const std::string& where, const Bytes& npz) {
+Result<Samples> DecodeNpz(const std::string& where, bool is_matte, const Bytes& npz) {
   const Result<std::vector<ZipEntry>> entries = ListZip(where, npz);
   if (!entries) return entries.error();
   std::vector<Array> arrays;
@@ -77,16 +89,17 @@ Result<Samples> DecodeNpz(const std::string& where, const Bytes& npz) {
     std::string name = ArrayName(entry);
     if (!name.empty()) arrays.push_back({std::move(name), &entry, false});
   }
-  if (arrays.empty()) return RejectArrays(where, "a ZIP archive without arrays");
-  const auto depth = std::find_if(arrays.begin(), arrays.end(),
-                                  [](const Array& array) { return Lower(array.name) == kDepth; });
-  const ZipEntry* entry = depth == arrays.end() ? nullptr : depth->entry;
+  if (arrays.empty()) return RejectArrays(where, is_matte, "a ZIP archive without arrays");
+  const auto named = std::find_if(arrays.begin(), arrays.end(), [is_matte](const Array& array) {
+    return IsNamed(Lower(array.name), is_matte);
+  });
+  const ZipEntry* entry = named == arrays.end() ? nullptr : named->entry;
   if (entry == nullptr) {
-    if (Error error = ChooseArray(where, npz, arrays).MoveTo(&entry)) return error;
+    if (Error error = ChooseArray(where, is_matte, npz, arrays).MoveTo(&entry)) return error;
   }
   const std::string name = where + ": " + ArrayName(*entry);
   const Result<Bytes> npy = ReadZipEntry(name, npz, *entry);
-  return npy ? DecodeNpy(name, *npy) : npy.error();
+  return npy ? DecodeNpy(name, is_matte, *npy) : npy.error();
 }
 
 }  // namespace starfocus

@@ -17,8 +17,8 @@ bool IsTiff(const Bytes& bytes);
 // Decodes the first picture of a TIFF file. The picture must have one sample for each pixel: an
 // integer of 8, 16, 32 or 64 bits, or a float of 16, 32 or 64 bits. The picture must consist of
 // strips that are stored uncompressed or compressed by LZW, Deflate or PackBits. Requires libtiff.
-// `where` appears only in error messages.
-Result<Samples> DecodeTiff(const std::string& where, const Bytes& tiff);
+// `where` and `is_matte` affect only error messages.
+Result<Samples> DecodeTiff(const std::string& where, bool is_matte, const Bytes& tiff);
 
 }  // namespace starfocus
 

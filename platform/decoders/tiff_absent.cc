@@ -4,7 +4,7 @@
 
 namespace starfocus {
 
-Result<Samples> DecodeTiff(const std::string& where, const Bytes&) {
+Result<Samples> DecodeTiff(const std::string& where, bool, const Bytes&) {
   return Unsupported(where, "TIFF", "libtiff (Debian: libtiff-dev)");
 }
 

@@ -125,10 +125,11 @@ std::string DescribeType(const Layout& layout) {
 }
 
 // Returns an error unless the program reads pictures of this layout.
-Error CheckLayout(const std::string& where, const Layout& layout) {
-  const auto reject = [&where](const std::string& expected, const std::string& found) {
+Error CheckLayout(const std::string& where, bool is_matte, const Layout& layout) {
+  const auto reject = [&where, is_matte](const std::string& expected, const std::string& found) {
     return Expected(where, expected,
-                    found + " (convert the map to PFM or NPY, or to PNG of 16 bits)");
+                    found + (is_matte ? " (convert the matte to PNG)"
+                                      : " (convert the map to PFM or NPY, or to PNG of 16 bits)"));
   };
   constexpr uint16_t kCompressions[] = {COMPRESSION_NONE, COMPRESSION_LZW,
                                         COMPRESSION_ADOBE_DEFLATE, COMPRESSION_DEFLATE,
@@ -163,7 +164,7 @@ bool CanHold(const Bytes& tiff, const Layout& layout) {
 
 }  // namespace
 
-Result<Samples> DecodeTiff(const std::string& where, const Bytes& bytes) {
+Result<Samples> DecodeTiff(const std::string& where, bool is_matte, const Bytes& bytes) {
   Source source = {bytes};
   const auto damaged = [&] {
     return Expected(where, "an undamaged TIFF file", "a damaged one (" + source.problem + ")");
@@ -171,7 +172,7 @@ Result<Samples> DecodeTiff(const std::string& where, const Bytes& bytes) {
   const Tiff tiff = Open(&source);
   if (tiff == nullptr) return damaged();
   const Layout layout(tiff.get());
-  if (Error error = CheckLayout(where, layout)) return error;
+  if (Error error = CheckLayout(where, is_matte, layout)) return error;
   if (Error error = CheckPictureSize(where, layout.width, layout.height)) return error;
   if (!CanHold(bytes, layout)) {
     source.problem = "it is too small for its pixels";

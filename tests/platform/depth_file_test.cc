@@ -20,6 +20,10 @@ Result<Samples> Decode(const std::string& file) {
   return DecodeDepthFile("map", Alpha::kTransparent, Bytes(file.begin(), file.end()));
 }
 
+Result<Samples> DecodeMatte(const std::string& file) {
+  return DecodeDepthFile("matte", Alpha::kTaken, Bytes(file.begin(), file.end()));
+}
+
 template <class T>
 std::string BytesOf(const std::vector<T>& values) {
   std::string bytes(values.size() * sizeof(T), '\0');
@@ -365,6 +369,22 @@ TEST_CASE("npz: the array named depth, or the only map, is read from all forms o
   }
   CHECK(Contains(Decode(Zip({{"word/document.xml", "<text/>"}})), "a ZIP archive without arrays"));
   CHECK(Contains(Decode(Zip({{"depth.npy", Npy("|O", "2, 3", "")}})), "map: depth: expected"));
+}
+
+TEST_CASE("npz: of a matte, the array named matte or alpha is read, or the only array") {
+  const std::string matte = Npy("<f4", "2, 3", BytesOf(kFloats));
+  const std::string depth = Npy("|u1", "5, 6", std::string(30, '\7'));
+  const std::string mask = Npy("|b1", "5, 6", std::string(30, '\1'));
+  for (const char* name : {"matte.npy", "Alpha.npy"}) {
+    CheckSamples(DecodeMatte(Zip({{"depth.npy", depth}, {name, matte}})), 0, kFloats);
+  }
+  const Result<Samples> only = DecodeMatte(Zip({{"mask.npy", mask}}));
+  REQUIRE(only == "");
+  CHECK(only->map.values == std::vector<float>(30, 1));
+  CHECK(Contains(DecodeMatte(Zip({{"depth.npy", depth}, {"mask.npy", mask}})),
+                 "expected an array named matte or alpha, or a single array of rows and columns, "
+                 "found 2: depth, mask (numpy.save('matte.npy', numpy.load(FILE)['NAME'])"));
+  CHECK(Contains(DecodeMatte(Npy("<c8", "2, 3", "")), "(numpy.save(FILE, matte.astype("));
 }
 
 TEST_CASE("npz: damaged archives and archives that promise too much are rejected") {
