@@ -91,7 +91,9 @@ class Reader(unittest.TestCase):
         np.testing.assert_array_equal(given.disparity > 0, matte >= 128)
         cutout = np.dstack([VIEWS[0], matte])
         for name, array in (("bytes", matte), ("words", np.uint16(matte) * 257), ("floats", np.float32(matte) / 255),
-                            ("doubles", matte / 255), ("cutout", cutout), ("flipped", matte[::-1].copy()[::-1])):
+                            ("doubles", matte / 255), ("cutout", cutout), ("flipped", matte[::-1].copy()[::-1]),
+                            ("list", matte.tolist()), ("picture", Image.fromarray(matte)), ("axis", matte[..., None]),
+                            ("batch", matte[None]), ("masked", np.ma.masked_equal(np.where(matte, matte, 7), 7))):
             with self.subTest(name):
                 same = starfocus.read_light_field("photo.png", matte=array)
                 np.testing.assert_array_equal(same.coverage, matte)

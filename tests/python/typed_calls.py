@@ -11,6 +11,7 @@ import starfocus
 scene: starfocus.LightField = starfocus.read_light_field(Path("photo.png"), depth="depth.npy", threads=2)
 scene = starfocus.read_light_field(b"photo.png", depth=Path("depth.npy"))
 scene = starfocus.read_light_field("photo.png", matte=np.zeros((480, 640), np.uint8), floor=True)
+starfocus.read_light_field("photo.png", matte=[[0, 255], [0, 255]])
 assert scene.disparity is not None
 disparity: NDArray[np.float32] = scene.disparity
 refocuser = starfocus.Refocuser.for_light_field(scene.views, disparity, positions=scene.positions, streaming=1)

@@ -13,8 +13,9 @@ from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ._types import Array, Bytes, Floats
+from ._types import Bytes, Floats
 from .maps import view_positions
 
 _GAP = rb"\s(?:\s|#[^\n]*\n)*"  # white space and comments
@@ -25,8 +26,8 @@ _PROGRAM = Path(__file__).parent / "bin" / "starfocus"
 #: Path of a file or folder.
 AnyPath = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 #: Value of an option of `starfocus import`. True sets an option without a value. None and False do not set an option.
-#: An array replaces the file of `depth` or `matte`.
-Option = Union[AnyPath, Array, int, float, bool, None]
+#: An array, or anything that `numpy.asarray` converts to one, replaces the file of `depth` or `matte`.
+Option = Union[AnyPath, ArrayLike, None]
 
 
 class InputError(ValueError):
@@ -74,10 +75,11 @@ def read_light_field(path: AnyPath, *,
             `right="right.jpg"` reads a stereo pair. `matte="matte.png"` reads a photo and the matte of its subject,
             which gives two surfaces and their coverage; `floor=True` adds the ground below the subject. `depth` and
             `matte` may be arrays of shape (height, width), or of shape (height, width, 4), whose last channel is
-            used. Values of a matte reach from 0 to 1, which also applies to integers up to 1; larger integers of 8 or
-            16 bits reach to the largest value of their type, and all other values to 255. Masked values of depth are
-            unknown. As in the program, maps of photos are repaired by default; `no_repair=True` returns them
-            unchanged. `threads=4` uses 4 threads.
+            used, with further axes of length 1 before or after them. Lists of rows and pictures of the package pillow
+            are converted to arrays. Values of a matte reach from 0 to 1, which also applies to integers up to 1; larger
+            integers of 8 or 16 bits reach to the largest value of their type, and all other values to 255. Masked
+            values are unknown depth, or the background of a matte. As in the program, maps of photos are repaired by
+            default; `no_repair=True` returns them unchanged. `threads=4` uses 4 threads.
 
     The function writes the light field to a temporary folder. Notes of the program are issued as warnings.
 
@@ -127,16 +129,24 @@ def read_pfm(path: AnyPath) -> Floats:
 
 def _as_file(name: str, value: Option, folder: str) -> Option:
     """Writes an array to a file in `folder`, and returns its path. Returns other values as they are."""
-    if not isinstance(value, np.ndarray) or value.ndim == 0:
+    if not isinstance(value, (list, tuple)) and not hasattr(value, "__array_interface__"):
         return value
-    plane = value[:, :, 3] if value.ndim == 3 and value.shape[2] == 4 else value
+    array = plane = np.asanyarray(value)
+    if array.ndim == 0:
+        return value
+    while plane.ndim > 2 and plane.shape[0] == 1:
+        plane = plane[0]
+    while plane.ndim > 2 and plane.shape[-1] == 1:
+        plane = plane[..., 0]
+    if plane.ndim == 3 and plane.shape[2] == 4:
+        plane = plane[:, :, 3]
     if plane.ndim != 2:
         raise ValueError(f"{name}: expected an array of shape (height, width) or (height, width, 4), found shape "
-                         f"{value.shape}")
+                         f"{array.shape}")
     if plane.dtype == bool:
         plane = plane * np.uint8(255)
     if isinstance(plane, np.ma.MaskedArray):
-        plane = np.where(np.asarray(plane.mask), np.float32(np.nan), np.asarray(plane, np.float32))
+        plane = plane.filled(0) if name == "matte" else plane.astype(np.float32).filled(np.nan)
     path = os.path.join(folder, f"{name}.npy")
     np.save(path, plane)
     return path
