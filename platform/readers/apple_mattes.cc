@@ -76,7 +76,7 @@ Names Take(const std::vector<AuxiliaryPicture>& pictures, Names wanted, DepthPho
   if (wanted.empty()) return {};
   const std::string names = Listed(wanted);
   const std::string where = "the " + names + " matte in the file is ignored";
-  if (Error error = CheckMatte(where, matte, photo->picture)) {
+  if (Error error = CheckMatte(where, matte, photo->picture, false)) {
     Ignore(error, photo);
     return {};
   }
@@ -91,8 +91,8 @@ void ChooseMatte(const std::vector<AuxiliaryPicture>& pictures, DepthPhoto* phot
   if (used.empty()) {
     used = Take(pictures, {"hair", "skin", "teeth", "glasses"}, photo);
     if (!used.empty()) {
-      photo->notes.push_back("the matte of the subject contains only " + Listed(used) +
-                             ", because the file has no usable portrait effects matte");
+      photo->matte_notes.push_back("the matte of the subject contains only " + Listed(used) +
+                                   ", because the file has no usable portrait effects matte");
     }
   }
   Names others;

@@ -65,7 +65,9 @@ Result<Capture> OpenArray(const std::string& folder, const Names& pictures) {
         folder,
         "views with names like view_+0.0_+0.0.png, input_Cam000.png, out_00_00.png or im0.png, "
         "or with a row and a column in each name",
-        std::to_string(pictures.size()) + " pictures, the first " + pictures[0]);
+        pictures.size() == 1
+            ? "only the picture " + pictures[0]
+            : std::to_string(pictures.size()) + " pictures, the first " + pictures[0]);
   }
   const bool stanford = IsStanford(pictures[0]) && array.rows > 1;
   Capture capture;
@@ -121,10 +123,6 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   if (!read) return read.error();
   DepthPhoto& photo = *read;
   const bool pair = !photo.right.pixels.empty();
-  if (options.map.floor && (pair || !photo.map.values.empty())) {
-    return Expected(InputName(path), "a photo with a matte and without depth for --floor",
-                    "a photo with depth");
-  }
   Capture capture;
   Error error =
       pair ? AlignPair(InputName(path), &photo)
@@ -153,10 +151,11 @@ Result<Capture> OpenPhoto(const std::string& path, const CaptureOptions& options
   capture.photo = true;
   capture.survey = std::move(photo.survey);
   capture.files = {{{0, 0}, path}};
-  capture.two_surfaces = !capture.light_field.coverage.empty();
-  const std::string& map_path = capture.two_surfaces ? photo.matte_path : photo.depth_path;
+  const bool two_surfaces = !capture.light_field.coverage.empty();
+  if (two_surfaces) capture.subject = AssumedSubject(picture);
+  const std::string& map_path = two_surfaces ? photo.matte_path : photo.depth_path;
   capture.map_path = map_path.empty() ? path : map_path;
-  capture.care = photo.is_ready || capture.two_surfaces ? MapCare::kNone : MapCare::kRepair;
+  capture.care = photo.is_ready || two_surfaces ? MapCare::kNone : MapCare::kRepair;
   capture.widest = 1;
   capture.f_stop = kPhotoFStop;
   capture.has_focus = photo.has_focus;

@@ -38,9 +38,9 @@ struct Capture {
   // Matte of a photo; empty: no matte. A photo without a map is a light field of two surfaces with
   // coverage. For a photo with a map, CoverByMatte makes the coverage when the map is final.
   Matte matte;
-  bool two_surfaces = false;  // True if the map comes from the matte.
-  MapSurvey survey;           // Figures of the map of a photo.
-  double map_scale = 1;       // Factor that converts values in the file of the map to disparities.
+  double subject = NAN;  // Disparity of the subject if the map comes from the matte, otherwise NaN.
+  MapSurvey survey;      // Figures of the map of a photo.
+  double map_scale = 1;  // Factor that converts values in the file of the map to disparities.
   MapCare care = MapCare::kNone;
   double widest = 0;  // The f-stop of an aperture of radius 1; 0: unknown.
   double f_stop = 0;  // Default f-stop; 0: the widest f-stop.

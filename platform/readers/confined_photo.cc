@@ -10,8 +10,8 @@ void Pass(Channel* channel, DepthPhoto* photo) {
   // The structured binding fails to compile if DepthPhoto gets another field. A helper process must
   // not choose files, so that no path is passed. Helpers do not apply the orientation. `survey` has
   // no figures before the map is complete.
-  auto& [format, picture, map, map_problem, unused_path, matte, mask_note, unused_matte_path, right,
-         unused_right_path, meaning, guesses_near, unused_survey, orientation,
+  auto& [format, picture, map, map_problem, unused_path, matte, is_mask, unused_matte_path,
+         matte_notes, right, unused_right_path, meaning, guesses_near, unused_survey, orientation,
          unused_applied_orientation, focal_35mm, is_blurred, has_focus, focus_x, focus_y,
          has_subject, subject_x, subject_y, is_ready, is_linear, focus_value, metadata, facts,
          notes] = *photo;
@@ -23,8 +23,9 @@ void Pass(Channel* channel, DepthPhoto* photo) {
   static_cast<void>(unused_right_path);
   static_cast<void>(unused_survey);
   static_cast<void>(unused_applied_orientation);
-  for (std::string* text : {&format, &map_problem, &mask_note}) channel->Text(text);
-  for (bool* value : {&guesses_near, &is_blurred, &has_focus, &has_subject, &is_ready, &is_linear})
+  for (std::string* text : {&format, &map_problem}) channel->Text(text);
+  for (bool* value :
+       {&is_mask, &guesses_near, &is_blurred, &has_focus, &has_subject, &is_ready, &is_linear})
     channel->Value(value);
   for (double* value : {&focus_x, &focus_y, &subject_x, &subject_y}) {
     channel->Value(value);
@@ -40,7 +41,9 @@ void Pass(Channel* channel, DepthPhoto* photo) {
     channel->Text(&fact->first);
     channel->Text(&fact->second);
   });
-  channel->List(&notes, [&](std::string* note) { channel->Text(note); });
+  for (std::vector<std::string>* list : {&matte_notes, &notes}) {
+    channel->List(list, [&](std::string* note) { channel->Text(note); });
+  }
 }
 
 Result<DepthPhoto> ConfinedPhoto(const std::string& where, Span file,

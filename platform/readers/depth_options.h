@@ -43,6 +43,9 @@ struct DepthOptions {
   const MapSurvey* clip = nullptr;    // Figures of all maps of a clip; null: a single photo.
   // True: the background of a matte comes nearer towards the lower edge of the picture.
   bool floor = false;
+  // True: the photo is a frame of a clip, whose matte may be empty or full, because subjects leave
+  // the picture.
+  bool is_frame = false;
   // Computes a depth picture of an upright photo for which no depth is found; null: such a photo is
   // an error.
   // If `estimate` is set, the other options do not apply to a depth map in the file of a photo.

@@ -2,6 +2,7 @@
 #include "platform/readers/depth_photo_file.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 #include <vector>
@@ -276,17 +277,15 @@ Error FindDepth(const std::string& path, Span file, const DepthOptions& options,
 // Keeps or removes the mask in the file of a photo, which is needed only without depth and without
 // another matte. The repair of a map finds outlines more accurately (docs/formats.md).
 void JudgeMask(const PhotoFiles& files, DepthPhoto* photo) {
-  if (photo->mask_note.empty()) return;
+  if (!photo->is_mask) return;
   const bool has_depth = !photo->map.values.empty() || !photo->right.pixels.empty();
   const bool used = !has_depth && files.matte.empty();
   photo->facts.emplace_back("mattes",
                             used ? "mask of the subject" : "ignored: mask of the subject");
-  if (used) {
-    photo->notes.push_back(photo->mask_note);
-  } else {
-    photo->mask_note.clear();
-    photo->matte = {};
-  }
+  if (used) return;
+  photo->is_mask = false;
+  photo->matte = {};
+  photo->matte_notes.clear();
 }
 
 // Reads or computes the matte of a photo after FindDepth. Returns an error if the photo has neither
@@ -304,11 +303,14 @@ Error FindMatte(const std::string& path, const DepthOptions& options, const Phot
     error = ReadMatteFile(files.matte, options, photo);
   } else if (photo->matte.values.empty() && options.estimate_matte) {
     error = EstimateMatte(where, options, photo);
+  } else {
+    std::move(photo->matte_notes.begin(), photo->matte_notes.end(),
+              std::back_inserter(photo->notes));
   }
   if (error || !photo->map.values.empty()) return error;
   if (photo->matte.values.empty()) return NoMap(where, photo->map_problem);
   NoteProblem(photo);
-  const FileDepth depth = photo->mask_note.empty() ? FileDepth::kMatte : FileDepth::kMask;
+  const FileDepth depth = photo->is_mask ? FileDepth::kMask : FileDepth::kMatte;
   return CheckOptions(where, options, depth, !files.matte.empty());
 }
 

@@ -96,11 +96,12 @@ void TakeMask(const XmpNode* map, Near near, FloatMap mask, DepthPhoto* photo) {
     near = HasWhiteSubject(upright) ? Near::kWhite : Near::kBlack;
   }
   const bool white = near == Near::kWhite;
-  photo->mask_note =
+  photo->is_mask = true;
+  photo->matte_notes.push_back(
       std::string("the file has a mask of the subject instead of a depth map, in which ") +
       (white ? "white" : "black") + " is the subject" +
       (guessed ? ", because it is nearer to the middle of the lower edge" : "") + " (--near " +
-      (white ? "black" : "white") + " overrides this)";
+      (white ? "black" : "white") + " overrides this)");
   if (!white) ToRange(1, 0, &mask);
   photo->matte = std::move(mask);
 }

@@ -16,8 +16,8 @@ namespace starfocus {
 bool HasDynamicDepth(const XmpNode& xmp);
 
 // Reads the depth map of a Dynamic Depth file, or a mask of the subject as photo->matte if the file
-// has no readable depth map. photo->mask_note then describes the mask, and the caller must decide
-// whether the photo needs it. The caller must have set photo->orientation. `near` applies only if
+// has no readable depth map. photo->is_mask is then true, and the caller must decide whether the
+// photo needs the mask. The caller must have set photo->orientation. `near` applies only if
 // the file does not state which end of the grey range is near, and to masks. `appended` are the
 // pictures that follow the first picture of `file`; those that are listed as gain maps are marked.
 Error ReadDynamicDepth(Span file, const XmpNode& xmp, Near near,

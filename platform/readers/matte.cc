@@ -65,21 +65,28 @@ std::string Description(const Matte& matte) {
          std::to_string(std::lround(100 * stats.covered)) + " % of the picture";
 }
 
-Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& picture) {
+MatteContent ContentOf(const FloatMap& matte) {
+  const auto is_subject = [](float alpha) { return alpha >= 0.5F; };
+  const auto subject = std::count_if(matte.values.begin(), matte.values.end(), is_subject);
+  if (subject == 0) return MatteContent::kEmpty;
+  return size_t(subject) < matte.values.size() ? MatteContent::kBoth : MatteContent::kFull;
+}
+
+Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& picture,
+                 bool is_frame) {
   if (!HasSameProportions(matte, picture.width, picture.height) &&
       !IsStretched(matte, picture.width, picture.height)) {
     return Expected(
         where, "a matte with the proportions of the picture, or a square matte of a network",
         SizeText(matte.width, matte.height) + " for " + SizeText(picture.width, picture.height));
   }
-  const auto is_subject = [](float alpha) { return alpha >= 0.5F; };
-  const auto subject = std::count_if(matte.values.begin(), matte.values.end(), is_subject);
-  if (subject == 0) {
+  const MatteContent content = ContentOf(matte);
+  if (is_frame || content == MatteContent::kBoth) return {};
+  if (content == MatteContent::kEmpty) {
     const float largest = *std::max_element(matte.values.begin(), matte.values.end());
     return Expected(where, "a matte with a subject, alpha 0.5 or more",
                     "an empty matte, alpha up to " + NumberText(double(largest)));
   }
-  if (size_t(subject) < matte.values.size()) return {};
   return Expected(where, "a matte with a background", "a full matte, alpha 0.5 or more everywhere");
 }
 

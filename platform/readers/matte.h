@@ -29,10 +29,17 @@ struct Matte {
 // Returns the size of a matte and the part of the picture that its subject covers, for users.
 std::string Description(const Matte& matte);
 
+// The surfaces that have samples in a matte: the subject with alpha of 0.5 or more, the background.
+enum class MatteContent { kBoth, kEmpty, kFull };
+
+MatteContent ContentOf(const FloatMap& matte);
+
 // Returns an error unless `matte`, alpha from 0 to 1, has a subject and a background and can belong
-// to `picture` by its proportions. A square matte can belong to any picture, because many networks
-// stretch pictures to squares. Picture and matte must be upright.
-Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& picture);
+// to `picture` by its proportions. If `is_frame` is true, the matte may be empty or full. A square
+// matte can belong to any picture, because many networks stretch pictures to squares. Picture and
+// matte must be upright.
+Error CheckMatte(const std::string& where, const FloatMap& matte, const Image& picture,
+                 bool is_frame);
 
 // Fills map and coverage of a light field from a matte (starfocus_matte_field). The subject has the
 // disparity `subject`, and the background has the disparity 0. If `floor` is true, the background

@@ -44,11 +44,11 @@ Error ToAlpha(const std::string& where, Samples* samples) {
   return {};
 }
 
-Error TakeMatte(const std::string& where, DepthOrientation choice, Samples samples,
-                DepthPhoto* photo) {
+Error TakeMatte(const std::string& where, const DepthOptions& options, DepthOrientation choice,
+                Samples samples, DepthPhoto* photo) {
   if (Error error = ToAlpha(where, &samples)) return error;
   StandWithPhoto(choice, true, photo, &samples.map);
-  if (Error error = CheckMatte(where, samples.map, photo->picture)) return error;
+  if (Error error = CheckMatte(where, samples.map, photo->picture, options.is_frame)) return error;
   photo->matte = std::move(samples.map);
   return {};
 }
@@ -59,9 +59,13 @@ Error ReadMatteFile(const std::string& path, const DepthOptions& options, DepthP
   Result<Samples> samples = ReadSamples(path, Alpha::kTaken, options);
   if (!samples) return samples.error();
   if (photo->map.values.empty()) photo->format = "photo and matte";
+  // The mattes in the photo are not used.
+  photo->facts.erase(std::remove_if(photo->facts.begin(), photo->facts.end(),
+                                    [](const auto& fact) { return fact.first == "mattes"; }),
+                     photo->facts.end());
   photo->facts.emplace_back("matte picture", path);
   photo->matte_path = path;
-  return TakeMatte(path, options.orientation, std::move(*samples), photo);
+  return TakeMatte(path, options, options.orientation, std::move(*samples), photo);
 }
 
 Error EstimateMatte(const std::string& where, const DepthOptions& options, DepthPhoto* photo) {
@@ -70,7 +74,7 @@ Error EstimateMatte(const std::string& where, const DepthOptions& options, Depth
   if (!samples) return samples.error();
   if (photo->map.values.empty()) photo->format = "photo with computed matte";
   photo->facts.emplace_back("matte picture", "computed by --matte-command");
-  return TakeMatte(where + " (matte of the matte command)", DepthOrientation::kUpright,
+  return TakeMatte(where + " (matte of the matte command)", options, DepthOrientation::kUpright,
                    std::move(*samples), photo);
 }
 

@@ -35,10 +35,11 @@ struct DepthPhoto {
   std::string map_problem;  // Reason why the map in the file cannot be read; may be empty.
   std::string depth_path;   // Path of the depth picture; empty: the map is in the file.
   FloatMap matte;           // Alpha of the subject, 0 to 1, of any size; empty: no matte.
-  std::string mask_note;    // Describes `matte` if it is a mask of the subject in the file.
+  bool is_mask = false;     // True if `matte` is a mask of the subject in the file.
   std::string matte_path;   // Path of the matte; empty: the matte is in the file, or computed.
-  Image right;              // Right picture of a stereo pair; empty: no stereo pair.
-  std::string right_path;   // Path of the right picture; empty: both are in one file.
+  std::vector<std::string> matte_notes;  // Notes that apply if the matte in the file is used.
+  Image right;                           // Right picture of a stereo pair; empty: no stereo pair.
+  std::string right_path;                // Path of the right picture; empty: both are in one file.
   MapMeaning meaning = MapMeaning::kOrder;
   bool guesses_near = false;  // True if it is unknown whether larger values of `map` are nearer.
   MapSurvey survey;           // Figures of `map`.

@@ -212,11 +212,17 @@ Result<FloatMap> ConvertMap(const std::string& where, const MapSurvey* clip, Dep
 
 // Removes a matte that cannot be used, and adds a note, as for square mattes of other pictures.
 // Returns an error if the photo then has neither a matte nor a map.
-Error JudgeMatte(const std::string& where, DepthPhoto* photo) {
+Error JudgeMatte(const std::string& where, bool is_frame, DepthPhoto* photo) {
   if (photo->matte.values.empty()) return {};
   const FloatMap& matte = photo->matte;
   const Image& picture = photo->picture;
-  const Error error = CheckMatte(where, matte, picture);
+  const Error error = CheckMatte(where, matte, picture, is_frame);
+  const MatteContent content = ContentOf(matte);
+  if (!error && content != MatteContent::kBoth) {
+    photo->notes.push_back(content == MatteContent::kEmpty
+                               ? "the matte is empty, so the frame has no subject"
+                               : "the matte is full, so the frame has no background");
+  }
   if (!error && IsStretched(matte, picture.width, picture.height)) {
     photo->notes.push_back("the square matte of " + SizeText(matte.width, matte.height) +
                            " pixels is stretched over the picture of " +
@@ -233,17 +239,20 @@ Error JudgeMatte(const std::string& where, DepthPhoto* photo) {
 Error FillSurfaces(const std::string& where, bool floor, DepthPhoto* photo,
                    LightField* light_field) {
   const Image& picture = light_field->views[0];
-  const double nearest = NearestDisparity(std::hypot(picture.width, picture.height));
   photo->survey.kind = "a matte without depth";
   photo->facts.emplace_back("scale",
                             std::string("unknown: the subject is assumed to be 1.5 m and the ") +
                                 (floor ? "upper part of the " : "") +
                                 "background infinitely far in front of a 50 mm lens on full frame");
-  const double subject = std::min(nearest, STARFOCUS_MAX_DISPARITY);
-  return FillTwoSurfaces(where, Matte(photo->matte), subject, floor, light_field);
+  return FillTwoSurfaces(where, Matte(photo->matte), AssumedSubject(picture), floor, light_field);
 }
 
 }  // namespace
+
+double AssumedSubject(const Image& picture) {
+  const double nearest = NearestDisparity(std::hypot(picture.width, picture.height));
+  return std::min(nearest, STARFOCUS_MAX_DISPARITY);
+}
 
 FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner) {
   if (map.width == width && map.height == height) return map;
@@ -262,7 +271,7 @@ FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo,
                                   const DepthOptions& options) {
   ApplyOrientation(photo);
-  if (Error error = JudgeMatte(where, photo)) return error;
+  if (Error error = JudgeMatte(where, options.is_frame, photo)) return error;
   const bool has_map = !photo->map.values.empty();
   LightField light_field;
   if (has_map) {

@@ -31,6 +31,9 @@ FloatMap Resize(const FloatMap& map, int width, int height, ThreadRunner* runner
 Result<LightField> MakePhotoField(const std::string& where, DepthPhoto* photo,
                                   const DepthOptions& options = {});
 
+// Returns the disparity of the subject in the light field of a photo without a map.
+double AssumedSubject(const Image& picture);
+
 // Resizes the disparity map of a one-view light field to the size of the view.
 void FitMap(LightField* light_field, ThreadRunner* runner = nullptr);
 

@@ -336,6 +336,21 @@ TEST_CASE("stored mattes: --near applies to masks only") {
   CHECK(Contains(error, "for --near, found a matte without depth"));
 }
 
+TEST_CASE("Dynamic Depth: a separate matte replaces the mask in the file without a word about it") {
+  if (!CanReadXmp()) return;
+  TempFolder folder;
+  const Image ramp = Ramp(kWidth, kHeight);
+  Write(folder.file("matte.png"), Encode(ramp, ".png"));
+  CaptureOptions options;
+  options.matte = folder.file("matte.png");
+  Capture capture;
+  REQUIRE(Open(Masked(ramp, "DepthMap:Format=\"x\"", false), &capture, options) == "");
+  CHECK(FactOf(capture, "mattes") == "");
+  CHECK(FactOf(capture, "matte picture") == options.matte);
+  CHECK(!HasNote(capture, "mask of the subject"));
+  CHECK(Apart(capture.matte, [](int x, int) { return x * 255 / (kWidth - 1); }) < 2);
+}
+
 TEST_CASE("Dynamic Depth: an empty or full mask is an error that names the file") {
   if (!CanReadXmp()) return;
   Capture capture;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus disparity: estimates or repairs a disparity map.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -93,9 +94,10 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   if (options.repair && options.range) {
     return Error::Usage("--repair", "no --range, because the map defines the range", "both");
   }
-  if (!options.repair && !options.coverage.empty()) {
-    return Error::Usage("--coverage", "--repair as well, because only a repair finds coverage",
-                        "no --repair");
+  const bool has_matte = !options.input.matte.empty() || !options.input.matte_command.line.empty();
+  if (!options.repair && !has_matte && !options.coverage.empty()) {
+    return Error::Usage("--coverage",
+                        "--repair or a matte as well, because only these give coverage", "neither");
   }
   if (options.out.empty() && HasDisparity(input)) {
     return Expected(plan.map, "no existing map, or another name by --output", "an existing map");
@@ -128,17 +130,30 @@ Result<DisparityEstimate> Estimate(const DisparityOptions& options, const Captur
 
 // Repairs the map of the input.
 Result<DisparityEstimate> Repair(const DisparityOptions& options, const Capture& capture) {
-  const LightField& light_field = capture.light_field;
-  Result<DisparityEstimate> estimate =
-      RepairDisparity(MapName(capture), light_field,
-                      {options.threads, !options.coverage.empty(), !options.confidence.empty()});
-  if (estimate && !options.coverage.empty() && estimate->coverage.empty()) {
-    TellLine(capture.path + ": no coverage is written: " +
-             (light_field.views.size() > 1
+  return RepairDisparity(MapName(capture), capture.light_field,
+                         {options.threads, !options.coverage.empty(), !options.confidence.empty()});
+}
+
+// Replaces the coverage that a repair has found by the coverage of a matte, if there is a matte.
+Error Cover(const DisparityOptions& options, Capture* capture, ThreadRunner* runner,
+            DisparityEstimate* estimate) {
+  if (options.coverage.empty()) return {};
+  if (capture->matte.alpha.empty()) {
+    if (!estimate->coverage.empty()) return {};
+    TellLine(capture->path + ": no coverage is written: " +
+             (capture->light_field.views.size() > 1
                   ? "only a repair with one view (--views 1) finds coverage"
                   : "the map has no hair with a closed outline"));
+    return {};
   }
-  return estimate;
+  LightField& light_field = capture->light_field;
+  if (!std::isfinite(capture->subject)) {
+    light_field.disparity = estimate->map;
+    const Error error = CoverByMatte(capture->path, capture->matte, runner, &light_field);
+    if (error) return error;
+  }
+  estimate->coverage = light_field.coverage;
+  return {};
 }
 
 // Returns the map of a photo that needs no repair.
@@ -211,10 +226,11 @@ Error Run(const DisparityOptions& options) {
   if (!capture) return capture.error();
   const double start = Seconds();
   const Work work = ChooseWork(options, *capture);
-  const Result<DisparityEstimate> estimate = work == Work::kEstimate ? Estimate(options, *capture)
-                                             : work == Work::kRepair ? Repair(options, *capture)
-                                                                     : Take(options, &*capture);
+  Result<DisparityEstimate> estimate = work == Work::kEstimate ? Estimate(options, *capture)
+                                       : work == Work::kRepair ? Repair(options, *capture)
+                                                               : Take(options, &*capture);
   if (!estimate) return estimate.error();
+  if (Error error = Cover(options, &*capture, &runner, &*estimate)) return error;
   const double seconds = Seconds() - start;
   const LightField& light_field = capture->light_field;
   if (Error error = WriteMap(options, *plan, light_field.views[0], *estimate)) return error;
@@ -265,8 +281,8 @@ Command DisparityCommand() {
            "for more certain; default: none",
            &options->confidence},
           {"--coverage", "FILE",
-           "With --repair and one view, picture to write of the coverage of hair with a "
-           "closed outline in the map; default: none",
+           "Picture to write of the coverage: that of the matte of a photo, or with --repair and "
+           "one view, that of hair with a closed outline in the map; default: none",
            &options->coverage},
           {"--repair", nullptr,
            "Repair the map of SRC instead of estimating a new one: displaced and blurred "

@@ -234,8 +234,8 @@ Error Run(const VideoOptions& options) {
     error = WriteText(options.report, report->Text(Seconds() - start));
   }
   if (error) return error;
-  TellLine(options.out + ": " + std::to_string(video.frames.size()) + " pictures, " +
-           LensText(*plan));
+  TellLine(options.out + ": " + std::to_string(video.frames.size()) +
+           (video.frames.size() == 1 ? " picture, " : " pictures, ") + LensText(*plan));
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 
@@ -34,8 +35,7 @@ const char* PhotoOption(const InputOptions& options) {
   if (options.map.unit != DepthUnit::kNone) return "--depth-unit";
   if (options.map.orientation != DepthOrientation::kUnknown) return "--depth-orientation";
   if (options.map.has_unknown) return "--unknown";
-  if (!options.matte.empty()) return "--matte";
-  return options.map.floor ? "--floor" : nullptr;
+  return options.matte.empty() ? nullptr : "--matte";
 }
 
 // Rejects pipes by name, such as the process substitution `<(cat photo.jpg)` of shells.
@@ -113,6 +113,13 @@ struct CommandRun {
   }
 };
 
+// Adds a note if --floor is given for an input that has depth or several views, as in a batch.
+void NoteUnusedFloor(Capture* capture) {
+  if (std::isfinite(capture->subject)) return;
+  capture->notes.push_back(std::string("--floor is not used, because the input has ") +
+                           (capture->photo ? "depth" : "several views"));
+}
+
 // Estimates a map from the loaded views.
 Error Estimate(int threads, Capture* capture) {
   LightField* light_field = &capture->light_field;
@@ -152,6 +159,7 @@ Result<Capture> ReadInput(const InputOptions& options) {
   if (!capture) return capture;
   depth.NoteUnused(capture->map_path.empty() ? "several views" : "depth", &*capture);
   matte.NoteUnused(capture->photo ? "a matte" : "several views", &*capture);
+  if (options.map.floor) NoteUnusedFloor(&*capture);
   if (!options.coverage.empty() || options.ignores_coverage) {
     capture->coverage_path = options.coverage;
     capture->light_field.coverage.clear();

@@ -65,7 +65,9 @@ void AddMatteOptions(Command* command, InputOptions* options) {
            ReadCommand(&options->matte_command), Use::kOptional, "--matte"},
           {"--floor", nullptr,
            "For a photo with a matte and without depth: the background comes nearer from the "
-           "middle of the picture downwards, and reaches the subject at its feet",
+           "middle of the subject or of the picture downwards, whichever is higher, and reaches "
+           "the "
+           "subject at its feet",
            &options->map.floor},
       },
       command);
@@ -152,8 +154,9 @@ void AddCoverageOption(Command* command, InputOptions* options) {
           {"--coverage", "FILE|none",
            "Picture of how much of each pixel the nearer surface covers, such as a "
            "matting network computes: its alpha channel, or grey levels with white for "
-           "full coverage; none ignores coverage.png of a light-field folder and the matte in a "
-           "photo, which are the default",
+           "full coverage; none ignores coverage.png of a light-field folder and the coverage of "
+           "the "
+           "matte in a photo, which are the default",
            Target([options](const std::string& text) {
              options->ignores_coverage = text == "none";
              options->coverage = options->ignores_coverage ? "" : text;

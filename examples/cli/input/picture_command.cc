@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/input/picture_command.h"
 
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "platform/depth_file.h"
@@ -72,6 +74,8 @@ Result<Samples> RunPictureCommand(const PictureCommand& command, const CommandIn
   }
   const Result<std::string> output = FindOutput(where, command, folder.path());
   if (!output) return output.error();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(*output, ignored)) return NoOutput(where, command, "a folder");
   if (CheckPlainFile(*output)) return NoOutput(where, command, "a device or pipe");
   const Result<Bytes> bytes = ReadFile(*output);
   if (!bytes) return bytes.error();

@@ -80,7 +80,12 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
     return Error::Usage("--widest", "--f-stop N as well", "no --f-stop");
   }
   ApertureChoice aperture;
-  aperture.photo = capture.photo;
+  if (capture.photo) {
+    aperture.remedy =
+        std::isfinite(capture.subject)
+            ? "a wider aperture by --f-stop or --aperture changes this"
+            : "another --depth-unit of a depth picture or a wider aperture changes this";
+  }
   if (capture.widest > 0) aperture.widest = capture.widest;
   if (capture.f_stop > 0) aperture.radius = capture.widest / capture.f_stop;
   if (options.aperture) aperture.radius = *options.aperture;
@@ -126,10 +131,9 @@ Error FitAperture(double range, ApertureChoice* aperture) {
 }
 
 void TellAperture(const std::string& path, const ApertureChoice& aperture) {
-  if (aperture.photo && aperture.blur < 1 && aperture.radius > 0) {
-    TellNote(path,
-             "the blur is below a pixel everywhere, at most " + ThreeDigits(aperture.blur) +
-                 " (another --depth-unit of a depth picture or a wider aperture changes this)");
+  if (!aperture.remedy.empty() && aperture.blur < 1 && aperture.radius > 0) {
+    TellNote(path, "the blur is below a pixel everywhere, at most " + ThreeDigits(aperture.blur) +
+                       " (" + aperture.remedy + ")");
   }
   if (!aperture.narrowed) return;
   TellNote(path, "aperture set to f/" + ThreeDigits(aperture.widest / aperture.radius) +

@@ -126,9 +126,7 @@ double SubjectDisparity(const Capture& capture) {
   constexpr int kGrid = 256, kCertain = 192, kLeastAlpha = 128;
   const FloatMap& map = capture.light_field.disparity;
   const Matte& matte = capture.matte;
-  if (capture.two_surfaces) {
-    return double(*std::max_element(map.values.begin(), map.values.end()));
-  }
+  if (std::isfinite(capture.subject)) return capture.subject;
   if (matte.alpha.empty()) return NAN;
   const double certain = MedianDisparity(matte, map, kGrid, kGrid, kCertain);
   if (std::isfinite(certain)) return certain;
@@ -140,7 +138,7 @@ double SubjectDisparity(const Capture& capture) {
 DefaultFocus FindDefaultFocus(const Capture& capture) {
   const FloatMap& map = capture.light_field.disparity;
   const DefaultFocus subject = {false, 0, 0, SubjectDisparity(capture), "the subject of the matte"};
-  if (capture.two_surfaces) return subject;
+  if (std::isfinite(capture.subject)) return subject;
   if (capture.has_subject) {
     return AtPixel(capture.subject_x, capture.subject_y, "the subject in the photo's EXIF");
   }

@@ -42,6 +42,7 @@ InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame) {
   one.path = frame.path;
   one.depth = frame.depth;
   one.matte = frame.matte;
+  one.map.is_frame = true;
   return one;
 }
 

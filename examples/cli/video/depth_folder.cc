@@ -196,8 +196,9 @@ Result<std::vector<std::string>> PairWithFolder(const std::vector<std::string>& 
   std::copy_if(depths->begin(), depths->end(), std::back_inserter(unused),
                [&](const std::string& name) { return used.count(name) == 0; });
   if (!unused.empty()) {
-    TellNote(folder, std::to_string(unused.size()) + " " + kind + "s belong to no frame, such as " +
-                         unused[0]);
+    TellNote(folder, unused.size() == 1 ? "the " + kind + " " + unused[0] + " belongs to no frame"
+                                        : std::to_string(unused.size()) + " " + kind +
+                                              "s belong to no frame, such as " + unused[0]);
   }
   for (std::string& name : *chosen) name = (fs::path(folder) / name).string();
   return chosen;

@@ -96,8 +96,9 @@ typedef struct starfocus_matte_depth {
  *  @param depth disparities of both surfaces
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
  *  @param region part of the picture to fill; null: the whole picture
- *  @param out receives the region: `disparity`, and `coverage` unless it is null. The function
- *         does not read or write `confidence`. The planes must not overlap the matte or each other
+ *  @param out receives the region: `disparity`, and `coverage` unless it is null. The pointers
+ *         point to the first pixel of the region, not of the picture. The function does not read or
+ *         write `confidence`. The planes must not overlap the matte or each other
  *  @return STARFOCUS_OK, or an error of the arguments */
 STARFOCUS_API starfocus_status starfocus_matte_field(const starfocus_matte* matte,
                                                      const starfocus_matte_depth* depth,
@@ -121,8 +122,9 @@ STARFOCUS_API starfocus_status starfocus_matte_field(const starfocus_matte* matt
  *         picture, and disparities within +-STARFOCUS_MAX_DISPARITY
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
  *  @param region part of the picture to fill; null: the whole picture
- *  @param out receives the region in `coverage`, which must not overlap the matte or the map. The
- *         function does not read or write the other planes
+ *  @param out receives the region in `coverage`, which points to the first pixel of the region and
+ *         must not overlap the matte or the map. The function does not read or write the other
+ *         planes
  *  @return STARFOCUS_OK, an error of the arguments, STARFOCUS_ERROR_DISPARITY or
  *          STARFOCUS_ERROR_NOT_FINITE */
 STARFOCUS_API starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
