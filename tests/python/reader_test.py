@@ -92,7 +92,7 @@ class Reader(unittest.TestCase):
         cutout = np.dstack([VIEWS[0], matte])
         for name, array in (("bytes", matte), ("words", np.uint16(matte) * 257), ("floats", np.float32(matte) / 255),
                             ("doubles", matte / 255), ("cutout", cutout), ("flipped", matte[::-1].copy()[::-1]),
-                            ("list", matte.tolist()), ("picture", Image.fromarray(matte)), ("axis", matte[..., None]),
+                            ("list", (matte / 255).tolist()), ("picture", Image.fromarray(matte)), ("axis", matte[..., None]),
                             ("batch", matte[None]), ("masked", np.ma.masked_equal(np.where(matte, matte, 7), 7))):
             with self.subTest(name):
                 same = starfocus.read_light_field("photo.png", matte=array)

@@ -146,7 +146,9 @@ def _as_file(name: str, value: Option, folder: str) -> Option:
     if plane.dtype == bool:
         plane = plane * np.uint8(255)
     if isinstance(plane, np.ma.MaskedArray):
-        plane = plane.filled(0) if name == "matte" else plane.astype(np.float32).filled(np.nan)
+        is_matte = name == "matte"
+        values = np.asarray(plane, None if is_matte else np.float32)
+        plane = np.where(np.asarray(plane.mask), values.dtype.type(0 if is_matte else np.nan), values)
     path = os.path.join(folder, f"{name}.npy")
     np.save(path, plane)
     return path
