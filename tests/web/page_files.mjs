@@ -157,7 +157,7 @@ test('opens depth photos of phones, with distances where they are known', async 
   assert.deepEqual(await focusTexts(), ['farthest', 'nearest']);
   await opened(/^Opened: depth photo apple\.jpg, 8 x 6/, sample('apple.jpg'));
   assert.match((await focusTexts()).join(), /^1 m away,0\.25 m away$/);
-  await opened(/^Opened: depth photo mattes\.jpg, 8 x 6/, sample('mattes.jpg'));  // a matte precedes the map
+  await andFull(() => openFiles(sample('mattes.jpg')));  // a matte precedes the map
   assert.match((await focusTexts()).join(), /^1 m away,0\.25 m away$/);
 });
 
