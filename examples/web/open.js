@@ -33,10 +33,11 @@ const signed = value => (value < 0 ? '-' : '+') + Math.abs(value).toFixed(1);
 const viewName = ([u, v]) => `view_${signed(u)}_${signed(v)}`;
 const stemOf = name => name.replace(/\.\w+$/, '');
 
-/** Returns the part of a file's name that states the kind of the file: the end, if all names begin with the stem of one of
- *  the files, the photo. */
+/** Returns the part of a file's name that states the kind of the file: the end, if the other names consist of the stem of
+ *  one of the files, the photo, and of an end with a separator. */
 function kindOf({name}, files) {
-  const stem = files.map(file => stemOf(file.name)).find(one => files.every(file => file.name.startsWith(one))) ?? '';
+  const begins = (file, stem) => file.name.startsWith(stem) && /^[-_. ]/.test(file.name.slice(stem.length));
+  const stem = files.map(file => stemOf(file.name)).find(one => files.every(file => begins(file, one))) ?? '';
   return name.slice(stem.length);
 }
 

@@ -30,6 +30,8 @@ std::string ArrayName(const ZipEntry& entry) {
   return entry.name.compare(at, length, kExtension) == 0 ? entry.name.substr(0, at) : "";
 }
 
+// A mask of booleans or a matrix is the map only if no other array has rows and columns. For a
+// matte, booleans are as likely as other values.
 bool IsSecondary(const NpyHeader& header, bool is_matte) {
   constexpr int64_t kMostMatrix = 4;
   return (header.type == "|b1" && !is_matte) ||
@@ -49,13 +51,17 @@ Error RejectArrays(const std::string& where, bool is_matte, const std::string& f
                       ".npy', numpy.load(FILE)['NAME']) writes one array)");
 }
 
-// Returns true if the name of an array states that it is the map or the matte.
-bool IsNamed(const std::string& name, bool is_matte) {
-  return is_matte ? name == "matte" || name == "alpha" : name == "depth";
+// Returns the array whose name states that it is the map or the matte, or null.
+const ZipEntry* FindNamed(const std::vector<Array>& arrays, bool is_matte) {
+  const std::vector<std::string> names =
+      is_matte ? std::vector<std::string>{"matte", "alpha"} : std::vector<std::string>{"depth"};
+  for (const std::string& name : names) {
+    for (const Array& array : arrays) {
+      if (Lower(array.name) == name) return array.entry;
+    }
+  }
+  return nullptr;
 }
-
-// A mask of booleans or a matrix is the map only if no other array has rows and columns. For a
-// matte, booleans are as likely as other values.
 
 // Finds the map among the arrays with rows and columns. Decompresses all arrays to read their
 // headers.
@@ -90,10 +96,7 @@ Result<Samples> DecodeNpz(const std::string& where, bool is_matte, const Bytes& 
     if (!name.empty()) arrays.push_back({std::move(name), &entry, false});
   }
   if (arrays.empty()) return RejectArrays(where, is_matte, "a ZIP archive without arrays");
-  const auto named = std::find_if(arrays.begin(), arrays.end(), [is_matte](const Array& array) {
-    return IsNamed(Lower(array.name), is_matte);
-  });
-  const ZipEntry* entry = named == arrays.end() ? nullptr : named->entry;
+  const ZipEntry* entry = FindNamed(arrays, is_matte);
   if (entry == nullptr) {
     if (Error error = ChooseArray(where, is_matte, npz, arrays).MoveTo(&entry)) return error;
   }

@@ -45,7 +45,7 @@ void Unite(FloatMap part, FloatMap* matte) {
 
 // Adds a note about a matte. If the photo has no depth, the note is the reason.
 void Ignore(const Error& error, DepthPhoto* photo) {
-  photo->notes.push_back(error.line());
+  photo->matte_notes.push_back(error.line());
   if (photo->map_problem.empty()) photo->map_problem = error.line();
 }
 

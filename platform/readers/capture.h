@@ -38,6 +38,7 @@ struct Capture {
   // Matte of a photo; empty: no matte. A photo without a map is a light field of two surfaces with
   // coverage. For a photo with a map, CoverByMatte makes the coverage when the map is final.
   Matte matte;
+  bool covers_by_matte = true;  // False: the coverage of `matte` is not used.
   double subject = NAN;  // Disparity of the subject if the map comes from the matte, otherwise NaN.
   MapSurvey survey;      // Figures of the map of a photo.
   double map_scale = 1;  // Factor that converts values in the file of the map to disparities.

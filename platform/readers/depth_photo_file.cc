@@ -122,6 +122,7 @@ Result<DepthPhoto> DecodeJpegPhoto(const std::string& where, Span file, bool wit
   if (with_map) {
     ReadMap(file, *parts, xmp, near, &appended, &*photo);
   } else if (HasDynamicDepth(xmp)) {
+    if (HasMask(xmp)) photo->facts.emplace_back("mattes", "ignored: mask of the subject");
     ReadDynamicOriginal(file, xmp, &appended, &*photo);
   }
   if (photo->matte.values.empty()) ReadAppleMattes(appended, &*photo);
@@ -137,8 +138,7 @@ enum class FileDepth { kMap, kPair, kMask, kMatte };
 
 // Returns an error if an option would override a property that the map in the photo states, or if
 // it does not apply because the photo has no depth picture. `has_matte` is true if the matte has a
-// file of its own.
-// For a mask of the subject in the photo, `near` states the shade of the subject.
+// file of its own. For a mask of the subject in the photo, `near` states the shade of the subject.
 Error CheckOptions(const std::string& path, const DepthOptions& options, FileDepth depth,
                    bool has_matte) {
   const bool has_near = depth == FileDepth::kMap || depth == FileDepth::kMask;
@@ -220,12 +220,14 @@ void KeepCaptions(DepthPhoto* photo) {
   photo->metadata.xmp = KeptXmp(*root);
 }
 
-// Adds a note that explains why the map in the file is not used, unless `photo` already has such a
-// note.
+// Adds a note that explains why the map in the file is not used, unless the notes contain the
+// problem itself.
 void NoteProblem(DepthPhoto* photo) {
   const std::string& problem = photo->map_problem;
-  const std::vector<std::string>& notes = photo->notes;
-  if (problem.empty() || std::find(notes.begin(), notes.end(), problem) != notes.end()) return;
+  if (problem.empty()) return;
+  for (const std::vector<std::string>& notes : {photo->notes, photo->matte_notes}) {
+    if (std::find(notes.begin(), notes.end(), problem) != notes.end()) return;
+  }
   photo->notes.push_back("the depth map in the file is ignored: " + problem);
 }
 
@@ -288,6 +290,12 @@ void JudgeMask(const PhotoFiles& files, DepthPhoto* photo) {
   photo->matte_notes.clear();
 }
 
+// Adds the notes about the mattes in the file, which no other matte replaces.
+void TellMatte(DepthPhoto* photo) {
+  std::move(photo->matte_notes.begin(), photo->matte_notes.end(), std::back_inserter(photo->notes));
+  photo->matte_notes.clear();
+}
+
 // Reads or computes the matte of a photo after FindDepth. Returns an error if the photo has neither
 // depth nor a matte.
 Error FindMatte(const std::string& path, const DepthOptions& options, const PhotoFiles& files,
@@ -295,8 +303,11 @@ Error FindMatte(const std::string& path, const DepthOptions& options, const Phot
   const std::string where = InputName(path);
   JudgeMask(files, photo);
   if (!photo->right.pixels.empty()) {
-    if (files.matte.empty()) return {};
-    return Expected(where, "a photo of one view for --matte", "a stereo pair");
+    if (!files.matte.empty()) {
+      return Expected(where, "a photo of one view for --matte", "a stereo pair");
+    }
+    TellMatte(photo);
+    return {};
   }
   Error error;
   if (!files.matte.empty()) {
@@ -304,8 +315,7 @@ Error FindMatte(const std::string& path, const DepthOptions& options, const Phot
   } else if (photo->matte.values.empty() && options.estimate_matte) {
     error = EstimateMatte(where, options, photo);
   } else {
-    std::move(photo->matte_notes.begin(), photo->matte_notes.end(),
-              std::back_inserter(photo->notes));
+    TellMatte(photo);
   }
   if (error || !photo->map.values.empty()) return error;
   if (photo->matte.values.empty()) return NoMap(where, photo->map_problem);

@@ -153,7 +153,9 @@ Error ReadItem(const XmpNode& xmp, const Items& items, bool mask, Near near, Dep
 
 }  // namespace
 
-bool HasDynamicDepth(const XmpNode& xmp) { return Describes(xmp, false) || Describes(xmp, true); }
+bool HasDynamicDepth(const XmpNode& xmp) { return Describes(xmp, false) || HasMask(xmp); }
+
+bool HasMask(const XmpNode& xmp) { return Describes(xmp, true); }
 
 Error ReadDynamicDepth(Span file, const XmpNode& xmp, Near near,
                        std::vector<AppendedPicture>* appended, DepthPhoto* photo) {

@@ -15,6 +15,9 @@ namespace starfocus {
 
 bool HasDynamicDepth(const XmpNode& xmp);
 
+// Returns true if the file stores a mask of the subject.
+bool HasMask(const XmpNode& xmp);
+
 // Reads the depth map of a Dynamic Depth file, or a mask of the subject as photo->matte if the file
 // has no readable depth map. photo->is_mask is then true, and the caller must decide whether the
 // photo needs the mask. The caller must have set photo->orientation. `near` applies only if

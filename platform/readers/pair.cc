@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kSeparators[] = "-_.", kDepth[] = "depth";
-constexpr const char* kExtensions[] = {".png", ".pgm",  ".pfm", ".jpg", ".jpeg",
-                                       ".tif", ".tiff", ".npy", ".npz", ".exr"};
+constexpr const char* kExtensions[] = {".png",  ".pgm", ".ppm",  ".webp", ".pfm", ".jpg",
+                                       ".jpeg", ".tif", ".tiff", ".npy",  ".npz", ".exr"};
 
 bool EndsIn(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;

@@ -22,10 +22,10 @@ bool IsDepthPictureName(const std::string& name);
 bool HasDepthExtension(const std::string& name);
 
 // Finds the depth pictures of photographs among the files of a folder, or mattes with the ending
-// "matte" instead of "depth". The depth picture of a
-// photograph NAME.jpg or NAME-image.jpg is named NAME-depth, NAME_depth or NAME.depth, with .png,
-// .pgm, .pfm, .jpg, .jpeg, .tif, .tiff, .npy, .npz or .exr, in upper or lower case. Files in the
-// format OpenEXR (.exr) are found so that their error states how to convert them.
+// "matte" instead of "depth". The depth picture of a photograph NAME.jpg or NAME-image.jpg is named
+// NAME-depth, NAME_depth or NAME.depth, with .png, .pgm, .ppm, .webp, .pfm, .jpg, .jpeg, .tif,
+// .tiff, .npy, .npz or .exr, in upper or lower case. Files in the format OpenEXR (.exr) are found
+// so that their error states how to convert them.
 class DepthPictures {
  public:
   DepthPictures() = default;

@@ -212,6 +212,12 @@ TEST_CASE("photos: the default focus is the EXIF subject, rotated and scaled lik
     if (photo.pixel != nullptr) CHECK(pixel == photo.pixel);
     Succeed(folder, "refocus a.jpg" + map + " -o at.png --focus-at " + pixel);
     CHECK(Text(folder.file("default.png")) == Text(folder.file("at.png")));
+    // With depth, a matte has precedence over the nearest surface only.
+    const Outcome matted = Call(folder, "refocus a.jpg" + map + " --matte a-depth.png -o m.png");
+    const bool in_exif = Contains(photo.origin, "the subject");
+    CHECK(Contains(matted.err, std::string("a.jpg: focused at ") +
+                                   (in_exif ? photo.origin : "the subject of the matte")));
+    if (in_exif) CHECK(!Contains(matted.err, "of the matte"));
   }
 }
 TEST_CASE("photos: the EXIF subject is kept only if the output has the same pixel grid") {

@@ -49,7 +49,8 @@ test('opens a picture with its matte, focused on the subject, as the program doe
   assert.equal(await focusText(), 'farthest');
   assertSameBytes(await shown(), refocusByProgram(centre, '--matte', path, '--focus-at', `${width - 9},5`, ...F_STOP));
   for (const files of [[file('cut-out.png', await makeMatte(4).toBuffer()), photo()], [photo('mask.png'), file('mask-alpha.png', await makeMatte(4).toBuffer())],
-                       [photo('no-depth.png'), file('no-depth-matte.png', grey)], [file('matte.png', grey), photo('display.png')]]) {
+                       [photo('no-depth.png'), file('no-depth-matte.png', grey)], [file('matte.png', grey), photo('display.png')],
+                       [photo('a.png'), file('alpha.png', grey)]]) {
     assertSameBytes(await openMatted(...files), near);
   }
 });

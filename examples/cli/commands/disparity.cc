@@ -94,10 +94,9 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
   if (options.repair && options.range) {
     return Error::Usage("--repair", "no --range, because the map defines the range", "both");
   }
-  const bool has_matte = !options.input.matte.empty() || !options.input.matte_command.line.empty();
-  if (!options.repair && !has_matte && !options.coverage.empty()) {
-    return Error::Usage("--coverage",
-                        "--repair or a matte as well, because only these give coverage", "neither");
+  if (!options.repair && !options.coverage.empty() && std::filesystem::is_directory(status)) {
+    return Error::Usage("--coverage", "--repair as well, because only a repair finds coverage",
+                        "no --repair");
   }
   if (options.out.empty() && HasDisparity(input)) {
     return Expected(plan.map, "no existing map, or another name by --output", "an existing map");
@@ -131,7 +130,8 @@ Result<DisparityEstimate> Estimate(const DisparityOptions& options, const Captur
 // Repairs the map of the input.
 Result<DisparityEstimate> Repair(const DisparityOptions& options, const Capture& capture) {
   return RepairDisparity(MapName(capture), capture.light_field,
-                         {options.threads, !options.coverage.empty(), !options.confidence.empty()});
+                         {options.threads, !options.coverage.empty() && capture.matte.alpha.empty(),
+                          !options.confidence.empty()});
 }
 
 // Replaces the coverage that a repair has found by the coverage of a matte, if there is a matte.

@@ -113,11 +113,16 @@ struct CommandRun {
   }
 };
 
+// Returns what makes a matte unnecessary: `of_photo`, or the views of a folder.
+std::string Present(const std::string& of_photo, const Capture& capture) {
+  return capture.photo ? of_photo : capture.files.size() > 1 ? "several views" : "a map";
+}
+
 // Adds a note if --floor is given for an input that has depth or several views, as in a batch.
 void NoteUnusedFloor(Capture* capture) {
   if (std::isfinite(capture->subject)) return;
-  capture->notes.push_back(std::string("--floor is not used, because the input has ") +
-                           (capture->photo ? "depth" : "several views"));
+  capture->notes.push_back("--floor is not used, because the input has " +
+                           Present("depth", *capture));
 }
 
 // Estimates a map from the loaded views.
@@ -158,12 +163,12 @@ Result<Capture> ReadInput(const InputOptions& options) {
   Result<Capture> capture = OpenCapture(options.path, wanted);
   if (!capture) return capture;
   depth.NoteUnused(capture->map_path.empty() ? "several views" : "depth", &*capture);
-  matte.NoteUnused(capture->photo ? "a matte" : "several views", &*capture);
+  matte.NoteUnused(Present("a matte", *capture), &*capture);
   if (options.map.floor) NoteUnusedFloor(&*capture);
   if (!options.coverage.empty() || options.ignores_coverage) {
     capture->coverage_path = options.coverage;
     capture->light_field.coverage.clear();
-    capture->matte = {};
+    capture->covers_by_matte = false;
   }
   return capture;
 }
@@ -202,7 +207,7 @@ Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
   // If the input provides coverage, keep this coverage instead of searching for coverage.
   LightField& light_field = capture->light_field;
   const bool has_coverage = !light_field.coverage.empty();
-  const bool has_matte = !capture->matte.alpha.empty();
+  const bool has_matte = capture->covers_by_matte && !capture->matte.alpha.empty();
   if (WillRepair(options, *capture)) {
     const bool covers = !has_coverage && !has_matte;
     Result<DisparityEstimate> repaired =

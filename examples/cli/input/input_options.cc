@@ -66,8 +66,7 @@ void AddMatteOptions(Command* command, InputOptions* options) {
           {"--floor", nullptr,
            "For a photo with a matte and without depth: the background comes nearer from the "
            "middle of the subject or of the picture downwards, whichever is higher, and reaches "
-           "the "
-           "subject at its feet",
+           "the subject at its feet",
            &options->map.floor},
       },
       command);
@@ -155,8 +154,7 @@ void AddCoverageOption(Command* command, InputOptions* options) {
            "Picture of how much of each pixel the nearer surface covers, such as a "
            "matting network computes: its alpha channel, or grey levels with white for "
            "full coverage; none ignores coverage.png of a light-field folder and the coverage of "
-           "the "
-           "matte in a photo, which are the default",
+           "the matte in a photo, which are the default",
            Target([options](const std::string& text) {
              options->ignores_coverage = text == "none";
              options->coverage = options->ignores_coverage ? "" : text;

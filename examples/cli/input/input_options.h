@@ -14,7 +14,7 @@ namespace starfocus {
 
 struct InputOptions {
   std::string path, depth, matte, right, coverage;
-  bool ignores_coverage = false;  // True: the coverage or the matte in the input is not used.
+  bool ignores_coverage = false;  // True: the coverage and the mattes in the input cover nothing.
   PictureCommand depth_command = {"depth", "depth picture"}, matte_command = {"matte", "matte"};
   int seconds = 600;  // time limit of a command
   DepthOptions map = {};

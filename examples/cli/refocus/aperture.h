@@ -26,7 +26,7 @@ struct ApertureChoice {
   std::string option;     // Option that set the radius; empty: the default.
   std::string value;      // Value of `option` as typed.
   bool narrowed = false;  // True if the default exceeded the blur limit and was reduced.
-  std::string remedy;     // What enlarges a blur below a pixel; empty for inputs with known scale.
+  std::string remedy;     // What enlarges a blur below a pixel; empty unless the input is a photo.
   double blur = 0;        // Largest blur radius in pixels; set by FitAperture.
 };
 

@@ -119,14 +119,13 @@ double MedianDisparity(const Matte& matte, const FloatMap& map, int columns, int
   return double(*middle);
 }
 
-// Returns the disparity of the subject of a photo with a matte. With a map, the result is the
-// median of the pixels that certainly belong to the subject, or of all its pixels if the subject is
-// small or uncertain. Returns NaN without a matte, or if the map is unknown there.
+// Returns the disparity of the subject of a photo with a matte and a map: the median of the pixels
+// that certainly belong to the subject, or of all its pixels if the subject is small or uncertain.
+// Returns NaN without a matte, or if the map is unknown there.
 double SubjectDisparity(const Capture& capture) {
   constexpr int kGrid = 256, kCertain = 192, kLeastAlpha = 128;
   const FloatMap& map = capture.light_field.disparity;
   const Matte& matte = capture.matte;
-  if (std::isfinite(capture.subject)) return capture.subject;
   if (matte.alpha.empty()) return NAN;
   const double certain = MedianDisparity(matte, map, kGrid, kGrid, kCertain);
   if (std::isfinite(certain)) return certain;
@@ -137,8 +136,10 @@ double SubjectDisparity(const Capture& capture) {
 
 DefaultFocus FindDefaultFocus(const Capture& capture) {
   const FloatMap& map = capture.light_field.disparity;
-  const DefaultFocus subject = {false, 0, 0, SubjectDisparity(capture), "the subject of the matte"};
-  if (std::isfinite(capture.subject)) return subject;
+  const auto at_subject = [](double disparity) -> DefaultFocus {
+    return {false, 0, 0, disparity, "the subject of the matte"};
+  };
+  if (std::isfinite(capture.subject)) return at_subject(capture.subject);
   if (capture.has_subject) {
     return AtPixel(capture.subject_x, capture.subject_y, "the subject in the photo's EXIF");
   }
@@ -148,7 +149,8 @@ DefaultFocus FindDefaultFocus(const Capture& capture) {
   if (std::isfinite(capture.focus)) {
     return {false, 0, 0, capture.focus, "the focus distance stored in the file"};
   }
-  if (std::isfinite(subject.disparity)) return subject;
+  const double subject = SubjectDisparity(capture);
+  if (std::isfinite(subject)) return at_subject(subject);
   const Image& picture = capture.light_field.views[0];
   DefaultFocus focus = FindSurface(map);
   focus.x = Scaled(focus.x, map.width, picture.width);

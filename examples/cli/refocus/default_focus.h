@@ -19,7 +19,8 @@ struct DefaultFocus {
 // Returns the subject of the matte if the photo has no depth. Otherwise returns, in this order of
 // preference, the subject in EXIF, the focus stored in the file, the subject of the matte, or the
 // result of FindSurface. The disparity of the subject is the median of the map where alpha is at
-// least 3/4, or 1/2 if no pixel has 3/4. Coordinates are pixels of the picture. The map must be
+// least 3/4, or 1/2 if none of 256x256 places has
+// 3/4. Coordinates are pixels of the picture. The map must be
 // loaded. The map may contain unknown values and may differ in size from the picture.
 DefaultFocus FindDefaultFocus(const Capture& capture);
 

@@ -129,7 +129,8 @@ def read_pfm(path: AnyPath) -> Floats:
 
 def _as_file(name: str, value: Option, folder: str) -> Option:
     """Writes an array to a file in `folder`, and returns its path. Returns other values as they are."""
-    if not isinstance(value, (list, tuple)) and not hasattr(value, "__array_interface__"):
+    is_array = hasattr(value, "__array__") or hasattr(value, "__array_interface__")
+    if not is_array and not isinstance(value, (list, tuple)):
         return value
     array = plane = np.asanyarray(value)
     if array.ndim == 0:

@@ -16,9 +16,9 @@ function fail(field, expected, found, value) {
  *  Uint8Array.from() with a function. */
 function alphaOf(data) {
   const alpha = new Uint8Array(data.length / 4);
-  let least = 255;
-  for (let i = 0; i < alpha.length; ++i) least &= alpha[i] = data[4 * i + 3];
-  return least === 255 ? null : alpha;
+  let common = 255;
+  for (let i = 0; i < alpha.length; ++i) common &= alpha[i] = data[4 * i + 3];
+  return common === 255 ? null : alpha;
 }
 
 /** Returns the levels of a grey picture with `channels` bytes per pixel. */
