@@ -22,6 +22,16 @@ VIEWS = [starfocus.read_picture(FOLDER / f"{name}.png") for name in NAMES]
 DISPARITY = starfocus.read_pfm(FOLDER / "disparity.pfm")
 
 
+class Tensor:
+    """Converts itself to an array, as tensors of networks do."""
+
+    def __init__(self, values):
+        self.values = values
+
+    def __array__(self, *_, **__):
+        return self.values
+
+
 class Reader(unittest.TestCase):
     """Each test starts in an empty folder, which is also the folder of temporary files."""
 
@@ -93,7 +103,7 @@ class Reader(unittest.TestCase):
         for name, array in (("bytes", matte), ("words", np.uint16(matte) * 257), ("floats", np.float32(matte) / 255),
                             ("doubles", matte / 255), ("cutout", cutout), ("flipped", matte[::-1].copy()[::-1]),
                             ("list", (matte / 255).tolist()), ("picture", Image.fromarray(matte)), ("axis", matte[..., None]),
-                            ("batch", matte[None]), ("masked", np.ma.masked_equal(np.where(matte, matte, 7), 7))):
+                            ("batch", matte[None]), ("tensor", Tensor(matte)), ("masked", np.ma.masked_equal(np.where(matte, matte, 7), 7))):
             with self.subTest(name):
                 same = starfocus.read_light_field("photo.png", matte=array)
                 np.testing.assert_array_equal(same.coverage, matte)
