@@ -370,7 +370,8 @@ test('an open refocuser does not keep node running, and pictures need no browser
 });
 
 test('without SIMD: one sentence', {skip: process.arch !== 'x64'}, () => {
-  const script = `import('starfocus').then(({createRefocuser}) => createRefocuser(${JSON.stringify(options)}))`;
-  assert.throws(() => execFileSync(process.execPath, ['--no-enable-sse4-1', '-e', script], {stdio: 'pipe'}),
-                /WebAssembly has no SIMD here/);
+  // For an error that is not caught, node prints 300 kB of the package, which may be cut.
+  const script = `import('starfocus').then(({createRefocuser}) => createRefocuser(${JSON.stringify(options)}))
+                      .catch(error => console.log(error.message))`;
+  assert.match(String(execFileSync(process.execPath, ['--no-enable-sse4-1', '-e', script])), /WebAssembly has no SIMD here/);
 });
