@@ -52,8 +52,12 @@ SurfaceSearch::SurfaceSearch(const GivenDisparities& around) : around_(around) {
     for (int32_t x = kRampReach; x < kSide - kRampReach; ++x) {
       const int32_t at = y * kSide + x;
       on_ramp_[at] = IsBetweenNeighbours(around.disparity + at);
-      if (on_ramp_[at]) continue;
-      cells_[y / kCellSide * kCells + x / kCellSide].Add(around.disparity[at]);
+      Cell& cell = cells_[y / kCellSide * kCells + x / kCellSide];
+      if (on_ramp_[at]) {
+        cell.has_ramp = true;
+      } else {
+        cell.Add(around.disparity[at]);
+      }
     }
   }
   for (const Cell& cell : cells_) {
@@ -72,6 +76,12 @@ uint32_t SurfaceSearch::LeastRank(const Target& target, int32_t column, int32_t 
                 top = Max(row * kCellSide, target.y - kGivenReach),
                 bottom = Min(row * kCellSide + kCellSide - 1, target.y + kGivenReach);
   const int32_t nearest = DistanceTo(left, right, target.x);
+  if (!cell.has_ramp && cell.least >= target.low && cell.greatest <= target.high) {
+    // All pixels of the cell match, and the nearest one has the lowest rank.
+    const uint32_t here =
+        RankOf(Clamp(target.x, left, right) - target.x, Clamp(target.y, top, bottom) - target.y);
+    return here < rank ? here : rank;
+  }
   for (int32_t y = top; y <= bottom; ++y) {
     const int32_t dy = y - target.y;
     if (nearest * nearest + dy * dy > DistanceOf(rank)) continue;

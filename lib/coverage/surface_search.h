@@ -56,6 +56,7 @@ class SurfaceSearch {
   // Range of the disparities of a cell, without pixels on ramps; empty if least > greatest.
   struct Cell {
     int16_t least = INT16_MAX, greatest = INT16_MIN;
+    bool has_ramp = false;
 
     void Add(int16_t disparity) {
       if (disparity < least) least = disparity;
