@@ -96,7 +96,8 @@ Strand Fur(Dice dice) {
           kPerson};
 }
 
-// Adds a person of one disparity. Of surfaces with equal disparities, the first one is visible.
+// Adds a person of one disparity. Where surfaces of equal disparity overlap, the first one is
+// visible.
 void AddPerson(uint32_t seed, std::vector<Surface>* out) {
   const Material knit = {PaintKnit, {186, 44, 44}, {238, 226, 206}, 1.15, 701};
   const Material brim = {PaintKnit, {238, 226, 206}, {214, 196, 170}, 1.3, 702};

@@ -49,7 +49,7 @@ export function keepOpened(key, opened) {
   return inStore('readwrite', store => store.put({key, ...opened}, LAST)).catch(() => {});
 }
 
-/** Returns what was kept with this key, or null. */
+/** Returns the files and the matte that were kept with this key, or null. */
 export async function findOpened(key) {
   const kept = await inStore('readonly', store => store.get(LAST)).catch(() => null);
   return kept?.key === key ? kept : null;
