@@ -9,7 +9,7 @@
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/view_psf.h"
 #include "lib/base/fixed.h"
-#include "lib/base/view_weights.h"
+#include "lib/optics/view_weights.h"
 #include "lib/slices/slice_plane.h"
 
 namespace starfocus::analysis {

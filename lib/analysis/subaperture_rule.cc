@@ -7,7 +7,7 @@
 #include "lib/analysis/ideal.h"
 #include "lib/analysis/selection.h"
 #include "lib/analysis/view_psf.h"
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 
 namespace starfocus::analysis {
 

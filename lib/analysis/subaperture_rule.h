@@ -10,7 +10,7 @@
 
 namespace starfocus::analysis {
 
-// ViewsBySubaperture in lib/base/rules.h implements the rule for subapertures. Up to a radius of
+// ViewsBySubaperture in lib/optics/rules.h implements the rule for subapertures. Up to a radius of
 // half a pixel, the ideal PSF (4) is the unit impulse, so the centre view alone is exact. For
 // larger radii, the SSE (8) meets two limits at every r <= r_max. The first limit is an SSE of
 // 10^-3. The second limit is the larger of two values for the paper's PSF with N from (9): the SSE

@@ -7,7 +7,7 @@
 
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/ideal.h"
-#include "lib/base/view_weights.h"
+#include "lib/optics/view_weights.h"
 
 namespace starfocus::analysis {
 namespace {

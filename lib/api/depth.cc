@@ -5,10 +5,10 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/base/features.h"
-#include "lib/base/view_set.h"
 #include "lib/depth/colour_repair.h"
 #include "lib/depth/converted_field.h"
 #include "lib/depth/repair.h"
+#include "lib/optics/view_set.h"
 
 namespace starfocus {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/api/validate.h"
 
-#include "lib/base/view_set.h"
 #include "lib/engine/engine.h"
+#include "lib/optics/view_set.h"
 
 namespace starfocus {
 namespace {

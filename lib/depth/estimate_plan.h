@@ -9,7 +9,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
-#include "lib/base/view_set.h"
+#include "lib/optics/view_set.h"
 #include "starfocus/depth.h"
 
 namespace starfocus {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/depth/soft_edges.h"
 
-#include "lib/base/view_set.h"
+#include "lib/optics/view_set.h"
 
 namespace starfocus {
 namespace {

@@ -2,9 +2,9 @@
 #include "lib/engine/layout.h"
 
 #include "lib/base/features.h"
-#include "lib/base/rules.h"
 #include "lib/engine/stripe_coverage.h"
 #include "lib/input/block_pixels.h"
+#include "lib/optics/rules.h"
 
 namespace starfocus {
 namespace {

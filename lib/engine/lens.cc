@@ -5,10 +5,10 @@
 #include <cstring>
 
 #include "lib/base/problem.h"
-#include "lib/base/rules.h"
-#include "lib/base/view_grid.h"
-#include "lib/base/view_set.h"
 #include "lib/filter/blur.h"
+#include "lib/optics/rules.h"
+#include "lib/optics/view_grid.h"
+#include "lib/optics/view_set.h"
 
 namespace starfocus {
 namespace {

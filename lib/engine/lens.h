@@ -7,10 +7,10 @@
 
 #include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
-#include "lib/base/view_weights.h"
 #include "lib/engine/borders.h"
 #include "lib/engine/tables.h"
 #include "lib/filter/deblock.h"
+#include "lib/optics/view_weights.h"
 #include "lib/plan/block_stats.h"
 #include "starfocus/starfocus.h"
 

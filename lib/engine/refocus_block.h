@@ -6,11 +6,11 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/base/view_grid.h"
 #include "lib/engine/lens.h"
 #include "lib/engine/scratch.h"
 #include "lib/engine/tables.h"
 #include "lib/input/window.h"
+#include "lib/optics/view_grid.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/partition.h"
 #include "simd/kernels.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/stripe_layers.h"
 
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 
 namespace starfocus {
 namespace {

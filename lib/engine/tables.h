@@ -7,9 +7,9 @@
 
 #include "lib/base/call_progress.h"
 #include "lib/base/features.h"
-#include "lib/base/rules.h"
-#include "lib/base/view_weights.h"
 #include "lib/filter/blur.h"
+#include "lib/optics/rules.h"
+#include "lib/optics/view_weights.h"
 #include "lib/plan/renderer.h"
 #include "starfocus/starfocus.h"
 

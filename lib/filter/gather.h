@@ -9,9 +9,9 @@
 #include <cstdint>
 
 #include "lib/base/call_progress.h"
-#include "lib/base/rules.h"
 #include "lib/filter/blur.h"
 #include "lib/input/block_pixels.h"
+#include "lib/optics/rules.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/gathered_cells.h"
 #include "simd/kernels.h"

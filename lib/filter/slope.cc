@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/filter/slope.h"
 
-#include "lib/base/aperture_shape.h"
+#include "lib/optics/opening.h"
 
 namespace starfocus {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "lib/base/geometry.h"
 #include "lib/base/transfer.h"
-#include "lib/base/view_set.h"
+#include "lib/optics/view_set.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

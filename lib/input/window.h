@@ -10,8 +10,8 @@
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/transfer.h"
-#include "lib/base/view_set.h"
 #include "lib/input/view_reader.h"
+#include "lib/optics/view_set.h"
 
 namespace starfocus {
 

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "lib/base/view_grid.h"
 #include "lib/input/window.h"
 #include "lib/line_scan/line_scan.h"
+#include "lib/optics/view_grid.h"
 
 namespace starfocus {
 

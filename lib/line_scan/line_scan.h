@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
-#include "lib/base/view_grid.h"
 #include "lib/line_scan/runs.h"
+#include "lib/optics/view_grid.h"
 
 namespace starfocus {
 

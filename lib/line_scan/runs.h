@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/view_grid.h"
+#include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

@@ -3,9 +3,9 @@
 #ifndef STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 #define STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 
-#include "lib/base/view_grid.h"
 #include "lib/input/block_pixels.h"
 #include "lib/input/window.h"
+#include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

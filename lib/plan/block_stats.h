@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/focus_range.h"
 #include "lib/base/geometry.h"
 #include "lib/input/window.h"
+#include "lib/optics/focus_range.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

@@ -4,9 +4,9 @@
 #ifndef STARFOCUS_LIB_SLICES_MATTE_H_
 #define STARFOCUS_LIB_SLICES_MATTE_H_
 
-#include "lib/base/view_grid.h"
 #include "lib/input/block_pixels.h"
 #include "lib/input/window.h"
+#include "lib/optics/view_grid.h"
 #include "lib/slices/layered_depth.h"
 
 namespace starfocus {

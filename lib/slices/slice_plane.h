@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/base/view_grid.h"
+#include "lib/optics/view_grid.h"
 #include "lib/slices/layered_depth.h"
 #include "lib/slices/slice.h"
 #include "simd/kernels.h"

@@ -5,7 +5,7 @@
 
 #include "lib/base/geometry.h"
 #include "lib/base/problem.h"
-#include "lib/base/view_set.h"
+#include "lib/optics/view_set.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

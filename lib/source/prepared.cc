@@ -3,9 +3,9 @@
 
 #include <new>
 
-#include "lib/base/view_set.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe_layers.h"
+#include "lib/optics/view_set.h"
 
 namespace starfocus {
 namespace {

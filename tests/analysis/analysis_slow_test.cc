@@ -15,8 +15,8 @@
 #include "lib/analysis/subaperture_rule.h"
 #include "lib/analysis/subsampled.h"
 #include "lib/analysis/view_psf.h"
-#include "lib/base/rules.h"
-#include "lib/base/view_weights.h"
+#include "lib/optics/rules.h"
+#include "lib/optics/view_weights.h"
 
 namespace starfocus::analysis::analysis_slow_test {
 namespace {

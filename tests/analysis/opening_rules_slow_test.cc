@@ -9,7 +9,7 @@
 #include "lib/analysis/opening.h"
 #include "lib/analysis/selection.h"
 #include "lib/analysis/subsampled.h"
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 
 namespace starfocus::opening_rules_slow_test {
 namespace {

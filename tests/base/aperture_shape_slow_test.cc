@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/base/aperture_shape.h"
-#include "lib/base/view_weights.h"
 #include "lib/filter/blur.h"
+#include "lib/optics/opening.h"
+#include "lib/optics/view_weights.h"
 #include "tests/conformance/reference_opening.h"
 #include "tests/support/shapes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the rules for N and the layer at, just below and just above every step.
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 
 #include <doctest/doctest.h>
 

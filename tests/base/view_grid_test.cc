@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the shifts of pixels from view to view with u * (d - d_t) in double precision.
-#include "lib/base/view_grid.h"
+#include "lib/optics/view_grid.h"
 
 #include <doctest/doctest.h>
 

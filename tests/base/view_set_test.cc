@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the positions of captured views, and the choice of views that see behind edges on each
 // side.
-#include "lib/base/view_set.h"
+#include "lib/optics/view_set.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the integer weights with the aperture (3) in double precision.
-#include "lib/base/view_weights.h"
+#include "lib/optics/view_weights.h"
 
 #include <doctest/doctest.h>
 

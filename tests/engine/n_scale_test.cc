@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/integer_scene.h"
 #include "tests/support/psnr.h"

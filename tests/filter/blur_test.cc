@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/base/view_weights.h"
+#include "lib/optics/view_weights.h"
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference_blur.h"
 #include "tests/support/shapes.h"

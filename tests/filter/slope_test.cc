@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/base/aperture_shape.h"
+#include "lib/optics/opening.h"
 #include "tests/plan/measured_cells.h"
 
 namespace slope_test {

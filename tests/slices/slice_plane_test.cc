@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "lib/base/view_set.h"
 #include "lib/input/window.h"
+#include "lib/optics/view_set.h"
 
 namespace test {
 

@@ -7,7 +7,7 @@
 #include "examples/lab/analyze/figures.h"
 #include "lib/analysis/engine_steps.h"
 #include "lib/analysis/selection.h"
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 #include "platform/file.h"
 #include "platform/progress.h"
 

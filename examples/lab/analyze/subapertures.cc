@@ -8,7 +8,7 @@
 #include "lib/analysis/aperture.h"
 #include "lib/analysis/selection.h"
 #include "lib/analysis/subaperture_rule.h"
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 #include "platform/progress.h"
 
 namespace starfocus {

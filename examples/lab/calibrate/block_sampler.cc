@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 #include "lib/plan/block_stats.h"
 
 namespace starfocus {

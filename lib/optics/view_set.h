@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Positions of the captured views, and the choice of views that see behind depth edges.
-#ifndef STARFOCUS_LIB_BASE_VIEW_SET_H_
-#define STARFOCUS_LIB_BASE_VIEW_SET_H_
+#ifndef STARFOCUS_LIB_OPTICS_VIEW_SET_H_
+#define STARFOCUS_LIB_OPTICS_VIEW_SET_H_
 
 #include <cstdint>
 
@@ -97,4 +97,4 @@ constexpr int32_t ScaledByView(int32_t position, int32_t distance, int bits) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_VIEW_SET_H_
+#endif  // STARFOCUS_LIB_OPTICS_VIEW_SET_H_

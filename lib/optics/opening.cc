@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/aperture_shape.h"
+#include "lib/optics/opening.h"
 
 #include <cmath>
 #include <cstring>

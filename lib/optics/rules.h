@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules that choose the number of views and the layer for a blur radius.
-#ifndef STARFOCUS_LIB_BASE_RULES_H_
-#define STARFOCUS_LIB_BASE_RULES_H_
+#ifndef STARFOCUS_LIB_OPTICS_RULES_H_
+#define STARFOCUS_LIB_OPTICS_RULES_H_
 
 #include <cstdint>
 
-#include "lib/base/aperture_shape.h"
+#include "lib/optics/opening.h"
 
 namespace starfocus {
 
@@ -20,7 +20,7 @@ Demand DemandOf(const ApertureShape& opening);
 int32_t ViewsByPaper(double r_max);
 
 // Returns N for views that each represent a subaperture: the radius of the lens in subapertures
-// (LensInSubapertures of lib/base/view_weights.h), rounded up. At r_max and at every smaller
+// (LensInSubapertures of lib/optics/view_weights.h), rounded up. At r_max and at every smaller
 // radius, the error of the PSF is at most the error with N from (9).
 // lib/analysis/subaperture_rule.h states the criterion. r_max is in [0, 128] pixels:
 //
@@ -57,4 +57,4 @@ constexpr double LargestGather(double r_max) { return r_max < kMaxGather ? r_max
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_RULES_H_
+#endif  // STARFOCUS_LIB_OPTICS_RULES_H_

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integer weights of the rendered views: the aperture (3) or another opening, sampled on the grid
 // of the views.
-#ifndef STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
-#define STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
+#ifndef STARFOCUS_LIB_OPTICS_VIEW_WEIGHTS_H_
+#define STARFOCUS_LIB_OPTICS_VIEW_WEIGHTS_H_
 
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/aperture_shape.h"
 #include "lib/base/fixed.h"
+#include "lib/optics/opening.h"
 
 namespace starfocus {
 
@@ -118,4 +118,4 @@ ViewWeights MakeCatsEye(const ViewWeights& whole, const ApertureShape& opening,
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_VIEW_WEIGHTS_H_
+#endif  // STARFOCUS_LIB_OPTICS_VIEW_WEIGHTS_H_

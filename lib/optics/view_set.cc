@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/view_set.h"
+#include "lib/optics/view_set.h"
 
 #include <initializer_list>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Range of disparities in focus. A point is blurred, and moves from view to view, by its distance
 // from this range. A lens with a single disparity in focus has far == near.
-#ifndef STARFOCUS_LIB_BASE_FOCUS_RANGE_H_
-#define STARFOCUS_LIB_BASE_FOCUS_RANGE_H_
+#ifndef STARFOCUS_LIB_OPTICS_FOCUS_RANGE_H_
+#define STARFOCUS_LIB_OPTICS_FOCUS_RANGE_H_
 
 #include <cmath>
 #include <cstdint>
@@ -41,4 +41,4 @@ inline FocusRange MakeFocusRange(double focus, double nearer = 0, double farther
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_FOCUS_RANGE_H_
+#endif  // STARFOCUS_LIB_OPTICS_FOCUS_RANGE_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/view_grid.h"
+#include "lib/optics/view_grid.h"
 
 namespace starfocus {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opening of a lens: the part of the lens disc that lets light through. The lens setup derives the
-// opening from a starfocus_lens, and lib/base/view_weights.h derives the weights of the views from
-// the opening. The parameters are rounded once; the weights are then computed in integers, so that
-// every machine gets the same weights.
-#ifndef STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
-#define STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
+// opening from a starfocus_lens, and lib/optics/view_weights.h derives the weights of the views
+// from the opening. The parameters are rounded once; the weights are then computed in integers, so
+// that every machine gets the same weights.
+#ifndef STARFOCUS_LIB_OPTICS_OPENING_H_
+#define STARFOCUS_LIB_OPTICS_OPENING_H_
 
 #include <cstdint>
 
@@ -115,4 +115,4 @@ constexpr int64_t ShareOfPoints(int64_t left, int64_t points, bool by_size) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_APERTURE_SHAPE_H_
+#endif  // STARFOCUS_LIB_OPTICS_OPENING_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/rules.h"
+#include "lib/optics/rules.h"
 
 #include <cstddef>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grid of the rendered views of one lens: N, the weights of the views, and the displacement of
 // pixels between views.
-#ifndef STARFOCUS_LIB_BASE_VIEW_GRID_H_
-#define STARFOCUS_LIB_BASE_VIEW_GRID_H_
+#ifndef STARFOCUS_LIB_OPTICS_VIEW_GRID_H_
+#define STARFOCUS_LIB_OPTICS_VIEW_GRID_H_
 
 #include <cstdint>
 
 #include "lib/base/fixed.h"
-#include "lib/base/focus_range.h"
-#include "lib/base/view_weights.h"
+#include "lib/optics/focus_range.h"
+#include "lib/optics/view_weights.h"
 
 namespace starfocus {
 
@@ -44,4 +44,4 @@ ViewGrid MakeViewGrid(const ViewWeights& aperture, const FocusRange& focus, doub
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_VIEW_GRID_H_
+#endif  // STARFOCUS_LIB_OPTICS_VIEW_GRID_H_
