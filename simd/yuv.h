@@ -11,7 +11,7 @@
 
 namespace starfocus::simd {
 
-// Coefficients of a YUV format, as computed by lib/convert/yuv_matrix.h.
+// Coefficients of a YUV format, as computed by lib/io/yuv_matrix.h.
 struct YuvMatrix {
   int16_t black;           // Luma of black: 16 or 0.
   int16_t y;               // Coefficient from luma to R, G and B, 14 fractional bits.

@@ -5,7 +5,7 @@
 
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
-#include "lib/source/extents.h"
+#include "lib/io/extents.h"
 #include "lib/source/prepared.h"
 
 namespace starfocus {

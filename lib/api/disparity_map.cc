@@ -5,8 +5,8 @@
 
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
-#include "lib/base/gaps.h"
-#include "lib/convert/depth_values.h"
+#include "lib/io/depth_values.h"
+#include "lib/io/gaps.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -5,10 +5,10 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/base/fixed.h"
-#include "lib/base/gaps.h"
-#include "lib/convert/depth_values.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/lens.h"
+#include "lib/io/depth_values.h"
+#include "lib/io/gaps.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -5,7 +5,7 @@
 #include "lib/api/preview.h"
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
-#include "lib/base/rows.h"
+#include "lib/io/rows.h"
 #include "lib/source/light_field.h"
 #include "lib/source/picture_output.h"
 #include "starfocus/starfocus.h"

@@ -3,10 +3,10 @@
 
 #include "lib/api/validate.h"
 #include "lib/base/features.h"
-#include "lib/base/gaps.h"
-#include "lib/base/rows.h"
-#include "lib/convert/depth_values.h"
-#include "lib/convert/image_planes.h"
+#include "lib/io/depth_values.h"
+#include "lib/io/gaps.h"
+#include "lib/io/image_planes.h"
+#include "lib/io/rows.h"
 
 namespace starfocus {
 namespace {

@@ -4,7 +4,7 @@
 #define STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_
 
 #include "lib/coverage/coverage_map.h"
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "lib/convert/matte_rows.h"
 #include "lib/coverage/surface_search.h"
+#include "lib/io/matte_rows.h"
 
 namespace starfocus {
 namespace {

@@ -5,7 +5,7 @@
 #ifndef STARFOCUS_LIB_COVERAGE_MATTE_COVERAGE_H_
 #define STARFOCUS_LIB_COVERAGE_MATTE_COVERAGE_H_
 
-#include "lib/convert/depth_rows.h"
+#include "lib/io/depth_rows.h"
 #include "starfocus/matte.h"
 
 namespace starfocus {

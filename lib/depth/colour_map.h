@@ -9,9 +9,9 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
-#include "lib/base/rows.h"
 #include "lib/depth/estimate_plan.h"
 #include "lib/depth/map_rows.h"
+#include "lib/io/rows.h"
 #include "simd/colours.h"
 
 namespace starfocus {

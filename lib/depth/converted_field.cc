@@ -5,9 +5,9 @@
 
 #include "lib/base/arena.h"
 #include "lib/base/fixed.h"
-#include "lib/base/rows.h"
-#include "lib/convert/depth_rows.h"
-#include "lib/convert/image_rows.h"
+#include "lib/io/depth_rows.h"
+#include "lib/io/image_rows.h"
+#include "lib/io/rows.h"
 
 namespace starfocus {
 namespace {

@@ -4,11 +4,11 @@
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
-#include "lib/base/rows.h"
 #include "lib/depth/estimate_clean.h"
 #include "lib/depth/phases.h"
 #include "lib/depth/side_maps.h"
 #include "lib/depth/sweep.h"
+#include "lib/io/rows.h"
 
 namespace starfocus {
 namespace {

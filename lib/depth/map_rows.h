@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/rows.h"
+#include "lib/io/rows.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

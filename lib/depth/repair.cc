@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "lib/base/fixed.h"
-#include "lib/base/rows.h"
 #include "lib/depth/phases.h"
 #include "lib/depth/repair_map.h"
 #include "lib/depth/sweep.h"
 #include "lib/depth/swept.h"
 #include "lib/depth/thin_cells.h"
+#include "lib/io/rows.h"
 #include "simd/disparities.h"
 
 namespace starfocus {

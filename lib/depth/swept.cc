@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
-#include "lib/base/rows.h"
+#include "lib/io/rows.h"
 #include "simd/disparities.h"
 #include "simd/match.h"
 

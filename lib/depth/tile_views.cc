@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "lib/base/fixed.h"
-#include "lib/base/rows.h"
+#include "lib/io/rows.h"
 
 namespace starfocus {
 namespace {

@@ -5,10 +5,10 @@
 #include "lib/base/fixed.h"
 #include "lib/coverage/passes.h"
 #include "lib/filter/deblock.h"
-#include "lib/filter/layers.h"
 #include "lib/input/boundary_pixel.h"
-#include "lib/input/excess.h"
-#include "lib/input/picture_edge.h"
+#include "lib/io/excess.h"
+#include "lib/io/layers.h"
+#include "lib/io/picture_edge.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/block_stats.h"
 

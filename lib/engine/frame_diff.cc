@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
-#include "lib/base/gaps.h"
-#include "lib/base/rows.h"
+#include "lib/io/gaps.h"
+#include "lib/io/rows.h"
 
 namespace starfocus {
 namespace {

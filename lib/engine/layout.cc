@@ -3,7 +3,7 @@
 
 #include "lib/base/features.h"
 #include "lib/engine/stripe_coverage.h"
-#include "lib/input/block_pixels.h"
+#include "lib/io/block_pixels.h"
 #include "lib/optics/rules.h"
 
 namespace starfocus {

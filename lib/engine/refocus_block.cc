@@ -3,9 +3,9 @@
 
 #include <cstring>
 
-#include "lib/filter/add_excess.h"
 #include "lib/filter/gather.h"
-#include "lib/input/excess.h"
+#include "lib/io/add_excess.h"
+#include "lib/io/excess.h"
 
 namespace starfocus {
 namespace {

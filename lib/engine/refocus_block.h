@@ -9,7 +9,7 @@
 #include "lib/engine/lens.h"
 #include "lib/engine/scratch.h"
 #include "lib/engine/tables.h"
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 #include "lib/optics/view_grid.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/partition.h"

@@ -5,8 +5,8 @@
 
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
-#include "lib/base/gaps.h"
 #include "lib/engine/borders.h"
+#include "lib/io/gaps.h"
 #include "simd/depth_values.h"
 
 namespace starfocus {

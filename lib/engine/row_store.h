@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/filter/layers.h"
-#include "lib/input/window.h"
+#include "lib/io/layers.h"
+#include "lib/io/window.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 

@@ -8,8 +8,8 @@
 #include "lib/base/call_progress.h"
 #include "lib/engine/tables.h"
 #include "lib/filter/blur.h"
-#include "lib/filter/layers.h"
-#include "lib/input/excess.h"
+#include "lib/io/excess.h"
+#include "lib/io/layers.h"
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
 

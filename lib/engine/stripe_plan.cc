@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "lib/engine/stripe_layers.h"
-#include "lib/input/excess.h"
+#include "lib/io/excess.h"
 
 namespace starfocus {
 namespace {

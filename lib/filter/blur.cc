@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "lib/input/load_block.h"
+#include "lib/io/load_block.h"
 
 namespace starfocus {
 namespace {

@@ -9,9 +9,9 @@
 #include <cstdint>
 
 #include "lib/base/call_progress.h"
-#include "lib/filter/add_excess.h"
 #include "lib/filter/span_list.h"
-#include "lib/input/window.h"
+#include "lib/io/add_excess.h"
+#include "lib/io/window.h"
 #include "lib/optics/opening.h"
 #include "lib/plan/block_stats.h"
 #include "simd/kernels.h"

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "lib/filter/slope.h"
-#include "lib/input/load_block.h"
+#include "lib/io/load_block.h"
 #include "lib/plan/neighbourhood.h"
 
 namespace starfocus {

@@ -10,7 +10,7 @@
 
 #include "lib/base/call_progress.h"
 #include "lib/filter/blur.h"
-#include "lib/input/block_pixels.h"
+#include "lib/io/block_pixels.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/gathered_cells.h"

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
-#include "lib/input/block_pixels.h"
-#include "lib/input/window.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/window.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

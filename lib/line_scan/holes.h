@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/optics/view_grid.h"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "lib/filter/span_list.h"
-#include "lib/input/block_pixels.h"
+#include "lib/io/block_pixels.h"
 #include "lib/line_scan/runs.h"
 #include "lib/plan/renderer.h"
 #include "simd/kernels.h"

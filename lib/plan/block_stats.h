@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 #include "lib/optics/focus_range.h"
 #include "simd/kernels.h"
 

@@ -10,7 +10,7 @@
 #include "lib/base/arena.h"
 #include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_grid.h"
 #include "lib/optics/view_weights.h"

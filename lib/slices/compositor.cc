@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "lib/input/load_block.h"
+#include "lib/io/load_block.h"
 #include "lib/slices/matte.h"
 #include "lib/slices/thin.h"
 

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/input/block_pixels.h"
-#include "lib/input/window.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/window.h"
 #include "lib/optics/focus_range.h"
 #include "simd/kernels.h"
 

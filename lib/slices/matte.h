@@ -4,8 +4,8 @@
 #ifndef STARFOCUS_LIB_SLICES_MATTE_H_
 #define STARFOCUS_LIB_SLICES_MATTE_H_
 
-#include "lib/input/block_pixels.h"
-#include "lib/input/window.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/window.h"
 #include "lib/optics/view_grid.h"
 #include "lib/slices/layered_depth.h"
 

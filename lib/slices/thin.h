@@ -3,8 +3,8 @@
 #ifndef STARFOCUS_LIB_SLICES_THIN_H_
 #define STARFOCUS_LIB_SLICES_THIN_H_
 
-#include "lib/input/block_pixels.h"
-#include "lib/input/window.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/window.h"
 #include "lib/slices/layered_depth.h"
 
 namespace starfocus {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "lib/base/features.h"
-#include "lib/base/rows.h"
+#include "lib/io/rows.h"
 
 namespace starfocus {
 namespace {

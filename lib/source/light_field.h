@@ -6,10 +6,10 @@
 #ifndef STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 #define STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
 
-#include "lib/convert/depth_rows.h"
-#include "lib/convert/image_rows.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
+#include "lib/io/depth_rows.h"
+#include "lib/io/image_rows.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -3,8 +3,8 @@
 #ifndef STARFOCUS_LIB_SOURCE_PICTURE_OUTPUT_H_
 #define STARFOCUS_LIB_SOURCE_PICTURE_OUTPUT_H_
 
-#include "lib/convert/image_rows.h"
 #include "lib/engine/driver.h"
+#include "lib/io/image_rows.h"
 
 namespace starfocus {
 

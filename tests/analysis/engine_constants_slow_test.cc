@@ -22,7 +22,7 @@
 #include "lib/base/fixed.h"
 #include "lib/filter/blur.h"
 #include "lib/filter/gather.h"
-#include "lib/filter/layers.h"
+#include "lib/io/layers.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_weights.h"

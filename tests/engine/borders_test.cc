@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "lib/filter/layers.h"
-#include "lib/input/window.h"
+#include "lib/io/layers.h"
+#include "lib/io/window.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"

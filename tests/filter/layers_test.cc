@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares subsampling and upsampling with the same separable filters in double precision.
-#include "lib/filter/layers.h"
+#include "lib/io/layers.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 // Tests the continuation of surfaces beyond the picture. If side views show the scene beyond the
 // picture, a refocused picture must equal the same part of a larger picture of the scene. Surfaces
 // that a nearer surface covers must not be used.
-#include "lib/input/picture_edge.h"
+#include "lib/io/picture_edge.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/input/load_block.h"
+#include "lib/io/load_block.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
 #include "tests/support/star_views.h"

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "lib/input/load_block.h"
+#include "lib/io/load_block.h"
 #include "tests/support/star_views.h"
 
 namespace unmix_test {

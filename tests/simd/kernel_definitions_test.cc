@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/filter/layers.h"
+#include "lib/io/layers.h"
 #include "simd/kernels.h"
 #include "tests/simd/check_kernels.h"
 #include "tests/support/test_scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test and benchmark calls of the kernels in simd/resample.h.
-#include "lib/filter/layers.h"
+#include "lib/io/layers.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 #include "lib/optics/view_set.h"
 
 namespace test {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "examples/lab/lab_config.h"
-#include "lib/convert/depth_rows.h"
 #include "lib/engine/stripe.h"
+#include "lib/io/depth_rows.h"
 #include "platform/clock.h"
 #include "platform/file.h"
 

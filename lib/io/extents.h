@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Collects the address ranges that an API call reads or writes, to detect overlaps.
-#ifndef STARFOCUS_LIB_SOURCE_EXTENTS_H_
-#define STARFOCUS_LIB_SOURCE_EXTENTS_H_
+#ifndef STARFOCUS_LIB_IO_EXTENTS_H_
+#define STARFOCUS_LIB_IO_EXTENTS_H_
 
 #include "lib/base/geometry.h"
 #include "lib/base/problem.h"
@@ -44,4 +44,4 @@ inline starfocus_status CheckApart(const Extent& out, const Extents& read, const
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_SOURCE_EXTENTS_H_
+#endif  // STARFOCUS_LIB_IO_EXTENTS_H_

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Describes the memory layout of images of any format: RGB pixels, or planes of luma and chroma.
-#ifndef STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
-#define STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
+#ifndef STARFOCUS_LIB_IO_IMAGE_PLANES_H_
+#define STARFOCUS_LIB_IO_IMAGE_PLANES_H_
 
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/convert/yuv_matrix.h"
+#include "lib/io/yuv_matrix.h"
 #include "starfocus/image.h"
 
 namespace starfocus {
@@ -81,4 +81,4 @@ ImagePlanes<Byte> PlanesOf(const starfocus_image& image) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_CONVERT_IMAGE_PLANES_H_
+#endif  // STARFOCUS_LIB_IO_IMAGE_PLANES_H_

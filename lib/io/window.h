@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of all views and of the disparity map that a stripe reads. The rows lie in the caller's
 // pictures or in ring buffers.
-#ifndef STARFOCUS_LIB_INPUT_WINDOW_H_
-#define STARFOCUS_LIB_INPUT_WINDOW_H_
+#ifndef STARFOCUS_LIB_IO_WINDOW_H_
+#define STARFOCUS_LIB_IO_WINDOW_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/transfer.h"
-#include "lib/input/view_reader.h"
+#include "lib/io/view_reader.h"
 #include "lib/optics/view_set.h"
 
 namespace starfocus {
@@ -72,4 +72,4 @@ bool AreAllHighlights(const Window& window, const Rect& rect);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_INPUT_WINDOW_H_
+#endif  // STARFOCUS_LIB_IO_WINDOW_H_

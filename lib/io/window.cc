@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 
 #include <cstring>
 #include <initializer_list>
 
-#include "lib/input/excess.h"
+#include "lib/io/excess.h"
 
 namespace starfocus {
 namespace {

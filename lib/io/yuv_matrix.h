@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coefficients that convert RGB to luma and chroma and back, as defined in starfocus/image.h.
-#ifndef STARFOCUS_LIB_CONVERT_YUV_MATRIX_H_
-#define STARFOCUS_LIB_CONVERT_YUV_MATRIX_H_
+#ifndef STARFOCUS_LIB_IO_YUV_MATRIX_H_
+#define STARFOCUS_LIB_IO_YUV_MATRIX_H_
 
 #include <cstdint>
 
@@ -47,4 +47,4 @@ inline constexpr simd::YuvMatrix kYuvMatrices[2][2] = {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_CONVERT_YUV_MATRIX_H_
+#endif  // STARFOCUS_LIB_IO_YUV_MATRIX_H_

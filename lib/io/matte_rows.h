@@ -2,8 +2,8 @@
 // Resamples mattes to the size of the picture. Along an axis on which the matte has at most as many
 // samples as the picture, alpha is interpolated by cubic splines, and the contrast of small mattes
 // is raised. Along other axes, alpha is the mean over the area of each pixel.
-#ifndef STARFOCUS_LIB_CONVERT_MATTE_ROWS_H_
-#define STARFOCUS_LIB_CONVERT_MATTE_ROWS_H_
+#ifndef STARFOCUS_LIB_IO_MATTE_ROWS_H_
+#define STARFOCUS_LIB_IO_MATTE_ROWS_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -69,4 +69,4 @@ class MatteRows {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_CONVERT_MATTE_ROWS_H_
+#endif  // STARFOCUS_LIB_IO_MATTE_ROWS_H_

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copies pixels from a window to the field of a block.
-#ifndef STARFOCUS_LIB_INPUT_LOAD_BLOCK_H_
-#define STARFOCUS_LIB_INPUT_LOAD_BLOCK_H_
+#ifndef STARFOCUS_LIB_IO_LOAD_BLOCK_H_
+#define STARFOCUS_LIB_IO_LOAD_BLOCK_H_
 
 #include "lib/base/geometry.h"
-#include "lib/input/block_pixels.h"
-#include "lib/input/window.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/window.h"
 
 namespace starfocus {
 
@@ -20,4 +20,4 @@ void LoadBlock(const Window& window, const Rect& rect, const Border& border, Blo
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_INPUT_LOAD_BLOCK_H_
+#endif  // STARFOCUS_LIB_IO_LOAD_BLOCK_H_

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extends surfaces beyond the edges of the picture with the content of side views.
-#ifndef STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
-#define STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
+#ifndef STARFOCUS_LIB_IO_PICTURE_EDGE_H_
+#define STARFOCUS_LIB_IO_PICTURE_EDGE_H_
 
-#include "lib/input/block_pixels.h"
-#include "lib/input/window.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/window.h"
 
 namespace starfocus {
 
@@ -24,4 +24,4 @@ void ExtendEdges(const Window& window, BlockPixels* field);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_INPUT_PICTURE_EDGE_H_
+#endif  // STARFOCUS_LIB_IO_PICTURE_EDGE_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/view_reader.h"
+#include "lib/io/view_reader.h"
 
 namespace starfocus {
 namespace {

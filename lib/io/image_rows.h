@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts rows of images to and from RGB codes.
-#ifndef STARFOCUS_LIB_CONVERT_IMAGE_ROWS_H_
-#define STARFOCUS_LIB_CONVERT_IMAGE_ROWS_H_
+#ifndef STARFOCUS_LIB_IO_IMAGE_ROWS_H_
+#define STARFOCUS_LIB_IO_IMAGE_ROWS_H_
 
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/convert/image_planes.h"
+#include "lib/io/image_planes.h"
 #include "simd/image_kernels.h"
 
 namespace starfocus {
@@ -42,4 +42,4 @@ void CopyAlpha(const AlphaSource& from, int32_t x, int32_t y, int32_t count, int
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_CONVERT_IMAGE_ROWS_H_
+#endif  // STARFOCUS_LIB_IO_IMAGE_ROWS_H_

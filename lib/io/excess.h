@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Highlights: computes the light beyond white that clipped samples represent
 // (starfocus_config.highlights).
-#ifndef STARFOCUS_LIB_INPUT_EXCESS_H_
-#define STARFOCUS_LIB_INPUT_EXCESS_H_
+#ifndef STARFOCUS_LIB_IO_EXCESS_H_
+#define STARFOCUS_LIB_IO_EXCESS_H_
 
 #include <cstdint>
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
-#include "lib/input/view_reader.h"
+#include "lib/io/view_reader.h"
 
 namespace starfocus {
 
@@ -64,4 +64,4 @@ ViewReader ReaderOf(const ExcessViews& views);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_INPUT_EXCESS_H_
+#endif  // STARFOCUS_LIB_IO_EXCESS_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/filter/add_excess.h"
+#include "lib/io/add_excess.h"
 
 namespace starfocus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/excess.h"
+#include "lib/io/excess.h"
 
 #include <cstddef>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fills unknown disparities in lines of a depth map.
-#ifndef STARFOCUS_LIB_BASE_GAPS_H_
-#define STARFOCUS_LIB_BASE_GAPS_H_
+#ifndef STARFOCUS_LIB_IO_GAPS_H_
+#define STARFOCUS_LIB_IO_GAPS_H_
 
 #include <cstdint>
 
@@ -37,4 +37,4 @@ bool FillGaps(const Line& line, int32_t length, const IsKnown& is_known) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_GAPS_H_
+#endif  // STARFOCUS_LIB_IO_GAPS_H_

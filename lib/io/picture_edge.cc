@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/picture_edge.h"
+#include "lib/io/picture_edge.h"
 
 #include <cstring>
 

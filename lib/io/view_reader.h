@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interface for reading pixels of captured views. Each picture format has one reader.
-#ifndef STARFOCUS_LIB_INPUT_VIEW_READER_H_
-#define STARFOCUS_LIB_INPUT_VIEW_READER_H_
+#ifndef STARFOCUS_LIB_IO_VIEW_READER_H_
+#define STARFOCUS_LIB_IO_VIEW_READER_H_
 
 #include <cstdint>
 
@@ -44,4 +44,4 @@ ViewReader ReaderOf(const PlaneViews& views);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_INPUT_VIEW_READER_H_
+#endif  // STARFOCUS_LIB_IO_VIEW_READER_H_

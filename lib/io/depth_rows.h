@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts rows of depth maps to rows of disparities at the size of the picture.
-#ifndef STARFOCUS_LIB_CONVERT_DEPTH_ROWS_H_
-#define STARFOCUS_LIB_CONVERT_DEPTH_ROWS_H_
+#ifndef STARFOCUS_LIB_IO_DEPTH_ROWS_H_
+#define STARFOCUS_LIB_IO_DEPTH_ROWS_H_
 
 #include <cstddef>
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/convert/depth_values.h"
+#include "lib/io/depth_values.h"
 #include "simd/image_kernels.h"
 #include "starfocus/starfocus.h"
 
@@ -47,4 +47,4 @@ uint32_t CheckDepth(const simd::ImageKernels& kernels, const DepthSource& depth,
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_CONVERT_DEPTH_ROWS_H_
+#endif  // STARFOCUS_LIB_IO_DEPTH_ROWS_H_

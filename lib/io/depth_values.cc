@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/convert/depth_values.h"
+#include "lib/io/depth_values.h"
 
 #include <cstring>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads values of depth maps of any type and meaning.
-#ifndef STARFOCUS_LIB_CONVERT_DEPTH_VALUES_H_
-#define STARFOCUS_LIB_CONVERT_DEPTH_VALUES_H_
+#ifndef STARFOCUS_LIB_IO_DEPTH_VALUES_H_
+#define STARFOCUS_LIB_IO_DEPTH_VALUES_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -28,4 +28,4 @@ void ReadDisparities(const starfocus_depth_map& map, int32_t x, int32_t y, int32
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_CONVERT_DEPTH_VALUES_H_
+#endif  // STARFOCUS_LIB_IO_DEPTH_VALUES_H_

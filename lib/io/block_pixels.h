@@ -2,8 +2,8 @@
 // Stores the pixels from which a block is refocused, as lines in three orientations (paper, IV-B).
 // The lines are rows, columns (90 degrees) and diagonals (the lossless 45 degree layout). Line
 // scans, and the blur without views (lib/filter/gather.h), read these lines.
-#ifndef STARFOCUS_LIB_INPUT_BLOCK_PIXELS_H_
-#define STARFOCUS_LIB_INPUT_BLOCK_PIXELS_H_
+#ifndef STARFOCUS_LIB_IO_BLOCK_PIXELS_H_
+#define STARFOCUS_LIB_IO_BLOCK_PIXELS_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -70,4 +70,4 @@ void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_INPUT_BLOCK_PIXELS_H_
+#endif  // STARFOCUS_LIB_IO_BLOCK_PIXELS_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/filter/layers.h"
+#include "lib/io/layers.h"
 
 #include <cstring>
 

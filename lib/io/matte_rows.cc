@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/convert/matte_rows.h"
+#include "lib/io/matte_rows.h"
 
 #include "lib/base/fixed.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Subsampled layers (paper, III-D and III-E). The centre view is downsampled once per stripe, and
 // refocused blocks are upsampled to the picture.
-#ifndef STARFOCUS_LIB_FILTER_LAYERS_H_
-#define STARFOCUS_LIB_FILTER_LAYERS_H_
+#ifndef STARFOCUS_LIB_IO_LAYERS_H_
+#define STARFOCUS_LIB_IO_LAYERS_H_
 
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/input/window.h"
+#include "lib/io/window.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -88,4 +88,4 @@ void UpsampleByTwo(const simd::Kernels& kernels, const LayerRect& in, int32_t fi
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_FILTER_LAYERS_H_
+#endif  // STARFOCUS_LIB_IO_LAYERS_H_

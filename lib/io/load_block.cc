@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/load_block.h"
+#include "lib/io/load_block.h"
 
 #include <cstring>
 
-#include "lib/input/picture_edge.h"
+#include "lib/io/picture_edge.h"
 
 namespace starfocus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/block_pixels.h"
+#include "lib/io/block_pixels.h"
 
 #include <cstring>
 

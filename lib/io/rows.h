@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access to formats that the engine reads in place, without conversion: packed RGB and float
 // disparities.
-#ifndef STARFOCUS_LIB_BASE_ROWS_H_
-#define STARFOCUS_LIB_BASE_ROWS_H_
+#ifndef STARFOCUS_LIB_IO_ROWS_H_
+#define STARFOCUS_LIB_IO_ROWS_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -35,4 +35,4 @@ inline Plane<const float> RowsOf(const starfocus_depth_map& map) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_BASE_ROWS_H_
+#endif  // STARFOCUS_LIB_IO_ROWS_H_
