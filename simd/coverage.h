@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels of the coverage map (lib/coverage). Each kernel processes a row of kSliceLanes
+// SIMD kernels of the coverage map (lib/matting). Each kernel processes a row of kSliceLanes
 // pixels.
 #ifndef STARFOCUS_SIMD_COVERAGE_H_
 #define STARFOCUS_SIMD_COVERAGE_H_

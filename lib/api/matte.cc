@@ -7,10 +7,10 @@
 
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
-#include "lib/coverage/matte_coverage.h"
 #include "lib/engine/lens.h"
 #include "lib/io/depth_rows.h"
 #include "lib/io/matte_rows.h"
+#include "lib/matting/matte_coverage.h"
 
 namespace starfocus {
 namespace {

@@ -11,7 +11,7 @@ namespace starfocus {
 namespace {
 
 // Largest step of disparity between pixels of one surface, in fixed point (kDisparityBits).
-// lib/coverage uses an equal value.
+// lib/matting uses an equal value.
 constexpr int32_t kStep = 5 << kDisparityBits;
 // All cells within kReach cells of a dense cell are marked as thin, because the rim of a thin
 // structure has fewer strands.

@@ -3,12 +3,12 @@
 
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
-#include "lib/coverage/passes.h"
 #include "lib/filter/deblock.h"
-#include "lib/input/boundary_pixel.h"
 #include "lib/io/excess.h"
 #include "lib/io/layers.h"
 #include "lib/io/picture_edge.h"
+#include "lib/matting/boundary_pixel.h"
+#include "lib/matting/passes.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/block_stats.h"
 

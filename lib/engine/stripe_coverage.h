@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the coverage map (lib/coverage) for the rows that a stripe reads.
+// Computes the coverage map (lib/matting) for the rows that a stripe reads.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_COVERAGE_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_COVERAGE_H_
 

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
-#include "lib/coverage/passes.h"
 #include "lib/engine/frame_diff.h"
 #include "lib/filter/deblock.h"
+#include "lib/matting/passes.h"
 #include "lib/plan/block_stats.h"
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"

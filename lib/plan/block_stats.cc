@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-#include "lib/coverage/coverage_map.h"
+#include "lib/matting/coverage_map.h"
 
 namespace starfocus {
 namespace {

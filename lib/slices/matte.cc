@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/slices/matte.h"
 
-#include "lib/coverage/coverage_map.h"
-#include "lib/input/boundary_pixel.h"
+#include "lib/matting/boundary_pixel.h"
+#include "lib/matting/coverage_map.h"
 
 namespace starfocus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splits the boundary pixels of a field (lib/input/boundary_pixel.h) into the two surfaces that
+// Splits the boundary pixels of a field (lib/matting/boundary_pixel.h) into the two surfaces that
 // each pixel mixes. The compositor calls FindMatte after FindLayeredDepth.
 #ifndef STARFOCUS_LIB_SLICES_MATTE_H_
 #define STARFOCUS_LIB_SLICES_MATTE_H_

@@ -2,7 +2,7 @@
 #include "lib/slices/thin.h"
 
 #include "lib/base/fixed.h"
-#include "lib/coverage/coverage_map.h"
+#include "lib/matting/coverage_map.h"
 
 namespace starfocus {
 namespace {

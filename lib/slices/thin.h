@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the coverage map of thin structures (lib/coverage) into surfaces for slices.
+// Turns the coverage map of thin structures (lib/matting) into surfaces for slices.
 #ifndef STARFOCUS_LIB_SLICES_THIN_H_
 #define STARFOCUS_LIB_SLICES_THIN_H_
 

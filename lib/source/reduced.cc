@@ -2,7 +2,7 @@
 #include "lib/source/reduced.h"
 
 #include "lib/base/fixed.h"
-#include "lib/coverage/passes.h"
+#include "lib/matting/passes.h"
 
 namespace starfocus {
 namespace {

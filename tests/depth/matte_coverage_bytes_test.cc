@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/coverage/matte_coverage.h"
+#include "lib/matting/matte_coverage.h"
 #include "tests/depth/matte_planes.h"
 #include "tests/support/simd_targets.h"
 

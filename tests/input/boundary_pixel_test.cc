@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that the separation of boundary pixels is continuous: the last bit of a colour never
 // decides whether a pixel is split. Also tests that inverted colours are split into equal shares.
-#include "lib/input/boundary_pixel.h"
+#include "lib/matting/boundary_pixel.h"
 
 #include <doctest/doctest.h>
 

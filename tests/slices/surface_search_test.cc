@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that the search for surfaces finds the same pixels as a search of all pixels.
-#include "lib/coverage/surface_search.h"
+#include "lib/matting/surface_search.h"
 
 #include <doctest/doctest.h>
 

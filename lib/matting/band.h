@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the pixels near large depth edges, and the disparities of the two surfaces that meet at
 // each edge. The first two coverage passes (passes.h) call the functions of this header.
-#ifndef STARFOCUS_LIB_COVERAGE_BAND_H_
-#define STARFOCUS_LIB_COVERAGE_BAND_H_
+#ifndef STARFOCUS_LIB_MATTING_BAND_H_
+#define STARFOCUS_LIB_MATTING_BAND_H_
 
-#include "lib/coverage/coverage_input.h"
+#include "lib/matting/coverage_input.h"
 
 namespace starfocus {
 
@@ -23,4 +23,4 @@ void StartTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_BAND_H_
+#endif  // STARFOCUS_LIB_MATTING_BAND_H_

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/coverage/look.h"
+#include "lib/matting/look.h"
 
-#include "lib/coverage/far_light.h"
+#include "lib/matting/far_light.h"
 
 namespace starfocus {
 namespace {

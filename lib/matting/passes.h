@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the passes that compute a coverage map, tile by tile. Defines how many rows of tiles each
 // pass must be ahead of the last pass (TilesAhead).
-#ifndef STARFOCUS_LIB_COVERAGE_PASSES_H_
-#define STARFOCUS_LIB_COVERAGE_PASSES_H_
+#ifndef STARFOCUS_LIB_MATTING_PASSES_H_
+#define STARFOCUS_LIB_MATTING_PASSES_H_
 
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
-#include "lib/coverage/coverage_input.h"
+#include "lib/matting/coverage_input.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -63,4 +63,4 @@ inline int32_t CoverageBorder(const starfocus_config& config) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_PASSES_H_
+#endif  // STARFOCUS_LIB_MATTING_PASSES_H_

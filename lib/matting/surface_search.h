@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the nearest pixel of a nearer or farther surface around a pixel of a tile.
-#ifndef STARFOCUS_LIB_COVERAGE_SURFACE_SEARCH_H_
-#define STARFOCUS_LIB_COVERAGE_SURFACE_SEARCH_H_
+#ifndef STARFOCUS_LIB_MATTING_SURFACE_SEARCH_H_
+#define STARFOCUS_LIB_MATTING_SURFACE_SEARCH_H_
 
-#include "lib/coverage/disparities_around.h"
+#include "lib/matting/disparities_around.h"
 
 namespace starfocus {
 
@@ -79,4 +79,4 @@ class SurfaceSearch {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_SURFACE_SEARCH_H_
+#endif  // STARFOCUS_LIB_MATTING_SURFACE_SEARCH_H_

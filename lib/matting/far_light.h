@@ -2,10 +2,10 @@
 // Estimates the light of the far surface in areas in which few pixels show the far surface. Means
 // over cells of increasing size collect the known light and extend it smoothly to pixels without
 // known light (the pull-push algorithm).
-#ifndef STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
-#define STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
+#ifndef STARFOCUS_LIB_MATTING_FAR_LIGHT_H_
+#define STARFOCUS_LIB_MATTING_FAR_LIGHT_H_
 
-#include "lib/coverage/coverage_map.h"
+#include "lib/matting/coverage_map.h"
 
 namespace starfocus {
 
@@ -36,4 +36,4 @@ constexpr int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_FAR_LIGHT_H_
+#endif  // STARFOCUS_LIB_MATTING_FAR_LIGHT_H_

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/coverage/far_detail.h"
+#include "lib/matting/far_detail.h"
 
 #include "lib/base/fixed.h"
-#include "lib/coverage/far_light.h"
+#include "lib/matting/far_light.h"
 
 namespace starfocus {
 namespace {

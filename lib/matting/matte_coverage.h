@@ -2,8 +2,8 @@
 // Computes the coverage of a light field from a matte of the subject and the depth map. The matte
 // replaces the coverage that the map implies only at outlines of the subject. Other edges of the
 // map, and parts of the matte that the map contradicts, keep the implied coverage.
-#ifndef STARFOCUS_LIB_COVERAGE_MATTE_COVERAGE_H_
-#define STARFOCUS_LIB_COVERAGE_MATTE_COVERAGE_H_
+#ifndef STARFOCUS_LIB_MATTING_MATTE_COVERAGE_H_
+#define STARFOCUS_LIB_MATTING_MATTE_COVERAGE_H_
 
 #include "lib/io/depth_rows.h"
 #include "starfocus/matte.h"
@@ -20,4 +20,4 @@ void MatteCoverage(const simd::ImageKernels& kernels, const starfocus_matte& mat
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_MATTE_COVERAGE_H_
+#endif  // STARFOCUS_LIB_MATTING_MATTE_COVERAGE_H_

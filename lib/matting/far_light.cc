@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/coverage/far_light.h"
+#include "lib/matting/far_light.h"
 
 namespace starfocus {
 namespace {

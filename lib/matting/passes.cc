@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/coverage/passes.h"
+#include "lib/matting/passes.h"
 
-#include "lib/coverage/band.h"
-#include "lib/coverage/far_detail.h"
-#include "lib/coverage/given.h"
-#include "lib/coverage/look.h"
-#include "lib/coverage/unmix.h"
+#include "lib/matting/band.h"
+#include "lib/matting/far_detail.h"
+#include "lib/matting/given.h"
+#include "lib/matting/look.h"
+#include "lib/matting/unmix.h"
 
 namespace starfocus {
 namespace {

@@ -2,10 +2,10 @@
 // Uses the coverage that a light field provides. Given coverage contains detail that the disparity
 // map lacks. Both surfaces of a pixel are therefore searched farther from the map's edges than in
 // band.h.
-#ifndef STARFOCUS_LIB_COVERAGE_GIVEN_H_
-#define STARFOCUS_LIB_COVERAGE_GIVEN_H_
+#ifndef STARFOCUS_LIB_MATTING_GIVEN_H_
+#define STARFOCUS_LIB_MATTING_GIVEN_H_
 
-#include "lib/coverage/coverage_input.h"
+#include "lib/matting/coverage_input.h"
 
 namespace starfocus {
 
@@ -20,4 +20,4 @@ void TakeGiven(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_GIVEN_H_
+#endif  // STARFOCUS_LIB_MATTING_GIVEN_H_

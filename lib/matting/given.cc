@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/coverage/given.h"
+#include "lib/matting/given.h"
 
 #include <cstring>
 
-#include "lib/coverage/far_light.h"
-#include "lib/coverage/surface_search.h"
+#include "lib/matting/far_light.h"
+#include "lib/matting/surface_search.h"
 
 namespace starfocus {
 namespace {

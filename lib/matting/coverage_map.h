@@ -3,8 +3,8 @@
 // The map splits each pixel near an edge, on either side, into a near and a far surface. The engine
 // computes the map in tiles, once for each row of the picture, before planning and rendering
 // blocks.
-#ifndef STARFOCUS_LIB_COVERAGE_COVERAGE_MAP_H_
-#define STARFOCUS_LIB_COVERAGE_COVERAGE_MAP_H_
+#ifndef STARFOCUS_LIB_MATTING_COVERAGE_MAP_H_
+#define STARFOCUS_LIB_MATTING_COVERAGE_MAP_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -133,4 +133,4 @@ struct CoverageMap {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_COVERAGE_MAP_H_
+#endif  // STARFOCUS_LIB_MATTING_COVERAGE_MAP_H_

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/coverage/matte_coverage.h"
+#include "lib/matting/matte_coverage.h"
 
 #include <cstring>
 
-#include "lib/coverage/surface_search.h"
 #include "lib/io/matte_rows.h"
+#include "lib/matting/surface_search.h"
 
 namespace starfocus {
 namespace {

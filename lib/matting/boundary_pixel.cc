@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/input/boundary_pixel.h"
+#include "lib/matting/boundary_pixel.h"
 
 namespace starfocus {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/coverage/band.h"
+#include "lib/matting/band.h"
 
 #include <cstring>
 
-#include "lib/coverage/disparities_around.h"
-#include "lib/coverage/far_light.h"
+#include "lib/matting/disparities_around.h"
+#include "lib/matting/far_light.h"
 
 namespace starfocus {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Separates boundary pixels at depth edges, which may be mixtures, into the colours of both
 // surfaces.
-#ifndef STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
-#define STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
+#ifndef STARFOCUS_LIB_MATTING_BOUNDARY_PIXEL_H_
+#define STARFOCUS_LIB_MATTING_BOUNDARY_PIXEL_H_
 
 #include <cstdint>
 
@@ -93,4 +93,4 @@ void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_INPUT_BOUNDARY_PIXEL_H_
+#endif  // STARFOCUS_LIB_MATTING_BOUNDARY_PIXEL_H_

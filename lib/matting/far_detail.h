@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the detail of the far surface in mixed pixels that no side view shows. For these
 // pixels, means of known light (far_light.h) are the only estimate of the far surface's light.
-#ifndef STARFOCUS_LIB_COVERAGE_FAR_DETAIL_H_
-#define STARFOCUS_LIB_COVERAGE_FAR_DETAIL_H_
+#ifndef STARFOCUS_LIB_MATTING_FAR_DETAIL_H_
+#define STARFOCUS_LIB_MATTING_FAR_DETAIL_H_
 
-#include "lib/coverage/coverage_input.h"
+#include "lib/matting/coverage_input.h"
 
 namespace starfocus {
 
@@ -16,4 +16,4 @@ void AddFarDetail(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_FAR_DETAIL_H_
+#endif  // STARFOCUS_LIB_MATTING_FAR_DETAIL_H_

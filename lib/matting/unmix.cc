@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/coverage/unmix.h"
+#include "lib/matting/unmix.h"
 
 #include <cstring>
 
-#include "lib/coverage/far_light.h"
+#include "lib/matting/far_light.h"
 
 namespace starfocus {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines the input of the passes that compute a coverage map (passes.h).
-#ifndef STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_
-#define STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_
+#ifndef STARFOCUS_LIB_MATTING_COVERAGE_INPUT_H_
+#define STARFOCUS_LIB_MATTING_COVERAGE_INPUT_H_
 
-#include "lib/coverage/coverage_map.h"
 #include "lib/io/window.h"
+#include "lib/matting/coverage_map.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -22,4 +22,4 @@ inline bool HasGiven(const CoverageInput& in) { return in.window->given_coverage
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_COVERAGE_INPUT_H_
+#endif  // STARFOCUS_LIB_MATTING_COVERAGE_INPUT_H_

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the coverage of each pixel near an edge: the part of the pixel that the nearer surface
 // covers.
-#ifndef STARFOCUS_LIB_COVERAGE_UNMIX_H_
-#define STARFOCUS_LIB_COVERAGE_UNMIX_H_
+#ifndef STARFOCUS_LIB_MATTING_UNMIX_H_
+#define STARFOCUS_LIB_MATTING_UNMIX_H_
 
-#include "lib/coverage/coverage_input.h"
+#include "lib/matting/coverage_input.h"
 
 namespace starfocus {
 
@@ -19,4 +19,4 @@ void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_UNMIX_H_
+#endif  // STARFOCUS_LIB_MATTING_UNMIX_H_

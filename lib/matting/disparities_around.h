@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copies the disparities of a tile and its surroundings, and smooths near disparities.
-#ifndef STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
-#define STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
+#ifndef STARFOCUS_LIB_MATTING_DISPARITIES_AROUND_H_
+#define STARFOCUS_LIB_MATTING_DISPARITIES_AROUND_H_
 
 #include <cstring>
 
-#include "lib/coverage/coverage_input.h"
+#include "lib/matting/coverage_input.h"
 
 namespace starfocus {
 
@@ -56,4 +56,4 @@ int16_t SmoothNear(const Disparities& around, int32_t at, int32_t near) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_DISPARITIES_AROUND_H_
+#endif  // STARFOCUS_LIB_MATTING_DISPARITIES_AROUND_H_

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the light of the far surface from the centre view and from views that see behind edges. The
 // coverage passes (passes.h) call LookBehindTile for each thin tile.
-#ifndef STARFOCUS_LIB_COVERAGE_LOOK_H_
-#define STARFOCUS_LIB_COVERAGE_LOOK_H_
+#ifndef STARFOCUS_LIB_MATTING_LOOK_H_
+#define STARFOCUS_LIB_MATTING_LOOK_H_
 
-#include "lib/coverage/coverage_input.h"
+#include "lib/matting/coverage_input.h"
 
 namespace starfocus {
 
@@ -16,4 +16,4 @@ void LookBehindTile(const CoverageInput& in, int32_t column, int32_t row);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_COVERAGE_LOOK_H_
+#endif  // STARFOCUS_LIB_MATTING_LOOK_H_
