@@ -10,7 +10,7 @@
 #include "lib/matting/boundary_pixel.h"
 #include "lib/matting/passes.h"
 #include "lib/optics/rules.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 
 namespace starfocus {
 namespace {

@@ -11,7 +11,7 @@
 #include "lib/engine/tables.h"
 #include "lib/filter/deblock.h"
 #include "lib/optics/view_weights.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

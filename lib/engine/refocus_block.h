@@ -11,7 +11,7 @@
 #include "lib/engine/tables.h"
 #include "lib/io/window.h"
 #include "lib/optics/view_grid.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"

@@ -8,7 +8,7 @@
 #include "lib/engine/frame_diff.h"
 #include "lib/filter/deblock.h"
 #include "lib/matting/passes.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
 

@@ -13,7 +13,7 @@
 #include "lib/io/add_excess.h"
 #include "lib/io/window.h"
 #include "lib/optics/opening.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

@@ -12,7 +12,7 @@
 #include "lib/filter/blur.h"
 #include "lib/io/block_pixels.h"
 #include "lib/optics/rules.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "lib/plan/gathered_cells.h"
 #include "simd/kernels.h"
 

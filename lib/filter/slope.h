@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 
 namespace starfocus {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

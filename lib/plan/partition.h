@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "lib/plan/gathered_cells.h"
 #include "lib/plan/neighbourhood.h"
 #include "lib/plan/renderer.h"

@@ -14,7 +14,7 @@
 #include "lib/optics/rules.h"
 #include "lib/optics/view_grid.h"
 #include "lib/optics/view_weights.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "lib/plan/gathered_cells.h"
 #include "lib/plan/timing.h"
 #include "simd/kernels.h"

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

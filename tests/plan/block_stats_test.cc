@@ -2,8 +2,6 @@
 // Compares the block analysis with a brute-force search on random disparity maps. No pixel beyond a
 // block's border may have a blur that reaches the block or the margin that its layer renders.
 // Outside the picture, the edge pixels are repeated.
-#include "lib/plan/block_stats.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <iterator>
 #include <vector>
 
+#include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
 #include "tests/plan/measured_cells.h"
 #include "tests/support/inside.h"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 #include "lib/plan/neighbourhood.h"
 #include "simd/kernels.h"
 

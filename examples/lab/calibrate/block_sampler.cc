@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/optics/rules.h"
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 
 namespace starfocus {
 namespace {

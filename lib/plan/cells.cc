@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/plan/block_stats.h"
+#include "lib/plan/cells.h"
 
 #include <initializer_list>
 

@@ -2,8 +2,8 @@
 // Analysis of blocks of variable size (paper, V-A). This module measures the blur of 8x8 cells and
 // combines cells into blocks. The partition (lib/plan/partition.h) chooses blocks according to
 // these statistics.
-#ifndef STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
-#define STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
+#ifndef STARFOCUS_LIB_PLAN_CELLS_H_
+#define STARFOCUS_LIB_PLAN_CELLS_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -140,4 +140,4 @@ BlockStats MergeBlocks(const BlockStats* const children[4], int32_t side);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_PLAN_BLOCK_STATS_H_
+#endif  // STARFOCUS_LIB_PLAN_CELLS_H_
