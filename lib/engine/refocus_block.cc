@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "lib/filter/gather.h"
+#include "lib/gather/gather.h"
 #include "lib/io/add_excess.h"
 #include "lib/io/excess.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stores the pixels from which a block is refocused, as lines in three orientations (paper, IV-B).
 // The lines are rows, columns (90 degrees) and diagonals (the lossless 45 degree layout). Line
-// scans, and the blur without views (lib/filter/gather.h), read these lines.
+// scans, and the blur without views (lib/gather/gather.h), read these lines.
 #ifndef STARFOCUS_LIB_IO_BLOCK_PIXELS_H_
 #define STARFOCUS_LIB_IO_BLOCK_PIXELS_H_
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "lib/filter/span_list.h"
+#include "lib/gather/span_list.h"
 #include "lib/line_scan/line_scan.h"
 
 namespace starfocus {

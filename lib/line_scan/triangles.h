@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "lib/filter/span_list.h"
+#include "lib/gather/span_list.h"
 #include "lib/io/block_pixels.h"
 #include "lib/line_scan/runs.h"
 #include "lib/plan/renderer.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores which cells are gathered (lib/filter/gather.h) instead of rendered from views, and finds
+// Stores which cells are gathered (lib/gather/gather.h) instead of rendered from views, and finds
 // the pixels of a block that belong to gathered cells.
 #ifndef STARFOCUS_LIB_PLAN_GATHERED_CELLS_H_
 #define STARFOCUS_LIB_PLAN_GATHERED_CELLS_H_
@@ -15,7 +15,7 @@ namespace starfocus {
 // For each cell of a stripe, the lowest layer at which the cell can be gathered. Blocks at the
 // stored layer or at a higher layer blur the cell without views. Cells with kByViews are always
 // rendered from views. Cells with kSlopeMark are blurred with a separate radius for each pixel
-// (lib/filter/slope.h). Other cells are blurred with the radius of their middle.
+// (lib/gather/slope.h). Other cells are blurred with the radius of their middle.
 inline constexpr uint8_t kByViews = 3;
 inline constexpr uint8_t kSlopeMark = 4;
 struct GatherMap {

@@ -39,7 +39,7 @@ constexpr size_t SurroundingSamples(int32_t side, int32_t around) {
 Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, const Rect& cells,
                               int32_t around, int16_t* samples);
 
-// A cell is called smooth if lib/filter/gather.h can blur the cell without views. All pixels within
+// A cell is called smooth if lib/gather/gather.h can blur the cell without views. All pixels within
 // reach of the cell, and nearer pixels that reach the cell, must belong to one surface without
 // depth edges. Blur radii have opposite signs in front of and behind the focus. In each cell within
 // reach, signed radii must not vary by more than kSlopeRange (kDisparityBits). Farther pixels that

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/filter/blur.h"
+#include "lib/gather/blur.h"
 #include "lib/optics/opening.h"
 #include "lib/optics/view_weights.h"
 #include "tests/conformance/reference_opening.h"

@@ -2,7 +2,7 @@
 // Tests the cells of block mode that are blurred by a filter, without rendering views. Exactly the
 // smooth cells of a picture must be blurred by the filter. The filter must blur a cell in the same
 // way as the blur mode does.
-#include "lib/filter/gather.h"
+#include "lib/gather/gather.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the radii of a cell on a slope, and the distance by which its blurred pixels are moved.
-#include "lib/filter/slope.h"
+#include "lib/gather/slope.h"
 
 #include <doctest/doctest.h>
 

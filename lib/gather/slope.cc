@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/filter/slope.h"
+#include "lib/gather/slope.h"
 
 #include "lib/optics/opening.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/filter/gather.h"
+#include "lib/gather/gather.h"
 
 #include <cstring>
 
-#include "lib/filter/slope.h"
+#include "lib/gather/slope.h"
 #include "lib/io/load_block.h"
 #include "lib/plan/neighbourhood.h"
 

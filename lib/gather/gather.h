@@ -2,14 +2,14 @@
 // Gathering: blurs 8x8 cells of a single surface without views. Each gathered pixel is the mean of
 // its neighbours in the centre view, weighted by the ideal PSF (4) of its blur. If disparity varies
 // little within reach of the blur, this weighted mean equals the mean of all views of the aperture.
-#ifndef STARFOCUS_LIB_FILTER_GATHER_H_
-#define STARFOCUS_LIB_FILTER_GATHER_H_
+#ifndef STARFOCUS_LIB_GATHER_GATHER_H_
+#define STARFOCUS_LIB_GATHER_GATHER_H_
 
 #include <cstddef>
 #include <cstdint>
 
 #include "lib/base/call_progress.h"
-#include "lib/filter/blur.h"
+#include "lib/gather/blur.h"
 #include "lib/io/block_pixels.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/cells.h"
@@ -52,4 +52,4 @@ uint64_t GatherCells(const GatherJob& job, BlockPixels* field, const Gathered& o
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_FILTER_GATHER_H_
+#endif  // STARFOCUS_LIB_GATHER_GATHER_H_

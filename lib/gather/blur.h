@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth-dependent blur of the centre view alone (references [13] and [14] of the paper), for
 // comparison with rendered views. Each output pixel is the mean of its neighbours, weighted by the
-// ideal PSF (4) of its blur radius. Gathering (lib/filter/gather.h) uses the PSFs of this module.
-#ifndef STARFOCUS_LIB_FILTER_BLUR_H_
-#define STARFOCUS_LIB_FILTER_BLUR_H_
+// ideal PSF (4) of its blur radius. Gathering (lib/gather/gather.h) uses the PSFs of this module.
+#ifndef STARFOCUS_LIB_GATHER_BLUR_H_
+#define STARFOCUS_LIB_GATHER_BLUR_H_
 
 #include <cstddef>
 #include <cstdint>
 
 #include "lib/base/call_progress.h"
-#include "lib/filter/span_list.h"
+#include "lib/gather/span_list.h"
 #include "lib/io/add_excess.h"
 #include "lib/io/window.h"
 #include "lib/optics/opening.h"
@@ -81,4 +81,4 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_FILTER_BLUR_H_
+#endif  // STARFOCUS_LIB_GATHER_BLUR_H_

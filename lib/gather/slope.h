@@ -2,8 +2,8 @@
 // Blur across a gathered cell on a slope, derived from the surrounding cells. This module computes
 // the radius of each pixel, and the displacement of the blurred image of a slanted surface
 // (docs/method.md, Gathering).
-#ifndef STARFOCUS_LIB_FILTER_SLOPE_H_
-#define STARFOCUS_LIB_FILTER_SLOPE_H_
+#ifndef STARFOCUS_LIB_GATHER_SLOPE_H_
+#define STARFOCUS_LIB_GATHER_SLOPE_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -61,4 +61,4 @@ class Slope {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_FILTER_SLOPE_H_
+#endif  // STARFOCUS_LIB_GATHER_SLOPE_H_

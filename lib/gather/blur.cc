@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/filter/blur.h"
+#include "lib/gather/blur.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Buffer of spans for a SIMD kernel, so that one call processes many views of a line.
-#ifndef STARFOCUS_LIB_FILTER_SPAN_LIST_H_
-#define STARFOCUS_LIB_FILTER_SPAN_LIST_H_
+#ifndef STARFOCUS_LIB_GATHER_SPAN_LIST_H_
+#define STARFOCUS_LIB_GATHER_SPAN_LIST_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -90,4 +90,4 @@ class SpanList {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_FILTER_SPAN_LIST_H_
+#endif  // STARFOCUS_LIB_GATHER_SPAN_LIST_H_
