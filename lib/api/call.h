@@ -5,8 +5,8 @@
 
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
+#include "lib/engine/prepared.h"
 #include "lib/io/extents.h"
-#include "lib/source/prepared.h"
 
 namespace starfocus {
 

@@ -3,8 +3,8 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/engine/layout.h"
-#include "lib/source/light_field.h"
-#include "lib/source/prepared.h"
+#include "lib/engine/light_field.h"
+#include "lib/engine/prepared.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

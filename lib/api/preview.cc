@@ -5,7 +5,7 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/engine/layout.h"
-#include "lib/source/picture_output.h"
+#include "lib/engine/picture_output.h"
 
 namespace starfocus {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
-#include "lib/source/prepared.h"
+#include "lib/engine/prepared.h"
 
 namespace starfocus {
 

@@ -5,9 +5,9 @@
 #include "lib/api/preview.h"
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
+#include "lib/engine/light_field.h"
+#include "lib/engine/picture_output.h"
 #include "lib/io/rows.h"
-#include "lib/source/light_field.h"
-#include "lib/source/picture_output.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -6,9 +6,9 @@
 #include "lib/api/validate_image.h"
 #include "lib/base/features.h"
 #include "lib/engine/layout.h"
+#include "lib/engine/light_field.h"
+#include "lib/engine/picture_output.h"
 #include "lib/engine/stripe.h"
-#include "lib/source/light_field.h"
-#include "lib/source/picture_output.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

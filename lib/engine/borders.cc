@@ -3,7 +3,7 @@
 
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
-#include "lib/filter/deblock.h"
+#include "lib/engine/deblock.h"
 #include "lib/io/excess.h"
 #include "lib/io/layers.h"
 #include "lib/io/picture_edge.h"

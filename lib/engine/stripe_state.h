@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
+#include "lib/engine/deblock.h"
 #include "lib/engine/frame_diff.h"
-#include "lib/filter/deblock.h"
 #include "lib/matting/passes.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/partition.h"

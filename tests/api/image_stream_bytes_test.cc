@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "lib/source/prepared.h"
 #include "tests/support/image_field.h"
 #include "tests/support/inside.h"
 #include "tests/support/prepared_memory.h"

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "lib/filter/deblock.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/line_scan/runs.h"
 #include "tests/bench/micro.h"
 #include "tests/bench/timed_engine.h"
+#include "tests/support/inside.h"
 
 namespace starfocus::bench {
 namespace {

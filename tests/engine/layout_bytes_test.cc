@@ -5,7 +5,6 @@
 
 #include <cstdint>
 
-#include "lib/source/reduced.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/inside.h"
 #include "tests/support/memory_parts.h"

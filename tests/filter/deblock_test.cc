@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests deblocking on hand-made boundaries, and compares stripes with the reference, which filters
 // the whole picture at once as in the paper (V-C).
-#include "lib/filter/deblock.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "lib/plan/partition.h"
 #include "tests/filter/deblock_reference.h"
+#include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
 namespace deblock_test {

@@ -8,8 +8,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "lib/engine/deblock.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
+#include "lib/engine/prepared.h"
+#include "lib/engine/reduced.h"
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
 #include "tests/support/test_scene.h"

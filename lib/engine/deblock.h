@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layer-dependent deblocking (paper, V-C): interpolates linearly across the boundaries between
 // blocks of different layers. The engine deblocks a stripe after all its blocks are refocused.
-#ifndef STARFOCUS_LIB_FILTER_DEBLOCK_H_
-#define STARFOCUS_LIB_FILTER_DEBLOCK_H_
+#ifndef STARFOCUS_LIB_ENGINE_DEBLOCK_H_
+#define STARFOCUS_LIB_ENGINE_DEBLOCK_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -54,4 +54,4 @@ void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_FILTER_DEBLOCK_H_
+#endif  // STARFOCUS_LIB_ENGINE_DEBLOCK_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/source/light_field.h"
+#include "lib/engine/light_field.h"
 
 #include <cstring>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copies of a prepared light field at 1/2, 1/4 and 1/8 of its size, for previews.
-#ifndef STARFOCUS_LIB_SOURCE_REDUCED_H_
-#define STARFOCUS_LIB_SOURCE_REDUCED_H_
+#ifndef STARFOCUS_LIB_ENGINE_REDUCED_H_
+#define STARFOCUS_LIB_ENGINE_REDUCED_H_
 
 #include "lib/base/arena.h"
 #include "lib/base/geometry.h"
 #include "lib/engine/engine.h"
-#include "lib/filter/reduce.h"
+#include "lib/engine/reduce.h"
 
 namespace starfocus {
 
@@ -33,4 +33,4 @@ starfocus_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& row
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_SOURCE_REDUCED_H_
+#endif  // STARFOCUS_LIB_ENGINE_REDUCED_H_

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reduces pictures and disparity maps to 1 / 2^shift of their size. Each pixel represents a block
 // of 2^shift by 2^shift pixels, or the part of the block inside the picture.
-#ifndef STARFOCUS_LIB_FILTER_REDUCE_H_
-#define STARFOCUS_LIB_FILTER_REDUCE_H_
+#ifndef STARFOCUS_LIB_ENGINE_REDUCE_H_
+#define STARFOCUS_LIB_ENGINE_REDUCE_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -37,4 +37,4 @@ constexpr int16_t ReducedDisparity(int16_t disparity, int shift) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_FILTER_REDUCE_H_
+#endif  // STARFOCUS_LIB_ENGINE_REDUCE_H_

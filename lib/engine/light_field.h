@@ -3,8 +3,8 @@
 // loaded. Views are read in place if all views are packed RGB. If a view has another format, the
 // engine converts rows of the centre view into a ring buffer. Pixels of side views are then
 // converted when the pixels are read.
-#ifndef STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
-#define STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
+#ifndef STARFOCUS_LIB_ENGINE_LIGHT_FIELD_H_
+#define STARFOCUS_LIB_ENGINE_LIGHT_FIELD_H_
 
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
@@ -41,4 +41,4 @@ void UseLightField(const LightField& field, EngineState* engine);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_SOURCE_LIGHT_FIELD_H_
+#endif  // STARFOCUS_LIB_ENGINE_LIGHT_FIELD_H_

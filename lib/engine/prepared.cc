@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/source/prepared.h"
+#include "lib/engine/prepared.h"
 
 #include <new>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/filter/reduce.h"
+#include "lib/engine/reduce.h"
 
 #include "lib/base/fixed.h"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prepared light field, which stores data that do not depend on the lens. The data are checked and
 // converted disparities, the layers of the centre view, and reduced light fields.
-#ifndef STARFOCUS_LIB_SOURCE_PREPARED_H_
-#define STARFOCUS_LIB_SOURCE_PREPARED_H_
+#ifndef STARFOCUS_LIB_ENGINE_PREPARED_H_
+#define STARFOCUS_LIB_ENGINE_PREPARED_H_
 
 #include <cstddef>
 
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
+#include "lib/engine/reduced.h"
 #include "lib/io/extents.h"
-#include "lib/source/reduced.h"
 
 namespace starfocus {
 
@@ -55,4 +55,4 @@ void UsePrepared(const Prepared& prepared, EngineState* engine);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_SOURCE_PREPARED_H_
+#endif  // STARFOCUS_LIB_ENGINE_PREPARED_H_

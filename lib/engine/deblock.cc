@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/filter/deblock.h"
+#include "lib/engine/deblock.h"
 
 #include "lib/plan/partition.h"
 
