@@ -24,7 +24,7 @@ usage: ./do COMMAND
   demo    install what is missing, build, make a demo light field and refocus it
   test    install what is missing, build and run every test
   check   the tests under sanitizers with every fixed-point range checked, but those of sources and
-          of lib/analysis, then a few cases under valgrind
+          of examples/lab/analysis, then a few cases under valgrind
   mutate [FILE...|--since REV]  change one small thing at a time (in a copy) and tell which changes
           no test notices; --sample N of them (50); --help tells the rest
   fuzz [SECONDS]  run every fuzz target that long (60), new inputs kept in build/fuzz/inputs
@@ -262,7 +262,7 @@ demo() {
     sheet demo/near.png demo/middle.png demo/far.png --labels near,middle,far -o demo/sheet.png
 }
 
-# Runs the tests under AddressSanitizer and UBSan with range checks. Tests with data sets, tests of lib/analysis and
+# Runs the tests under AddressSanitizer and UBSan with range checks. Tests with data sets, tests of examples/lab/analysis and
 # tests of the source tree are skipped, since sanitizers find nothing in these tests. AddressSanitizer keeps one stack
 # frame per allocation, because whole stacks make the conformance tests four times slower. To get whole stacks, set
 # ASAN_OPTIONS=malloc_context_size=30.

@@ -22,7 +22,7 @@ int32_t ViewsByPaper(double r_max);
 // Returns N for views that each represent a subaperture: the radius of the lens in subapertures
 // (LensInSubapertures of lib/optics/view_weights.h), rounded up. At r_max and at every smaller
 // radius, the error of the PSF is at most the error with N from (9).
-// lib/analysis/subaperture_rule.h states the criterion. r_max is in [0, 128] pixels:
+// examples/lab/analysis/subaperture_rule.h states the criterion. r_max is in [0, 128] pixels:
 //
 //   r_max <=  1/2  5.5   11   25   34   49   68   83  119  128
 //   N           0    3    4    5    6    7    9   11   12   13

@@ -46,7 +46,7 @@ struct ViewWeights {
 // the error of any other radius with as many views. For N = 5, no lens radius has a smaller error
 // than 32 * 5 - 11 units. For N = 3, a lens radius of 94 units has the smallest error among the
 // radii that meet the error threshold at every blur radius. See WorstOfLens in
-// lib/analysis/subaperture_rule.h, and the tables in docs/constants.md.
+// examples/lab/analysis/subaperture_rule.h, and the tables in docs/constants.md.
 inline constexpr int32_t kSubapertureUnits = 32;
 constexpr int32_t LensInSubapertures(int32_t n) {
   return n == 1 ? kSubapertureUnits : n == 3 ? 94 : n == 4 ? 123 : kSubapertureUnits * n - 11;

@@ -6,15 +6,15 @@
 #include <cstdio>
 #include <string>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/half_band.h"
-#include "lib/analysis/ideal.h"
-#include "lib/analysis/integral.h"
-#include "lib/analysis/selection.h"
-#include "lib/analysis/star_psf.h"
-#include "lib/analysis/subaperture_rule.h"
-#include "lib/analysis/subsampled.h"
-#include "lib/analysis/view_psf.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/half_band.h"
+#include "examples/lab/analysis/ideal.h"
+#include "examples/lab/analysis/integral.h"
+#include "examples/lab/analysis/selection.h"
+#include "examples/lab/analysis/star_psf.h"
+#include "examples/lab/analysis/subaperture_rule.h"
+#include "examples/lab/analysis/subsampled.h"
+#include "examples/lab/analysis/view_psf.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_weights.h"
 

@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/engine_steps.h"
-#include "lib/analysis/half_band.h"
-#include "lib/analysis/ideal.h"
-#include "lib/analysis/search.h"
-#include "lib/analysis/selection.h"
-#include "lib/analysis/star_psf.h"
-#include "lib/analysis/subaperture_rule.h"
-#include "lib/analysis/subsampled.h"
-#include "lib/analysis/view_psf.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/engine_steps.h"
+#include "examples/lab/analysis/half_band.h"
+#include "examples/lab/analysis/ideal.h"
+#include "examples/lab/analysis/search.h"
+#include "examples/lab/analysis/selection.h"
+#include "examples/lab/analysis/star_psf.h"
+#include "examples/lab/analysis/subaperture_rule.h"
+#include "examples/lab/analysis/subsampled.h"
+#include "examples/lab/analysis/view_psf.h"
 #include "lib/base/fixed.h"
 #include "lib/gather/blur.h"
 #include "lib/gather/gather.h"
@@ -43,7 +43,7 @@ TEST_CASE("constants: the default theta is the theta of Table I at r = 3") {
                     << theta / kPi << " pi, but Table I has " << table / kPi
                     << " pi, which affects all figures and rules of the paper");
   CHECK_MESSAGE(theta == doctest::Approx(kDefaultTheta).epsilon(1e-12),
-                "kDefaultTheta of lib/analysis differs from the engine's default theta");
+                "kDefaultTheta of examples/lab/analysis differs from the engine's default theta");
 }
 
 TEST_CASE("constants: the numbers of views follow equation (9)") {
@@ -130,7 +130,7 @@ TEST_CASE("constants: the layer filters have beta_D of Table I at r = 3 and the 
   check(kUpFilter, std::round(100 * BetaWithoutPi()) / 100, 2,
         "G_U, which affects Table I, Fig. 8 and the PSFs of the layers");
   CHECK_MESSAGE(kBetaDown == doctest::Approx(OptimiseOnGrid(3).filters.beta_down).epsilon(1e-9),
-                "kBetaDown of lib/analysis differs from beta_D of Table I");
+                "kBetaDown of examples/lab/analysis differs from beta_D of Table I");
 }
 
 TEST_CASE("constants: layers begin at the radii of equation (12)") {

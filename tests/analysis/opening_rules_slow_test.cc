@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/opening.h"
-#include "lib/analysis/selection.h"
-#include "lib/analysis/subsampled.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/opening.h"
+#include "examples/lab/analysis/selection.h"
+#include "examples/lab/analysis/subsampled.h"
 #include "lib/optics/rules.h"
 
 namespace starfocus::opening_rules_slow_test {

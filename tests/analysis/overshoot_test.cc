@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "lib/analysis/engine_psf.h"
+#include "examples/lab/analysis/engine_psf.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
 

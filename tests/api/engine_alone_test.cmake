@@ -2,8 +2,8 @@
 # Usage: cmake -DNM=… -DBUILD=… -P engine_alone_test.cmake
 # Checks which parts of the library are linked into statically linked programs. A program that only refocuses in its
 # own memory must contain neither lib/depth nor starfocus_create. A program that computes disparity maps contains
-# lib/depth. The program starfocus must not contain lib/analysis, the ray tracer or tests. The program starfocus-lab
-# contains lib/analysis, the ray tracer and tests.
+# lib/depth. The program starfocus must not contain examples/lab/analysis, the ray tracer or tests. The program starfocus-lab
+# contains examples/lab/analysis, the ray tracer and tests.
 cmake_minimum_required(VERSION 3.20)
 
 # expect(PROGRAM has|lacks NAME...) checks that PROGRAM has (or lacks) symbols that match each NAME.

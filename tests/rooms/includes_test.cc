@@ -21,11 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Source files may include headers of their own folder and headers of earlier folders in this list.
-// The last folder is lib/analysis, because lib/analysis measures the whole engine.
 const std::vector<std::string> kRooms = {"simd",          "lib/base",   "lib/optics", "lib/io",
                                          "lib/matting",   "lib/plan",   "lib/gather", "lib/slices",
-                                         "lib/line_scan", "lib/engine", "lib/depth",  "lib/api",
-                                         "lib/analysis"};
+                                         "lib/line_scan", "lib/engine", "lib/depth",  "lib/api"};
 
 // Folders outside the engine, each with the folders whose headers it may include. From the engine,
 // the outside folders may include only public headers.

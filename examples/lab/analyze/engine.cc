@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "examples/lab/analysis/engine_steps.h"
+#include "examples/lab/analysis/selection.h"
 #include "examples/lab/analyze/figures.h"
-#include "lib/analysis/engine_steps.h"
-#include "lib/analysis/selection.h"
 #include "lib/optics/rules.h"
 #include "platform/file.h"
 #include "platform/progress.h"

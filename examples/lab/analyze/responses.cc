@@ -2,13 +2,13 @@
 // Computes Figs. 4, 5 and 8: 1D PSFs and their frequency responses.
 #include <cmath>
 
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/half_band.h"
+#include "examples/lab/analysis/ideal.h"
+#include "examples/lab/analysis/spectrum.h"
+#include "examples/lab/analysis/subsampled.h"
+#include "examples/lab/analysis/view_psf.h"
 #include "examples/lab/analyze/figures.h"
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/half_band.h"
-#include "lib/analysis/ideal.h"
-#include "lib/analysis/spectrum.h"
-#include "lib/analysis/subsampled.h"
-#include "lib/analysis/view_psf.h"
 
 namespace starfocus {
 namespace {

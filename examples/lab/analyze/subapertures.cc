@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/selection.h"
+#include "examples/lab/analysis/subaperture_rule.h"
 #include "examples/lab/analyze/figures.h"
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/selection.h"
-#include "lib/analysis/subaperture_rule.h"
 #include "lib/optics/rules.h"
 #include "platform/progress.h"
 

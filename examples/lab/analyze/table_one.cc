@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/half_band.h"
+#include "examples/lab/analysis/selection.h"
+#include "examples/lab/analysis/subsampled.h"
 #include "examples/lab/analyze/figures.h"
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/half_band.h"
-#include "lib/analysis/selection.h"
-#include "lib/analysis/subsampled.h"
 
 namespace starfocus {
 namespace {

@@ -2,9 +2,9 @@
 // Computes Fig. 6, SSE as a function of N / r, and the thresholds of (9).
 #include <cstdio>
 
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/selection.h"
 #include "examples/lab/analyze/figures.h"
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/selection.h"
 
 namespace starfocus {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stores sampled PSFs and filters, and computes their squared differences.
-#ifndef STARFOCUS_LIB_ANALYSIS_SAMPLED_PSF_H_
-#define STARFOCUS_LIB_ANALYSIS_SAMPLED_PSF_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_SAMPLED_PSF_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_SAMPLED_PSF_H_
 
 #include <cstddef>
 #include <vector>
@@ -59,4 +59,4 @@ double Energy(const SampledPsf& psf);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_SAMPLED_PSF_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_SAMPLED_PSF_H_

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the PSF of the running engine, which is the engine's response to one white pixel on a
 // flat surface.
-#ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_PSF_H_
-#define STARFOCUS_LIB_ANALYSIS_ENGINE_PSF_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_ENGINE_PSF_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_ENGINE_PSF_H_
 
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/sampled_psf.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus::analysis {
@@ -39,4 +39,4 @@ starfocus_status MeasureEnginePsf(const EngineProbe& probe, EnginePsf* result);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_ENGINE_PSF_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_ENGINE_PSF_H_

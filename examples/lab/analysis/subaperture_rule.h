@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the counterpart of rule (9) for subapertures. If each view stands for a part of the
 // lens, a blur radius requires a different number of views than (9) states.
-#ifndef STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
-#define STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_SUBAPERTURE_RULE_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_SUBAPERTURE_RULE_H_
 
 #include <vector>
 
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -59,4 +59,4 @@ class SubapertureStudy {
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_SUBAPERTURE_RULE_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_SUBAPERTURE_RULE_H_

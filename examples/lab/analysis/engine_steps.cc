@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/engine_steps.h"
+#include "examples/lab/analysis/engine_steps.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/half_band.h"
-#include "lib/analysis/ideal.h"
-#include "lib/analysis/selection.h"
-#include "lib/analysis/star_psf.h"
-#include "lib/analysis/subsampled.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/half_band.h"
+#include "examples/lab/analysis/ideal.h"
+#include "examples/lab/analysis/selection.h"
+#include "examples/lab/analysis/star_psf.h"
+#include "examples/lab/analysis/subsampled.h"
 
 namespace starfocus::analysis {
 

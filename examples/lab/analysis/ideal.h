@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the discrete PSF of the ideal defocus blur (4).
-#ifndef STARFOCUS_LIB_ANALYSIS_IDEAL_H_
-#define STARFOCUS_LIB_ANALYSIS_IDEAL_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_IDEAL_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_IDEAL_H_
 
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -16,4 +16,4 @@ Taps IdealPsf1(double r, double theta);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_IDEAL_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_IDEAL_H_

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/view_psf.h"
+#include "examples/lab/analysis/view_psf.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/ideal.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/ideal.h"
 #include "lib/optics/view_weights.h"
 
 namespace starfocus::analysis {

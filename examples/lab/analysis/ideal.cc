@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/ideal.h"
+#include "examples/lab/analysis/ideal.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/integral.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/integral.h"
 
 namespace starfocus::analysis {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the PSFs of refocusing by rendered views, (5) to (7): the paper's PSF, with the
 // triangular h, and the PSF of subapertures.
-#ifndef STARFOCUS_LIB_ANALYSIS_VIEW_PSF_H_
-#define STARFOCUS_LIB_ANALYSIS_VIEW_PSF_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_VIEW_PSF_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_VIEW_PSF_H_
 
 #include <vector>
 
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -59,4 +59,4 @@ Taps SampledAperture1(int n, double theta);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_VIEW_PSF_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_VIEW_PSF_H_

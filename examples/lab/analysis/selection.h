@@ -2,10 +2,10 @@
 // Computes the number of views that a blur radius requires according to the paper's criteria
 // (III-C, Fig. 6). The paper derives its rule (9) for the number of views from the criteria of
 // section III-C.
-#ifndef STARFOCUS_LIB_ANALYSIS_SELECTION_H_
-#define STARFOCUS_LIB_ANALYSIS_SELECTION_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_SELECTION_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_SELECTION_H_
 
-#include "lib/analysis/view_psf.h"
+#include "examples/lab/analysis/view_psf.h"
 
 namespace starfocus::analysis {
 
@@ -34,4 +34,4 @@ double UnderSamplingRatio(int n, double theta, double error, Rim rim = Rim::kInc
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_SELECTION_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_SELECTION_H_

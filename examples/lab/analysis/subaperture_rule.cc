@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/subaperture_rule.h"
+#include "examples/lab/analysis/subaperture_rule.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "lib/analysis/ideal.h"
-#include "lib/analysis/selection.h"
-#include "lib/analysis/view_psf.h"
+#include "examples/lab/analysis/ideal.h"
+#include "examples/lab/analysis/selection.h"
+#include "examples/lab/analysis/view_psf.h"
 #include "lib/optics/rules.h"
 
 namespace starfocus::analysis {

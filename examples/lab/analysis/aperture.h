@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the aperture filter (3): the cosine-fourth fall-off of a lens.
-#ifndef STARFOCUS_LIB_ANALYSIS_APERTURE_H_
-#define STARFOCUS_LIB_ANALYSIS_APERTURE_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_APERTURE_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_APERTURE_H_
 
 namespace starfocus::analysis {
 
@@ -23,4 +23,4 @@ double Aperture1(double u, double theta);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_APERTURE_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_APERTURE_H_

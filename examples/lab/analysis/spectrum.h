@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes frequency responses of 1D PSFs (Figs. 5 and 8 of the paper).
-#ifndef STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
-#define STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_SPECTRUM_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_SPECTRUM_H_
 
 #include <cmath>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -26,4 +26,4 @@ inline double TriangleResponse(double f) {
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_SPECTRUM_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_SPECTRUM_H_

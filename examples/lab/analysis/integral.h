@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the two integrals that lib/analysis uses for continuous quantities.
-#ifndef STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_
-#define STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_
+// Computes the two integrals that examples/lab/analysis uses for continuous quantities.
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_INTEGRAL_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_INTEGRAL_H_
 
 #include <cmath>
 
@@ -33,4 +33,4 @@ double Integrate(double low, double high, const Function& f) {
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_INTEGRAL_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_INTEGRAL_H_

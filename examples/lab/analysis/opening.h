@@ -2,10 +2,10 @@
 // Analyses openings other than (3) in double precision. Computes the ideal PSF of an opening, the
 // PSF of its subapertures, and the error of a layer. The engine's rules for N and layers of these
 // openings are based on the results of this analysis (docs/constants.md, Openings).
-#ifndef STARFOCUS_LIB_ANALYSIS_OPENING_H_
-#define STARFOCUS_LIB_ANALYSIS_OPENING_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_OPENING_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_OPENING_H_
 
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -34,4 +34,4 @@ double LayerError(double r, const BrightOpening& opening);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_OPENING_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_OPENING_H_

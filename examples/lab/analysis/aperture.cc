@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/aperture.h"
+#include "examples/lab/analysis/aperture.h"
 
 #include <cmath>
 
-#include "lib/analysis/integral.h"
+#include "examples/lab/analysis/integral.h"
 
 namespace starfocus::analysis {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the PSFs of the running engine with the theory, and explains the differences.
-#ifndef STARFOCUS_LIB_ANALYSIS_ENGINE_STEPS_H_
-#define STARFOCUS_LIB_ANALYSIS_ENGINE_STEPS_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_ENGINE_STEPS_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_ENGINE_STEPS_H_
 
 #include <string>
 
-#include "lib/analysis/engine_psf.h"
+#include "examples/lab/analysis/engine_psf.h"
 
 namespace starfocus::analysis {
 
@@ -51,4 +51,4 @@ std::string Explain(const EngineStep& step);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_ENGINE_STEPS_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_ENGINE_STEPS_H_

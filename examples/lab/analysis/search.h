@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds minima and sign changes of functions of one variable.
-#ifndef STARFOCUS_LIB_ANALYSIS_SEARCH_H_
-#define STARFOCUS_LIB_ANALYSIS_SEARCH_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_SEARCH_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_SEARCH_H_
 
 namespace starfocus::analysis {
 
@@ -37,4 +37,4 @@ double Cross(double low, double high, double tolerance, const Function& f) {
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_SEARCH_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_SEARCH_H_

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/half_band.h"
+#include "examples/lab/analysis/half_band.h"
 
 #include <cmath>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/search.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/search.h"
 
 namespace starfocus::analysis {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/opening.h"
+#include "examples/lab/analysis/opening.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/subsampled.h"
-#include "lib/analysis/view_psf.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/subsampled.h"
+#include "examples/lab/analysis/view_psf.h"
 #include "lib/optics/view_weights.h"
 
 namespace starfocus::analysis {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the resampling filters of the subsampled layers: half-band sinc filters with a Kaiser
 // window.
-#ifndef STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
-#define STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_HALF_BAND_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_HALF_BAND_H_
 
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -26,4 +26,4 @@ double BetaWithoutPi();
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_HALF_BAND_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_HALF_BAND_H_

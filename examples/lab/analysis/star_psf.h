@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the PSF that the engine is designed to have. Subapertures are modelled as the
 // line scan and the slice renderer render them.
-#ifndef STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
-#define STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_STAR_PSF_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_STAR_PSF_H_
 
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -21,4 +21,4 @@ SampledPsf StarPsf(double r, int n, double theta, Subapertures subapertures);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_STAR_PSF_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_STAR_PSF_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/engine_psf.h"
+#include "examples/lab/analysis/engine_psf.h"
 
 #include <cmath>
 #include <memory>

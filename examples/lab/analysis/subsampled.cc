@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/subsampled.h"
+#include "examples/lab/analysis/subsampled.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "lib/analysis/aperture.h"
-#include "lib/analysis/half_band.h"
-#include "lib/analysis/ideal.h"
-#include "lib/analysis/search.h"
+#include "examples/lab/analysis/aperture.h"
+#include "examples/lab/analysis/half_band.h"
+#include "examples/lab/analysis/ideal.h"
+#include "examples/lab/analysis/search.h"
 
 namespace starfocus::analysis {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Analyses refocusing in the layer subsampled by two (III-D of the paper). Computes the equivalent
 // PSF, its error (10) and its aliasing (11), and the filters that minimise the error (Table I).
-#ifndef STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
-#define STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_ANALYSIS_SUBSAMPLED_H_
+#define STARFOCUS_EXAMPLES_LAB_ANALYSIS_SUBSAMPLED_H_
 
-#include "lib/analysis/sampled_psf.h"
+#include "examples/lab/analysis/sampled_psf.h"
 
 namespace starfocus::analysis {
 
@@ -57,4 +57,4 @@ double SmallestSubsampledRadius(double threshold);
 
 }  // namespace starfocus::analysis
 
-#endif  // STARFOCUS_LIB_ANALYSIS_SUBSAMPLED_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_ANALYSIS_SUBSAMPLED_H_

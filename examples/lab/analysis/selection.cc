@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/analysis/selection.h"
+#include "examples/lab/analysis/selection.h"
 
-#include "lib/analysis/ideal.h"
-#include "lib/analysis/search.h"
+#include "examples/lab/analysis/ideal.h"
+#include "examples/lab/analysis/search.h"
 
 namespace starfocus::analysis {
 
