@@ -36,13 +36,13 @@ usage: ./do COMMAND
           it starfocus-lab for developers)
   bench   time and error of every mode, with a report: build/bench/report.html
           --quick   small pictures, few of them: a minute or two
-          --check   only compares instruction counts with tests/bench/baseline.txt
+          --check   only compares instruction counts with examples/lab/bench/baseline.txt
           --record  writes that file anew
           --micro   only times kernels, the line scan and small pictures
   cross ARCH [build|bytes]   build for aarch64, armhf, armv6 or riscv64 and run every test emulated;
           bytes: only tests that compare all bytes
   boot    run the board program on an emulated board: its GPIO lines, buttons and screen
-  count [record]  AArch64 instructions per pixel against tests/board/instruction_counts.txt
+  count [record]  AArch64 instructions per pixel against toolchains/board/instruction_counts.txt
   size [write]   what boards need: code, stack and memory (write: into docs/boards.md)
   web [PORT]  build the npm package and a page to tap, and serve it on the loopback (8080)
           build   only makes them: build/web/npm and build/web/site, a static folder
@@ -406,7 +406,7 @@ bench_scene() {
 check_counts() {
   require valgrind
   build starfocus_lab starfocus_valgrind starfocus-bench-count starfocus_instruction_bench
-  tests/bench/count.sh $BUILD "$1"
+  examples/lab/bench/count.sh $BUILD "$1"
 }
 
 bench() {
@@ -445,7 +445,7 @@ bench() {
   $BUILD/starfocus-bench $fields $options --sweep build/bench/portrait-small \
     --revision "$(git rev-parse --short HEAD 2>/dev/null)" --csv build/bench/results.csv \
     --json build/bench/results.json || fail "the bench failed"
-  python3 tests/bench/report.py build/bench/results.json tests/bench/baseline.txt tests/board/instruction_counts.txt \
+  python3 examples/lab/bench/report.py build/bench/results.json examples/lab/bench/baseline.txt toolchains/board/instruction_counts.txt \
     >build/bench/report.html || fail "the report failed"
   echo "report: build/bench/report.html; rows: build/bench/results.csv and .json"
 }

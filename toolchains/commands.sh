@@ -66,7 +66,7 @@ into_boards() {
 build_counter() {
   mkdir -p "$LOGS"
   step plugin "building the emulator's counter" \
-    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" tests/board/count_instructions.c
+    cc -O2 -Wall -Wextra -shared -fPIC -o "$LOGS/count.so" toolchains/board/count_instructions.c
 }
 
 # instructions PRESET CASE KERNELS: prints the number of instructions of one refocusing on the emulated board.
@@ -89,10 +89,10 @@ count_case() {
 }
 
 # Counts instructions per pixel with NEON and with the reference kernels. Fails if a count is more than 3 % above the
-# count of the same compiler in tests/board/instruction_counts.txt. With `record`, writes the counts to
-# tests/board/instruction_counts.txt and docs/boards.md.
+# count of the same compiler in toolchains/board/instruction_counts.txt. With `record`, writes the counts to
+# toolchains/board/instruction_counts.txt and docs/boards.md.
 count() {
-  local baseline=tests/board/instruction_counts.txt now=$LOGS/instruction_counts.txt cases item
+  local baseline=toolchains/board/instruction_counts.txt now=$LOGS/instruction_counts.txt cases item
   local compiler recorded
   build_counter
   compiler=$(aarch64-linux-gnu-g++ --version | head -n 1)
@@ -285,5 +285,5 @@ boot() {
     toolchains/sysroot.sh arm64 build/sysroot/arm64
   cross_build aarch64 starfocus_board_refocus
   build starfocus starfocus_lab
-  tests/board/boot.sh $PROGRAM build/aarch64/board_refocus build/boot || exit 1
+  toolchains/board/boot.sh $PROGRAM build/aarch64/board_refocus build/boot || exit 1
 }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/bench/metrics.h"
+#include "examples/lab/bench/metrics.h"
 
 namespace bench_test {
 namespace {

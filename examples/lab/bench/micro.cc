@@ -3,7 +3,7 @@
 // each reference. The program also measures parts of the engine that call kernels, and memcpy of
 // similar sizes. Speeds are in bytes read and written per second. kernels_bytes_test checks the
 // results of the same kernel calls.
-#include "tests/bench/micro.h"
+#include "examples/lab/bench/micro.h"
 
 #include <benchmark/benchmark.h>
 

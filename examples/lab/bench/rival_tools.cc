@@ -11,9 +11,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "examples/lab/bench/metrics.h"
+#include "examples/lab/bench/rivals.h"
 #include "platform/image_io.h"
-#include "tests/bench/metrics.h"
-#include "tests/bench/rivals.h"
 
 extern char** environ;
 

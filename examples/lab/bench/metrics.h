@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes error metrics of pictures, and statistics of run times. Used by the bench and tested by
 // bench_test.cc.
-#ifndef STARFOCUS_TESTS_BENCH_METRICS_H_
-#define STARFOCUS_TESTS_BENCH_METRICS_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_METRICS_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_METRICS_H_
 
 #include <cstdint>
 #include <vector>
@@ -43,4 +43,4 @@ double Quantile(std::vector<float> values, double q);
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_METRICS_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_METRICS_H_

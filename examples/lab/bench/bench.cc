@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "examples/lab/bench/machine.h"
+#include "examples/lab/bench/output.h"
+#include "examples/lab/bench/rivals.h"
+#include "examples/lab/bench/studies.h"
+#include "examples/lab/bench/timed_engine.h"
 #include "platform/file.h"
-#include "tests/bench/machine.h"
-#include "tests/bench/output.h"
-#include "tests/bench/rivals.h"
-#include "tests/bench/studies.h"
-#include "tests/bench/timed_engine.h"
 
 namespace starfocus::bench {
 namespace {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Creates an engine and its memory for refocusing one light field repeatedly. Used by the bench
 // programs.
-#ifndef STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
-#define STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_TIMED_ENGINE_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_TIMED_ENGINE_H_
 
 #include <memory>
 #include <new>
 #include <string>
 
+#include "examples/lab/bench/field.h"
+#include "examples/lab/bench/row.h"
+#include "examples/lab/bench/stopwatch.h"
 #include "platform/result.h"
 #include "platform/runner.h"
-#include "tests/bench/field.h"
-#include "tests/bench/row.h"
-#include "tests/bench/stopwatch.h"
 
 namespace starfocus::bench {
 
@@ -44,4 +44,4 @@ Error RunOnce(const Field& field, const Task& task, TimedEngine* timed, Elapsed*
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_TIMED_ENGINE_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_TIMED_ENGINE_H_

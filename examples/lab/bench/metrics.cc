@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/bench/metrics.h"
+#include "examples/lab/bench/metrics.h"
 
 #include <algorithm>
 #include <array>

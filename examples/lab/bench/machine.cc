@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/bench/machine.h"
+#include "examples/lab/bench/machine.h"
 
 #include <fstream>
 

@@ -2,8 +2,8 @@
 // Reads the light fields of the bench with their ray-traced pictures (truths). Creates larger and
 // stretched copies for the sweeps of the size and the blur radius. Used by bench.cc, count.cc and
 // studies.cc.
-#ifndef STARFOCUS_TESTS_BENCH_FIELD_H_
-#define STARFOCUS_TESTS_BENCH_FIELD_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_FIELD_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_FIELD_H_
 
 #include <string>
 #include <vector>
@@ -58,4 +58,4 @@ starfocus_light_field Rows(const LightField& data, int views);
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_FIELD_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_FIELD_H_

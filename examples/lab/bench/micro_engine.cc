@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "examples/lab/bench/micro.h"
+#include "examples/lab/bench/timed_engine.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/line_scan/runs.h"
-#include "tests/bench/micro.h"
-#include "tests/bench/timed_engine.h"
 #include "tests/support/inside.h"
 
 namespace starfocus::bench {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Benchmarks of starfocus-bench-micro that measure more than one kernel.
-#ifndef STARFOCUS_TESTS_BENCH_MICRO_H_
-#define STARFOCUS_TESTS_BENCH_MICRO_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_MICRO_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_MICRO_H_
 
 #include <string>
 
@@ -25,4 +25,4 @@ void RegisterBounds();
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_MICRO_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_MICRO_H_

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/bench/field.h"
+#include "examples/lab/bench/field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
+#include "examples/lab/bench/metrics.h"
 #include "platform/image_io.h"
-#include "tests/bench/metrics.h"
 
 namespace starfocus::bench {
 namespace {

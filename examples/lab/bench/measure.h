@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures several ways to compute the same picture. Used by studies.cc.
-#ifndef STARFOCUS_TESTS_BENCH_MEASURE_H_
-#define STARFOCUS_TESTS_BENCH_MEASURE_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_MEASURE_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_MEASURE_H_
 
 #include <string>
 #include <vector>
 
+#include "examples/lab/bench/field.h"
+#include "examples/lab/bench/row.h"
 #include "platform/result.h"
-#include "tests/bench/field.h"
-#include "tests/bench/row.h"
 
 namespace starfocus::bench {
 
@@ -38,4 +38,4 @@ Error MeasureGroup(const Group& group, const Settings& settings, std::vector<Row
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_MEASURE_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_MEASURE_H_

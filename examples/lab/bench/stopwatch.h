@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the processor time of this process and the elapsed time.
-#ifndef STARFOCUS_TESTS_BENCH_STOPWATCH_H_
-#define STARFOCUS_TESTS_BENCH_STOPWATCH_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_STOPWATCH_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_STOPWATCH_H_
 
 #include <time.h>
 
@@ -33,4 +33,4 @@ class Stopwatch {
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_STOPWATCH_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_STOPWATCH_H_

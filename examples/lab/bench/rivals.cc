@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/bench/rivals.h"
+#include "examples/lab/bench/rivals.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/bench/measure.h"
+#include "examples/lab/bench/measure.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
-#include "tests/bench/metrics.h"
-#include "tests/bench/rivals.h"
-#include "tests/bench/timed_engine.h"
+#include "examples/lab/bench/metrics.h"
+#include "examples/lab/bench/rivals.h"
+#include "examples/lab/bench/timed_engine.h"
 
 namespace starfocus::bench {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes rows as CSV and JSON.
-#ifndef STARFOCUS_TESTS_BENCH_OUTPUT_H_
-#define STARFOCUS_TESTS_BENCH_OUTPUT_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_OUTPUT_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_OUTPUT_H_
 
 #include <string>
 #include <vector>
 
-#include "tests/bench/machine.h"
-#include "tests/bench/row.h"
+#include "examples/lab/bench/machine.h"
+#include "examples/lab/bench/row.h"
 
 namespace starfocus::bench {
 
@@ -16,4 +16,4 @@ std::string ToJson(const Machine& machine, const std::vector<Row>& rows);
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_OUTPUT_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_OUTPUT_H_

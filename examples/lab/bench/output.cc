@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/bench/output.h"
+#include "examples/lab/bench/output.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

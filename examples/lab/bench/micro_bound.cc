@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tests/bench/micro.h"
+#include "examples/lab/bench/micro.h"
 #include "tests/support/integer_scene.h"
 #include "tests/support/test_scene.h"
 

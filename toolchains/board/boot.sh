@@ -11,7 +11,7 @@ set -u
 [ $# = 3 ] || { echo "usage: $0 STARFOCUS BOARD_REFOCUS FOLDER" >&2; exit 2; }
 starfocus=$(realpath "$1") program=$(realpath "$2") folder=$(realpath -m "$3")
 here=$(realpath "$(dirname "$0")")
-fetch=$here/../../toolchains/fetch.sh
+fetch=$here/../fetch.sh
 width=160 height=120 # size of the light field
 seconds=${STARFOCUS_BOOT_SECONDS:-120}
 emulator=

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses the pictures and tasks that are measured. Called by bench.cc.
-#ifndef STARFOCUS_TESTS_BENCH_STUDIES_H_
-#define STARFOCUS_TESTS_BENCH_STUDIES_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_STUDIES_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_STUDIES_H_
 
 #include <string>
 #include <vector>
 
+#include "examples/lab/bench/field.h"
+#include "examples/lab/bench/measure.h"
 #include "platform/result.h"
-#include "tests/bench/field.h"
-#include "tests/bench/measure.h"
 
 namespace starfocus::bench {
 
@@ -42,4 +42,4 @@ Error MeasureSizes(const Field& field, const Choice& choice, const Settings& set
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_STUDIES_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_STUDIES_H_

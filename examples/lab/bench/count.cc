@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "examples/lab/bench/timed_engine.h"
 #include "platform/file.h"
 #include "starfocus/starfocus.h"
-#include "tests/bench/timed_engine.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/bench/timed_engine.h"
+#include "examples/lab/bench/timed_engine.h"
 
 #include <algorithm>
 #include <cmath>

@@ -25,7 +25,7 @@ compiler=$("$compiler" --version | sed -n '1s/^[^ ]* //p') # without the program
 count() {
   local name=$1 out=$build/callgrind.$1 log=$build/callgrind.$1.log pixels instructions found
   shift
-  "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=starfocus_refocus \
+  "$here/../../../tests/support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=starfocus_refocus \
     "$program" "$@" >"$log" 2>"$log.err" || { cat "$log" "$log.err" >&2; exit 1; }
   read -r pixels found <"$log"
   [ "$found" = $target ] || { echo "target $found"; return; }
@@ -37,7 +37,7 @@ count() {
 # "NAME KERNELS instructions-per-pixel". `./do count` counts the same cases on AArch64.
 count_case() {
   local out=$build/callgrind.$1.$3 instructions
-  "$here/../support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=starfocus_refocus \
+  "$here/../../../tests/support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=starfocus_refocus \
     "$build/tests/instruction_bench" "$1" "$3" 1 >"$out.log" 2>&1 || { cat "$out.log" >&2; exit 1; }
   instructions=$(awk '/^(summary|totals):/ { print $2; exit }' "$out")
   awk -v n="$1 $3" -v i="$instructions" -v p="$2" 'BEGIN { printf "%s %.1f\n", n, i / p }'

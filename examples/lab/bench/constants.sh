@@ -8,7 +8,7 @@
 set -eu
 program=$1 before=$2
 shift 2
-data=$(cd "$(dirname "$0")/../.." && pwd)/../shared/data
+data=$(cd "$(dirname "$0")/../../.." && pwd)/../shared/data
 [ -d "$data/wires" ] || { echo "SKIPPED: the data sets are absent: $data" >&2; exit 0; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -2,14 +2,14 @@
 // Rivals are other methods of refocusing that the bench compares with the engine. rivals.cc
 // implements shift-and-add of the captured views. The other rivals are installed programs that blur
 // the centre view by a map of blur radii. Used by bench.cc and measure.cc.
-#ifndef STARFOCUS_TESTS_BENCH_RIVALS_H_
-#define STARFOCUS_TESTS_BENCH_RIVALS_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_RIVALS_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_RIVALS_H_
 
 #include <string>
 #include <vector>
 
+#include "examples/lab/bench/field.h"
 #include "platform/result.h"
-#include "tests/bench/field.h"
 
 namespace starfocus::bench {
 
@@ -59,4 +59,4 @@ Error RunTool(const Tool& tool, const Field& field, double focus, const Image& t
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_RIVALS_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_RIVALS_H_

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines a row of the bench's output, which holds a measured task and its results.
-#ifndef STARFOCUS_TESTS_BENCH_ROW_H_
-#define STARFOCUS_TESTS_BENCH_ROW_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_ROW_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_ROW_H_
 
 #include <cmath>
 #include <cstddef>
@@ -66,4 +66,4 @@ struct Row {
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_ROW_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_ROW_H_

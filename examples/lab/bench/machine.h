@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Describes the machine, compiler and version for the output of the bench.
-#ifndef STARFOCUS_TESTS_BENCH_MACHINE_H_
-#define STARFOCUS_TESTS_BENCH_MACHINE_H_
+#ifndef STARFOCUS_EXAMPLES_LAB_BENCH_MACHINE_H_
+#define STARFOCUS_EXAMPLES_LAB_BENCH_MACHINE_H_
 
 #include <string>
 
@@ -17,4 +17,4 @@ Machine ThisMachine(const std::string& revision);
 
 }  // namespace starfocus::bench
 
-#endif  // STARFOCUS_TESTS_BENCH_MACHINE_H_
+#endif  // STARFOCUS_EXAMPLES_LAB_BENCH_MACHINE_H_

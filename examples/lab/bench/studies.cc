@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/bench/studies.h"
+#include "examples/lab/bench/studies.h"
 
 #include <algorithm>
 #include <cmath>
