@@ -165,7 +165,7 @@ starfocus_status CheckCall(const DepthCall& call, bool repairs,
 // Converts the light field if necessary, and calls make(light_field) with the caller's runner and
 // progress function. The converted light field lies `made` bytes after the start of the workspace.
 template <class Make>
-starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, size_t made, JobSet* jobs,
+starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, size_t made, Jobs* jobs,
                          const Make& make) {
   const starfocus_depth_config& config = *call.config;
   jobs->runner = {config.runner, config.runner_data};

@@ -63,6 +63,20 @@ class Arena {
   // pieces are meaningless.
   size_t Bytes() const { return too_large_ ? kTooLarge : used_ > largest_ ? used_ : largest_; }
 
+  // Calls each function of `parts`, all of which allocate from the same address, because only one
+  // of them is in use at a time. Later pieces lie after the longest part.
+  template <class... Parts>
+  void Overlap(const Parts&... parts) {
+    const size_t begin = used_, outer = longest_;
+    longest_ = begin;
+    (TakePart(begin, parts), ...);
+    used_ = longest_;
+    longest_ = outer;
+  }
+  // Within a part of Overlap: returns the largest size of the next piece with which this part is
+  // not longer than the parts before it.
+  size_t Rest() const { return longest_ < used_ + kExtra ? 0 : longest_ - used_ - kExtra; }
+
   // Reuse() lets later pieces share the memory of the pieces that were allocated after Mark()
   // returned `mark`.
   size_t Mark() const { return used_; }
@@ -80,6 +94,13 @@ class Arena {
   // Returns a * b, or SIZE_MAX if the product overflows.
   static constexpr size_t Product(size_t a, size_t b) {
     return a != 0 && b > SIZE_MAX / a ? SIZE_MAX : a * b;
+  }
+
+  template <class Part>
+  void TakePart(size_t begin, const Part& part) {
+    if (kRedZone == 0) used_ = begin;
+    part();
+    longest_ = used_ > longest_ ? used_ : longest_;
   }
 
   void Add(size_t bytes) {
@@ -100,6 +121,7 @@ class Arena {
   size_t most_;
   const PieceVisitor* pieces_;
   size_t used_ = 0, largest_ = 0;
+  size_t longest_ = 0;  // End of the longest part so far of the innermost Overlap.
   bool too_large_ = false;
 };
 

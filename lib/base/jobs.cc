@@ -10,20 +10,20 @@ struct Progress {
   uint32_t taken, done;
 };
 
-Progress ProgressOf(const JobSet& set, int32_t index) {
+Progress ProgressOf(const Jobs& set, int32_t index) {
   const auto k = static_cast<uint32_t>(index);
   const uint32_t taken = 1U << 2 * (k % 16);
   return {set.progress[k / 16], taken, 2 * taken};
 }
 
-void RunJob(int32_t index, int32_t worker, JobSet* set) {
+void RunJob(int32_t index, int32_t worker, Jobs* set) {
   if (!set->call_progress.Ask()) return;
   set->function(set->data, index, worker);
   set->call_progress.CountJob();
 }
 
 // Takes a job and runs it. Returns false if the job was taken before or does not exist.
-bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
+bool TakeJob(Jobs* set, int32_t index, int32_t worker) {
   if (index < 0 || index >= set->count) return false;
   const Progress progress = ProgressOf(*set, index);
   if ((progress.word.fetch_or(progress.taken) & progress.taken) != 0) return false;
@@ -35,7 +35,7 @@ bool TakeJob(JobSet* set, int32_t index, int32_t worker) {
 // Implements starfocus_job. A thread reads the set of jobs only while the thread occupies a worker
 // slot, and the set changes only while all slots are free.
 void CallJob(void* data, int32_t index, int32_t worker) {
-  JobSet& set = *static_cast<JobSet*>(data);
+  Jobs& set = *static_cast<Jobs*>(data);
   if (worker < 0 || worker >= set.max_workers || set.busy[worker].exchange(1) != 0) {
     set.misused.store(1);
     return;
@@ -46,7 +46,7 @@ void CallJob(void* data, int32_t index, int32_t worker) {
 
 // Returns true if each job of the set was run exactly once. Waits for jobs that still run after the
 // runner has returned, because these jobs use memory of the call.
-bool Close(JobSet* set) {
+bool Close(Jobs* set) {
   set->open.store(0);
   for (int32_t worker = 0; worker < set->max_workers; ++worker) {
     while (set->busy[worker].load() != 0) {
@@ -62,7 +62,7 @@ bool Close(JobSet* set) {
 
 }  // namespace
 
-starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count, JobSet* set) {
+starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count, Jobs* set) {
   set->function = function;
   set->data = data;
   set->count = count;

@@ -33,7 +33,7 @@ struct ColourTileMemory {
 // Memory of a repair by colour. All maps have the size of the picture, and disparities are in fixed
 // point (kDisparityBits).
 struct ColourMemory {
-  JobSet jobs;
+  Jobs jobs;
   // The given map, the map after one pass of smoothing, and the smoothed map. Later phases store
   // their results in maps that are no longer used.
   int16_t* maps[3];

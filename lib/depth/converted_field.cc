@@ -96,7 +96,7 @@ size_t LayOutConverted(const starfocus_depth_config& config, bool has_map, void*
 }
 
 starfocus_status ConvertField(const starfocus_depth_config& config, const ConvertedMemory& memory,
-                              int32_t most_jobs, JobSet* jobs, starfocus_light_field* field) {
+                              int32_t most_jobs, Jobs* jobs, starfocus_light_field* field) {
   const int32_t width = config.width, height = config.height, count = Min(most_jobs, height);
   ConvertJob job = {
       simd::BestImageKernels(), width, height, count, &jobs->call_progress, {}, {}, {}, {}};

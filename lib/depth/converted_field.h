@@ -28,7 +28,7 @@ size_t LayOutConverted(const starfocus_depth_config& config, bool has_map, void*
 // limited to the configured range; unknown disparities are NaN. A set has at most `most_jobs` jobs.
 // Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
 starfocus_status ConvertField(const starfocus_depth_config& config, const ConvertedMemory& memory,
-                              int32_t most_jobs, JobSet* jobs, starfocus_light_field* field);
+                              int32_t most_jobs, Jobs* jobs, starfocus_light_field* field);
 
 }  // namespace starfocus
 

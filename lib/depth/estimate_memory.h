@@ -57,7 +57,7 @@ struct TileMemory {
 };
 
 struct EstimateMemory {
-  JobSet jobs;
+  Jobs jobs;
   // Disparities of the whole picture after the first sweep, which ignores occlusion, in fixed point
   // (kDisparityBits). After the sweeps, a repair stores the result of EvenOut in `first`.
   int16_t* first;

@@ -13,7 +13,7 @@ class Phases {
  public:
   // `count` is the number of phases of the whole API call. Progress is reported as a share of all
   // phases of the API call.
-  Phases(const EstimatePlan& plan, int32_t count, JobSet* jobs)
+  Phases(const EstimatePlan& plan, int32_t count, Jobs* jobs)
       : tiles_(plan.columns * plan.rows), count_(count), jobs_(jobs) {}
 
   // Counts the next phase as done without running the phase.
@@ -28,7 +28,7 @@ class Phases {
 
  private:
   int32_t tiles_, count_, done_ = 0;
-  JobSet* jobs_;
+  Jobs* jobs_;
 };
 
 }  // namespace starfocus

@@ -14,7 +14,7 @@ namespace starfocus {
 // Memory of all workers, and the set of jobs that use it.
 struct Workers {
   Scratch* scratch = nullptr;
-  JobSet jobs;  // set of jobs, with room for MaxJobs jobs
+  Jobs jobs;  // set of jobs, with room for MaxJobs jobs
 };
 
 // Returns the largest number of jobs in any set of an engine.
