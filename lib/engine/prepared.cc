@@ -38,13 +38,12 @@ starfocus_status MakeLayers(const Prepared& prepared, const PreparedStripe& stri
   }
   LayerPlane& second = store->layers[2];
   const LayerPlane& first = store->layers[1];
-  const starfocus_status status =
-      FillLayers(config, *engine->kernels, {1, 1}, &engine->workers, store);
+  const starfocus_status status = FillLayers({1, 2}, nullptr, engine);
   // Row y of layer 2 depends on the rows of layer 1 before 2 * y + 4.
   *two = {two->last, stripe.is_last ? second.height : Max(two->last, first.rows.last / 2 - 1)};
   second.rows = *two;
   if (status != STARFOCUS_OK || most < 2) return status;
-  return FillLayers(config, *engine->kernels, {2, 2, &first}, &engine->workers, store);
+  return FillLayers({2, 3}, &first, engine);
 }
 
 // Converts the map and computes the layers and reduced light fields into the planes of `prepared`.

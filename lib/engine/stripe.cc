@@ -12,53 +12,28 @@
 namespace starfocus {
 namespace {
 
-// Refocuses the blocks of a stripe. Job `index` refocuses block `index`.
-struct RefocusJob {
-  BlockInputs in;
-  const Block* blocks;
-  Plane<uint8_t> out;  // output: rows of the refocused picture
-};
-
-void RefocusOneBlock(const RefocusJob& job, int32_t index, Scratch* scratch) {
-  const Block& block = job.blocks[index];
-  // Counts the samples that every block reads and filters. Renderers count the samples of rendered
-  // views separately.
-  if (!scratch->cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
-  RefocusBlock(job.in, block, job.out, scratch);
-}
-
-// Deblocks the boundaries between blocks of different layers. For boundaries between rows, job
-// `index` processes column `index` of superblocks. For boundaries between columns, job `index`
-// processes kSmallestBlock finished rows.
-struct JoinJob {
-  DeblockJob deblock;
-  int32_t smallest;  // number of smallest blocks along the side of a superblock
-  RowRange finished;
-};
-
-void DeblockRowBoundaries(const JoinJob& job, int32_t column, Scratch*) {
-  DeblockRows(job.deblock, column * job.smallest,
-              Min((column + 1) * job.smallest, job.deblock.map->columns));
-}
-
-void DeblockColumnBoundaries(const JoinJob& job, int32_t index, Scratch*) {
-  const int32_t first = job.finished.first + index * kSmallestBlock;
-  DeblockColumns(job.deblock, first, Min(first + kSmallestBlock, job.finished.last));
-}
-
+// Deblocks the boundaries between blocks of different layers: first boundaries between rows, with
+// one job per column of superblocks, then boundaries between columns, with one job per
+// kSmallestBlock finished rows.
 starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
   const starfocus_config& config = engine->config;
   const Transfer* transfer = engine->row_store.windows[0].transfer;
-  const JoinJob job = {{&engine->stripe.map, out, config.width, config.height, stripe.y,
-                        config.tuning.deblocking, transfer, engine->kernels},
-                       config.superblock / kSmallestBlock,
-                       {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)}};
+  const DeblockJob job = {
+      &engine->stripe.map,      out,      config.width,   config.height, stripe.y,
+      config.tuning.deblocking, transfer, engine->kernels};
+  const int32_t smallest = config.superblock / kSmallestBlock;
   const starfocus_status status =
-      RunJobs<JoinJob, DeblockRowBoundaries>(job, Columns(config), &engine->workers);
-  const int32_t rows = job.finished.last - job.finished.first;
+      ForEach(Columns(config), &engine->workers.jobs, [&](int32_t column, int32_t) {
+        DeblockRows(job, column * smallest, Min((column + 1) * smallest, job.map->columns));
+      });
+  const RowRange finished = {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)};
+  const int32_t rows = finished.last - finished.first;
   if (status != STARFOCUS_OK || rows <= 0) return status;
-  return RunJobs<JoinJob, DeblockColumnBoundaries>(
-      job, (rows + kSmallestBlock - 1) / kSmallestBlock, &engine->workers);
+  const int32_t jobs = (rows + kSmallestBlock - 1) / kSmallestBlock;
+  return ForEach(jobs, &engine->workers.jobs, [&](int32_t index, int32_t) {
+    const int32_t first = finished.first + index * kSmallestBlock;
+    DeblockColumns(job, first, Min(first + kSmallestBlock, finished.last));
+  });
 }
 
 starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
@@ -69,7 +44,7 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   if (status == STARFOCUS_OK) status = PlanStripe(stripe, engine);
   if (status == STARFOCUS_OK && IsBlockMode(lens) && !engine->row_store.prepared) {
     PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->row_store);
-    status = FillLayers(config, *engine->kernels, kAllLayers, &engine->workers, &engine->row_store);
+    status = FillLayers(kAllLayers, nullptr, engine);
   }
   if (status != STARFOCUS_OK) return status;
   const StripePlan& plan = engine->stripe.plan;
@@ -77,9 +52,16 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   // the other workers are already idle.
   std::sort(plan.blocks, plan.blocks + plan.used,
             [](const Block& a, const Block& b) { return a.cost > b.cost; });
-  const RefocusJob job = {InputsOf(*engine), plan.blocks, out};
+  const BlockInputs in = InputsOf(*engine);
   if (plan.used > 0) {
-    status = RunJobs<RefocusJob, RefocusOneBlock>(job, plan.used, &engine->workers);
+    status = ForEach(plan.used, &engine->workers.jobs, [&](int32_t index, int32_t worker) {
+      const Block& block = plan.blocks[index];
+      Scratch& scratch = engine->workers.scratch[worker];
+      // Counts the samples that every block reads and filters. Renderers count the samples of
+      // rendered views separately.
+      if (!scratch.cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
+      RefocusBlock(in, block, out, &scratch);
+    });
   }
   if (status != STARFOCUS_OK || !IsDeblocking(config, lens)) return status;
   return Deblock(stripe, out, engine);

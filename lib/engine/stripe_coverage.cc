@@ -8,23 +8,6 @@
 namespace starfocus {
 namespace {
 
-// One pass of the coverage computation over rows of tiles. Job `index` processes the tiles of
-// column `index` of superblocks.
-struct PassJob {
-  CoverageInput in;
-  int pass;
-  RowRange rows;  // Rows of tiles.
-  int32_t tiles;  // Number of tiles along the side of a superblock.
-};
-
-void RunPassJob(const PassJob& job, int32_t index, Scratch* scratch) {
-  const int32_t first = index * job.tiles, last = Min(first + job.tiles, job.in.map->columns);
-  for (int32_t row = job.rows.first; row < job.rows.last; ++row) {
-    if (!scratch->cancel.Spend(int64_t{last - first} * kCoverageTile * kCoverageTile)) return;
-    RunPass(job.in, job.pass, first, last, row);
-  }
-}
-
 int32_t TilesOfSuperblock(const starfocus_config& config) {
   return config.superblock / kCoverageTile;
 }
@@ -54,9 +37,12 @@ bool FindsCoverage(const EngineState& engine) {
          lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
 }
 
-// Runs all coverage passes, so that the last pass completes the rows of tiles before row `end`.
+// Runs all coverage passes, so that the last pass completes the rows of tiles before row `end`. A
+// job of a pass processes one column of superblocks.
 starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
+  const CoverageInput in = {engine->kernels, &engine->row_store.windows[0], &state.map};
+  const int32_t side = TilesOfSuperblock(engine->config);
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
     const int32_t ahead = TilesAhead(engine->config, pass);
     int32_t& done = state.done[pass];
@@ -64,12 +50,15 @@ starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
     const RowRange rows = {done >= 0 ? done : Max(0, top - ahead),
                            Min(state.map.Rows(), end + ahead)};
     if (rows.first < rows.last) {
-      const PassJob job = {{engine->kernels, &engine->row_store.windows[0], &state.map},
-                           pass,
-                           rows,
-                           TilesOfSuperblock(engine->config)};
-      const starfocus_status status =
-          RunJobs<PassJob, RunPassJob>(job, Columns(engine->config), &engine->workers);
+      const auto run = [&](int32_t column, int32_t worker) {
+        const int32_t first = column * side, last = Min(first + side, state.map.columns);
+        CancelToken& cancel = engine->workers.scratch[worker].cancel;
+        for (int32_t row = rows.first; row < rows.last; ++row) {
+          if (!cancel.Spend(int64_t{last - first} * kCoverageTile * kCoverageTile)) return;
+          RunPass(in, pass, first, last, row);
+        }
+      };
+      const starfocus_status status = ForEach(Columns(engine->config), &engine->workers.jobs, run);
       if (status != STARFOCUS_OK) return status;
     }
     done = Max(rows.first, rows.last);

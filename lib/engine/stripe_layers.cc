@@ -6,34 +6,25 @@
 namespace starfocus {
 namespace {
 
-// Subsamples columns of superblocks into layers. Job `index` processes column `index`.
-struct LayerJob {
-  const starfocus_config& config;
-  const simd::Kernels& kernels;
-  const LayerInterval& interval;
-  const RowStore& row_store;  // The picture, the marked columns, and the planes of the layers.
-};
-
-void DownsampleInto(const LayerJob& job, int32_t layer, int32_t index, Scratch* scratch) {
-  const int need = job.row_store.needed[layer][index];
+// Subsamples the picture or, if it is not null, layer 1 into column `index` of superblocks of a
+// layer.
+void DownsampleColumn(const EngineState& engine, const LayerPlane* layer_one, int32_t layer,
+                      int32_t index, const ResampleScratch& scratch) {
+  const RowStore& row_store = engine.row_store;
+  const int need = row_store.needed[layer][index];
   if ((need & kNeeded) == 0) return;
-  LayerPlane missing = job.row_store.layers[layer];
+  LayerPlane missing = row_store.layers[layer];
   if ((need & kNeededBefore) != 0) missing.rows.first = missing.known;
   if (missing.rows.first == missing.rows.last) return;
-  const int32_t side = job.config.superblock >> layer, begin = index * side;
+  const int32_t side = engine.config.superblock >> layer, begin = index * side;
   // The last column of superblocks includes the pixels of a layer that lie beyond the picture.
-  const int32_t end = index + 1 == Columns(job.config) ? missing.width : begin + side;
+  const int32_t end = index + 1 == Columns(engine.config) ? missing.width : begin + side;
   const LayerTarget to = {layer, begin, end, &missing};
-  if (job.interval.layer_one != nullptr) {
-    DownsampleLayer(job.kernels, *job.interval.layer_one, scratch->resample, to);
+  if (layer_one != nullptr) {
+    DownsampleLayer(*engine.kernels, *layer_one, scratch, to);
   } else {
-    DownsamplePicture(job.kernels, job.row_store.windows[0], scratch->resample, to);
+    DownsamplePicture(*engine.kernels, row_store.windows[0], scratch, to);
   }
-}
-
-void DownsampleColumn(const LayerJob& job, int32_t index, Scratch* scratch) {
-  for (int32_t layer = job.interval.first; layer <= job.interval.last; ++layer)
-    DownsampleInto(job, layer, index, scratch);
 }
 
 bool AnyColumn(const uint8_t* needed, int32_t columns) {
@@ -95,16 +86,19 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* r
   }
 }
 
-starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels& kernels,
-                            const LayerInterval& layers, Workers* workers, RowStore* row_store) {
-  const int32_t columns = Columns(config);
+starfocus_status FillLayers(const RowRange& layers, const LayerPlane* layer_one,
+                            EngineState* engine) {
+  const int32_t columns = Columns(engine->config);
   bool any = false;
-  for (int32_t layer = layers.first; layer <= layers.last; ++layer) {
-    any = any || AnyColumn(row_store->needed[layer], columns);
+  for (int32_t layer = layers.first; layer < layers.last; ++layer) {
+    any = any || AnyColumn(engine->row_store.needed[layer], columns);
   }
   if (!any) return STARFOCUS_OK;
-  const LayerJob job = {config, kernels, layers, *row_store};
-  return RunJobs<LayerJob, DownsampleColumn>(job, columns, workers);
+  return ForEach(columns, &engine->workers.jobs, [&](int32_t column, int32_t worker) {
+    for (int32_t layer = layers.first; layer < layers.last; ++layer) {
+      DownsampleColumn(*engine, layer_one, layer, column, engine->workers.scratch[worker].resample);
+    }
+  });
 }
 
 }  // namespace starfocus

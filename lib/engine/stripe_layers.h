@@ -4,10 +4,8 @@
 #define STARFOCUS_LIB_ENGINE_STRIPE_LAYERS_H_
 
 #include "lib/engine/borders.h"
-#include "lib/engine/jobs.h"
-#include "lib/engine/row_store.h"
+#include "lib/engine/engine.h"
 #include "lib/plan/partition.h"
-#include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -26,19 +24,15 @@ void MarkLayerColumns(const starfocus_config& config, const Block& block, RowSto
 // `borders`. Rows of the layers that were computed for the previous stripe are kept.
 void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store);
 
-// Layers `first` to `last` that FillLayers computes, 1 <= first <= last < STARFOCUS_LAYERS.
-struct LayerInterval {
-  int32_t first, last;
-  // Layer from which layer 2 is computed: layer 1, whose samples contain all rows that the filter
-  // reads. Null: the layers are computed from the picture.
-  const LayerPlane* layer_one = nullptr;
-};
-inline constexpr LayerInterval kAllLayers = {1, STARFOCUS_LAYERS - 1};
+// All layers that FillLayers computes.
+inline constexpr RowRange kAllLayers = {1, STARFOCUS_LAYERS};
 
-// Computes the marked columns of subsampled layers. PlaceLayers must be called first. Returns
-// STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
-starfocus_status FillLayers(const starfocus_config& config, const simd::Kernels& kernels,
-                            const LayerInterval& layers, Workers* workers, RowStore* row_store);
+// Computes the marked columns of the layers [layers.first, layers.last), from the picture or, for
+// layer 2 and if it is not null, from `layer_one`, whose samples contain all rows that the filter
+// reads. PlaceLayers must be called first. Returns STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or
+// STARFOCUS_ERROR_CANCELLED.
+starfocus_status FillLayers(const RowRange& layers, const LayerPlane* layer_one,
+                            EngineState* engine);
 
 }  // namespace starfocus
 

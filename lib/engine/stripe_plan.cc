@@ -9,55 +9,34 @@
 namespace starfocus {
 namespace {
 
-// Measures the cells of columns of superblocks. Job `index` processes column `index`.
-struct MeasureJob {
-  const simd::Kernels* kernels;
-  const Window* window;  // layer 0
-  BlurScale scale;
-  int32_t per_block;  // Number of columns of cells in a superblock.
-  int32_t first_row;  // First row of cells that no earlier stripe has measured.
-  const uint8_t* measured;
-  CellGrid cells;  // output: measured cells
-};
-
-// Splits superblocks into blocks. Job `index` processes column `index`.
-struct PlanJob {
-  const starfocus_config* config;
-  const simd::Kernels* kernels;
-  const ApertureShape* opening;
-  const Lens* lens;
-  const CellGrid* cells;
-  const Window* window;  // layer 0
-  Stripe rows;
-  StripePlan plan;  // output: blocks, counts and gathered cells
-};
-
 // Returns true if the blur in the picture decides how superblocks are split into blocks.
 bool IsPartitioned(const Lens& lens) { return IsBlockMode(lens) && !IsPinhole(lens); }
 
 // Returns the largest side of a block. A block uses one cat's eye, computed for the middle of the
 // block. Blocks with cat's eyes are small, because the exact cat's eye varies within a block.
-int32_t LargestSide(const PlanJob& job) {
+int32_t LargestSide(const EngineState& engine) {
   constexpr int32_t kCatsEyeSide = 32;
-  const int32_t largest = job.opening->cats_eye > 0 ? kCatsEyeSide : job.plan.side;
-  return IsBenchmark(*job.lens) ? Min(largest, job.lens->renderer->benchmark_side) : largest;
+  const Lens& lens = engine.lens;
+  const int32_t largest =
+      engine.tables.opening.cats_eye > 0 ? kCatsEyeSide : engine.stripe.plan.side;
+  return IsBenchmark(lens) ? Min(largest, lens.renderer->benchmark_side) : largest;
 }
 
 // Returns true if blocks in `rect` may show light of highlights beyond white: some view has a
 // highlight within the reach of blur and disparity. Returns false if a single highlight larger than
 // a lamp covers the whole area within reach.
-bool HasHighlights(const PlanJob& job, const Rect& rect) {
-  const starfocus_config& config = *job.config;
-  if (!(config.highlights > 1)) return false;
-  const int32_t around = job.lens->borders.highlights;
+bool HasHighlights(const EngineState& engine, const Rect& rect) {
+  if (!(engine.config.highlights > 1)) return false;
+  const Window& window = engine.row_store.windows[0];
+  const int32_t around = engine.lens.borders.highlights;
   const Rect near = Extended(rect, {around, around, around, around});
-  if (!MayHaveHighlights(*job.window, near)) return false;
-  const int32_t lamp = LampReach(LargestLamp(config.width));
-  return !AreAllHighlights(*job.window, Extended(near, {lamp, lamp, lamp, lamp}));
+  if (!MayHaveHighlights(window, near)) return false;
+  const int32_t lamp = LampReach(LargestLamp(engine.config.width));
+  return !AreAllHighlights(window, Extended(near, {lamp, lamp, lamp, lamp}));
 }
 
-Block WholeBlock(const PlanJob& job, const Rect& rect) {
-  const Lens& lens = *job.lens;
+Block WholeBlock(const EngineState& engine, const Rect& rect) {
+  const Lens& lens = engine.lens;
   const int32_t border = lens.borders.whole_block;
   Block block;
   block.rect = block.rendered = rect;
@@ -66,68 +45,49 @@ Block WholeBlock(const PlanJob& job, const Rect& rect) {
   block.n = lens.aperture.n;
   block.gathers = block.has_highlights = false;
   block.cost =
-      PredictTime(job.config->tuning.timing,
+      PredictTime(engine.config.tuning.timing,
                   lens.renderer->measure_work(block.rendered, block.border, lens.aperture, {}, 0));
   return block;
 }
 
-// Plans blocks of one size at layer 0, for the frame modes, blur mode and pinholes.
-void PlanWhole(const PlanJob& job, int32_t column) {
-  const Lens& lens = *job.lens;
-  const int32_t largest = job.plan.side;
-  const int32_t side = LargestSide(job);
-  const int32_t left = column * largest, right = Min(left + largest, job.config->width);
-  const int32_t bottom = job.rows.y + job.rows.height;
-  const bool has_highlights =
-      !IsPinhole(lens) && HasHighlights(job, {left, job.rows.y, right - left, job.rows.height});
+// Plans blocks of one size at layer 0, for the frame modes, blur mode and pinholes. `superblock` is
+// the part of the superblock inside the picture. Returns the number of blocks.
+int32_t PlanWhole(const EngineState& engine, const Rect& superblock, Block* blocks) {
+  const int32_t side = LargestSide(engine);
+  const int32_t right = superblock.x + superblock.width, bottom = superblock.y + superblock.height;
+  const bool has_highlights = !IsPinhole(engine.lens) && HasHighlights(engine, superblock);
   int32_t count = 0;
-  for (int32_t y = job.rows.y; y < bottom; y += side) {
-    for (int32_t x = left; x < right; x += side) {
-      Block& block = job.plan.BlocksOf(column)[count++];
-      block = WholeBlock(job, {x, y, Min(side, right - x), Min(side, bottom - y)});
+  for (int32_t y = superblock.y; y < bottom; y += side) {
+    for (int32_t x = superblock.x; x < right; x += side) {
+      Block& block = blocks[count++];
+      block = WholeBlock(engine, {x, y, Min(side, right - x), Min(side, bottom - y)});
       block.has_highlights = has_highlights;
     }
   }
-  job.plan.counts[column] = count;
+  return count;
 }
 
-void PlanBlocks(const PlanJob& job, int32_t column, Scratch* scratch) {
-  const StripePlan& plan = job.plan;
-  const Lens& lens = *job.lens;
-  plan.counts[column] = 0;
-  if (plan.wanted[column] == 0) return;
-  if (!IsPartitioned(lens)) {
-    PlanWhole(job, column);
-    return;
-  }
-  const int32_t left = column * plan.side;
-  const bool has_highlights = HasHighlights(
-      job, {left, job.rows.y, Min(plan.side, job.config->width - left), job.rows.height});
+// Divides the superblock into blocks. Returns the number of blocks.
+int32_t PlanBlocks(const EngineState& engine, const Rect& superblock,
+                   const PartitionScratch& scratch, Block* blocks) {
+  const Lens& lens = engine.lens;
+  if (!IsPartitioned(lens)) return PlanWhole(engine, superblock, blocks);
+  const bool has_highlights = HasHighlights(engine, superblock);
   // Blocks with highlights are rendered from views at layer 0, because light beyond white is read
   // only at layer 0.
-  const PartitionRules rules = {job.config,
+  const PartitionRules rules = {&engine.config,
                                 lens.renderer,
                                 lens.apertures,
                                 lens.largest_n,
-                                DemandOf(*job.opening),
+                                DemandOf(engine.tables.opening),
                                 lens.scale,
-                                LargestSide(job),
-                                has_highlights ? 0 : job.config->tuning.max_layer,
-                                !has_highlights && Gathers(*job.config, lens),
+                                LargestSide(engine),
+                                has_highlights ? 0 : engine.config.tuning.max_layer,
+                                !has_highlights && Gathers(engine.config, lens),
                                 has_highlights};
-  const PlanInput input = {*job.kernels, rules, *job.cells, lens.borders.cells};
-  plan.counts[column] = PartitionBlock(input, left, job.rows.y, scratch->partition,
-                                       plan.BlocksOf(column), plan.gathered);
-}
-
-void MeasureColumn(const MeasureJob& job, int32_t index, Scratch*) {
-  if (job.measured[index] == 0) return;
-  const int32_t first = index * job.per_block;
-  const int32_t last = Min(first + job.per_block, job.cells.columns);
-  for (int32_t row = job.first_row; row < job.cells.last_row; ++row) {
-    MeasureCells(*job.kernels, *job.window, job.scale,
-                 {row, first, last, job.cells.At(first, row)});
-  }
+  const PlanInput input = {*engine.kernels, rules, engine.stripe.cells, lens.borders.cells};
+  return PartitionBlock(input, superblock.x, superblock.y, scratch, blocks,
+                        engine.stripe.plan.gathered);
 }
 
 // Returns true if the region that the lens requests depends on pixels of `rect`.
@@ -245,30 +205,35 @@ bool ChooseColumns(const Stripe& rows, EngineState* engine) {
 
 starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
   const Lens& lens = engine->lens;
-  StripeState& state = engine->stripe;
-  const int32_t columns = state.plan.columns;
+  StripePlan& plan = engine->stripe.plan;
   if (IsPartitioned(lens)) {
-    state.plan.gathered.first_row = rows.y / kCellSize;
-    const int32_t first_row = PlaceCells(rows, lens, &state);
-    const MeasureJob job = {
-        engine->kernels, &engine->row_store.windows[0], lens.scale, state.plan.side / kCellSize,
-        first_row,       state.plan.measured,           state.cells};
-    const starfocus_status status =
-        RunJobs<MeasureJob, MeasureColumn>(job, columns, &engine->workers);
+    plan.gathered.first_row = rows.y / kCellSize;
+    const CellGrid& cells = engine->stripe.cells;
+    const int32_t first_row = PlaceCells(rows, lens, &engine->stripe);
+    const auto measure = [&](int32_t column, int32_t) {
+      if (plan.measured[column] == 0) return;
+      const int32_t per_block = plan.side / kCellSize, first = column * per_block;
+      const int32_t last = Min(first + per_block, cells.columns);
+      for (int32_t row = first_row; row < cells.last_row; ++row) {
+        MeasureCells(*engine->kernels, engine->row_store.windows[0], lens.scale,
+                     {row, first, last, cells.At(first, row)});
+      }
+    };
+    const starfocus_status status = ForEach(plan.columns, &engine->workers.jobs, measure);
     if (status != STARFOCUS_OK) return status;
   }
-  const PlanJob job = {&engine->config,
-                       engine->kernels,
-                       &engine->tables.opening,
-                       &lens,
-                       &state.cells,
-                       &engine->row_store.windows[0],
-                       rows,
-                       state.plan};
-  const starfocus_status status = RunJobs<PlanJob, PlanBlocks>(job, columns, &engine->workers);
-  if (status != STARFOCUS_OK) return status;
-  ReadPlan(rows, engine);
-  return STARFOCUS_OK;
+  const auto divide = [&](int32_t column, int32_t worker) {
+    const int32_t x = column * plan.side;
+    const Rect superblock = {x, rows.y, Min(plan.side, engine->config.width - x), rows.height};
+    plan.counts[column] =
+        plan.wanted[column] == 0
+            ? 0
+            : PlanBlocks(*engine, superblock, engine->workers.scratch[worker].partition,
+                         plan.BlocksOf(column));
+  };
+  const starfocus_status status = ForEach(plan.columns, &engine->workers.jobs, divide);
+  if (status == STARFOCUS_OK) ReadPlan(rows, engine);
+  return status;
 }
 
 }  // namespace starfocus
