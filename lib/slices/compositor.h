@@ -10,9 +10,9 @@
 #include <cstdint>
 
 #include "lib/plan/renderer.h"
-#include "lib/slices/depth_slices.h"
-#include "lib/slices/hidden_fill.h"
+#include "lib/slices/inpaint.h"
 #include "lib/slices/slice_plane.h"
+#include "lib/slices/slices.h"
 #include "lib/slices/strip.h"
 
 namespace starfocus {

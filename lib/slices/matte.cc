@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/slices/matte.h"
 
+#include "lib/base/fixed.h"
 #include "lib/matting/boundary_pixel.h"
 #include "lib/matting/coverage_map.h"
 
@@ -158,6 +159,144 @@ void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGri
   MatteFinder finder(window, grid, field, surfaces);
   ForEachBesideEdge(kernels, window, field, finder.step(),
                     [&](int32_t column, int32_t row) { finder.FindPixel(column, row); });
+}
+
+namespace {
+
+// Coverage above kMostExact counts as more than it is: pixels with a coverage of at least
+// kLeastWhole belong to the near surface alone.
+constexpr int32_t kMostExact = 102, kLeastWhole = (kMostExact + kWhole) / 2;
+// Smallest difference of disparity (kDisparityBits) between the near surface and a hidden surface.
+// Hidden surfaces with a smaller difference are dropped, because they are not opaque but other
+// strands of the thin structure.
+constexpr int32_t kSameStructure = 4 << kDisparityBits;
+
+class ThinParter {
+ public:
+  ThinParter(const Window& window, const BlockPixels& field, LayeredDepth* surfaces)
+      : map_(*window.coverage), is_excess_(window.is_excess), field_(field), surfaces_(*surfaces) {}
+
+  void PartPixel(int32_t x, int32_t y) {
+    const size_t from = map_.At(x, y), at = surfaces_.At(x - field_.x, y - field_.y);
+    if (map_.alpha[from] == kUnparted) {
+      DropCopies(at);
+      return;
+    }
+    const int32_t found = map_.alpha[from];
+    const int32_t alpha = Min(found + Max(found - kMostExact, 0), kWhole);
+    const FarCell& far = map_.FarAt(x, y);
+    const int32_t row = y - field_.y;
+    surfaces_.hiding[row] |= uint64_t{1}
+                             << ((x - field_.x) / static_cast<int32_t>(simd::kSliceLanes));
+    surfaces_.sources[0][at] = surfaces_.sources[1][at] = 0;
+    surfaces_.disparity[2][at] = kNoSurface;
+    const int16_t* const mixed = field_.Rgb(x - field_.x, row);
+    const bool whole = alpha == kWhole;
+    // Pixels without coverage have a near surface too, with a share of 0, so that the disparities
+    // of all surfaces, and therefore the slices, do not depend on colours.
+    SetDisparity(0, at, map_.near[from]);
+    SetDisparity(1, at, far.disparity);
+    surfaces_.share[at] = !whole           ? static_cast<uint8_t>(alpha)
+                          : IsInside(x, y) ? uint8_t{simd::kSliceWhole}
+                                           : simd::kSliceEnd;
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t sample = c * surfaces_.plane + at;
+      int16_t& near = surfaces_.rgb[0][sample] = mixed[c];
+      int16_t& beyond = surfaces_.rgb[1][sample] =
+          is_excess_ ? ExcessBehind(near, whole) : far.rgb[c];
+      if (whole || is_excess_) continue;
+      if (alpha > 0) near = RestOf(mixed[c], beyond, kWhole - alpha);
+      // RestOf may have clipped the near surface's light. The far surface's light compensates for
+      // the clipping, so that the mixture of the near and far surfaces still equals the light of
+      // the pixel.
+      beyond = RestOf(mixed[c], near, alpha);
+    }
+  }
+
+ private:
+  // Returns true if the near surface also covers the four neighbours of a pixel, so that slices on
+  // both sides of a step within the surface overlap. Otherwise, the far surface would show between
+  // the slices.
+  bool IsInside(int32_t x, int32_t y) const {
+    for (const auto& side : kSides) {
+      if (IsPartial(x + side[0], y + side[1])) return false;
+    }
+    return true;
+  }
+
+  // Returns true if a pixel of the field has a far surface that is not hidden.
+  bool IsPartial(int32_t x, int32_t y) const {
+    const bool in_field = x >= Max(0, field_.x) && x < Min(field_.x + field_.width, map_.width) &&
+                          y >= Max(0, field_.y) && y < Min(field_.y + field_.height, map_.height);
+    return in_field && map_.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
+           map_.alpha[map_.At(x, y)] < kLeastWhole;
+  }
+
+  // Returns the far surface's excess (light beyond white): the excess of the whole pixel, or 0 if
+  // the near surface covers the whole pixel.
+  static int16_t ExcessBehind(int16_t excess, bool whole) { return whole ? int16_t{0} : excess; }
+
+  // Returns the light of the surface that covers the rest of a mixture, if `surface` covers `part`
+  // of the mixture.
+  static int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
+    const int32_t rest = kWhole - part;
+    const int32_t light = (mixed * kWhole - part * surface + rest / 2) / rest;
+    return static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
+  }
+
+  void SetDisparity(int surface, size_t at, int16_t disparity) {
+    surfaces_.disparity[surface][at] = disparity;
+    surfaces_.low = disparity < surfaces_.low ? disparity : surfaces_.low;
+    surfaces_.high = disparity > surfaces_.high ? disparity : surfaces_.high;
+  }
+
+  void DropCopies(size_t at) {
+    const int32_t near = surfaces_.disparity[0][at];
+    for (int behind = simd::kSurfaces - 1; behind > 0; --behind) {
+      int16_t& disparity = surfaces_.disparity[behind][at];
+      if (disparity != kNoSurface && near - disparity < kSameStructure) disparity = kNoSurface;
+    }
+  }
+
+  const CoverageMap& map_;
+  const bool is_excess_;  // true if the window's light is the excess of highlights beyond white
+  const BlockPixels& field_;
+  LayeredDepth& surfaces_;
+};
+
+// Calls act(x, y) for each pixel of the picture in thin tiles of the field.
+template <class Act>
+void ForThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
+  const int32_t left = Max(0, field.x), right = Min(field.x + field.width, map.width);
+  const int32_t top = Max(0, field.y), bottom = Min(field.y + field.height, map.height);
+  for (int32_t y = top; y < bottom; ++y) {
+    for (int32_t x = left, end; x < right; x = end) {
+      end = Min(right, (x / kCoverageTile + 1) * kCoverageTile);
+      if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) continue;
+      for (int32_t k = x; k < end; ++k) act(k, y);
+    }
+  }
+}
+
+}  // namespace
+
+void TakeThinDisparities(const Window& window, BlockPixels* field) {
+  if (window.coverage == nullptr || window.layer > 0) return;
+  const CoverageMap& map = *window.coverage;
+  ForThin(map, *field, [&](int32_t x, int32_t y) {
+    const size_t from = map.At(x, y);
+    const int32_t alpha = map.alpha[from];
+    if (alpha == kUnparted) return;
+    const bool is_near = 2 * alpha >= kWhole;
+    *field->Disparity(x - field->x, y - field->y) =
+        is_near ? map.near[from] : map.FarAt(x, y).disparity;
+  });
+}
+
+void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces) {
+  if (window.coverage == nullptr || window.layer > 0) return;
+  ThinParter parter(window, field, surfaces);
+  ForThin(*window.coverage, field, [&](int32_t x, int32_t y) { parter.PartPixel(x, y); });
 }
 
 }  // namespace starfocus

@@ -22,6 +22,18 @@ namespace starfocus {
 void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
                const BlockPixels& field, LayeredDepth* surfaces);
 
+// Turns the coverage map of thin structures (lib/matting) into surfaces for slices.
+
+// Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
+// these disparities, hidden surfaces end at the boundary of the thin structure. The caller must
+// call this function before FindLayeredDepth.
+void TakeThinDisparities(const Window& window, BlockPixels* field);
+
+// Gives each pixel of thin tiles the two surfaces that the coverage map contains for the pixel. The
+// surfaces of the coverage map replace the surfaces that FindLayeredDepth and FindMatte found. The
+// caller must call this function before InpaintHidden.
+void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces);
+
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_SLICES_MATTE_H_

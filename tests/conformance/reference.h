@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "lib/slices/depth_slices.h"
+#include "lib/slices/slices.h"
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference_opening.h"
 #include "tests/support/test_scene.h"

@@ -9,7 +9,7 @@ namespace reference {
 
 // If the farthest surface of a pixel repeats another pixel, the surface gets the far colour of the
 // other pixel. The replaced colours are then smoothed with each other and with known colours, as in
-// lib/slices/hidden_fill.h. `unit` is the disparity of one pixel, in units of 1/64 pixel.
+// lib/slices/inpaint.h. `unit` is the disparity of one pixel, in units of 1/64 pixel.
 void InpaintHidden(int unit, SurfaceMap* map);
 
 }  // namespace reference

@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "lib/slices/depth_slices.h"
 #include "lib/slices/slice_plane.h"
+#include "lib/slices/slices.h"
 #include "tests/conformance/reference_surfaces.h"
 
 namespace reference {

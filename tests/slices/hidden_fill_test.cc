@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the fill of hidden surfaces that no captured view shows.
-#include "lib/slices/hidden_fill.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
 
+#include "lib/slices/inpaint.h"
 #include "tests/slices/layered_scene.h"
 
 namespace hidden_fill_test {

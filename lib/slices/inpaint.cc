@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/slices/hidden_fill.h"
+#include "lib/slices/inpaint.h"
 
 #include <cstring>
 

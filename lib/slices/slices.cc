@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/slices/depth_slices.h"
+#include "lib/slices/slices.h"
 
 #include <cstring>
-
-#include "lib/slices/slice_plane.h"
 
 namespace starfocus {
 namespace {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Divides the surfaces of a tile into slices: ranges of disparity so narrow that the pixels of a
 // slice move together from view to view. The compositor calls FindSlices for each tile.
-#ifndef STARFOCUS_LIB_SLICES_DEPTH_SLICES_H_
-#define STARFOCUS_LIB_SLICES_DEPTH_SLICES_H_
+#ifndef STARFOCUS_LIB_SLICES_SLICES_H_
+#define STARFOCUS_LIB_SLICES_SLICES_H_
 
 #include <cstdint>
 
 #include "lib/base/geometry.h"
 #include "lib/optics/view_grid.h"
 #include "lib/slices/layered_depth.h"
-#include "lib/slices/slice.h"
+#include "lib/slices/slice_plane.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 
@@ -34,4 +35,4 @@ int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_SLICES_DEPTH_SLICES_H_
+#endif  // STARFOCUS_LIB_SLICES_SLICES_H_

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inpaints hidden surfaces that no captured view shows: the farthest surface is continued smoothly
 // behind a depth edge. The inpainting runs after FindLayeredDepth and FindMatte.
-#ifndef STARFOCUS_LIB_SLICES_HIDDEN_FILL_H_
-#define STARFOCUS_LIB_SLICES_HIDDEN_FILL_H_
+#ifndef STARFOCUS_LIB_SLICES_INPAINT_H_
+#define STARFOCUS_LIB_SLICES_INPAINT_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -51,4 +51,4 @@ void InpaintHidden(const simd::Kernels& kernels, int32_t layer, const FillScratc
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_SLICES_HIDDEN_FILL_H_
+#endif  // STARFOCUS_LIB_SLICES_INPAINT_H_
