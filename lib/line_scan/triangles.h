@@ -8,7 +8,7 @@
 
 #include "lib/gather/span_list.h"
 #include "lib/io/block_pixels.h"
-#include "lib/line_scan/runs.h"
+#include "lib/line_scan/line_scan.h"
 #include "lib/plan/renderer.h"
 #include "simd/kernels.h"
 

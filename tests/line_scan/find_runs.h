@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/line_scan/runs.h"
+#include "lib/line_scan/line_scan.h"
 #include "simd/kernels.h"
 
 namespace test {

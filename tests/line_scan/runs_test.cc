@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the runs of constant disparity in hand-made and random lines.
-#include "lib/line_scan/runs.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "lib/line_scan/line_scan.h"
 #include "tests/line_scan/find_runs.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"

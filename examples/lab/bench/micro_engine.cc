@@ -12,7 +12,6 @@
 #include "examples/lab/bench/micro.h"
 #include "examples/lab/bench/timed_engine.h"
 #include "lib/line_scan/line_scan.h"
-#include "lib/line_scan/runs.h"
 #include "tests/support/inside.h"
 
 namespace starfocus::bench {
