@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "lib/io/load_block.h"
+#include "lib/io/block_pixels.h"
 
 namespace starfocus {
 namespace {

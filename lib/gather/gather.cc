@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "lib/gather/slope.h"
-#include "lib/io/load_block.h"
+#include "lib/io/block_pixels.h"
 #include "lib/plan/neighbourhood.h"
 
 namespace starfocus {

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
+#include "lib/io/window.h"
 
 namespace starfocus {
 
@@ -67,6 +68,33 @@ DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index);
 // Copies all diagonals of a field. The arrays of `diagonals` must be set, and each array must have
 // room for the whole field.
 void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals);
+
+// Extends surfaces beyond the edges of the picture with the content of side views.
+
+// Number of pixels inside the picture's edge that are searched for surfaces that may cover a pixel
+// outside. The rows stored around a stripe suffice for a search over kLookBack pixels. If
+// disparities differ by less than kLookBack, a search over fewer pixels finds all covering surfaces
+// (docs/constants.md).
+inline constexpr int32_t kLookBack = 32;
+
+// In a field, replaces the repeated edge pixels of the picture by a continuation of the surface at
+// the edge. Pixels beyond the edge get their colour from the captured view that shows them. The
+// number of pixels that the view shows is the displacement of the edge in that view. The continued
+// surface ends earlier if a nearer surface covers the continued surface in the captured view.
+// Pixels farther outside repeat the colour of the last continued pixel. Pixels beyond corners, and
+// fields of light fields without side views, are not changed.
+void ExtendEdges(const Window& window, BlockPixels* field);
+
+// Copies pixels from a window to the field of a block.
+
+// Writes the light of `count` pixels of the centre view, or the excess of these pixels if
+// window.is_excess. The pixels start at (x, y) of the layer and must be inside the picture.
+void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_t* rgb);
+
+// Copies `rect` and its border from the window to field->rgb and field->disparity, which must be
+// set. Each sample of the centre view is decoded once for all views of the aperture. Pixels outside
+// the picture repeat its edge, or contain the content of side views (picture_edge.h).
+void LoadBlock(const Window& window, const Rect& rect, const Border& border, BlockPixels* field);
 
 }  // namespace starfocus
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "lib/io/load_block.h"
+#include "lib/io/block_pixels.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/line_scan/span_sink.h"
 #include "lib/line_scan/unmix.h"

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "lib/io/load_block.h"
+#include "lib/io/block_pixels.h"
 #include "lib/plan/renderer.h"
 #include "lib/slices/matte.h"
 

@@ -2,8 +2,6 @@
 // Tests the continuation of surfaces beyond the picture. If side views show the scene beyond the
 // picture, a refocused picture must equal the same part of a larger picture of the scene. Surfaces
 // that a nearer surface covers must not be used.
-#include "lib/io/picture_edge.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -11,7 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/io/load_block.h"
+#include "lib/io/block_pixels.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/refocused.h"
 #include "tests/support/star_views.h"

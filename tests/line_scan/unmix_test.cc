@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "lib/io/load_block.h"
+#include "lib/io/block_pixels.h"
 #include "tests/support/star_views.h"
 
 namespace unmix_test {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "lib/io/load_block.h"
+#include "lib/io/block_pixels.h"
 #include "lib/slices/layered_depth.h"
 #include "tests/support/star_views.h"
 #include "tests/support/test_scene.h"
