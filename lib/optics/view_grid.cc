@@ -2,7 +2,6 @@
 #include "lib/optics/view_grid.h"
 
 namespace starfocus {
-
 namespace {
 
 // Spread of a run, which is a sequence of adjacent pixels: largest difference between the shifts of

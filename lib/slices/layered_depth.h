@@ -10,7 +10,7 @@
 
 #include "lib/io/block_pixels.h"
 #include "lib/io/window.h"
-#include "lib/optics/focus_range.h"
+#include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
