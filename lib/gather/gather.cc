@@ -5,7 +5,7 @@
 
 #include "lib/gather/slope.h"
 #include "lib/io/block_pixels.h"
-#include "lib/plan/neighbourhood.h"
+#include "lib/plan/smooth_cells.h"
 
 namespace starfocus {
 namespace {

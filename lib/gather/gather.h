@@ -13,7 +13,7 @@
 #include "lib/io/block_pixels.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/cells.h"
-#include "lib/plan/gathered_cells.h"
+#include "lib/plan/smooth_cells.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

@@ -6,11 +6,25 @@
 #include <cstdint>
 
 #include "lib/plan/cells.h"
-#include "lib/plan/gathered_cells.h"
-#include "lib/plan/neighbourhood.h"
 #include "lib/plan/renderer.h"
+#include "lib/plan/smooth_cells.h"
 
 namespace starfocus {
+
+// Timing model (13)-(15): predicts the time of a block.
+
+// Returns the predicted time of refocusing a block, in picoseconds. The computation uses integers,
+// so that all machines choose the same partition.
+uint64_t PredictTime(const starfocus_timing& timing, const BlockWork& work);
+
+// Returns the predicted time of blurring `pixels` pixels of a layer without views, in picoseconds.
+// `radius` is the largest blur radius of these pixels, in pixels of the layer (kDisparityBits). The
+// blur is a filter like upsampling, so the prediction uses the coefficient of upsampling.
+uint64_t PredictGather(const starfocus_timing& timing, uint64_t pixels, int32_t radius);
+
+// Returns the default coefficients, which are the same on all machines, so that all machines split
+// a picture in the same way.
+starfocus_timing DefaultTiming();
 
 inline constexpr int32_t kSmallestBlock = 16;
 

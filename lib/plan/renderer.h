@@ -15,12 +15,33 @@
 #include "lib/optics/view_grid.h"
 #include "lib/optics/view_weights.h"
 #include "lib/plan/cells.h"
-#include "lib/plan/gathered_cells.h"
-#include "lib/plan/timing.h"
+#include "lib/plan/smooth_cells.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+// Work of refocusing one block at its layer. PredictTime multiplies the fields by the coefficients
+// of starfocus_timing.
+struct BlockWork {
+  uint64_t field;     // Pixels of the extended rectangle.
+  uint64_t a, b, c;   // Rendered pixels P_A, P_B, P_C of (13).
+  uint64_t upsample;  // Pixels of the picture to upsample, 0 at layer 0.
+  uint64_t span;      // Runs of equal disparity in all rendered lines.
+  uint64_t hole;      // Uncovered pixels, counted as if all views were at the rim of the aperture.
+};
+
+// Adds the spans and holes of `views` views that are scanned along `lines` lines of the layer in
+// one direction. `content` is the content of the block at layer 0.
+inline void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
+                     BlockWork* work) {
+  // Layer L has 1 / 2^L as many lines as layer 0. Along a line of layer L, slopes start 1 / 2^L as
+  // many runs, and gaps are 1 / 2^L as wide. The number of depth edges along a line is equal at all
+  // layers.
+  const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
+  work->span += views * lines + views * runs / kContentOne;
+  work->hole += views * (content.gaps >> 2 * layer) / kContentOne;
+}
 
 // Task of rendering all views of one rectangle at the layer of the window. `border` is the distance
 // from which pixels splat into the rectangle.

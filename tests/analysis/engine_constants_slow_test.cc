@@ -26,7 +26,7 @@
 #include "lib/line_scan/line_scan.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_weights.h"
-#include "lib/plan/timing.h"
+#include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus::engine_constants_slow_test {

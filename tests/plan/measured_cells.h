@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lib/plan/cells.h"
-#include "lib/plan/neighbourhood.h"
+#include "lib/plan/smooth_cells.h"
 #include "simd/kernels.h"
 
 namespace test {

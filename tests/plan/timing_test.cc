@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the timing model: views are counted one by one, and the time is linear in work and
 // coefficients.
-#include "lib/plan/timing.h"
-
 #include <doctest/doctest.h>
 
 #include <cstdint>
 #include <cstdlib>
 
+#include "lib/plan/partition.h"
 #include "lib/plan/renderer.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/test_scene.h"

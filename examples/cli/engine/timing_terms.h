@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "lib/plan/timing.h"
+#include "lib/plan/renderer.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lib/engine/engine.h"
-#include "lib/plan/timing.h"
+#include "lib/plan/partition.h"
 #include "platform/light_field.h"
 #include "platform/result.h"
 #include "starfocus/starfocus.hpp"
