@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/call_progress.h"
+#include "lib/base/geometry.h"
 #include "lib/gather/blur.h"
 #include "lib/io/block_pixels.h"
 #include "lib/optics/rules.h"
@@ -17,6 +18,55 @@
 #include "simd/kernels.h"
 
 namespace starfocus {
+
+// Blur across a gathered cell on a slope, derived from the surrounding cells. This module computes
+// the radius of each pixel, and the displacement of the blurred image of a slanted surface
+// (docs/method.md, Gathering).
+
+// Fractional bits of radii on a slope.
+inline constexpr int kSlopeBits = 10;
+
+// Smallest and largest blur radius of a set of pixels, kSlopeBits.
+struct RadiusRange {
+  int32_t low, high;
+};
+
+class Slope {
+ public:
+  // Describes the cell at (column, row) of the grid, at a layer. The grid must store the cells
+  // around the described cell. The radius at a corner is the mean radius of the four adjacent
+  // cells, with opposite signs in front of and behind the focus. Radii between the corners are
+  // interpolated bilinearly.
+  Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row, int32_t layer);
+
+  // Returns the range of radii of pixels of the layer, which may lie outside the cell.
+  RadiusRange RangeOf(const Rect& pixels) const;
+
+  // Writes the share of the larger PSF for each pixel, in [0, 1] with 15 fractional bits. Elements
+  // share[3 n] to share[3 n + 2] belong to pixel n of a row. Rows are `stride` samples apart. The
+  // share is the position of the pixel's squared radius between the squares of the radii in
+  // `between`. With this share, a mixture of two PSFs has the mean square width of the intermediate
+  // PSF.
+  void FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
+                  int16_t* share) const;
+
+  // Returns the displacement of the cell's pixels in the mean of all views. The displacement is
+  // `spread` times the radius times the gradient of the radius, at most two pixels. `spread` is the
+  // mean square of the lens's light along an axis (MeanSquare).
+  simd::HalfMove Move(int32_t spread) const;
+
+ private:
+  int64_t Scaled(int32_t x, int32_t y) const;
+  // Returns the extra fractional bits of Scaled: log2 of the squared number of half pixels along a
+  // cell, plus the layer.
+  int ScaledBits() const { return 8 + layer_; }
+  int32_t At(int32_t x, int32_t y) const;
+
+  int32_t layer_;
+  int32_t left_, top_;  // Upper left corner of the cell, in half pixels of the picture.
+  int32_t corners_[4];  // Signed blur radii at the four corners, in pixels of the picture,
+                        // kSlopeBits, row by row.
+};
 
 static_assert(kMaxGather <= simd::kMaxDisc, "");
 

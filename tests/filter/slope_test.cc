@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the radii of a cell on a slope, and the distance by which its blurred pixels are moved.
-#include "lib/gather/slope.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <vector>
 
+#include "lib/gather/gather.h"
 #include "lib/optics/opening.h"
 #include "tests/plan/measured_cells.h"
 
