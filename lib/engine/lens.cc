@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "lib/base/problem.h"
-#include "lib/gather/blur.h"
+#include "lib/optics/psf.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_grid.h"
 #include "lib/optics/view_set.h"

@@ -7,7 +7,7 @@
 
 #include "lib/base/call_progress.h"
 #include "lib/engine/tables.h"
-#include "lib/gather/blur.h"
+#include "lib/gather/depth_blur.h"
 #include "lib/io/excess.h"
 #include "lib/io/layers.h"
 #include "lib/plan/partition.h"

@@ -7,7 +7,7 @@
 
 #include "lib/base/call_progress.h"
 #include "lib/base/features.h"
-#include "lib/gather/blur.h"
+#include "lib/optics/psf.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_weights.h"
 #include "lib/plan/renderer.h"

@@ -10,8 +10,8 @@
 
 #include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
-#include "lib/gather/blur.h"
 #include "lib/io/block_pixels.h"
+#include "lib/optics/psf.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/smooth_cells.h"

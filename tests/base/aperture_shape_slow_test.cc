@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "lib/gather/blur.h"
 #include "lib/optics/opening.h"
+#include "lib/optics/psf.h"
 #include "lib/optics/view_weights.h"
 #include "tests/conformance/reference_opening.h"
 #include "tests/support/shapes.h"

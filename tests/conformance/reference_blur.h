@@ -17,7 +17,7 @@ namespace reference {
 
 inline constexpr int kOne = 64;  // number of units of disparity or radius per pixel
 
-// Returns the distance between neighbouring radii of stored PSFs (lib/gather/blur.h), at a radius
+// Returns the distance between neighbouring radii of stored PSFs (lib/optics/psf.h), at a radius
 // in 1/kOne pixels. The distance is 1/8 pixel up to a radius of 4 pixels. Beyond 4 pixels, the
 // distance is 1/32 of the start of each octave.
 inline double LadderUnit(int radius) {

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth-dependent blur of the centre view alone (references [13] and [14] of the paper), for
-// comparison with rendered views. Each output pixel is the mean of its neighbours, weighted by the
-// ideal PSF (4) of its blur radius. Gathering (lib/gather/gather.h) uses the PSFs of this module.
-#ifndef STARFOCUS_LIB_GATHER_BLUR_H_
-#define STARFOCUS_LIB_GATHER_BLUR_H_
+// Point-spread functions (PSFs) of blur radii, as integer weights of pixels: the ideal PSF (4) of a
+// lens, integrated over pixels. lib/gather filters the centre view with these PSFs.
+#ifndef STARFOCUS_LIB_OPTICS_PSF_H_
+#define STARFOCUS_LIB_OPTICS_PSF_H_
 
 #include <cstddef>
 #include <cstdint>
 
 #include "lib/base/call_progress.h"
-#include "lib/gather/span_list.h"
-#include "lib/io/add_excess.h"
-#include "lib/io/window.h"
+#include "lib/base/fixed.h"
 #include "lib/optics/opening.h"
-#include "lib/plan/cells.h"
-#include "simd/kernels.h"
 
 namespace starfocus {
 
@@ -59,26 +54,6 @@ size_t BlurWeightCount(bool full, double max_blur);
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
                  uint16_t* weights, Psf* kernels);
 
-struct BlurJob {
-  const Window* window;
-  BlurScale scale;
-  const Psf* psfs_of_radius;
-  const simd::Kernels* kernels;
-  Rect rect;
-  int32_t border;    // Largest Psf::size in the picture, in pixels.
-  ExcessSum excess;  // If excess.factor > 0, BlurRectangle adds the excess of the window to `out`.
-  CancelToken* cancel;  // Cancels the call; `out` is incomplete after cancellation.
-};
-
-struct BlurScratch {
-  int16_t* rgb;            // Light of the extended rectangle, rows packed.
-  uint32_t* accumulators;  // 3 * rect.width sums.
-  SpanMemory spans;
-};
-
-// Blurs job.rect into `out`, which starts at the first pixel of the rectangle.
-void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out, size_t out_stride);
-
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_GATHER_BLUR_H_
+#endif  // STARFOCUS_LIB_OPTICS_PSF_H_

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/gather/depth_blur.h"
+
+#include <cstring>
+
+#include "lib/io/block_pixels.h"
+
+namespace starfocus {
+namespace {
+
+// Copies the light of the extended rectangle, and repeats the edge pixels of the picture outside
+// the picture.
+void LoadPixels(const BlurJob& job, int16_t* rgb) {
+  const int32_t width = job.rect.width + 2 * job.border;
+  const Window& window = *job.window;
+  for (int32_t row = 0; row < job.rect.height + 2 * job.border; ++row) {
+    const int32_t y = Clamp(job.rect.y - job.border + row, 0, window.height - 1);
+    int16_t* to = rgb + 3 * static_cast<size_t>(row) * width;
+    const int32_t left = job.rect.x - job.border;
+    const int32_t first = Clamp(-left, 0, width), last = Clamp(window.width - left, 0, width);
+    LoadLight(window, left + first, y, last - first, to + 3 * first);
+    for (int32_t k = 0; k < 3 * first; ++k) to[k] = to[3 * first + k % 3];
+    for (int32_t k = 3 * last; k < 3 * width; ++k) to[k] = to[k - 3];
+  }
+}
+
+// Adds the spans of a PSF with weights `weight(n, m)` for `count` pixels of the same radius. Each
+// span uses two adjacent weights.
+template <class Weight>
+void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride, int32_t count,
+            SpanList* list) {
+  const uint32_t samples = 3 * static_cast<uint32_t>(count);
+  for (int32_t m = -size; m <= size; ++m) {
+    const int16_t* row = at + static_cast<ptrdiff_t>(m) * static_cast<ptrdiff_t>(stride);
+    for (int32_t n = -size; n <= size; n += 2) {
+      const uint32_t first = weight(n, m), next = n < size ? weight(n + 1, m) : 0;
+      if (first + next == 0) continue;
+      list->Add({row + 3 * static_cast<ptrdiff_t>(n), 0, samples, static_cast<uint16_t>(first),
+                 static_cast<uint16_t>(next), 3});
+    }
+  }
+}
+
+// Adds a PSF to the list, rotated by half a turn if `side` is -1.
+void AddPsf(const Psf& psf, int32_t side, const int16_t* at, size_t stride, int32_t count,
+            SpanList* list) {
+  if (psf.full) {
+    AddRun(
+        psf.size, [&](int32_t n, int32_t m) { return psf.Weight(side * n, side * m); }, at, stride,
+        count, list);
+  } else {
+    AddRun(
+        psf.size, [&](int32_t n, int32_t m) { return psf.OctantWeight(n, m); }, at, stride, count,
+        list);
+  }
+}
+
+}  // namespace
+
+void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
+                   size_t out_stride) {
+  LoadPixels(job, scratch.rgb);
+  const Rect& rect = job.rect;
+  const size_t stride = 3 * static_cast<size_t>(rect.width + 2 * job.border);
+  SpanList list(*job.kernels, scratch.spans, scratch.accumulators);
+  const bool turns = job.psfs_of_radius[0].full;
+  for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
+    const int16_t* disparity = job.window->disparity.Row(rect.y + y) + rect.x;
+    const int16_t* row = scratch.rgb + static_cast<size_t>(y + job.border) * stride +
+                         3 * static_cast<size_t>(job.border);
+    const auto step_at = [&](int32_t x) {
+      return BlurStep(job.scale.Radius(Abs(job.scale.focus.Distance(disparity[x]))));
+    };
+    const auto side_of = [&](int32_t x) {
+      return turns && disparity[x] < job.scale.focus.far ? -1 : 1;
+    };
+    for (int32_t x = 0; x < rect.width;) {
+      const int32_t begin = x, step = step_at(x), side = side_of(x);
+      while (++x < rect.width && step_at(x) == step && side_of(x) == side) {
+      }
+      const Psf& psf = job.psfs_of_radius[step];
+      const size_t samples = 3 * static_cast<size_t>(x - begin);
+      const int64_t points = (2 * psf.size + 1) * (2 * psf.size + 1);
+      if (!GoesOn(job.cancel, points * static_cast<int64_t>(samples))) return;
+      std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
+      AddPsf(psf, side, row + 3 * begin, stride, x - begin, &list);
+      list.Flush();
+      const int bits = psf.sum_bits + kLightBits;
+      CheckSums(scratch.accumulators, samples, bits);
+      if (job.excess.factor != 0) {
+        AddExcess(job.excess, scratch.accumulators, samples, bits, out + 3 * begin);
+        continue;
+      }
+      job.kernels->Finish(scratch.accumulators, samples, bits, job.window->transfer->encoding,
+                          out + 3 * begin);
+    }
+  }
+}
+
+}  // namespace starfocus
