@@ -8,7 +8,7 @@
 #endif
 
 #include "simd/cells.h"
-#include "simd/compat-inl.h"
+#include "simd/highway-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

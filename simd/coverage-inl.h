@@ -8,7 +8,7 @@
 #endif
 
 #include "simd/coverage.h"
-#include "simd/lanes-inl.h"
+#include "simd/highway-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "simd/arithmetic_ref.h"
 #include "simd/coverage.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd::reference {
 

@@ -7,9 +7,8 @@
 #define STARFOCUS_SIMD_DEPTH_VALUES_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
 #include "simd/depth_values.h"
-#include "simd/vectors-inl.h"
+#include "simd/highway-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

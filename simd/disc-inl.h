@@ -9,8 +9,8 @@
 
 #include <cstring>
 
-#include "simd/compat-inl.h"
 #include "simd/disc.h"
+#include "simd/highway-inl.h"
 #include "simd/light-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simd/arithmetic_ref.h"
 #include "simd/disc.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd::reference {
 namespace {

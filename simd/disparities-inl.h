@@ -8,8 +8,7 @@
 #endif
 
 #include "simd/disparities.h"
-#include "simd/lanes-inl.h"
-#include "simd/vectors-inl.h"
+#include "simd/highway-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

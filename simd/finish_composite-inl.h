@@ -7,9 +7,8 @@
 #define STARFOCUS_SIMD_FINISH_COMPOSITE_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
 #include "simd/finish_composite.h"
-#include "simd/vectors-inl.h"
+#include "simd/highway-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

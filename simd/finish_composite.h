@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "simd/light.h"
-#include "simd/padding.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd {
 

@@ -9,9 +9,8 @@
 
 #include <initializer_list>
 
-#include "simd/lanes-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/layered_depth.h"
-#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

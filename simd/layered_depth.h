@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "simd/disparities.h"
-#include "simd/padding.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd {
 

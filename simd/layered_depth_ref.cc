@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <initializer_list>
 
-#include "simd/arithmetic_ref.h"
 #include "simd/layered_depth.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd::reference {
 namespace {

@@ -7,10 +7,9 @@
 #define STARFOCUS_SIMD_LIGHT_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/light.h"
-#include "simd/padding.h"
-#include "simd/vectors-inl.h"
+#include "simd/samples.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

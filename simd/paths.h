@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/padding.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd {
 

@@ -7,9 +7,8 @@
 #define STARFOCUS_SIMD_PIXELS_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/pixels.h"
-#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

@@ -7,9 +7,9 @@
 #define STARFOCUS_SIMD_PLANES_INL_H_
 #endif
 
+#include "simd/highway-inl.h"
 #include "simd/match-inl.h"
 #include "simd/planes.h"
-#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

@@ -7,7 +7,7 @@
 #define STARFOCUS_SIMD_PRIOR_INL_H_
 #endif
 
-#include "simd/lanes-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/prior.h"
 
 HWY_BEFORE_NAMESPACE();

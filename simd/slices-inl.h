@@ -7,7 +7,7 @@
 #define STARFOCUS_SIMD_SLICES_INL_H_
 #endif
 
-#include "simd/lanes-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/slices.h"
 
 HWY_BEFORE_NAMESPACE();

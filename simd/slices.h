@@ -13,7 +13,7 @@
 #include <cstdint>
 
 #include "simd/layered_depth.h"
-#include "simd/padding.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd {
 

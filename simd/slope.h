@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/padding.h"
 #include "simd/resample.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd {
 

@@ -7,7 +7,7 @@
 #define STARFOCUS_SIMD_SMOOTH_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/smooth.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,9 +9,8 @@
 
 #include <cstring>
 
-#include "simd/compat-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/spans.h"
-#include "simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {

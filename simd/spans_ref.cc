@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simd/arithmetic_ref.h"
+#include "simd/samples.h"
 #include "simd/spans.h"
 
 namespace starfocus::simd::reference {

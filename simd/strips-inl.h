@@ -10,7 +10,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "simd/lanes-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/strips.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/padding.h"
+#include "simd/samples.h"
 #include "simd/slices.h"
 
 namespace starfocus::simd {

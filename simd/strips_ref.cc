@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "simd/arithmetic_ref.h"
+#include "simd/samples.h"
 #include "simd/strips.h"
 
 namespace starfocus::simd::reference {

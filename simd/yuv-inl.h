@@ -7,8 +7,7 @@
 #define STARFOCUS_SIMD_YUV_INL_H_
 #endif
 
-#include "simd/compat-inl.h"
-#include "simd/vectors-inl.h"
+#include "simd/highway-inl.h"
 #include "simd/yuv.h"
 
 HWY_BEFORE_NAMESPACE();

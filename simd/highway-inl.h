@@ -1,15 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hides differences between Highway versions and targets. This file is included once per SIMD
-// target.
-#if defined(STARFOCUS_SIMD_COMPAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_COMPAT_INL_H_
-#undef STARFOCUS_SIMD_COMPAT_INL_H_
+// What the kernels add to Highway: operations that hide differences between Highway versions and
+// targets, loops over samples, and vectors of at most one group. This file is included once per
+// SIMD target.
+#if defined(STARFOCUS_SIMD_HIGHWAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STARFOCUS_SIMD_HIGHWAY_INL_H_
+#undef STARFOCUS_SIMD_HIGHWAY_INL_H_
 #else
-#define STARFOCUS_SIMD_COMPAT_INL_H_
+#define STARFOCUS_SIMD_HIGHWAY_INL_H_
 #endif
 
 #include "hwy/highway.h"
-#include "simd/wasm-inl.h"
+#include "simd/samples.h"
+
+#if HWY_ARCH_WASM && HWY_TARGET != HWY_SCALAR
+
+// Operations for WebAssembly that Highway 1.0.3 computes with scalar code. The compiler prefers
+// these overloads to the templates of Highway, also within other operations of Highway.
+HWY_BEFORE_NAMESPACE();
+namespace hwy {
+namespace HWY_NAMESPACE {
+
+// LoadInterleaved3 and StoreInterleaved3 call these functions. An index of 16 or more selects 0.
+HWY_API Vec128<uint8_t> TableLookupBytesOr0(Vec128<uint8_t> bytes, Vec128<uint8_t> from) {
+  return Vec128<uint8_t>{wasm_i8x16_swizzle(bytes.raw, from.raw)};
+}
+HWY_API Vec128<uint16_t> TableLookupBytesOr0(Vec128<int16_t> bytes, Vec128<uint16_t> from) {
+  return Vec128<uint16_t>{wasm_i8x16_swizzle(bytes.raw, from.raw)};
+}
+
+HWY_API bool AllFalse(Full128<int16_t> /* tag */, Mask128<int16_t> mask) {
+  return !wasm_v128_any_true(mask.raw);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hwy
+HWY_AFTER_NAMESPACE();
+
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -90,6 +117,46 @@ HWY_INLINE hn::Vec<D16> DemoteSums(D16 d16, V32 low, V32 high) {
 }
 
 #endif
+
+// Rows whose length is not a whole number of vectors are handled in one of three ways:
+// - Rows that are padded to whole groups of kSliceLanes by contract have no remainder.
+// - All other kernels store with ForVectors. The last vector overlaps the previous vector and
+// stores
+//   equal values again. If there are fewer samples than lanes, the kernel calls its reference. Only
+//   Blend stores a part of a vector, because most spans of Blend are short.
+// - Kernels that add to accumulators must add each sample once. These kernels mask the last vector
+//   (`AddSpan` in spans-inl.h).
+
+// Calls step(n) for each vector of `count` samples. The last vector ends at the last sample and may
+// overlap the previous vector. If there are fewer samples than lanes, returns false without calling
+// step.
+template <class Step>
+HWY_INLINE bool ForVectors(size_t count, size_t lanes, const Step& step) {
+  if (count < lanes) return false;
+  for (size_t n = 0; n < count - lanes; n += lanes) step(n);
+  step(count - lanes);
+  return true;
+}
+
+// A vector holds at most one group, because rows are padded to whole groups only, and because the
+// bits of a mask belong to one group.
+using LanesTag = hn::CappedTag<int16_t, kSliceLanes>;
+using LanesVec = hn::Vec<LanesTag>;
+
+// Returns the mask of a full vector as an integer. Bit k is set if lane k of the mask is true.
+template <class D>
+HWY_INLINE uint32_t BitsOf(D d, hn::Mask<D> mask) {
+#if HWY_ARCH_WASM && HWY_TARGET != HWY_SCALAR
+  // Highway 1.0.3 computes the bits with scalar code.
+  (void)d;
+  return static_cast<uint32_t>(sizeof(hn::TFromD<D>) == 1 ? wasm_i8x16_bitmask(mask.raw)
+                                                          : wasm_i16x8_bitmask(mask.raw));
+#else
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8;
+#endif
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defines the padding that every buffer of a SIMD kernel must have after its last sample.
-#ifndef STARFOCUS_SIMD_PADDING_H_
-#define STARFOCUS_SIMD_PADDING_H_
+// Rows of samples that SIMD kernels read and write: padding after the last sample, groups of
+// samples, and fixed-point arithmetic that the references of several kernel families share.
+#ifndef STARFOCUS_SIMD_SAMPLES_H_
+#define STARFOCUS_SIMD_SAMPLES_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,23 @@ constexpr size_t SliceSamples(size_t count) {
   return (count + kSliceLanes - 1) / kSliceLanes * kSliceLanes;
 }
 
+namespace reference {
+
+inline int16_t Saturated(int32_t value) {
+  return static_cast<int16_t>(value < INT16_MIN   ? INT16_MIN
+                              : value > INT16_MAX ? INT16_MAX
+                                                  : value);
+}
+
+// Returns the mean of two numbers, rounded half up.
+inline int32_t Mean(int32_t a, int32_t b) { return (a + b + 1) >> 1; }
+
+// Returns the product of two numbers with 15 fractional bits, rounded half up.
+inline int16_t Product15(int32_t a, int32_t b) {
+  return static_cast<int16_t>((a * b + (1 << 14)) >> 15);
+}
+
+}  // namespace reference
 }  // namespace starfocus::simd
 
-#endif  // STARFOCUS_SIMD_PADDING_H_
+#endif  // STARFOCUS_SIMD_SAMPLES_H_
