@@ -64,6 +64,13 @@ HWY_INLINE bool AllZero(D d, hn::Vec<D> v) {
 #endif
 }
 
+// Returns first, first + 1, first + 2 and so on. Iota of Highway 1.0.3 computes such lanes one by one
+// unless `first` is a constant.
+template <class D>
+HWY_INLINE hn::Vec<D> CountFrom(D d, hn::TFromD<D> first) {
+  return hn::Add(hn::Iota(d, 0), hn::Set(d, first));
+}
+
 // Returns a * wa + b * wb in 32-bit lanes, for a, b, wa, wb <= 32767.
 template <class D32, class V32 = hn::Vec<D32>>
 HWY_INLINE V32 WeighPair(D32 d32, V32 a, V32 b, V32 wa, V32 wb) {

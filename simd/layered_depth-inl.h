@@ -130,7 +130,7 @@ HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewL
       hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(look.unit / 2)));
   auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
   const auto end = hn::Set(d16, static_cast<int16_t>(INT16_MIN + 2 * reach + 1));
-  const auto columns = hn::Iota(d16, static_cast<int16_t>(column));
+  const auto columns = CountFrom(d16, static_cast<int16_t>(column));
   auto covered = hn::Zero(d16);
   for (int32_t m = 0; m <= last; ++m) {
     const int32_t along = look.side % 2 == 0 ? m : -m;
@@ -202,7 +202,7 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
   const int32_t last = (row.high - low) / look.unit + 1;
   if (look.slant != 0) return FindCoveredAslant(d16, row, look, column, disparity, last);
-  const auto columns = hn::Iota(d16, static_cast<int16_t>(column));
+  const auto columns = CountFrom(d16, static_cast<int16_t>(column));
   const auto width = hn::Set(d16, static_cast<int16_t>(row.width - 1));
   const auto room = side == 0   ? hn::Sub(width, columns)
                     : side == 1 ? columns

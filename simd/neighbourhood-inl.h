@@ -29,7 +29,7 @@ using reference::SurroundCells;
 struct ColumnGaps {
   ColumnGaps(int32_t around, int32_t first) {
     const LanesTag d16;
-    const auto column = hn::Iota(d16, static_cast<int16_t>(first));
+    const auto column = CountFrom(d16, static_cast<int16_t>(first));
     const auto before = hn::Sub(hn::Set(d16, static_cast<int16_t>(around - 1)), column);
     const auto behind = hn::Sub(column, hn::Set(d16, static_cast<int16_t>(around + 2)));
     const auto away = hn::Max(before, behind), none = hn::Set(d16, int16_t{-1});

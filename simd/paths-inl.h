@@ -119,7 +119,7 @@ HWY_INLINE int16_t LeastAway(const int16_t* sum, size_t labels, size_t best) {
   const auto high = hn::Set(d16, static_cast<int16_t>(best + 2));
   auto least = none;
   for (size_t l = 0; l < labels; l += hn::Lanes(d16)) {
-    const auto label = hn::Iota(d16, static_cast<int16_t>(l));
+    const auto label = CountFrom(d16, static_cast<int16_t>(l));
     const auto beside = hn::And(hn::Gt(label, low), hn::Lt(label, high));
     least = hn::Min(least, hn::IfThenElse(beside, none, hn::LoadU(d16, sum + l)));
   }
