@@ -9,8 +9,8 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/estimate_plan.h"
 #include "lib/depth/map_rows.h"
+#include "lib/depth/setup.h"
 #include "lib/io/rows.h"
 #include "simd/colours.h"
 

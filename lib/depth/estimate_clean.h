@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/depth/estimate_plan.h"
+#include "lib/depth/setup.h"
 
 namespace starfocus {
 

@@ -9,8 +9,8 @@
 
 #include "lib/base/arena.h"
 #include "lib/base/jobs.h"
-#include "lib/depth/estimate_plan.h"
 #include "lib/depth/evidence.h"
+#include "lib/depth/setup.h"
 #include "lib/depth/thin_cells.h"
 #include "simd/label_costs.h"
 

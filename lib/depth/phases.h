@@ -5,7 +5,7 @@
 #define STARFOCUS_LIB_DEPTH_PHASES_H_
 
 #include "lib/base/jobs.h"
-#include "lib/depth/estimate_plan.h"
+#include "lib/depth/setup.h"
 
 namespace starfocus {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
-#include "lib/depth/estimate_plan.h"
+#include "lib/depth/setup.h"
 
 namespace starfocus {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines the parameters of an estimate of disparities: the labels, the views in the order of the
 // SIMD kernels, and the tiles that jobs process.
-#ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_PLAN_H_
-#define STARFOCUS_LIB_DEPTH_ESTIMATE_PLAN_H_
+#ifndef STARFOCUS_LIB_DEPTH_SETUP_H_
+#define STARFOCUS_LIB_DEPTH_SETUP_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -139,4 +139,4 @@ inline int32_t WholeMoveBy(int32_t position, int32_t d) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_DEPTH_ESTIMATE_PLAN_H_
+#endif  // STARFOCUS_LIB_DEPTH_SETUP_H_

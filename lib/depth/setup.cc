@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/estimate_plan.h"
+#include "lib/depth/setup.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the labels, views and tiles of an estimate.
-#include "lib/depth/estimate_plan.h"
+#include "lib/depth/setup.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 
 #include "starfocus/depth.h"
 
-namespace estimate_plan_test {
+namespace setup_test {
 namespace {
 
 using starfocus::EstimatePlan;
@@ -29,7 +29,7 @@ EstimatePlan PlanOf(int width, int height, int views, float low, float high) {
 }
 
 TEST_CASE(
-    "estimate plan: tiles cover the picture, are symmetric, and are neither small nor large") {
+    "setup: tiles cover the picture, are symmetric, and are neither small nor large") {
   for (int length = 1; length < 3000; length += length < 40 ? 1 : 37) {
     const EstimatePlan plan = PlanOf(length, 7, 5, 0, 1);
     CAPTURE(length);
@@ -48,7 +48,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "estimate plan: views of a ring lie opposite each other, at the positions of the star set") {
+    "setup: views of a ring lie opposite each other, at the positions of the star set") {
   for (const int views : {5, 9, 17}) {
     const EstimatePlan plan = PlanOf(10, 10, views, 0, 1);
     CHECK(plan.side_views == views - 1);
@@ -78,7 +78,7 @@ EstimatePlan PlanAt(const std::vector<starfocus_position>& positions, float low,
 }
 
 TEST_CASE(
-    "estimate plan: sides are the largest sets of views within a half plane around one of eight "
+    "setup: sides are the largest sets of views within a half plane around one of eight "
     "directions") {
   const auto sides = [](const std::vector<starfocus_position>& positions) {
     const EstimatePlan plan = PlanAt(positions, 0, 1);
@@ -93,7 +93,7 @@ TEST_CASE(
   CHECK(!PlanAt({{0, 0}, {1, 0}, {-1, 0}}, 0, 1).one_sided());
 }
 
-TEST_CASE("estimate plan: shifts of views at any position differ by quarter pixels") {
+TEST_CASE("setup: shifts of views at any position differ by quarter pixels") {
   const EstimatePlan plan = PlanAt({{0, 0}, {0.3, -0.7}}, -3.1F, 9);
   const starfocus::SideView& view = plan.side[0];
   const starfocus::ViewPhases phases = plan.PhasesOf(view);
@@ -110,7 +110,7 @@ TEST_CASE("estimate plan: shifts of views at any position differ by quarter pixe
   CHECK(PlanOf(10, 10, 17, 0, 20).AllPhases() == 8 * 2 + 8 * 4);
 }
 
-TEST_CASE("estimate plan: labels are half a pixel apart, or farther apart in a wide range") {
+TEST_CASE("setup: labels are half a pixel apart, or farther apart in a wide range") {
   const EstimatePlan fine = PlanOf(10, 10, 5, -3, 4.25F);
   CHECK(fine.low == -3 * 64);
   CHECK(fine.step == 32);
@@ -124,7 +124,7 @@ TEST_CASE("estimate plan: labels are half a pixel apart, or farther apart in a w
   CHECK(wide.Disparity(wide.labels - 1) + 64 <= INT16_MAX);
 }
 
-TEST_CASE("estimate plan: WholeMove rounds shifts to whole pixels, and halves towards 0") {
+TEST_CASE("setup: WholeMove rounds shifts to whole pixels, and halves towards 0") {
   using starfocus::WholeMove;
   CHECK(WholeMove(64) == 0);
   CHECK(WholeMove(65) == 1);
@@ -138,7 +138,7 @@ TEST_CASE("estimate plan: WholeMove rounds shifts to whole pixels, and halves to
   CHECK(WholeMoveBy(-starfocus::kViewOne / 2, 66) == 1);
 }
 
-TEST_CASE("estimate plan: CoarsePlan keeps every other label and the range of the labels") {
+TEST_CASE("setup: CoarsePlan keeps every other label and the range of the labels") {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   config.width = config.height = 10;
@@ -154,4 +154,4 @@ TEST_CASE("estimate plan: CoarsePlan keeps every other label and the range of th
 }
 
 }  // namespace
-}  // namespace estimate_plan_test
+}  // namespace setup_test
