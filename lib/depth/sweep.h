@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps over all labels at the pixels of a tile. A sweep computes costs, adds the prior of a given
-// map, sums costs along paths, and chooses a disparity for each pixel.
+// Sweeps over all labels at the pixels of a tile. A sweep measures how well each label fits the
+// views, adds the prior of a given map, sums costs along paths from all directions of the plan, and
+// chooses the disparity with the smallest sum for each pixel (semi-global matching).
 #ifndef STARFOCUS_LIB_DEPTH_SWEEP_H_
 #define STARFOCUS_LIB_DEPTH_SWEEP_H_
 

@@ -28,8 +28,7 @@ EstimatePlan PlanOf(int width, int height, int views, float low, float high) {
   return MakePlan(config);
 }
 
-TEST_CASE(
-    "setup: tiles cover the picture, are symmetric, and are neither small nor large") {
+TEST_CASE("setup: tiles cover the picture, are symmetric, and are neither small nor large") {
   for (int length = 1; length < 3000; length += length < 40 ? 1 : 37) {
     const EstimatePlan plan = PlanOf(length, 7, 5, 0, 1);
     CAPTURE(length);
@@ -47,8 +46,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "setup: views of a ring lie opposite each other, at the positions of the star set") {
+TEST_CASE("setup: views of a ring lie opposite each other, at the positions of the star set") {
   for (const int views : {5, 9, 17}) {
     const EstimatePlan plan = PlanOf(10, 10, views, 0, 1);
     CHECK(plan.side_views == views - 1);
