@@ -4,11 +4,306 @@
 #include <initializer_list>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/hair_colours.h"
-#include "lib/depth/hair_unmix.h"
+#include "lib/depth/hair_cells.h"
+#include "lib/depth/map_rows.h"
 
 namespace starfocus {
 namespace {
+
+// Input, output and memory of the phases of FindHairCoverage.
+struct HairJob {
+  const ColourMap& map;
+  const MapOutput& output;
+  const HairCells& cells;
+  const HairMemory& memory;
+
+  Rect Tile(int32_t index) const { return TileOf(map.plan, index); }
+  uint8_t& CoverageAt(int32_t x, int32_t y) const {
+    return output
+        .coverage[static_cast<size_t>(y) * output.coverage_stride + static_cast<size_t>(x)];
+  }
+};
+
+inline const HairJob& HairJobOf(const void* data) { return *static_cast<const HairJob*>(data); }
+
+// ShareOf converts a coverage of 0 to 255 to a fraction of kFullyKnown. FourthPower computes the
+// fourth power of a fraction of kFullyKnown.
+inline uint32_t ShareOf(uint8_t coverage) { return coverage + coverage / 128U; }
+inline uint32_t FourthPower(uint32_t share) {
+  const uint32_t square = share * share / kFullyKnown;
+  return square * square / kFullyKnown;
+}
+
+// One pixel of a cell.
+struct CellPixel {
+  int32_t x, y;         // Position in the picture.
+  int32_t column, row;  // Position in the cell.
+  bool is_near;
+  uint16_t rgb[3];  // kMeanBits
+};
+
+// Calls act(pixel) for all pixels of a cell.
+template <class Act>
+void ForPixels(const HairJob& job, int32_t column, int32_t row, const Act& act) {
+  const Rect cell = HairCellAt(job.map.plan, column, row);
+  const size_t at = job.cells.At(column, row);
+  for (int32_t y = 0; y < cell.height; ++y) {
+    for (int32_t x = 0; x < cell.width; ++x) {
+      CellPixel pixel = {cell.x + x, cell.y + y, x, y, false, {}};
+      pixel.is_near = job.cells.IsNear(at, job.map.disparity[job.map.At(pixel.x, pixel.y)]);
+      const uint8_t* rgb = job.map.Pixel(pixel.x, pixel.y);
+      for (int c = 0; c < 3; ++c) pixel.rgb[c] = static_cast<uint16_t>(rgb[c] << kMeanBits);
+      act(pixel);
+    }
+  }
+}
+
+// Calls act(column, row, marks) for all cells of a tile.
+template <class Act>
+void ForMarked(const HairJob& job, int32_t index, const Act& act) {
+  const HairCells& cells = job.cells;
+  ForHairCells(job.Tile(index), [&](int32_t column, int32_t row) {
+    act(column, row, cells.marks[cells.At(column, row)]);
+  });
+}
+
+// Writes the mean colour of a cell to the lowest level of `pyramid`. The weight of a pixel is
+// weight(pixel).
+template <class Weight>
+void Pull(const HairJob& job, int32_t column, int32_t row, const Weight& weight,
+          const ColourPyramid& pyramid) {
+  ColourSum sum;
+  ForPixels(job, column, row, [&](const CellPixel& pixel) { sum.Add(pixel.rgb, weight(pixel)); });
+  pyramid.levels[0].At(column, row) = sum.Mean();
+}
+
+// Returns the squared contrast of a near pixel to the background, or 0 for a far pixel.
+int32_t ContrastOf(const CellPixel& pixel, const CellColours& far) {
+  if (!pixel.is_near) return 0;
+  int32_t sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    const int32_t difference = pixel.rgb[c] - far.rgb[pixel.row][pixel.column][c];
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+// Returns the largest squared contrast to the background in a cell and its eight neighbours.
+int32_t ContrastAround(const HairJob& job, int32_t column, int32_t row) {
+  const HairCells& cells = job.cells;
+  int32_t most = 0;
+  for (int32_t y = Max(row - 1, 0); y <= Min(row + 1, cells.rows - 1); ++y) {
+    for (int32_t x = Max(column - 1, 0); x <= Min(column + 1, cells.columns - 1); ++x) {
+      most = Max(most, job.memory.contrast[cells.At(x, y)]);
+    }
+  }
+  return most;
+}
+
+// Computes background colours for the first pass, from cells without near pixels nearby.
+void PullFar(const void* data, int32_t index, int32_t) {
+  const HairJob& job = HairJobOf(data);
+  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+    const bool far = (marks & HairCells::kIsFar) != 0;
+    if (!far) job.memory.far.levels[0].At(column, row) = {};
+    if (far)
+      Pull(
+          job, column, row, [](const CellPixel&) { return kFullyKnown; }, job.memory.far);
+  });
+}
+
+// MeasureContrast and PullNear compute foreground colours for the first pass, from near pixels
+// weighted by their contrast to the background. MeasureContrast must run first, for all tiles.
+void MeasureContrast(const void* data, int32_t index, int32_t) {
+  const HairJob& job = HairJobOf(data);
+  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+    int32_t most = 0;
+    if (MayHaveNear(marks)) {
+      CellColours far;
+      InterpolateCell(job.memory.far, column, row, &far);
+      ForPixels(job, column, row,
+                [&](const CellPixel& pixel) { most = Max(most, ContrastOf(pixel, far)); });
+    }
+    job.memory.contrast[job.cells.At(column, row)] = most;
+  });
+}
+
+void PullNear(const void* data, int32_t index, int32_t) {
+  const HairJob& job = HairJobOf(data);
+  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t) {
+    if (job.memory.contrast[job.cells.At(column, row)] == 0) {
+      job.memory.near.levels[0].At(column, row) = {};
+      return;
+    }
+    const int64_t most = ContrastAround(job, column, row) + int64_t{1};
+    CellColours far;
+    InterpolateCell(job.memory.far, column, row, &far);
+    const auto weight = [&](const CellPixel& pixel) {
+      return FourthPower(
+          static_cast<uint32_t>(kFullyKnown * int64_t{ContrastOf(pixel, far)} / most));
+    };
+    Pull(job, column, row, weight, job.memory.near);
+  });
+}
+
+// Computes foreground and background colours for the second pass, from all pixels weighted by the
+// coverage of the first pass.
+void PullBoth(const void* data, int32_t index, int32_t) {
+  const HairJob& job = HairJobOf(data);
+  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+    if (marks == 0) {
+      job.memory.far.levels[0].At(column, row) = {};
+      job.memory.near.levels[0].At(column, row) = {};
+      return;
+    }
+    const bool has_hair = (marks & HairCells::kHasHair) != 0;
+    const auto share = [&](const CellPixel& pixel) {
+      if (!has_hair) return pixel.is_near ? uint32_t{kFullyKnown} : 0;
+      return ShareOf(job.CoverageAt(pixel.x, pixel.y));
+    };
+    Pull(
+        job, column, row, [&](const CellPixel& pixel) { return FourthPower(share(pixel)); },
+        job.memory.near);
+    Pull(
+        job, column, row,
+        [&](const CellPixel& pixel) { return FourthPower(kFullyKnown - share(pixel)); },
+        job.memory.far);
+  });
+}
+
+constexpr int32_t kWhole = kFullyKnown;
+// Square of a colour difference of one code, for mean colours with kMeanBits fractional bits.
+constexpr int64_t kSquareCode = int64_t{1} << (2 * kMeanBits);
+// Smallest squared contrast at which coverage can be measured.
+constexpr int64_t kLeastContrast = 300 * kSquareCode;
+// Parameters of the variance of a colour's distance from the line between foreground and background
+// colour. The variance is kNoise, which is the square of 9 codes, plus the squared contrast divided
+// by kVariation. The second term accounts for variation within surfaces.
+constexpr int64_t kNoise = 81 * kSquareCode, kVariation = 16;
+// Largest coverage that is attributed to the texture of the background.
+constexpr int32_t kTexture = kWhole / 8;
+
+// Result of the comparison of a pixel's colour with the line from the background to the foreground
+// colour. `share` is the coverage, which is the position along the line. `trust` decreases with the
+// distance of the colour from the line. `share` and `trust` are fractions of kWhole.
+struct Unmixed {
+  int32_t share, trust;
+};
+
+Unmixed Unmix(const int32_t* far, const int32_t* near, const uint16_t* mixed) {
+  int64_t along = 0, contrast = 0, distance = 0;  // 30 bits
+  for (int c = 0; c < 3; ++c) {
+    const int64_t line = near[c] - far[c], from = mixed[c] - far[c];
+    along += line * from;
+    contrast += line * line;
+    distance += from * from;
+  }
+  if (contrast < kLeastContrast) return {0, 0};
+  const int64_t on = along < 0 ? 0 : along > contrast ? contrast : along;
+  const int64_t beside = distance - (2 * along - on) * on / contrast;
+  const int64_t scale = kNoise + contrast / kVariation;
+  // The trust is (2.25 - distance^2 / variance) / 2, clamped to [0, 1].
+  const int64_t trust = (9 * scale - 4 * beside) * kWhole / (8 * scale);
+  return {static_cast<int32_t>(kWhole * on / contrast),
+          static_cast<int32_t>(trust < 0        ? 0
+                               : trust > kWhole ? kWhole
+                                                : trust)};
+}
+
+// Foreground and background colours of the pixels of a cell.
+struct CellMixer {
+  CellColours far, near;
+
+  CellMixer(const HairMemory& memory, int32_t column, int32_t row) {
+    InterpolateCell(memory.far, column, row, &far);
+    InterpolateCell(memory.near, column, row, &near);
+  }
+  // Computes the coverage of a pixel. `own` is the share of the pixel's own colour in the
+  // background colour, as a fraction of kWhole.
+  Unmixed Part(const CellPixel& pixel, int32_t own) const {
+    int32_t behind[3];
+    for (int c = 0; c < 3; ++c) {
+      const int32_t around = far.rgb[pixel.row][pixel.column][c];
+      behind[c] = (own * pixel.rgb[c] + (kWhole - own) * around + kWhole / 2) / kWhole;
+    }
+    return Unmix(behind, near.rgb[pixel.row][pixel.column], pixel.rgb);
+  }
+};
+
+// Returns the degree to which a near pixel looks like background, as a fraction of kWhole.
+int32_t LooksFar(const CellMixer& mixer, const CellPixel& pixel) {
+  const Unmixed unmixed = mixer.Part(pixel, 0);
+  return unmixed.share < kWhole / 4 ? unmixed.trust : 0;
+}
+
+// Returns `share` without the coverage that may be caused by texture of the background.
+int32_t WithoutTexture(int32_t share) {
+  return Max(0, (share - kTexture) * kWhole / (kWhole - kTexture));
+}
+
+template <bool kAgain>
+void UnmixTile(const HairJob& job, int32_t index) {
+  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+    if ((marks & HairCells::kHasHair) == 0) return;
+    const CellMixer mixer(job.memory, column, row);
+    ForPixels(job, column, row, [&](const CellPixel& pixel) {
+      uint8_t& coverage = job.CoverageAt(pixel.x, pixel.y);
+      const uint32_t own = kAgain ? FourthPower(kWhole - ShareOf(coverage)) : 0;
+      const Unmixed unmixed = mixer.Part(pixel, static_cast<int32_t>(own));
+      const int32_t found = pixel.is_near ? unmixed.share : WithoutTexture(unmixed.share);
+      const int32_t otherwise = pixel.is_near ? kWhole : 0;
+      const int32_t share = unmixed.trust * found + (kWhole - unmixed.trust) * otherwise;
+      coverage =
+          static_cast<uint8_t>((share * UINT8_MAX + kWhole * kWhole / 2) / (kWhole * kWhole));
+    });
+  });
+}
+
+// Count the near pixels that look like background. CountInside processes only the cells with
+// kIsInside, and CountCells processes all cells.
+void CountInside(const void* data, int32_t index, int32_t) {
+  const HairJob& job = HairJobOf(data);
+  InsideCount count = {0, 0};
+  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+    if ((marks & HairCells::kIsInside) == 0) return;
+    const CellMixer mixer(job.memory, column, row);
+    ForPixels(job, column, row, [&](const CellPixel& pixel) {
+      if (!pixel.is_near) return;
+      ++count.inside;
+      count.far += LooksFar(mixer, pixel);
+    });
+  });
+  job.memory.counts[index] = count;
+}
+
+void CountCells(const void* data, int32_t index, int32_t) {
+  const HairJob& job = HairJobOf(data);
+  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+    int32_t far = 0, near = 0;
+    if (MayHaveNear(marks)) {
+      const CellMixer mixer(job.memory, column, row);
+      ForPixels(job, column, row, [&](const CellPixel& pixel) {
+        if (!pixel.is_near) return;
+        ++near;
+        far += LooksFar(mixer, pixel);
+      });
+    }
+    const size_t at = job.cells.At(column, row);
+    job.memory.near_pixels[at] = near;
+    job.memory.contrast[at] = far;
+  });
+}
+
+// Write the coverage of cells with hair. In the second pass, the background colour of a pixel is
+// mixed with the pixel's own colour. The share of the pixel's own colour increases as the coverage
+// from the first pass decreases.
+void UnmixFirst(const void* data, int32_t index, int32_t) {
+  UnmixTile<false>(HairJobOf(data), index);
+}
+
+void UnmixAgain(const void* data, int32_t index, int32_t) {
+  UnmixTile<true>(HairJobOf(data), index);
+}
 
 // A map has hair with closed outlines if, of the pixels 2 to 4 cells inside outlines, a share of
 // more than kLeastFar looks like background. Shares are in units of 1/256. In maps that neural

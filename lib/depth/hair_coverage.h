@@ -8,10 +8,27 @@
 
 #include <cstdint>
 
-#include "lib/depth/hair_job.h"
+#include "lib/depth/hair_cells.h"
+#include "lib/depth/map_rows.h"
 #include "lib/depth/phases.h"
 
 namespace starfocus {
+
+// Counts over a tile. `inside` is the number of near pixels that lie 2 to 4 cells inside outlines.
+// `far` is the number of such inside pixels that look like background, multiplied by 256.
+struct InsideCount {
+  int32_t inside, far;
+};
+
+struct HairMemory {
+  ColourPyramid far, near;
+  // `contrast` and `near_pixels` have one value per cell. At first, `contrast` holds the largest
+  // squared contrast between a near pixel and the background. Later, `contrast` holds the number of
+  // near pixels that look like background, multiplied by 256. `near_pixels` holds the number of
+  // near pixels of each cell.
+  int32_t *contrast, *near_pixels;
+  InsideCount* counts;  // one element for each tile
+};
 
 HairMemory TakeHairMemory(const EstimatePlan& plan, Arena* arena);
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "lib/depth/colour_pyramid.h"
+#include "lib/depth/hair_cells.h"
 #include "starfocus/depth.h"
 #include "tests/depth/depth_scene.h"
 #include "tests/support/closed_hair.h"
