@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prepares a given disparity map for a repair by colour. The functions convert the map to fixed
-// point, fill unknown pixels and measure the noise. Other functions measure the doubt of each
-// pixel, which is the distance from the pixel to the nearest pixel at which the map may be wrong.
+// point, fill unknown pixels, measure the noise, and reduce the noise by averaging disparities
+// within surfaces. Other functions measure the doubt of each pixel, which is the distance from the
+// pixel to the nearest pixel at which the map may be wrong.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 
@@ -13,6 +14,7 @@
 #include "lib/depth/setup.h"
 #include "lib/io/rows.h"
 #include "simd/colours.h"
+#include "simd/depth_kernels.h"
 
 namespace starfocus {
 
@@ -115,6 +117,28 @@ bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y);
 // displacing their steps. Surfaces that are too thin to have been widened have doubt kThinDoubt.
 // `scratch` has one byte per pixel of the tile, extended by kDoubtMargin pixels on each side.
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt);
+
+inline constexpr int32_t kMostSmoothRadius = 4;
+
+// Parameters for smoothing a map. A pixel is averaged with every `step`-th neighbour within
+// `radius` pixels whose disparity differs by at most `tolerance` (kDisparityBits). Neighbours of
+// similar colour have the largest weights.
+struct Smoothing {
+  int32_t radius, step, tolerance;
+};
+
+// A ring buffer of rows around the row that is being smoothed. Each row consists of the planes of
+// simd::SmoothRows.
+struct SmoothMemory {
+  static constexpr int32_t kRows = 2 * kMostSmoothRadius + 1;
+  static constexpr int32_t kPlane = kMostTileSide + 2 * kMostSmoothRadius;
+
+  int32_t rows[kRows][4 * kPlane];
+};
+
+// Smooths the pixels of `tile` and writes the smoothed disparities to the map `smooth`.
+void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
+                const simd::DepthKernels& kernels, SmoothMemory* memory, int16_t* smooth);
 
 }  // namespace starfocus
 

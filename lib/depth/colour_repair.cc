@@ -7,8 +7,7 @@
 
 #include "lib/base/arena.h"
 #include "lib/base/fixed.h"
-#include "lib/depth/majority.h"
-#include "lib/depth/soft_edges.h"
+#include "lib/depth/outlines.h"
 
 namespace starfocus {
 namespace {

@@ -11,13 +11,12 @@
 #include <cstdint>
 
 #include "lib/base/jobs.h"
-#include "lib/depth/cell_ranges.h"
 #include "lib/depth/colour_choices.h"
-#include "lib/depth/colour_smooth.h"
+#include "lib/depth/colour_map.h"
 #include "lib/depth/estimate.h"
 #include "lib/depth/evidence.h"
 #include "lib/depth/hair_coverage.h"
-#include "lib/depth/soft_edges.h"
+#include "lib/depth/outlines.h"
 #include "lib/depth/thin_cells.h"
 
 namespace starfocus {

@@ -9,8 +9,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "lib/depth/majority.h"
-#include "lib/depth/soft_edges.h"
+#include "lib/depth/outlines.h"
 
 namespace repaired_edges_test {
 namespace {

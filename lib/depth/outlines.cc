@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/depth/outlines.h"
+
+#include <algorithm>
+
+#include "lib/optics/view_set.h"
+
+namespace starfocus {
+namespace {
+
+// Pixels whose disparities differ by less than kSame belong to one surface.
+constexpr int32_t kSame = 2 << kDisparityBits;
+// A colour profile across an edge extends from the third pixel of the nearer surface to the seventh
+// pixel of the farther surface.
+constexpr int32_t kInside = 3, kOutside = 6;
+// Smallest squared distance between the colours at both ends of a profile, in grey levels squared.
+// Profiles that measure the softness of the picture require at least kLeastContrast. Profiles that
+// decide about a single pixel require at least kLeastPixelContrast.
+constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;
+// Reciprocals of the smallest share of the nearer surface in a mixed pixel: kLeastShare for
+// measuring edges, and kLeastPixelShare for widening a surface. At half of all sharp ray-traced
+// edges, the nearer surface has a share of less than 0.06 in the mixed pixel. At edges of
+// photographs, the nearer surface has a share of 0.09 to 0.34.
+constexpr int32_t kLeastShare = 14, kLeastPixelShare = 8;
+
+// The first pixel (x, y) of the farther surface, and the direction (dx, dy) away from the nearer
+// surface.
+struct ProfileEdge {
+  int32_t x, y, dx, dy;
+};
+
+bool IsProfile(const ColourMap& map, const ProfileEdge& edge) {
+  const auto at = [&](int32_t k) {
+    return map.disparity[map.At(edge.x + k * edge.dx, edge.y + k * edge.dy)];
+  };
+  const int32_t near = at(-1), far = at(0);
+  if (near - far <= kSoftStep || Abs(at(-kInside) - near) >= kSame) return false;
+  for (int32_t k = 1; k <= kOutside; ++k) {
+    if (Abs(at(k) - far) >= kSame) return false;
+  }
+  return true;
+}
+
+// Position of a pixel's colour on the line between the colours at the ends of a profile. `contrast`
+// is the squared length of the line. share / contrast is the share of the nearer surface.
+struct ProfilePlace {
+  int32_t share, contrast;
+};
+
+// Returns the position of the colour of the pixel that lies k pixels beyond the first pixel of the
+// farther surface.
+ProfilePlace PlaceAt(const ColourMap& map, const ProfileEdge& edge, int32_t k) {
+  const auto pixel = [&](int32_t at) {
+    return map.Pixel(edge.x + at * edge.dx, edge.y + at * edge.dy);
+  };
+  const uint8_t *const near = pixel(-kInside), *const far = pixel(kOutside), *const here = pixel(k);
+  ProfilePlace place = {0, 0};
+  for (int c = 0; c < 3; ++c) {
+    place.contrast += (near[c] - far[c]) * (near[c] - far[c]);
+    place.share += (here[c] - far[c]) * (near[c] - far[c]);
+  }
+  return place;
+}
+
+void CountProfile(const ColourMap& map, const ProfileEdge& edge, SoftCount* count) {
+  if (PlaceAt(map, edge, 0).contrast < kLeastContrast) return;
+  ++count->edges;
+  for (int32_t k = 1; k <= kMostSoft; ++k) {
+    const ProfilePlace place = PlaceAt(map, edge, k);
+    count->mixed[k - 1] += kLeastShare * place.share >= place.contrast ? 1 : 0;
+  }
+}
+
+bool ShowsNear(const ProfilePlace& place) {
+  return place.contrast >= kLeastPixelContrast && kLeastPixelShare * place.share >= place.contrast;
+}
+
+// Returns true if profiles in all four directions at pixel (x, y) lie in the picture.
+bool IsInside(const ColourMap& map, int32_t x, int32_t y) {
+  return x >= kOutside && x < map.plan.width - kOutside && y >= kOutside &&
+         y < map.plan.height - kOutside;
+}
+
+// Radius in pixels of the disc that TakeMajority reads around each pixel.
+constexpr int32_t kRadius = 5;
+// Largest horizontal distance from the centre in each row of the disc, starting with the middle
+// row.
+constexpr int32_t kWidths[kRadius + 1] = {5, 4, 4, 4, 3, 0};
+// The weight of a neighbouring pixel decreases with its squared distance from the pixel and with
+// the difference between both colours.
+constexpr int32_t kNearWeight = 36, kColourWeight = 64;
+
+// A pixel moves to the median of its surface only if both differ by more than kRough, in fixed
+// point (kDisparityBits).
+constexpr int32_t kRough = (1 << kDisparityBits) / 4;
+
+// Range of the disparities around a pixel, or of the disparities in a column.
+struct MajorityRange {
+  int32_t low = INT16_MAX, high = INT16_MIN;
+
+  void Add(const MajorityRange& range) {
+    low = Min(low, range.low);
+    high = Max(high, range.high);
+  }
+  bool IsOneSurface() const { return high - low <= kMajorityStep; }
+};
+
+// Range of the disparities in each column around a row of pixels. Each column extends
+// kMajorityReach rows up and down from the row.
+struct ColumnRanges {
+  Rect around;
+  MajorityRange ranges[kMostMajority + 2 * kMajorityReach], all;
+
+  ColumnRanges(const ColourMap& map, const Rect& row)
+      : around(Widened(map.plan, row, kMajorityReach)) {
+    for (int32_t y = around.y; y < around.y + around.height; ++y) {
+      const int16_t* disparities = map.disparity + map.At(around.x, y);
+      for (int32_t k = 0; k < around.width; ++k) ranges[k].Add({disparities[k], disparities[k]});
+    }
+    for (int32_t k = 0; k < around.width; ++k) all.Add(ranges[k]);
+  }
+  MajorityRange Around(int32_t x) const {
+    const int32_t first = Max(x - kMajorityReach - around.x, 0);
+    const int32_t last = Min(x + kMajorityReach - around.x, around.width - 1);
+    MajorityRange range;
+    for (int32_t k = first; k <= last; ++k) range.Add(ranges[k]);
+    return range;
+  }
+};
+
+// The disparities of a pixel and of those of its eight neighbours that are on the pixel's surface.
+struct SurfaceAround {
+  int16_t sorted[9];
+  int32_t count = 0;
+
+  SurfaceAround(const ColourMap& map, int32_t x, int32_t y) {
+    const int32_t own = map.disparity[map.At(x, y)];
+    const Rect around = Widened(map.plan, {x, y, 1, 1}, 1);
+    for (int32_t row = around.y; row < around.y + around.height; ++row) {
+      const int16_t* disparities = map.disparity + map.At(around.x, row);
+      for (int32_t k = 0; k < around.width; ++k) {
+        if (Abs(disparities[k] - own) <= kMajorityStep) Insert(disparities[k]);
+      }
+    }
+  }
+  void Insert(int16_t disparity) {
+    int32_t at = count++;
+    for (; at > 0 && sorted[at - 1] > disparity; --at) sorted[at] = sorted[at - 1];
+    sorted[at] = disparity;
+  }
+};
+
+int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const MajorityRange& range) {
+  const int32_t own = map.disparity[map.At(x, y)], middle = (range.low + range.high) / 2;
+  const uint8_t* colour = map.Pixel(x, y);
+  int64_t sums[2] = {};
+  int32_t votes[2] = {};
+  for (int32_t dy = -Min(y, kRadius); dy <= Min(map.plan.height - 1 - y, kRadius); ++dy) {
+    const int32_t width = kWidths[Abs(dy)], last = Min(map.plan.width - 1 - x, width);
+    const uint8_t* colours = map.Pixel(x, y + dy);
+    const int16_t* disparities = map.disparity + map.At(x, y + dy);
+    for (int32_t dx = -Min(x, width); dx <= last; ++dx) {
+      const int32_t difference = ColourDifference(colour, colours + 3 * dx);
+      const int32_t weight = (kNearWeight - dx * dx - dy * dy) * Max(1, kColourWeight - difference);
+      const int side = disparities[dx] > middle ? 1 : 0;
+      votes[side] += weight;
+      sums[side] += int64_t{weight} * disparities[dx];
+    }
+  }
+  const int own_side = own > middle ? 1 : 0, other = 1 - own_side;
+  if (votes[other] > votes[own_side]) return static_cast<int16_t>(sums[other] / votes[other]);
+  constexpr int32_t kOwnVote = kNearWeight * kColourWeight;
+  // A pixel that is alone with its disparity joins the other pixels of its side.
+  if (votes[own_side] == kOwnVote || SurfaceAround(map, x, y).count > 1) {
+    return static_cast<int16_t>(own);
+  }
+  return static_cast<int16_t>((sums[own_side] - int64_t{kOwnVote} * own) /
+                              (votes[own_side] - kOwnVote));
+}
+
+}  // namespace
+
+CellRanges TakeCellRanges(const ThinGrid& grid, Arena* arena) {
+  const auto cells = static_cast<size_t>(grid.Cells());
+  CellRanges ranges;
+  ranges.low = arena->Take<int16_t>(cells);
+  ranges.high = arena->Take<int16_t>(cells);
+  return ranges;
+}
+
+void MeasureCells(const ThinGrid& grid, const int16_t* map, int32_t index,
+                  const CellRanges& ranges) {
+  ForCells(grid, index, [&](const Rect& cell, int32_t number) {
+    int16_t low = INT16_MAX, high = INT16_MIN;
+    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+      const int16_t* row = map + static_cast<ptrdiff_t>(y) * grid.width + cell.x;
+      for (int32_t x = 0; x < cell.width; ++x) {
+        low = std::min(low, row[x]);
+        high = std::max(high, row[x]);
+      }
+    }
+    ranges.low[number] = low;
+    ranges.high[number] = high;
+  });
+}
+
+bool MayHaveStep(const ThinGrid& grid, const CellRanges& ranges, int32_t number, int32_t step) {
+  int16_t low = INT16_MAX, high = INT16_MIN;
+  ForAround(grid, number % grid.columns, number / grid.columns, 1,
+            [&](int32_t, int32_t, int32_t other) {
+              low = std::min(low, ranges.low[other]);
+              high = std::max(high, ranges.high[other]);
+            });
+  return high - low > step;
+}
+
+void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count) {
+  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
+    for (int32_t x = rect.x; x < rect.x + rect.width; ++x) {
+      if (!IsInside(map, x, y)) continue;
+      for (const auto& side : kSides) {
+        const ProfileEdge edge = {x, y, side[0], side[1]};
+        if (IsProfile(map, edge)) CountProfile(map, edge, count);
+      }
+    }
+  }
+}
+
+int32_t SoftnessOf(const SoftCount* counts, int32_t tiles) {
+  int64_t edges = 0, mixed[kMostSoft] = {};
+  for (int32_t tile = 0; tile < tiles; ++tile) {
+    edges += counts[tile].edges;
+    for (int32_t k = 0; k < kMostSoft; ++k) mixed[k] += counts[tile].mixed[k];
+  }
+  int32_t soft = 0;
+  while (soft < kMostSoft && edges > 0 && 2 * mixed[soft] >= edges) ++soft;
+  return soft == 0 ? 0 : Min(soft + 1, kMostSoft);
+}
+
+int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) {
+  const int16_t own = map.disparity[map.At(x, y)];
+  int16_t nearest = own;
+  for (const auto& side : kSides) {
+    for (int32_t k = 0; k < softness; ++k) {
+      const ProfileEdge edge = {x - k * side[0], y - k * side[1], side[0], side[1]};
+      if (!IsInside(map, edge.x, edge.y)) break;
+      const int16_t near = map.disparity[map.At(edge.x - side[0], edge.y - side[1])];
+      if (near - own <= kSoftStep) continue;
+      if (near > nearest && ShowsNear(PlaceAt(map, edge, k))) nearest = near;
+      break;
+    }
+  }
+  return nearest;
+}
+
+void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
+  std::copy_n(map.disparity + map.At(row.x, row.y), row.width, disparity);
+  const ColumnRanges columns(map, row);
+  if (columns.all.IsOneSurface()) return;
+  for (int32_t k = 0; k < row.width; ++k) {
+    const MajorityRange range = columns.Around(row.x + k);
+    if (!range.IsOneSurface()) disparity[k] = MajorityAt(map, row.x + k, row.y, range);
+  }
+}
+
+int16_t MedianOfSurface(const ColourMap& map, int32_t x, int32_t y) {
+  const int16_t own = map.disparity[map.At(x, y)];
+  const SurfaceAround around(map, x, y);
+  const int16_t median = around.sorted[around.count / 2];
+  return Abs(median - own) > kRough ? median : own;
+}
+
+}  // namespace starfocus
