@@ -6,8 +6,7 @@
 #include "lib/api/validate_image.h"
 #include "lib/base/features.h"
 #include "lib/depth/colour_repair.h"
-#include "lib/depth/converted_field.h"
-#include "lib/depth/repair.h"
+#include "lib/depth/maps.h"
 #include "lib/optics/view_set.h"
 
 namespace starfocus {

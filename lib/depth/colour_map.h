@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/map_rows.h"
+#include "lib/depth/maps.h"
 #include "lib/depth/setup.h"
 #include "lib/io/rows.h"
 #include "simd/colours.h"

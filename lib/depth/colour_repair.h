@@ -13,9 +13,8 @@
 #include "lib/base/jobs.h"
 #include "lib/depth/colour_choices.h"
 #include "lib/depth/colour_map.h"
-#include "lib/depth/estimate.h"
-#include "lib/depth/evidence.h"
 #include "lib/depth/hair_coverage.h"
+#include "lib/depth/maps.h"
 #include "lib/depth/outlines.h"
 #include "lib/depth/thin_cells.h"
 

@@ -1,17 +1,178 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/estimate.h"
-
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/estimate_clean.h"
+#include "lib/base/geometry.h"
+#include "lib/depth/maps.h"
 #include "lib/depth/phases.h"
-#include "lib/depth/side_maps.h"
 #include "lib/depth/sweep.h"
+#include "lib/depth/tile_views.h"
 #include "lib/io/rows.h"
+#include "simd/disparities.h"
 
 namespace starfocus {
 namespace {
+
+constexpr int32_t kRadius = 2;
+constexpr int32_t kMostVotes = (2 * kRadius + 1) * (2 * kRadius + 1);
+// A pixel is stray if its disparity differs from the weighted median of its neighbourhood by more
+// than kStray (kDisparityBits). Pixels that are not stray keep their disparity, so that slopes are
+// preserved. A neighbour of equal colour has the weight kVote. The weight halves with each kHalving
+// grey levels of difference, summed over R, G and B.
+constexpr int32_t kStray = 1 << (kDisparityBits - 2);
+constexpr int32_t kVote = 64, kHalving = 14;
+
+// Disparities with weights. Unused elements have weight 0.
+struct Votes {
+  static constexpr int32_t kPlaces = (kMostVotes + 7) / 8 * 8;  // whole vectors
+
+  int32_t count = 0, weight = 0;
+  int16_t disparity[kPlaces] = {};
+  int16_t of[kPlaces] = {};
+
+  void Add(int16_t d, int32_t vote) {
+    disparity[count] = d;
+    of[count++] = static_cast<int16_t>(vote);
+    weight += vote;
+  }
+
+  // Returns the smallest disparity d in [low, high] for which disparities above d have at most half
+  // of the total weight.
+  int16_t Median(int32_t low, int32_t high) const {
+    while (low < high) {
+      const int32_t middle = (low + high) >> 1;
+      const auto most = static_cast<int16_t>(middle);
+      int16_t below = 0;
+      for (int32_t k = 0; k < kPlaces; ++k) {
+        below = static_cast<int16_t>(below + (disparity[k] <= most ? of[k] : int16_t{0}));
+      }
+      if (2 * below < weight) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return static_cast<int16_t>(low);
+  }
+};
+
+int32_t Apart(const uint8_t* a, const uint8_t* b) {
+  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+}
+
+struct AroundRange {
+  int32_t low, high;
+};
+
+// Returns the range of the disparities in the rectangle `around`.
+AroundRange RangeOf(const EstimatePlan& plan, const int16_t* map, const Rect& around) {
+  AroundRange range = {INT16_MAX, INT16_MIN};
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    const int16_t* disparity = map + static_cast<size_t>(row) * static_cast<size_t>(plan.width);
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      range.low = Min(range.low, disparity[column]);
+      range.high = Max(range.high, disparity[column]);
+    }
+  }
+  return range;
+}
+
+// A side view as the reference of an estimate. The only side view of `plan` is the centre view.
+struct SideReference {
+  EstimatePlan plan;
+  starfocus_light_field light_field;
+};
+
+// A hidden strip is at most as wide as the largest movement. kMoreReach is the number of pixels
+// next to a hidden strip that may be wrong. The limit kMostReach bounds the time in pictures in
+// which no pixel is seen.
+constexpr int32_t kMoreReach = 16, kMostReach = 128;
+
+// Returns true if a side view shows pixel (x, y) at disparity d.
+bool IsSeen(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
+            int32_t d) {
+  for (int32_t k = 0; k < plan.side_views; ++k) {
+    const int32_t column = x + WholeMoveBy(plan.side[k].at.u, d);
+    const int32_t row = y + WholeMoveBy(plan.side[k].at.v, d);
+    if (column < 0 || column >= plan.width || row < 0 || row >= plan.height) continue;
+    const int16_t* line = SideMap(plan, memory, k) + ptrdiff_t{row} * plan.width;
+    if (Abs(line[column] - d) <= kSurfaceDepth) return true;
+  }
+  return false;
+}
+
+// Returns the disparity of the nearest pixel in a direction from pixel (x, y) that a side view
+// shows, or kNoSurface if no side view shows a pixel within `reach` pixels.
+int16_t SeenBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int32_t y,
+                   const int8_t* direction) {
+  const int32_t reach = Min(plan.reach + kMoreReach, kMostReach);
+  for (int32_t k = 1; k <= reach; ++k) {
+    const int32_t column = x + k * direction[0], row = y + k * direction[1];
+    if (column < 0 || column >= plan.width || row < 0 || row >= plan.height) break;
+    const int16_t d = seen[ptrdiff_t{row} * plan.width + column];
+    if (d != simd::kNoSurface) return d;
+  }
+  return simd::kNoSurface;
+}
+
+// Returns the second smallest disparity of the nearest seen pixels in eight directions. If only one
+// pixel is found, returns the disparity of this pixel. If no pixel is found, returns kNoSurface.
+// The second smallest disparity is robust to a single disparity that is too small.
+int16_t FarBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int32_t y) {
+  int32_t least = INT32_MAX, second = INT32_MAX;
+  for (const auto& direction : kEightDirections) {
+    const int16_t d = SeenBeside(plan, seen, x, y, direction);
+    if (d == simd::kNoSurface) continue;
+    second = Min(second, Max(least, d));
+    least = Min(least, d);
+  }
+  if (least == INT32_MAX) return simd::kNoSurface;
+  return static_cast<int16_t>(second == INT32_MAX ? least : second);
+}
+
+// Returns side view k of the plan as the reference of an estimate.
+SideReference MakeSideReference(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                                int32_t k) {
+  SideReference reference = {plan, light_field};
+  const SideView& view = plan.side[k];
+  reference.light_field.views[0] = light_field.views[view.index];
+  reference.light_field.views[1] = light_field.views[0];
+  reference.plan.side_views = 1;
+  reference.plan.side[0] = {1,
+                            {static_cast<int16_t>(-view.at.u), static_cast<int16_t>(-view.at.v)}};
+  reference.plan.sides[0] = 1;
+  return reference;
+}
+
+// Copies memory->second to memory->first for the pixels of `tile`. Pixels that no side view shows
+// are set to kNoSurface.
+void FindUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memory) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = row + static_cast<size_t>(x);
+      const int16_t d = memory->second[at];
+      memory->first[at] = IsSeen(plan, *memory, x, y, d) ? d : simd::kNoSurface;
+    }
+  }
+}
+
+// Sets each pixel of `tile` that is kNoSurface in memory->first to the disparity of the adjacent
+// background, which is the second smallest disparity of the nearest known pixels in eight
+// directions. Writes the disparities to memory->second and sets the certainty to 0. Pixels without
+// known pixels nearby keep their disparity.
+void FillUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memory) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = row + static_cast<size_t>(x);
+      if (memory->first[at] != simd::kNoSurface) continue;
+      memory->certainty[at] = 0;
+      const int16_t far = FarBeside(plan, memory->first, x, y);
+      if (far != simd::kNoSurface) memory->second[at] = far;
+    }
+  }
+}
 
 struct EstimateJob {
   Sweep sweep;
@@ -78,6 +239,30 @@ starfocus_status SweepSideViews(const Sweep& sweep, Phases* phases) {
 }
 
 }  // namespace
+
+int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
+                     const int16_t* map, int32_t x, int32_t y) {
+  const Rect around = Widened(plan, {x, y, 1, 1}, kRadius);
+  const int16_t own =
+      map[static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x)];
+  const AroundRange range = RangeOf(plan, map, around);
+  // If all disparities in the neighbourhood are within kStray of the pixel's disparity, their
+  // median is within kStray.
+  if (range.low >= own - kStray && range.high <= own + kStray) return own;
+  const uint8_t* here = centre.data + static_cast<size_t>(y) * centre.stride + 3 * x;
+  Votes votes;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    const uint8_t* rgb = centre.data + static_cast<size_t>(row) * centre.stride;
+    const int16_t* disparity = map + static_cast<size_t>(row) * static_cast<size_t>(plan.width);
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const int32_t halvings = Apart(here, rgb + 3 * column) / kHalving;
+      const int32_t vote = halvings < 7 ? kVote >> halvings : 0;
+      if (vote > 0) votes.Add(disparity[column], vote);
+    }
+  }
+  const int16_t median = votes.Median(range.low, range.high);
+  return std::abs(own - median) > kStray ? median : own;
+}
 
 starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,

@@ -5,7 +5,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/depth/hair_cells.h"
-#include "lib/depth/map_rows.h"
+#include "lib/depth/maps.h"
 
 namespace starfocus {
 namespace {

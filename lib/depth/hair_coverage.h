@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "lib/depth/hair_cells.h"
-#include "lib/depth/map_rows.h"
+#include "lib/depth/maps.h"
 #include "lib/depth/phases.h"
 
 namespace starfocus {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/repair.h"
-
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "lib/base/fixed.h"
+#include "lib/base/geometry.h"
+#include "lib/depth/maps.h"
 #include "lib/depth/phases.h"
-#include "lib/depth/repair_map.h"
 #include "lib/depth/sweep.h"
 #include "lib/depth/swept.h"
 #include "lib/depth/thin_cells.h"
@@ -14,6 +15,171 @@
 
 namespace starfocus {
 namespace {
+
+constexpr int32_t kPixel = 1 << kDisparityBits;
+// Largest difference between disparities that are averaged as one surface, in fixed point
+// (kDisparityBits).
+constexpr int32_t kSameSurface = 38;
+// Largest difference at which a disparity counts as equal to the given disparity.
+constexpr int32_t kSame = kPixel / 4;
+constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
+// Largest distance in pixels from a pixel that mixes two surfaces to trusted disparities of the
+// nearer surface. kNearReach spans a ramp of disparities that is 12 pixels long, and the untrusted
+// pixels at the ends of the ramp.
+constexpr int32_t kNearReach = 16;
+// Largest cost of a pixel that the views show clearly. kClearCost corresponds to 11 grey levels. In
+// images of hair in front of a wall, half of the wall pixels and a twentieth of the mixed pixels
+// have a cost below kClearCost.
+constexpr int32_t kClearCost = 44;
+
+// Smallest total evidence that a change of the map requires, in units of cost (simd::kCostScale per
+// grey level). In a wrong map, a change requires a total of 240, which corresponds to eight pixels
+// that fit 7.5 grey levels worse. In a map that is right except at details of low contrast, a
+// change requires a total of 1600. If changes require a total of 1600, a pixel whose new disparity
+// is on the surface of the given disparity is not changed.
+inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
+
+size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
+  return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
+}
+
+struct Mean {
+  int32_t sum = 0, count = 0;
+
+  void Add(int32_t value) {
+    sum += value;
+    ++count;
+  }
+  // Returns the mean of the added values, with halves rounded away from zero.
+  int32_t Value() const { return (2 * sum + (sum < 0 ? -count : count)) / (2 * count); }
+};
+
+// Returns the mean disparity, around pixel (x, y), of the surface at disparity `own`. If trusted
+// disparities of this surface exist, only trusted disparities are averaged.
+int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
+                      int32_t own) {
+  const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
+  Mean trusted, found;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const size_t at = IndexOf(plan, column, row);
+      if (std::abs(memory.second[at] - own) > kSameSurface) continue;
+      found.Add(memory.second[at]);
+      const int32_t d = memory.trusted[at];
+      if (d != simd::kNoSurface && std::abs(d - own) <= kSameSurface) trusted.Add(d);
+    }
+  }
+  return trusted.count > 0 ? trusted.Value() : found.Value();
+}
+
+// Returns true if less than a quarter of the pixels around pixel (x, y) are trusted. A rough part
+// of the map is noise, or a wide slope in place of an edge, and is not worth keeping.
+bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
+  const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
+  int32_t smooth = 0;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      smooth += memory.trusted[IndexOf(plan, column, row)] != simd::kNoSurface;
+    }
+  }
+  return 4 * smooth < around.width * around.height;
+}
+
+// Writes the disparity of each pixel of a tile. If memory.second agrees with the given disparity,
+// the given disparity is written. Otherwise, the mean of the surrounding trusted pixels that are on
+// the surface of memory.second is written. If no trusted pixel is on this surface, the mean of
+// memory.second over the surface is written. Stray pixels are removed with the help of the colours
+// of the centre view.
+void EvenOut(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
+             const EstimateMemory& memory, int16_t* evened) {
+  ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
+    const size_t at = IndexOf(plan, x, y);
+    const int32_t given = memory.given[at], trusted = memory.trusted[at];
+    evened[at] = static_cast<int16_t>(given);
+    if (trusted != simd::kNoSurface && std::abs(trusted - memory.second[at]) <= kSame) return;
+    const int32_t own = WithoutStray(plan, centre, memory.second, x, y);
+    const int32_t mean = MeanOfSurface(plan, memory, x, y, own);
+    if (given != simd::kNoSurface && std::abs(given - mean) <= kSame) return;
+    evened[at] = static_cast<int16_t>(mean);
+  });
+}
+
+// Returns true if memory.first and the given map are on different surfaces at pixel `at`, or if the
+// given disparity of this pixel is unknown.
+bool Differs(const EstimateMemory& memory, size_t at) {
+  return memory.given[at] == simd::kNoSurface ||
+         std::abs(memory.first[at] - memory.given[at]) > kPixel / 2;
+}
+
+// Counts the edge pixels of a tile, and the pixels whose given disparity the repair contradicts.
+// Requires the result of EvenOut for the tile.
+TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
+  TileCount count = {};
+  ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
+    const size_t at = IndexOf(plan, x, y);
+    count.rough += memory.trusted[at] == simd::kNoSurface;
+    count.differs += Differs(memory, at);
+  });
+  return count;
+}
+
+// Returns the repaired disparity of pixel (x, y), which is the disparity in memory.first or the
+// given disparity. A contradicted pixel changes only if the total evidence of the contradicted
+// pixels around the pixel is large enough. Single contradicted pixels are more often right in the
+// given map than in memory.first. In rough parts of the map, contradicted pixels always change to
+// memory.first.
+int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
+  const size_t own = IndexOf(plan, x, y);
+  const int16_t given = memory.given[own], found = memory.first[own];
+  if (given == simd::kNoSurface) return found;
+  if (!Differs(memory, own)) {
+    return memory.least_evidence < kSweepEvidence.right ? found : given;
+  }
+  if (IsRough(plan, memory, x, y)) return found;
+  const Rect around = Widened(plan, {x, y, 1, 1}, kEvidenceRadius);
+  int32_t evidence = 0;
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const size_t at = IndexOf(plan, column, row);
+      if (Differs(memory, at)) evidence += memory.given_cost[at] - memory.found_cost[at];
+    }
+  }
+  return evidence >= memory.least_evidence ? found : given;
+}
+
+// Fills `nearest` with the largest trusted disparity near each pixel of row y of a cell. The
+// largest trusted disparity belongs to the surface from which hair stands out. If no trusted pixel
+// is near, the value is kNoSurface.
+void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& cell, int32_t y,
+                 int16_t* nearest) {
+  const Rect around = Widened(plan, {cell.x, y, cell.width, 1}, kNearReach);
+  // Largest disparity in each column; columns[0] is kNearReach columns to the left of the cell.
+  int16_t columns[kMostCellSide + 2 * kNearReach];
+  std::fill_n(columns, cell.width + 2 * kNearReach, simd::kNoSurface);
+  int16_t* to = columns + kNearReach - (cell.x - around.x);
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    const int16_t* from = trusted + IndexOf(plan, around.x, row);
+    for (int32_t x = 0; x < around.width; ++x) to[x] = std::max(to[x], from[x]);
+  }
+  std::fill_n(nearest, cell.width, simd::kNoSurface);
+  for (int32_t k = 0; k <= 2 * kNearReach; ++k) {
+    for (int32_t x = 0; x < cell.width; ++x) nearest[x] = std::max(nearest[x], columns[x + k]);
+  }
+}
+
+// Returns the disparity of pixel `at` in thin structure that the given map lacks. The result is the
+// disparity of the nearer surface, unless the views clearly show a farther surface. Most pixels
+// that the views do not show clearly mix the colours of two surfaces. A comparison of colours
+// separates mixed pixels better than a search over disparities does.
+int16_t PartedAt(const EstimateMemory& memory, size_t at, int16_t nearest) {
+  const int16_t given = memory.given[at], found = memory.first[at];
+  const bool sloping = memory.trusted[at] == simd::kNoSurface && nearest != simd::kNoSurface;
+  const int16_t near = sloping ? nearest : given;
+  if (near == simd::kNoSurface) return found;
+  const bool clear = memory.found_cost[at] <= kClearCost &&
+                     std::abs(found - memory.second[at]) < kPixel && found < near - kPixel;
+  return clear ? found : near;
+}
 
 struct RepairJob {
   Sweep sweep;
@@ -78,9 +244,9 @@ void WritePixel(const RepairJob& job, int32_t x, int32_t y, int16_t disparity) {
   const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
   const size_t at = row * static_cast<size_t>(job.sweep.plan.width) + column;
   if (disparity != memory.given[at]) {
-    constexpr float kPixel = 1.0F / (1 << kDisparityBits);
+    constexpr float kUnit = 1.0F / (1 << kDisparityBits);
     output.disparity[row * output.stride + column] =
-        output.Clamped(static_cast<float>(disparity) * kPixel);
+        output.Clamped(static_cast<float>(disparity) * kUnit);
   }
   if (output.confidence != nullptr && disparity != memory.first[at] && Differs(memory, at)) {
     // The confidence of a pixel is 0 if the estimate from the views contradicts the map, but the
@@ -134,6 +300,20 @@ void WriteTile(const void* data, int32_t index, int32_t) {
 }
 
 }  // namespace
+
+int32_t LeastEvidence(const EvidenceScale& scale, const TileCount* counts, int32_t tiles) {
+  int64_t rough = 1, differs = 0;
+  for (int32_t tile = 0; tile < tiles; ++tile) {
+    rough += counts[tile].rough;
+    differs += counts[tile].differs;
+  }
+  const int64_t percent = 100 * differs / rough;
+  if (percent <= scale.right_percent) return scale.right;
+  if (percent >= scale.wrong_percent) return scale.wrong;
+  const auto beyond = static_cast<int32_t>(scale.wrong_percent - percent);
+  return scale.wrong +
+         (scale.right - scale.wrong) * beyond / (scale.wrong_percent - scale.right_percent);
+}
 
 starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
                         const simd::DepthKernels& kernels, const MapOutput& output,

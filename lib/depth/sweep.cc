@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/estimate_memory.h"
+#include "lib/depth/maps.h"
 #include "lib/depth/swept.h"
 #include "lib/depth/tile_views.h"
 #include "simd/depth_kernels.h"

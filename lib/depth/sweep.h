@@ -5,7 +5,7 @@
 #ifndef STARFOCUS_LIB_DEPTH_SWEEP_H_
 #define STARFOCUS_LIB_DEPTH_SWEEP_H_
 
-#include "lib/depth/estimate_memory.h"
+#include "lib/depth/maps.h"
 #include "simd/depth_kernels.h"
 
 namespace starfocus {

@@ -2,6 +2,7 @@
 #include "lib/depth/swept.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
@@ -11,6 +12,37 @@
 
 namespace starfocus {
 namespace {
+
+constexpr int32_t kPixel = 1 << kDisparityBits;
+// Largest difference of disparity between neighbours on one surface. Slopes steeper than kMostSlope
+// are blurred edges.
+constexpr int32_t kMostSlope = kPixel / 2;
+
+size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
+  return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
+}
+
+// Smallest and largest disparity in each column of three pixels: the pixel of a row and the pixels
+// above and below it.
+struct ColumnExtremes {
+  int16_t low[kMostTileSide + 2], high[kMostTileSide + 2];
+
+  void Copy(int32_t from, int32_t to) {
+    low[to] = low[from];
+    high[to] = high[from];
+  }
+};
+
+// Fills elements [begin, end) of `columns`. `at` points to a row of disparities. The previous row
+// is `above` samples before this row, and the next row is `below` samples after this row.
+void FindColumns(const int16_t* at, ptrdiff_t above, ptrdiff_t below, int32_t begin, int32_t end,
+                 ColumnExtremes* columns) {
+  for (int32_t k = begin; k < end; ++k) {
+    const int16_t up = at[k - above], here = at[k], down = at[k + below];
+    columns->low[k] = std::min(std::min(up, down), here);
+    columns->high[k] = std::max(std::max(up, down), here);
+  }
+}
 
 // A pixel fits the views on one side if the mean difference from these views, summed over R, G and
 // B, is at most kMostMisfit.
@@ -99,6 +131,44 @@ void ReadDoubts(const EstimatePlan& plan, const uint8_t* doubt, const Rect& arou
 }
 
 }  // namespace
+
+void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_field, const Rect& tile,
+               EstimateMemory* memory) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const float* row = GivenAt(light_field, y);
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = IndexOf(plan, x, y);
+      memory->given[at] = std::isfinite(row[x]) ? static_cast<int16_t>(std::lrint(row[x] * kPixel))
+                                                : simd::kNoSurface;
+      memory->first[at] = memory->second[at] = memory->given[at];
+      memory->given_cost[at] = memory->found_cost[at] = 0;
+    }
+  }
+}
+
+void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
+                 int16_t* trusted) {
+  ColumnExtremes columns;
+  // Element 0 of `columns` is the column to the left of the tile. The range [begin, end) omits
+  // columns outside the picture.
+  const int32_t begin = tile.x > 0 ? 0 : 1,
+                end = tile.width + (tile.x + tile.width < plan.width ? 2 : 1);
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const ptrdiff_t above = y > 0 ? plan.width : 0, below = y + 1 < plan.height ? plan.width : 0;
+    FindColumns(given + IndexOf(plan, tile.x, y) - 1, above, below, begin, end, &columns);
+    if (begin > 0) columns.Copy(1, 0);
+    if (end < tile.width + 2) columns.Copy(tile.width, tile.width + 1);
+    const int16_t* from = given + IndexOf(plan, tile.x, y);
+    int16_t* to = trusted + IndexOf(plan, tile.x, y);
+    const int16_t *low = columns.low, *high = columns.high;
+    for (int32_t k = 0; k < tile.width; ++k) {
+      const int16_t least = std::min(std::min(low[k], low[k + 2]), low[k + 1]);
+      const int16_t most = std::max(std::max(high[k], high[k + 2]), high[k + 1]);
+      const bool smooth = (least != simd::kNoSurface) & (most <= least + kMostSlope);
+      to[k] = smooth ? from[k] : simd::kNoSurface;
+    }
+  }
+}
 
 void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
                 const Rect& tile, EstimateMemory* memory) {

@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "lib/base/geometry.h"
-#include "lib/depth/estimate_memory.h"
+#include "lib/depth/maps.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -17,6 +17,17 @@ namespace starfocus {
 // Largest distance in pixels between a pixel that is swept and a pixel in doubt. Trusted pixels
 // farther away hardly influence a pixel's prior (simd::kMostPrior).
 inline constexpr int32_t kSweptRadius = 5;
+
+// Converts the given disparities of a tile to fixed point (kDisparityBits). Disparities that are
+// not finite become kNoSurface. Initialises the maps of both sweeps with the converted disparities.
+void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_field, const Rect& tile,
+               EstimateMemory* memory);
+
+// Copies the trusted pixels of a tile to `trusted`, and sets all other pixels to kNoSurface. A
+// pixel is trusted if its 3x3 neighbourhood is known and belongs to one surface. The slopes of
+// blurred or scaled maps and the pixels of noisy maps are therefore not trusted.
+void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
+                 int16_t* trusted);
 
 // Marks the pixels of a tile that are in doubt. Requires memory->trusted for the tile.
 void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,

@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_DEPTH_TILE_VIEWS_H_
 #define STARFOCUS_LIB_DEPTH_TILE_VIEWS_H_
 
-#include "lib/depth/estimate_memory.h"
+#include "lib/depth/maps.h"
 #include "simd/depth_kernels.h"
 #include "starfocus/starfocus.h"
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "lib/depth/repair_map.h"
 #include "tests/depth/depth_scene.h"
 
 namespace swept_test {

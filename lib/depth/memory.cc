@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/estimate_memory.h"
-
 #include <new>
 
 #include "lib/base/fixed.h"
+#include "lib/depth/maps.h"
 #include "simd/paths.h"
 
 namespace starfocus {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/converted_field.h"
-
 #include <limits>
 
 #include "lib/base/arena.h"
 #include "lib/base/fixed.h"
+#include "lib/depth/maps.h"
 #include "lib/io/depth_rows.h"
 #include "lib/io/image_rows.h"
 #include "lib/io/rows.h"

@@ -1,20 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory of an estimate: maps of the whole picture, and scratch memory of each worker for one tile.
-// LayOutEstimate computes the size of the memory and divides the memory into arrays.
-#ifndef STARFOCUS_LIB_DEPTH_ESTIMATE_MEMORY_H_
-#define STARFOCUS_LIB_DEPTH_ESTIMATE_MEMORY_H_
+// Disparity maps of the centre view from several views: their memory, the conversion of the light
+// field, estimates, and repairs of a given map.
+//
+// An estimate sweeps twice over all candidate disparities (labels). The first sweep uses the views
+// on one side of each pixel. The result of the first sweep shows which views see each pixel, and
+// the second sweep uses only these views. A repair sweeps like an estimate, with an additional cost
+// for labels that differ from the given map. A last phase decides which of the contradicted pixels
+// are changed.
+#ifndef STARFOCUS_LIB_DEPTH_MAPS_H_
+#define STARFOCUS_LIB_DEPTH_MAPS_H_
 
 #include <cstddef>
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
-#include "lib/depth/evidence.h"
 #include "lib/depth/setup.h"
 #include "lib/depth/thin_cells.h"
+#include "lib/io/rows.h"
+#include "simd/depth_kernels.h"
 #include "simd/label_costs.h"
+#include "starfocus/depth.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+// Output planes of a map. Disparities are clamped to [lowest, highest]; confidence and coverage may
+// be null.
+struct MapOutput {
+  float* disparity;
+  size_t stride;  // distance between rows of `disparity`, in floats
+  float lowest, highest;
+  uint8_t* confidence;
+  size_t confidence_stride;
+  uint8_t* coverage;
+  size_t coverage_stride;
+
+  float Clamped(float value) const {
+    return value < lowest ? lowest : value > highest ? highest : value;
+  }
+};
+
+// Returns row y of the given map.
+inline const float* GivenAt(const starfocus_light_field& light_field, int32_t y) {
+  return RowsOf(light_field.depth).Row(y);
+}
+
+// Counts of pixels in a tile of a given map.
+struct TileCount {
+  int32_t rough;    // Pixels at edges.
+  int32_t differs;  // Pixels that the repair contradicts.
+};
+
+// Required evidence as a function of the percentage of edge pixels that the repair contradicts. Up
+// to `right_percent` the map is assumed to be right, and the required evidence is `right`. From
+// `wrong_percent` on, the required evidence is `wrong`. Between the two percentages, the required
+// evidence is interpolated.
+struct EvidenceScale {
+  int32_t right_percent, wrong_percent;
+  int32_t right, wrong;
+};
+
+// Returns the evidence required for a change. `counts` has one element for each of the `tiles`
+// tiles of the map.
+int32_t LeastEvidence(const EvidenceScale& scale, const TileCount* counts, int32_t tiles);
 
 // The pixels of all views around a tile, as consecutive planes. Outside the picture, the nearest
 // pixels of the picture are repeated. In each plane, pixel (x, y) of the picture has index (y -
@@ -112,6 +162,45 @@ class EstimateZones {
   void* base_;
 };
 
+// Memory of a converted light field.
+struct ConvertedMemory {
+  uint8_t* views[STARFOCUS_MAX_VIEWS];
+  float* disparity;   // Null: the light field has no map.
+  uint32_t* columns;  // Positions in the map of the columns of the picture (FillColumns).
+};
+
+// Lays out the memory at `base`; without a map if `has_map` is false. If `base` is null, only
+// computes the size. Returns the number of bytes, or kTooLarge.
+size_t LayOutConverted(const starfocus_depth_config& config, bool has_map, void* base,
+                       ConvertedMemory* memory);
+
+// Replaces the views of *field, and its map if memory.disparity is not null, by converted copies.
+// Images and maps that are read in place are not copied. Disparities are rounded to 1/64 pixel and
+// limited to the configured range; unknown disparities are NaN. A set has at most `most_jobs` jobs.
+// Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
+starfocus_status ConvertField(const starfocus_depth_config& config, const ConvertedMemory& memory,
+                              int32_t most_jobs, Jobs* jobs, starfocus_light_field* field);
+
+// Estimates the disparity map of the centre view and writes the map to `output`. Returns
+// STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
+starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                          const simd::DepthKernels& kernels, const MapOutput& output,
+                          EstimateMemory* memory);
+
+// Repairs light_field.depth and writes the result to `output`. plan.repairs must be true. Pixels
+// whose disparity the views do not contradict keep this disparity exactly. Unknown pixels (NaN or
+// infinite) get a disparity. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or
+// STARFOCUS_ERROR_RUNNER.
+starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
+                        const simd::DepthKernels& kernels, const MapOutput& output,
+                        EstimateMemory* memory);
+
+// Returns the disparity of pixel (x, y), or the weighted median of its neighbourhood if the pixel's
+// disparity differs too much from the median. Neighbours of similar colour have larger weights.
+// `map` has the size of the picture, and disparities are in fixed point (kDisparityBits).
+int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
+                     const int16_t* map, int32_t x, int32_t y);
+
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_DEPTH_ESTIMATE_MEMORY_H_
+#endif  // STARFOCUS_LIB_DEPTH_MAPS_H_
