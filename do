@@ -61,6 +61,7 @@ usage: ./do COMMAND
           to tap, and check its links
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file, and name the licence in new ones
+  lint    check that no function is too large
   bare [COMMAND...]  run every command that installs packages, or the given ones, in separate copies
           of a bare Debian 12 with git, and print a table of the results (as root; takes hours)
   help    this text
@@ -390,6 +391,20 @@ mutate() {
   tests/mutation/mutate "$@"
 }
 
+# Runs clang-tidy on all sources of these folders with the checks of the nearest file .clang-tidy. Prints only findings.
+tidy() (
+  set -o pipefail
+  sed -n 's/^ *"file": "\(.*\)"$/\1/p' $BUILD/compile_commands.json |
+    grep -E "^$PWD/($BUILD/)?(lib|simd|platform|examples)/" |
+    sort -u | xargs -d '\n' -P "$(nproc)" -n 4 clang-tidy -p $BUILD --quiet 2>&1 | sed '/ generated\.$/d'
+)
+
+lint() {
+  require clang-tidy
+  configure
+  step lint "checking the sizes of functions" tidy
+}
+
 # require PACKAGE...: installs the given packages, in addition to $PACKAGES, unless they are installed.
 require() {
   PACKAGES="$PACKAGES $*"
@@ -490,6 +505,7 @@ case "${1:-help}" in
   count) count_command "${2:-}" ;;
   size) size "${2:-}" ;;
   format) format ;;
+  lint) lint ;;
   bare) shift && bare "$@" ;;
   help | -h | --help) help ;;
   *) help >&2; exit 1 ;;

@@ -35,7 +35,8 @@ wheel test
 docs
 site
 golden
-format"
+format
+lint"
 
 # make_bare_root FOLDER: makes the folder FOLDER/root with a bare Debian 12, git and ccache, unless the folder exists.
 # ccache does not depend on a compiler, and the commands share its cache FOLDER/ccache.
