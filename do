@@ -61,7 +61,7 @@ usage: ./do COMMAND
           to tap, and check its links
   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
   format  clang-format every source file, and name the licence in new ones
-  lint    check that no function is too large
+  lint    check that no file or function is too large, and print the sizes of lib and simd by room
   bare [COMMAND...]  run every command that installs packages, or the given ones, in separate copies
           of a bare Debian 12 with git, and print a table of the results (as root; takes hours)
   help    this text
@@ -170,6 +170,7 @@ has() {
     libsixel-dev) has_header sixel/sixel.h ;;
     libseccomp-dev) has_header seccomp.h ;;
     libsixel-bin) command -v sixel2png ;;
+    universal-ctags) ctags --version 2>/dev/null | grep Universal ;;
     libbenchmark-dev) has_header benchmark/benchmark.h ;;
     lib*) false ;;
     *) command -v "$1" ;;
@@ -400,8 +401,9 @@ tidy() (
 )
 
 lint() {
-  require clang-tidy
+  require clang-tidy universal-ctags python3
   configure
+  toolchains/rooms.py || fail "a file is too long"
   step lint "checking the sizes of functions" tidy
 }
 
