@@ -23,14 +23,14 @@ constexpr Rect Extended(const Rect& rect, const Border& border) {
           border.top + rect.height + border.bottom};
 }
 
-// Rows [first, last) of a picture, a layer or a tile.
-struct RowRange {
+// Rows, columns or other indices in [first, last).
+struct Range {
   int32_t first, last;
 };
 
 // Returns part `index` when `rows` are divided into `parts` parts. The sizes of the parts differ by
 // at most one row.
-constexpr RowRange PartOf(const RowRange& rows, int32_t index, int32_t parts) {
+constexpr Range PartOf(const Range& rows, int32_t index, int32_t parts) {
   const int64_t count = rows.last - rows.first;
   return {rows.first + static_cast<int32_t>(count * index / parts),
           rows.first + static_cast<int32_t>(count * (index + 1) / parts)};

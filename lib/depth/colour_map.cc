@@ -208,8 +208,8 @@ void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, i
 
 }  // namespace
 
-void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field,
-              const RowRange& rows, int16_t* disparity) {
+void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field, const Range& rows,
+              int16_t* disparity) {
   for (int32_t y = rows.first; y < rows.last; ++y) {
     int16_t* row = disparity + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
     const float* given = GivenAt(light_field, y);
@@ -236,7 +236,7 @@ void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity) {
   FillRows(plan, plan.height - unknown, plan.height, disparity);
 }
 
-void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const RowRange& rows,
+void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const Range& rows,
                 NoiseCounts* noise) {
   const ptrdiff_t width = plan.width;
   for (int32_t y = Max(rows.first, 1); y < Min(rows.last, plan.height - 1); ++y) {

@@ -75,8 +75,8 @@ void ForDoubtful(const uint8_t* doubt, int32_t count, const Act& act) {
 // Converts rows of light_field.depth to fixed point. A pixel that is not finite gets the
 // disparity of the nearest finite pixel in its row. If two finite pixels are equally near, the
 // smaller disparity is copied. Rows without a finite pixel remain unknown.
-void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field,
-              const RowRange& rows, int16_t* disparity);
+void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field, const Range& rows,
+              int16_t* disparity);
 
 // Copies rows without a finite pixel from the nearest row with a finite pixel. If two rows are
 // equally near, the smaller disparities are copied. At least one row must have a finite pixel. Call
@@ -96,7 +96,7 @@ struct NoiseCounts {
 };
 
 // Adds the pixels of `rows` to `noise`, except the pixels at the edges of the picture.
-void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const RowRange& rows,
+void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const Range& rows,
                 NoiseCounts* noise);
 
 // Returns the standard deviation of the map's noise in kDisparityBits, or 0 if the noise is

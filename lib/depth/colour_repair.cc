@@ -44,7 +44,7 @@ const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>
 
 // Returns the rows of job `index` of a phase that divides the picture into as many ranges of rows
 // as the plan has tiles.
-RowRange RowsOfJob(const EstimatePlan& plan, int32_t index) {
+Range RowsOfJob(const EstimatePlan& plan, int32_t index) {
   return PartOf({0, plan.height}, index, plan.columns * plan.rows);
 }
 

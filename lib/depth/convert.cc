@@ -31,9 +31,9 @@ constexpr int32_t kGroupRows = 8;
 template <class Convert>
 void ForGroups(const ConvertJob& job, int32_t index, const Convert& convert) {
   CancelToken cancel(job.progress);
-  const RowRange part = PartOf({0, job.height}, index, job.jobs);
+  const Range part = PartOf({0, job.height}, index, job.jobs);
   for (int32_t y = part.first; y < part.last; y += kGroupRows) {
-    const RowRange rows = {y, Min(y + kGroupRows, part.last)};
+    const Range rows = {y, Min(y + kGroupRows, part.last)};
     if (!cancel.Spend(int64_t{job.width} * (rows.last - rows.first))) return;
     convert(rows);
   }
@@ -42,7 +42,7 @@ void ForGroups(const ConvertJob& job, int32_t index, const Convert& convert) {
 void ConvertImage(const void* data, int32_t index, int32_t) {
   const ConvertJob& job = JobOf(data);
   const size_t stride = 3 * static_cast<size_t>(job.width);
-  ForGroups(job, index, [&](const RowRange& rows) {
+  ForGroups(job, index, [&](const Range& rows) {
     for (int32_t y = rows.first; y < rows.last; ++y) {
       ReadCodes(job.kernels, job.image, 0, y, job.width, job.rgb + static_cast<size_t>(y) * stride);
     }
@@ -64,7 +64,7 @@ void WriteDisparities(const simd::DepthRule& rule, const int16_t* fixed, int32_t
 
 void ConvertMap(const void* data, int32_t index, int32_t) {
   const ConvertJob& job = JobOf(data);
-  ForGroups(job, index, [&](const RowRange& rows) {
+  ForGroups(job, index, [&](const Range& rows) {
     for (int32_t x = 0; x < job.width; x += kDepthPiece) {
       int16_t fixed[kGroupRows * kDepthPiece];
       const Plane<int16_t> piece = {fixed, kDepthPiece, 0, rows.first};

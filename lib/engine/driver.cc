@@ -17,7 +17,7 @@ namespace {
 struct RowsJob {
   const RowSource* source;
   const EngineState* engine;
-  RowRange rows;
+  Range rows;
   int32_t jobs;
   Plane<int16_t> disparity;  // Output of LoadPart: disparities of the rows.
 };
@@ -27,16 +27,16 @@ struct RowsJob {
 constexpr int32_t kGroupRows = 8;
 
 // Returns the number of jobs that read a number of rows.
-int32_t JobsOf(const RowRange& rows, const starfocus_config& config) {
+int32_t JobsOf(const Range& rows, const starfocus_config& config) {
   return Min(MaxJobs(config), (rows.last - rows.first + kGroupRows - 1) / kGroupRows);
 }
 
 // Calls act(rows) for groups of rows of part `index`. Stops after cancellation.
 template <class Act>
 void ForGroups(const RowsJob& job, int32_t index, Scratch* scratch, const Act& act) {
-  const RowRange rows = PartOf(job.rows, index, job.jobs);
+  const Range rows = PartOf(job.rows, index, job.jobs);
   for (int32_t y = rows.first; y < rows.last; y += kGroupRows) {
-    const RowRange part = {y, Min(y + kGroupRows, rows.last)};
+    const Range part = {y, Min(y + kGroupRows, rows.last)};
     const int64_t pixels = int64_t{job.engine->config.width} * (part.last - part.first);
     if (!scratch->cancel.Spend(4 * pixels)) return;
     act(part);
@@ -45,7 +45,7 @@ void ForGroups(const RowsJob& job, int32_t index, Scratch* scratch, const Act& a
 
 // Checks part `index` of the rows of the disparity map.
 void CheckPart(const RowsJob& job, int32_t index, Scratch* scratch) {
-  ForGroups(job, index, scratch, [&](const RowRange& rows) {
+  ForGroups(job, index, scratch, [&](const Range& rows) {
     scratch->counts.depth_flags |= job.source->check_map(job.source->self, rows);
   });
 }
@@ -57,7 +57,7 @@ void CopyCodes(const RowSource& source, int view, int32_t y, int32_t width, uint
 }
 
 // Fills the unknown disparities of converted rows of the map if the configuration enables it.
-void FillRows(const EngineState& engine, const RowRange& rows, const Plane<int16_t>& disparity,
+void FillRows(const EngineState& engine, const Range& rows, const Plane<int16_t>& disparity,
               Counts* counts) {
   for (int32_t y = rows.first; y < rows.last; ++y) {
     int16_t* const row = disparity.Row(y);
@@ -72,7 +72,7 @@ void FillRows(const EngineState& engine, const RowRange& rows, const Plane<int16
 void LoadPart(const RowsJob& job, int32_t index, Scratch* scratch) {
   const EngineState& engine = *job.engine;
   const RowSource& source = *job.source;
-  ForGroups(job, index, scratch, [&](const RowRange& rows) {
+  ForGroups(job, index, scratch, [&](const Range& rows) {
     for (int32_t y = rows.first; source.converts_centre && y < rows.last; ++y) {
       CopyCodes(source, 0, y, engine.config.width, engine.rings[0].Row(y));
     }
@@ -105,7 +105,7 @@ starfocus_status RunRows(const RowsJob& job, EngineState* engine) {
 
 }  // namespace
 
-RowRange StripeRows(const EngineState& engine) {
+Range StripeRows(const EngineState& engine) {
   const Rect& region = engine.lens.region;
   const int32_t reach = engine.lens.borders.joined;
   const int32_t side = engine.config.superblock;
@@ -113,13 +113,13 @@ RowRange StripeRows(const EngineState& engine) {
           Min(engine.config.height, region.y + region.height + reach)};
 }
 
-starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine) {
+starfocus_status CheckRows(const RowSource& source, const Range& rows, EngineState* engine) {
   if (source.check_map == nullptr) return STARFOCUS_OK;
   const int32_t jobs = JobsOf(rows, engine->config);
   return RunRows<CheckPart>({&source, engine, rows, jobs, {}}, engine);
 }
 
-starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
+starfocus_status LoadRows(const RowSource& source, const Range& rows,
                           const Plane<int16_t>& disparity, EngineState* engine) {
   if (rows.first >= rows.last || (source.map == nullptr && !source.converts_centre))
     return STARFOCUS_OK;
@@ -129,7 +129,7 @@ starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
 
 starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine) {
   const starfocus_config& config = engine->config;
-  const RowRange row = {y, y + 1};
+  const Range row = {y, y + 1};
   const Plane<int16_t>& disparity = engine->row_store.disparity;
   const starfocus_status status = StatusOf(source.map(source.self, row, disparity), config);
   if (status != STARFOCUS_OK) return status;
@@ -154,8 +154,8 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
   const Lens& lens = engine->lens;
   const int32_t side = config.superblock, reach = lens.borders.centre, top = lens.region.y;
   const int32_t bottom = top + lens.region.height;
-  const RowRange stripes = StripeRows(*engine);
-  RowRange rows = {Max(0, stripes.first - reach), 0};
+  const Range stripes = StripeRows(*engine);
+  Range rows = {Max(0, stripes.first - reach), 0};
   // First row of the last stripe of the region.
   const int32_t last = (stripes.last - 1) / side * side;
   rows.last = Min(config.height, last + side + reach);
@@ -172,7 +172,7 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
     // The next stripe may change the last rows of this stripe. The last stripe of the region has no
     // next stripe.
     const int32_t end = y == last ? bottom : Min(FinishedRows(config, y), bottom);
-    const RowRange finished = {Max(y - kDeblockRows, top), end};
+    const Range finished = {Max(y - kDeblockRows, top), end};
     if (finished.first < end) {
       status = sink.store(sink.self, finished, BufferRows(*engine, y), engine);
     }

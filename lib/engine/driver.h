@@ -22,10 +22,10 @@ struct RowSource {
   bool converts_centre = false;  // True if the engine copies rows of the centre view to its ring.
   // Returns simd::DepthFlags of the values of the disparity map on which `rows` depend. A null
   // function means that the disparity map is in memory.
-  uint32_t (*check_map)(const void* self, const RowRange& rows) = nullptr;
+  uint32_t (*check_map)(const void* self, const Range& rows) = nullptr;
   // Writes rows of the disparity map to `out`, in kDisparityBits; unknown disparities are
   // kNoSurface. Returns simd::DepthFlags. The function is null if check_map is null.
-  uint32_t (*map)(const void* self, const RowRange& rows, const Plane<int16_t>& out) = nullptr;
+  uint32_t (*map)(const void* self, const Range& rows, const Plane<int16_t>& out) = nullptr;
   // Writes row y of the coverage to `out`. Only streams call this function. A null function means
   // that the light field has no coverage.
   void (*coverage)(const void* self, int32_t y, uint8_t* out) = nullptr;
@@ -38,7 +38,7 @@ struct RowSource {
 // Receives finished rows of a picture or region, in order. `from` contains all columns of the
 // picture.
 struct RowSink {
-  starfocus_status (*store)(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
+  starfocus_status (*store)(const void* self, const Range& rows, const Plane<uint8_t>& from,
                             EngineState* engine);
   const void* self;
 };
@@ -46,11 +46,11 @@ struct RowSink {
 // Checks all values of rows [rows.first, rows.last) of the disparity map. Returns STARFOCUS_OK,
 // STARFOCUS_ERROR_NOT_FINITE or STARFOCUS_ERROR_DISPARITY. If the rows contain both kinds of
 // errors, the function returns STARFOCUS_ERROR_NOT_FINITE.
-starfocus_status CheckRows(const RowSource& source, const RowRange& rows, EngineState* engine);
+starfocus_status CheckRows(const RowSource& source, const Range& rows, EngineState* engine);
 
 // Loads rows of the disparity map into `disparity`. If the source converts the centre view, loads
 // rows of the centre view into their ring. CheckRows must have accepted the rows.
-starfocus_status LoadRows(const RowSource& source, const RowRange& rows,
+starfocus_status LoadRows(const RowSource& source, const Range& rows,
                           const Plane<int16_t>& disparity, EngineState* engine);
 
 // Copies row y of the source to the rings of a streaming engine. Returns the result of checking row
@@ -59,7 +59,7 @@ starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine
 
 // Returns the rows of all stripes that affect the region of the lens. The first row is a multiple
 // of the superblock size.
-RowRange StripeRows(const EngineState& engine);
+Range StripeRows(const EngineState& engine);
 
 // Refocuses the stripes that affect the region of the lens, and stores the rows of the region.
 // Checks all input rows before it stores the first output row. Returns STARFOCUS_OK,

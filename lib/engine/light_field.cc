@@ -37,12 +37,12 @@ void WindowLight(const void* self, int view, int32_t x, int32_t y, int32_t count
   }
 }
 
-uint32_t CheckMap(const void* self, const RowRange& rows) {
+uint32_t CheckMap(const void* self, const Range& rows) {
   const LightField& field = FieldOf(self);
   return CheckDepth(*field.kernels, field.depth, rows);
 }
 
-uint32_t ReadMap(const void* self, const RowRange& rows, const Plane<int16_t>& out) {
+uint32_t ReadMap(const void* self, const Range& rows, const Plane<int16_t>& out) {
   const LightField& field = FieldOf(self);
   const Rect rect = {0, rows.first, field.depth.width, rows.last - rows.first};
   return ReadDepth(*field.kernels, field.depth, rect, out);

@@ -15,7 +15,7 @@ struct PairsJob {
   const PictureOutput* out;
   Plane<uint8_t> from;
   const uint8_t* odd_row;  // Upper row of a pair that an earlier call started.
-  RowRange rows;           // Rows of the image to write.
+  Range rows;              // Rows of the image to write.
   int32_t jobs;
 };
 
@@ -27,7 +27,7 @@ const uint8_t* RowOf(const PairsJob& job, int32_t y) {
 
 void WritePair(const PairsJob& job, int32_t upper) {
   const PictureOutput& out = *job.out;
-  const RowRange rows = {Max(upper, job.rows.first), Min(upper + 2, job.rows.last)};
+  const Range rows = {Max(upper, job.rows.first), Min(upper + 2, job.rows.last)};
   for (int32_t y = rows.first; y < rows.last; ++y) {
     WriteCodes(*out.kernels, RowOf(job, y), out.rect.width, y, out.image);
     if (out.image.has_alpha && out.alpha.rows.data != nullptr) {
@@ -40,7 +40,7 @@ void WritePair(const PairsJob& job, int32_t upper) {
 }
 
 void WritePairs(const PairsJob& job, int32_t index, Scratch* scratch) {
-  const RowRange pairs = PartOf({job.rows.first / 2, (job.rows.last + 1) / 2}, index, job.jobs);
+  const Range pairs = PartOf({job.rows.first / 2, (job.rows.last + 1) / 2}, index, job.jobs);
   for (int32_t pair = pairs.first; pair < pairs.last; ++pair) {
     if (!scratch->cancel.Spend(6 * int64_t{job.out->rect.width})) return;
     WritePair(job, 2 * pair);
@@ -74,14 +74,14 @@ void StoreRow(const PictureOutput& out, const Plane<uint8_t>& from, int32_t y,
   }
 }
 
-starfocus_status Store(const void* self, const RowRange& rows, const Plane<uint8_t>& from,
+starfocus_status Store(const void* self, const Range& rows, const Plane<uint8_t>& from,
                        EngineState* engine) {
   const auto& out = *static_cast<const PictureOutput*>(self);
   if (out.image.IsPacked()) {
     for (int32_t y = rows.first; y < rows.last; ++y) StoreRow(out, from, y, *engine);
     return STARFOCUS_OK;
   }
-  const RowRange inside = {rows.first - out.rect.y, rows.last - out.rect.y};
+  const Range inside = {rows.first - out.rect.y, rows.last - out.rect.y};
   const int32_t pairs = (inside.last + 1) / 2 - inside.first / 2;
   const int32_t jobs = Min(MaxJobs(engine->config), pairs);
   const PairsJob job = {&out, from, engine->images.odd_row, inside, jobs};

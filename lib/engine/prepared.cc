@@ -15,14 +15,14 @@ constexpr int32_t kBeyond = 16;
 
 // Rows of one stripe of the picture.
 struct PreparedStripe {
-  RowRange rows;
+  Range rows;
   bool is_last;
 };
 
 // Computes the rows of layer 1 of a stripe from the picture, and the rows of layer 2 whose source
 // rows are complete. `two` are the rows of layer 2 of the previous stripe, and are replaced by the
 // rows of this stripe. Computing layer 2 from layer 1 halves the number of codes that are decoded.
-starfocus_status MakeLayers(const Prepared& prepared, const PreparedStripe& stripe, RowRange* two,
+starfocus_status MakeLayers(const Prepared& prepared, const PreparedStripe& stripe, Range* two,
                             EngineState* engine) {
   // Layers extend beyond the picture (LayerSize) by fewer than kBeyond pixels of the picture.
   // PlaceLayers omits rows outside the layers.
@@ -53,7 +53,7 @@ starfocus_status MakePlanes(const Prepared& prepared, const RowSource& source,
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer)
     own[layer] = engine->row_store.layers[layer];
   const int32_t height = engine->config.height, side = engine->config.superblock;
-  RowRange read = {0, 0}, two = {0, 0};
+  Range read = {0, 0}, two = {0, 0};
   starfocus_status status = STARFOCUS_OK;
   for (int32_t y = 0; y < height && status == STARFOCUS_OK; y += side) {
     engine->workers.jobs.call_progress.SetRows(y);
@@ -61,7 +61,7 @@ starfocus_status MakePlanes(const Prepared& prepared, const RowSource& source,
     read = {read.last, Min(height, y + side + kBeyond)};
     status = LoadRows(source, read, prepared.disparity, engine);
     if (status != STARFOCUS_OK) break;
-    const RowRange rows = {y, Min(y + side, height)};
+    const Range rows = {y, Min(y + side, height)};
     status = MakeLayers(prepared, {rows, rows.last == height}, &two, engine);
     if (status != STARFOCUS_OK) break;
     status =

@@ -11,7 +11,7 @@ namespace {
 struct ReduceJob {
   const EngineState* engine;
   Plane<int16_t> disparity;
-  RowRange rows;
+  Range rows;
   int32_t previews;
   const ReducedField* fields;
 };
@@ -149,7 +149,7 @@ void TakeReduced(const starfocus_config& config, int shift, Arena* arena, Reduce
   field->coverage.data = arena->Take<uint8_t>(width, height);
 }
 
-starfocus_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
+starfocus_status ReduceRows(const Plane<int16_t>& disparity, const Range& rows, int32_t previews,
                             const ReducedField* fields, EngineState* engine) {
   if (previews == 0) return STARFOCUS_OK;
   const ReduceJob job = {engine, disparity, rows, previews, fields};

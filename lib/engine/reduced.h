@@ -28,7 +28,7 @@ void TakeReduced(const starfocus_config& config, int shift, Arena* arena, Reduce
 // its size, for each shift from 1 to `previews`. Writes the results to fields[shift]. Reads
 // disparities from `disparity`. rows.first and rows.last must be multiples of the superblock size;
 // rows.last may also be the height of the picture.
-starfocus_status ReduceRows(const Plane<int16_t>& disparity, const RowRange& rows, int32_t previews,
+starfocus_status ReduceRows(const Plane<int16_t>& disparity, const Range& rows, int32_t previews,
                             const ReducedField* fields, EngineState* engine);
 
 }  // namespace starfocus

@@ -26,7 +26,7 @@ starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, Engine
       ForEach(Columns(config), &engine->workers.jobs, [&](int32_t column, int32_t) {
         DeblockRows(job, column * smallest, Min((column + 1) * smallest, job.map->columns));
       });
-  const RowRange finished = {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)};
+  const Range finished = {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)};
   const int32_t rows = finished.last - finished.first;
   if (status != STARFOCUS_OK || rows <= 0) return status;
   const int32_t jobs = (rows + kSmallestBlock - 1) / kSmallestBlock;

@@ -47,8 +47,7 @@ starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
     const int32_t ahead = TilesAhead(engine->config, pass);
     int32_t& done = state.done[pass];
     // For the first stripe, each pass also processes `ahead` rows of tiles above `top`.
-    const RowRange rows = {done >= 0 ? done : Max(0, top - ahead),
-                           Min(state.map.Rows(), end + ahead)};
+    const Range rows = {done >= 0 ? done : Max(0, top - ahead), Min(state.map.Rows(), end + ahead)};
     if (rows.first < rows.last) {
       const auto run = [&](int32_t column, int32_t worker) {
         const int32_t first = column * side, last = Min(first + side, state.map.columns);

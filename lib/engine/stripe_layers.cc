@@ -70,13 +70,13 @@ void MarkLayerColumns(const starfocus_config& config, const Block& block, RowSto
   }
 }
 
-void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store) {
+void PlaceLayers(const Range& of_picture, const Borders& borders, RowStore* row_store) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     LayerPlane& plane = row_store->layers[layer];
     const int32_t beyond = borders.layer[layer];
     const int32_t last = (of_picture.last + (1 << layer) - 1) >> layer;
-    const RowRange inside = {Max(0, (of_picture.first >> layer) - beyond),
-                             Min(plane.height, last + beyond)};
+    const Range inside = {Max(0, (of_picture.first >> layer) - beyond),
+                          Min(plane.height, last + beyond)};
     const bool kept = plane.rows.first <= inside.first;
     plane.known = kept ? Clamp(plane.rows.last, inside.first, inside.last) : inside.first;
     plane.rows = inside;
@@ -86,8 +86,7 @@ void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* r
   }
 }
 
-starfocus_status FillLayers(const RowRange& layers, const LayerPlane* layer_one,
-                            EngineState* engine) {
+starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, EngineState* engine) {
   const int32_t columns = Columns(engine->config);
   bool any = false;
   for (int32_t layer = layers.first; layer < layers.last; ++layer) {

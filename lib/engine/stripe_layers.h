@@ -22,17 +22,16 @@ void MarkLayerColumns(const starfocus_config& config, const Block& block, RowSto
 
 // Moves the layers and their windows to the rows `of_picture` of the picture, extended by
 // `borders`. Rows of the layers that were computed for the previous stripe are kept.
-void PlaceLayers(const RowRange& of_picture, const Borders& borders, RowStore* row_store);
+void PlaceLayers(const Range& of_picture, const Borders& borders, RowStore* row_store);
 
 // All layers that FillLayers computes.
-inline constexpr RowRange kAllLayers = {1, STARFOCUS_LAYERS};
+inline constexpr Range kAllLayers = {1, STARFOCUS_LAYERS};
 
 // Computes the marked columns of the layers [layers.first, layers.last), from the picture or, for
 // layer 2 and if it is not null, from `layer_one`, whose samples contain all rows that the filter
 // reads. PlaceLayers must be called first. Returns STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or
 // STARFOCUS_ERROR_CANCELLED.
-starfocus_status FillLayers(const RowRange& layers, const LayerPlane* layer_one,
-                            EngineState* engine);
+starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, EngineState* engine);
 
 }  // namespace starfocus
 

@@ -140,7 +140,7 @@ uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, 
 }
 
 uint32_t CheckDepth(const simd::ImageKernels& kernels, const DepthSource& depth,
-                    const RowRange& rows) {
+                    const Range& rows) {
   const RowPlace first = RowPlaceOf(depth, rows.first), last = RowPlaceOf(depth, rows.last - 1);
   const int32_t end = last.upper + (last.share != 0 ? 2 : 1);
   uint32_t flags = 0;

@@ -42,8 +42,7 @@ uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, 
                    const Plane<int16_t>& out);
 
 // Returns simd::DepthFlags of the values of the map that ReadDepth reads for whole rows.
-uint32_t CheckDepth(const simd::ImageKernels& kernels, const DepthSource& depth,
-                    const RowRange& rows);
+uint32_t CheckDepth(const simd::ImageKernels& kernels, const DepthSource& depth, const Range& rows);
 
 }  // namespace starfocus
 

@@ -64,7 +64,7 @@ void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairR
 // Part of a layer to compute: columns [begin, end) of some rows.
 struct LayerPart {
   int32_t begin, end;
-  RowRange rows;
+  Range rows;
   Plane<int16_t> samples;  // samples of the whole layer
 
   size_t RowSamples() const { return 3 * static_cast<size_t>(end - begin); }

@@ -29,7 +29,7 @@ constexpr int32_t LayerSize(int32_t size, int32_t layer) {
 // One layer of the centre view around a stripe.
 struct LayerPlane {
   int32_t width = 0, height = 0;  // Size of the whole layer.
-  RowRange rows = {0, 0};         // Stored rows.
+  Range rows = {0, 0};            // Stored rows.
   // The rows before `known` have already been computed in the columns that the previous stripe
   // read.
   int32_t known = 0;

@@ -106,8 +106,8 @@ class TileCoverage {
   size_t columns_[GivenDisparities::kSide], rows_[GivenDisparities::kSide];
 };
 
-// Range of disparities, which shows whether pixels may have two surfaces.
-struct Range {
+// Finds whether pixels may have two surfaces, from the range of their disparities.
+struct EdgeFinder {
   int16_t least = INT16_MAX, greatest = INT16_MIN;
 
   void Add(const int16_t* disparities, int32_t count) {
@@ -140,9 +140,9 @@ class CoverageWriter {
         const Rect tile = {block.x + x, top, Min(kCoverageTile, block.width - x), height};
         GivenDisparities around;
         ReadAround(tile, &around);
-        Range range;
-        range.Add(around.disparity, GivenDisparities::kSide * GivenDisparities::kSide);
-        if (!range.HasEdge()) continue;
+        EdgeFinder finder;
+        finder.Add(around.disparity, GivenDisparities::kSide * GivenDisparities::kSide);
+        if (!finder.HasEdge()) continue;
         const TileCoverage coverage(matte_, depth_, tile, around);
         for (int32_t y = 0; y < height; ++y) {
           for (int32_t k = 0; k < tile.width; ++k) {
@@ -175,14 +175,14 @@ class CoverageWriter {
   bool HasEdge(const Rect& block) const {
     constexpr int32_t kRows = 8;
     const Rect all = Inside(Extended(block, {kMatteReach, kMatteReach, kMatteReach, kMatteReach}));
-    Range range;
-    for (int32_t y = 0; y < all.height && !range.HasEdge(); y += kRows) {
+    EdgeFinder finder;
+    for (int32_t y = 0; y < all.height && !finder.HasEdge(); y += kRows) {
       int16_t disparities[kRows * kBlockSide];
       const Rect rect = {all.x, all.y + y, all.width, Min(kRows, all.height - y)};
       Read(rect, {disparities, static_cast<size_t>(all.width), 0, rect.y});
-      range.Add(disparities, rect.width * rect.height);
+      finder.Add(disparities, rect.width * rect.height);
     }
-    return range.HasEdge();
+    return finder.HasEdge();
   }
 
   // Reads the disparities around a tile. Beyond the picture, the outermost pixels are repeated.

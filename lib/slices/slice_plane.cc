@@ -190,7 +190,7 @@ void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, in
   if (placed.subaperture > kBoxSubaperture) Spread(input.kernels, filtered, placed);
 }
 
-void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted) {
+void PlaceStrip(const SlicePlane& placed, int32_t x, const Range& seen, ShiftedSlice* shifted) {
   const uint64_t strips = StripsOf(placed, x);
   const int32_t top = seen.first, last_row = seen.last + 2 * placed.reach;
   const auto empty = [&](int32_t row) { return (placed.cover[row].some & strips) == 0; };
@@ -214,7 +214,7 @@ void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, Shift
 }
 
 void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const SliceOffset& offset,
-                int32_t x, const RowRange& rows, const ShiftedSlice& shifted) {
+                int32_t x, const Range& rows, const ShiftedSlice& shifted) {
   const int32_t first = Max(rows.first, shifted.filled.first);
   const int32_t end = Min(rows.last, shifted.filled.last);
   if (first >= end) return;

@@ -187,7 +187,7 @@ struct ShiftedSlice {
   int16_t* samples = nullptr;
   int8_t* near = nullptr;
   size_t plane = 0;
-  RowRange filled = {0, 0};  // range of rows outside which the slice is empty in all views
+  Range filled = {0, 0};  // range of rows outside which the slice is empty in all views
 };
 
 // Returns the strips of a slice's row that some view shows in the strip at column `x` of the
@@ -202,11 +202,11 @@ constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
 // Finds the rows of the slice that are not empty in the strip at column `x` of the rectangle.
 // `seen` are the rows of the rectangle that show the slice. Clears the empty rows that the
 // compositor reads. The caller sets the pointers of `shifted`.
-void PlaceStrip(const SlicePlane& placed, int32_t x, const RowRange& seen, ShiftedSlice* shifted);
+void PlaceStrip(const SlicePlane& placed, int32_t x, const Range& seen, ShiftedSlice* shifted);
 
 // Writes the non-empty rows of the range `rows` to the strip, shifted by `offset` along the row.
 void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed,
-                const simd::SliceOffset& offset, int32_t x, const RowRange& rows,
+                const simd::SliceOffset& offset, int32_t x, const Range& rows,
                 const ShiftedSlice& shifted);
 
 }  // namespace starfocus

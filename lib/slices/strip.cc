@@ -127,7 +127,7 @@ class Strip {
     for (int32_t k = 0; k < stack_.count; ++k) rows_[k] = {0, 0};
     for (const CellPair* pair = pairs_.first; pair < pairs_.end; ++pair) {
       for (int32_t n = 0; n < pair->count; ++n) {
-        RowRange& rows = rows_[pair->shown[n]];
+        Range& rows = rows_[pair->shown[n]];
         if (rows.last == 0) rows.first = pair->y;
         rows.last = pair->y + pair->rows;
       }
@@ -188,10 +188,10 @@ class Strip {
   // views (i, -last) to (i, last) show are written.
   void MoveSlice(int32_t k, int32_t i, int32_t last) {
     const SlicePlane& placed = job_.planes[k];
-    const RowRange& seen = rows_[k];
+    const Range& seen = rows_[k];
     const int32_t a = stack_.Offset(k, -last).whole, b = stack_.Offset(k, last).whole;
-    const RowRange rows = {seen.first + placed.reach + Min(a, b),
-                           Min(seen.last + placed.reach + Max(a, b) + kRowsAhead, placed.rows)};
+    const Range rows = {seen.first + placed.reach + Min(a, b),
+                        Min(seen.last + placed.reach + Max(a, b) + kRowsAhead, placed.rows)};
     ShiftSlice(*job_.kernels, placed, stack_.Offset(k, i), pairs_.x, rows, shifted_[k]);
   }
 
@@ -227,7 +227,7 @@ class Strip {
   int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
-  RowRange rows_[kMaxSlices];  // For each slice, the rows of the cell pairs that show the slice.
+  Range rows_[kMaxSlices];  // For each slice, the rows of the cell pairs that show the slice.
   ShiftedSlice shifted_[kMaxSlices];    // The slices shifted for the current column of views.
   simd::StripSlice shown_[kMaxSlices];  // `shifted_` in the format of the SIMD kernel.
 };

@@ -345,8 +345,8 @@ TEST_CASE("layers: a computed range of rows equals the same rows of the whole la
   const Scratch scratch(64, 50);
   for (const int layer : {1, 2}) {
     const LayerPlane& all = layer == 1 ? whole.one.plane : whole.two.plane;
-    for (const starfocus::RowRange rows :
-         {starfocus::RowRange{0, 1}, {5, 9}, {13, 20}, {all.height - 2, all.height}}) {
+    for (const starfocus::Range rows :
+         {starfocus::Range{0, 1}, {5, 9}, {13, 20}, {all.height - 2, all.height}}) {
       Layer part(width, height, layer);
       part.plane.rows = rows;
       part.plane.samples.first = rows.first;
