@@ -53,7 +53,7 @@ Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
 starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report* report) {
   const starfocus_params& params = call.params;
   engine->stream.active = false;
-  engine->workers.jobs.call_progress.Begin(0, RegionOf(engine->config, params).height);
+  engine->jobs->call_progress.Begin(0, RegionOf(engine->config, params).height);
   starfocus_status status = SetLens(params, engine);
   if (status != STARFOCUS_OK) return TellStatus(status, engine->config.problem);
   if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);

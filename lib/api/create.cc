@@ -57,9 +57,7 @@ starfocus_status starfocus_create(const starfocus_config* config,
     from.release(from.data, memory, bytes);
     return status;
   }
-  EngineState& made = *reinterpret_cast<EngineState*>(*engine);
-  made.allocator = from;
-  made.bytes = bytes;
+  reinterpret_cast<EngineState*>(*engine)->allocator = from;
   return STARFOCUS_OK;
 }
 

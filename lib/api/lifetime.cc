@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: default values, sizes and initialisation of engines.
-#include <new>
-
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
@@ -142,13 +140,8 @@ starfocus_status starfocus_init(const starfocus_config* config, void* workspace,
   if (status != STARFOCUS_OK) return status;
   status = CheckMemory({"workspace", workspace, bytes}, needed, full.problem);
   if (status != STARFOCUS_OK) return status;
-  new (workspace) EngineState();
   EngineState* made = nullptr;
-  const starfocus_config chosen = Choose(full);
-  LayOut(chosen, workspace, &made);
-  made->config = chosen;
-  made->config.problem = &made->problem;
-  made->kernels = &simd::BestKernels();
+  LayOut(Choose(full), workspace, &made);
   *engine = reinterpret_cast<starfocus_engine*>(made);
   return STARFOCUS_OK;
 }
@@ -162,8 +155,8 @@ starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
   const starfocus_status status = EnterEngine(engine, {{"callbacks", callbacks}});
   if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  e.workers.jobs.runner = {callbacks->runner, callbacks->runner_data};
-  e.workers.jobs.call_progress.SetProgress(callbacks->progress, callbacks->progress_data);
+  e.jobs->runner = {callbacks->runner, callbacks->runner_data};
+  e.jobs->call_progress.SetProgress(callbacks->progress, callbacks->progress_data);
   e.clock = callbacks->clock;
   e.on_block = callbacks->on_block;
   e.on_block_data = callbacks->on_block_data;

@@ -10,21 +10,6 @@
 namespace starfocus {
 namespace {
 
-// Lays out the engine for the size of previews during the lifetime of this object.
-class Reduction {
- public:
-  Reduction(int32_t shift, EngineState* engine) : config_(engine->config), engine_(engine) {
-    LayOutAnew(ReducedConfig(config_, shift), engine);
-  }
-  ~Reduction() { LayOutAnew(config_, engine_); }
-  Reduction(const Reduction&) = delete;
-  Reduction& operator=(const Reduction&) = delete;
-
- private:
-  const starfocus_config config_;
-  EngineState* const engine_;
-};
-
 starfocus_params ReducedParams(const PreviewRequest& request, const Rect& rect) {
   starfocus_params params = request.params;
   const double scale = 1.0 / (1 << request.shift);
@@ -74,9 +59,9 @@ starfocus_status RefocusPreview(const PreviewRequest& request, const starfocus_i
   const PictureOutput output = {
       &simd::BestImageKernels(), PlanesOf<uint8_t>(out), rect, {{}, 1}, nullptr};
   const starfocus_params params = ReducedParams(request, rect);
-  const Reduction reduction(request.shift, engine);
-  UseReduced(request.prepared, request.shift, engine);
-  return RunCall({params, {}, SinkOf(output)}, engine, report);
+  EngineState reduced = PreviewEngine(ReducedConfig(engine->config, request.shift), engine);
+  UseReduced(request.prepared, request.shift, &reduced);
+  return RunCall({params, {}, SinkOf(output)}, &reduced, report);
 }
 
 }  // namespace starfocus

@@ -24,7 +24,7 @@ int32_t NeededRows(const EngineState& engine) {
 // Refocuses the next stripe, whose rows must have been pushed.
 starfocus_status RefocusNext(EngineState* engine) {
   Stream& stream = engine->stream;
-  CallProgress& call_progress = engine->workers.jobs.call_progress;
+  CallProgress& call_progress = engine->jobs->call_progress;
   call_progress.Begin(stream.finished, engine->config.height);
   const starfocus_status status = RefocusStripe(engine, stream.next);
   if (status != STARFOCUS_OK) return status;
@@ -157,7 +157,7 @@ starfocus_status starfocus_stream_begin(starfocus_engine* engine, const starfocu
   check.Need(full.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"}, {"null for a stream"});
   if (check.status() != STARFOCUS_OK) return check.status();
   e.stream = Stream();
-  e.workers.jobs.call_progress.Begin(0, e.config.height);
+  e.jobs->call_progress.Begin(0, e.config.height);
   status = SetLens(full, &e);
   if (status != STARFOCUS_OK) return TellStatus(status, &e.problem);
   SetPlanes(e.config, *e.kernels, e.rings, &e.row_store);

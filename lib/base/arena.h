@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/geometry.h"
 #include "simd/samples.h"
 #include "starfocus/starfocus.h"
 
@@ -59,6 +60,9 @@ class Arena {
     return piece;
   }
 
+  // Returns the address of the next piece; null if the arena only counts.
+  uint8_t* Here() const { return base_ == nullptr ? nullptr : base_ + used_; }
+
   // Returns the size of all pieces, or kTooLarge. If the result is kTooLarge, the addresses of the
   // pieces are meaningless.
   size_t Bytes() const { return too_large_ ? kTooLarge : used_ > largest_ ? used_ : largest_; }
@@ -68,13 +72,13 @@ class Arena {
   template <class... Parts>
   void Overlap(const Parts&... parts) {
     const size_t begin = used_, outer = longest_;
-    longest_ = begin;
-    (TakePart(begin, parts), ...);
-    used_ = longest_;
+    size_t end = begin;
+    (TakePart(begin, parts, &end), ...);
+    used_ = end;
     longest_ = outer;
   }
-  // Within a part of Overlap: returns the largest size of the next piece with which this part is
-  // not longer than the parts before it.
+  // Within a part of Overlap: returns the largest size of the next piece with which this part is no
+  // longer than the longest part before it. Overlaps may be nested.
   size_t Rest() const { return longest_ < used_ + kExtra ? 0 : longest_ - used_ - kExtra; }
 
   // Reuse() lets later pieces share the memory of the pieces that were allocated after Mark()
@@ -97,10 +101,11 @@ class Arena {
   }
 
   template <class Part>
-  void TakePart(size_t begin, const Part& part) {
+  void TakePart(size_t begin, const Part& part, size_t* end) {
     if (kRedZone == 0) used_ = begin;
     part();
-    longest_ = used_ > longest_ ? used_ : longest_;
+    *end = used_ > *end ? used_ : *end;
+    longest_ = *end > longest_ ? *end : longest_;
   }
 
   void Add(size_t bytes) {
@@ -121,9 +126,21 @@ class Arena {
   size_t most_;
   const PieceVisitor* pieces_;
   size_t used_ = 0, largest_ = 0;
-  size_t longest_ = 0;  // End of the longest part so far of the innermost Overlap.
+  size_t longest_ = 0;  // End of the longest part so far of the overlaps around it.
   bool too_large_ = false;
 };
+
+// Returns a plane of `rows` rows of `stride` elements.
+template <class T>
+Plane<T> TakePlane(size_t stride, int32_t rows, Arena* arena) {
+  return {arena->Take<T>(stride, static_cast<size_t>(rows)), stride, 0, 0};
+}
+
+// Returns a ring of `rows` rows of `stride` elements.
+template <class T>
+Plane<T> TakeRing(size_t stride, int32_t rows, Arena* arena) {
+  return {arena->Take<T>(stride, static_cast<size_t>(rows)), stride, rows, 0};
+}
 
 }  // namespace starfocus
 

@@ -6,6 +6,7 @@
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/base/problem.h"
+#include "lib/engine/jobs.h"
 #include "lib/engine/stripe.h"
 #include "simd/depth_values.h"
 
@@ -94,10 +95,10 @@ starfocus_status StatusOf(uint32_t flags, const starfocus_config& config) {
 
 template <void (*kJob)(const RowsJob&, int32_t, Scratch*)>
 starfocus_status RunRows(const RowsJob& job, EngineState* engine) {
-  const starfocus_status status = RunJobs<RowsJob, kJob>(job, job.jobs, &engine->workers);
+  const starfocus_status status = RunJobs<RowsJob, kJob>(job, job.jobs, engine);
   uint32_t flags = 0;
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
-    flags |= engine->workers.scratch[worker].counts.depth_flags;
+    flags |= engine->scratch[worker].counts.depth_flags;
   }
   TakeCounts(engine);
   return status != STARFOCUS_OK ? status : StatusOf(flags, engine->config);
@@ -133,7 +134,7 @@ starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine
   const Plane<int16_t>& disparity = engine->row_store.disparity;
   const starfocus_status status = StatusOf(source.map(source.self, row, disparity), config);
   if (status != STARFOCUS_OK) return status;
-  FillRows(*engine, row, disparity, &engine->workers.scratch[0].counts);
+  FillRows(*engine, row, disparity, &engine->scratch[0].counts);
   TakeCounts(engine);
   for (int view = 0; view < config.views; ++view) {
     CopyCodes(source, view, y, config.width, engine->rings[view].Row(y));
@@ -165,7 +166,7 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
     status = LoadRows(source, rows, engine->row_store.disparity, engine);
     rows.first = rows.last;
     if (status == STARFOCUS_OK && engine->stripe.changes.active) {
-      status = CompareRows(y, &engine->workers.scratch[0].cancel, &engine->stripe.changes);
+      status = CompareRows(y, &engine->scratch[0].cancel, &engine->stripe.changes);
     }
     if (status == STARFOCUS_OK) status = RefocusStripe(engine, y);
     if (status != STARFOCUS_OK) break;
@@ -176,10 +177,10 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
     if (finished.first < end) {
       status = sink.store(sink.self, finished, BufferRows(*engine, y), engine);
     }
-    if (status == STARFOCUS_OK) engine->workers.jobs.call_progress.SetRows(Max(0, end - top));
+    if (status == STARFOCUS_OK) engine->jobs->call_progress.SetRows(Max(0, end - top));
   }
   if (status != STARFOCUS_OK) return status;
-  return engine->workers.jobs.call_progress.Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
+  return engine->jobs->call_progress.Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus

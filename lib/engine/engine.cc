@@ -28,8 +28,8 @@ void Add(const Counts& counts, starfocus_report* report) {
 }  // namespace
 
 starfocus_status SetLens(const starfocus_params& params, EngineState* engine) {
-  const starfocus_status status = MakeLens(
-      engine->config, params, &engine->workers.jobs.call_progress, &engine->tables, &engine->lens);
+  const starfocus_status status =
+      MakeLens(engine->config, params, &engine->jobs->call_progress, engine->tables, &engine->lens);
   if (status != STARFOCUS_OK) return status;
   engine->report = starfocus_report();
   engine->report.r_max = engine->lens.r_max;
@@ -44,14 +44,14 @@ starfocus_status SetLens(const starfocus_params& params, EngineState* engine) {
 
 void TakeCounts(EngineState* engine) {
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
-    Add(engine->workers.scratch[worker].counts, &engine->report);
+    Add(engine->scratch[worker].counts, &engine->report);
   }
   DropCounts(engine);
 }
 
 void DropCounts(EngineState* engine) {
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
-    engine->workers.scratch[worker].counts = Counts();
+    engine->scratch[worker].counts = Counts();
   }
 }
 

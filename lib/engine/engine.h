@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/engine/jobs.h"
+#include "lib/base/jobs.h"
 #include "lib/engine/lens.h"
 #include "lib/engine/row_store.h"
+#include "lib/engine/scratch.h"
 #include "lib/engine/stripe_state.h"
 #include "lib/engine/tables.h"
 #include "simd/kernels.h"
@@ -37,22 +38,29 @@ struct ImageMemory {
   Plane<uint8_t> alpha;        // With streaming: ring of rows of the centre view's alpha.
 };
 
+struct EngineMemory;
+
+// Copies of an engine share its tables, jobs and memory.
 struct EngineState {
   // The following members are valid for the life of the engine.
   starfocus_config config;         // config.problem points to `problem` of this struct.
   starfocus_problem problem = {};  // Problem that the last call reported.
   const simd::Kernels* kernels;
-  Tables tables;
+  Tables* tables;
+  Jobs* jobs;                  // Runs the jobs; has room for MaxJobs jobs.
+  Scratch* scratch = nullptr;  // Scratch memory of each worker.
+  // Memory of the engine, its size, and the part that TakePicture divides into pieces.
+  EngineMemory* memory = nullptr;
+  size_t bytes = 0;
+  uint8_t* picture_memory = nullptr;
   // Frees the memory of the engine. If the allocator's functions are null, the caller owns the
   // memory.
   starfocus_allocator allocator = {};
-  size_t bytes = 0;                 // Size of the memory from the allocator.
-  Workers workers;                  // Scratch memory of the workers, and their jobs.
   Plane<uint8_t> rings[kMaxViews];  // With streaming: pushed rows.
   ImageMemory images;               // Used together with rings[0] for image formats.
 
   // The following members are valid until the next call of starfocus_set_callbacks, like the runner
-  // and the progress function in workers.jobs.
+  // and the progress function in `jobs`.
   starfocus_clock clock = nullptr;
   starfocus_block_visitor on_block = nullptr;
   void* on_block_data = nullptr;

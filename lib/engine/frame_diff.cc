@@ -110,6 +110,13 @@ void CompareViews(const FrameDiff& changes, int32_t y) {
 
 }  // namespace
 
+void TakeFrameDiff(int32_t columns, int32_t side, int32_t reach, Arena* arena, FrameDiff* changes) {
+  changes->columns = columns;
+  changes->stripes = 2 * reach / side + 5;
+  changes->flags =
+      arena->Take<uint8_t>(static_cast<size_t>(columns), static_cast<size_t>(changes->stripes));
+}
+
 void StartFrameDiff(int32_t y, FrameDiff* changes) {
   const int32_t reach = changes->side_reach;
   changes->rows = Max(0, y - changes->side - reach);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/arena.h"
 #include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
 #include "starfocus/starfocus.h"
@@ -35,6 +36,11 @@ struct FrameDiff {
     return flags + static_cast<size_t>(stripe % stripes) * static_cast<size_t>(columns);
   }
 };
+
+// Allocates the flags of `columns` columns of superblocks. Input rows are compared up to `reach`
+// rows below the next stripe. The compared rows flag stripes that start up to `reach` rows farther
+// down. The ring of flags also keeps the flags of the previous stripe.
+void TakeFrameDiff(int32_t columns, int32_t side, int32_t reach, Arena* arena, FrameDiff* changes);
 
 // Restarts the comparison at the stripe that starts at row y.
 void StartFrameDiff(int32_t y, FrameDiff* changes);

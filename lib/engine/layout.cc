@@ -1,30 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/layout.h"
 
+#include <new>
+
 #include "lib/base/features.h"
+#include "lib/engine/jobs.h"
 #include "lib/engine/stripe_coverage.h"
+#include "lib/engine/stripe_layers.h"
+#include "lib/engine/stripe_plan.h"
 #include "lib/io/block_pixels.h"
 #include "lib/optics/rules.h"
 
 namespace starfocus {
+
+// An engine, and what its calls change for later calls. All copies of an engine share the latter.
+struct EngineMemory {
+  EngineState engine;
+  Tables tables;
+  Jobs jobs;
+};
+
 namespace {
 
-// Allocates the memory for subsampling a column of superblocks.
-void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample) {
-  // The last column of superblocks includes one or two pixels of a layer that lie beyond the
-  // picture.
-  const auto side = config.superblock;
-  const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
-  const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
-  const auto rows = static_cast<size_t>(TapsOfLayer(Max(LayerRows(config, 1), above_two)));
-  resample->even = arena->Take<int16_t>(3 * (columns + 3));
-  resample->odd = arena->Take<int16_t>(3 * (columns + 3));
-  resample->half = arena->Take<int16_t>(3 * columns, rows);
-  resample->above = arena->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
+// Memory of blocks that are blurred without views, and of layers that are upsampled.
+void TakeUpsampling(const starfocus_config& config, size_t extended, Arena* arena,
+                    Scratch* scratch) {
+  const auto side = static_cast<size_t>(config.superblock);
+  const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
+  // Gathering reads `field` and writes to `layer_samples`.
+  scratch->layer_samples = arena->Take<int16_t>(3 * half * half);
+  const auto gather = [&] {
+    const size_t stride = RgbStride(static_cast<int32_t>(extended));
+    scratch->field.rgb = arena->Take<int16_t>(extended * stride);
+    scratch->field.disparity = arena->Take<int16_t>(extended * extended);
+    scratch->spans = TakeSpans(extended, arena);
+  };
+  const auto upsample = [&] {
+    scratch->upsample.line = arena->Take<int16_t>(3 * half);
+    scratch->upsample.between = arena->Take<int16_t>(3 * half);
+    scratch->upsample.even = arena->Take<int16_t>(3 * half);
+    scratch->middle_samples = arena->Take<int16_t>(3 * half * half);
+    scratch->picture_samples = arena->Take<int16_t>(3 * side * side);
+  };
+  arena->Overlap(gather, upsample);
 }
 
-// Rendering and partitioning use the same memory, because a worker runs these steps in turn and
-// keeps only the sums of the rendered pixels.
+// A worker runs one step at a time, and keeps only the sums of the rendered pixels. Therefore the
+// steps share memory.
 Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.superblock);
   const Borders borders = LargestBorders(config);
@@ -41,114 +63,36 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   scratch.sums = arena->Take<uint32_t>(3 * side * side);
   if (HasShapes(config)) scratch.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
   if (config.highlights > 1) scratch.lamp_runs = arena->Take<LampRuns>(1);
-  const size_t shared = arena->Mark();
-  // The slice renderer is laid out last, because its pool of slices uses all memory that it shares
-  // with other steps.
-  for (int32_t k = renderers - 1; k >= 0; --k) {
+  const auto renderer = [&](int32_t k) {
+    if (k >= renderers) return;
     kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,
                                 scratch.renderers[k]);
-    arena->Reuse(shared);
-  }
-  // `field` and `layer_samples` do not share memory, because gathering reads `field` and writes to
-  // `layer_samples`.
-  const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
-  scratch.layer_samples = arena->Take<int16_t>(3 * half * half);
-  const size_t behind = arena->Mark();
-  scratch.field.rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-  scratch.field.disparity = arena->Take<int16_t>(extended * extended);
-  scratch.spans = TakeSpans(extended, arena);
-  arena->Reuse(behind);
-  scratch.upsample.line = arena->Take<int16_t>(3 * half);
-  scratch.upsample.between = arena->Take<int16_t>(3 * half);
-  scratch.upsample.even = arena->Take<int16_t>(3 * half);
-  scratch.middle_samples = arena->Take<int16_t>(3 * half * half);
-  scratch.picture_samples = arena->Take<int16_t>(3 * side * side);
-  arena->Reuse(shared);
-  TakeResample(config, arena, &scratch.resample);
-  arena->Reuse(shared);
-  scratch.partition.candidates =
-      arena->Take<PartitionCandidate>(static_cast<size_t>(PartitionCandidates(config.superblock)));
-  scratch.partition.cells =
-      arena->Take<int16_t>(SurroundingSamples(config.superblock / kCellSize, borders.cells));
-  arena->GoOn();
-  return scratch;
-}
-
-void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables) {
-  const bool full = HasShapes(config);
-  const auto weights_of = [&](int32_t n) {
-    return full ? FullApertureSize(n) : ViewWeightsSize(n);
   };
-  for (int32_t k = 0; k < RendererCount(config); ++k) {
-    const int32_t last = LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur);
-    size_t weights = 0;
-    for (int32_t n = 0; n <= last; ++n) weights += weights_of(n);
-    tables->apertures[k].apertures = arena->Take<ViewWeights>(static_cast<size_t>(last) + 1);
-    tables->apertures[k].weights = arena->Take<uint16_t>(weights);
-  }
-  const int32_t benchmark_n = ViewsOfBenchmark(config.max_blur);
-  const auto steps = static_cast<size_t>(BlurStepCount(config.max_blur));
-  tables->benchmark_weights = arena->Take<uint16_t>(weights_of(benchmark_n));
-  tables->psfs = arena->Take<Psf>(steps);
-  tables->blur_weights = arena->Take<uint16_t>(BlurWeightCount(full, config.max_blur));
-}
-
-// Allocates the planes of layers 1 and 2 around a stripe.
-void TakeLayers(const starfocus_config& config, Arena* arena, EngineState* engine) {
-  for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
-    LayerPlane& plane = engine->row_store.layers[layer];
-    const auto width = static_cast<size_t>(LayerSize(config.width, layer));
-    plane.samples.stride = 3 * width;
-    plane.samples.data =
-        arena->Take<int16_t>(3 * width, static_cast<size_t>(LayerRows(config, layer)));
-  }
-}
-
-void TakeStripe(const starfocus_config& config, Arena* arena, EngineState* engine) {
-  const Borders borders = LargestBorders(config);
-  const int32_t side = config.superblock;
-  const auto blocks = static_cast<size_t>((config.width + side - 1) / side);
-  engine->stripe.cells.columns = (config.width + kCellSize - 1) / kCellSize;
-  engine->stripe.cells.rows = (config.height + kCellSize - 1) / kCellSize;
-  engine->stripe.cells.cells =
-      arena->Take<Cell>(static_cast<size_t>(engine->stripe.cells.columns) *
-                        static_cast<size_t>(side / kCellSize + 2 * borders.cells + 1));
-  TakeCoverage(config, borders.parted, arena, &engine->stripe.coverage);
-  engine->stripe.plan.side = side;
-  engine->stripe.plan.columns = static_cast<int32_t>(blocks);
-  engine->stripe.plan.wanted = arena->Take<uint8_t>(blocks);
-  engine->stripe.plan.measured = arena->Take<uint8_t>(blocks);
-  engine->stripe.plan.blocks = arena->Take<Block>(blocks * static_cast<size_t>(MaxBlocks(side)));
-  engine->stripe.plan.counts = arena->Take<int32_t>(blocks);
-  engine->stripe.plan.gathered.columns = static_cast<int32_t>(blocks) * side / kCellSize;
-  engine->stripe.plan.gathered.cells = arena->Take<uint8_t>(
-      static_cast<size_t>(engine->stripe.plan.gathered.columns * (side / kCellSize)));
-  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
-    engine->row_store.needed[layer] = arena->Take<uint8_t>(blocks);
-  }
-  FrameDiff& changes = engine->stripe.changes;
-  changes.columns = static_cast<int32_t>(blocks);
-  // For videos, the engine compares input rows up to borders.views rows below the next stripe. The
-  // compared rows flag stripes that start up to borders.views rows farther down. The ring of flags
-  // also keeps the flags of the previous stripe.
-  changes.stripes = 2 * borders.views / side + 5;
-  changes.flags = arena->Take<uint8_t>(blocks * static_cast<size_t>(changes.stripes));
-  engine->stripe.map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
-  engine->stripe.map.layers = arena->Take<uint8_t>(static_cast<size_t>(engine->stripe.map.columns) *
-                                                   static_cast<size_t>(side / kSmallestBlock + 1));
+  const auto partition = [&] {
+    scratch.partition.candidates = arena->Take<PartitionCandidate>(
+        static_cast<size_t>(PartitionCandidates(config.superblock)));
+    scratch.partition.cells =
+        arena->Take<int16_t>(SurroundingSamples(config.superblock / kCellSize, borders.cells));
+  };
+  // The slices come last, because their pool fills the memory of the longest other step.
+  arena->Overlap([&] { renderer(kLineScanRenderer.index); },
+                 [&] { TakeUpsampling(config, extended, arena, &scratch); },
+                 [&] { TakeResample(config, arena, &scratch.resample); }, partition,
+                 [&] { renderer(kSliceRenderer.index); });
+  return scratch;
 }
 
 // Allocates the memory for images. `rows` is the number of rows in the ring of the centre view.
 void TakeImages(const starfocus_config& config, int32_t rows, Arena* arena, ImageMemory* images) {
+  *images = {};
+  if (!Has(config.features, STARFOCUS_FEATURE_IMAGES)) return;
   const auto width = static_cast<size_t>(config.width);
   images->columns = arena->Take<uint32_t>(width);
   images->odd_row = arena->Take<uint8_t>(3 * width);
   if (!Has(config.features, STARFOCUS_FEATURE_STREAMING)) return;
   // The ring keeps the alpha of the previous stripe, because the last rows of the previous stripe
   // are written together with the current stripe.
-  images->alpha.rows = rows + config.superblock + kDeblockRows;
-  images->alpha.stride = width;
-  images->alpha.data = arena->Take<uint8_t>(width, static_cast<size_t>(images->alpha.rows));
+  images->alpha = TakeRing<uint8_t>(width, rows + config.superblock + kDeblockRows, arena);
 }
 
 void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine) {
@@ -156,58 +100,56 @@ void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine)
   const bool streaming = Has(config.features, STARFOCUS_FEATURE_STREAMING);
   const Borders borders = LargestBorders(config);
   const int32_t rows = config.superblock + 2 * (streaming ? borders.streamed : borders.centre);
-  engine->row_store.disparity.rows = rows;
-  engine->row_store.disparity.stride = width;
-  engine->row_store.disparity.data = arena->Take<int16_t>(width, static_cast<size_t>(rows));
+  engine->row_store.disparity = TakeRing<int16_t>(width, rows, arena);
   engine->stripe.out =
       arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
-  // Sets `last_rows` to null without streaming, because LayOutAnew may reuse a streaming engine.
   engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
+  if (streaming && HasCoverage(config)) {
+    engine->stripe.coverage.given = TakeRing<uint8_t>(width, rows, arena);
+  }
   const int rings = streaming                                        ? config.views
                     : Has(config.features, STARFOCUS_FEATURE_IMAGES) ? 1
                                                                      : 0;
-  if (streaming && HasCoverage(config)) {
-    engine->stripe.coverage.given.rows = rows;
-    engine->stripe.coverage.given.stride = width;
-    engine->stripe.coverage.given.data = arena->Take<uint8_t>(width, static_cast<size_t>(rows));
-  }
   for (int view = 0; view < rings; ++view) {
-    engine->rings[view].rows = rows;
-    engine->rings[view].stride = 3 * width;
-    engine->rings[view].data = arena->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
+    engine->rings[view] = TakeRing<uint8_t>(3 * width, rows, arena);
   }
-  if (Has(config.features, STARFOCUS_FEATURE_IMAGES))
-    TakeImages(config, rows, arena, &engine->images);
+  TakeImages(config, rows, arena, &engine->images);
 }
 
-size_t Carve(const starfocus_config& config, Arena arena, EngineState** engine) {
-  *engine = arena.Take<EngineState>(1);
-  EngineState counted;  // replaces *engine while the layout only counts
-  EngineState& e = *engine == nullptr ? counted : **engine;
-  TakeTables(config, &arena, &e.tables);
-  e.workers.jobs.max_workers = config.max_workers;
-  e.workers.scratch = arena.Take<Scratch>(static_cast<size_t>(config.max_workers));
+// Allocates what does not depend on the size of the picture: pieces of memory that the pictures of
+// previews use as well.
+void TakeEngine(const starfocus_config& config, Arena* arena, EngineMemory* memory) {
+  TakeTables(config, arena, &memory->tables);
+  memory->jobs.max_workers = config.max_workers;
+  memory->jobs.progress =
+      arena->Take<std::atomic<uint32_t>>(ProgressWords(static_cast<size_t>(MaxJobs(config))));
+  auto* const scratch = arena->Take<Scratch>(static_cast<size_t>(config.max_workers));
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
-    const Scratch taken = TakeScratch(config, &arena);
-    if (*engine == nullptr) continue;
-    e.workers.scratch[worker] = taken;
-    e.workers.scratch[worker].cancel = CancelToken(&e.workers.jobs.call_progress);
+    const Scratch taken = TakeScratch(config, arena);
+    if (scratch == nullptr) continue;
+    scratch[worker] = taken;
+    scratch[worker].cancel = CancelToken(&memory->jobs.call_progress);
   }
-  // Pieces that depend on the size of the picture come last, so that LayOutAnew for a smaller
-  // picture does not move the other pieces.
-  TakeRows(config, &arena, &e);
-  TakeLayers(config, &arena, &e);
-  TakeStripe(config, &arena, &e);
-  e.workers.jobs.progress =
-      arena.Take<std::atomic<uint32_t>>(ProgressWords(static_cast<size_t>(MaxJobs(config))));
-  return arena.Bytes();
+  memory->engine.scratch = scratch;
+}
+
+void TakePicture(const starfocus_config& config, Arena* arena, EngineState* engine) {
+  TakeRows(config, arena, engine);
+  TakeLayers(config, arena, &engine->row_store);
+  const Borders borders = LargestBorders(config);
+  TakeCoverage(config, borders.parted, arena, &engine->stripe.coverage);
+  TakePlan(config, arena, &engine->stripe);
+  TakeFrameDiff(Columns(config), config.superblock, borders.views, arena, &engine->stripe.changes);
 }
 
 #ifdef STARFOCUS_RED_ZONES
-void VisitZones(EngineState* engine, void (*visit)(void*, size_t, size_t)) {
-  const PieceVisitor zones = {visit, engine};
-  EngineState* counted = nullptr;
-  LayOut(engine->config, nullptr, &counted, &zones);
+void VisitZones(const EngineState& engine, void (*visit)(void*, size_t, size_t)) {
+  const PieceVisitor zones = {visit, engine.memory};
+  Arena arena(nullptr, PTRDIFF_MAX, &zones);
+  EngineMemory counted;
+  arena.Take<EngineMemory>(1);
+  TakeEngine(engine.memory->engine.config, &arena, &counted);
+  TakePicture(engine.config, &arena, &counted.engine);
 }
 #endif
 
@@ -215,27 +157,43 @@ void VisitZones(EngineState* engine, void (*visit)(void*, size_t, size_t)) {
 
 size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
               const PieceVisitor* pieces) {
-  return Carve(config, Arena(base, PTRDIFF_MAX, pieces), engine);
+  Arena arena(base, PTRDIFF_MAX, pieces);
+  EngineMemory counted;  // replaces *taken while the layout only counts
+  auto* const taken = arena.Take<EngineMemory>(1);
+  EngineMemory& memory = taken == nullptr ? counted : *new (taken) EngineMemory();
+  TakeEngine(config, &arena, &memory);
+  EngineState& made = memory.engine;
+  made.picture_memory = arena.Here();
+  TakePicture(config, &arena, &made);
+  made.config = config;
+  made.config.problem = &made.problem;
+  made.kernels = &simd::BestKernels();
+  made.tables = &memory.tables;
+  made.jobs = &memory.jobs;
+  made.memory = taken;
+  made.bytes = arena.Bytes();
+  *engine = taken == nullptr ? nullptr : &made;
+  return made.bytes;
 }
 
-void LayOutAnew(const starfocus_config& config, EngineState* engine) {
-  EngineState* same = nullptr;
-  Carve(config, Arena(engine), &same);
-  engine->config = config;
+EngineState PreviewEngine(const starfocus_config& config, EngineState* engine) {
+  engine->stream.active = false;
   engine->images.map_width = 0;
+  EngineState preview = *engine;
+  preview.config = config;
+  Arena arena(engine->picture_memory);
+  TakePicture(config, &arena, &preview);
+  return preview;
 }
 
 #ifdef STARFOCUS_RED_ZONES
-RedZones::RedZones(EngineState* engine) : engine_(engine) { VisitZones(engine, PoisonZone); }
+RedZones::RedZones(const EngineState& engine) : engine_(engine) { VisitZones(engine, PoisonZone); }
 RedZones::~RedZones() { VisitZones(engine_, UnpoisonZone); }
 #else
-RedZones::RedZones(EngineState* engine) : engine_(engine) {}
+RedZones::RedZones(const EngineState& engine) : engine_(engine) {}
 RedZones::~RedZones() = default;
 #endif
 
-Extent Workspace(const EngineState& engine) {
-  EngineState* counted = nullptr;
-  return ExtentOf(&engine, 0, 1, LayOut(engine.config, nullptr, &counted));
-}
+Extent Workspace(const EngineState& engine) { return ExtentOf(engine.memory, 0, 1, engine.bytes); }
 
 }  // namespace starfocus

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
+#include "lib/engine/jobs.h"
 #include "lib/io/rows.h"
 
 namespace starfocus {
@@ -85,7 +86,7 @@ starfocus_status Store(const void* self, const Range& rows, const Plane<uint8_t>
   const int32_t pairs = (inside.last + 1) / 2 - inside.first / 2;
   const int32_t jobs = Min(MaxJobs(engine->config), pairs);
   const PairsJob job = {&out, from, engine->images.odd_row, inside, jobs};
-  const starfocus_status status = RunJobs<PairsJob, WritePairs>(job, jobs, &engine->workers);
+  const starfocus_status status = RunJobs<PairsJob, WritePairs>(job, jobs, engine);
   if (out.image.is_yuv && inside.last % 2 != 0 && inside.last < out.rect.height) {
     std::memcpy(engine->images.odd_row, RowOf(job, inside.last - 1),
                 3 * static_cast<size_t>(out.rect.width));

@@ -56,7 +56,7 @@ starfocus_status MakePlanes(const Prepared& prepared, const RowSource& source,
   Range read = {0, 0}, two = {0, 0};
   starfocus_status status = STARFOCUS_OK;
   for (int32_t y = 0; y < height && status == STARFOCUS_OK; y += side) {
-    engine->workers.jobs.call_progress.SetRows(y);
+    engine->jobs->call_progress.SetRows(y);
     // The filters of the layers read up to kBeyond rows below the rows that they process.
     read = {read.last, Min(height, y + side + kBeyond)};
     status = LoadRows(source, read, prepared.disparity, engine);
@@ -98,7 +98,7 @@ size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** pre
 starfocus_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
                          Prepared** prepared) {
   const int32_t height = engine->config.height;
-  CallProgress& call_progress = engine->workers.jobs.call_progress;
+  CallProgress& call_progress = engine->jobs->call_progress;
   engine->stream.active = false;
   call_progress.Begin(0, height);
   starfocus_status status = CheckRows(source, {0, height}, engine);

@@ -2,6 +2,7 @@
 #include "lib/engine/reduced.h"
 
 #include "lib/base/fixed.h"
+#include "lib/engine/jobs.h"
 #include "lib/matting/passes.h"
 
 namespace starfocus {
@@ -153,7 +154,7 @@ starfocus_status ReduceRows(const Plane<int16_t>& disparity, const Range& rows, 
                             const ReducedField* fields, EngineState* engine) {
   if (previews == 0) return STARFOCUS_OK;
   const ReduceJob job = {engine, disparity, rows, previews, fields};
-  return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), &engine->workers);
+  return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), engine);
 }
 
 }  // namespace starfocus

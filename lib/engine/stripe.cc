@@ -23,14 +23,14 @@ starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, Engine
       config.tuning.deblocking, transfer, engine->kernels};
   const int32_t smallest = config.superblock / kSmallestBlock;
   const starfocus_status status =
-      ForEach(Columns(config), &engine->workers.jobs, [&](int32_t column, int32_t) {
+      ForEach(Columns(config), engine->jobs, [&](int32_t column, int32_t) {
         DeblockRows(job, column * smallest, Min((column + 1) * smallest, job.map->columns));
       });
   const Range finished = {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)};
   const int32_t rows = finished.last - finished.first;
   if (status != STARFOCUS_OK || rows <= 0) return status;
   const int32_t jobs = (rows + kSmallestBlock - 1) / kSmallestBlock;
-  return ForEach(jobs, &engine->workers.jobs, [&](int32_t index, int32_t) {
+  return ForEach(jobs, engine->jobs, [&](int32_t index, int32_t) {
     const int32_t first = finished.first + index * kSmallestBlock;
     DeblockColumns(job, first, Min(first + kSmallestBlock, finished.last));
   });
@@ -54,9 +54,9 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
             [](const Block& a, const Block& b) { return a.cost > b.cost; });
   const BlockInputs in = InputsOf(*engine);
   if (plan.used > 0) {
-    status = ForEach(plan.used, &engine->workers.jobs, [&](int32_t index, int32_t worker) {
+    status = ForEach(plan.used, engine->jobs, [&](int32_t index, int32_t worker) {
       const Block& block = plan.blocks[index];
-      Scratch& scratch = engine->workers.scratch[worker];
+      Scratch& scratch = engine->scratch[worker];
       // Counts the samples that every block reads and filters. Renderers count the samples of
       // rendered views separately.
       if (!scratch.cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
@@ -88,7 +88,7 @@ void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
 BlockInputs InputsOf(const EngineState& engine) {
   return {&engine.config,
           engine.kernels,
-          &engine.tables,
+          engine.tables,
           &engine.lens,
           engine.row_store.windows,
           &engine.stripe.cells,
@@ -106,7 +106,7 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
 }
 
 starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
-  const RedZones zones(engine);
+  const RedZones zones(*engine);
   const starfocus_config& config = engine->config;
   const Stripe stripe = {y, Min(config.superblock, config.height - y)};
   const Plane<uint8_t> rows = BufferRows(*engine, y);

@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include "lib/engine/engine.h"
-#include "lib/engine/jobs.h"
 #include "lib/engine/refocus_block.h"
 #include "starfocus/starfocus.h"
 

@@ -51,13 +51,13 @@ starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
     if (rows.first < rows.last) {
       const auto run = [&](int32_t column, int32_t worker) {
         const int32_t first = column * side, last = Min(first + side, state.map.columns);
-        CancelToken& cancel = engine->workers.scratch[worker].cancel;
+        CancelToken& cancel = engine->scratch[worker].cancel;
         for (int32_t row = rows.first; row < rows.last; ++row) {
           if (!cancel.Spend(int64_t{last - first} * kCoverageTile * kCoverageTile)) return;
           RunPass(in, pass, first, last, row);
         }
       };
-      const starfocus_status status = ForEach(Columns(engine->config), &engine->workers.jobs, run);
+      const starfocus_status status = ForEach(Columns(engine->config), engine->jobs, run);
       if (status != STARFOCUS_OK) return status;
     }
     done = Max(rows.first, rows.last);

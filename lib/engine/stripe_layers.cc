@@ -36,6 +36,30 @@ bool AnyColumn(const uint8_t* needed, int32_t columns) {
 
 }  // namespace
 
+void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample) {
+  // The last column of superblocks includes one or two pixels of a layer that lie beyond the
+  // picture.
+  const auto side = config.superblock;
+  const auto columns = static_cast<size_t>(Max(side / 2 + 1, TapsOfLayer(side / 4 + 2)));
+  const int32_t above_two = TapsOfLayer(LayerRows(config, 2));
+  const auto rows = static_cast<size_t>(TapsOfLayer(Max(LayerRows(config, 1), above_two)));
+  resample->even = arena->Take<int16_t>(3 * (columns + 3));
+  resample->odd = arena->Take<int16_t>(3 * (columns + 3));
+  resample->half = arena->Take<int16_t>(3 * columns, rows);
+  resample->above = arena->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
+}
+
+void TakeLayers(const starfocus_config& config, Arena* arena, RowStore* row_store) {
+  for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
+    const auto width = static_cast<size_t>(LayerSize(config.width, layer));
+    row_store->layers[layer].samples =
+        TakePlane<int16_t>(3 * width, LayerRows(config, layer), arena);
+  }
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
+    row_store->needed[layer] = arena->Take<uint8_t>(static_cast<size_t>(Columns(config)));
+  }
+}
+
 void ClearLayerColumns(const starfocus_config& config, RowStore* row_store) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
@@ -93,9 +117,9 @@ starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, En
     any = any || AnyColumn(engine->row_store.needed[layer], columns);
   }
   if (!any) return STARFOCUS_OK;
-  return ForEach(columns, &engine->workers.jobs, [&](int32_t column, int32_t worker) {
+  return ForEach(columns, engine->jobs, [&](int32_t column, int32_t worker) {
     for (int32_t layer = layers.first; layer < layers.last; ++layer) {
-      DownsampleColumn(*engine, layer_one, layer, column, engine->workers.scratch[worker].resample);
+      DownsampleColumn(*engine, layer_one, layer, column, engine->scratch[worker].resample);
     }
   });
 }

@@ -10,6 +10,12 @@
 
 namespace starfocus {
 
+// Allocates the memory of a worker that subsamples a column of superblocks.
+void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample);
+
+// Allocates the planes of layers 1 and 2 around a stripe, and the marks of their columns.
+void TakeLayers(const starfocus_config& config, Arena* arena, RowStore* row_store);
+
 // Clears the marks of the columns to subsample, for a new stripe. Keeps the old marks as the marks
 // of the previous stripe.
 void ClearLayerColumns(const starfocus_config& config, RowStore* row_store);

@@ -18,7 +18,7 @@ int32_t LargestSide(const EngineState& engine) {
   constexpr int32_t kCatsEyeSide = 32;
   const Lens& lens = engine.lens;
   const int32_t largest =
-      engine.tables.opening.cats_eye > 0 ? kCatsEyeSide : engine.stripe.plan.side;
+      engine.tables->opening.cats_eye > 0 ? kCatsEyeSide : engine.stripe.plan.side;
   return IsBenchmark(lens) ? Min(largest, lens.renderer->benchmark_side) : largest;
 }
 
@@ -79,7 +79,7 @@ int32_t PlanBlocks(const EngineState& engine, const Rect& superblock,
                                 lens.renderer,
                                 lens.apertures,
                                 lens.largest_n,
-                                DemandOf(engine.tables.opening),
+                                DemandOf(engine.tables->opening),
                                 lens.scale,
                                 LargestSide(engine),
                                 has_highlights ? 0 : engine.config.tuning.max_layer,
@@ -183,6 +183,28 @@ void ReadPlan(const Stripe& stripe, EngineState* engine) {
 
 }  // namespace
 
+void TakePlan(const starfocus_config& config, Arena* arena, StripeState* stripe) {
+  const Borders borders = LargestBorders(config);
+  const int32_t side = config.superblock, columns = Columns(config), cells = side / kCellSize;
+  const auto blocks = static_cast<size_t>(columns);
+  stripe->cells.columns = (config.width + kCellSize - 1) / kCellSize;
+  stripe->cells.rows = (config.height + kCellSize - 1) / kCellSize;
+  stripe->cells.cells = arena->Take<Cell>(static_cast<size_t>(stripe->cells.columns),
+                                          static_cast<size_t>(cells + 2 * borders.cells + 1));
+  StripePlan& plan = stripe->plan;
+  plan.side = side;
+  plan.columns = columns;
+  plan.wanted = arena->Take<uint8_t>(blocks);
+  plan.measured = arena->Take<uint8_t>(blocks);
+  plan.blocks = arena->Take<Block>(blocks, static_cast<size_t>(MaxBlocks(side)));
+  plan.counts = arena->Take<int32_t>(blocks);
+  plan.gathered.columns = columns * cells;
+  plan.gathered.cells = arena->Take<uint8_t>(static_cast<size_t>(plan.gathered.columns * cells));
+  stripe->map.columns = (config.width + kSmallestBlock - 1) / kSmallestBlock;
+  stripe->map.layers = arena->Take<uint8_t>(static_cast<size_t>(stripe->map.columns),
+                                            static_cast<size_t>(side / kSmallestBlock + 1));
+}
+
 bool ChooseColumns(const Stripe& rows, EngineState* engine) {
   const StripePlan& plan = engine->stripe.plan;
   const int32_t side = plan.side;
@@ -219,19 +241,18 @@ starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
                      {row, first, last, cells.At(first, row)});
       }
     };
-    const starfocus_status status = ForEach(plan.columns, &engine->workers.jobs, measure);
+    const starfocus_status status = ForEach(plan.columns, engine->jobs, measure);
     if (status != STARFOCUS_OK) return status;
   }
   const auto divide = [&](int32_t column, int32_t worker) {
     const int32_t x = column * plan.side;
     const Rect superblock = {x, rows.y, Min(plan.side, engine->config.width - x), rows.height};
-    plan.counts[column] =
-        plan.wanted[column] == 0
-            ? 0
-            : PlanBlocks(*engine, superblock, engine->workers.scratch[worker].partition,
-                         plan.BlocksOf(column));
+    plan.counts[column] = plan.wanted[column] == 0
+                              ? 0
+                              : PlanBlocks(*engine, superblock, engine->scratch[worker].partition,
+                                           plan.BlocksOf(column));
   };
-  const starfocus_status status = ForEach(plan.columns, &engine->workers.jobs, divide);
+  const starfocus_status status = ForEach(plan.columns, engine->jobs, divide);
   if (status == STARFOCUS_OK) ReadPlan(rows, engine);
   return status;
 }

@@ -7,10 +7,12 @@
 #include <cstdint>
 
 #include "lib/engine/engine.h"
-#include "lib/engine/jobs.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+// Allocates the cells and blocks of a stripe, and the map of their layers.
+void TakePlan(const starfocus_config& config, Arena* arena, StripeState* stripe);
 
 // Marks the columns of superblocks to refocus, and the columns whose cells must be measured to plan
 // these superblocks. Returns false if no column has to be refocused.

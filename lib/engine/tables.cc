@@ -14,6 +14,25 @@ int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Deman
   return ScaleViews(renderer.view_count(r_max + 1, demand), config.tuning.n_scale);
 }
 
+void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables) {
+  const bool full = HasShapes(config);
+  const auto weights_of = [&](int32_t n) {
+    return full ? FullApertureSize(n) : ViewWeightsSize(n);
+  };
+  for (int32_t k = 0; k < RendererCount(config); ++k) {
+    const int32_t last = LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur);
+    size_t weights = 0;
+    for (int32_t n = 0; n <= last; ++n) weights += weights_of(n);
+    tables->apertures[k].apertures = arena->Take<ViewWeights>(static_cast<size_t>(last) + 1);
+    tables->apertures[k].weights = arena->Take<uint16_t>(weights);
+  }
+  const int32_t benchmark_n = ViewsOfBenchmark(config.max_blur);
+  const auto steps = static_cast<size_t>(BlurStepCount(config.max_blur));
+  tables->benchmark_weights = arena->Take<uint16_t>(weights_of(benchmark_n));
+  tables->psfs = arena->Take<Psf>(steps);
+  tables->blur_weights = arena->Take<uint16_t>(BlurWeightCount(full, config.max_blur));
+}
+
 void SetOpening(const ApertureShape& opening, Tables* tables) {
   const bool same = tables->mean_square != 0 && AreAlike(opening, tables->opening);
   tables->opening = opening;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "lib/base/arena.h"
 #include "lib/base/call_progress.h"
 #include "lib/base/features.h"
 #include "lib/optics/psf.h"
@@ -48,6 +49,9 @@ struct Tables {
   int32_t blur_steps = 0;   // Number of PSFs that have been made.
   int32_t mean_square = 0;  // MeanSquare of the opening; 0: no opening is set.
 };
+
+// Allocates the tables of an engine.
+void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables);
 
 // Sets the opening. Discards all tables that were made for another opening.
 void SetOpening(const ApertureShape& opening, Tables* tables);

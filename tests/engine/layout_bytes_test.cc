@@ -24,17 +24,18 @@ TEST_CASE("layout: each allocated piece is aligned, padded and counted" *
   for (Arena* one : {&counting, &arena}) {
     uint8_t* first = one->Take<uint8_t>(1);
     int32_t* second = one->Take<int32_t>(7, 5);
-    const size_t mark = one->Mark();
-    one->Take<uint8_t>(1000);
-    one->Reuse(mark);
-    const size_t room = one->Shared();
-    CHECK(room >= 1000 - 63);
-    uint8_t* shared = one->Take<uint8_t>(room);
-    one->Reuse(mark);
-    one->Take<uint8_t>(10);
-    CHECK(one->Bytes() == mark + 1088);
-    one->GoOn();
-    CHECK(one->Shared() == 0);
+    uint8_t* shared = nullptr;
+    const auto fill_rest = [&] {
+      const size_t room = one->Rest();
+      CHECK(room >= 1000 - 63);
+      shared = one->Take<uint8_t>(room);
+      CHECK(one->Rest() == 0);
+    };
+    // The inner parts also see the length of the outer part before them.
+    const auto inner = [&] { one->Overlap([&] { one->Take<uint8_t>(10); }, fill_rest); };
+    one->Overlap([&] { one->Take<uint8_t>(1000); }, inner, [&] { one->Take<uint8_t>(10); });
+    CHECK(one->Bytes() == 128 + 256 + 1088);
+    CHECK(one->Rest() == 0);
     uint8_t* last = one->Take<uint8_t>(0);
     if (one == &counting) {
       CHECK((first == nullptr && second == nullptr && shared == nullptr && last == nullptr));
@@ -72,10 +73,7 @@ TEST_CASE("layout: sizes beyond the address space are reported as too large") {
   Arena arena(nullptr);
   arena.Take<uint8_t>(SIZE_MAX / 2 - kExtra);
   CHECK(arena.Bytes() <= SIZE_MAX / 2);
-  const size_t mark = arena.Mark();
-  arena.Take<uint8_t>(1);
-  CHECK(arena.Bytes() == kTooLarge);
-  arena.Reuse(mark);
+  arena.Overlap([&] { arena.Take<uint8_t>(1); }, [] {});
   CHECK(arena.Bytes() == kTooLarge);
 }
 
@@ -131,7 +129,7 @@ TEST_CASE("layout: the sizes of all parts add up to the size of the workspace" *
   }
 }
 
-// To make a preview, the engine lays out its memory again for a smaller picture.
+// The engine of a preview uses the memory of the engine of the full picture.
 TEST_CASE("layout: the layout of a preview fits into the workspace of the full picture") {
   test::Random random(44);
   for (int round = 0; round < 300; ++round) {
@@ -157,7 +155,8 @@ TEST_CASE("layout: the layout of a preview fits into the workspace of the full p
   }
 }
 
-TEST_CASE("layout: an engine keeps its workers and tables after its memory is laid out again") {
+TEST_CASE(
+    "layout: an engine of a preview shares workers and tables, and leaves the engine unchanged") {
   starfocus_config config;
   starfocus_config_init(&config);
   config.width = 300;
@@ -168,20 +167,26 @@ TEST_CASE("layout: an engine keeps its workers and tables after its memory is la
   REQUIRE(engine.status() == STARFOCUS_OK);
   starfocus::EngineState& state = test::StateOf(engine.get());
   config = state.config;
-  const starfocus::Scratch* workers = state.workers.scratch;
+  const starfocus::Scratch* workers = state.scratch;
   const uint32_t* sums = workers[1].sums;
-  const uint16_t* weights = state.tables.apertures[0].weights;
+  const uint16_t* weights = state.tables->apertures[0].weights;
   const uint8_t *out = state.stripe.out, *last_rows = state.stripe.last_rows;
-  starfocus::LayOutAnew(starfocus::ReducedConfig(config, 2), &state);
-  CHECK(state.config.width == 75);
-  CHECK(state.workers.scratch == workers);
-  CHECK(state.workers.scratch[1].sums == sums);
-  CHECK(state.tables.apertures[0].weights == weights);
-  CHECK(state.stripe.last_rows == nullptr);  // previews are not streamed
-  starfocus::LayOutAnew(config, &state);
+  state.images.map_width = 300;
+  state.stream.active = true;
+  const starfocus::EngineState preview =
+      starfocus::PreviewEngine(starfocus::ReducedConfig(config, 2), &state);
+  CHECK(preview.config.width == 75);
+  CHECK(preview.scratch == workers);
+  CHECK(preview.scratch[1].sums == sums);
+  CHECK(preview.tables->apertures[0].weights == weights);
+  CHECK(preview.jobs == state.jobs);
+  CHECK(preview.row_store.disparity.data == state.row_store.disparity.data);
+  CHECK(preview.stripe.last_rows == nullptr);  // previews are not streamed
   CHECK(state.config.width == 300);
   CHECK(state.stripe.out == out);
   CHECK(state.stripe.last_rows == last_rows);
+  CHECK_FALSE(state.stream.active);    // the preview overwrites the rows of the stream
+  CHECK(state.images.map_width == 0);  // and the table of the map's columns
 }
 
 // On 32-bit machines, wide streaming configurations exceed the address space.

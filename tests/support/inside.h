@@ -63,7 +63,7 @@ inline std::vector<uint8_t> RenderOne(const starfocus::Block& block, starfocus_e
   const size_t stride = 3 * static_cast<size_t>(state.config.width);
   std::vector<uint8_t> out(stride * static_cast<size_t>(state.config.height), kPoison);
   starfocus::RefocusBlock(starfocus::InputsOf(state), block, {out.data(), stride, 0, 0},
-                          &state.workers.scratch[0]);
+                          &state.scratch[0]);
   return out;
 }
 
@@ -97,7 +97,7 @@ inline int LayerColumns(starfocus_engine* engine) {
 // Returns a reference to the size in bytes of the first worker's pool of slices. Tests may reduce
 // the size of the pool.
 inline size_t& PoolBytes(starfocus_engine* engine) {
-  void* scratch = StateOf(engine).workers.scratch[0].renderers[starfocus::kSliceRenderer.index];
+  void* scratch = StateOf(engine).scratch[0].renderers[starfocus::kSliceRenderer.index];
   return static_cast<starfocus::CompositorScratch*>(scratch)->pool_bytes;
 }
 

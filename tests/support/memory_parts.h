@@ -26,31 +26,32 @@ struct MemoryPart {
 
 // Returns the parts of an engine with one worker, in the order of allocation.
 inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
-  const starfocus::Scratch& scratch = e.workers.scratch[0];
+  const starfocus::Scratch& scratch = e.scratch[0];
   const auto& slices = *static_cast<starfocus::CompositorScratch*>(
       scratch.renderers[starfocus::kSliceRenderer.index]);
   const auto* const line_scan = static_cast<starfocus::LineScanScratch*>(
       scratch.renderers[starfocus::kLineScanRenderer.index]);
   return {
       {"engine state", false, &e},
-      {"slices: apertures of every N", false, e.tables.apertures[0].apertures},
-      {"line scan: apertures of every N", false, e.tables.apertures[1].apertures},
-      {"aperture of the benchmark mode", false, e.tables.benchmark_weights},
-      {"point-spread functions", false, e.tables.psfs},
-      {"state of the workers", false, e.workers.scratch},
+      {"slices: apertures of every N", false, e.tables->apertures[0].apertures},
+      {"line scan: apertures of every N", false, e.tables->apertures[1].apertures},
+      {"aperture of the benchmark mode", false, e.tables->benchmark_weights},
+      {"point-spread functions", false, e.tables->psfs},
+      {"jobs", false, e.jobs->progress},
+      {"state of the workers", false, e.scratch},
       {"sums of a block", false, scratch.sums},
       {"line scan", true, line_scan == nullptr ? nullptr : line_scan->field_rgb[0]},
+      {"a block at its layer", true, scratch.layer_samples},
+      {"gathering, mode `blur`", true, scratch.field.rgb},
+      {"upsampling of layers", true, scratch.upsample.line},
+      {"subsampling of layers", true, scratch.resample.even},
+      {"splitting blocks", true, scratch.partition.candidates},
       {"slices: surfaces", true, slices.surfaces.disparity[0] - starfocus::simd::kSliceLanes},
       {"slices: offsets in the views, sums of a tile", true, slices.offsets},
       {"slices: finding surfaces", true, slices.surfaces.sources[0]},
       {"slices: the block and its edges", true, slices.field_rgb},
       {"slices: filling surfaces", true, slices.fill.disparity},
       {"slices: pixels of slices and tiles", true, slices.pool},
-      {"a block at its layer", true, scratch.layer_samples},
-      {"gathering, mode `blur`", true, scratch.field.rgb},
-      {"upsampling of layers", true, scratch.upsample.line},
-      {"subsampling of layers", true, scratch.resample.even},
-      {"splitting blocks", true, scratch.partition.candidates},
       {"disparities: ring of rows", false, e.row_store.disparity.data},
       {"finished rows", false, e.stripe.out},
       {"views: rings of rows", false, e.rings[0].data},
@@ -59,7 +60,6 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       {"layer 2: ring of rows", false, e.row_store.layers[2].samples.data},
       {"8x8 cells", false, e.stripe.cells.cells},
       {"blocks and flags of columns", false, e.stripe.plan.wanted},
-      {"jobs", false, e.workers.jobs.progress},
   };
 }
 

@@ -99,7 +99,7 @@ class Engine {
 std::vector<double> ReadLevels(const Engine& measured) {
   const EngineState& engine = measured.state();
   const Block& block = engine.stripe.plan.blocks[0];
-  const Scratch& scratch = engine.workers.scratch[0];
+  const Scratch& scratch = engine.scratch[0];
   const ViewWeights& aperture = WeightsOf(engine.lens, block.n);
   const int bits =
       block.layer == 0 ? engine.lens.renderer->sum_bits(aperture) : int{simd::kLayerBits};

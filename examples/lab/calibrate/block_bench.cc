@@ -33,10 +33,10 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
     // BlockBench::Focus.
     starfocus_params params;
     starfocus_params_init(&params);
-    SetOpening(ShapeOf(params.lens), &engine_->tables);
-    const Demand demand = DemandOf(engine_->tables.opening);
+    SetOpening(ShapeOf(params.lens), engine_->tables);
+    const Demand demand = DemandOf(engine_->tables->opening);
     const int32_t last = LargestN(engine_->config, kSliceRenderer, demand, STARFOCUS_MAX_BLUR);
-    status = MakeApertures(kSliceRenderer, last, nullptr, &engine_->tables);
+    status = MakeApertures(kSliceRenderer, last, nullptr, engine_->tables);
   }
   if (status != STARFOCUS_OK) {
     return Expected(where, "a light field that the engine accepts",
@@ -128,7 +128,7 @@ uint64_t BlockBench::Time(const BlockTask& task) {
   engine_->lens.renderer = &kAlways;
   const Plane<uint8_t> out = {picture_.pixels.data(), picture_.stride(), 0, 0};
   const uint64_t start = ThreadNanoseconds();
-  RefocusBlock(InputsOf(*engine_), task.block, out, engine_->workers.scratch);
+  RefocusBlock(InputsOf(*engine_), task.block, out, engine_->scratch);
   return 1000 * (ThreadNanoseconds() - start);
 }
 

@@ -70,9 +70,9 @@ class BlockArtist {
         rect_(planned.block.rect),
         window_(engine_.row_store.windows[0]),
         memory_(static_cast<CompositorScratch*>(
-            engine_.workers.scratch[0].renderers[kSliceRenderer.index])),
+            engine_.scratch[0].renderers[kSliceRenderer.index])),
         grid_(ViewGridOf(InputsOf(engine_), planned_.block,
-                         engine_.workers.scratch[0].aperture_weights)),
+                         engine_.scratch[0].aperture_weights)),
         job_{&window_, &grid_,  engine_.kernels,    rect_, planned_.block.border,
              nullptr,  nullptr, engine_.lens.r_max, false},
         pictures_(*pictures) {}
@@ -94,11 +94,11 @@ class BlockArtist {
  private:
   // Renders the views of the job. The scratch memory then contains the surfaces of the block.
   void Render(const RenderJob& job) {
-    kSliceRenderer.render(job, memory_, engine_.workers.scratch[0].sums);
+    kSliceRenderer.render(job, memory_, engine_.scratch[0].sums);
   }
 
   void DrawView() {
-    const RightmostView view(engine_.tables.opening);
+    const RightmostView view(engine_.tables->opening);
     const ViewWeights& weights = view.weights();
     const starfocus_lens& lens = engine_.lens.params.lens;
     const ViewGrid grid =
@@ -108,7 +108,7 @@ class BlockArtist {
     Render(job);
     const size_t samples = 3 * static_cast<size_t>(rect_.width);
     for (int32_t y = 0; y < rect_.height; ++y) {
-      engine_.kernels->Finish(engine_.workers.scratch[0].sums + static_cast<size_t>(y) * samples,
+      engine_.kernels->Finish(engine_.scratch[0].sums + static_cast<size_t>(y) * samples,
                               samples, kSliceRenderer.sum_bits(weights), window_.transfer->encoding,
                               PixelOf(&pictures_.view, rect_.x, rect_.y + y));
     }
