@@ -11,6 +11,17 @@
 #include "simd/samples.h"
 #include "starfocus/starfocus.h"
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define STARFOCUS_RED_ZONES
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define STARFOCUS_RED_ZONES
+#endif
+#ifdef STARFOCUS_RED_ZONES
+#include <sanitizer/asan_interface.h>
+#endif
+
 namespace starfocus {
 
 // Reported size of objects that exceed the address space.
@@ -19,13 +30,6 @@ inline constexpr size_t kTooLarge = SIZE_MAX;
 // In builds with AddressSanitizer, each piece and its padding are followed by a red zone of
 // kRedZone bytes, a multiple of STARFOCUS_ALIGNMENT. AddressSanitizer reports accesses to red zones
 // while jobs run. In builds with AddressSanitizer, pieces never share memory.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define STARFOCUS_RED_ZONES
-#endif
-#elif defined(__SANITIZE_ADDRESS__)
-#define STARFOCUS_RED_ZONES
-#endif
 #ifdef STARFOCUS_RED_ZONES
 inline constexpr size_t kRedZone = 1024;
 #else
@@ -41,8 +45,17 @@ struct PieceVisitor {
 
 // Poisons or unpoisons the red zone that ends `end` bytes after `base`. No-op in builds without red
 // zones.
-void PoisonZone(void* base, size_t begin, size_t end);
-void UnpoisonZone(void* base, size_t begin, size_t end);
+#ifdef STARFOCUS_RED_ZONES
+inline void PoisonZone(void* base, size_t, size_t end) {
+  ASAN_POISON_MEMORY_REGION(static_cast<uint8_t*>(base) + end - kRedZone, kRedZone);
+}
+inline void UnpoisonZone(void* base, size_t, size_t end) {
+  ASAN_UNPOISON_MEMORY_REGION(static_cast<uint8_t*>(base) + end - kRedZone, kRedZone);
+}
+#else
+inline void PoisonZone(void*, size_t, size_t) {}
+inline void UnpoisonZone(void*, size_t, size_t) {}
+#endif
 
 // Allocates aligned pieces of a block of memory, each followed by simd::kPadding bytes. All pieces
 // together take at most `most` bytes. The default of `most` is half the address space, the largest

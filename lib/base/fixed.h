@@ -55,6 +55,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#ifdef STARFOCUS_CHECK_RANGES
+#include <cstdio>
+#include <cstdlib>
+#endif
+
 namespace starfocus {
 
 inline constexpr int kDisparityBits = 6;
@@ -107,8 +112,19 @@ inline constexpr FixedRange kRemainder = {"weight that remains unassigned", 0, 0
 // without STARFOCUS_CHECK_RANGES do not check ranges.
 #ifdef STARFOCUS_CHECK_RANGES
 inline constexpr bool kCheckRanges = true;
-extern void (*on_range_failure)(const FixedRange& range, int64_t value);
-void FailRange(const FixedRange& range, int64_t value);
+inline void (*on_range_failure)(const FixedRange& range, int64_t value) = nullptr;
+
+inline void FailRange(const FixedRange& range, int64_t value) {
+  if (on_range_failure != nullptr) {
+    on_range_failure(range, value);
+    return;
+  }
+  std::fprintf(stderr, "starfocus: %s is %lld, outside [%lld, %lld]\n", range.name,
+               static_cast<long long>(value), static_cast<long long>(range.low),
+               static_cast<long long>(range.high));
+  std::abort();
+}
+
 template <class T>
 T Checked(const FixedRange& range, T value) {
   const auto wide = static_cast<int64_t>(value);

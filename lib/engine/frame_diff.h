@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
-#include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
+#include "lib/base/jobs.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

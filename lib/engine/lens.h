@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
-#include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
+#include "lib/base/jobs.h"
 #include "lib/engine/borders.h"
 #include "lib/engine/deblock.h"
 #include "lib/engine/tables.h"

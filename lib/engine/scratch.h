@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "lib/base/call_progress.h"
+#include "lib/base/jobs.h"
 #include "lib/engine/tables.h"
 #include "lib/gather/depth_blur.h"
 #include "lib/io/excess.h"

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
-#include "lib/base/call_progress.h"
 #include "lib/base/features.h"
+#include "lib/base/jobs.h"
 #include "lib/optics/psf.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_weights.h"

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/call_progress.h"
+#include "lib/base/jobs.h"
 #include "lib/gather/span_list.h"
 #include "lib/io/add_excess.h"
 #include "lib/io/window.h"

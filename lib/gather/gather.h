@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
+#include "lib/base/jobs.h"
 #include "lib/io/block_pixels.h"
 #include "lib/optics/psf.h"
 #include "lib/optics/rules.h"

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/call_progress.h"
 #include "lib/base/fixed.h"
+#include "lib/base/jobs.h"
 #include "lib/optics/opening.h"
 
 namespace starfocus {

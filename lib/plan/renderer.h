@@ -8,8 +8,8 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
-#include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
+#include "lib/base/jobs.h"
 #include "lib/io/window.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_grid.h"

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/call_progress.h"
 #include "lib/base/geometry.h"
+#include "lib/base/jobs.h"
 #include "lib/optics/view_grid.h"
 #include "lib/slices/layered_depth.h"
 #include "lib/slices/slice_plane.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/call_progress.h"
+#include "lib/base/jobs.h"
 
 #include <doctest/doctest.h>
 
 #include <thread>
 #include <vector>
 
-namespace starfocus::call_progress_test {
+namespace starfocus::jobs_test {
 namespace {
 
 // Records the calls of the progress function and returns a fixed answer.
@@ -121,4 +121,4 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace starfocus::call_progress_test
+}  // namespace starfocus::jobs_test
