@@ -3,10 +3,10 @@
 #ifndef STARFOCUS_LIB_API_CALL_H_
 #define STARFOCUS_LIB_API_CALL_H_
 
+#include "lib/base/geometry.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/prepared.h"
-#include "lib/io/extents.h"
 
 namespace starfocus {
 

@@ -5,6 +5,7 @@
 
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
+#include "lib/base/fixed.h"
 #include "lib/io/depth_values.h"
 #include "lib/io/gaps.h"
 #include "starfocus/starfocus.h"

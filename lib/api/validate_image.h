@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 #define STARFOCUS_LIB_API_VALIDATE_IMAGE_H_
 
-#include "lib/io/extents.h"
+#include "lib/base/geometry.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

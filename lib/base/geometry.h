@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "starfocus/starfocus.h"
+
 namespace starfocus {
 
 struct Rect {
@@ -64,6 +66,29 @@ inline Extent ExtentOf(const void* data, size_t stride, int32_t rows, size_t row
 
 inline bool Overlaps(const Extent& a, const Extent& b) {
   return a.begin < b.end && b.begin < a.end;
+}
+
+// List of address ranges. The capacity suffices for all planes of one light field in any format, or
+// of two in-place light fields, plus six more ranges.
+struct Extents {
+  Extent of[3 * STARFOCUS_MAX_VIEWS + 6];
+  int count = 0;
+
+  void Add(const Extent& extent) { of[count++] = extent; }
+  void AddRows(const void* data, size_t stride, int32_t rows, size_t row_bytes) {
+    Add(ExtentOf(data, stride, rows, row_bytes));
+  }
+  void AddCoverage(const starfocus_config& config, const uint8_t* coverage, size_t stride) {
+    if (coverage == nullptr) return;
+    AddRows(coverage, stride, config.height, static_cast<size_t>(config.width));
+  }
+};
+
+inline bool Overlaps(const Extent& a, const Extents& b) {
+  for (int n = 0; n < b.count; ++n) {
+    if (Overlaps(a, b.of[n])) return true;
+  }
+  return false;
 }
 
 }  // namespace starfocus

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include "lib/base/geometry.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -45,6 +46,15 @@ starfocus_status Refuse(starfocus_status status, const FieldValue& field, const 
 // Fills *problem if no check has filled it before. Callers use this function for errors of the
 // runner, the progress function or memory. Returns `status`.
 starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem);
+
+// Checks that an output does not overlap the address ranges in `read`. `name` is the name of the
+// output argument.
+inline starfocus_status CheckApart(const Extent& out, const Extents& read, const char* name,
+                                   starfocus_problem* problem) {
+  if (!Overlaps(out, read)) return STARFOCUS_OK;
+  return Refuse(STARFOCUS_ERROR_OVERLAP, {name},
+                {"memory that overlaps neither the inputs nor the workspace"}, problem);
+}
 
 // Checks a sequence of values. *problem describes the first rejected value.
 class Checker {

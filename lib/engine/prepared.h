@@ -6,10 +6,10 @@
 
 #include <cstddef>
 
+#include "lib/base/geometry.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/reduced.h"
-#include "lib/io/extents.h"
 
 namespace starfocus {
 
