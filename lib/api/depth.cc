@@ -167,7 +167,8 @@ template <class Make>
 starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, size_t made, Jobs* jobs,
                          const Make& make) {
   const starfocus_depth_config& config = *call.config;
-  jobs->runner = {config.runner, config.runner_data};
+  jobs->runner = config.runner;
+  jobs->runner_data = config.runner_data;
   CallProgress* const call_progress = &jobs->call_progress;
   call_progress->SetProgress(config.progress, config.progress_data);
   call_progress->Begin(0, config.height);

@@ -155,7 +155,8 @@ starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
   const starfocus_status status = EnterEngine(engine, {{"callbacks", callbacks}});
   if (status != STARFOCUS_OK) return status;
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  e.jobs->runner = {callbacks->runner, callbacks->runner_data};
+  e.jobs->runner = callbacks->runner;
+  e.jobs->runner_data = callbacks->runner_data;
   e.jobs->call_progress.SetProgress(callbacks->progress, callbacks->progress_data);
   e.clock = callbacks->clock;
   e.on_block = callbacks->on_block;

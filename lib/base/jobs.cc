@@ -43,17 +43,10 @@ bool CallProgress::Ask() {
 
 namespace {
 
-// Word that records the progress of a job, and the two bits of the job in that word.
-struct Progress {
-  std::atomic<uint32_t>& word;
-  uint32_t taken, done;
-};
-
-Progress ProgressOf(const Jobs& set, int32_t index) {
-  const auto k = static_cast<uint32_t>(index);
-  const uint32_t taken = 1U << 2 * (k % 16);
-  return {set.progress[k / 16], taken, 2 * taken};
-}
+// Returns the two bits of a job in its word of Jobs::progress. The first bit is set when the job is
+// taken. The second bit is set when the job is done.
+uint32_t TakenBit(int32_t index) { return 1U << 2 * (index % 16); }
+uint32_t DoneBit(int32_t index) { return 2 * TakenBit(index); }
 
 void RunJob(int32_t index, int32_t worker, Jobs* set) {
   if (!set->call_progress.Ask()) return;
@@ -64,10 +57,10 @@ void RunJob(int32_t index, int32_t worker, Jobs* set) {
 // Takes a job and runs it. Returns false if the job was taken before or does not exist.
 bool TakeJob(Jobs* set, int32_t index, int32_t worker) {
   if (index < 0 || index >= set->count) return false;
-  const Progress progress = ProgressOf(*set, index);
-  if ((progress.word.fetch_or(progress.taken) & progress.taken) != 0) return false;
+  std::atomic<uint32_t>& word = set->progress[index / 16];
+  if ((word.fetch_or(TakenBit(index)) & TakenBit(index)) != 0) return false;
   RunJob(index, worker, set);
-  progress.word.fetch_or(progress.done);
+  word.fetch_or(DoneBit(index));
   return true;
 }
 
@@ -93,8 +86,7 @@ bool Close(Jobs* set) {
   }
   bool all = set->misused.load() == 0;
   for (int32_t index = 0; index < set->count; ++index) {
-    const Progress progress = ProgressOf(*set, index);
-    all = all && (progress.word.load() & progress.done) != 0;
+    all = all && (set->progress[index / 16].load() & DoneBit(index)) != 0;
   }
   return all;
 }
@@ -106,7 +98,7 @@ starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count
   set->data = data;
   set->count = count;
   set->call_progress.BeginJobs(count);
-  if (set->runner.run == nullptr) {
+  if (set->runner == nullptr) {
     for (int32_t index = 0; index < count; ++index) RunJob(index, 0, set);
     return set->call_progress.IsCancelled() ? STARFOCUS_ERROR_CANCELLED : STARFOCUS_OK;
   }
@@ -115,7 +107,7 @@ starfocus_status RunJobSet(JobFunction function, const void* data, int32_t count
   }
   set->misused.store(0);
   set->open.store(1);
-  const int result = set->runner.run(set->runner.data, CallJob, set, count);
+  const int result = set->runner(set->runner_data, CallJob, set, count);
   const bool all = Close(set);
   // Cancellation has precedence: after cancellation a runner may have skipped jobs.
   if (set->call_progress.IsCancelled()) return STARFOCUS_ERROR_CANCELLED;

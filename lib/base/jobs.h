@@ -86,12 +86,6 @@ inline bool GoesOn(CancelToken* cancel, int64_t samples) {
   return cancel == nullptr || cancel->Spend(samples);
 }
 
-// The caller's function that runs jobs. If `run` is null, the calling thread runs the jobs.
-struct Runner {
-  starfocus_runner run;
-  void* data;
-};
-
 // A job, which has exclusive use of the memory of `worker` while the job runs.
 using JobFunction = void (*)(const void* data, int32_t index, int32_t worker);
 
@@ -112,7 +106,10 @@ struct Jobs {
   std::atomic<uint32_t> busy[STARFOCUS_MAX_WORKERS] = {};
   std::atomic<uint32_t> open{0};     // 1 from the start of a set until its runner has returned.
   std::atomic<uint32_t> misused{0};  // 1 after the runner made an invalid call, which was rejected.
-  Runner runner = {};
+  // The caller's function that runs jobs, and its first argument. If `runner` is null, the calling
+  // thread runs the jobs.
+  starfocus_runner runner = nullptr;
+  void* runner_data = nullptr;
   CallProgress call_progress;
 };
 
