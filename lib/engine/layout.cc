@@ -69,9 +69,9 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
                                 scratch.renderers[k]);
   };
   const auto partition = [&] {
-    scratch.partition.candidates = arena->Take<PartitionCandidate>(
+    scratch.candidates = arena->Take<PartitionCandidate>(
         static_cast<size_t>(PartitionCandidates(config.superblock)));
-    scratch.partition.cells =
+    scratch.cell_samples =
         arena->Take<int16_t>(SurroundingSamples(config.superblock / kCellSize, borders.cells));
   };
   // The slices come last, because their pool fills the memory of the longest other step.

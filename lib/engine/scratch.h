@@ -43,10 +43,11 @@ struct Scratch {
   SpanMemory spans;            // Spans of a block that is blurred by depth.
   ResampleScratch resample;
   UpsampleScratch upsample;
-  int16_t* layer_samples;    // Samples of the rendered rectangle.
-  int16_t* middle_samples;   // Result at layer 1 while upsampling from layer 2.
-  int16_t* picture_samples;  // 3 R^2 samples: the block at layer 0.
-  PartitionScratch partition;
+  int16_t* layer_samples;          // Samples of the rendered rectangle.
+  int16_t* middle_samples;         // Result at layer 1 while upsampling from layer 2.
+  int16_t* picture_samples;        // 3 R^2 samples: the block at layer 0.
+  PartitionCandidate* candidates;  // Memory of PartitionBlock.
+  int16_t* cell_samples;
   Counts counts;
   CancelToken cancel;
 };

@@ -68,26 +68,27 @@ int32_t PlanWhole(const EngineState& engine, const Rect& superblock, Block* bloc
 }
 
 // Divides the superblock into blocks. Returns the number of blocks.
-int32_t PlanBlocks(const EngineState& engine, const Rect& superblock,
-                   const PartitionScratch& scratch, Block* blocks) {
+int32_t PlanBlocks(const EngineState& engine, const Rect& superblock, const Scratch& scratch,
+                   Block* blocks) {
   const Lens& lens = engine.lens;
   if (!IsPartitioned(lens)) return PlanWhole(engine, superblock, blocks);
   const bool has_highlights = HasHighlights(engine, superblock);
   // Blocks with highlights are rendered from views at layer 0, because light beyond white is read
   // only at layer 0.
-  const PartitionRules rules = {&engine.config,
+  const PartitionRules rules = {engine.kernels,
+                                &engine.config,
                                 lens.renderer,
                                 lens.apertures,
                                 lens.largest_n,
                                 DemandOf(engine.tables->opening),
                                 lens.scale,
+                                lens.borders.cells,
                                 LargestSide(engine),
                                 has_highlights ? 0 : engine.config.tuning.max_layer,
                                 !has_highlights && Gathers(engine.config, lens),
                                 has_highlights};
-  const PlanInput input = {*engine.kernels, rules, engine.stripe.cells, lens.borders.cells};
-  return PartitionBlock(input, superblock.x, superblock.y, scratch, blocks,
-                        engine.stripe.plan.gathered);
+  return PartitionBlock(rules, engine.stripe.cells, superblock.x, superblock.y, scratch.candidates,
+                        scratch.cell_samples, engine.stripe.plan.gathered, blocks);
 }
 
 // Returns true if the region that the lens requests depends on pixels of `rect`.
@@ -237,8 +238,8 @@ starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
       const int32_t per_block = plan.side / kCellSize, first = column * per_block;
       const int32_t last = Min(first + per_block, cells.columns);
       for (int32_t row = first_row; row < cells.last_row; ++row) {
-        MeasureCells(*engine->kernels, engine->row_store.windows[0], lens.scale,
-                     {row, first, last, cells.At(first, row)});
+        MeasureCells(*engine->kernels, engine->row_store.windows[0], lens.scale, row, {first, last},
+                     cells.At(first, row));
       }
     };
     const starfocus_status status = ForEach(plan.columns, engine->jobs, measure);
@@ -247,10 +248,10 @@ starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
   const auto divide = [&](int32_t column, int32_t worker) {
     const int32_t x = column * plan.side;
     const Rect superblock = {x, rows.y, Min(plan.side, engine->config.width - x), rows.height};
-    plan.counts[column] = plan.wanted[column] == 0
-                              ? 0
-                              : PlanBlocks(*engine, superblock, engine->scratch[worker].partition,
-                                           plan.BlocksOf(column));
+    plan.counts[column] =
+        plan.wanted[column] == 0
+            ? 0
+            : PlanBlocks(*engine, superblock, engine->scratch[worker], plan.BlocksOf(column));
   };
   const starfocus_status status = ForEach(plan.columns, engine->jobs, divide);
   if (status == STARFOCUS_OK) ReadPlan(rows, engine);

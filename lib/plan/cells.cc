@@ -197,11 +197,10 @@ void AddCell(const Cell& cell, Content (*sum)[2]) {
 }
 
 void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
-                  const CellRange& range) {
-  const CellRow row(kernels, window, scale, range.row);
-  Cell* cells = range.cells;
-  for (int32_t column = range.first; column < range.last; ++column) {
-    *cells++ = row.Measure(column);
+                  int32_t row, const Range& columns, Cell* cells) {
+  const CellRow measure(kernels, window, scale, row);
+  for (int32_t column = columns.first; column < columns.last; ++column) {
+    *cells++ = measure.Measure(column);
   }
 }
 

@@ -101,15 +101,10 @@ void AddCell(const Cell& cell, Content (*sum)[2]);
 // Width in pixels of the border around a cell that the measurement of the cell reads.
 inline constexpr int32_t kCellBorder = 1;
 
-// Cells in columns [first, last) of one row of the grid.
-struct CellRange {
-  int32_t row, first, last;
-  Cell* cells;
-};
-
-// Measures cells. The window must be at layer 0.
+// Measures the cells of some columns of one row of the grid, and writes them to `cells`. The window
+// must be at layer 0.
 void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
-                  const CellRange& range);
+                  int32_t row, const Range& columns, Cell* cells);
 
 // Number of pixels of a layer that upsampling by two reads beyond each side of a block.
 inline constexpr int32_t kUpBorder = 2;

@@ -49,32 +49,32 @@ int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
 
 class Partition {
  public:
-  Partition(const simd::Kernels& kernels, const PartitionRules& rules,
-            const PartitionScratch& scratch, const GatherMap& gathered)
-      : kernels_(kernels),
-        rules_(rules),
-        scratch_(scratch),
+  Partition(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
+            PartitionCandidate* candidates, const GatherMap& gathered)
+      : rules_(rules),
+        cells_(cells),
+        candidates_(candidates),
         gathered_(gathered),
         config_(*rules.config),
-        side_(rules.config->superblock / kSmallestBlock) {
+        side_(rules.config->superblock / kSmallestBlock),
+        x_(x),
+        y_(y) {
     while ((1 << levels_) < side_) ++levels_;
   }
 
-  void Measure(const CellGrid& cells, int32_t x, int32_t y, int32_t around) {
-    x_ = x;
-    y_ = y;
+  void Measure(int16_t* samples) {
     // `inside` covers the cells of complete smallest blocks, which may extend beyond the picture.
-    const Rect inside = {x / kCellSize, y / kCellSize, CellsWithin(config_.width - x),
-                         CellsWithin(config_.height - y)};
+    const Rect inside = {x_ / kCellSize, y_ / kCellSize, CellsWithin(config_.width - x_),
+                         CellsWithin(config_.height - y_)};
     const Surroundings surroundings =
-        LoadSurroundings(cells, rules_.scale, inside, around, scratch_.cells);
-    FindGathered(cells, surroundings);
+        LoadSurroundings(cells_, rules_.scale, inside, rules_.around, samples);
+    FindGathered(surroundings);
     for (int level = 0; level <= levels_; ++level) {
       const int32_t count = side_ >> level;
       for (int32_t row = 0; row < count; ++row) {
         for (int32_t column = 0; column < count; ++column) {
           if (!Inside(level, column, row)) continue;
-          MeasureCandidate(level, column, row, cells, surroundings);
+          MeasureCandidate(level, column, row, surroundings);
           Plan(level, column, row);
         }
       }
@@ -92,20 +92,19 @@ class Partition {
   PartitionCandidate& Candidate(int level, int32_t column, int32_t row) const {
     int32_t index = row * (side_ >> level) + column;
     for (int below = 0; below < level; ++below) index += (side_ >> below) * (side_ >> below);
-    return scratch_.candidates[index];
+    return candidates_[index];
   }
   bool Inside(int level, int32_t column, int32_t row) const {
     return x_ + column * SideOf(level) < config_.width && y_ + row * SideOf(level) < config_.height;
   }
 
-  void MeasureCandidate(int level, int32_t column, int32_t row, const CellGrid& cells,
-                        const Surroundings& surroundings) {
+  void MeasureCandidate(int level, int32_t column, int32_t row, const Surroundings& surroundings) {
     PartitionCandidate& candidate = Candidate(level, column, row);
     candidate.cells = 0;
     for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) candidate.gathered[layer] = 0;
     for (int32_t layer = 0; layer < STARFOCUS_LAYERS; ++layer) candidate.gather[layer] = 0;
     if (level == 0) {
-      MeasureSmallest(column, row, cells, surroundings, &candidate);
+      MeasureSmallest(column, row, surroundings, &candidate);
       return;
     }
     const BlockStats* children[4];
@@ -130,15 +129,15 @@ class Partition {
     return kCells * Min(side_, (pixels + kSmallestBlock - 1) / kSmallestBlock);
   }
 
-  void FindGathered(const CellGrid& cells, const Surroundings& inside) {
-    const int32_t right = Min(inside.column + inside.columns, cells.columns);
-    const int32_t bottom = Min(inside.row + inside.rows, cells.rows);
+  void FindGathered(const Surroundings& inside) {
+    const int32_t right = Min(inside.column + inside.columns, cells_.columns);
+    const int32_t bottom = Min(inside.row + inside.rows, cells_.rows);
     CellKind smooth[kMaxRowCells] = {};  // initially kMixed
     for (int32_t y = inside.row; y < bottom; ++y) {
-      if (rules_.gathers) FindSmooth(kernels_, inside, rules_.scale, y, smooth);
+      if (rules_.gathers) FindSmooth(*rules_.kernels, inside, rules_.scale, y, smooth);
       for (int32_t x = inside.column; x < right; ++x) {
         gathered_.At(x * kCellSize, y * kCellSize) =
-            MarkOf(*cells.At(x, y), smooth[x - inside.column]);
+            MarkOf(*cells_.At(x, y), smooth[x - inside.column]);
       }
     }
   }
@@ -152,19 +151,19 @@ class Partition {
     return smooth == CellKind::kSloped ? layer | kSlopeMark : layer;
   }
 
-  void MeasureSmallest(int32_t column, int32_t row, const CellGrid& cells,
-                       const Surroundings& surroundings, PartitionCandidate* candidate) {
+  void MeasureSmallest(int32_t column, int32_t row, const Surroundings& surroundings,
+                       PartitionCandidate* candidate) {
     const int32_t cell_x = x_ / kCellSize + 2 * column, cell_y = y_ / kCellSize + 2 * row;
-    candidate->stats = MeasureBlock(kernels_, cells, surroundings, cell_x, cell_y);
-    for (int32_t y = cell_y; y < Min(cell_y + 2, cells.rows); ++y) {
-      for (int32_t x = cell_x; x < Min(cell_x + 2, cells.columns); ++x) {
+    candidate->stats = MeasureBlock(*rules_.kernels, cells_, surroundings, cell_x, cell_y);
+    for (int32_t y = cell_y; y < Min(cell_y + 2, cells_.rows); ++y) {
+      for (int32_t x = cell_x; x < Min(cell_x + 2, cells_.columns); ++x) {
         ++candidate->cells;
         const int32_t first = gathered_.FirstLayer(x * kCellSize, y * kCellSize);
         for (int32_t layer = first; layer < STARFOCUS_LAYERS; ++layer) {
           ++candidate->gathered[layer];
           candidate->gather[layer] += PredictGather(
               config_.tuning.timing, static_cast<uint64_t>(kCellSize * kCellSize) >> 2 * layer,
-              cells.At(x, y)->r_max >> layer);
+              cells_.At(x, y)->r_max >> layer);
         }
       }
     }
@@ -313,23 +312,24 @@ class Partition {
     }
   }
 
-  const simd::Kernels& kernels_;
   const PartitionRules& rules_;
-  const PartitionScratch& scratch_;
+  const CellGrid& cells_;
+  PartitionCandidate* const candidates_;
   const GatherMap& gathered_;
   const starfocus_config& config_;
-  int32_t side_;  // side of a superblock, in units of the smallest blocks
+  const int32_t side_;  // side of a superblock, in units of the smallest blocks
   int levels_ = 0;
-  int32_t x_ = 0, y_ = 0;
+  const int32_t x_, y_;  // upper left corner of the superblock
   int32_t count_ = 0;
 };
 
 }  // namespace
 
-int32_t PartitionBlock(const PlanInput& input, int32_t x, int32_t y,
-                       const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered) {
-  Partition partition(input.kernels, input.rules, scratch, gathered);
-  partition.Measure(input.cells, x, y, input.around);
+int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
+                       PartitionCandidate* candidates, int16_t* samples, const GatherMap& gathered,
+                       Block* blocks) {
+  Partition partition(rules, cells, x, y, candidates, gathered);
+  partition.Measure(samples);
   return partition.Emit(blocks);
 }
 

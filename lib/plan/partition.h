@@ -44,13 +44,17 @@ struct Block {
   uint64_t cost;  // Predicted time in picoseconds.
 };
 
+// Rules by which PartitionBlock chooses blocks. The rules are the same for all blocks of a
+// superblock.
 struct PartitionRules {
+  const simd::Kernels* kernels;
   const starfocus_config* config;
   const Renderer* renderer;
   const ViewWeights* apertures;  // weights of the views for each N, indexed by N up to max_n
   int32_t max_n;
   Demand demand;  // class of the opening, which decides the number of views and the layers
   BlurScale scale;
+  int32_t around;        // largest distance in cells over which a pixel may splat
   int32_t largest_side;  // largest allowed side of a block
   int32_t max_layer;
   bool gathers;         // True: smooth cells are blurred without views.
@@ -81,26 +85,13 @@ constexpr int32_t PartitionCandidates(int32_t superblock) {
   return candidates;
 }
 
-// Scratch memory for one superblock: PartitionCandidates candidates, and SurroundingSamples samples
-// for the cells.
-struct PartitionScratch {
-  PartitionCandidate* candidates;
-  int16_t* cells;
-};
-
-// Input data for the partition of a superblock.
-struct PlanInput {
-  const simd::Kernels& kernels;
-  const PartitionRules& rules;
-  const CellGrid& cells;
-  int32_t around;  // largest distance in cells over which a pixel may splat
-};
-
 // Splits the superblock at (x, y) into the blocks with the smallest predicted time. x and y are
 // multiples of the superblock size. Writes at most MaxBlocks blocks in z-order, and the part of
-// `gathered` that belongs to the superblock. Returns the number of blocks.
-int32_t PartitionBlock(const PlanInput& input, int32_t x, int32_t y,
-                       const PartitionScratch& scratch, Block* blocks, const GatherMap& gathered);
+// `gathered` that belongs to the superblock. Returns the number of blocks. Scratch memory:
+// PartitionCandidates candidates, and SurroundingSamples samples for the cells.
+int32_t PartitionBlock(const PartitionRules& rules, const CellGrid& cells, int32_t x, int32_t y,
+                       PartitionCandidate* candidates, int16_t* samples, const GatherMap& gathered,
+                       Block* blocks);
 
 }  // namespace starfocus
 

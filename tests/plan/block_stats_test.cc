@@ -142,8 +142,8 @@ struct Cells {
     cells.resize(size_t(grid.last_row - grid.first_row) * size_t(grid.columns));
     grid.cells = cells.data();
     for (int row = grid.first_row; row < grid.last_row; ++row) {
-      starfocus::MeasureCells(starfocus::simd::BestKernels(), window, map.scale,
-                              {row, 0, grid.columns, grid.At(0, row)});
+      starfocus::MeasureCells(starfocus::simd::BestKernels(), window, map.scale, row,
+                              {0, grid.columns}, grid.At(0, row));
     }
   }
   CellGrid grid;

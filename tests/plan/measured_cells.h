@@ -28,8 +28,8 @@ inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, i
   cells->resize(size_t(grid.columns) * size_t(grid.rows));
   grid.cells = cells->data();
   for (int row = 0; row < grid.rows; ++row) {
-    starfocus::MeasureCells(starfocus::simd::BestKernels(), window, scale,
-                            {row, 0, grid.columns, grid.At(0, row)});
+    starfocus::MeasureCells(starfocus::simd::BestKernels(), window, scale, row, {0, grid.columns},
+                            grid.At(0, row));
   }
   return grid;
 }

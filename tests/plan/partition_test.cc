@@ -185,7 +185,7 @@ TEST_CASE(
       const BlurScale scale = {{}, int64_t{1} << starfocus::kStepBits};
       plan.rules.scale = scale;
       plan.grid = test::MeasureCells(plan.disparity, 3 * kMiddle, 3 * kMiddle, scale, &plan.cells);
-      plan.around = test::BordersOf(r).cells;
+      plan.rules.around = test::BordersOf(r).cells;
       plan.rules.max_layer = max_layer;
       plan.config.tuning.n_scale = 1;
       plan.rules.demand = static_cast<starfocus::Demand>(random.Int(0, 3));
@@ -236,7 +236,7 @@ TEST_CASE("partition: for constant blur, blocks read all rows of their stripe's 
     std::fill(plan.disparity.begin(), plan.disparity.end(), int16_t(64 * r));
     plan.grid = test::MeasureCells(plan.disparity, 192, 192, plan.rules.scale, &plan.cells);
     const starfocus::Borders borders = test::BordersOf(r);
-    plan.around = borders.cells;
+    plan.rules.around = borders.cells;
     plan.Use(starfocus::kLineScanRenderer);
     int most[3] = {};
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {

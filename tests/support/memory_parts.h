@@ -45,7 +45,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       {"gathering, mode `blur`", true, scratch.field.rgb},
       {"upsampling of layers", true, scratch.upsample.line},
       {"subsampling of layers", true, scratch.resample.even},
-      {"splitting blocks", true, scratch.partition.candidates},
+      {"splitting blocks", true, scratch.candidates},
       {"slices: surfaces", true, slices.surfaces.disparity[0] - starfocus::simd::kSliceLanes},
       {"slices: offsets in the views, sums of a tile", true, slices.offsets},
       {"slices: finding surfaces", true, slices.surfaces.sources[0]},

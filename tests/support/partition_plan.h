@@ -73,9 +73,10 @@ struct Plan {
     }
     const double focus = random->Real(-limit, limit);
     const BlurScale scale = {starfocus::MakeFocusRange(focus), int64_t{1} << starfocus::kStepBits};
+    rules.kernels = &starfocus::simd::BestKernels();
     rules.scale = scale;
     grid = MeasureCells(disparity, width, height, scale, &cells);
-    around = BordersOf(2 * limit).cells;
+    rules.around = BordersOf(2 * limit).cells;
     flags.assign(cells.size(), kPoison);
     gathered = {flags.data(), grid.columns, 0};
     starfocus_config_init(&config);
@@ -107,10 +108,9 @@ struct Plan {
                 candidates.size() * sizeof(PartitionCandidate));
     std::vector<Block> blocks(size_t(starfocus::MaxBlocks(config.superblock)));
     std::vector<int16_t> samples(
-        starfocus::SurroundingSamples(config.superblock / kCellSize, around), kPoison);
-    const int count =
-        starfocus::PartitionBlock({starfocus::simd::BestKernels(), rules, grid, around}, x, y,
-                                  {candidates.data(), samples.data()}, blocks.data(), gathered);
+        starfocus::SurroundingSamples(config.superblock / kCellSize, rules.around), kPoison);
+    const int count = starfocus::PartitionBlock(rules, grid, x, y, candidates.data(),
+                                                samples.data(), gathered, blocks.data());
     REQUIRE(count >= 1);
     REQUIRE(count <= int(blocks.size()));
     blocks.resize(size_t(count));
@@ -122,7 +122,8 @@ struct Plan {
   bool MayGather(int x, int y, int layer) const {
     const int column = x / kCellSize, row = y / kCellSize;
     return rules.gathers &&
-           test::KindOf(grid, rules.scale, column, row, around) != starfocus::CellKind::kMixed &&
+           test::KindOf(grid, rules.scale, column, row, rules.around) !=
+               starfocus::CellKind::kMixed &&
            grid.At(column, row)->r_max <= (12 << layer) * int(kRadiusOne);
   }
 
@@ -132,7 +133,7 @@ struct Plan {
   // pixels.
   BlockStats Stats(int x, int y, int side) const {
     if (side == kSmallestBlock) {
-      return test::MeasureBlock(grid, rules.scale, x / kCellSize, y / kCellSize, around);
+      return test::MeasureBlock(grid, rules.scale, x / kCellSize, y / kCellSize, rules.around);
     }
     BlockStats stats[4];
     const BlockStats* children[4];
@@ -151,7 +152,6 @@ struct Plan {
   std::vector<uint8_t> flags;  // For each cell, true if the cell is blurred without views.
   starfocus::GatherMap gathered;
   CellGrid grid;
-  int around = 0;
   starfocus_config config;
   PartitionRules rules = {};
 };

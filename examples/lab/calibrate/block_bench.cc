@@ -107,7 +107,7 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   const int first = rect.x / kCellSize;
   for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
     MeasureCells(*engine_->kernels, engine_->row_store.windows[0], engine_->lens.scale,
-                 {y / kCellSize, first, first + int(cells.size()), cells.data()});
+                 y / kCellSize, {first, first + int(cells.size())}, cells.data());
     for (const Cell& cell : cells) AddCell(cell, &content);
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
