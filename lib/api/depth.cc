@@ -19,7 +19,7 @@ starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool rep
       &check);
   if (check.status() != STARFOCUS_OK) return check.status();
   ViewSet views;
-  const starfocus_status status = FindViews(ViewsOf(config), &views);
+  const starfocus_status status = FindViews(config.views, config.positions, config.problem, &views);
   if (status != STARFOCUS_OK) return status;
   check.Need(views.count > 1 || repairs, STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
              {"at least 2 views, or 1 view for a repair"});

@@ -100,7 +100,7 @@ starfocus_status CheckConfig(const starfocus_config& config) {
       &check);
   if (check.status() != STARFOCUS_OK) return check.status();
   ViewSet views;
-  const starfocus_status status = FindViews(ViewsOf(config), &views);
+  const starfocus_status status = FindViews(config.views, config.positions, config.problem, &views);
   if (status != STARFOCUS_OK) return status;
   check.Need(config.max_blur > 0.0 && config.max_blur <= STARFOCUS_MAX_BLUR, STARFOCUS_ERROR_RANGE,
              {"max_blur", config.max_blur},

@@ -109,7 +109,7 @@ EstimatePlan MakePlan(const starfocus_depth_config& config) {
   plan.reach = (farthest >> kDisparityBits) + 2;
   plan.directions = 8;
   ViewSet views;
-  FindViews(ViewsOf(config), &views);
+  FindViews(config.views, config.positions, config.problem, &views);
   TakeViews(views, &plan);
   plan.columns = TilesAlong(config.width, kTileSide);
   plan.rows = TilesAlong(config.height, kTileSide);

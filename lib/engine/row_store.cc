@@ -15,7 +15,7 @@ void SetViews(const starfocus_config& config, const ViewReader& reader,
               const Plane<const uint8_t>& centre, RowStore* row_store) {
   // Creating the engine has already validated the positions of the views.
   ViewSet set;
-  FindViews(ViewsOf(config), &set);
+  FindViews(config.views, config.positions, config.problem, &set);
   const OcclusionViews occlusion_views = ChooseOcclusionViews(set);
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     Window& window = row_store->windows[layer];

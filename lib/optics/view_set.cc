@@ -67,16 +67,17 @@ int CapturedView(int u, int v, bool half) {
   return half && index != 0 ? index + 8 : index;
 }
 
-starfocus_status FindViews(const ViewRequest& request, ViewSet* views) {
+starfocus_status FindViews(int32_t count, const starfocus_position* positions,
+                           starfocus_problem* problem, ViewSet* views) {
   *views = {};
-  Checker check(request.problem);
-  check.In({"views", double(request.views)}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_VIEWS));
+  Checker check(problem);
+  check.In({"views", double(count)}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_VIEWS));
   if (check.status() != STARFOCUS_OK) return check.status();
-  views->count = request.views;
-  views->star = IsStarCount(request.views);
+  views->count = count;
+  views->star = IsStarCount(count);
   bool given = false;
-  for (int32_t k = 0; k < request.views; ++k) {
-    const starfocus_position& position = request.positions[k];
+  for (int32_t k = 0; k < count; ++k) {
+    const starfocus_position& position = positions[k];
     given = given || position.u != 0 || position.v != 0;
     check.In({"positions[].u", position.u, k}, STARFOCUS_FROM_TO(-1, 1));
     check.In({"positions[].v", position.v, k}, STARFOCUS_FROM_TO(-1, 1));
@@ -84,14 +85,14 @@ starfocus_status FindViews(const ViewRequest& request, ViewSet* views) {
     views->at[k] = {Converted(position.u), Converted(position.v)};
   }
   if (!given) {
-    for (int32_t k = 0; k < request.views; ++k) views->at[k] = kStar[k];
-    check.Need(views->star, STARFOCUS_ERROR_RANGE, {"views", double(request.views)},
+    for (int32_t k = 0; k < count; ++k) views->at[k] = kStar[k];
+    check.Need(views->star, STARFOCUS_ERROR_RANGE, {"views", double(count)},
                {"1, 5, 9 or 17 without positions"});
     return check.status();
   }
   check.Need(SamePosition(views->at[0], {0, 0}), STARFOCUS_ERROR_RANGE, {"positions[]"},
              {"(0, 0)"});
-  for (int32_t k = 0; k < request.views; ++k) {
+  for (int32_t k = 0; k < count; ++k) {
     views->star = views->star && SamePosition(views->at[k], kStar[k]);
     for (int32_t other = 0; other < k; ++other) {
       check.Need(!SamePosition(views->at[k], views->at[other]), STARFOCUS_ERROR_RANGE,
@@ -104,13 +105,14 @@ starfocus_status FindViews(const ViewRequest& request, ViewSet* views) {
 
 bool HasStar(const starfocus_config& config) {
   ViewSet views;
-  return FindViews(ViewsOf(config), &views) == STARFOCUS_OK && views.star;
+  return FindViews(config.views, config.positions, config.problem, &views) == STARFOCUS_OK &&
+         views.star;
 }
 
 bool SameViews(const starfocus_config& a, const starfocus_config& b) {
   ViewSet first, second;
-  FindViews(ViewsOf(a), &first);
-  FindViews(ViewsOf(b), &second);
+  FindViews(a.views, a.positions, a.problem, &first);
+  FindViews(b.views, b.positions, b.problem, &second);
   bool same = first.count == second.count;
   for (int32_t k = 0; same && k < first.count; ++k) same = SamePosition(first.at[k], second.at[k]);
   return same;

@@ -55,23 +55,11 @@ ViewPosition StarPosition(int index);
 // `half` is true, at half distance. The values u and v are -1, 0 or 1, and not both 0.
 int CapturedView(int u, int v, bool half);
 
-// Number and positions of the views in a configuration; if all positions are (0, 0), the positions
-// are those of starfocus_view_position. `problem` may be null.
-struct ViewRequest {
-  int32_t views;
-  const starfocus_position* positions;  // STARFOCUS_MAX_VIEWS elements
-  starfocus_problem* problem;
-};
-
-// Returns the views that a starfocus_config or a starfocus_depth_config requests.
-template <class Config>
-ViewRequest ViewsOf(const Config& config) {
-  return {config.views, config.positions, config.problem};
-}
-
-// Finds the requested views. Returns STARFOCUS_ERROR_RANGE for an invalid number of views or
-// invalid positions.
-starfocus_status FindViews(const ViewRequest& request, ViewSet* views);
+// Finds the views of a configuration. If all `positions` (STARFOCUS_MAX_VIEWS elements) are (0, 0),
+// the positions are those of starfocus_view_position. Returns STARFOCUS_ERROR_RANGE for an invalid
+// number of views or invalid positions. `problem` may be null.
+starfocus_status FindViews(int32_t count, const starfocus_position* positions,
+                           starfocus_problem* problem, ViewSet* views);
 
 // Returns true if the views of a valid configuration have the positions that
 // starfocus_view_position returns.

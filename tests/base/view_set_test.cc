@@ -29,14 +29,15 @@ starfocus_config Star(int views) {
 
 starfocus_status Check(const starfocus_config& config) {
   ViewSet set;
-  return starfocus::FindViews(starfocus::ViewsOf(config), &set);
+  return starfocus::FindViews(config.views, config.positions, config.problem, &set);
 }
 
 // Returns the indices of the views that see behind edges to the right, left, bottom and top.
 using Sides = std::vector<std::vector<int>>;
 Sides LooksOf(const starfocus_config& config) {
   ViewSet set;
-  REQUIRE(starfocus::FindViews(starfocus::ViewsOf(config), &set) == STARFOCUS_OK);
+  REQUIRE(starfocus::FindViews(config.views, config.positions, config.problem, &set) ==
+          STARFOCUS_OK);
   const OcclusionViews occlusion_views = starfocus::ChooseOcclusionViews(set);
   Sides sides(kSideCount);
   for (int side = 0; side < kSideCount; ++side) {

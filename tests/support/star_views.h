@@ -12,7 +12,7 @@ namespace test {
 
 inline void SetViews(const starfocus_config& config, starfocus::Window* window) {
   starfocus::ViewSet views;
-  starfocus::FindViews(starfocus::ViewsOf(config), &views);
+  starfocus::FindViews(config.views, config.positions, config.problem, &views);
   window->views = config.views;
   window->occlusion_views = starfocus::ChooseOcclusionViews(views);
 }

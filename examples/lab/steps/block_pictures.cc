@@ -150,7 +150,7 @@ class BlockArtist {
   void ReadMean(int32_t y, LightRow* mean) const {
     constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
     ViewSet views;
-    FindViews(ViewsOf(engine_.config), &views);
+    FindViews(engine_.config.views, engine_.config.positions, engine_.config.problem, &views);
     const int32_t count = views.count;
     std::vector<int32_t> sums(mean->size());
     LightRow row = MakeRow(rect_.width);
