@@ -19,11 +19,10 @@ void DownsampleColumn(const EngineState& engine, const LayerPlane* layer_one, in
   const int32_t side = engine.config.superblock >> layer, begin = index * side;
   // The last column of superblocks includes the pixels of a layer that lie beyond the picture.
   const int32_t end = index + 1 == Columns(engine.config) ? missing.width : begin + side;
-  const LayerTarget to = {layer, begin, end, &missing};
   if (layer_one != nullptr) {
-    DownsampleLayer(*engine.kernels, *layer_one, scratch, to);
+    DownsampleLayer(*engine.kernels, *layer_one, {begin, end}, scratch, missing);
   } else {
-    DownsamplePicture(*engine.kernels, row_store.windows[0], scratch, to);
+    DownsamplePicture(*engine.kernels, row_store.windows[0], layer, {begin, end}, scratch, missing);
   }
 }
 

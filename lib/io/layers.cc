@@ -9,13 +9,13 @@ namespace {
 using simd::Kernels;
 using simd::kLayerWhite;
 
-// Pairs of pixels of a line that the filter reads for pixels [begin, end) of the layer. Pair k
+// Returns the pairs of pixels of a line that the filter reads for some columns of the layer. Pair k
 // consists of pixels 2 k and 2 k + 1.
-struct PairRange {
-  int32_t begin, end;
-  int32_t First() const { return begin - 2; }
-  int32_t Count() const { return end - begin + 3; }
-};
+Range PairsOf(const Range& columns) { return {columns.first - 2, columns.last + 1}; }
+
+size_t SamplesOf(const Range& columns) {
+  return 3 * static_cast<size_t>(columns.last - columns.first);
+}
 
 // A row of the centre view, as codes.
 struct CodeRow {
@@ -44,11 +44,10 @@ struct SampleRow {
 // Splits a row of `width` pixels into even and odd pixels. Pixels outside the row repeat the first
 // or last pixel of the row.
 template <class Row>
-void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairRange& pairs,
+void PartLine(const Kernels& kernels, const Row& row, int32_t width, const Range& pairs,
               const ResampleScratch& phases) {
-  const int32_t first = Max(pairs.First(), 0);
-  const int32_t last = Min(pairs.First() + pairs.Count(), width / 2);
-  const int32_t left = first - pairs.First(), right = last - pairs.First();
+  const int32_t first = Max(pairs.first, 0), last = Min(pairs.last, width / 2);
+  const int32_t left = first - pairs.first, right = last - pairs.first;
   row.Part(kernels, first, last - first, phases.even + 3 * left, phases.odd + 3 * left);
   const auto repeat = [&](int32_t pixel, int32_t from, int32_t to) {
     for (int32_t n = 3 * from; n < 3 * to; n += 3) {
@@ -58,29 +57,17 @@ void PartLine(const Kernels& kernels, const Row& row, int32_t width, const PairR
     }
   };
   repeat(0, 0, left);
-  repeat(width - 1, right, pairs.Count());
-}
-
-// Part of a layer to compute: columns [begin, end) of some rows.
-struct LayerPart {
-  int32_t begin, end;
-  Range rows;
-  Plane<int16_t> samples;  // samples of the whole layer
-
-  size_t RowSamples() const { return 3 * static_cast<size_t>(end - begin); }
-};
-
-LayerPart PartOf(const LayerTarget& to) {
-  return {to.begin, to.end, to.plane->rows, to.plane->samples};
+  repeat(width - 1, right, pairs.last - pairs.first);
 }
 
 // Filters along columns. `half` contains packed rows that start at row 2 * rows.first - 3 of the
 // source. Rows outside the source repeat the edge rows.
-void HalveRows(const Kernels& kernels, const int16_t* half, const LayerPart& to) {
-  const size_t count = to.RowSamples();
+void HalveRows(const Kernels& kernels, const int16_t* half, const Range& columns,
+               const LayerPlane& to) {
+  const size_t count = SamplesOf(columns);
   half += 3 * count;
   for (int32_t y = to.rows.first; y < to.rows.last; ++y, half += 2 * count) {
-    int16_t* samples = to.samples.Row(y) + 3 * to.begin;
+    int16_t* samples = to.samples.Row(y) + 3 * columns.first;
     kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), kDownFilter, count,
                            {0, kLayerWhite}, samples);
     CheckAll(ranges::kLayerSample, samples, count);
@@ -91,37 +78,36 @@ void HalveRows(const Kernels& kernels, const int16_t* half, const LayerPart& to)
 // along columns.
 template <class RowAt>
 void Downsample(const Kernels& kernels, const RowAt& row_at, int32_t width, int32_t height,
-                const ResampleScratch& scratch, const LayerPart& to) {
-  const PairRange pairs = {to.begin, to.end};
-  const size_t count = to.RowSamples();
+                const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
+  const Range pairs = PairsOf(columns);
+  const size_t count = SamplesOf(columns);
   int16_t* half = scratch.half;
   for (int32_t y = 2 * to.rows.first - 3; y < 2 * to.rows.last + 2; ++y, half += count) {
     PartLine(kernels, row_at(Clamp(y, 0, height - 1)), width, pairs, scratch);
     kernels.Halve(scratch.even + 6, scratch.odd + 6, kDownFilter, count, half);
     CheckAll(ranges::kFilteredAlongX, half, count);
   }
-  HalveRows(kernels, scratch.half, to);
+  HalveRows(kernels, scratch.half, columns, to);
 }
 
-void DownsampleOnce(const Kernels& kernels, const Window& picture, const ResampleScratch& scratch,
-                    const LayerPart& to) {
+void DownsampleOnce(const Kernels& kernels, const Window& picture, const Range& columns,
+                    const ResampleScratch& scratch, const LayerPlane& to) {
   const auto row = [&](int32_t y) { return CodeRow{picture.centre.Row(y), *picture.transfer}; };
-  Downsample(kernels, row, picture.picture_width, picture.picture_height, scratch, to);
+  Downsample(kernels, row, picture.picture_width, picture.picture_height, columns, scratch, to);
 }
 
-void DownsampleTwice(const Kernels& kernels, const Window& picture, const ResampleScratch& scratch,
-                     const LayerPart& to) {
+void DownsampleTwice(const Kernels& kernels, const Window& picture, const Range& columns,
+                     const ResampleScratch& scratch, const LayerPlane& to) {
   const int32_t width = LayerSize(picture.picture_width, 1);
   const int32_t height = LayerSize(picture.picture_height, 1);
-  const PairRange pairs = {to.begin, to.end};
-  LayerPart above;
-  above.begin = Max(2 * pairs.First(), 0);
-  above.end = Min(2 * (pairs.First() + pairs.Count()), width);
+  const Range pairs = PairsOf(columns);
+  const Range wanted = {Max(2 * pairs.first, 0), Min(2 * pairs.last, width)};
+  LayerPlane above;
   above.rows = {Max(2 * to.rows.first - 3, 0), Min(2 * to.rows.last + 2, height)};
-  above.samples = {scratch.above - 3 * above.begin, above.RowSamples(), 0, above.rows.first};
-  DownsampleOnce(kernels, picture, scratch, above);
+  above.samples = {scratch.above - 3 * wanted.first, SamplesOf(wanted), 0, above.rows.first};
+  DownsampleOnce(kernels, picture, wanted, scratch, above);
   const auto row = [&](int32_t y) { return SampleRow{above.samples.Row(y)}; };
-  Downsample(kernels, row, width, height, scratch, to);
+  Downsample(kernels, row, width, height, columns, scratch, to);
 }
 
 // Writes `width` pixels alternately from `even` and `odd`. Four samples are copied per pixel, which
@@ -136,19 +122,18 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 
 }  // namespace
 
-void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const ResampleScratch& scratch,
-                     const LayerTarget& to) {
+void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const Range& columns,
+                     const ResampleScratch& scratch, const LayerPlane& to) {
   const auto row = [&](int32_t y) { return SampleRow{from.samples.Row(y)}; };
-  Downsample(kernels, row, from.width, from.height, scratch, PartOf(to));
+  Downsample(kernels, row, from.width, from.height, columns, scratch, to);
 }
 
-void DownsamplePicture(const Kernels& kernels, const Window& picture,
-                       const ResampleScratch& scratch, const LayerTarget& to) {
-  const LayerPart part = PartOf(to);
-  if (to.layer == 1) {
-    DownsampleOnce(kernels, picture, scratch, part);
+void DownsamplePicture(const Kernels& kernels, const Window& picture, int32_t layer,
+                       const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
+  if (layer == 1) {
+    DownsampleOnce(kernels, picture, columns, scratch, to);
   } else {
-    DownsampleTwice(kernels, picture, scratch, part);
+    DownsampleTwice(kernels, picture, columns, scratch, to);
   }
 }
 

@@ -51,21 +51,15 @@ struct ResampleScratch {
   int16_t* above;       // Source of layer 2: 3 C R samples of layer 1.
 };
 
-// Columns [begin, end) of layer 1 or 2, in the rows of its plane.
-struct LayerTarget {
-  int32_t layer, begin, end;
-  const LayerPlane* plane;
-};
+// Computes some columns of all rows of `to`, which is layer 1 or 2, from the centre view. Layer 2
+// is computed from TapsOfLayer columns and rows of layer 1.
+void DownsamplePicture(const simd::Kernels& kernels, const Window& picture, int32_t layer,
+                       const Range& columns, const ResampleScratch& scratch, const LayerPlane& to);
 
-// Computes the pixels of `to` from the centre view. Layer 2 is computed from TapsOfLayer columns
-// and rows of layer 1.
-void DownsamplePicture(const simd::Kernels& kernels, const Window& picture,
-                       const ResampleScratch& scratch, const LayerTarget& to);
-
-// Computes the pixels of `to`, in layer 2, from the whole layer 1. The result is the same as with
-// DownsamplePicture.
-void DownsampleLayer(const simd::Kernels& kernels, const LayerPlane& from,
-                     const ResampleScratch& scratch, const LayerTarget& to);
+// Computes some columns of all rows of `to`, which is layer 2, from the whole layer 1. The result
+// is the same as with DownsamplePicture.
+void DownsampleLayer(const simd::Kernels& kernels, const LayerPlane& from, const Range& columns,
+                     const ResampleScratch& scratch, const LayerPlane& to);
 
 // Samples of a rectangle of a layer.
 struct LayerRect {

@@ -315,9 +315,8 @@ TEST_CASE("borders: the layer filters read exactly as far as their declared bord
       plane.width = plane.height = kRows - 1;
       plane.rows = {kAt, kAt + 1};
       plane.samples = {samples.data(), 3 * kRows, 0, 0};
-      DownsamplePicture(starfocus::simd::BestKernels(), window,
-                        {even.data(), odd.data(), half.data(), nullptr},
-                        {1, 0, plane.width, &plane});
+      DownsamplePicture(starfocus::simd::BestKernels(), window, 1, {0, plane.width},
+                        {even.data(), odd.data(), half.data(), nullptr}, plane);
       const int16_t* const sample = plane.samples.Row(kAt) + 3 * kAt;
       return std::vector<int16_t>(sample, sample + 3);
     });

@@ -161,7 +161,7 @@ struct Layers {
       for (int index = columns - 1; index >= 0; --index) {
         const int begin = index * (superblock >> layer);
         const int end = index + 1 == columns ? to->width : begin + (superblock >> layer);
-        DownsamplePicture(kernels, from, scratch.memory, {layer, begin, end, to});
+        DownsamplePicture(kernels, from, layer, {begin, end}, scratch.memory, *to);
       }
     }
   }
@@ -350,8 +350,8 @@ TEST_CASE("layers: a computed range of rows equals the same rows of the whole la
       Layer part(width, height, layer);
       part.plane.rows = rows;
       part.plane.samples.first = rows.first;
-      DownsamplePicture(kernels, WindowOf(picture, width, height), scratch.memory,
-                        {layer, 0, part.plane.width, &part.plane});
+      DownsamplePicture(kernels, WindowOf(picture, width, height), layer, {0, part.plane.width},
+                        scratch.memory, part.plane);
       for (int y = rows.first; y < rows.last; ++y) {
         CHECK(std::equal(part.plane.samples.Row(y),
                          part.plane.samples.Row(y) + 3 * part.plane.width, all.samples.Row(y)));

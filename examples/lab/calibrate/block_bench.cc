@@ -84,8 +84,8 @@ void BlockBench::HoldLayer(int layer) {
   const ResampleScratch scratch = {even.data(), odd.data(), halved.data(), layer_one.data()};
   for (int32_t begin = 0; begin < plane.width; begin += step) {
     const int32_t end = std::min(begin + step, plane.width);
-    DownsamplePicture(*engine_->kernels, engine_->row_store.windows[0], scratch,
-                      {layer, begin, end, &plane});
+    DownsamplePicture(*engine_->kernels, engine_->row_store.windows[0], layer, {begin, end},
+                      scratch, plane);
   }
   engine_->row_store.windows[layer].samples = {plane.samples.data, stride, 0, 0};
 }
