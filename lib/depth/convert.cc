@@ -11,40 +11,22 @@
 namespace starfocus {
 namespace {
 
-// Converts the rows of one image or of the map. Each job converts one range of rows.
-struct ConvertJob {
-  const simd::ImageKernels& kernels;
-  int32_t width, height, jobs;
-  CallProgress* progress;
-  ImageSource image;
-  uint8_t* rgb;
-  DepthSource depth;
-  float* disparity;
-};
-
-const ConvertJob& JobOf(const void* data) { return *static_cast<const ConvertJob*>(data); }
-
 // Number of rows that are converted together. ReadDepth converts values that these rows share once.
 constexpr int32_t kGroupRows = 8;
 
-// Calls convert(rows) for groups of rows of a job. Stops after cancellation.
+// Converts `height` rows of `width` samples as a set of at most `most_jobs` jobs. Calls
+// convert(rows) for groups of rows. Stops after cancellation.
 template <class Convert>
-void ForGroups(const ConvertJob& job, int32_t index, const Convert& convert) {
-  CancelToken cancel(job.progress);
-  const Range part = PartOf({0, job.height}, index, job.jobs);
-  for (int32_t y = part.first; y < part.last; y += kGroupRows) {
-    const Range rows = {y, Min(y + kGroupRows, part.last)};
-    if (!cancel.Spend(int64_t{job.width} * (rows.last - rows.first))) return;
-    convert(rows);
-  }
-}
-
-void ConvertImage(const void* data, int32_t index, int32_t) {
-  const ConvertJob& job = JobOf(data);
-  const size_t stride = 3 * static_cast<size_t>(job.width);
-  ForGroups(job, index, [&](const Range& rows) {
-    for (int32_t y = rows.first; y < rows.last; ++y) {
-      ReadCodes(job.kernels, job.image, 0, y, job.width, job.rgb + static_cast<size_t>(y) * stride);
+starfocus_status ForGroups(int32_t width, int32_t height, int32_t most_jobs, Jobs* jobs,
+                           const Convert& convert) {
+  const int32_t count = Min(most_jobs, height);
+  return ForEach(count, jobs, [&](int32_t index, int32_t) {
+    CancelToken cancel(&jobs->call_progress);
+    const Range part = PartOf({0, height}, index, count);
+    for (int32_t y = part.first; y < part.last; y += kGroupRows) {
+      const Range rows = {y, Min(y + kGroupRows, part.last)};
+      if (!cancel.Spend(int64_t{width} * (rows.last - rows.first))) return;
+      convert(rows);
     }
   });
 }
@@ -62,21 +44,18 @@ void WriteDisparities(const simd::DepthRule& rule, const int16_t* fixed, int32_t
   }
 }
 
-void ConvertMap(const void* data, int32_t index, int32_t) {
-  const ConvertJob& job = JobOf(data);
-  ForGroups(job, index, [&](const Range& rows) {
-    for (int32_t x = 0; x < job.width; x += kDepthPiece) {
-      int16_t fixed[kGroupRows * kDepthPiece];
-      const Plane<int16_t> piece = {fixed, kDepthPiece, 0, rows.first};
-      const int32_t count = Min(kDepthPiece, job.width - x);
-      ReadDepth(job.kernels, job.depth, {x, rows.first, count, rows.last - rows.first}, piece);
-      for (int32_t y = rows.first; y < rows.last; ++y) {
-        WriteDisparities(
-            job.depth.rule, piece.Row(y), count,
-            job.disparity + static_cast<size_t>(y) * static_cast<size_t>(job.width) + x);
-      }
+// Converts the rows [rows.first, rows.last) of a map, at most kGroupRows rows.
+void ConvertRows(const simd::ImageKernels& kernels, const DepthSource& map, int32_t width,
+                 const Range& rows, float* disparity) {
+  for (int32_t x = 0; x < width; x += kDepthPiece) {
+    int16_t fixed[kGroupRows * kDepthPiece];
+    const Plane<int16_t> piece = {fixed, kDepthPiece, 0, rows.first};
+    const int32_t count = Min(kDepthPiece, width - x);
+    ReadDepth(kernels, map, {x, rows.first, count, rows.last - rows.first}, piece);
+    for (int32_t y = rows.first; y < rows.last; ++y) {
+      WriteDisparities(map.rule, piece.Row(y), count, disparity + ptrdiff_t{y} * width + x);
     }
-  });
+  }
 }
 
 }  // namespace
@@ -96,26 +75,32 @@ size_t LayOutConverted(const starfocus_depth_config& config, bool has_map, void*
 
 starfocus_status ConvertField(const starfocus_depth_config& config, const ConvertedMemory& memory,
                               int32_t most_jobs, Jobs* jobs, starfocus_light_field* field) {
-  const int32_t width = config.width, height = config.height, count = Min(most_jobs, height);
-  ConvertJob job = {
-      simd::BestImageKernels(), width, height, count, &jobs->call_progress, {}, {}, {}, {}};
+  const simd::ImageKernels& kernels = simd::BestImageKernels();
+  const int32_t width = config.width, height = config.height;
+  const size_t stride = 3 * static_cast<size_t>(width);
   for (int32_t k = 0; k < config.views; ++k) {
     if (IsInPlace(field->views[k])) continue;
-    job.image = PlanesOf<const uint8_t>(field->views[k]);
-    job.rgb = memory.views[k];
-    const starfocus_status status = RunJobSet(ConvertImage, &job, count, jobs);
+    const ImageSource image = PlanesOf<const uint8_t>(field->views[k]);
+    uint8_t* const rgb = memory.views[k];
+    const starfocus_status status =
+        ForGroups(width, height, most_jobs, jobs, [&](const Range& rows) {
+          for (int32_t y = rows.first; y < rows.last; ++y) {
+            ReadCodes(kernels, image, 0, y, width, rgb + static_cast<size_t>(y) * stride);
+          }
+        });
     if (status != STARFOCUS_OK) return status;
-    field->views[k] = starfocus_image_rgb(job.rgb, 3 * static_cast<size_t>(width));
+    field->views[k] = starfocus_image_rgb(rgb, stride);
   }
   starfocus_depth_map& map = field->depth;
   if (memory.disparity == nullptr || IsInPlace(map, width, height)) return STARFOCUS_OK;
   FillColumns(width, map.width, 0, width, memory.columns);
   const simd::DepthRule rule = RuleOf(map, static_cast<float>(config.disparity_min),
                                       static_cast<float>(config.disparity_max));
-  job.depth = {map, rule, width, height, memory.columns};
-  job.disparity = memory.disparity;
-  const starfocus_status status = RunJobSet(ConvertMap, &job, count, jobs);
-  map = starfocus_depth_float(job.disparity, sizeof(float) * static_cast<size_t>(width), width,
+  const DepthSource source = {map, rule, width, height, memory.columns};
+  const starfocus_status status = ForGroups(width, height, most_jobs, jobs, [&](const Range& rows) {
+    ConvertRows(kernels, source, width, rows, memory.disparity);
+  });
+  map = starfocus_depth_float(memory.disparity, sizeof(float) * static_cast<size_t>(width), width,
                               height);
   return status;
 }

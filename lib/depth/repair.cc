@@ -6,7 +6,6 @@
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/depth/maps.h"
-#include "lib/depth/phases.h"
 #include "lib/depth/sweep.h"
 #include "lib/depth/swept.h"
 #include "lib/depth/thin_cells.h"
@@ -181,68 +180,30 @@ int16_t PartedAt(const EstimateMemory& memory, size_t at, int16_t nearest) {
   return clear ? found : near;
 }
 
-struct RepairJob {
-  Sweep sweep;
-  const MapOutput& output;
-};
-
-const RepairJob& JobOf(const void* data) { return *static_cast<const RepairJob*>(data); }
-
-// Converts a tile of the given map to fixed point.
-void ReadTile(const void* data, int32_t index, int32_t) {
-  const Sweep& sweep = JobOf(data).sweep;
-  ReadGiven(sweep.plan, sweep.light_field, TileOf(sweep.plan, index), sweep.memory);
-}
-
-void TrustTile(const void* data, int32_t index, int32_t) {
-  const Sweep& sweep = JobOf(data).sweep;
-  const Rect tile = TileOf(sweep.plan, index);
-  FindTrusted(sweep.plan, tile, sweep.memory->given, sweep.memory->trusted);
-  FindDoubts(sweep.plan, sweep.light_field, tile, sweep.memory);
-}
-
-void MarkTile(const void* data, int32_t index, int32_t worker) {
-  const Sweep& sweep = JobOf(data).sweep;
-  FindSwept(sweep.plan, TileOf(sweep.plan, index), sweep.memory->workers[worker].cost,
-            sweep.memory);
-}
-
-void SweepFirst(const void* data, int32_t index, int32_t worker) {
-  SweepOneSide(&JobOf(data).sweep, index, worker);
-}
-
-void SweepSecond(const void* data, int32_t index, int32_t worker) {
-  SweepAllViews(&JobOf(data).sweep, index, worker);
-}
-
 // Writes the result of EvenOut to memory->first, whose previous content is no longer used, and
 // counts the edge pixels of the tile.
-void ValueTile(const void* data, int32_t index, int32_t) {
-  const Sweep& sweep = JobOf(data).sweep;
-  const Rect tile = TileOf(sweep.plan, index);
-  EvenOut(sweep.plan, RowsOf(sweep.light_field.views[0]), tile, *sweep.memory, sweep.memory->first);
-  if (sweep.rates) RateUnswept(sweep.plan, RowsOf(sweep.light_field.views[0]), tile, sweep.memory);
-  sweep.memory->counts[index] = CountTile(sweep.plan, tile, *sweep.memory);
-  const ThinGrid grid = GridOf(sweep.plan);
-  CountBeside(grid, sweep.memory->given, tile, index, sweep.memory->given_cells);
-  CountBeside(grid, sweep.memory->first, tile, index, sweep.memory->found_cells);
+void ValueTile(const EstimatePlan& plan, const Plane<const uint8_t>& centre, int32_t index,
+               EstimateMemory* memory) {
+  const Rect tile = TileOf(plan, index);
+  EvenOut(plan, centre, tile, *memory, memory->first);
+  memory->counts[index] = CountTile(plan, tile, *memory);
+  const ThinGrid grid = GridOf(plan);
+  CountBeside(grid, memory->given, tile, index, memory->given_cells);
+  CountBeside(grid, memory->first, tile, index, memory->found_cells);
 }
 
 // Determines from the counts of all tiles how much evidence a change of the map requires, and which
 // cells contain thin structures such as hair.
-void JudgeMaps(const Sweep& sweep) {
-  EstimateMemory& memory = *sweep.memory;
-  const EstimatePlan& plan = sweep.plan;
-  memory.least_evidence = LeastEvidence(kSweepEvidence, memory.counts, plan.columns * plan.rows);
-  FindThin(GridOf(plan), kThinGiven, memory.given_cells);
-  FindThin(GridOf(plan), kThinFound, memory.found_cells);
+void JudgeMaps(const EstimatePlan& plan, EstimateMemory* memory) {
+  memory->least_evidence = LeastEvidence(kSweepEvidence, memory->counts, plan.columns * plan.rows);
+  FindThin(GridOf(plan), kThinGiven, memory->given_cells);
+  FindThin(GridOf(plan), kThinFound, memory->found_cells);
 }
 
-void WritePixel(const RepairJob& job, int32_t x, int32_t y, int16_t disparity) {
-  const EstimateMemory& memory = *job.sweep.memory;
-  const MapOutput& output = job.output;
+void WritePixel(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
+                int32_t x, int32_t y, int16_t disparity) {
   const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
-  const size_t at = row * static_cast<size_t>(job.sweep.plan.width) + column;
+  const size_t at = IndexOf(plan, x, y);
   if (disparity != memory.given[at]) {
     constexpr float kUnit = 1.0F / (1 << kDisparityBits);
     output.disparity[row * output.stride + column] =
@@ -256,47 +217,46 @@ void WritePixel(const RepairJob& job, int32_t x, int32_t y, int16_t disparity) {
 }
 
 // Writes the disparities of a cell with thin structure that the given map lacks.
-void WriteParted(const RepairJob& job, const Rect& cell) {
-  const Sweep& sweep = job.sweep;
+void WriteParted(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
+                 const Rect& cell) {
   for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
     int16_t nearest[kMostCellSide];
-    FindNearest(sweep.plan, sweep.memory->trusted, cell, y, nearest);
-    ForSwept(sweep.plan, sweep.memory->swept, {cell.x, y, cell.width, 1}, [&](int32_t x, int32_t) {
-      const size_t at =
-          static_cast<size_t>(y) * static_cast<size_t>(sweep.plan.width) + static_cast<size_t>(x);
-      WritePixel(job, x, y, PartedAt(*sweep.memory, at, nearest[x - cell.x]));
+    FindNearest(plan, memory.trusted, cell, y, nearest);
+    ForSwept(plan, memory.swept, {cell.x, y, cell.width, 1}, [&](int32_t x, int32_t) {
+      const int16_t disparity = PartedAt(memory, IndexOf(plan, x, y), nearest[x - cell.x]);
+      WritePixel(plan, memory, output, x, y, disparity);
     });
   }
 }
 
-void WriteCell(const RepairJob& job, const Rect& cell, int32_t number) {
-  const EstimateMemory& memory = *job.sweep.memory;
+void WriteCell(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
+               const Rect& cell, int32_t number) {
   const bool keeps = memory.given_cells.thin[number] != 0;
-  if (!keeps && memory.found_cells.thin[number] != 0) return WriteParted(job, cell);
-  ForSwept(job.sweep.plan, memory.swept, cell, [&](int32_t x, int32_t y) {
-    const size_t at =
-        static_cast<size_t>(y) * static_cast<size_t>(job.sweep.plan.width) + static_cast<size_t>(x);
-    const int16_t given = memory.given[at];
+  if (!keeps && memory.found_cells.thin[number] != 0) {
+    return WriteParted(plan, memory, output, cell);
+  }
+  ForSwept(plan, memory.swept, cell, [&](int32_t x, int32_t y) {
+    const int16_t given = memory.given[IndexOf(plan, x, y)];
     const bool kept = keeps && given != simd::kNoSurface;
-    WritePixel(job, x, y, kept ? given : RepairedAt(job.sweep.plan, memory, x, y));
+    WritePixel(plan, memory, output, x, y, kept ? given : RepairedAt(plan, memory, x, y));
   });
 }
 
-void WriteTile(const void* data, int32_t index, int32_t) {
-  const RepairJob& job = JobOf(data);
-  const Sweep& sweep = job.sweep;
-  const MapOutput& output = job.output;
-  const Rect tile = TileOf(sweep.plan, index);
+// Writes the given disparities of a tile, and then the disparities that the repair changes.
+void WriteTile(const EstimatePlan& plan, const starfocus_light_field& light_field, int32_t index,
+               const EstimateMemory& memory, const MapOutput& output) {
+  const Rect tile = TileOf(plan, index);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const auto row = static_cast<size_t>(y);
-    std::copy_n(GivenAt(sweep.light_field, y) + tile.x, tile.width,
+    std::copy_n(GivenAt(light_field, y) + tile.x, tile.width,
                 output.disparity + row * output.stride + tile.x);
     if (output.confidence == nullptr) continue;
-    std::copy_n(sweep.memory->certainty + row * static_cast<size_t>(sweep.plan.width) + tile.x,
-                tile.width, output.confidence + row * output.confidence_stride + tile.x);
+    std::copy_n(memory.certainty + IndexOf(plan, tile.x, y), tile.width,
+                output.confidence + row * output.confidence_stride + tile.x);
   }
-  ForCells(GridOf(sweep.plan), index,
-           [&](const Rect& cell, int32_t number) { WriteCell(job, cell, number); });
+  ForCells(GridOf(plan), index, [&](const Rect& cell, int32_t number) {
+    WriteCell(plan, memory, output, cell, number);
+  });
 }
 
 }  // namespace
@@ -318,17 +278,32 @@ int32_t LeastEvidence(const EvidenceScale& scale, const TileCount* counts, int32
 starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
                         const simd::DepthKernels& kernels, const MapOutput& output,
                         EstimateMemory* memory) {
-  const RepairJob job = {
-      {plan, light_field, kernels, memory, memory->first, output.confidence != nullptr}, output};
-  constexpr JobFunction kPhases[] = {ReadTile,    TrustTile, MarkTile, SweepFirst,
-                                     SweepSecond, ValueTile, WriteTile};
-  Phases phases(plan, sizeof kPhases / sizeof *kPhases, &memory->jobs);
-  for (const JobFunction phase : kPhases) {
-    if (phase == WriteTile) JudgeMaps(job.sweep);
-    const starfocus_status status = phases.Run(phase, &job);
-    if (status != STARFOCUS_OK) return status;
-  }
-  return STARFOCUS_OK;
+  const Sweep sweep = {plan, light_field, kernels, memory};
+  const Plane<const uint8_t> centre = RowsOf(light_field.views[0]);
+  const bool rates = output.confidence != nullptr;
+  Sequence run(&memory->jobs, 7, plan.columns * plan.rows);
+  run.Run(
+      [&](int32_t index, int32_t) { ReadGiven(plan, light_field, TileOf(plan, index), memory); });
+  run.Run([&](int32_t index, int32_t) {
+    FindTrusted(plan, TileOf(plan, index), memory->given, memory->trusted);
+    FindDoubts(plan, light_field, TileOf(plan, index), memory);
+  });
+  run.Run([&](int32_t index, int32_t worker) {
+    FindSwept(plan, TileOf(plan, index), memory->workers[worker].cost, memory);
+  });
+  run.Run(
+      [&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory->first); });
+  run.Run([&](int32_t index, int32_t worker) {
+    SweepAllViews(sweep, index, worker, rates ? memory->certainty : nullptr);
+  });
+  run.Run([&](int32_t index, int32_t) {
+    ValueTile(plan, centre, index, memory);
+    if (rates) RateUnswept(plan, centre, TileOf(plan, index), memory);
+  });
+  if (run.status() != STARFOCUS_OK) return run.status();
+  JudgeMaps(plan, memory);
+  run.Run([&](int32_t index, int32_t) { WriteTile(plan, light_field, index, *memory, output); });
+  return run.status();
 }
 
 }  // namespace starfocus

@@ -301,7 +301,8 @@ void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& til
   }
 }
 
-void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker) {
+void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker, int16_t* disparity,
+               uint8_t* certainty) {
   const bool first = seeing == Seeing::kOneSide;
   const EstimatePlan plan = first && sweep.plan.repairs ? CoarsePlan(sweep.plan) : sweep.plan;
   EstimateMemory& memory = *sweep.memory;
@@ -322,19 +323,18 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker)
   if (plan.repairs) AddMapPrior(plan, region, memory.trusted, sweep.kernels, &tile);
   const EstimateTile of_tile = {plan, region, sweep.kernels, tile};
   AddAllPaths(of_tile);
-  ChooseDisparities(of_tile, tile_rect, first ? sweep.one_side : memory.second,
-                    first || !sweep.rates ? nullptr : memory.certainty);
+  ChooseDisparities(of_tile, tile_rect, disparity, certainty);
   if (plan.repairs && !first) WeighEvidence(plan, region, tile_rect, tile, &memory);
 }
 
 }  // namespace
 
-void SweepOneSide(const void* data, int32_t index, int32_t worker) {
-  SweepTile(*static_cast<const Sweep*>(data), Seeing::kOneSide, index, worker);
+void SweepOneSide(const Sweep& sweep, int32_t index, int32_t worker, int16_t* disparity) {
+  SweepTile(sweep, Seeing::kOneSide, index, worker, disparity, nullptr);
 }
 
-void SweepAllViews(const void* data, int32_t index, int32_t worker) {
-  SweepTile(*static_cast<const Sweep*>(data), Seeing::kAll, index, worker);
+void SweepAllViews(const Sweep& sweep, int32_t index, int32_t worker, uint8_t* certainty) {
+  SweepTile(sweep, Seeing::kAll, index, worker, sweep.memory->second, certainty);
 }
 
 }  // namespace starfocus

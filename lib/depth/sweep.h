@@ -10,22 +10,21 @@
 
 namespace starfocus {
 
+// Light field, labels and memory of a sweep.
 struct Sweep {
   const EstimatePlan& plan;
   const starfocus_light_field& light_field;
   const simd::DepthKernels& kernels;
   EstimateMemory* memory;
-  int16_t* one_side;  // map of the whole picture that SweepOneSide fills
-  bool rates;         // true if SweepAllViews computes the certainty
 };
 
-// Fills sweep.one_side for tile `index` from the views on one side of each pixel. SweepOneSide is a
-// JobFunction; `data` is a Sweep.
-void SweepOneSide(const void* data, int32_t index, int32_t worker);
-// Fills memory->second, the certainty and, for a repair, the costs for tile `index`. Uses the views
-// that see each pixel according to memory->side_maps if the views lie on one side, otherwise
-// according to memory->first. SweepAllViews is a JobFunction; `data` is a Sweep.
-void SweepAllViews(const void* data, int32_t index, int32_t worker);
+// Fills `disparity`, a map of the whole picture, for tile `index` from the views on one side of
+// each pixel.
+void SweepOneSide(const Sweep& sweep, int32_t index, int32_t worker, int16_t* disparity);
+// Fills memory->second, `certainty` unless it is null, and, for a repair, the costs for tile
+// `index`. Uses the views that see each pixel according to memory->side_maps if the views lie on
+// one side, otherwise according to memory->first.
+void SweepAllViews(const Sweep& sweep, int32_t index, int32_t worker, uint8_t* certainty);
 
 }  // namespace starfocus
 
