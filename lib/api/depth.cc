@@ -223,14 +223,11 @@ starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_outpu
   if (status == STARFOCUS_OK) status = CheckCall(call, repairs, *map);
   if (status != STARFOCUS_OK) return status;
   map->has_coverage = 0;
-  const MapOutput output = {map->disparity,
-                            map->disparity_stride / sizeof(float),
+  const MapOutput output = {{map->disparity, map->disparity_stride / sizeof(float)},
                             static_cast<float>(call.config->disparity_min),
                             static_cast<float>(call.config->disparity_max),
-                            map->confidence,
-                            map->confidence_stride,
-                            map->coverage,
-                            map->coverage_stride};
+                            {map->confidence, map->confidence_stride},
+                            {map->coverage, map->coverage_stride}};
   status = call.config->views == 1 ? RepairOneView(call, output, &map->has_coverage)
                                    : SweepViews(call, repairs, output);
   return TellStatus(status, full.problem);

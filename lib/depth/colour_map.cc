@@ -65,11 +65,11 @@ void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map
 // kDoubtReach + 1 for all other pixels.
 uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   if (!std::isfinite(GivenAt(map.light_field, y)[x])) return 0;
-  const int32_t own = map.disparity[map.At(x, y)];
+  const int32_t own = map.disparity[map.plan.At(x, y)];
   const Rect around = Widened(map.plan, {x, y, 1, 1}, kFlatRadius);
   int32_t flat = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const int16_t* disparities = map.disparity + map.At(around.x, row);
+    const int16_t* disparities = map.disparity + map.plan.At(around.x, row);
     for (int32_t k = 0; k < around.width; ++k) flat += Abs(disparities[k] - own) <= kFlat ? 1 : 0;
     if (25 * flat < kLeastFlat * around.width * around.height) continue;
     return IsBesideStep(map, {0, 0, map.plan.width, map.plan.height}, x, y) ? 1 : kDoubtReach + 1;
@@ -94,7 +94,7 @@ struct FlatStrip {
     std::fill_n(high, width, INT16_MIN);
     std::fill_n(unknown, width, uint8_t{0});
     for (int32_t y = around.y; y < around.y + around.height; ++y) {
-      const int16_t* row = map.disparity + map.At(left, y);
+      const int16_t* row = map.disparity + map.plan.At(left, y);
       for (int32_t k = 0; k < width; ++k) {
         low[k] = std::min(low[k], row[k]);
         high[k] = std::max(high[k], row[k]);
@@ -175,12 +175,12 @@ void LimitToNeighbours(const Rect& region, uint8_t* doubt) {
 // kDisplacement. A core consists of pixels farther than kDisplacement from all steps. A surface
 // that the map has widened on all sides has a core within kDisplacement of each of its pixels.
 bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int32_t x, int32_t y) {
-  const int32_t own = map.disparity[map.At(x, y)];
+  const int32_t own = map.disparity[map.plan.At(x, y)];
   const Rect around = Widened(map.plan, {x, y, 1, 1}, kDisplacement);
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     const uint8_t* doubts = doubt + (row - region.y) * region.width;
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const int32_t difference = Abs(map.disparity[map.At(column, row)] - own);
+      const int32_t difference = Abs(map.disparity[map.plan.At(column, row)] - own);
       if (doubts[column - region.x] > kDisplacement && difference <= kPixel) return false;
     }
   }
@@ -199,7 +199,7 @@ void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, i
     const int32_t x = first + k;
     const bool inside = x >= 0 && x < map.plan.width;
     const uint8_t* colour = inside ? map.Pixel(x, y) : kBlack;
-    row[k] = inside ? map.disparity[map.At(x, y)] : kOutside;
+    row[k] = inside ? map.disparity[map.plan.At(x, y)] : kOutside;
     row[k + kPlane] = colour[0] + colour[1] + colour[2];
     row[k + 2 * kPlane] = colour[0] - colour[1];
     row[k + 3 * kPlane] = colour[1] - colour[2];
@@ -211,7 +211,7 @@ void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, i
 void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field, const Range& rows,
               int16_t* disparity) {
   for (int32_t y = rows.first; y < rows.last; ++y) {
-    int16_t* row = disparity + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    int16_t* row = disparity + plan.At(0, y);
     const float* given = GivenAt(light_field, y);
     bool unknown = false;
     for (int32_t x = 0; x < plan.width; ++x) {
@@ -226,7 +226,7 @@ void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field
 void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity) {
   int32_t unknown = 0;  // number of unknown rows directly above row y, which remain to be filled
   for (int32_t y = 0; y < plan.height; ++y) {
-    if (disparity[static_cast<size_t>(y) * static_cast<size_t>(plan.width)] == kUnknown) {
+    if (disparity[plan.At(0, y)] == kUnknown) {
       ++unknown;
       continue;
     }
@@ -264,7 +264,7 @@ bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t ste
   const Rect around = Widened(map.plan, rect, margin);
   int16_t low = INT16_MAX, high = INT16_MIN;
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const int16_t* row = map.disparity + map.At(around.x, y);
+    const int16_t* row = map.disparity + map.plan.At(around.x, y);
     for (int32_t x = 0; x < around.width; ++x) {
       low = std::min(low, row[x]);
       high = std::max(high, row[x]);
@@ -275,9 +275,9 @@ bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t ste
 }
 
 bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y) {
-  const int32_t own = map.disparity[map.At(x, y)];
+  const int32_t own = map.disparity[map.plan.At(x, y)];
   const auto differs = [&](int32_t column, int32_t row) {
-    return Abs(map.disparity[map.At(column, row)] - own) > kSurfaceStep;
+    return Abs(map.disparity[map.plan.At(column, row)] - own) > kSurfaceStep;
   };
   return (x > tile.x && differs(x - 1, y)) || (x + 1 < tile.x + tile.width && differs(x + 1, y)) ||
          (y > tile.y && differs(x, y - 1)) || (y + 1 < tile.y + tile.height && differs(x, y + 1));
@@ -290,7 +290,7 @@ void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint
   }
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const uint8_t* found = scratch + (y - region.y) * region.width + tile.x - region.x;
-    uint8_t* row = doubt + map.At(tile.x, y);
+    uint8_t* row = doubt + map.plan.At(tile.x, y);
     std::copy_n(found, tile.width, row);
     ForDoubtful(found, tile.width, [&](int32_t k) {
       const bool beside = found[k] >= 1 && found[k] <= kDisplacement;
@@ -318,7 +318,7 @@ void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& ti
     for (int32_t row = y - radius; row <= y + radius; row += smoothing.step) {
       if (row >= 0 && row < map.plan.height) rows.rows[rows.count++] = row_at(row) + radius;
     }
-    kernels.SmoothDisparity(rows, static_cast<size_t>(tile.width), smooth + map.At(tile.x, y));
+    kernels.SmoothDisparity(rows, static_cast<size_t>(tile.width), smooth + map.plan.At(tile.x, y));
   }
 }
 

@@ -52,9 +52,6 @@ struct ColourMap {
   }
   // Returns the distance in bytes between rows of the picture.
   size_t ColourStride() const { return RowsOf(light_field.views[0]).stride; }
-  size_t At(int32_t x, int32_t y) const {
-    return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
-  }
 };
 
 // Calls act(k) for each doubtful pixel k of a row of `count` pixels.

@@ -97,9 +97,7 @@ uint8_t Choose(const ColourJob& job, size_t at, const Choices& choices) {
 
 // Returns the confidence of pixel (x, y), or null if no confidence is requested.
 uint8_t* ConfidenceAt(const ColourJob& job, int32_t x, int32_t y) {
-  if (job.output.confidence == nullptr) return nullptr;
-  return job.output.confidence + static_cast<size_t>(y) * job.output.confidence_stride +
-         static_cast<size_t>(x);
+  return job.output.confidence.data == nullptr ? nullptr : job.output.confidence.Row(y) + x;
 }
 
 // Returns true if a doubtful pixel would move to another surface.
@@ -110,8 +108,8 @@ bool Differs(const ColourJob& job, size_t at) {
 TileCount CountTile(const ColourJob& job, const Rect& tile) {
   TileCount count = {};
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    ForDoubtful(job.memory->doubt + job.map.At(tile.x, y), tile.width, [&](int32_t k) {
-      const size_t at = job.map.At(tile.x + k, y);
+    ForDoubtful(job.memory->doubt + job.map.plan.At(tile.x, y), tile.width, [&](int32_t k) {
+      const size_t at = job.map.plan.At(tile.x + k, y);
       const int32_t doubt = job.memory->doubt[at];
       // Pixels on ramps count as edge pixels.
       if (doubt > kThinDoubt || (doubt != 0 && !IsBesideStep(job.map, tile, tile.x + k, y))) return;
@@ -131,7 +129,7 @@ void ChooseTile(const void* data, int32_t index, int32_t worker) {
   WeighChoices(job.map, job.memory->doubt, region, job.kernels, memory.choices);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const Choices* row = memory.choices.choices + (y - region.y) * region.width + tile.x - region.x;
-    const size_t at = job.map.At(tile.x, y);
+    const size_t at = job.map.plan.At(tile.x, y);
     uint8_t* confidence = ConfidenceAt(job, tile.x, y);
     std::fill_n(job.memory->gain + at, tile.width, int16_t{0});
     if (confidence != nullptr) std::fill_n(confidence, tile.width, uint8_t{UINT8_MAX});
@@ -165,7 +163,7 @@ bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
   int32_t gain = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      gain += job.memory->gain[job.map.At(column, row)];
+      gain += job.memory->gain[job.map.plan.At(column, row)];
     }
   }
   return gain >= job.memory->least_gain;
@@ -174,12 +172,12 @@ bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
 // Returns the weighted mean of the map's disparities around pixel (x, y) that belong to the surface
 // chosen for this pixel.
 float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
-  const int32_t own = job.chosen[job.map.At(x, y)];
+  const int32_t own = job.chosen[job.map.plan.At(x, y)];
   const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kMeanRadius);
   int32_t sum = 0, weights = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = job.map.At(column, row);
+      const size_t at = job.map.plan.At(column, row);
       const int32_t doubt = job.memory->doubt[at];
       if (doubt == 0 || Abs(job.map.disparity[at] - own) > kPixel) continue;
       const int32_t weight = doubt > kDisplacement ? kSureWeight : 1;
@@ -194,23 +192,22 @@ float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
 // Writes a doubtful pixel of the result, to which WriteRow has written the map's disparity. If
 // `keeps` is true, known disparities are not changed.
 void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
-  const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
+  const size_t at = job.map.plan.At(x, y);
   const bool known = std::isfinite(GivenAt(job.map.light_field, y)[x]), differs = Differs(job, at);
   const bool moves = differs ? IsGainsaid(job, x, y) : job.chosen[at] != job.map.disparity[at];
   const bool changes = !known || (moves && !keeps);
   if (changes) {
     const float written = job.output.Clamped(MeanOfSurface(job, x, y));
-    job.output.disparity[row * job.output.stride + column] = written;
+    job.output.disparity.Row(y)[x] = written;
     job.to[at] = ToFixed(written);
   }
-  uint8_t* confidence = ConfidenceAt(job, x, y);
-  if (confidence != nullptr && differs && !changes) *confidence = 0;
+  if (differs && !changes) job.output.WriteConfidence(x, y, 0);
 }
 
 // Writes the disparities of the map to the pixels [x, x + count) of row y.
 void WriteRow(const ColourJob& job, int32_t x, int32_t y, int32_t count) {
-  const size_t at = job.map.At(x, y), row = static_cast<size_t>(y), column = static_cast<size_t>(x);
-  float* disparity = job.output.disparity + row * job.output.stride + column;
+  const size_t at = job.map.plan.At(x, y);
+  float* disparity = job.output.disparity.Row(y) + x;
   const bool noisy = job.map.disparity != job.memory->maps[0];
   for (int32_t k = 0; noisy && k < count; ++k) {
     disparity[k] = job.output.Clamped(static_cast<float>(job.map.disparity[at + k]) / kPixel);
@@ -226,11 +223,9 @@ void WriteRow(const ColourJob& job, int32_t x, int32_t y, int32_t count) {
 // map. The confidence of a changed pixel is set to 0, because the colour of the pixel alone does
 // not support the change.
 void Change(const ColourJob& job, int32_t x, int32_t y, int16_t disparity) {
-  if (disparity == job.map.disparity[job.map.At(x, y)]) return;
-  const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
-  job.output.disparity[row * job.output.stride + column] =
-      job.output.Clamped(static_cast<float>(disparity) / kPixel);
-  if (uint8_t* confidence = ConfidenceAt(job, x, y)) *confidence = 0;
+  if (disparity == job.map.disparity[job.map.plan.At(x, y)]) return;
+  job.output.Write(x, y, disparity);
+  job.output.WriteConfidence(x, y, 0);
 }
 
 void WriteTile(const void* data, int32_t index, int32_t) {
@@ -242,7 +237,7 @@ void WriteTile(const void* data, int32_t index, int32_t) {
   ForCells(grid, index, [&](const Rect& cell, int32_t number) {
     const bool keeps = memory.thin.thin[number] != 0;
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      ForDoubtful(memory.doubt + job.map.At(cell.x, y), cell.width,
+      ForDoubtful(memory.doubt + job.map.plan.At(cell.x, y), cell.width,
                   [&](int32_t k) { WritePixel(job, keeps, cell.x + k, y); });
     }
   });
@@ -279,7 +274,7 @@ void WidenTile(const void* data, int32_t index, int32_t) {
   const EstimatePlan& plan = job.map.plan;
   const Rect tile = TileOf(plan, index);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t at = job.map.At(tile.x, y);
+    const size_t at = job.map.plan.At(tile.x, y);
     std::copy_n(job.map.disparity + at, tile.width, job.to + at);
   }
   const int32_t softness = job.memory->softness;
@@ -289,7 +284,7 @@ void WidenTile(const void* data, int32_t index, int32_t) {
       for (int32_t x = cell.x; x < cell.x + cell.width; ++x) {
         const int16_t widened = WidenedAt(job.map, softness, x, y);
         Change(job, x, y, widened);
-        job.to[job.map.At(x, y)] = widened;
+        job.to[job.map.plan.At(x, y)] = widened;
       }
     }
   });
@@ -305,7 +300,7 @@ void EvenTile(const void* data, int32_t index, int32_t) {
     int16_t even[kMostMajority];
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       TakeMajority(job.map, {cell.x, y, cell.width, 1}, even);
-      const size_t at = job.map.At(cell.x, y);
+      const size_t at = job.map.plan.At(cell.x, y);
       ForDoubtful(job.memory->doubt + at, cell.width, [&](int32_t k) {
         if (!right && even[k] == job.map.disparity[at + static_cast<size_t>(k)]) {
           even[k] = MedianOfSurface(job.map, cell.x + k, y);
@@ -458,11 +453,11 @@ starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_
                                 const simd::DepthKernels& kernels, const MapOutput& output,
                                 ColourMemory* memory) {
   const ColourMap given = {plan, light_field, memory->maps[0]};
-  const int32_t before = kReadPhases + (output.coverage == nullptr ? 0 : kHairPhases);
+  const int32_t before = kReadPhases + (output.coverage.data == nullptr ? 0 : kHairPhases);
   Phases phases(plan, before + kColourPhases, &memory->jobs);
   memory->has_coverage = false;
   starfocus_status status = ReadMap(given, output, kernels, &phases, memory);
-  if (status == STARFOCUS_OK && output.coverage != nullptr) {
+  if (status == STARFOCUS_OK && output.coverage.data != nullptr) {
     status = FindHairCoverage(given, output, memory->hair_cells, memory->hair, &phases,
                               &memory->has_coverage);
   }

@@ -67,7 +67,7 @@ struct AroundRange {
 AroundRange RangeOf(const EstimatePlan& plan, const int16_t* map, const Rect& around) {
   AroundRange range = {INT16_MAX, INT16_MIN};
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const int16_t* disparity = map + static_cast<size_t>(row) * static_cast<size_t>(plan.width);
+    const int16_t* disparity = map + plan.At(0, row);
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
       range.low = Min(range.low, disparity[column]);
       range.high = Max(range.high, disparity[column]);
@@ -147,9 +147,8 @@ SideReference MakeSideReference(const EstimatePlan& plan, const starfocus_light_
 // are set to kNoSurface.
 void FindUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = row + static_cast<size_t>(x);
+      const size_t at = plan.At(x, y);
       const int16_t d = memory->second[at];
       memory->first[at] = IsSeen(plan, *memory, x, y, d) ? d : simd::kNoSurface;
     }
@@ -162,9 +161,8 @@ void FindUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memo
 // known pixels nearby keep their disparity.
 void FillUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = row + static_cast<size_t>(x);
+      const size_t at = plan.At(x, y);
       if (memory->first[at] != simd::kNoSurface) continue;
       memory->certainty[at] = 0;
       const int16_t far = FarBeside(plan, memory->first, x, y);
@@ -177,18 +175,12 @@ void FillUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memo
 void WriteTile(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
                const EstimateMemory& memory, const MapOutput& output) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
-    float* disparity = output.disparity + static_cast<size_t>(y) * output.stride;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
+      const size_t at = plan.At(x, y);
       const int32_t d = WithoutStray(plan, centre, memory.second, x, y);
-      const size_t at = row + static_cast<size_t>(x);
-      constexpr float kPixel = 1.0F / (1 << kDisparityBits);
-      disparity[x] = output.Clamped(static_cast<float>(d) * kPixel);
-      if (output.confidence == nullptr) continue;
+      output.Write(x, y, d);
       const bool overruled = std::abs(d - memory.second[at]) > 1 << kDisparityBits;
-      output
-          .confidence[static_cast<size_t>(y) * output.confidence_stride + static_cast<size_t>(x)] =
-          overruled ? 0 : memory.certainty[at];
+      output.WriteConfidence(x, y, overruled ? uint8_t{0} : memory.certainty[at]);
     }
   }
 }
@@ -198,8 +190,7 @@ void WriteTile(const EstimatePlan& plan, const Plane<const uint8_t>& centre, con
 int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
                      const int16_t* map, int32_t x, int32_t y) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kRadius);
-  const int16_t own =
-      map[static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x)];
+  const int16_t own = map[plan.At(x, y)];
   const AroundRange range = RangeOf(plan, map, around);
   // If all disparities in the neighbourhood are within kStray of the pixel's disparity, their
   // median is within kStray.
@@ -208,7 +199,7 @@ int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centr
   Votes votes;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     const uint8_t* rgb = centre.data + static_cast<size_t>(row) * centre.stride;
-    const int16_t* disparity = map + static_cast<size_t>(row) * static_cast<size_t>(plan.width);
+    const int16_t* disparity = map + plan.At(0, row);
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
       const int32_t halvings = Apart(here, rgb + 3 * column) / kHalving;
       const int32_t vote = halvings < 7 ? kVote >> halvings : 0;
@@ -237,7 +228,8 @@ starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field&
         [&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory->first); });
   }
   run.Run([&](int32_t index, int32_t worker) {
-    SweepAllViews(sweep, index, worker, output.confidence == nullptr ? nullptr : memory->certainty);
+    SweepAllViews(sweep, index, worker,
+                  output.confidence.data == nullptr ? nullptr : memory->certainty);
   });
   if (one_sided) {
     run.Run([&](int32_t index, int32_t) { FindUnseen(plan, TileOf(plan, index), memory); });

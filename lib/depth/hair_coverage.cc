@@ -18,10 +18,7 @@ struct HairJob {
   const HairMemory& memory;
 
   Rect Tile(int32_t index) const { return TileOf(map.plan, index); }
-  uint8_t& CoverageAt(int32_t x, int32_t y) const {
-    return output
-        .coverage[static_cast<size_t>(y) * output.coverage_stride + static_cast<size_t>(x)];
-  }
+  uint8_t& CoverageAt(int32_t x, int32_t y) const { return output.coverage.Row(y)[x]; }
 };
 
 inline const HairJob& HairJobOf(const void* data) { return *static_cast<const HairJob*>(data); }
@@ -50,7 +47,7 @@ void ForPixels(const HairJob& job, int32_t column, int32_t row, const Act& act) 
   for (int32_t y = 0; y < cell.height; ++y) {
     for (int32_t x = 0; x < cell.width; ++x) {
       CellPixel pixel = {cell.x + x, cell.y + y, x, y, false, {}};
-      pixel.is_near = job.cells.IsNear(at, job.map.disparity[job.map.At(pixel.x, pixel.y)]);
+      pixel.is_near = job.cells.IsNear(at, job.map.disparity[job.map.plan.At(pixel.x, pixel.y)]);
       const uint8_t* rgb = job.map.Pixel(pixel.x, pixel.y);
       for (int c = 0; c < 3; ++c) pixel.rgb[c] = static_cast<uint16_t>(rgb[c] << kMeanBits);
       act(pixel);
@@ -392,16 +389,15 @@ void CompleteCoverage(const ColourMap& map, const MapOutput& output, const HairC
     const size_t at = cells.At(column, row);
     const Rect cell = HairCellAt(map.plan, column, row);
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      const float* disparities = output.disparity + static_cast<size_t>(y) * output.stride;
-      uint8_t* coverage = output.coverage + static_cast<size_t>(y) * output.coverage_stride;
+      const float* disparities = output.disparity.Row(y);
+      uint8_t* coverage = output.coverage.Row(y);
       for (int32_t x = cell.x; x < cell.x + cell.width; ++x) {
         const bool is_near = cells.marks[at] == 0 || cells.IsNear(at, ToFixed(disparities[x]));
         if ((cells.marks[at] & HairCells::kHasHair) == 0) {
           coverage[x] = is_near ? UINT8_MAX : uint8_t{0};
-        } else if (output.confidence != nullptr) {
-          output.confidence[static_cast<size_t>(y) * output.confidence_stride +
-                            static_cast<size_t>(x)] =
-              static_cast<uint8_t>(is_near ? coverage[x] : UINT8_MAX - coverage[x]);
+        } else {
+          output.WriteConfidence(
+              x, y, static_cast<uint8_t>(is_near ? coverage[x] : UINT8_MAX - coverage[x]));
         }
       }
     }

@@ -26,19 +26,22 @@
 
 namespace starfocus {
 
-// Output planes of a map. Disparities are clamped to [lowest, highest]; confidence and coverage may
-// be null.
+// Output planes of a map. Disparities are clamped to [lowest, highest]. Without data, confidence
+// and coverage are not requested.
 struct MapOutput {
-  float* disparity;
-  size_t stride;  // distance between rows of `disparity`, in floats
+  Plane<float> disparity;
   float lowest, highest;
-  uint8_t* confidence;
-  size_t confidence_stride;
-  uint8_t* coverage;
-  size_t coverage_stride;
+  Plane<uint8_t> confidence, coverage;
 
   float Clamped(float value) const {
     return value < lowest ? lowest : value > highest ? highest : value;
+  }
+  // Writes a disparity in fixed point (kDisparityBits).
+  void Write(int32_t x, int32_t y, int32_t d) const {
+    disparity.Row(y)[x] = Clamped(static_cast<float>(d) / (1 << kDisparityBits));
+  }
+  void WriteConfidence(int32_t x, int32_t y, uint8_t value) const {
+    if (confidence.data != nullptr) confidence.Row(y)[x] = value;
   }
 };
 

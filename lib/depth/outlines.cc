@@ -31,7 +31,7 @@ struct ProfileEdge {
 
 bool IsProfile(const ColourMap& map, const ProfileEdge& edge) {
   const auto at = [&](int32_t k) {
-    return map.disparity[map.At(edge.x + k * edge.dx, edge.y + k * edge.dy)];
+    return map.disparity[map.plan.At(edge.x + k * edge.dx, edge.y + k * edge.dy)];
   };
   const int32_t near = at(-1), far = at(0);
   if (near - far <= kSoftStep || Abs(at(-kInside) - near) >= kSame) return false;
@@ -114,7 +114,7 @@ struct ColumnRanges {
   ColumnRanges(const ColourMap& map, const Rect& row)
       : around(Widened(map.plan, row, kMajorityReach)) {
     for (int32_t y = around.y; y < around.y + around.height; ++y) {
-      const int16_t* disparities = map.disparity + map.At(around.x, y);
+      const int16_t* disparities = map.disparity + map.plan.At(around.x, y);
       for (int32_t k = 0; k < around.width; ++k) ranges[k].Add({disparities[k], disparities[k]});
     }
     for (int32_t k = 0; k < around.width; ++k) all.Add(ranges[k]);
@@ -134,10 +134,10 @@ struct SurfaceAround {
   int32_t count = 0;
 
   SurfaceAround(const ColourMap& map, int32_t x, int32_t y) {
-    const int32_t own = map.disparity[map.At(x, y)];
+    const int32_t own = map.disparity[map.plan.At(x, y)];
     const Rect around = Widened(map.plan, {x, y, 1, 1}, 1);
     for (int32_t row = around.y; row < around.y + around.height; ++row) {
-      const int16_t* disparities = map.disparity + map.At(around.x, row);
+      const int16_t* disparities = map.disparity + map.plan.At(around.x, row);
       for (int32_t k = 0; k < around.width; ++k) {
         if (Abs(disparities[k] - own) <= kMajorityStep) Insert(disparities[k]);
       }
@@ -151,14 +151,14 @@ struct SurfaceAround {
 };
 
 int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const MajorityRange& range) {
-  const int32_t own = map.disparity[map.At(x, y)], middle = (range.low + range.high) / 2;
+  const int32_t own = map.disparity[map.plan.At(x, y)], middle = (range.low + range.high) / 2;
   const uint8_t* colour = map.Pixel(x, y);
   int64_t sums[2] = {};
   int32_t votes[2] = {};
   for (int32_t dy = -Min(y, kRadius); dy <= Min(map.plan.height - 1 - y, kRadius); ++dy) {
     const int32_t width = kWidths[Abs(dy)], last = Min(map.plan.width - 1 - x, width);
     const uint8_t* colours = map.Pixel(x, y + dy);
-    const int16_t* disparities = map.disparity + map.At(x, y + dy);
+    const int16_t* disparities = map.disparity + map.plan.At(x, y + dy);
     for (int32_t dx = -Min(x, width); dx <= last; ++dx) {
       const int32_t difference = ColourDifference(colour, colours + 3 * dx);
       const int32_t weight = (kNearWeight - dx * dx - dy * dy) * Max(1, kColourWeight - difference);
@@ -238,13 +238,13 @@ int32_t SoftnessOf(const SoftCount* counts, int32_t tiles) {
 }
 
 int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) {
-  const int16_t own = map.disparity[map.At(x, y)];
+  const int16_t own = map.disparity[map.plan.At(x, y)];
   int16_t nearest = own;
   for (const auto& side : kSides) {
     for (int32_t k = 0; k < softness; ++k) {
       const ProfileEdge edge = {x - k * side[0], y - k * side[1], side[0], side[1]};
       if (!IsInside(map, edge.x, edge.y)) break;
-      const int16_t near = map.disparity[map.At(edge.x - side[0], edge.y - side[1])];
+      const int16_t near = map.disparity[map.plan.At(edge.x - side[0], edge.y - side[1])];
       if (near - own <= kSoftStep) continue;
       if (near > nearest && ShowsNear(PlaceAt(map, edge, k))) nearest = near;
       break;
@@ -254,7 +254,7 @@ int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) 
 }
 
 void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
-  std::copy_n(map.disparity + map.At(row.x, row.y), row.width, disparity);
+  std::copy_n(map.disparity + map.plan.At(row.x, row.y), row.width, disparity);
   const ColumnRanges columns(map, row);
   if (columns.all.IsOneSurface()) return;
   for (int32_t k = 0; k < row.width; ++k) {
@@ -264,7 +264,7 @@ void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
 }
 
 int16_t MedianOfSurface(const ColourMap& map, int32_t x, int32_t y) {
-  const int16_t own = map.disparity[map.At(x, y)];
+  const int16_t own = map.disparity[map.plan.At(x, y)];
   const SurfaceAround around(map, x, y);
   const int16_t median = around.sorted[around.count / 2];
   return Abs(median - own) > kRough ? median : own;

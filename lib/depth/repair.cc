@@ -38,10 +38,6 @@ constexpr int32_t kClearCost = 44;
 // is on the surface of the given disparity is not changed.
 inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
 
-size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
-  return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
-}
-
 struct Mean {
   int32_t sum = 0, count = 0;
 
@@ -61,7 +57,7 @@ int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, in
   Mean trusted, found;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = IndexOf(plan, column, row);
+      const size_t at = plan.At(column, row);
       if (std::abs(memory.second[at] - own) > kSameSurface) continue;
       found.Add(memory.second[at]);
       const int32_t d = memory.trusted[at];
@@ -78,7 +74,7 @@ bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, 
   int32_t smooth = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      smooth += memory.trusted[IndexOf(plan, column, row)] != simd::kNoSurface;
+      smooth += memory.trusted[plan.At(column, row)] != simd::kNoSurface;
     }
   }
   return 4 * smooth < around.width * around.height;
@@ -92,7 +88,7 @@ bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, 
 void EvenOut(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
              const EstimateMemory& memory, int16_t* evened) {
   ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
-    const size_t at = IndexOf(plan, x, y);
+    const size_t at = plan.At(x, y);
     const int32_t given = memory.given[at], trusted = memory.trusted[at];
     evened[at] = static_cast<int16_t>(given);
     if (trusted != simd::kNoSurface && std::abs(trusted - memory.second[at]) <= kSame) return;
@@ -115,7 +111,7 @@ bool Differs(const EstimateMemory& memory, size_t at) {
 TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
   TileCount count = {};
   ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
-    const size_t at = IndexOf(plan, x, y);
+    const size_t at = plan.At(x, y);
     count.rough += memory.trusted[at] == simd::kNoSurface;
     count.differs += Differs(memory, at);
   });
@@ -128,7 +124,7 @@ TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMe
 // given map than in memory.first. In rough parts of the map, contradicted pixels always change to
 // memory.first.
 int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
-  const size_t own = IndexOf(plan, x, y);
+  const size_t own = plan.At(x, y);
   const int16_t given = memory.given[own], found = memory.first[own];
   if (given == simd::kNoSurface) return found;
   if (!Differs(memory, own)) {
@@ -139,7 +135,7 @@ int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32
   int32_t evidence = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = IndexOf(plan, column, row);
+      const size_t at = plan.At(column, row);
       if (Differs(memory, at)) evidence += memory.given_cost[at] - memory.found_cost[at];
     }
   }
@@ -157,7 +153,7 @@ void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& c
   std::fill_n(columns, cell.width + 2 * kNearReach, simd::kNoSurface);
   int16_t* to = columns + kNearReach - (cell.x - around.x);
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const int16_t* from = trusted + IndexOf(plan, around.x, row);
+    const int16_t* from = trusted + plan.At(around.x, row);
     for (int32_t x = 0; x < around.width; ++x) to[x] = std::max(to[x], from[x]);
   }
   std::fill_n(nearest, cell.width, simd::kNoSurface);
@@ -202,18 +198,11 @@ void JudgeMaps(const EstimatePlan& plan, EstimateMemory* memory) {
 
 void WritePixel(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
                 int32_t x, int32_t y, int16_t disparity) {
-  const auto row = static_cast<size_t>(y), column = static_cast<size_t>(x);
-  const size_t at = IndexOf(plan, x, y);
-  if (disparity != memory.given[at]) {
-    constexpr float kUnit = 1.0F / (1 << kDisparityBits);
-    output.disparity[row * output.stride + column] =
-        output.Clamped(static_cast<float>(disparity) * kUnit);
-  }
-  if (output.confidence != nullptr && disparity != memory.first[at] && Differs(memory, at)) {
-    // The confidence of a pixel is 0 if the estimate from the views contradicts the map, but the
-    // estimate is not used.
-    output.confidence[row * output.confidence_stride + column] = 0;
-  }
+  const size_t at = plan.At(x, y);
+  if (disparity != memory.given[at]) output.Write(x, y, disparity);
+  // The confidence of a pixel is 0 if the estimate from the views contradicts the map, but the
+  // estimate is not used.
+  if (disparity != memory.first[at] && Differs(memory, at)) output.WriteConfidence(x, y, 0);
 }
 
 // Writes the disparities of a cell with thin structure that the given map lacks.
@@ -223,7 +212,7 @@ void WriteParted(const EstimatePlan& plan, const EstimateMemory& memory, const M
     int16_t nearest[kMostCellSide];
     FindNearest(plan, memory.trusted, cell, y, nearest);
     ForSwept(plan, memory.swept, {cell.x, y, cell.width, 1}, [&](int32_t x, int32_t) {
-      const int16_t disparity = PartedAt(memory, IndexOf(plan, x, y), nearest[x - cell.x]);
+      const int16_t disparity = PartedAt(memory, plan.At(x, y), nearest[x - cell.x]);
       WritePixel(plan, memory, output, x, y, disparity);
     });
   }
@@ -236,7 +225,7 @@ void WriteCell(const EstimatePlan& plan, const EstimateMemory& memory, const Map
     return WriteParted(plan, memory, output, cell);
   }
   ForSwept(plan, memory.swept, cell, [&](int32_t x, int32_t y) {
-    const int16_t given = memory.given[IndexOf(plan, x, y)];
+    const int16_t given = memory.given[plan.At(x, y)];
     const bool kept = keeps && given != simd::kNoSurface;
     WritePixel(plan, memory, output, x, y, kept ? given : RepairedAt(plan, memory, x, y));
   });
@@ -247,12 +236,10 @@ void WriteTile(const EstimatePlan& plan, const starfocus_light_field& light_fiel
                const EstimateMemory& memory, const MapOutput& output) {
   const Rect tile = TileOf(plan, index);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const auto row = static_cast<size_t>(y);
-    std::copy_n(GivenAt(light_field, y) + tile.x, tile.width,
-                output.disparity + row * output.stride + tile.x);
-    if (output.confidence == nullptr) continue;
-    std::copy_n(memory.certainty + IndexOf(plan, tile.x, y), tile.width,
-                output.confidence + row * output.confidence_stride + tile.x);
+    std::copy_n(GivenAt(light_field, y) + tile.x, tile.width, output.disparity.Row(y) + tile.x);
+    if (output.confidence.data == nullptr) continue;
+    std::copy_n(memory.certainty + plan.At(tile.x, y), tile.width,
+                output.confidence.Row(y) + tile.x);
   }
   ForCells(GridOf(plan), index, [&](const Rect& cell, int32_t number) {
     WriteCell(plan, memory, output, cell, number);
@@ -280,7 +267,7 @@ starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& l
                         EstimateMemory* memory) {
   const Sweep sweep = {plan, light_field, kernels, memory};
   const Plane<const uint8_t> centre = RowsOf(light_field.views[0]);
-  const bool rates = output.confidence != nullptr;
+  const bool rates = output.confidence.data != nullptr;
   Sequence run(&memory->jobs, 7, plan.columns * plan.rows);
   run.Run(
       [&](int32_t index, int32_t) { ReadGiven(plan, light_field, TileOf(plan, index), memory); });

@@ -83,6 +83,10 @@ struct EstimatePlan {
 
   // Returns true if all side views lie on one side of the centre view, as in a stereo pair.
   bool one_sided() const { return side_count == 1; }
+  // Returns the index of pixel (x, y) in a map of the picture's size.
+  size_t At(int32_t x, int32_t y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+  }
   // Returns the disparity of label l.
   int32_t Disparity(int32_t l) const { return low + l * step; }
   // Returns the shift of a side view at label l. The difference between the shifts of labels l and

@@ -183,7 +183,7 @@ void ChooseDisparities(const EstimateTile& tile, const Rect& tile_rect, int16_t*
   const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
   for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
     const size_t row = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width);
-    const size_t to = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    const size_t to = plan.At(0, y);
     ForRuns(plan, memory.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
             [&](int32_t begin, int32_t end) {
               const auto count = static_cast<size_t>(end - begin);
@@ -248,9 +248,9 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
   };
   for (size_t y = 0; y < height; ++y) {
     uint8_t* prior = tile->prior + y * row_places;
-    const auto row = static_cast<size_t>(region.y) + y;
-    const int16_t* disparity = trusted + row * static_cast<size_t>(plan.width);
-    ForRuns(plan, tile->swept, static_cast<int32_t>(row), region.x, region.x + region.width,
+    const int32_t row = region.y + static_cast<int32_t>(y);
+    const int16_t* disparity = trusted + plan.At(0, row);
+    ForRuns(plan, tile->swept, row, region.x, region.x + region.width,
             [&](int32_t begin, int32_t end) {
               for (int32_t x = begin; x < end; ++x) {
                 SeedPrior(plan, disparity[x], places,
@@ -281,8 +281,7 @@ void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& til
                    const TileMemory& tile, EstimateMemory* memory) {
   const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
   const auto weigh = [&](int32_t x, int32_t y) {
-    const size_t at =
-        static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
+    const size_t at = plan.At(x, y);
     const int32_t given = memory->given[at];
     const size_t pixel = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width) +
                          static_cast<size_t>(x - region.x);

@@ -18,10 +18,6 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 // are blurred edges.
 constexpr int32_t kMostSlope = kPixel / 2;
 
-size_t IndexOf(const EstimatePlan& plan, int32_t x, int32_t y) {
-  return static_cast<size_t>(y) * static_cast<size_t>(plan.width) + static_cast<size_t>(x);
-}
-
 // Smallest and largest disparity in each column of three pixels: the pixel of a row and the pixels
 // above and below it.
 struct ColumnExtremes {
@@ -110,7 +106,7 @@ bool IsGainsaid(const EstimatePlan& plan, const uint8_t* doubt, int32_t x, int32
   const Rect around = Widened(plan, {x, y, 1, 1}, kMisfitRadius);
   int32_t misfits = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const uint8_t* from = doubt + static_cast<size_t>(row) * static_cast<size_t>(plan.width);
+    const uint8_t* from = doubt + plan.At(0, row);
     for (int32_t k = around.x; k < around.x + around.width; ++k) misfits += from[k] == kMisfit;
   }
   return misfits >= kLeastMisfits;
@@ -123,7 +119,7 @@ using DoubtRow = uint8_t[kMostTileSide + 2 * kSweptRadius];
 // Sets row[k] to 1 if pixel k of row y is in doubt. row[0] is the first pixel of `around`.
 void ReadDoubts(const EstimatePlan& plan, const uint8_t* doubt, const Rect& around, int32_t y,
                 uint8_t* row) {
-  const uint8_t* from = doubt + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+  const uint8_t* from = doubt + plan.At(0, y);
   for (int32_t x = around.x; x < around.x + around.width; ++x) {
     const uint8_t own = from[x];
     row[x - around.x] = own == kDoubt || (own == kMisfit && IsGainsaid(plan, doubt, x, y));
@@ -137,7 +133,7 @@ void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_fiel
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const float* row = GivenAt(light_field, y);
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = IndexOf(plan, x, y);
+      const size_t at = plan.At(x, y);
       memory->given[at] = std::isfinite(row[x]) ? static_cast<int16_t>(std::lrint(row[x] * kPixel))
                                                 : simd::kNoSurface;
       memory->first[at] = memory->second[at] = memory->given[at];
@@ -155,11 +151,11 @@ void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* give
                 end = tile.width + (tile.x + tile.width < plan.width ? 2 : 1);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const ptrdiff_t above = y > 0 ? plan.width : 0, below = y + 1 < plan.height ? plan.width : 0;
-    FindColumns(given + IndexOf(plan, tile.x, y) - 1, above, below, begin, end, &columns);
+    FindColumns(given + plan.At(tile.x, y) - 1, above, below, begin, end, &columns);
     if (begin > 0) columns.Copy(1, 0);
     if (end < tile.width + 2) columns.Copy(tile.width, tile.width + 1);
-    const int16_t* from = given + IndexOf(plan, tile.x, y);
-    int16_t* to = trusted + IndexOf(plan, tile.x, y);
+    const int16_t* from = given + plan.At(tile.x, y);
+    int16_t* to = trusted + plan.At(tile.x, y);
     const int16_t *low = columns.low, *high = columns.high;
     for (int32_t k = 0; k < tile.width; ++k) {
       const int16_t least = std::min(std::min(low[k], low[k + 2]), low[k + 1]);
@@ -173,7 +169,7 @@ void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* give
 void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
                 const Rect& tile, EstimateMemory* memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    const size_t row = plan.At(0, y);
     const int16_t* trusted = memory->trusted + row;
     uint8_t* doubt = memory->doubt + row;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
@@ -190,7 +186,7 @@ void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_fie
 void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
                EstimateMemory* memory) {
   const Rect around = Widened(plan, tile, kSweptRadius);
-  const auto width = static_cast<size_t>(plan.width), stride = static_cast<size_t>(tile.width);
+  const auto stride = static_cast<size_t>(tile.width);
   DoubtRow row = {};
   uint8_t* inside = row + kSweptRadius - (tile.x - around.x);
   // First mark the pixels that have a pixel in doubt within kSweptRadius pixels in their row.
@@ -203,7 +199,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
     }
   }
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    uint8_t* swept = memory->swept + static_cast<size_t>(y) * width + tile.x;
+    uint8_t* swept = memory->swept + plan.At(tile.x, y);
     std::fill_n(swept, tile.width, uint8_t{0});
     const int32_t first = Max(around.y, y - kSweptRadius);
     const int32_t last = Min(around.y + around.height - 1, y + kSweptRadius);
@@ -217,7 +213,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
 void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
                  EstimateMemory* memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t row = static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+    const size_t row = plan.At(0, y);
     const uint8_t* line = centre.data + static_cast<size_t>(y) * centre.stride;
     const auto stride = static_cast<ptrdiff_t>(centre.stride);
     // At an edge of the picture, the opposite neighbour replaces the missing neighbour.

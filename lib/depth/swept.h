@@ -51,7 +51,7 @@ template <class Act>
 void ForRuns(const EstimatePlan& plan, const uint8_t* swept, int32_t y, int32_t from, int32_t to,
              const Act& act) {
   if (swept == nullptr) return act(from, to);
-  const uint8_t* row = swept + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+  const uint8_t* row = swept + plan.At(0, y);
   const auto find = [&](int32_t x, int value) {
     const void* at = std::memchr(row + x, value, static_cast<size_t>(to - x));
     return at == nullptr ? to : static_cast<int32_t>(static_cast<const uint8_t*>(at) - row);

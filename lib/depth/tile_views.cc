@@ -169,12 +169,11 @@ void MarkHiddenInMaps(const EstimatePlan& plan, const EstimateMemory& memory, Ti
   MarkOutside(plan, views);
   views->all_seen = false;
   const Rect inside = PartInside(plan, *views);
-  const auto width = static_cast<size_t>(plan.width);
   for (int32_t k = 0; k < plan.side_views; ++k) {
     const int16_t* map = SideMap(plan, memory, k);
     uint8_t* hidden = views->hidden + static_cast<size_t>(k) * views->plane;
     for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
-      const int16_t* disparity = map + static_cast<size_t>(y) * width + inside.x;
+      const int16_t* disparity = map + plan.At(inside.x, y);
       uint8_t* to = hidden + views->At(inside.x, y);
       for (int32_t x = 0; x < inside.width; ++x) to[x] = HiddenBehind(plan, disparity[x]);
     }
@@ -193,7 +192,7 @@ void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region
                       : view.at.u == 0 ? HideBehindRow<false, true>
                                        : HideBehindRow<true, true>;
     for (int32_t y = from.y; y < from.y + from.height; ++y) {
-      const int16_t* row = map + static_cast<size_t>(y) * static_cast<size_t>(plan.width);
+      const int16_t* row = map + plan.At(0, y);
       hide(plan, view, {row, y, from.x, from.x + from.width}, inside, *views, hidden);
     }
   }

@@ -60,8 +60,8 @@ Repaired Repair(const Photo& photo) {
   starfocus::LayOutColourRepair(plan, 1, base.data, &memory);
   const auto width = size_t(photo.width);
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
-  const starfocus::MapOutput output = {result.map.data(),        width, -500,    500,
-                                       result.confidence.data(), width, nullptr, 0};
+  const starfocus::MapOutput output = {
+      {result.map.data(), width}, -500, 500, {result.confidence.data(), width}, {}};
   CHECK(RepairByColour(plan, FieldOf(photo), starfocus::simd::BestDepthKernels(), output, memory) ==
         STARFOCUS_OK);
   return result;

@@ -130,8 +130,11 @@ struct Maps {
     starfocus_status status = STARFOCUS_OK;
     if (setup.depth_kernels != nullptr) {
       status = MakeBy(*setup.depth_kernels, field,
-                      {disparity.data(), width, input.low, input.high, confidence.data(), width,
-                       map.coverage, width});
+                      {{disparity.data(), width},
+                       input.low,
+                       input.high,
+                       {confidence.data(), width},
+                       {map.coverage, width}});
     } else {
       const auto make =
           input.given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
