@@ -13,7 +13,8 @@ void CompareWith(const Call& call, EngineState* engine) {
   const starfocus_config& config = engine->config;
   FrameDiff& changes = engine->stripe.changes;
   changes.active = true;
-  changes.before = call.before;
+  changes.before = &call.previous->light_field;
+  changes.picture = &call.previous->out;
   changes.now = call.now;
   // STARFOCUS_MODE_BLUR reads only the centre view.
   changes.views = call.params.mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
@@ -57,8 +58,8 @@ starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report
   starfocus_status status = SetLens(params, engine);
   if (status != STARFOCUS_OK) return TellStatus(status, engine->config.problem);
   if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);
-  if (call.before != nullptr) CompareWith(call, engine);
-  status = RefocusRows(call.source, call.sink, engine);
+  if (call.previous != nullptr) CompareWith(call, engine);
+  status = RefocusRows(call.source, call.out, engine);
   if (status == STARFOCUS_OK && report != nullptr) *report = engine->report;
   return TellStatus(status, engine->config.problem);
 }

@@ -13,11 +13,12 @@ namespace starfocus {
 struct Call {
   const starfocus_params& params;
   RowSource source;
-  RowSink sink;
+  Output out;
   // Prepared light field; null if the light field is not prepared.
   const Prepared* prepared = nullptr;
-  // Previous and current light field of a video; null if frames are not compared.
-  const starfocus_light_field *before = nullptr, *now = nullptr;
+  // Previous frame and current light field of a video; null if frames are not compared.
+  const starfocus_previous* previous = nullptr;
+  const starfocus_light_field* now = nullptr;
 };
 
 // Checks `params` and the prepared light field, which may be null, against the configuration of

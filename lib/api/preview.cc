@@ -5,7 +5,6 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/engine/layout.h"
-#include "lib/engine/picture_output.h"
 
 namespace starfocus {
 namespace {
@@ -56,12 +55,10 @@ starfocus_status RefocusPreview(const PreviewRequest& request, const starfocus_i
         CheckOutputApart(out, size, MemoryOf(*engine, &request.prepared), engine->config.problem);
   }
   if (status != STARFOCUS_OK) return status;
-  const PictureOutput output = {
-      &simd::BestImageKernels(), PlanesOf<uint8_t>(out), rect, {{}, 1}, nullptr};
-  const starfocus_params params = ReducedParams(request, rect);
   EngineState reduced = PreviewEngine(ReducedConfig(engine->config, request.shift), engine);
   UseReduced(request.prepared, request.shift, &reduced);
-  return RunCall({params, {}, SinkOf(output)}, &reduced, report);
+  const starfocus_params params = ReducedParams(request, rect);
+  return RunCall({params, {}, OutputOf(out, rect, reduced.images.odd_row)}, &reduced, report);
 }
 
 }  // namespace starfocus

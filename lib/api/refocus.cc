@@ -6,7 +6,6 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/engine/light_field.h"
-#include "lib/engine/picture_output.h"
 #include "lib/io/rows.h"
 #include "starfocus/starfocus.h"
 
@@ -142,16 +141,13 @@ starfocus_status Refocus(const Request& request, EngineState* engine, starfocus_
   LightField field;
   MakeLightField(request.light_field, 0, engine, &field);
   UseLightField(field, engine);
-  const starfocus_previous* const previous = ComparableOf(request);
-  const PictureOutput out = {field.kernels, PlanesOf<uint8_t>(request.out),
-                             RegionOf(engine->config, request.params), AlphaOf(field.views[0]),
-                             previous == nullptr ? nullptr : &previous->out};
-  Call call = {request.params, SourceOf(field), SinkOf(out), request.prepared};
+  Output out =
+      OutputOf(request.out, RegionOf(engine->config, request.params), engine->images.odd_row);
+  out.alpha = AlphaOf(field.views[0]);
+  out.alpha_step = field.views[0].step;
+  Call call = {request.params,   SourceOf(field),       out,
+               request.prepared, ComparableOf(request), &request.light_field};
   if (request.prepared != nullptr) call.source.map = nullptr;
-  if (previous != nullptr) {
-    call.before = &previous->light_field;
-    call.now = &request.light_field;
-  }
   return TellPlace(RunCall(call, engine, report), request.light_field.depth, 0,
                    engine->config.problem);
 }

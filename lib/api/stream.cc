@@ -7,7 +7,6 @@
 #include "lib/base/features.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/light_field.h"
-#include "lib/engine/picture_output.h"
 #include "lib/engine/stripe.h"
 #include "starfocus/starfocus.h"
 
@@ -114,11 +113,10 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   return STARFOCUS_OK;
 }
 
-// Writes up to `rows` finished rows to the sink. Before writing, refocuses stripes that are not yet
+// Writes up to `rows` finished rows to `out`. Before writing, refocuses stripes that are not yet
 // finished, if all required input rows have been pushed. Adds the number of written rows to
 // *written.
-starfocus_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine,
-                          int32_t* written) {
+starfocus_status PullRows(const Output& out, int32_t rows, EngineState* engine, int32_t* written) {
   Stream& stream = engine->stream;
   while (*written < rows && stream.written < engine->config.height) {
     if (stream.written == stream.finished) {
@@ -128,8 +126,9 @@ starfocus_status PullRows(const RowSink& sink, int32_t rows, EngineState* engine
     }
     const int32_t some = Min(rows - *written, stream.finished - stream.written);
     const starfocus_status status =
-        sink.store(sink.self, {stream.written, stream.written + some},
-                   BufferRows(*engine, stream.next - engine->config.superblock), engine);
+        StoreRows(out, {stream.written, stream.written + some},
+                  BufferRows(*engine, stream.next - engine->config.superblock),
+                  MaxJobs(engine->config), &engine->workers.jobs);
     if (status != STARFOCUS_OK) return status;
     stream.written += some;
     *written += some;
@@ -201,12 +200,9 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   status = CheckPull(e, *out, most);
   if (status != STARFOCUS_OK) return status;
   const Plane<uint8_t>& alpha = e.images.alpha;
-  const PictureOutput output = {&simd::BestImageKernels(),
-                                PlanesOf<uint8_t>(*out),
-                                {0, first, e.config.width, left},
-                                {{alpha.data, alpha.stride, alpha.rows, 0}, 1},
-                                nullptr};
-  status = PullRows(SinkOf(output), most, &e, written);
+  Output output = OutputOf(*out, {0, first, e.config.width, left}, e.images.odd_row);
+  output.alpha = {alpha.data, alpha.stride, alpha.rows, 0};
+  status = PullRows(output, most, &e, written);
   if (status == STARFOCUS_OK && report != nullptr) *report = e.report;
   return TellStatus(status, &e.problem);
 }

@@ -8,6 +8,7 @@
 #include "lib/base/problem.h"
 #include "lib/engine/jobs.h"
 #include "lib/engine/stripe.h"
+#include "lib/io/rows.h"
 #include "simd/depth_values.h"
 
 namespace starfocus {
@@ -104,6 +105,29 @@ starfocus_status RunRows(const RowsJob& job, EngineState* engine) {
   return status != STARFOCUS_OK ? status : StatusOf(flags, engine->config);
 }
 
+// Copies row y of the previous picture, and then the columns of `from` that may have changed.
+void StoreChanged(const Output& out, const Plane<uint8_t>& from, int32_t y,
+                  const EngineState& engine) {
+  const Rect& rect = out.rect;
+  const FrameDiff& changes = engine.stripe.changes;
+  const int32_t side = changes.side, reach = engine.lens.borders.joined;
+  std::memcpy(out.image.Pixel(0, y - rect.y), RowsOf(*changes.picture, rect.y).Row(y),
+              3 * static_cast<size_t>(rect.width));
+  for (int32_t x = 0; x < changes.width; x += side) {
+    if (!HasChanged(changes, {x, y - reach, side, 1 + 2 * reach})) continue;
+    CopyColumns(out, from, y, Max(x - reach, rect.x), Min(x + side + reach, rect.x + rect.width));
+  }
+}
+
+starfocus_status Store(const Output& out, const Range& rows, const Plane<uint8_t>& from,
+                       EngineState* engine) {
+  if (!engine->stripe.changes.active) {
+    return StoreRows(out, rows, from, MaxJobs(engine->config), &engine->workers.jobs);
+  }
+  for (int32_t y = rows.first; y < rows.last; ++y) StoreChanged(out, from, y, *engine);
+  return STARFOCUS_OK;
+}
+
 }  // namespace
 
 Range StripeRows(const EngineState& engine) {
@@ -150,7 +174,7 @@ starfocus_status CopyRow(const RowSource& source, int32_t y, EngineState* engine
   return STARFOCUS_OK;
 }
 
-starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine) {
+starfocus_status RefocusRows(const RowSource& source, const Output& out, EngineState* engine) {
   const starfocus_config& config = engine->config;
   const Lens& lens = engine->lens;
   const int32_t side = config.superblock, reach = lens.borders.centre, top = lens.region.y;
@@ -175,7 +199,7 @@ starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, Engin
     const int32_t end = y == last ? bottom : Min(FinishedRows(config, y), bottom);
     const Range finished = {Max(y - kDeblockRows, top), end};
     if (finished.first < end) {
-      status = sink.store(sink.self, finished, BufferRows(*engine, y), engine);
+      status = Store(out, finished, BufferRows(*engine, y), engine);
     }
     if (status == STARFOCUS_OK) engine->jobs->call_progress.SetRows(Max(0, end - top));
   }

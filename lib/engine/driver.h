@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loop over the stripes of a picture. Every entry point of the engine except streams runs this loop
-// with a source of input rows and a sink of output rows. Streams do not use the loop and refocus
-// one stripe at a time.
+// with a source of input rows and an output. Streams do not use the loop and refocus one stripe at
+// a time.
 #ifndef STARFOCUS_LIB_ENGINE_DRIVER_H_
 #define STARFOCUS_LIB_ENGINE_DRIVER_H_
 
@@ -10,6 +10,7 @@
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/engine/engine.h"
+#include "lib/engine/picture_output.h"
 #include "lib/io/view_reader.h"
 #include "starfocus/starfocus.h"
 
@@ -35,14 +36,6 @@ struct RowSource {
   const void* self = nullptr;
 };
 
-// Receives finished rows of a picture or region, in order. `from` contains all columns of the
-// picture.
-struct RowSink {
-  starfocus_status (*store)(const void* self, const Range& rows, const Plane<uint8_t>& from,
-                            EngineState* engine);
-  const void* self;
-};
-
 // Checks all values of rows [rows.first, rows.last) of the disparity map. Returns STARFOCUS_OK,
 // STARFOCUS_ERROR_NOT_FINITE or STARFOCUS_ERROR_DISPARITY. If the rows contain both kinds of
 // errors, the function returns STARFOCUS_ERROR_NOT_FINITE.
@@ -64,7 +57,7 @@ Range StripeRows(const EngineState& engine);
 // Refocuses the stripes that affect the region of the lens, and stores the rows of the region.
 // Checks all input rows before it stores the first output row. Returns STARFOCUS_OK,
 // STARFOCUS_ERROR_CANCELLED, STARFOCUS_ERROR_RUNNER or an error of the disparity map.
-starfocus_status RefocusRows(const RowSource& source, const RowSink& sink, EngineState* engine);
+starfocus_status RefocusRows(const RowSource& source, const Output& out, EngineState* engine);
 
 }  // namespace starfocus
 

@@ -19,9 +19,10 @@ namespace starfocus {
 struct FrameDiff {
   bool active = false;  // true if `before` points to the previous light field
   const starfocus_light_field *before, *now;
-  int32_t views;                // Number of views to compare.
-  int32_t width, height, side;  // Size of the picture, and side of a superblock, in pixels.
-  int32_t columns;              // Number of columns of superblocks.
+  const starfocus_image* picture;  // Previous picture, packed RGB: source of unchanged pixels.
+  int32_t views;                   // Number of views to compare.
+  int32_t width, height, side;     // Size of the picture, and side of a superblock, in pixels.
+  int32_t columns;                 // Number of columns of superblocks.
   // Number of pixels around a block, in the centre view and in side views, on which the block may
   // depend.
   int32_t centre_reach, side_reach;

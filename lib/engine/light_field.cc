@@ -55,9 +55,10 @@ void ReadCoverage(const void* self, int32_t y, uint8_t* out) {
 
 void ReadAlpha(const void* self, int32_t y, uint8_t* out) {
   const LightField& field = FieldOf(self);
-  const AlphaSource alpha = AlphaOf(field.views[0]);
-  const uint8_t* const row = alpha.rows.Row(y - field.first);
-  for (int32_t x = 0; x < field.depth.width; ++x) out[x] = row[static_cast<size_t>(x) * alpha.step];
+  const ImageSource& centre = field.views[0];
+  const uint8_t* const row = AlphaOf(centre).Row(y - field.first);
+  for (int32_t x = 0; x < field.depth.width; ++x)
+    out[x] = row[static_cast<size_t>(x) * centre.step];
 }
 
 void MakeViews(const starfocus_light_field& given, EngineState* engine, LightField* field) {

@@ -3,25 +3,38 @@
 #ifndef STARFOCUS_LIB_ENGINE_PICTURE_OUTPUT_H_
 #define STARFOCUS_LIB_ENGINE_PICTURE_OUTPUT_H_
 
-#include "lib/engine/driver.h"
+#include "lib/base/jobs.h"
 #include "lib/io/image_rows.h"
 
 namespace starfocus {
 
-// Output picture for the part `rect` of the whole picture.
-struct PictureOutput {
+// Picture of any format that receives the part `rect` of the whole picture.
+struct Output {
   const simd::ImageKernels* kernels;
   ImageTarget image;
   Rect rect;
-  AlphaSource alpha;  // alpha of the whole picture; if its rows are null, alpha is 255
-  // Source of unchanged pixels, or null. If `previous` is not null, `image` and `previous` are
-  // packed RGB.
-  const starfocus_image* previous = nullptr;
+  // Memory for the upper row of a pair whose chroma is written together with the next row. Null for
+  // formats without chroma.
+  uint8_t* odd_row;
+  // Alpha of the whole picture, and the number of bytes from pixel to pixel. Null: alpha is 255.
+  Plane<const uint8_t> alpha;
+  size_t alpha_step;
 };
 
-// Returns a sink that writes to `out`, which must outlive the sink. If the last stored row shares
-// chroma samples with the next row, the chroma samples are written together with the next row.
-RowSink SinkOf(const PictureOutput& out);
+// Returns an output to `image`, which must be valid, without alpha.
+Output OutputOf(const starfocus_image& image, const Rect& rect, uint8_t* odd_row);
+
+// Copies columns [first, last) of row y of `from`, which contains all columns of the whole picture.
+// The output must be packed RGB.
+void CopyColumns(const Output& out, const Plane<uint8_t>& from, int32_t y, int32_t first,
+                 int32_t last);
+
+// Stores rows of the whole picture, in order. `from` contains all columns of the whole picture. If
+// the last row shares chroma samples with the next row, these samples are written together with
+// the next row. Runs at most `most_jobs` jobs at once. Returns STARFOCUS_OK,
+// STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
+starfocus_status StoreRows(const Output& out, const Range& rows, const Plane<uint8_t>& from,
+                           int32_t most_jobs, Jobs* jobs);
 
 }  // namespace starfocus
 

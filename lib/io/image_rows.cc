@@ -136,18 +136,9 @@ void WriteChroma(const simd::ImageKernels& kernels, const uint8_t* upper, const 
   }
 }
 
-AlphaSource AlphaOf(const ImageSource& image) {
+Plane<const uint8_t> AlphaOf(const ImageSource& image) {
   if (!image.has_alpha) return {};
-  return {{image.planes[0] + 3, image.strides[0], 0, 0}, image.step};
-}
-
-void CopyAlpha(const AlphaSource& from, int32_t x, int32_t y, int32_t count, int32_t to_y,
-               const ImageTarget& to) {
-  const uint8_t* alpha = from.rows.Row(y) + static_cast<size_t>(x) * from.step;
-  uint8_t* out = to.Pixel(0, to_y) + 3;
-  for (size_t n = 0; n < static_cast<size_t>(count); ++n) {
-    out[n * to.step] = alpha[n * from.step];
-  }
+  return {image.planes[0] + 3, image.strides[0], 0, 0};
 }
 
 }  // namespace starfocus

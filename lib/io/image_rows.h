@@ -25,20 +25,9 @@ void WriteCodes(const simd::ImageKernels& kernels, const uint8_t* rgb, int32_t w
 void WriteChroma(const simd::ImageKernels& kernels, const uint8_t* upper, const uint8_t* lower,
                  int32_t width, int32_t y, const ImageTarget& image);
 
-// Alpha of a picture. `step` is the number of bytes from pixel to pixel. If the data of `rows` is
-// null, the picture has no alpha.
-struct AlphaSource {
-  Plane<const uint8_t> rows;
-  size_t step = 0;
-};
-
-// Returns the alpha of an image.
-AlphaSource AlphaOf(const ImageSource& image);
-
-// Copies the alpha of `count` pixels, starting at (x, y), to the start of row `to_y`. Both images
-// must have alpha.
-void CopyAlpha(const AlphaSource& from, int32_t x, int32_t y, int32_t count, int32_t to_y,
-               const ImageTarget& to);
+// Returns the rows of the alpha of an image, whose values are image.step bytes apart. The data is
+// null if the image has no alpha.
+Plane<const uint8_t> AlphaOf(const ImageSource& image);
 
 }  // namespace starfocus
 
