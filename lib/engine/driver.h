@@ -10,7 +10,7 @@
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/engine/engine.h"
-#include "lib/engine/picture_output.h"
+#include "lib/io/output.h"
 #include "lib/io/view_reader.h"
 #include "starfocus/starfocus.h"
 

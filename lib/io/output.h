@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes finished RGB rows to a picture of the caller in any format.
-#ifndef STARFOCUS_LIB_ENGINE_PICTURE_OUTPUT_H_
-#define STARFOCUS_LIB_ENGINE_PICTURE_OUTPUT_H_
+#ifndef STARFOCUS_LIB_IO_OUTPUT_H_
+#define STARFOCUS_LIB_IO_OUTPUT_H_
 
 #include "lib/base/jobs.h"
 #include "lib/io/image_rows.h"
@@ -38,4 +38,4 @@ starfocus_status StoreRows(const Output& out, const Range& rows, const Plane<uin
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_ENGINE_PICTURE_OUTPUT_H_
+#endif  // STARFOCUS_LIB_IO_OUTPUT_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/picture_output.h"
+#include "lib/io/output.h"
 
 #include <cstring>
 
