@@ -5,6 +5,7 @@
 #include "lib/api/validate.h"
 #include "lib/api/validate_image.h"
 #include "lib/base/features.h"
+#include "lib/engine/jobs.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/light_field.h"
 #include "lib/engine/stripe.h"
@@ -128,7 +129,7 @@ starfocus_status PullRows(const Output& out, int32_t rows, EngineState* engine, 
     const starfocus_status status =
         StoreRows(out, {stream.written, stream.written + some},
                   BufferRows(*engine, stream.next - engine->config.superblock),
-                  MaxJobs(engine->config), &engine->workers.jobs);
+                  MaxJobs(engine->config), engine->jobs);
     if (status != STARFOCUS_OK) return status;
     stream.written += some;
     *written += some;

@@ -122,7 +122,7 @@ void StoreChanged(const Output& out, const Plane<uint8_t>& from, int32_t y,
 starfocus_status Store(const Output& out, const Range& rows, const Plane<uint8_t>& from,
                        EngineState* engine) {
   if (!engine->stripe.changes.active) {
-    return StoreRows(out, rows, from, MaxJobs(engine->config), &engine->workers.jobs);
+    return StoreRows(out, rows, from, MaxJobs(engine->config), engine->jobs);
   }
   for (int32_t y = rows.first; y < rows.last; ++y) StoreChanged(out, from, y, *engine);
   return STARFOCUS_OK;
