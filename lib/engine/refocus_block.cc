@@ -163,15 +163,13 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   field.disparity = scratch->field.disparity;
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
-  const GatherPsfs blur = {tables.psfs, LastGatherStep(*in.lens), tables.mean_square};
-  const GatherJob job = {&in.windows[block.layer], in.cells, cells,
-                         in.lens->scale,           blur,     in.kernels,
-                         &scratch->cancel};
+  const GatherJob job = {&in.windows[block.layer], in.cells,    cells,
+                         in.lens->scale,           tables.psfs, LastGatherStep(*in.lens),
+                         tables.mean_square,       in.kernels,  &scratch->cancel};
   const Rect frame = LayerFrame(block.rect, block.layer);
-  const Gathered gathered = block.layer == 0 ? Gathered{At(out, block.rect, 0), nullptr, out.stride}
-                                             : Gathered{nullptr, scratch->layer_samples,
-                                                        3 * static_cast<size_t>(frame.width)};
-  scratch->counts.gathered_pixels += GatherCells(job, &field, gathered);
+  const size_t stride = block.layer == 0 ? out.stride : 3 * static_cast<size_t>(frame.width);
+  scratch->counts.gathered_pixels +=
+      GatherCells(job, &field, At(out, block.rect, 0), scratch->layer_samples, stride);
   if (block.layer > 0 && scratch->cancel.Spend(0)) FinishLayer(in, block, out, *scratch);
 }
 
@@ -208,11 +206,11 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
 
 void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                Scratch* scratch) {
-  const BlurScratch memory = {scratch->field.rgb, scratch->sums, scratch->spans};
   const auto blur = [&](const Window& window, const ExcessSum& excess) {
     const BlurJob job = {&window,    in.lens->scale,    in.tables->psfs, in.kernels,
                          block.rect, block.border.left, excess,          &scratch->cancel};
-    BlurRectangle(job, memory, At(out, block.rect, 0), out.stride);
+    BlurRectangle(job, scratch->field.rgb, scratch->sums, scratch->spans, At(out, block.rect, 0),
+                  out.stride);
   };
   blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});
   if (block.has_highlights) blur(ExcessWindow(in, scratch).window(), ExcessOf(in));

@@ -57,17 +57,17 @@ void AddPsf(const Psf& psf, int32_t side, const int16_t* at, size_t stride, int3
 
 }  // namespace
 
-void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
-                   size_t out_stride) {
-  LoadPixels(job, scratch.rgb);
+void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
+                   const SpanMemory& spans, uint8_t* out, size_t out_stride) {
+  LoadPixels(job, rgb);
   const Rect& rect = job.rect;
   const size_t stride = 3 * static_cast<size_t>(rect.width + 2 * job.border);
-  SpanList list(*job.kernels, scratch.spans, scratch.accumulators);
+  SpanList list(*job.kernels, spans, accumulators);
   const bool turns = job.psfs_of_radius[0].full;
   for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
     const int16_t* disparity = job.window->disparity.Row(rect.y + y) + rect.x;
-    const int16_t* row = scratch.rgb + static_cast<size_t>(y + job.border) * stride +
-                         3 * static_cast<size_t>(job.border);
+    const int16_t* row =
+        rgb + static_cast<size_t>(y + job.border) * stride + 3 * static_cast<size_t>(job.border);
     const auto step_at = [&](int32_t x) {
       return BlurStep(job.scale.Radius(Abs(job.scale.focus.Distance(disparity[x]))));
     };
@@ -82,16 +82,16 @@ void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out,
       const size_t samples = 3 * static_cast<size_t>(x - begin);
       const int64_t points = (2 * psf.size + 1) * (2 * psf.size + 1);
       if (!GoesOn(job.cancel, points * static_cast<int64_t>(samples))) return;
-      std::memset(scratch.accumulators, 0, samples * sizeof(uint32_t));
+      std::memset(accumulators, 0, samples * sizeof(uint32_t));
       AddPsf(psf, side, row + 3 * begin, stride, x - begin, &list);
       list.Flush();
       const int bits = psf.sum_bits + kLightBits;
-      CheckSums(scratch.accumulators, samples, bits);
+      CheckSums(accumulators, samples, bits);
       if (job.excess.factor != 0) {
-        AddExcess(job.excess, scratch.accumulators, samples, bits, out + 3 * begin);
+        AddExcess(job.excess, accumulators, samples, bits, out + 3 * begin);
         continue;
       }
-      job.kernels->Finish(scratch.accumulators, samples, bits, job.window->transfer->encoding,
+      job.kernels->Finish(accumulators, samples, bits, job.window->transfer->encoding,
                           out + 3 * begin);
     }
   }

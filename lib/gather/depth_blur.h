@@ -29,14 +29,11 @@ struct BlurJob {
   CancelToken* cancel;  // Cancels the call; `out` is incomplete after cancellation.
 };
 
-struct BlurScratch {
-  int16_t* rgb;            // Light of the extended rectangle, rows packed.
-  uint32_t* accumulators;  // 3 * rect.width sums.
-  SpanMemory spans;
-};
-
-// Blurs job.rect into `out`, which starts at the first pixel of the rectangle.
-void BlurRectangle(const BlurJob& job, const BlurScratch& scratch, uint8_t* out, size_t out_stride);
+// Blurs job.rect into `out`, which starts at the first pixel of the rectangle. Scratch memory:
+// `rgb` holds the light of the extended rectangle in packed rows, `accumulators` 3 * rect.width
+// sums.
+void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
+                   const SpanMemory& spans, uint8_t* out, size_t out_stride);
 
 }  // namespace starfocus
 

@@ -50,7 +50,7 @@ int32_t Slope::At(int32_t x, int32_t y) const {
   return static_cast<int32_t>(RoundShift(Scaled(x, y), ScaledBits()));
 }
 
-RadiusRange Slope::RangeOf(const Rect& pixels) const {
+Range Slope::RangeOf(const Rect& pixels) const {
   const int32_t right = pixels.x + pixels.width - 1, bottom = pixels.y + pixels.height - 1;
   const int32_t radii[4] = {At(pixels.x, pixels.y), At(right, pixels.y), At(pixels.x, bottom),
                             At(right, bottom)};
@@ -63,11 +63,11 @@ RadiusRange Slope::RangeOf(const Rect& pixels) const {
   return {nearest, Max(Abs(low), Abs(high))};
 }
 
-void Slope::FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
+void Slope::FindShares(const Range& between, const Rect& pixels, size_t stride,
                        int16_t* share) const {
   constexpr int32_t kOne = INT16_MAX;
-  const int64_t low = int64_t{between.low} * between.low;
-  const int64_t range = int64_t{between.high} * between.high - low;
+  const int64_t low = int64_t{between.first} * between.first;
+  const int64_t range = int64_t{between.last} * between.last - low;
   const int64_t unit = range > 0 ? (int64_t{kOne} << 32) / range : 0;
   const int bits = ScaledBits();
   for (int32_t row = 0; row < pixels.height; ++row, share += stride) {
@@ -108,49 +108,28 @@ namespace {
 // together have the same PSFs.
 constexpr int32_t kSlopeCells = 4;
 
-// Intermediate rows of adjacent cells on a slope. Rows that span all of the cells have kStride
-// samples. Rows that span a single cell have kCell samples, with one extra pixel on each side. Both
-// kStride and kCell include the samples that kernels read beyond the end of a row.
-struct SlopeRows {
-  static constexpr size_t kPixel = 3;
-  static constexpr size_t kStride =
-      simd::SliceSamples(3 * kSlopeCells * kCellSize) + simd::kSliceLanes;
-  static constexpr size_t kCell = simd::SliceSamples(3 * kCellSize) + simd::kSliceLanes;
-  int16_t less[kCellSize * kStride] = {}, more[kCellSize * kStride] = {};
-  int16_t share[kCellSize * kCell] = {};
-  // Weighted mean of the results of two PSFs, starting one row above the cell.
-  int16_t mixed[(kCellSize + 2) * kCell] = {};
-  int16_t moved[kCellSize * kCell] = {};
-
-  int16_t* Mixed(int32_t row) { return mixed + static_cast<size_t>(row + 1) * kCell + kPixel; }
-};
-
 class Gather {
  public:
-  Gather(const GatherJob& job, BlockPixels* field, const Gathered& out)
+  Gather(const GatherJob& job, BlockPixels* field, uint8_t* codes, int16_t* samples, size_t stride)
       : job_(job),
         block_(job.cells.block),
         frame_(LayerFrame(block_, job.cells.layer)),
         field_(field),
-        out_(out) {}
+        codes_(codes),
+        samples_(samples),
+        stride_(stride) {}
 
   // Chooses the PSFs of all cells, and loads the pixels that the PSFs cover.
   void Load() {
-    int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
       for (int32_t x = block_.x; x < Right(); x += kCellSize) {
         Steps& steps = At(x, y) = kNone;
         if (!job_.cells.IsGathered(x, y)) continue;
         steps = StepsOf(x, y);
         border_ = Max(border_, PsfOf(steps.more).size);
-        const Rect pixels = job_.cells.PixelsOf(x, y);
-        left = Min(left, pixels.x);
-        top = Min(top, pixels.y);
-        right = Max(right, pixels.x + pixels.width);
-        bottom = Max(bottom, pixels.y + pixels.height);
       }
     }
-    loaded_ = {left, top, right - left, bottom - top};
+    loaded_ = job_.cells.BoundsOf(true);
     LoadBlock(*job_.window, loaded_, {border_, border_, border_, border_}, field_);
   }
 
@@ -171,6 +150,15 @@ class Gather {
   static_assert(kMaxGather <= 31,
                 "PSF steps must fit in int8_t: step 127 is a radius of 31.5 pixels");
   static constexpr Steps kNone = {-1, -1};  // marks cells that are rendered from views
+
+  // Sizes of intermediate rows of adjacent cells on a slope, in samples. Rows that span all of the
+  // cells have kStride samples. Rows that span a single cell have kCell samples, with one extra
+  // pixel on each side. Both kStride and kCell include the samples that kernels read beyond the end
+  // of a row.
+  static constexpr size_t kPixel = 3;
+  static constexpr size_t kStride =
+      simd::SliceSamples(3 * kSlopeCells * kCellSize) + simd::kSliceLanes;
+  static constexpr size_t kCell = simd::SliceSamples(3 * kCellSize) + simd::kSliceLanes;
 
   // Filters the row of cells at y. Adjacent cells with the same PSFs are filtered together.
   void FilterRow(int32_t y) {
@@ -199,7 +187,7 @@ class Gather {
 
   // Returns the index of the first output sample of `part`.
   size_t FirstOut(const Rect& part) const {
-    return static_cast<size_t>(part.y - frame_.y) * out_.stride +
+    return static_cast<size_t>(part.y - frame_.y) * stride_ +
            3 * static_cast<size_t>(part.x - frame_.x);
   }
 
@@ -223,10 +211,10 @@ class Gather {
     const simd::SampleRows in = RowsOf(part);
     const simd::Disc disc = DiscOf(psf);
     if (job_.cells.layer == 0) {
-      job_.kernels->FilterDisc(in, disc, job_.window->transfer->encoding,
-                               out_.codes + FirstOut(part), out_.stride);
+      job_.kernels->FilterDisc(in, disc, job_.window->transfer->encoding, codes_ + FirstOut(part),
+                               stride_);
     } else {
-      job_.kernels->FilterDiscLayer(in, disc, out_.samples + FirstOut(part), out_.stride);
+      job_.kernels->FilterDiscLayer(in, disc, samples_ + FirstOut(part), stride_);
     }
     return end;
   }
@@ -243,14 +231,13 @@ class Gather {
     const Rect part = PixelsOf(x, end, y);
     const Psf &less = PsfOf(steps.less), &more = PsfOf(steps.more);
     if (!Spend(more, part)) return x;
-    job_.kernels->FilterTwoDiscs(RowsOf(part), DiscOf(less), DiscOf(more), rows_.less, rows_.more,
-                                 SlopeRows::kStride);
+    job_.kernels->FilterTwoDiscs(RowsOf(part), DiscOf(less), DiscOf(more), less_, more_, kStride);
     for (; x < end; x += kCellSize) {
       const Rect pixels = job_.cells.PixelsOf(x, y);
       const Slope slope = SlopeOf(x, y);
       Mix(slope, steps, pixels, 3 * static_cast<size_t>(pixels.x - part.x));
       ContinueBeyond(pixels.height, 3 * static_cast<size_t>(pixels.width));
-      Move(slope.Move(job_.blur.mean_square), pixels);
+      Move(slope.Move(job_.mean_square), pixels);
     }
     return end;
   }
@@ -259,14 +246,12 @@ class Gather {
   // index of the first sample of the cell in the filtered rows.
   void Mix(const Slope& slope, const Steps& steps, const Rect& pixels, size_t first) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
-    const RadiusRange between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more)
-                                                                        << kBits};
-    slope.FindShares(between, pixels, SlopeRows::kCell, rows_.share);
+    const Range between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more) << kBits};
+    slope.FindShares(between, pixels, kCell, share_);
     for (int32_t row = 0; row < pixels.height; ++row) {
-      const size_t at = first + static_cast<size_t>(row) * SlopeRows::kStride;
-      job_.kernels->MixSamples(rows_.less + at, rows_.more + at,
-                               rows_.share + static_cast<size_t>(row) * SlopeRows::kCell,
-                               3 * static_cast<size_t>(pixels.width), rows_.Mixed(row));
+      const size_t at = first + static_cast<size_t>(row) * kStride;
+      job_.kernels->MixSamples(less_ + at, more_ + at, share_ + static_cast<size_t>(row) * kCell,
+                               3 * static_cast<size_t>(pixels.width), Mixed(row));
     }
   }
 
@@ -276,20 +261,20 @@ class Gather {
     const auto go_on = [](const int16_t* last, ptrdiff_t back) {
       return static_cast<int16_t>(2 * last[0] - last[back]);
     };
-    constexpr ptrdiff_t kPixel = SlopeRows::kPixel, kStride = SlopeRows::kCell;
+    constexpr auto kAcross = static_cast<ptrdiff_t>(kPixel), kDown = static_cast<ptrdiff_t>(kCell);
     const bool one_column = count == 3, one_row = height == 1;
     for (int32_t y = 0; y < height; ++y) {
-      int16_t* row = rows_.Mixed(y);
-      for (ptrdiff_t c = 0; c < kPixel; ++c) {
+      int16_t* row = Mixed(y);
+      for (ptrdiff_t c = 0; c < kAcross; ++c) {
         int16_t *first = row + c, *last = row + count - kPixel + c;
-        first[-kPixel] = go_on(first, one_column ? 0 : kPixel);
-        last[kPixel] = go_on(last, one_column ? 0 : -kPixel);
+        first[-kAcross] = go_on(first, one_column ? 0 : kAcross);
+        last[kAcross] = go_on(last, one_column ? 0 : -kAcross);
       }
     }
     for (size_t n = 0; n < count; ++n) {
-      int16_t *first = rows_.Mixed(0) + n, *last = rows_.Mixed(height - 1) + n;
-      first[-kStride] = go_on(first, one_row ? 0 : kStride);
-      last[kStride] = go_on(last, one_row ? 0 : -kStride);
+      int16_t *first = Mixed(0) + n, *last = Mixed(height - 1) + n;
+      first[-kDown] = go_on(first, one_row ? 0 : kDown);
+      last[kDown] = go_on(last, one_row ? 0 : -kDown);
     }
   }
 
@@ -297,18 +282,17 @@ class Gather {
   void Move(const simd::HalfMove& move, const Rect& pixels) {
     const size_t count = 3 * static_cast<size_t>(pixels.width);
     const auto rows = static_cast<size_t>(pixels.height);
-    job_.kernels->MoveSamples({rows_.Mixed(0), SlopeRows::kCell, rows, count}, move, rows_.moved,
-                              SlopeRows::kCell);
+    job_.kernels->MoveSamples({Mixed(0), kCell, rows, count}, move, moved_, kCell);
     size_t at = FirstOut(pixels);
-    const int16_t* moved = rows_.moved;
+    const int16_t* moved = moved_;
     for (int32_t row = 0; row < pixels.height; ++row) {
       if (job_.cells.layer > 0) {
-        std::memcpy(out_.samples + at, moved, count * sizeof(*moved));
+        std::memcpy(samples_ + at, moved, count * sizeof(*moved));
       } else {
-        job_.kernels->Narrow(moved, count, job_.window->transfer->encoding, out_.codes + at);
+        job_.kernels->Narrow(moved, count, job_.window->transfer->encoding, codes_ + at);
       }
-      at += out_.stride;
-      moved += SlopeRows::kCell;
+      at += stride_;
+      moved += kCell;
     }
   }
 
@@ -327,12 +311,10 @@ class Gather {
       return {step, step};
     }
     constexpr int kBits = kSlopeBits - kDisparityBits, kUp = (1 << kBits) - 1;
-    const RadiusRange range = SlopeOf(x, y).RangeOf(job_.cells.PixelsOf(x, y));
-    const auto made = [&](int32_t step) {
-      return static_cast<int8_t>(Min(step, job_.blur.last_step));
-    };
-    return {made(BlurStepBelow(range.low >> kBits)),
-            made(BlurStepAbove((range.high + kUp) >> kBits))};
+    const Range range = SlopeOf(x, y).RangeOf(job_.cells.PixelsOf(x, y));
+    const auto made = [&](int32_t step) { return static_cast<int8_t>(Min(step, job_.last_step)); };
+    return {made(BlurStepBelow(range.first >> kBits)),
+            made(BlurStepAbove((range.last + kUp) >> kBits))};
   }
 
   Steps& At(int32_t x, int32_t y) {
@@ -344,7 +326,10 @@ class Gather {
     return here.less == steps.less && here.more == steps.more && job_.cells.IsFlat(x, y) == flat;
   }
 
-  const Psf& PsfOf(int32_t step) const { return job_.blur.of_step[step]; }
+  // Returns row `row` of the mixture.
+  int16_t* Mixed(int32_t row) { return mixed_ + static_cast<size_t>(row + 1) * kCell + kPixel; }
+
+  const Psf& PsfOf(int32_t step) const { return job_.psfs[step]; }
 
   static simd::Disc DiscOf(const Psf& psf) { return {psf.size, psf.sum_bits, psf.weights}; }
 
@@ -353,17 +338,25 @@ class Gather {
   const Rect frame_;   // LayerFrame of the block, in pixels of the layer.
   Rect loaded_ = {};   // Pixels of the layer that the filters read.
   BlockPixels* field_;
-  const Gathered& out_;
+  uint8_t* const codes_;    // output at layer 0
+  int16_t* const samples_;  // output at other layers
+  const size_t stride_;
   int32_t border_ = 0;  // border of the field: the largest PSF size
   uint64_t pixels_ = 0;
   Steps steps_[kMaxRowCells * kMaxRowCells];  // PSFs (BlurStep) of each cell of the block
-  SlopeRows rows_;
+  // Results of the smaller and the larger PSF, and the share of the larger PSF.
+  int16_t less_[kCellSize * kStride] = {}, more_[kCellSize * kStride] = {};
+  int16_t share_[kCellSize * kCell] = {};
+  // Weighted mean of the results of two PSFs, starting one row above the cell.
+  int16_t mixed_[(kCellSize + 2) * kCell] = {};
+  int16_t moved_[kCellSize * kCell] = {};
 };
 
 }  // namespace
 
-uint64_t GatherCells(const GatherJob& job, BlockPixels* field, const Gathered& out) {
-  Gather gather(job, field, out);
+uint64_t GatherCells(const GatherJob& job, BlockPixels* field, uint8_t* codes, int16_t* samples,
+                     size_t stride) {
+  Gather gather(job, field, codes, samples, stride);
   gather.Load();
   gather.Filter();
   return gather.pixels();

@@ -26,11 +26,6 @@ namespace starfocus {
 // Fractional bits of radii on a slope.
 inline constexpr int kSlopeBits = 10;
 
-// Smallest and largest blur radius of a set of pixels, kSlopeBits.
-struct RadiusRange {
-  int32_t low, high;
-};
-
 class Slope {
  public:
   // Describes the cell at (column, row) of the grid, at a layer. The grid must store the cells
@@ -39,16 +34,16 @@ class Slope {
   // interpolated bilinearly.
   Slope(const CellGrid& grid, const BlurScale& scale, int32_t column, int32_t row, int32_t layer);
 
-  // Returns the range of radii of pixels of the layer, which may lie outside the cell.
-  RadiusRange RangeOf(const Rect& pixels) const;
+  // Returns the smallest and the largest radius (kSlopeBits) of pixels of the layer, which may lie
+  // outside the cell.
+  Range RangeOf(const Rect& pixels) const;
 
   // Writes the share of the larger PSF for each pixel, in [0, 1] with 15 fractional bits. Elements
   // share[3 n] to share[3 n + 2] belong to pixel n of a row. Rows are `stride` samples apart. The
-  // share is the position of the pixel's squared radius between the squares of the radii in
-  // `between`. With this share, a mixture of two PSFs has the mean square width of the intermediate
-  // PSF.
-  void FindShares(const RadiusRange& between, const Rect& pixels, size_t stride,
-                  int16_t* share) const;
+  // share is the position of the pixel's squared radius between the squares of the radii
+  // `between.first` and `between.last` (kSlopeBits). With this share, a mixture of two PSFs has the
+  // mean square width of the intermediate PSF.
+  void FindShares(const Range& between, const Rect& pixels, size_t stride, int16_t* share) const;
 
   // Returns the displacement of the cell's pixels in the mean of all views. The displacement is
   // `spread` times the radius times the gradient of the radius, at most two pixels. `spread` is the
@@ -70,35 +65,24 @@ class Slope {
 
 static_assert(kMaxGather <= simd::kMaxDisc, "");
 
-// PSFs of a lens, indexed by BlurStep.
-struct GatherPsfs {
-  const Psf* of_step;
-  int32_t last_step;
-  int32_t mean_square;  // MeanSquare of the opening
-};
-
 struct GatherJob {
   const Window* window;  // window at the layer of the cells
   const CellGrid* grid;
   BlockCells cells;  // cells of a block whose coordinates are multiples of kCellSize
   BlurScale scale;
-  GatherPsfs blur;
+  const Psf* psfs;  // PSFs of the lens for the steps (BlurStep) up to last_step
+  int32_t last_step;
+  int32_t mean_square;  // MeanSquare of the opening
   const simd::Kernels* kernels;
   CancelToken* cancel;  // cancels the call; the output is incomplete after cancellation
 };
 
-// Output, starting at the first pixel of the block's LayerFrame: codes at layer 0, samples with
-// kLayerBits at other layers.
-struct Gathered {
-  uint8_t* codes;
-  int16_t* samples;
-  size_t stride;  // distance between rows, in samples
-};
-
 // Blurs, without views, the cells of a block that GatherMap selects. `field` must have room for the
-// LayerFrame of the block and a border of kMaxGather pixels. Returns the number of pixels of the
-// picture that the blurred cells cover.
-uint64_t GatherCells(const GatherJob& job, BlockPixels* field, const Gathered& out);
+// LayerFrame of the block and a border of kMaxGather pixels. The output starts at the first pixel
+// of the LayerFrame, in rows `stride` samples apart: codes at layer 0, samples with kLayerBits at
+// other layers. Returns the number of pixels of the picture that the blurred cells cover.
+uint64_t GatherCells(const GatherJob& job, BlockPixels* field, uint8_t* codes, int16_t* samples,
+                     size_t stride);
 
 }  // namespace starfocus
 

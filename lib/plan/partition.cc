@@ -249,25 +249,10 @@ class Partition {
 
   // Limits the rendered rectangle to the cells that must be rendered from views.
   void Shrink(Block* block) const {
-    const BlockCells cells = {&gathered_, block->rect, block->layer};
-    const Rect& rect = block->rect;
-    int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
-    for (int32_t y = rect.y; y < rect.y + rect.height; y += kCellSize) {
-      for (int32_t x = rect.x; x < rect.x + rect.width; x += kCellSize) {
-        if (cells.IsGathered(x, y)) continue;
-        const Rect pixels = cells.PixelsOf(x, y);
-        left = Min(left, pixels.x);
-        top = Min(top, pixels.y);
-        right = Max(right, pixels.x + pixels.width);
-        bottom = Max(bottom, pixels.y + pixels.height);
-      }
-    }
     block->n = 0;
-    block->rendered = {};
+    block->rendered = BlockCells{&gathered_, block->rect, block->layer}.BoundsOf(false);
     block->border = {};
-    if (left >= right) return;
-    block->rendered = {left, top, right - left, bottom - top};
-    MeasureRendered(block);
+    if (block->rendered.width > 0) MeasureRendered(block);
   }
 
   // Chooses N and the border from the smallest blocks that contain cells to render.

@@ -25,6 +25,22 @@ Rect BlockCells::PixelsOf(int32_t x, int32_t y) const {
   return {left, top, right - left, bottom - top};
 }
 
+Rect BlockCells::BoundsOf(bool gathered) const {
+  int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
+  for (int32_t y = block.y; y < block.y + block.height; y += kCellSize) {
+    for (int32_t x = block.x; x < block.x + block.width; x += kCellSize) {
+      if (IsGathered(x, y) != gathered) continue;
+      const Rect pixels = PixelsOf(x, y);
+      left = Min(left, pixels.x);
+      top = Min(top, pixels.y);
+      right = Max(right, pixels.x + pixels.width);
+      bottom = Max(bottom, pixels.y + pixels.height);
+    }
+  }
+  if (left >= right) return {};
+  return {left, top, right - left, bottom - top};
+}
+
 bool BlockCells::AreGathered(const Rect& part) const {
   const auto column = [&](int32_t x) {
     return Clamp(x * (1 << layer), block.x, block.x + block.width - 1) / kCellSize;

@@ -53,6 +53,10 @@ struct BlockCells {
   // Returns the pixels of the layer that belong to the cell at pixel (x, y) of the picture.
   Rect PixelsOf(int32_t x, int32_t y) const;
 
+  // Returns the smallest rectangle of the layer that contains the pixels of all cells for which
+  // IsGathered returns `gathered`; an empty rectangle if there is no such cell.
+  Rect BoundsOf(bool gathered) const;
+
   // Returns true if all pixels of `part` belong to cells that are blurred without views.
   bool AreGathered(const Rect& part) const;
 };

@@ -45,31 +45,31 @@ struct Plane {
 TEST_CASE("slope: the radii along a plane follow from the disparities of its pixels") {
   for (const double middle : {5.0, -5.0}) {
     const Plane plane(middle, 0.1, 0.05);
-    const RadiusRange range = plane.Middle(0).RangeOf({16, 16, 8, 8});
-    CHECK(range.low / kOne == doctest::Approx(5 - 3.5 * 0.15).epsilon(0.01));
-    CHECK(range.high / kOne == doctest::Approx(5 + 3.5 * 0.15).epsilon(0.01));
-    const RadiusRange pixel = plane.Middle(0).RangeOf({23, 16, 1, 1});
-    CHECK(pixel.low == pixel.high);
-    CHECK(pixel.low / kOne ==
+    const Range range = plane.Middle(0).RangeOf({16, 16, 8, 8});
+    CHECK(range.first / kOne == doctest::Approx(5 - 3.5 * 0.15).epsilon(0.01));
+    CHECK(range.last / kOne == doctest::Approx(5 + 3.5 * 0.15).epsilon(0.01));
+    const Range pixel = plane.Middle(0).RangeOf({23, 16, 1, 1});
+    CHECK(pixel.first == pixel.last);
+    CHECK(pixel.first / kOne ==
           doctest::Approx(std::fabs(middle + 3.5 * 0.1 - 3.5 * 0.05)).epsilon(0.01));
     // Pixels of layer 1 are twice as large, so radii in pixels are half as large.
-    const RadiusRange layer = plane.Middle(1).RangeOf({11, 8, 1, 1});
-    CHECK(layer.low / kOne ==
+    const Range layer = plane.Middle(1).RangeOf({11, 8, 1, 1});
+    CHECK(layer.first / kOne ==
           doctest::Approx(std::fabs(middle + 3 * 0.1 - 3 * 0.05) / 2).epsilon(0.01));
   }
 }
 
 TEST_CASE("slope: the smallest radius is 0 if the focus is within the cell") {
-  const RadiusRange range = Plane(0, 0.1, 0).Middle(0).RangeOf({16, 16, 8, 8});
-  CHECK(range.low == 0);
-  CHECK(range.high / kOne == doctest::Approx(0.35).epsilon(0.05));
+  const Range range = Plane(0, 0.1, 0).Middle(0).RangeOf({16, 16, 8, 8});
+  CHECK(range.first == 0);
+  CHECK(range.last / kOne == doctest::Approx(0.35).epsilon(0.05));
 }
 
 TEST_CASE("slope: shares interpolate linearly between two squared radii") {
   const Plane plane(5, 0.1, 0);
   constexpr size_t kStride = 26;
   int16_t share[2 * kStride];
-  const RadiusRange between = {4 << kSlopeBits, 6 << kSlopeBits};
+  const Range between = {4 << kSlopeBits, 6 << kSlopeBits};
   plane.Middle(0).FindShares(between, {16, 19, 8, 2}, kStride, share);
   for (const int16_t* row : {share, share + kStride}) {
     for (int n = 0; n < 8; ++n) {
