@@ -158,9 +158,6 @@ Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
 // picture.
 void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  Scratch* scratch) {
-  BlockPixels field;
-  field.rgb = scratch->field.rgb;
-  field.disparity = scratch->field.disparity;
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
   const GatherJob job = {&in.windows[block.layer], in.cells,    cells,
@@ -169,7 +166,7 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   const Rect frame = LayerFrame(block.rect, block.layer);
   const size_t stride = block.layer == 0 ? out.stride : 3 * static_cast<size_t>(frame.width);
   scratch->counts.gathered_pixels +=
-      GatherCells(job, &field, At(out, block.rect, 0), scratch->layer_samples, stride);
+      GatherCells(job, &scratch->field, At(out, block.rect, 0), scratch->layer_samples, stride);
   if (block.layer > 0 && scratch->cancel.Spend(0)) FinishLayer(in, block, out, *scratch);
 }
 

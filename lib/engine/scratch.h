@@ -8,6 +8,7 @@
 #include "lib/base/jobs.h"
 #include "lib/engine/tables.h"
 #include "lib/gather/depth_blur.h"
+#include "lib/io/block_pixels.h"
 #include "lib/io/excess.h"
 #include "lib/io/layers.h"
 #include "lib/plan/partition.h"
@@ -24,13 +25,6 @@ struct Counts {
   uint32_t depth_flags;  // simd::DepthFlags of the rows that were read
 };
 
-// Memory for the extended rectangle of a block in the centre view. E is the largest side of an
-// extended rectangle, in pixels.
-struct BlockPixelsMemory {
-  int16_t* rgb;        // Light: E rows of RgbStride(E) samples.
-  int16_t* disparity;  // E^2 samples.
-};
-
 // Scratch memory of one worker. Each renderer leaves the weighted sums of a block in `sums`. The
 // pointers except `sums` and the weights share memory, because a worker runs one step at a time
 // (layout.cc). R is the largest side of a rectangle to refocus, in pixels.
@@ -39,7 +33,7 @@ struct Scratch {
   uint32_t* sums;                  // 3 R^2 samples.
   uint16_t* aperture_weights;  // With cat's eyes: view weights of a block, for up to the largest N.
   LampRuns* lamp_runs;         // Cache of runs of highlights, if highlights are enabled.
-  BlockPixelsMemory field;     // Pixels of a block that is blurred without views.
+  BlockPixels field;           // Memory for the pixels of a block that is blurred without views.
   SpanMemory spans;            // Spans of a block that is blurred by depth.
   ResampleScratch resample;
   UpsampleScratch upsample;
