@@ -10,15 +10,6 @@
 namespace starfocus {
 namespace {
 
-// The rectangle that is being refocused, the slices of its current tile, and the output. All parts
-// of a tile share one Rectangle.
-struct Rectangle {
-  const RenderJob* job;
-  const SliceStack* stack;
-  CompositorScratch* scratch;
-  uint32_t* accumulators;
-};
-
 // Returns the centre view's light of a row of the rectangle: 3 * width samples in the second half
 // of the row's accumulators. The accumulators are written from left to right. The first 3 * n
 // accumulators overlap the light of the first 2 n - width pixels. Since 2 n - width <= n, only the
@@ -30,23 +21,25 @@ int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
 // A part of a tile, so small that all slices of the part are in memory at once.
 class TilePart {
  public:
-  TilePart(const Rectangle& all, const Rect& rect)
-      : all_(all), job_(*all.job), stack_(*all.stack), scratch_(*all.scratch), rect_(rect) {}
+  TilePart(const RenderJob& job, const SliceStack& stack, const CompositorScratch& scratch,
+           const Rect& rect, uint32_t* accumulators)
+      : job_(job), stack_(stack), scratch_(scratch), rect_(rect), accumulators_(accumulators) {}
 
   // Composites the part. Returns the number of pixels rendered in each view, summed over all
   // slices.
   uint64_t Refocus() {
     int16_t* const strip_memory = PlaceSlices();
     const uint64_t pixels = FindPairs();
-    const StripJob job = {job_.kernels, &stack_,       planes_,    scratch_.weights,
-                          strip_memory, scratch_.sums, job_.cancel};
-    const CellPair *pair = scratch_.pairs, *last = pair + pairs_;
+    const CellPair *first = scratch_.pairs, *const last = first + pairs_;
     for (int32_t x = 0; x < rect_.width && GoesOn(job_.cancel, 0); x += simd::kStripColumns) {
-      StripPairs strip = {x, pair, pair};
-      while (strip.end < last && strip.end->x == x) ++strip.end;
-      pair = strip.end;
-      if (strip.first < strip.end) CompositeStrip(job, strip);
-      FinishStrip(strip);
+      const CellPair* end = first;
+      while (end < last && end->x == x) ++end;
+      if (first < end) {
+        CompositeStrip(*job_.kernels, stack_, planes_, first, end, strip_memory, scratch_.sums,
+                       job_.cancel);
+      }
+      FinishStrip(x, first, end);
+      first = end;
     }
     return pixels;
   }
@@ -68,9 +61,9 @@ class TilePart {
                          static_cast<size_t>(placed.reach));
     }
     int16_t* const behind = reinterpret_cast<int16_t*>(next);
-    const SliceInput input = {*job_.kernels, scratch_.surfaces, stack_.bands};
     for (int32_t k = 0; k < stack_.count; ++k) {
-      FillSlice(input, stack_.slices[k], rect, behind, planes_[k]);
+      FillSlice(*job_.kernels, scratch_.surfaces, stack_.bands, stack_.slices[k], rect, behind,
+                planes_[k]);
     }
     return behind;
   }
@@ -119,14 +112,16 @@ class TilePart {
     return {cover.some & strips, cover.all == strips ? uint64_t{1} : 0};
   }
 
-  void FinishStrip(const StripPairs& strip) {
+  // Writes the accumulators of a strip. The cell pairs of the strip are [first, end); the other
+  // cells are later blurred without views.
+  void FinishStrip(int32_t x, const CellPair* first, const CellPair* end) {
     int32_t row = 0;
-    for (const CellPair* pair = strip.first; pair < strip.end; ++pair) {
-      ClearRows(strip.x, row, pair->y);
+    for (const CellPair* pair = first; pair < end; ++pair) {
+      ClearRows(x, row, pair->y);
       row = pair->y + pair->rows;
-      FinishRows(strip.x, pair->y, row);
+      FinishRows(x, pair->y, row);
     }
-    ClearRows(strip.x, row, rect_.height);
+    ClearRows(x, row, rect_.height);
   }
 
   // Divides the summed colours by the summed coverage. Pixels that hardly any view shows get the
@@ -137,18 +132,17 @@ class TilePart {
     int16_t centre[3 * simd::kStripColumns + simd::kPadding / sizeof(int16_t)] = {};
     for (int32_t row = first; row < end; ++row) {
       const size_t at = FirstSample(x, row);
-      std::memcpy(centre, CentreRow(all_.accumulators + at - left, job_.rect.width) + left,
+      std::memcpy(centre, CentreRow(accumulators_ + at - left, job_.rect.width) + left,
                   3 * columns * sizeof(*centre));
       job_.kernels->FinishComposite(SumsOfRow(scratch_.sums, row), simd::kSliceLanes, centre,
-                                    finish, columns, all_.accumulators + at);
+                                    finish, columns, accumulators_ + at);
     }
   }
 
   // Clears the accumulators of rows [first, end), whose cells are later blurred without views.
   void ClearRows(int32_t x, int32_t first, int32_t end) {
     for (int32_t row = first; row < end; ++row) {
-      std::memset(all_.accumulators + FirstSample(x, row), 0,
-                  3 * Columns(x) * sizeof(*all_.accumulators));
+      std::memset(accumulators_ + FirstSample(x, row), 0, 3 * Columns(x) * sizeof(*accumulators_));
     }
   }
 
@@ -161,11 +155,11 @@ class TilePart {
     return static_cast<size_t>(Min(simd::kStripColumns, rect_.width - x));
   }
 
-  const Rectangle& all_;
   const RenderJob& job_;
   const SliceStack& stack_;
-  CompositorScratch& scratch_;
-  const Rect rect_;  // part of the tile, in pixels of the rectangle to refocus
+  const CompositorScratch& scratch_;
+  const Rect rect_;               // part of the tile, in pixels of the rectangle to refocus
+  uint32_t* const accumulators_;  // accumulators of the rectangle
   SlicePlane planes_[kMaxSlices];
   int32_t pairs_ = 0;
 };
@@ -173,9 +167,7 @@ class TilePart {
 // Finds the surfaces of the rectangle and copies the rectangle's centre view to the rows of
 // CentreRow. Returns the position of the rectangle in `scratch->surfaces`, in pixels.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
-  BlockPixels field;
-  field.rgb = scratch->field_rgb;
-  field.disparity = scratch->field_disparity;
+  BlockPixels& field = scratch->field;
   LoadBlock(*job.window, job.rect, job.border, &field);
   TakeThinDisparities(*job.window, &field);
   FindLayeredDepth(*job.kernels, *job.window, field, &scratch->surfaces);
@@ -193,16 +185,17 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
 }
 
 // Finds the slices of a tile. `tile` is in pixels of the rectangle to refocus.
-void FindStack(const RenderJob& job, const Rect& tile, CompositorScratch* scratch,
+void FindStack(const RenderJob& job, const Rect& tile, const CompositorScratch& scratch,
                SliceStack* stack) {
   const Rect in_surfaces = {stack->inner.x + tile.x, stack->inner.y + tile.y, tile.width,
                             tile.height};
-  stack->count = FindSlices(SlicesOfTile(job, in_surfaces, *scratch), stack->slices, &stack->bands);
+  stack->count = FindSlices(*job.kernels, scratch.surfaces, *job.grid, SliceRuleOf(job),
+                            in_surfaces, stack->slices, &stack->bands);
   for (int32_t k = 0; k < stack->count; ++k) {
     FindOffsets(*job.grid, stack->slices[k].disparity, static_cast<size_t>(stack->count),
-                scratch->offsets + k);
+                scratch.offsets + k);
   }
-  stack->offsets = scratch->offsets;
+  stack->offsets = scratch.offsets;
 }
 
 int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
@@ -236,14 +229,15 @@ Rect ChoosePart(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
 
 // Composites the slices of a tile. Returns the number of pixels rendered in each view, summed over
 // all slices.
-uint64_t CompositeTile(const Rectangle& all, const Rect& tile) {
-  const Rect largest = ChoosePart(*all.stack, tile, all.scratch->pool_bytes);
+uint64_t CompositeTile(const RenderJob& job, const SliceStack& stack,
+                       const CompositorScratch& scratch, const Rect& tile, uint32_t* accumulators) {
+  const Rect largest = ChoosePart(stack, tile, scratch.pool_bytes);
   uint64_t pixels = 0;
   for (int32_t y = 0; y < tile.height; y += largest.height) {
-    for (int32_t x = 0; x < tile.width && GoesOn(all.job->cancel, 0); x += largest.width) {
+    for (int32_t x = 0; x < tile.width && GoesOn(job.cancel, 0); x += largest.width) {
       const Rect part = {tile.x + x, tile.y + y, Min(largest.width, tile.width - x),
                          Min(largest.height, tile.height - y)};
-      pixels += TilePart(all, part).Refocus();
+      pixels += TilePart(job, stack, scratch, part, accumulators).Refocus();
     }
   }
   return pixels;
@@ -251,16 +245,16 @@ uint64_t CompositeTile(const Rectangle& all, const Rect& tile) {
 
 }  // namespace
 
-SliceJob SlicesOfTile(const RenderJob& job, const Rect& tile, const CompositorScratch& scratch) {
+SliceRule SliceRuleOf(const RenderJob& job) {
   SliceRule rule = job.is_benchmark ? kFineSlices : kSlices;
   rule.area = MostSliceArea(job.r_max);
-  return {job.kernels, &scratch.surfaces, job.grid, rule, tile, scratch.bins, scratch.least_blur};
+  return rule;
 }
 
 uint64_t CompositeRectangle(const RenderJob& given, void* scratch, uint32_t* accumulators) {
-  auto* const memory = static_cast<CompositorScratch*>(scratch);
+  CompositorScratch& memory = *static_cast<CompositorScratch*>(scratch);
   SliceStack stack;
-  stack.inner = LoadSurfaces(given, memory, accumulators);
+  stack.inner = LoadSurfaces(given, &memory, accumulators);
   // The surfaces and their slices have disparities without the range in focus.
   ViewGrid grid = *given.grid;
   grid.focus.near = grid.focus.far;
@@ -268,7 +262,6 @@ uint64_t CompositeRectangle(const RenderJob& given, void* scratch, uint32_t* acc
   job.grid = &grid;
   stack.grid = &grid;
   stack.weights = ScaleWeights(grid.aperture);
-  const Rectangle all = {&job, &stack, memory, accumulators};
   uint64_t pixels = 0;
   Rect tile = {0, 0, 0, 0};
   for (; tile.y < job.rect.height; tile.y += tile.height) {
@@ -277,7 +270,7 @@ uint64_t CompositeRectangle(const RenderJob& given, void* scratch, uint32_t* acc
       tile.width = SideOfTile(job.rect.width - tile.x);
       if (!GoesOn(job.cancel, 0)) return 3 * pixels;
       FindStack(job, tile, memory, &stack);
-      pixels += CompositeTile(all, tile);
+      pixels += CompositeTile(job, stack, memory, tile, accumulators);
     }
   }
   return 3 * pixels;
@@ -319,16 +312,16 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   const size_t row = simd::SliceSamples(extended);
   for (uint16_t*& sources : surfaces.sources) sources = arena->Take<uint16_t>(extended * row);
   const auto take_field = [&] {
-    scratch.field_rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-    scratch.field_disparity = arena->Take<int16_t>(extended * extended);
+    scratch.field.rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+    scratch.field.disparity = arena->Take<int16_t>(extended * extended);
     for (uint8_t*& edges : surfaces.edges) {
       edges = arena->Take<uint8_t>(extended * row + simd::kSliceLanes);
     }
     surfaces.moved = arena->Take<int16_t>(row);
     surfaces.behind = arena->Take<int16_t>(row);
     surfaces.steps = arena->Take<simd::StepBits>(row / simd::kSliceLanes);
-    scratch.bins = arena->Take<uint8_t>(kSliceBins);
-    scratch.least_blur = arena->Take<int32_t>(extended);
+    surfaces.bins = arena->Take<uint8_t>(kSliceBins);
+    surfaces.least_blur = arena->Take<int32_t>(extended);
   };
   const auto take_fill = [&] {
     const size_t stride = FillStride(extended), behind = kFillStep;
@@ -359,7 +352,6 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   surfaces.share = arena->Take<uint8_t>(area);
   surfaces.hiding = arena->Take<uint64_t>(extended);
   scratch.offsets = arena->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
-  scratch.weights = arena->Take<int16_t>(Min(2 * max_n + 1, size_t{kGroupViews}));
   scratch.pairs = arena->Take<CellPair>(CellPairs(config.superblock));
   const auto rows = static_cast<size_t>(LargestTile(config.superblock));
   scratch.sums = arena->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);

@@ -18,20 +18,16 @@
 namespace starfocus {
 
 // Scratch memory of one worker. E is the largest side of an extended rectangle, and N is the
-// largest number of views along the aperture radius. G is the smaller of 2 N + 1 and kGroupViews.
+// largest number of views along the aperture radius.
 //
 // Members with disjoint lifetimes share memory. `fill` reuses the memory of the field. `pool` may
-// reuse the memory of the field, `fill`, `bins` and `least_blur`; each tile writes `bins` and
-// `least_blur` before its slices are made.
+// reuse the memory of the field, `fill` and the scratch memory of FindSlices in `surfaces`, which
+// each tile writes before its slices are made.
 struct CompositorScratch {
-  int16_t* field_rgb;          // Colours of the field as light: E rows of RgbStride(E) samples.
-  int16_t* field_disparity;    // Disparities of the field: E^2.
+  BlockPixels field;           // E rows of RgbStride(E) samples of light, and E^2 disparities.
   LayeredDepth surfaces;       // E^2 pixels per surface.
   FillScratch fill;            // Used only after all reads of the field.
-  uint8_t* bins;               // kSliceBins elements.
-  int32_t* least_blur;         // E elements.
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1) elements.
-  int16_t* weights;            // G elements.
   CellPair* pairs;             // Cell pairs of a tile.
   uint32_t* sums;              // kPixelSums per pixel of a strip.
   uint8_t* pool;               // Slices of a part of a tile, and the strips of these slices.
@@ -64,9 +60,8 @@ constexpr size_t CellPairs(int32_t side) {
 // Fractional bits of the sums of CompositeRectangle.
 inline constexpr int kCompositeBits = kMaxLightBits + kLightBits;
 
-// Returns the job that finds the slices of a tile. `tile` is in pixels of scratch.surfaces, which
-// must contain the surfaces of the job's rectangle.
-SliceJob SlicesOfTile(const RenderJob& job, const Rect& tile, const CompositorScratch& scratch);
+// Returns the limits on the slices of a tile of the job's rectangle.
+SliceRule SliceRuleOf(const RenderJob& job);
 
 // Implements Renderer::render for slices. Each tile of the rectangle has its own slices. Returns
 // the number of samples rendered in each view (three per pixel), summed over all slices. `scratch`

@@ -17,14 +17,6 @@ void ClearStrip(int16_t* disparity) {
   for (int32_t k = 0; k < kStripColumns; ++k) disparity[k] = kNoSurface;
 }
 
-// Hidden pixels of a strip: the position of the first pixel in the field, and the disparities and
-// sources of all pixels in the format of LookBehind.
-struct HiddenStrip {
-  int32_t x, y;
-  const int16_t* disparity;
-  const uint16_t* source;
-};
-
 // Colours of hidden pixels of a strip.
 class HiddenColours {
  public:
@@ -32,12 +24,18 @@ class HiddenColours {
 
   HiddenColours(const Window& window, const BlockPixels& field) : window_(window), field_(field) {}
 
-  // Reads the colour of each pixel k for which bit k of `pixels` is set. Adjacent pixels behind one
-  // edge are read together.
-  void Read(const HiddenStrip& strip, uint32_t pixels) {
+  // Reads the colour of each pixel k of a strip for which bit k of `pixels` is set. Pixel 0 of the
+  // strip is pixel (x, y) of the field. `disparity` and `source` belong to the pixels of the strip,
+  // in the format of LookBehind. Adjacent pixels behind one edge are read together.
+  void Read(int32_t x, int32_t y, const int16_t* disparity, const uint16_t* source,
+            uint32_t pixels) {
+    x_ = x;
+    y_ = y;
+    disparity_ = disparity;
+    source_ = source;
     while (pixels != 0) {
       const int32_t first = LowestBit(pixels);
-      pixels &= ~uint32_t{0} << ReadFrom(strip, first);
+      pixels &= ~uint32_t{0} << ReadFrom(first);
     }
   }
 
@@ -47,28 +45,27 @@ class HiddenColours {
  private:
   // Reads pixel k and the following pixels that have the same disparity and source. Returns the
   // index of the first pixel that was not read.
-  int32_t ReadFrom(const HiddenStrip& strip, int32_t k) {
-    const uint32_t source = strip.source[k], sides = source & 15;
+  int32_t ReadFrom(int32_t k) {
+    const uint32_t source = source_[k], sides = source & 15;
     if ((sides & (sides - 1)) != 0) {
-      ReadMean(strip, k);
+      ReadMean(k);
       return k + 1;
     }
     int32_t end = k + 1;
-    while (end < kStripColumns && strip.source[end] == source &&
-           strip.disparity[end] == strip.disparity[k]) {
+    while (end < kStripColumns && source_[end] == source && disparity_[end] == disparity_[k]) {
       ++end;
     }
-    ReadSide(strip, k, end - k, LowestBit(sides), rgb + 3 * k);
+    ReadSide(k, end - k, LowestBit(sides), rgb + 3 * k);
     return end;
   }
 
   // Sets the colour of pixel k to the mean of the colours that the sources on several sides
   // provide.
-  void ReadMean(const HiddenStrip& strip, int32_t k) {
+  void ReadMean(int32_t k) {
     int32_t sums[3] = {0, 0, 0}, count = 0;
-    ForEachBit(strip.source[k] & 15, [&](int32_t side) {
+    ForEachBit(source_[k] & 15, [&](int32_t side) {
       int16_t shown[3];
-      ReadSide(strip, k, 1, side, shown);
+      ReadSide(k, 1, side, shown);
       for (int c = 0; c < 3; ++c) sums[c] += shown[c];
       ++count;
     });
@@ -78,21 +75,20 @@ class HiddenColours {
   }
 
   // Reads the colours of pixels [k, k + count), which all have the same disparity and source.
-  void ReadSide(const HiddenStrip& strip, int32_t k, int32_t count, int32_t side, int16_t* to) {
+  void ReadSide(int32_t k, int32_t count, int32_t side, int16_t* to) {
     const int dx = kSides[side][0], dy = kSides[side][1];
-    const uint32_t source = strip.source[k];
+    const uint32_t source = source_[k];
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     if (distance != 0) {
       repeats_ = true;
-      std::memcpy(to, field_.Rgb(strip.x + k + dx * distance, strip.y + dy * distance),
+      std::memcpy(to, field_.Rgb(x_ + k + dx * distance, y_ + dy * distance),
                   3 * static_cast<size_t>(count) * sizeof(*to));
       return;
     }
     const OcclusionView& look = LookOf(side, source);
-    const int16_t disparity = strip.disparity[k];
-    const CapturedLine line = {(field_.x + strip.x + k) * kShiftOne - Moved(look.at.u, disparity),
-                               (field_.y + strip.y) * kShiftOne - Moved(look.at.v, disparity), 1,
-                               0};
+    const int16_t disparity = disparity_[k];
+    const CapturedLine line = {(field_.x + x_ + k) * kShiftOne - Moved(look.at.u, disparity),
+                               (field_.y + y_) * kShiftOne - Moved(look.at.v, disparity), 1, 0};
     ReadCaptured(window_, look.view, line, count, to);
   }
 
@@ -111,6 +107,9 @@ class HiddenColours {
 
   const Window& window_;
   const BlockPixels& field_;
+  int32_t x_ = 0, y_ = 0;  // position of the strip that is read
+  const int16_t* disparity_ = nullptr;
+  const uint16_t* source_ = nullptr;
   bool repeats_ = false;
 };
 
@@ -325,7 +324,7 @@ class SurfaceFinder {
   // Sets the colour of each pixel k of a strip for which bit k of `found` is set.
   void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
     const size_t at = surfaces_.At(x, y);
-    colours_.Read({x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + at},
+    colours_.Read(x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + at,
                   found);
     kernels_.Split(colours_.rgb, kStripColumns, surfaces_.plane, surfaces_.rgb[behind] + at);
   }

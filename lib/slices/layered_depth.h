@@ -47,6 +47,10 @@ struct LayeredDepth {
   uint8_t* edges[4] = {};
   int16_t *moved = nullptr, *behind = nullptr;  // Scratch memory of FindEdges: one row each.
   simd::StepBits* steps = nullptr;              // Scratch memory of FindSteps: one row.
+  // Scratch memory of FindSlices: kSliceBins elements, and one element per pixel of the larger
+  // side.
+  uint8_t* bins = nullptr;
+  int32_t* least_blur = nullptr;
   // Source of the colour of each pixel of the hidden surfaces, in the format of LookBehind. The
   // sources are valid only in strips whose bit in `hiding` is set.
   uint16_t* sources[simd::kSurfaces - 1] = {};

@@ -85,9 +85,8 @@ void ClearTail(size_t width, size_t plane, int16_t* row) {
 
 // Copies the slice's pixels of one row of the surfaces. Repeats the outermost pixels beyond the
 // left and right ends of the surfaces. Clears the samples after the end of the row.
-simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Rect& from_row,
-                           size_t plane, int16_t* row) {
-  const LayeredDepth& surfaces = input.surfaces;
+simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& surfaces,
+                           const Slice& slice, const Rect& from_row, size_t plane, int16_t* row) {
   const int32_t x = from_row.x, y = from_row.y, width = from_row.width;
   const int32_t first = Max(0, -x), last = Min(width, surfaces.width - x);
   const size_t at = surfaces.At(x + first, y);
@@ -101,8 +100,8 @@ simd::SliceCover SelectRow(const SliceInput& input, const Slice& slice, const Re
     from.rgb[k] = surfaces.rgb[k] + at;
   }
   const simd::SliceCover cover =
-      input.kernels.SelectSlice(from, {slice.low, slice.high, slice.overlap},
-                                static_cast<size_t>(last - first), plane, row + first);
+      kernels.SelectSlice(from, {slice.low, slice.high, slice.overlap},
+                          static_cast<size_t>(last - first), plane, row + first);
   ClearTail(static_cast<size_t>(width), plane, row);
   if (last - first == width) return cover;
   for (int c = 0; c < 4; ++c, row += plane) {
@@ -172,22 +171,24 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
   placed->plane = PlaneSamples(static_cast<size_t>(rect.width), static_cast<size_t>(placed->reach));
 }
 
-void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, int16_t* filtered,
+void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
+               const SurfaceBands& bands, const Slice& slice, const Rect& rect, int16_t* filtered,
                const SlicePlane& placed) {
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
   int16_t* samples = placed.samples;
   for (int32_t row = 0; row < placed.rows; ++row, samples += 4 * placed.plane) {
-    const int32_t from = Clamp(y + row, 0, input.surfaces.height - 1);
-    const simd::DisparityRange& range = input.bands.At(from);
+    const int32_t from = Clamp(y + row, 0, surfaces.height - 1);
+    const simd::DisparityRange& range = bands.At(from);
     if (range.high < slice.low || range.low > slice.overlap) {
       std::memset(samples, 0, 4 * placed.plane * sizeof(*samples));
       placed.cover[row] = {0, 0};
     } else {
-      placed.cover[row] = SelectRow(input, slice, {x, from, width, 1}, placed.plane, samples);
+      placed.cover[row] =
+          SelectRow(kernels, surfaces, slice, {x, from, width, 1}, placed.plane, samples);
     }
   }
-  if (placed.subaperture > kBoxSubaperture) Spread(input.kernels, filtered, placed);
+  if (placed.subaperture > kBoxSubaperture) Spread(kernels, filtered, placed);
 }
 
 void PlaceStrip(const SlicePlane& placed, int32_t x, const Range& seen, ShiftedSlice* shifted) {

@@ -165,19 +165,13 @@ void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride,
 // Computes the size and the reach of the slice around `rect`.
 void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, SlicePlane* placed);
 
-// Input of FillSlice.
-struct SliceInput {
-  const simd::Kernels& kernels;
-  const LayeredDepth& surfaces;
-  const SurfaceBands& bands;
-};
-
 // Copies the slice's pixels in and around `rect`, which is in pixels of the surfaces. Repeats the
 // outermost pixels beyond the ends of the surfaces. For wide subapertures, the function also
 // applies the subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Skips bands
 // that contain no disparity of the slice. The caller sets the pointers `samples` and `cover` of
 // `placed`.
-void FillSlice(const SliceInput& input, const Slice& slice, const Rect& rect, int16_t* filtered,
+void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
+               const SurfaceBands& bands, const Slice& slice, const Rect& rect, int16_t* filtered,
                const SlicePlane& placed);
 
 // A slice in a strip of kSliceLanes columns, shifted for one column of views. The four planes are

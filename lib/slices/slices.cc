@@ -14,21 +14,27 @@ constexpr int kOverlapParts = 10;
 // Finds the slices of a tile from the disparities of the surfaces around the tile.
 class SliceFinder {
  public:
-  SliceFinder(const SliceJob& job, SurfaceBands* bands)
-      : job_(job), surfaces_(*job.surfaces), grid_(*job.grid), bands_(*bands) {
+  SliceFinder(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
+              const SliceRule& rule, const Rect& tile, SurfaceBands* bands)
+      : kernels_(kernels),
+        surfaces_(surfaces),
+        grid_(grid),
+        rule_(rule),
+        tile_(tile),
+        bands_(*bands) {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
-    range_ = static_cast<int32_t>(Limited((int64_t{job.rule.range} << kBits) / step));
+    range_ = static_cast<int32_t>(Limited((int64_t{rule.range} << kBits) / step));
     FindAround();
     for (int32_t d = 0; d < Max(around_.width, around_.height); ++d) {
-      job_.least_blur[d] = static_cast<int32_t>(
+      surfaces_.least_blur[d] = static_cast<int32_t>(
           Limited((int64_t{Max(d - 1, 0)} << (kStepBits + kDisparityBits)) / step));
     }
   }
 
   int32_t Find(Slice* slices) {
     FindBase();
-    std::memset(job_.bins, 0, static_cast<size_t>(bins_));
+    std::memset(surfaces_.bins, 0, static_cast<size_t>(bins_));
     for (int surface = 0; surface < simd::kSurfaces; ++surface) Mark(surface);
     for (int coarser = 0;; ++coarser) {
       const int32_t count = Part(coarser, slices);
@@ -56,11 +62,10 @@ class SliceFinder {
     const int32_t rim =
         Max(Abs(grid_.Shift(move, surfaces_.low)), Abs(grid_.Shift(move, surfaces_.high)));
     const int32_t reach = SliceReach(rim, kWidestSubaperture) + 1;
-    const Rect& tile = job_.tile;
-    around_.x = Max(tile.x - reach, 0) / simd::kStripColumns * simd::kStripColumns;
-    around_.y = Max(tile.y - reach, 0) / kBandRows * kBandRows;
-    around_.width = Min(tile.x + tile.width + reach, surfaces_.width) - around_.x;
-    around_.height = Min(tile.y + tile.height + reach, surfaces_.height) - around_.y;
+    around_.x = Max(tile_.x - reach, 0) / simd::kStripColumns * simd::kStripColumns;
+    around_.y = Max(tile_.y - reach, 0) / kBandRows * kBandRows;
+    around_.width = Min(tile_.x + tile_.width + reach, surfaces_.width) - around_.x;
+    around_.height = Min(tile_.y + tile_.height + reach, surfaces_.height) - around_.y;
   }
 
   // Marks the bins of all pixels of a surface that may splat into the tile. One iteration processes
@@ -84,14 +89,14 @@ class SliceFinder {
 
   void MarkRows(int surface, int32_t y, int32_t end) {
     simd::DisparityRange ranges[kMaxStrips];
-    job_.kernels->FindRanges(surfaces_.disparity[surface] + surfaces_.At(around_.x, y),
-                             static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
-                             static_cast<size_t>(around_.width), ranges);
+    kernels_.FindRanges(surfaces_.disparity[surface] + surfaces_.At(around_.x, y),
+                        static_cast<size_t>(surfaces_.stride), static_cast<size_t>(end - y),
+                        static_cast<size_t>(around_.width), ranges);
     for (int32_t x = 0; x < around_.width; x += simd::kStripColumns) {
       const simd::DisparityRange& range = ranges[x / simd::kStripColumns];
       Widen(range, &bands_.At(y));
       const Rect pixels = {around_.x + x, y, Min(simd::kStripColumns, around_.width - x), end - y};
-      const int32_t least = job_.least_blur[Beyond(pixels)];
+      const int32_t least = surfaces_.least_blur[Beyond(pixels)];
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);
       } else {  // skips pixels that are too sharp to reach the tile
@@ -105,7 +110,7 @@ class SliceFinder {
   // these bins are marked, which is the most frequent case.
   void MarkPixels(int surface, const Rect& pixels, int32_t low, int32_t high) {
     if (low > high) return;
-    const uint8_t *first = job_.bins + BinOf(low), *last = job_.bins + BinOf(high);
+    const uint8_t *first = surfaces_.bins + BinOf(low), *last = surfaces_.bins + BinOf(high);
     first =
         static_cast<const uint8_t*>(std::memchr(first, 0, static_cast<size_t>(last + 1 - first)));
     if (first == nullptr) return;
@@ -114,16 +119,16 @@ class SliceFinder {
                                         static_cast<int16_t>(Min(high, LowOf(last + 1) - 1))};
     const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(pixels.x, pixels.y);
     uint16_t within[kBandRows];
-    job_.kernels->FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
-                             static_cast<size_t>(pixels.height), range, within);
+    kernels_.FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
+                        static_cast<size_t>(pixels.height), range, within);
     // Members are copied to local variables, because the compiler must assume that a write to
     // `bins` may change any member.
-    uint8_t* const bins = job_.bins;
-    const int32_t* const least_blur = job_.least_blur;
+    uint8_t* const bins = surfaces_.bins;
+    const int32_t* const least_blur = surfaces_.least_blur;
     const int32_t base = base_, bits = bin_bits_, focus = grid_.focus.far;
-    const int32_t left = job_.tile.x - pixels.x, right = left + job_.tile.width - 1;
+    const int32_t left = tile_.x - pixels.x, right = left + tile_.width - 1;
     for (int32_t y = 0; y < pixels.height; ++y, disparity += surfaces_.stride) {
-      const int32_t in_column = Beyond({job_.tile.x, pixels.y + y, 1, 1});
+      const int32_t in_column = Beyond({tile_.x, pixels.y + y, 1, 1});
       ForEachBit(within[y], [=](int32_t k) {
         uint8_t& mark = bins[(disparity[k] - base) >> bits];
         if (mark != 0) return;
@@ -135,7 +140,7 @@ class SliceFinder {
 
   // Returns the lowest disparity of a bin.
   int32_t LowOf(const uint8_t* bin) const {
-    return base_ + (static_cast<int32_t>(bin - job_.bins) << bin_bits_);
+    return base_ + (static_cast<int32_t>(bin - surfaces_.bins) << bin_bits_);
   }
 
   int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
@@ -143,11 +148,10 @@ class SliceFinder {
   // Returns the distance in pixels from the tile to the nearest pixel of `pixels`; 0 if `pixels`
   // touches the tile.
   int32_t Beyond(const Rect& pixels) const {
-    const Rect& tile = job_.tile;
     const int32_t x =
-        Max(tile.x - (pixels.x + pixels.width - 1), pixels.x - (tile.x + tile.width - 1));
+        Max(tile_.x - (pixels.x + pixels.width - 1), pixels.x - (tile_.x + tile_.width - 1));
     const int32_t y =
-        Max(tile.y - (pixels.y + pixels.height - 1), pixels.y - (tile.y + tile.height - 1));
+        Max(tile_.y - (pixels.y + pixels.height - 1), pixels.y - (tile_.y + tile_.height - 1));
     return Max(Max(x, y), 0);
   }
 
@@ -165,12 +169,12 @@ class SliceFinder {
     int32_t count = 0;
     int32_t area = 0;
     for (int32_t bin = bins_ - 1; bin >= 0; --bin) {
-      if (job_.bins[bin] == 0) continue;
-      if (count == job_.rule.most) return 0;
+      if (surfaces_.bins[bin] == 0) continue;
+      if (count == rule_.most) return 0;
       const int32_t span = Span(bin, coarser), top = bin;
       int32_t bottom = bin;
       for (; bin > Max(top - span, -1); --bin) {
-        if (job_.bins[bin] != 0) bottom = bin;
+        if (surfaces_.bins[bin] != 0) bottom = bin;
       }
       ++bin;
       Slice& slice = slices[count++];
@@ -182,16 +186,18 @@ class SliceFinder {
           static_cast<int16_t>(Min(high + (span << bin_bits_) / kOverlapParts, INT16_MAX));
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
       SlicePlane placed;
-      PlaceSlice(grid_, slice.disparity, job_.tile, &placed);
+      PlaceSlice(grid_, slice.disparity, tile_, &placed);
       area += SliceArea(placed.reach);
-      if (area > job_.rule.area) return 0;
+      if (area > rule_.area) return 0;
     }
     return count;
   }
 
-  const SliceJob& job_;
+  const simd::Kernels& kernels_;
   const LayeredDepth& surfaces_;
   const ViewGrid& grid_;
+  const SliceRule& rule_;
+  const Rect& tile_;
   SurfaceBands& bands_;
   int32_t range_;         // SliceRule::range, converted to a range of disparities.
   Rect around_;           // Region to search, in pixels of the surfaces.
@@ -201,8 +207,9 @@ class SliceFinder {
 
 }  // namespace
 
-int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands) {
-  return SliceFinder(job, bands).Find(slices);
+int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
+                   const SliceRule& rule, const Rect& tile, Slice* slices, SurfaceBands* bands) {
+  return SliceFinder(kernels, surfaces, grid, rule, tile, bands).Find(slices);
 }
 
 }  // namespace starfocus

@@ -18,20 +18,12 @@ namespace starfocus {
 // aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
-struct SliceJob {
-  const simd::Kernels* kernels;
-  const LayeredDepth* surfaces;
-  const ViewGrid* grid;
-  SliceRule rule;
-  Rect tile;            // Position of the tile, in pixels of the surfaces.
-  uint8_t* bins;        // Scratch memory of kSliceBins elements.
-  int32_t* least_blur;  // Scratch memory: one element per pixel of the surfaces' larger side.
-};
-
 // Finds the slices of a tile, ordered from the nearest to the farthest. The slices hold all pixels
-// of the surfaces that may splat into the tile. Also finds the range of disparities in each band of
-// the surfaces, for FillSlice. Returns the number of slices, at most job.rule.most.
-int32_t FindSlices(const SliceJob& job, Slice* slices, SurfaceBands* bands);
+// of the surfaces that may splat into the tile, which is in pixels of the surfaces. Also finds the
+// range of disparities in each band of the surfaces, for FillSlice. Returns the number of slices,
+// at most rule.most.
+int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
+                   const SliceRule& rule, const Rect& tile, Slice* slices, SurfaceBands* bands);
 
 }  // namespace starfocus
 

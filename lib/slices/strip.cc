@@ -107,15 +107,16 @@ constexpr int32_t kRowsAhead = static_cast<int32_t>(simd::kRowsAhead);
 
 class Strip {
  public:
-  Strip(const StripJob& job, const StripPairs& pairs)
-      : job_(job), stack_(*job.stack), pairs_(pairs) {}
+  Strip(const simd::Kernels& kernels, const SliceStack& stack, const SlicePlane* planes,
+        const CellPair* first, const CellPair* end, uint32_t* sums)
+      : kernels_(kernels), stack_(stack), planes_(planes), first_(first), end_(end), sums_(sums) {}
 
   // Composites one column of views at a time.
-  void Composite() {
+  void Composite(int16_t* memory, CancelToken* cancel) {
     FindRows();
-    PlaceSlices();
+    PlaceSlices(memory);
     for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) {
-      if (!GoesOn(job_.cancel, samples_ * (2 * stack_.weights.LastAcross(Abs(i)) + 1))) return;
+      if (!GoesOn(cancel, samples_ * (2 * stack_.weights.LastAcross(Abs(i)) + 1))) return;
       AddColumn(i);
     }
   }
@@ -125,7 +126,7 @@ class Strip {
   // Clears the sums.
   void FindRows() {
     for (int32_t k = 0; k < stack_.count; ++k) rows_[k] = {0, 0};
-    for (const CellPair* pair = pairs_.first; pair < pairs_.end; ++pair) {
+    for (const CellPair* pair = first_; pair < end_; ++pair) {
       for (int32_t n = 0; n < pair->count; ++n) {
         Range& rows = rows_[pair->shown[n]];
         if (rows.last == 0) rows.first = pair->y;
@@ -133,7 +134,7 @@ class Strip {
       }
       const size_t sums = kPixelSums * static_cast<size_t>(pair->rows * simd::kStripColumns);
       samples_ += static_cast<int64_t>(sums) * pair->count;
-      std::memset(SumsOfRow(job_.sums, pair->y), 0, sums * sizeof(*job_.sums));
+      std::memset(SumsOfRow(sums_, pair->y), 0, sums * sizeof(*sums_));
     }
     for (int32_t k = 0; k < stack_.count; ++k) {
       if (rows_[k].last != 0) seen_slices_[seen_++] = k;
@@ -142,21 +143,20 @@ class Strip {
 
   // Allocates memory of the strip for the slices that are visible in the cell pairs. The marks
   // `near` of all slices are stored after the samples of all slices.
-  void PlaceSlices() {
+  void PlaceSlices(int16_t* samples) {
     size_t rows = 0;
     for (int32_t n = 0; n < seen_; ++n) {
-      rows += static_cast<size_t>(job_.planes[seen_slices_[n]].rows) + simd::kRowsAhead;
+      rows += static_cast<size_t>(planes_[seen_slices_[n]].rows) + simd::kRowsAhead;
     }
-    int16_t* samples = job_.memory;
     int8_t* near =
         reinterpret_cast<int8_t*>(samples + 4 * rows * simd::kStripColumns) + simd::kRowsAhead;
     for (int32_t n = 0; n < seen_; ++n) {
       const int32_t k = seen_slices_[n];
-      const SlicePlane& placed = job_.planes[k];
+      const SlicePlane& placed = planes_[k];
       ShiftedSlice& shifted = shifted_[k];
       shifted.samples = samples;
       shifted.near = near;
-      PlaceStrip(placed, pairs_.x, rows_[k], &shifted);
+      PlaceStrip(placed, first_->x, rows_[k], &shifted);
       shown_[k] = {samples + placed.reach * simd::kStripColumns, near + placed.reach,
                    shifted.plane};
       samples += 4 * shifted.plane;
@@ -187,27 +187,30 @@ class Strip {
   // Shifts slice k for column i of views and writes the result to the strip. Only the rows that
   // views (i, -last) to (i, last) show are written.
   void MoveSlice(int32_t k, int32_t i, int32_t last) {
-    const SlicePlane& placed = job_.planes[k];
+    const SlicePlane& placed = planes_[k];
     const Range& seen = rows_[k];
     const int32_t a = stack_.Offset(k, -last).whole, b = stack_.Offset(k, last).whole;
     const Range rows = {seen.first + placed.reach + Min(a, b),
                         Min(seen.last + placed.reach + Max(a, b) + kRowsAhead, placed.rows)};
-    ShiftSlice(*job_.kernels, placed, stack_.Offset(k, i), pairs_.x, rows, shifted_[k]);
+    ShiftSlice(kernels_, placed, stack_.Offset(k, i), first_->x, rows, shifted_[k]);
   }
 
   // Adds views (i, first) to (i, last).
   void AddGroup(int32_t i, int32_t first, int32_t last) {
     const uint32_t shares = stack_.weights.Shares(i, first, last);
-    for (uint32_t share = 0; share < shares; ++share) AddShare(i, first, last, {share, shares});
+    const int extra_bits = stack_.weights.ExtraBits(i, first, last);
+    for (uint32_t share = 0; share < shares; ++share) {
+      for (int32_t j = first; j <= last; ++j) {
+        weights_[j - first] = stack_.weights.Weight(i, j, extra_bits, share, shares);
+      }
+      AddShare(first, last, extra_bits);
+    }
   }
 
-  void AddShare(int32_t i, int32_t first, int32_t last, const WeightShare& share) {
-    const int extra_bits = stack_.weights.ExtraBits(i, first, last);
-    for (int32_t j = first; j <= last; ++j) {
-      job_.weights[j - first] = stack_.weights.Weight(i, j, extra_bits, share);
-    }
-    for (const CellPair* pair = pairs_.first; pair < pairs_.end; ++pair) {
-      const simd::SliceViews views = {job_.weights,
+  // Adds views (i, first) to (i, last) with the weights `weights_`.
+  void AddShare(int32_t first, int32_t last, int extra_bits) {
+    for (const CellPair* pair = first_; pair < end_; ++pair) {
+      const simd::SliceViews views = {weights_,
                                       &stack_.Offset(0, first),
                                       static_cast<size_t>(last + 1 - first),
                                       shown_,
@@ -216,14 +219,16 @@ class Strip {
                                       static_cast<size_t>(pair->count),
                                       static_cast<size_t>(pair->y),
                                       extra_bits};
-      job_.kernels->Composite(views, static_cast<size_t>(pair->rows),
-                              SumsOfRow(job_.sums, pair->y));
+      kernels_.Composite(views, static_cast<size_t>(pair->rows), SumsOfRow(sums_, pair->y));
     }
   }
 
-  const StripJob& job_;
+  const simd::Kernels& kernels_;
   const SliceStack& stack_;
-  const StripPairs& pairs_;
+  const SlicePlane* const planes_;
+  const CellPair *const first_, *const end_;
+  uint32_t* const sums_;
+  int16_t weights_[kGroupViews];  // weights of the current group of views
   int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
@@ -234,6 +239,10 @@ class Strip {
 
 }  // namespace
 
-void CompositeStrip(const StripJob& job, const StripPairs& pairs) { Strip(job, pairs).Composite(); }
+void CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack, const SlicePlane* planes,
+                    const CellPair* first, const CellPair* end, int16_t* memory, uint32_t* sums,
+                    CancelToken* cancel) {
+  Strip(kernels, stack, planes, first, end, sums).Composite(memory, cancel);
+}
 
 }  // namespace starfocus

@@ -24,11 +24,6 @@ namespace starfocus {
 // would round to zero.
 inline constexpr int32_t kGroupViews = 16;
 
-// Selects share `index` of a weight that is divided into `count` equal shares.
-struct WeightShare {
-  uint32_t index, count;
-};
-
 // Weights of views in the units of the SIMD kernels: aperture weights times scale / 2^16. If the
 // weights of a group exceed the limit of the SIMD kernels, the compositor adds the group in several
 // shares.
@@ -40,10 +35,10 @@ struct ScaledWeights {
   // smaller sum of coverage, rounding errors of the colour would be visible.
   uint32_t least_covered;
 
-  int16_t Weight(int32_t i, int32_t j, int extra_bits, const WeightShare& share) const {
+  // Returns share `share` of the weight, which is divided into `shares` equal shares.
+  int16_t Weight(int32_t i, int32_t j, int extra_bits, uint32_t share, uint32_t shares) const {
     const uint64_t weight = (aperture->Weight(i, j) * (scale << extra_bits)) >> 16;
-    return static_cast<int16_t>(weight * (share.index + 1) / share.count -
-                                weight * share.index / share.count);
+    return static_cast<int16_t>(weight * (share + 1) / shares - weight * share / shares);
   }
 
   // Returns the number of equal shares into which the weights of views (i, first) to (i, last) must
@@ -103,29 +98,15 @@ struct CellPair {
 // Sums of a pixel: R, G, B and coverage.
 inline constexpr size_t kPixelSums = 4;
 
-// Input, scratch memory and output for the strips of a part of a tile. G is kGroupViews or the
-// number of views in the middle column of the aperture, whichever is smaller.
-struct StripJob {
-  const simd::Kernels* kernels;
-  const SliceStack* stack;
-  const SlicePlane* planes;  // One plane per slice, filled for the current part of the tile.
-  int16_t* weights;          // Weights of a group of views: G elements.
-  int16_t* memory;           // Scratch memory: StripBytes for each slice.
-  uint32_t* sums;            // Output: kPixelSums per pixel, in the order of rows.
-  CancelToken* cancel;       // Null: the job is never cancelled.
-};
+// Writes the sums over all views of the cell pairs [first, end), which lie at one column of a part
+// of a tile, to `sums`: kPixelSums per pixel, in the order of rows. There is at least one pair.
+// `planes` has one plane per slice, filled for the part of the tile. `memory` is scratch memory of
+// StripBytes for each slice. `cancel` may be null.
+void CompositeStrip(const simd::Kernels& kernels, const SliceStack& stack, const SlicePlane* planes,
+                    const CellPair* first, const CellPair* end, int16_t* memory, uint32_t* sums,
+                    CancelToken* cancel);
 
-// The cell pairs [first, end) of a part of a tile that lie at column x. The range contains at least
-// one pair.
-struct StripPairs {
-  int32_t x;
-  const CellPair *first, *end;
-};
-
-// Writes the sums over all views of the cell pairs to job.sums.
-void CompositeStrip(const StripJob& job, const StripPairs& pairs);
-
-// Returns a pointer to the sums of row `row` in the buffer StripJob::sums.
+// Returns a pointer to the sums of row `row` in the buffer `sums` of CompositeStrip.
 inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
   return sums + kPixelSums * simd::kSliceLanes * static_cast<size_t>(row);
 }

@@ -41,6 +41,8 @@ struct Scene {
       surfaces.disparity[k] = planes[k].data();
     }
     surfaces.hiding = hiding.data();
+    surfaces.bins = bins.data();
+    surfaces.least_blur = least.data();
   }
 
   int16_t& At(int x, int y, int surface = 0) {
@@ -59,14 +61,8 @@ struct Scene {
     surfaces.low = *range.first;
     surfaces.high = *range.second;
     std::vector<Slice> slices(kMaxSlices);
-    const int count = starfocus::FindSlices({&starfocus::simd::BestKernels(),
-                                             &surfaces,
-                                             &grid,
-                                             rule,
-                                             {24, 24, 16, 16},
-                                             bins.data(),
-                                             least.data()},
-                                            slices.data(), &bands);
+    const int count = starfocus::FindSlices(starfocus::simd::BestKernels(), surfaces, grid, rule,
+                                            {24, 24, 16, 16}, slices.data(), &bands);
     REQUIRE(count > 0);
     REQUIRE(count <= rule.most);
     slices.resize(size_t(count));

@@ -96,7 +96,7 @@ TEST_CASE("slice planes: a hidden pixel is found at any position in a group of p
     slice.disparity = slice.low = slice.high = slice.overlap = -640;
     for (int x = 0; x + kShown <= kWidth; ++x) {
       CAPTURES(behind, x);
-      starfocus::FillSlice({starfocus::simd::BestKernels(), surfaces, bands}, slice,
+      starfocus::FillSlice(starfocus::simd::BestKernels(), surfaces, bands, slice,
                            {x, 0, kShown, 1}, nullptr, placed);
       const bool shown = behind >= x && behind < x + kShown;
       CHECK((cover.some != 0) == shown);

@@ -49,7 +49,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       {"slices: surfaces", true, slices.surfaces.disparity[0] - starfocus::simd::kSliceLanes},
       {"slices: offsets in the views, sums of a tile", true, slices.offsets},
       {"slices: finding surfaces", true, slices.surfaces.sources[0]},
-      {"slices: the block and its edges", true, slices.field_rgb},
+      {"slices: the block and its edges", true, slices.field.rgb},
       {"slices: filling surfaces", true, slices.fill.disparity},
       {"slices: pixels of slices and tiles", true, slices.pool},
       {"disparities: ring of rows", false, e.row_store.disparity.data},

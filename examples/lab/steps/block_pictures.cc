@@ -69,10 +69,9 @@ class BlockArtist {
         engine_(planned.engine),
         rect_(planned.block.rect),
         window_(engine_.row_store.windows[0]),
-        memory_(static_cast<CompositorScratch*>(
-            engine_.scratch[0].renderers[kSliceRenderer.index])),
-        grid_(ViewGridOf(InputsOf(engine_), planned_.block,
-                         engine_.scratch[0].aperture_weights)),
+        memory_(
+            static_cast<CompositorScratch*>(engine_.scratch[0].renderers[kSliceRenderer.index])),
+        grid_(ViewGridOf(InputsOf(engine_), planned_.block, engine_.scratch[0].aperture_weights)),
         job_{&window_, &grid_,  engine_.kernels,    rect_, planned_.block.border,
              nullptr,  nullptr, engine_.lens.r_max, false},
         pictures_(*pictures) {}
@@ -108,8 +107,8 @@ class BlockArtist {
     Render(job);
     const size_t samples = 3 * static_cast<size_t>(rect_.width);
     for (int32_t y = 0; y < rect_.height; ++y) {
-      engine_.kernels->Finish(engine_.scratch[0].sums + static_cast<size_t>(y) * samples,
-                              samples, kSliceRenderer.sum_bits(weights), window_.transfer->encoding,
+      engine_.kernels->Finish(engine_.scratch[0].sums + static_cast<size_t>(y) * samples, samples,
+                              kSliceRenderer.sum_bits(weights), window_.transfer->encoding,
                               PixelOf(&pictures_.view, rect_.x, rect_.y + y));
     }
   }
@@ -189,7 +188,8 @@ class BlockArtist {
     const Rect in_surfaces = {border.left + tile.x, border.top + tile.y, tile.width, tile.height};
     Slice slices[kMaxSlices];
     SurfaceBands bands;
-    const int32_t count = FindSlices(SlicesOfTile(job_, in_surfaces, *memory_), slices, &bands);
+    const int32_t count = FindSlices(*job_.kernels, memory_->surfaces, grid_, SliceRuleOf(job_),
+                                     in_surfaces, slices, &bands);
     for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
       for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
         const int16_t disparity = memory_->surfaces.disparity[0][At(x, y)];
