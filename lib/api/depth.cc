@@ -190,13 +190,14 @@ starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, size_t
 starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
                                int32_t* has_coverage) {
   const EstimatePlan plan = PlanOf(*call.config, true);
+  bool found = false;
   ColourMemory* memory = nullptr;
   const size_t made = LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
   const starfocus_status status =
       Watched(call, plan, made, &memory->jobs, [&](const starfocus_light_field& field) {
-        return RepairByColour(plan, field, simd::BestDepthKernels(), output, memory);
+        return RepairByColour(plan, field, simd::BestDepthKernels(), output, memory, &found);
       });
-  *has_coverage = status == STARFOCUS_OK && memory->has_coverage ? 1 : 0;
+  *has_coverage = status == STARFOCUS_OK && found ? 1 : 0;
   return status;
 }
 

@@ -25,58 +25,19 @@ constexpr int32_t kGainRadius = 3;
 constexpr EvidenceScale kGains = {18, 22, 1000, 60};
 // Number of directions of the paths along which costs are summed.
 constexpr int32_t kPaths = 4;
-constexpr int32_t kReadPhases = 2, kColourPhases = 9;
+// Number of phases, without the phases of FindHairCoverage.
+constexpr int32_t kPhases = 11;
 // Changed pixels get the mean disparity of the chosen surface within kMeanRadius. In this mean,
 // pixels far from steps have weight kSureWeight, and pixels near steps have weight 1.
 constexpr int32_t kMeanRadius = 5, kSureWeight = 4;
-
-struct ColourJob {
-  const ColourMap& map;
-  const MapOutput& output;
-  const Smoothing& smoothing;
-  int16_t* to;      // map that the phase writes
-  int16_t* chosen;  // result of Choose; only doubtful pixels are written
-  ColourMemory* memory;
-  const simd::DepthKernels& kernels;
-};
-
-const ColourJob& JobOf(const void* data) { return *static_cast<const ColourJob*>(data); }
-
-// Returns the rows of job `index` of a phase that divides the picture into as many ranges of rows
-// as the plan has tiles.
-Range RowsOfJob(const EstimatePlan& plan, int32_t index) {
-  return PartOf({0, plan.height}, index, plan.columns * plan.rows);
-}
-
-void ReadPart(const void* data, int32_t index, int32_t) {
-  const ColourJob& job = JobOf(data);
-  ReadRows(job.map.plan, job.map.light_field, RowsOfJob(job.map.plan, index), job.to);
-}
-
-void CountPart(const void* data, int32_t index, int32_t worker) {
-  const ColourJob& job = JobOf(data);
-  CountNoise(job.map.plan, job.map.disparity, RowsOfJob(job.map.plan, index),
-             job.memory->workers[worker].noise);
-}
-
-void SmoothMap(const void* data, int32_t index, int32_t worker) {
-  const ColourJob& job = JobOf(data);
-  SmoothTile(job.map, job.smoothing, TileOf(job.map.plan, index), job.kernels,
-             job.memory->workers[worker].smooth, job.to);
-}
-
-void DoubtTile(const void* data, int32_t index, int32_t worker) {
-  const ColourJob& job = JobOf(data);
-  MeasureDoubt(job.map, TileOf(job.map.plan, index), job.memory->workers[worker].doubt,
-               job.memory->doubt);
-}
 
 // Chooses the disparity with the smallest sum for a doubtful pixel, and computes the pixel's gain.
 // On ramps, the map's disparity lies between two surfaces and is never chosen.
 // Returns the cost of the best other surface minus the cost of the chosen surface, divided by the
 // number of paths.
-uint8_t Choose(const ColourJob& job, size_t at, const Choices& choices) {
-  const int32_t given = job.map.disparity[at];
+uint8_t Choose(const ColourMap& map, const Choices& choices, size_t at,
+               const ColourMemory& memory) {
+  const int32_t given = map.disparity[at];
   int32_t best = 0, own = 0;
   for (int32_t k = 1; k < choices.count; ++k) {
     if (choices.sum[k] < choices.sum[best]) best = k;
@@ -88,100 +49,94 @@ uint8_t Choose(const ColourJob& job, size_t at, const Choices& choices) {
     margin = Min(margin, choices.sum[k] - choices.sum[best]);
   }
   const bool same = Abs(choices.disparity[best] - given) <= kSameSurface;
-  const bool keeps = same && job.memory->doubt[at] != 0;
-  job.chosen[at] = keeps ? static_cast<int16_t>(given) : choices.disparity[best];
-  job.memory->gain[at] =
+  const bool keeps = same && memory.doubt[at] != 0;
+  memory.maps[1][at] = keeps ? static_cast<int16_t>(given) : choices.disparity[best];
+  memory.gain[at] =
       same ? int16_t{0} : static_cast<int16_t>(choices.cost[own] - choices.cost[best]);
   return static_cast<uint8_t>(margin / kPaths);
 }
 
-// Returns the confidence of pixel (x, y), or null if no confidence is requested.
-uint8_t* ConfidenceAt(const ColourJob& job, int32_t x, int32_t y) {
-  return job.output.confidence.data == nullptr ? nullptr : job.output.confidence.Row(y) + x;
-}
-
 // Returns true if a doubtful pixel would move to another surface.
-bool Differs(const ColourJob& job, size_t at) {
-  return Abs(job.chosen[at] - job.map.disparity[at]) > kSameSurface;
+bool Differs(const ColourMap& map, const ColourMemory& memory, size_t at) {
+  return Abs(memory.maps[1][at] - map.disparity[at]) > kSameSurface;
 }
 
-TileCount CountTile(const ColourJob& job, const Rect& tile) {
+TileCount CountTile(const ColourMap& map, const ColourMemory& memory, const Rect& tile) {
   TileCount count = {};
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    ForDoubtful(job.memory->doubt + job.map.plan.At(tile.x, y), tile.width, [&](int32_t k) {
-      const size_t at = job.map.plan.At(tile.x + k, y);
-      const int32_t doubt = job.memory->doubt[at];
+    ForDoubtful(memory.doubt + map.plan.At(tile.x, y), tile.width, [&](int32_t k) {
+      const size_t at = map.plan.At(tile.x + k, y);
+      const int32_t doubt = memory.doubt[at];
       // Pixels on ramps count as edge pixels.
-      if (doubt > kThinDoubt || (doubt != 0 && !IsBesideStep(job.map, tile, tile.x + k, y))) return;
+      if (doubt > kThinDoubt || (doubt != 0 && !IsBesideStep(map, tile, tile.x + k, y))) return;
       ++count.rough;
-      count.differs += Differs(job, at) ? 1 : 0;
+      count.differs += Differs(map, memory, at) ? 1 : 0;
     });
   }
   return count;
 }
 
-void ChooseTile(const void* data, int32_t index, int32_t worker) {
-  const ColourJob& job = JobOf(data);
-  const ColourTileMemory& memory = job.memory->workers[worker];
-  const Rect tile = TileOf(job.map.plan, index);
+void ChooseTile(const ColourMap& map, const MapOutput& output, const simd::DepthKernels& kernels,
+                int32_t index, const ChoiceMemory& choices, const ColourMemory& memory) {
+  const Rect tile = TileOf(map.plan, index);
   if (tile.width == 0 || tile.height == 0) return;
-  const Rect region = Widened(job.map.plan, tile, kTileMargin);
-  WeighChoices(job.map, job.memory->doubt, region, job.kernels, memory.choices);
+  const Rect region = Widened(map.plan, tile, kTileMargin);
+  WeighChoices(map, memory.doubt, region, kernels, choices);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const Choices* row = memory.choices.choices + (y - region.y) * region.width + tile.x - region.x;
-    const size_t at = job.map.plan.At(tile.x, y);
-    uint8_t* confidence = ConfidenceAt(job, tile.x, y);
-    std::fill_n(job.memory->gain + at, tile.width, int16_t{0});
-    if (confidence != nullptr) std::fill_n(confidence, tile.width, uint8_t{UINT8_MAX});
-    ForDoubtful(job.memory->doubt + at, tile.width, [&](int32_t k) {
-      const uint8_t certainty = Choose(job, at + static_cast<size_t>(k), row[k]);
-      if (confidence != nullptr) confidence[k] = certainty;
+    const Choices* row = choices.choices + (y - region.y) * region.width + tile.x - region.x;
+    const size_t at = map.plan.At(tile.x, y);
+    std::fill_n(memory.gain + at, tile.width, int16_t{0});
+    if (output.confidence.data != nullptr) {
+      std::fill_n(output.confidence.Row(y) + tile.x, tile.width, uint8_t{UINT8_MAX});
+    }
+    ForDoubtful(memory.doubt + at, tile.width, [&](int32_t k) {
+      output.WriteConfidence(tile.x + k, y,
+                             Choose(map, row[k], at + static_cast<size_t>(k), memory));
     });
   }
-  job.memory->counts[index] = CountTile(job, tile);
-  const ThinGrid grid = GridOf(job.map.plan);
-  CountBeside(grid, job.map.disparity, tile, index, job.memory->thin);
+  memory.counts[index] = CountTile(map, memory, tile);
+  CountBeside(GridOf(map.plan), map.disparity, tile, index, memory.thin);
 }
 
-// Computes the gain (saved cost) that a change requires, from the counts of all tiles. Marks the
+// Returns the gain (saved cost) that a change requires, from the counts of all tiles. Marks the
 // cells that must not change, which are the cells with thin structure or hair.
-void JudgeMap(const EstimatePlan& plan, ColourMemory* memory) {
-  memory->least_gain = LeastEvidence(kGains, memory->counts, plan.columns * plan.rows);
+int32_t JudgeMap(const EstimatePlan& plan, const ColourMemory& memory, bool has_hair) {
   const ThinGrid grid = GridOf(plan);
-  FindThin(grid, kThinGiven, memory->thin);
-  if (!memory->has_coverage) return;
-  for (int32_t number = 0; number < grid.Cells(); ++number) {
+  FindThin(grid, kThinGiven, memory.thin);
+  for (int32_t number = 0; has_hair && number < grid.Cells(); ++number) {
     const Rect cell = grid.CellAt(number % grid.columns, number / grid.columns);
-    if (HasHair(memory->hair_cells, cell)) memory->thin.thin[number] = 1;
+    if (HasHair(memory.hair_cells, cell)) memory.thin.thin[number] = 1;
   }
+  return LeastEvidence(kGains, memory.counts, plan.columns * plan.rows);
 }
 
 // Returns true if the total gain of the changes around a pixel is large enough to contradict the
 // map.
-bool IsGainsaid(const ColourJob& job, int32_t x, int32_t y) {
-  const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kGainRadius);
+bool IsGainsaid(const EstimatePlan& plan, const int16_t* gains, int32_t least_gain, int32_t x,
+                int32_t y) {
+  const Rect around = Widened(plan, {x, y, 1, 1}, kGainRadius);
   int32_t gain = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      gain += job.memory->gain[job.map.plan.At(column, row)];
+      gain += gains[plan.At(column, row)];
     }
   }
-  return gain >= job.memory->least_gain;
+  return gain >= least_gain;
 }
 
 // Returns the weighted mean of the map's disparities around pixel (x, y) that belong to the surface
 // chosen for this pixel.
-float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
-  const int32_t own = job.chosen[job.map.plan.At(x, y)];
-  const Rect around = Widened(job.map.plan, {x, y, 1, 1}, kMeanRadius);
+float MeanOfSurface(const ColourMap& map, const ColourMemory& memory, int32_t x, int32_t y) {
+  const int32_t own = memory.maps[1][map.plan.At(x, y)];
+  const Rect around = Widened(map.plan, {x, y, 1, 1}, kMeanRadius);
   int32_t sum = 0, weights = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = job.map.plan.At(column, row);
-      const int32_t doubt = job.memory->doubt[at];
-      if (doubt == 0 || Abs(job.map.disparity[at] - own) > kPixel) continue;
+      const size_t at = map.plan.At(column, row);
+      const int32_t doubt = memory.doubt[at];
+      if (doubt == 0 || Abs(map.disparity[at] - own) > kPixel) continue;
       const int32_t weight = doubt > kDisplacement ? kSureWeight : 1;
-      sum += weight * job.map.disparity[at];
+      sum += weight * map.disparity[at];
       weights += weight;
     }
   }
@@ -189,59 +144,61 @@ float MeanOfSurface(const ColourJob& job, int32_t x, int32_t y) {
   return static_cast<float>(sum) / static_cast<float>(weights * kPixel);
 }
 
-// Writes a doubtful pixel of the result, to which WriteRow has written the map's disparity. If
-// `keeps` is true, known disparities are not changed.
-void WritePixel(const ColourJob& job, bool keeps, int32_t x, int32_t y) {
-  const size_t at = job.map.plan.At(x, y);
-  const bool known = std::isfinite(GivenAt(job.map.light_field, y)[x]), differs = Differs(job, at);
-  const bool moves = differs ? IsGainsaid(job, x, y) : job.chosen[at] != job.map.disparity[at];
+// Writes a doubtful pixel, to which WriteTile has written the map's disparity, to the output and to
+// the map `repaired`. If `keeps` is true, known disparities are not changed.
+void WritePixel(const ColourMap& map, const ColourMemory& memory, const MapOutput& output,
+                int32_t least_gain, bool keeps, int32_t x, int32_t y, int16_t* repaired) {
+  const size_t at = map.plan.At(x, y);
+  const int16_t chosen = memory.maps[1][at];
+  const bool known = std::isfinite(GivenAt(map.light_field, y)[x]);
+  const bool differs = Differs(map, memory, at);
+  const bool moves =
+      differs ? IsGainsaid(map.plan, memory.gain, least_gain, x, y) : chosen != map.disparity[at];
   const bool changes = !known || (moves && !keeps);
   if (changes) {
-    const float written = job.output.Clamped(MeanOfSurface(job, x, y));
-    job.output.disparity.Row(y)[x] = written;
-    job.to[at] = ToFixed(written);
+    const float written = output.Clamped(MeanOfSurface(map, memory, x, y));
+    output.disparity.Row(y)[x] = written;
+    repaired[at] = ToFixed(written);
   }
-  if (differs && !changes) job.output.WriteConfidence(x, y, 0);
+  if (differs && !changes) output.WriteConfidence(x, y, 0);
 }
 
-// Writes the disparities of the map to the pixels [x, x + count) of row y.
-void WriteRow(const ColourJob& job, int32_t x, int32_t y, int32_t count) {
-  const size_t at = job.map.plan.At(x, y);
-  float* disparity = job.output.disparity.Row(y) + x;
-  const bool noisy = job.map.disparity != job.memory->maps[0];
-  for (int32_t k = 0; noisy && k < count; ++k) {
-    disparity[k] = job.output.Clamped(static_cast<float>(job.map.disparity[at + k]) / kPixel);
-    job.to[at + k] = ToFixed(disparity[k]);
+// Writes the repaired map of a tile to the output and to `repaired`.
+void WriteTile(const ColourMap& map, const ColourMemory& memory, const MapOutput& output,
+               int32_t least_gain, int32_t index, int16_t* repaired) {
+  const Rect tile = TileOf(map.plan, index);
+  const ThinGrid grid = GridOf(map.plan);
+  const bool noisy = map.disparity != memory.maps[0];
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    const size_t at = map.plan.At(tile.x, y);
+    float* disparity = output.disparity.Row(y) + tile.x;
+    for (int32_t k = 0; noisy && k < tile.width; ++k) {
+      disparity[k] = output.Clamped(static_cast<float>(map.disparity[at + k]) / kPixel);
+      repaired[at + k] = ToFixed(disparity[k]);
+    }
+    if (noisy) continue;
+    std::copy_n(GivenAt(map.light_field, y) + tile.x, tile.width, disparity);
+    std::copy_n(map.disparity + at, tile.width, repaired + at);
   }
-  if (!noisy) {
-    std::copy_n(GivenAt(job.map.light_field, y) + x, count, disparity);
-    std::copy_n(job.map.disparity + at, count, job.to + at);
-  }
-}
-
-// Writes `disparity` to the output if `disparity` differs from the pixel's disparity in the job's
-// map. The confidence of a changed pixel is set to 0, because the colour of the pixel alone does
-// not support the change.
-void Change(const ColourJob& job, int32_t x, int32_t y, int16_t disparity) {
-  if (disparity == job.map.disparity[job.map.plan.At(x, y)]) return;
-  job.output.Write(x, y, disparity);
-  job.output.WriteConfidence(x, y, 0);
-}
-
-void WriteTile(const void* data, int32_t index, int32_t) {
-  const ColourJob& job = JobOf(data);
-  const ColourMemory& memory = *job.memory;
-  const Rect tile = TileOf(job.map.plan, index);
-  const ThinGrid grid = GridOf(job.map.plan);
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) WriteRow(job, tile.x, y, tile.width);
   ForCells(grid, index, [&](const Rect& cell, int32_t number) {
     const bool keeps = memory.thin.thin[number] != 0;
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      ForDoubtful(memory.doubt + job.map.plan.At(cell.x, y), cell.width,
-                  [&](int32_t k) { WritePixel(job, keeps, cell.x + k, y); });
+      ForDoubtful(memory.doubt + map.plan.At(cell.x, y), cell.width, [&](int32_t k) {
+        WritePixel(map, memory, output, least_gain, keeps, cell.x + k, y, repaired);
+      });
     }
   });
-  MeasureCells(grid, job.to, index, memory.ranges);
+  MeasureCells(grid, repaired, index, memory.ranges);
+}
+
+// Writes `disparity` to the output if `disparity` differs from the pixel's disparity in the map.
+// The confidence of a changed pixel is set to 0, because the colour of the pixel alone does not
+// support the change.
+void Change(const ColourMap& map, const MapOutput& output, int32_t x, int32_t y,
+            int16_t disparity) {
+  if (disparity == map.disparity[map.plan.At(x, y)]) return;
+  output.Write(x, y, disparity);
+  output.WriteConfidence(x, y, 0);
 }
 
 // Calls act(cell) for each cell of a tile that has a step larger than `step` in the cell or within
@@ -249,42 +206,33 @@ void WriteTile(const void* data, int32_t index, int32_t) {
 // WidenTile writes disparities from up to kMostSoft + 1 pixels away, so the ranges of the cells of
 // the repaired map exclude steps of the widened map as well.
 template <class Act>
-void ForSteps(const ColourJob& job, int32_t index, int32_t margin, int32_t step, bool skips_thin,
-              const Act& act) {
+void ForSteps(const ColourMap& map, const ColourMemory& memory, int32_t index, int32_t margin,
+              int32_t step, bool skips_thin, const Act& act) {
   static_assert(kMajorityReach + kMostSoft + 1 <= kLeastCellSide, "MayHaveStep reads enough cells");
-  const ThinGrid grid = GridOf(job.map.plan);
+  const ThinGrid grid = GridOf(map.plan);
   ForCells(grid, index, [&](const Rect& cell, int32_t number) {
-    if (skips_thin && job.memory->thin.thin[number] != 0) return;
-    if (!MayHaveStep(grid, job.memory->ranges, number, step)) return;
-    if (HasStep(job.map, cell, margin, step)) act(cell);
+    if (skips_thin && memory.thin.thin[number] != 0) return;
+    if (!MayHaveStep(grid, memory.ranges, number, step)) return;
+    if (HasStep(map, cell, margin, step)) act(cell);
   });
 }
 
-void CountSoftEdges(const void* data, int32_t index, int32_t) {
-  const ColourJob& job = JobOf(data);
-  SoftCount count = {};
-  ForSteps(job, index, 1, kSoftStep, false,
-           [&](const Rect& cell) { CountSoft(job.map, cell, &count); });
-  job.memory->soft[index] = count;
-}
-
-// Widens nearer surfaces by the number of pixels over which the picture's edges are soft.
-void WidenTile(const void* data, int32_t index, int32_t) {
-  const ColourJob& job = JobOf(data);
-  const EstimatePlan& plan = job.map.plan;
-  const Rect tile = TileOf(plan, index);
+// Widens nearer surfaces by `softness`, the number of pixels over which the picture's edges are
+// soft. Writes the changes to the output, and the widened map to `widened`.
+void WidenTile(const ColourMap& map, const ColourMemory& memory, const MapOutput& output,
+               int32_t softness, int32_t index, int16_t* widened) {
+  const Rect tile = TileOf(map.plan, index);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t at = job.map.plan.At(tile.x, y);
-    std::copy_n(job.map.disparity + at, tile.width, job.to + at);
+    const size_t at = map.plan.At(tile.x, y);
+    std::copy_n(map.disparity + at, tile.width, widened + at);
   }
-  const int32_t softness = job.memory->softness;
-  ForSteps(job, index, softness, kSoftStep, true, [&](const Rect& cell) {
+  ForSteps(map, memory, index, softness, kSoftStep, true, [&](const Rect& cell) {
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      if (!HasStep(job.map, {cell.x, y, cell.width, 1}, softness, kSoftStep)) continue;
+      if (!HasStep(map, {cell.x, y, cell.width, 1}, softness, kSoftStep)) continue;
       for (int32_t x = cell.x; x < cell.x + cell.width; ++x) {
-        const int16_t widened = WidenedAt(job.map, softness, x, y);
-        Change(job, x, y, widened);
-        job.to[job.map.plan.At(x, y)] = widened;
+        const int16_t disparity = WidenedAt(map, softness, x, y);
+        Change(map, output, x, y, disparity);
+        widened[map.plan.At(x, y)] = disparity;
       }
     }
   });
@@ -292,94 +240,99 @@ void WidenTile(const void* data, int32_t index, int32_t) {
 
 // Assigns pixels near outlines to the surface of most surrounding pixels. Unless the map is assumed
 // to be right, also removes rests of ramps from the surfaces.
-void EvenTile(const void* data, int32_t index, int32_t) {
+void EvenTile(const ColourMap& map, const ColourMemory& memory, const MapOutput& output,
+              bool is_right, int32_t index) {
   static_assert(kMostCellSide <= kMostMajority, "rows of cells");
-  const ColourJob& job = JobOf(data);
-  const bool right = job.memory->least_gain == kGains.right;
-  ForSteps(job, index, kMajorityReach, kMajorityStep, true, [&](const Rect& cell) {
+  ForSteps(map, memory, index, kMajorityReach, kMajorityStep, true, [&](const Rect& cell) {
     int16_t even[kMostMajority];
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      TakeMajority(job.map, {cell.x, y, cell.width, 1}, even);
-      const size_t at = job.map.plan.At(cell.x, y);
-      ForDoubtful(job.memory->doubt + at, cell.width, [&](int32_t k) {
-        if (!right && even[k] == job.map.disparity[at + static_cast<size_t>(k)]) {
-          even[k] = MedianOfSurface(job.map, cell.x + k, y);
+      TakeMajority(map, {cell.x, y, cell.width, 1}, even);
+      const size_t at = map.plan.At(cell.x, y);
+      ForDoubtful(memory.doubt + at, cell.width, [&](int32_t k) {
+        if (!is_right && even[k] == map.disparity[at + static_cast<size_t>(k)]) {
+          even[k] = MedianOfSurface(map, cell.x + k, y);
         }
       });
-      for (int32_t k = 0; k < cell.width; ++k) Change(job, cell.x + k, y, even[k]);
+      for (int32_t k = 0; k < cell.width; ++k) Change(map, output, cell.x + k, y, even[k]);
     }
   });
 }
 
-void CompleteTile(const void* data, int32_t index, int32_t) {
-  const ColourJob& job = JobOf(data);
-  CompleteCoverage(job.map, job.output, job.memory->hair_cells, TileOf(job.map.plan, index));
+// Converts the given map to fixed point (maps[0]) and returns its noise.
+int32_t ReadMap(const ColourMap& given, const ColourMemory& memory, Sequence* run) {
+  const EstimatePlan& plan = given.plan;
+  const auto rows = [&](int32_t index) {
+    return PartOf({0, plan.height}, index, plan.columns * plan.rows);
+  };
+  run->Run([&](int32_t index, int32_t) {
+    ReadRows(plan, given.light_field, rows(index), memory.maps[0]);
+  });
+  if (run->status() != STARFOCUS_OK) return 0;
+  FillUnknownRows(plan, memory.maps[0]);
+  const int32_t workers = memory.jobs.max_workers;
+  for (int32_t k = 0; k < workers; ++k) *memory.workers[k].noise = {};
+  run->Run([&](int32_t index, int32_t worker) {
+    CountNoise(plan, given.disparity, rows(index), memory.workers[worker].noise);
+  });
+  NoiseCounts* all = memory.workers[0].noise;
+  for (int32_t k = 1; k < workers; ++k) all->Add(*memory.workers[k].noise);
+  return NoiseOf(*all);
 }
 
-// Converts the given map to fixed point (maps[0]) and measures its noise.
-starfocus_status ReadMap(const ColourMap& given, const MapOutput& output,
-                         const simd::DepthKernels& kernels, Phases* phases, ColourMemory* memory) {
-  const Smoothing unused = {};
-  const ColourJob job = {given, output, unused, memory->maps[0], nullptr, memory, kernels};
-  starfocus_status status = phases->Run(ReadPart, &job);
-  if (status != STARFOCUS_OK) return status;
-  FillUnknownRows(given.plan, memory->maps[0]);
-  const int32_t workers = memory->jobs.max_workers;
-  for (int32_t k = 0; k < workers; ++k) *memory->workers[k].noise = {};
-  status = phases->Run(CountPart, &job);
-  NoiseCounts* all = memory->workers[0].noise;
-  for (int32_t k = 1; k < workers; ++k) all->Add(*memory->workers[k].noise);
-  memory->noise = NoiseOf(*all);
-  return status;
+// Smooths `given` in two passes. Writes the half smoothed map to maps[1], and the smoothed map to
+// maps[2].
+void SmoothMap(const ColourMap& given, int32_t noise, const simd::DepthKernels& kernels,
+               const ColourMemory& memory, Sequence* run) {
+  // The first pass averages disparities within three standard deviations, which reduces the noise
+  // to a third.
+  const Smoothing passes[2] = {{3, 1, 3 * noise}, {4, 2, 3 * noise / 2}};
+  const ColourMap half = {given.plan, given.light_field, memory.maps[1]};
+  for (int k = 0; k < 2; ++k) {
+    if (noise == 0) {
+      run->Skip();
+      continue;
+    }
+    run->Run([&](int32_t index, int32_t worker) {
+      SmoothTile(k == 0 ? given : half, passes[k], TileOf(given.plan, index), kernels,
+                 memory.workers[worker].smooth, memory.maps[k + 1]);
+    });
+  }
 }
 
 // Repairs the map, except where hair was found.
-starfocus_status ChooseByColour(const ColourMap& given, const simd::DepthKernels& kernels,
-                                const MapOutput& output, Phases* phases, ColourMemory* memory) {
-  const EstimatePlan& plan = given.plan;
-  const starfocus_light_field& light_field = given.light_field;
-  int16_t* const* maps = memory->maps;
-  const int32_t noise = memory->noise;
-  const ColourMap half = {plan, light_field, maps[1]};
-  const ColourMap map = {plan, light_field, maps[noise > 0 ? 2 : 0]};
-  int16_t* const written = maps[noise > 0 ? 0 : 2];
-  const ColourMap repaired = {plan, light_field, written};
-  ColourMap wide = {plan, light_field, maps[1]};
-  // The first pass averages disparities within three standard deviations, which reduces the noise
-  // to a third.
-  const Smoothing first = {3, 1, 3 * noise}, second = {4, 2, 3 * noise / 2};
-  const struct {
-    JobFunction function;
-    ColourJob job;
-  } all[kColourPhases] = {
-      {SmoothMap, {given, output, first, maps[1], nullptr, memory, kernels}},
-      {SmoothMap, {half, output, second, maps[2], nullptr, memory, kernels}},
-      {DoubtTile, {map, output, second, nullptr, nullptr, memory, kernels}},
-      {ChooseTile, {map, output, second, nullptr, maps[1], memory, kernels}},
-      {WriteTile, {map, output, second, written, maps[1], memory, kernels}},
-      {CountSoftEdges, {repaired, output, second, nullptr, nullptr, memory, kernels}},
-      {WidenTile, {repaired, output, second, maps[1], nullptr, memory, kernels}},
-      {EvenTile, {wide, output, second, nullptr, nullptr, memory, kernels}},
-      {CompleteTile, {map, output, second, nullptr, nullptr, memory, kernels}},
-  };
-  for (const auto& phase : all) {
-    if (phase.function == WidenTile) {
-      memory->softness = SoftnessOf(memory->soft, plan.columns * plan.rows);
-      if (memory->softness == 0) wide.disparity = repaired.disparity;
-    }
-    const bool skips = phase.function == SmoothMap      ? noise == 0
-                       : phase.function == WidenTile    ? memory->softness == 0
-                       : phase.function == CompleteTile ? !memory->has_coverage
-                                                        : false;
-    if (skips) {
-      phases->Skip();
-      continue;
-    }
-    if (phase.function == WriteTile) JudgeMap(plan, memory);
-    const starfocus_status status = phases->Run(phase.function, &phase.job);
-    if (status != STARFOCUS_OK) return status;
+void ChooseByColour(const ColourMap& map, bool has_hair, const simd::DepthKernels& kernels,
+                    const MapOutput& output, const ColourMemory& memory, Sequence* run) {
+  const EstimatePlan& plan = map.plan;
+  run->Run([&](int32_t index, int32_t worker) {
+    MeasureDoubt(map, TileOf(plan, index), memory.workers[worker].doubt, memory.doubt);
+  });
+  run->Run([&](int32_t index, int32_t worker) {
+    ChooseTile(map, output, kernels, index, memory.workers[worker].choices, memory);
+  });
+  if (run->status() != STARFOCUS_OK) return;
+  const int32_t least_gain = JudgeMap(plan, memory, has_hair);
+  int16_t* const written = memory.maps[map.disparity == memory.maps[0] ? 2 : 0];
+  run->Run(
+      [&](int32_t index, int32_t) { WriteTile(map, memory, output, least_gain, index, written); });
+  const ColourMap repaired = {plan, map.light_field, written};
+  run->Run([&](int32_t index, int32_t) {
+    SoftCount count = {};
+    ForSteps(repaired, memory, index, 1, kSoftStep, false,
+             [&](const Rect& cell) { CountSoft(repaired, cell, &count); });
+    memory.soft[index] = count;
+  });
+  if (run->status() != STARFOCUS_OK) return;
+  const int32_t softness = SoftnessOf(memory.soft, plan.columns * plan.rows);
+  const ColourMap wide = {plan, map.light_field, softness > 0 ? memory.maps[1] : written};
+  if (softness > 0) {
+    run->Run([&](int32_t index, int32_t) {
+      WidenTile(repaired, memory, output, softness, index, memory.maps[1]);
+    });
+  } else {
+    run->Skip();
   }
-  return STARFOCUS_OK;
+  const bool is_right = least_gain == kGains.right;
+  run->Run([&](int32_t index, int32_t) { EvenTile(wide, memory, output, is_right, index); });
 }
 
 ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
@@ -451,18 +404,23 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 
 starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
-                                ColourMemory* memory) {
+                                ColourMemory* memory, bool* has_coverage) {
   const ColourMap given = {plan, light_field, memory->maps[0]};
-  const int32_t before = kReadPhases + (output.coverage.data == nullptr ? 0 : kHairPhases);
-  Phases phases(plan, before + kColourPhases, &memory->jobs);
-  memory->has_coverage = false;
-  starfocus_status status = ReadMap(given, output, kernels, &phases, memory);
-  if (status == STARFOCUS_OK && output.coverage.data != nullptr) {
-    status = FindHairCoverage(given, output, memory->hair_cells, memory->hair, &phases,
-                              &memory->has_coverage);
+  const bool covers = output.coverage.data != nullptr;
+  Sequence run(&memory->jobs, kPhases + (covers ? kHairPhases : 0), plan.columns * plan.rows);
+  const int32_t noise = ReadMap(given, *memory, &run);
+  *has_coverage = covers && FindHairCoverage(given, output, memory->hair_cells, memory->hair, &run);
+  SmoothMap(given, noise, kernels, *memory, &run);
+  const ColourMap map = {plan, light_field, memory->maps[noise > 0 ? 2 : 0]};
+  ChooseByColour(map, *has_coverage, kernels, output, *memory, &run);
+  if (*has_coverage) {
+    run.Run([&](int32_t index, int32_t) {
+      CompleteCoverage(map, output, memory->hair_cells, TileOf(plan, index));
+    });
+  } else {
+    run.Skip();
   }
-  if (status != STARFOCUS_OK) return status;
-  return ChooseByColour(given, kernels, output, &phases, memory);
+  return run.status();
 }
 
 }  // namespace starfocus

@@ -38,17 +38,13 @@ struct ColourMemory {
   // For each pixel, cost of the map's disparity minus the cost of the chosen disparity; 0 if both
   // disparities are on one surface.
   int16_t* gain;
-  int32_t noise;       // result of NoiseOf
-  uint8_t* doubt;      // result of MeasureDoubt
-  TileCount* counts;   // One element for each tile.
-  SoftCount* soft;     // One element for each tile of the repaired map.
-  int32_t least_gain;  // Smallest gain (saved cost) that a change requires.
-  ThinCells thin;      // Thin structure of the map.
-  CellRanges ranges;   // Disparities of the repaired map.
-  int32_t softness;    // Result of SoftnessOf.
+  uint8_t* doubt;     // result of MeasureDoubt
+  TileCount* counts;  // One element for each tile.
+  SoftCount* soft;    // One element for each tile of the repaired map.
+  ThinCells thin;     // Thin structure of the map.
+  CellRanges ranges;  // Disparities of the repaired map.
   HairCells hair_cells;
-  HairMemory hair;    // Shares the memory of maps[1], maps[2] and all later planes.
-  bool has_coverage;  // Output: true if the last call found coverage.
+  HairMemory hair;  // Shares the memory of maps[1], maps[2] and all later planes.
   ColourTileMemory* workers;
 };
 
@@ -70,11 +66,12 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // confidence is 0.
 //
 // If output.coverage is not null and the map shows hair as a solid shape, the function writes the
-// coverage of the hair and sets memory->has_coverage. Disparities of hair are not changed
-// (hair_coverage.h). Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
+// coverage of the hair and sets *has_coverage to true, otherwise to false. Disparities of hair are
+// not changed (hair_coverage.h). Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or
+// STARFOCUS_ERROR_RUNNER.
 starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
-                                ColourMemory* memory);
+                                ColourMemory* memory, bool* has_coverage);
 
 }  // namespace starfocus
 

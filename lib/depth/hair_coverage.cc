@@ -10,8 +10,9 @@
 namespace starfocus {
 namespace {
 
-// Input, output and memory of the phases of FindHairCoverage.
-struct HairJob {
+// Input, output and memory of the phases of FindHairCoverage. Each phase processes one tile at a
+// time.
+struct HairSearch {
   const ColourMap& map;
   const MapOutput& output;
   const HairCells& cells;
@@ -20,8 +21,6 @@ struct HairJob {
   Rect Tile(int32_t index) const { return TileOf(map.plan, index); }
   uint8_t& CoverageAt(int32_t x, int32_t y) const { return output.coverage.Row(y)[x]; }
 };
-
-inline const HairJob& HairJobOf(const void* data) { return *static_cast<const HairJob*>(data); }
 
 // ShareOf converts a coverage of 0 to 255 to a fraction of kFullyKnown. FourthPower computes the
 // fourth power of a fraction of kFullyKnown.
@@ -41,14 +40,15 @@ struct CellPixel {
 
 // Calls act(pixel) for all pixels of a cell.
 template <class Act>
-void ForPixels(const HairJob& job, int32_t column, int32_t row, const Act& act) {
-  const Rect cell = HairCellAt(job.map.plan, column, row);
-  const size_t at = job.cells.At(column, row);
+void ForPixels(const HairSearch& search, int32_t column, int32_t row, const Act& act) {
+  const Rect cell = HairCellAt(search.map.plan, column, row);
+  const size_t at = search.cells.At(column, row);
   for (int32_t y = 0; y < cell.height; ++y) {
     for (int32_t x = 0; x < cell.width; ++x) {
       CellPixel pixel = {cell.x + x, cell.y + y, x, y, false, {}};
-      pixel.is_near = job.cells.IsNear(at, job.map.disparity[job.map.plan.At(pixel.x, pixel.y)]);
-      const uint8_t* rgb = job.map.Pixel(pixel.x, pixel.y);
+      pixel.is_near =
+          search.cells.IsNear(at, search.map.disparity[search.map.plan.At(pixel.x, pixel.y)]);
+      const uint8_t* rgb = search.map.Pixel(pixel.x, pixel.y);
       for (int c = 0; c < 3; ++c) pixel.rgb[c] = static_cast<uint16_t>(rgb[c] << kMeanBits);
       act(pixel);
     }
@@ -57,9 +57,9 @@ void ForPixels(const HairJob& job, int32_t column, int32_t row, const Act& act) 
 
 // Calls act(column, row, marks) for all cells of a tile.
 template <class Act>
-void ForMarked(const HairJob& job, int32_t index, const Act& act) {
-  const HairCells& cells = job.cells;
-  ForHairCells(job.Tile(index), [&](int32_t column, int32_t row) {
+void ForMarked(const HairSearch& search, int32_t index, const Act& act) {
+  const HairCells& cells = search.cells;
+  ForHairCells(search.Tile(index), [&](int32_t column, int32_t row) {
     act(column, row, cells.marks[cells.At(column, row)]);
   });
 }
@@ -67,10 +67,11 @@ void ForMarked(const HairJob& job, int32_t index, const Act& act) {
 // Writes the mean colour of a cell to the lowest level of `pyramid`. The weight of a pixel is
 // weight(pixel).
 template <class Weight>
-void Pull(const HairJob& job, int32_t column, int32_t row, const Weight& weight,
+void Pull(const HairSearch& search, int32_t column, int32_t row, const Weight& weight,
           const ColourPyramid& pyramid) {
   ColourSum sum;
-  ForPixels(job, column, row, [&](const CellPixel& pixel) { sum.Add(pixel.rgb, weight(pixel)); });
+  ForPixels(search, column, row,
+            [&](const CellPixel& pixel) { sum.Add(pixel.rgb, weight(pixel)); });
   pyramid.levels[0].At(column, row) = sum.Mean();
 }
 
@@ -86,85 +87,81 @@ int32_t ContrastOf(const CellPixel& pixel, const CellColours& far) {
 }
 
 // Returns the largest squared contrast to the background in a cell and its eight neighbours.
-int32_t ContrastAround(const HairJob& job, int32_t column, int32_t row) {
-  const HairCells& cells = job.cells;
+int32_t ContrastAround(const HairSearch& search, int32_t column, int32_t row) {
+  const HairCells& cells = search.cells;
   int32_t most = 0;
   for (int32_t y = Max(row - 1, 0); y <= Min(row + 1, cells.rows - 1); ++y) {
     for (int32_t x = Max(column - 1, 0); x <= Min(column + 1, cells.columns - 1); ++x) {
-      most = Max(most, job.memory.contrast[cells.At(x, y)]);
+      most = Max(most, search.memory.contrast[cells.At(x, y)]);
     }
   }
   return most;
 }
 
 // Computes background colours for the first pass, from cells without near pixels nearby.
-void PullFar(const void* data, int32_t index, int32_t) {
-  const HairJob& job = HairJobOf(data);
-  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+void PullFar(const HairSearch& search, int32_t index) {
+  ForMarked(search, index, [&](int32_t column, int32_t row, uint8_t marks) {
     const bool far = (marks & HairCells::kIsFar) != 0;
-    if (!far) job.memory.far.levels[0].At(column, row) = {};
+    if (!far) search.memory.far.levels[0].At(column, row) = {};
     if (far)
       Pull(
-          job, column, row, [](const CellPixel&) { return kFullyKnown; }, job.memory.far);
+          search, column, row, [](const CellPixel&) { return kFullyKnown; }, search.memory.far);
   });
 }
 
 // MeasureContrast and PullNear compute foreground colours for the first pass, from near pixels
 // weighted by their contrast to the background. MeasureContrast must run first, for all tiles.
-void MeasureContrast(const void* data, int32_t index, int32_t) {
-  const HairJob& job = HairJobOf(data);
-  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+void MeasureContrast(const HairSearch& search, int32_t index) {
+  ForMarked(search, index, [&](int32_t column, int32_t row, uint8_t marks) {
     int32_t most = 0;
     if (MayHaveNear(marks)) {
       CellColours far;
-      InterpolateCell(job.memory.far, column, row, &far);
-      ForPixels(job, column, row,
+      InterpolateCell(search.memory.far, column, row, &far);
+      ForPixels(search, column, row,
                 [&](const CellPixel& pixel) { most = Max(most, ContrastOf(pixel, far)); });
     }
-    job.memory.contrast[job.cells.At(column, row)] = most;
+    search.memory.contrast[search.cells.At(column, row)] = most;
   });
 }
 
-void PullNear(const void* data, int32_t index, int32_t) {
-  const HairJob& job = HairJobOf(data);
-  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t) {
-    if (job.memory.contrast[job.cells.At(column, row)] == 0) {
-      job.memory.near.levels[0].At(column, row) = {};
+void PullNear(const HairSearch& search, int32_t index) {
+  ForMarked(search, index, [&](int32_t column, int32_t row, uint8_t) {
+    if (search.memory.contrast[search.cells.At(column, row)] == 0) {
+      search.memory.near.levels[0].At(column, row) = {};
       return;
     }
-    const int64_t most = ContrastAround(job, column, row) + int64_t{1};
+    const int64_t most = ContrastAround(search, column, row) + int64_t{1};
     CellColours far;
-    InterpolateCell(job.memory.far, column, row, &far);
+    InterpolateCell(search.memory.far, column, row, &far);
     const auto weight = [&](const CellPixel& pixel) {
       return FourthPower(
           static_cast<uint32_t>(kFullyKnown * int64_t{ContrastOf(pixel, far)} / most));
     };
-    Pull(job, column, row, weight, job.memory.near);
+    Pull(search, column, row, weight, search.memory.near);
   });
 }
 
 // Computes foreground and background colours for the second pass, from all pixels weighted by the
 // coverage of the first pass.
-void PullBoth(const void* data, int32_t index, int32_t) {
-  const HairJob& job = HairJobOf(data);
-  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+void PullBoth(const HairSearch& search, int32_t index) {
+  ForMarked(search, index, [&](int32_t column, int32_t row, uint8_t marks) {
     if (marks == 0) {
-      job.memory.far.levels[0].At(column, row) = {};
-      job.memory.near.levels[0].At(column, row) = {};
+      search.memory.far.levels[0].At(column, row) = {};
+      search.memory.near.levels[0].At(column, row) = {};
       return;
     }
     const bool has_hair = (marks & HairCells::kHasHair) != 0;
     const auto share = [&](const CellPixel& pixel) {
       if (!has_hair) return pixel.is_near ? uint32_t{kFullyKnown} : 0;
-      return ShareOf(job.CoverageAt(pixel.x, pixel.y));
+      return ShareOf(search.CoverageAt(pixel.x, pixel.y));
     };
     Pull(
-        job, column, row, [&](const CellPixel& pixel) { return FourthPower(share(pixel)); },
-        job.memory.near);
+        search, column, row, [&](const CellPixel& pixel) { return FourthPower(share(pixel)); },
+        search.memory.near);
     Pull(
-        job, column, row,
+        search, column, row,
         [&](const CellPixel& pixel) { return FourthPower(kFullyKnown - share(pixel)); },
-        job.memory.far);
+        search.memory.far);
   });
 }
 
@@ -238,13 +235,16 @@ int32_t WithoutTexture(int32_t share) {
   return Max(0, (share - kTexture) * kWhole / (kWhole - kTexture));
 }
 
+// Writes the coverage of cells with hair. In the second pass (kAgain), the background colour of a
+// pixel is mixed with the pixel's own colour. The share of the pixel's own colour increases as the
+// coverage from the first pass decreases.
 template <bool kAgain>
-void UnmixTile(const HairJob& job, int32_t index) {
-  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+void UnmixTile(const HairSearch& search, int32_t index) {
+  ForMarked(search, index, [&](int32_t column, int32_t row, uint8_t marks) {
     if ((marks & HairCells::kHasHair) == 0) return;
-    const CellMixer mixer(job.memory, column, row);
-    ForPixels(job, column, row, [&](const CellPixel& pixel) {
-      uint8_t& coverage = job.CoverageAt(pixel.x, pixel.y);
+    const CellMixer mixer(search.memory, column, row);
+    ForPixels(search, column, row, [&](const CellPixel& pixel) {
+      uint8_t& coverage = search.CoverageAt(pixel.x, pixel.y);
       const uint32_t own = kAgain ? FourthPower(kWhole - ShareOf(coverage)) : 0;
       const Unmixed unmixed = mixer.Part(pixel, static_cast<int32_t>(own));
       const int32_t found = pixel.is_near ? unmixed.share : WithoutTexture(unmixed.share);
@@ -256,50 +256,37 @@ void UnmixTile(const HairJob& job, int32_t index) {
   });
 }
 
-// Count the near pixels that look like background. CountInside processes only the cells with
-// kIsInside, and CountCells processes all cells.
-void CountInside(const void* data, int32_t index, int32_t) {
-  const HairJob& job = HairJobOf(data);
+// Counts the near pixels that look like background, in the cells with kIsInside.
+void CountInside(const HairSearch& search, int32_t index) {
   InsideCount count = {0, 0};
-  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+  ForMarked(search, index, [&](int32_t column, int32_t row, uint8_t marks) {
     if ((marks & HairCells::kIsInside) == 0) return;
-    const CellMixer mixer(job.memory, column, row);
-    ForPixels(job, column, row, [&](const CellPixel& pixel) {
+    const CellMixer mixer(search.memory, column, row);
+    ForPixels(search, column, row, [&](const CellPixel& pixel) {
       if (!pixel.is_near) return;
       ++count.inside;
       count.far += LooksFar(mixer, pixel);
     });
   });
-  job.memory.counts[index] = count;
+  search.memory.counts[index] = count;
 }
 
-void CountCells(const void* data, int32_t index, int32_t) {
-  const HairJob& job = HairJobOf(data);
-  ForMarked(job, index, [&](int32_t column, int32_t row, uint8_t marks) {
+// Counts the near pixels that look like background in each cell.
+void CountCells(const HairSearch& search, int32_t index) {
+  ForMarked(search, index, [&](int32_t column, int32_t row, uint8_t marks) {
     int32_t far = 0, near = 0;
     if (MayHaveNear(marks)) {
-      const CellMixer mixer(job.memory, column, row);
-      ForPixels(job, column, row, [&](const CellPixel& pixel) {
+      const CellMixer mixer(search.memory, column, row);
+      ForPixels(search, column, row, [&](const CellPixel& pixel) {
         if (!pixel.is_near) return;
         ++near;
         far += LooksFar(mixer, pixel);
       });
     }
-    const size_t at = job.cells.At(column, row);
-    job.memory.near_pixels[at] = near;
-    job.memory.contrast[at] = far;
+    const size_t at = search.cells.At(column, row);
+    search.memory.near_pixels[at] = near;
+    search.memory.contrast[at] = far;
   });
-}
-
-// Write the coverage of cells with hair. In the second pass, the background colour of a pixel is
-// mixed with the pixel's own colour. The share of the pixel's own colour increases as the coverage
-// from the first pass decreases.
-void UnmixFirst(const void* data, int32_t index, int32_t) {
-  UnmixTile<false>(HairJobOf(data), index);
-}
-
-void UnmixAgain(const void* data, int32_t index, int32_t) {
-  UnmixTile<true>(HairJobOf(data), index);
 }
 
 // A map has hair with closed outlines if, of the pixels 2 to 4 cells inside outlines, a share of
@@ -309,30 +296,21 @@ void UnmixAgain(const void* data, int32_t index, int32_t) {
 // 28/256 (docs/depth.md).
 constexpr int64_t kLeastFar = 48;
 
-void MeasureTile(const void* data, int32_t index, int32_t) {
-  const HairJob& job = HairJobOf(data);
-  ForHairCells(job.Tile(index), [&](int32_t column, int32_t row) {
-    MeasureHairCell(job.map, column, row, job.cells);
+void MeasureTile(const HairSearch& search, int32_t index) {
+  ForHairCells(search.Tile(index), [&](int32_t column, int32_t row) {
+    MeasureHairCell(search.map, column, row, search.cells);
   });
 }
 
 // Returns true if the map has hair with closed outlines.
-bool HasClosedHair(const HairJob& job) {
+bool HasClosedHair(const HairSearch& search) {
   int64_t inside = 0, far = 0;
-  for (int32_t k = 0; k < job.map.plan.columns * job.map.plan.rows; ++k) {
-    inside += job.memory.counts[k].inside;
-    far += job.memory.counts[k].far;
+  for (int32_t k = 0; k < search.map.plan.columns * search.map.plan.rows; ++k) {
+    inside += search.memory.counts[k].inside;
+    far += search.memory.counts[k].far;
   }
   return far > kLeastFar * inside;
 }
-
-bool FindHair(const HairJob& job) {
-  return MarkHair(job.cells, job.memory.near_pixels, job.memory.contrast);
-}
-
-bool CarryOnFar(const HairJob& job) { return CarryOnColours(job.memory.far); }
-bool CarryOnNear(const HairJob& job) { return CarryOnColours(job.memory.near); }
-bool GoOn(const HairJob&) { return true; }
 
 }  // namespace
 
@@ -350,37 +328,28 @@ HairMemory TakeHairMemory(const EstimatePlan& plan, Arena* arena) {
   return memory;
 }
 
-starfocus_status FindHairCoverage(const ColourMap& map, const MapOutput& output,
-                                  const HairCells& cells, const HairMemory& memory, Phases* phases,
-                                  bool* found) {
-  const HairJob job = {map, output, cells, memory};
-  // The phases of the search. When all tiles of a phase are finished, `conclude` processes the
+bool FindHairCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,
+                      const HairMemory& memory, Sequence* run) {
+  const HairSearch search = {map, output, cells, memory};
+  bool found = true;
+  // Runs a phase of the search. When the phase has finished all tiles, `conclude` processes the
   // results for the whole picture. The search ends if `conclude` returns false.
-  const struct {
-    JobFunction function;
-    bool (*conclude)(const HairJob& job);
-  } all[kHairPhases] = {
-      {MeasureTile, [](const HairJob& j) { return MarkEdges(j.cells); }},
-      {PullFar, CarryOnFar},
-      {MeasureContrast, GoOn},
-      {PullNear, CarryOnNear},
-      {CountInside, HasClosedHair},
-      {CountCells, FindHair},
-      {UnmixFirst, GoOn},
-      {PullBoth, [](const HairJob& j) { return CarryOnFar(j) && CarryOnNear(j); }},
-      {UnmixAgain, GoOn},
+  const auto phase = [&](void (*work)(const HairSearch&, int32_t), const auto& conclude) {
+    if (!found) return run->Skip();
+    run->Run([&](int32_t index, int32_t) { work(search, index); });
+    found = run->status() == STARFOCUS_OK && conclude();
   };
-  *found = true;
-  for (const auto& phase : all) {
-    if (!*found) {
-      phases->Skip();
-      continue;
-    }
-    const starfocus_status status = phases->Run(phase.function, &job);
-    if (status != STARFOCUS_OK) return status;
-    *found = phase.conclude(job);
-  }
-  return STARFOCUS_OK;
+  const auto always = [] { return true; };
+  phase(MeasureTile, [&] { return MarkEdges(cells); });
+  phase(PullFar, [&] { return CarryOnColours(memory.far); });
+  phase(MeasureContrast, always);
+  phase(PullNear, [&] { return CarryOnColours(memory.near); });
+  phase(CountInside, [&] { return HasClosedHair(search); });
+  phase(CountCells, [&] { return MarkHair(cells, memory.near_pixels, memory.contrast); });
+  phase(UnmixTile<false>, always);
+  phase(PullBoth, [&] { return CarryOnColours(memory.far) && CarryOnColours(memory.near); });
+  phase(UnmixTile<true>, always);
+  return found;
 }
 
 void CompleteCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,

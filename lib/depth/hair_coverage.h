@@ -10,7 +10,6 @@
 
 #include "lib/depth/hair_cells.h"
 #include "lib/depth/maps.h"
-#include "lib/depth/phases.h"
 
 namespace starfocus {
 
@@ -35,11 +34,10 @@ HairMemory TakeHairMemory(const EstimatePlan& plan, Arena* arena);
 // Number of phases that FindHairCoverage runs or skips.
 inline constexpr int32_t kHairPhases = 9;
 
-// Marks the cells with hair and writes the coverage of their pixels. Sets *found to true if any
-// cell has hair. Returns the status of Phases::Run.
-starfocus_status FindHairCoverage(const ColourMap& map, const MapOutput& output,
-                                  const HairCells& cells, const HairMemory& memory, Phases* phases,
-                                  bool* found);
+// Marks the cells with hair and writes the coverage of their pixels. Returns true if any cell has
+// hair, and false after an error.
+bool FindHairCoverage(const ColourMap& map, const MapOutput& output, const HairCells& cells,
+                      const HairMemory& memory, Sequence* run);
 
 // Completes the coverage of a tile whose disparities have been written. In cells without hair, the
 // coverage is 0 for far pixels and 255 for near pixels. In cells with hair, the confidence is 255

@@ -62,8 +62,9 @@ Repaired Repair(const Photo& photo) {
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
   const starfocus::MapOutput output = {
       {result.map.data(), width}, -500, 500, {result.confidence.data(), width}, {}};
-  CHECK(RepairByColour(plan, FieldOf(photo), starfocus::simd::BestDepthKernels(), output, memory) ==
-        STARFOCUS_OK);
+  bool has_coverage = false;
+  CHECK(RepairByColour(plan, FieldOf(photo), starfocus::simd::BestDepthKernels(), output, memory,
+                       &has_coverage) == STARFOCUS_OK);
   return result;
 }
 

@@ -158,7 +158,8 @@ struct Maps {
     if (config.views == 1) {
       starfocus::ColourMemory* of_colour = nullptr;
       starfocus::LayOutColourRepair(plan, 1, memory->data, &of_colour);
-      return starfocus::RepairByColour(plan, field, kernels, output, of_colour);
+      bool has_coverage = false;
+      return starfocus::RepairByColour(plan, field, kernels, output, of_colour, &has_coverage);
     }
     starfocus::EstimateMemory* laid_out = nullptr;
     starfocus::LayOutEstimate(plan, 1, memory->data, &laid_out);
