@@ -99,16 +99,15 @@ starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size
   if (status == STARFOCUS_OK) status = CheckDepthConfig(full, repairs);
   if (status != STARFOCUS_OK) return status;
   const EstimatePlan plan = PlanOf(full, repairs);
-  EstimateMemory* counted = nullptr;
-  ColourMemory* of_colour = nullptr;
-  ConvertedMemory memory;
-  const size_t made = full.views == 1
-                          ? LayOutColourRepair(plan, full.max_workers, nullptr, &of_colour)
-                          : LayOutEstimate(plan, full.max_workers, nullptr, &counted);
-  const size_t converted = Converts(full) ? LayOutConverted(full, repairs, nullptr, &memory) : 0;
-  const bool fits = made != kTooLarge && converted != kTooLarge && made <= PTRDIFF_MAX - converted;
-  if (!fits) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
-  *bytes = made + converted;
+  Arena arena(nullptr);
+  if (full.views == 1) {
+    TakeColourRepair(plan, full.max_workers, &arena);
+  } else {
+    TakeEstimate(plan, full.max_workers, &arena);
+  }
+  if (Converts(full)) TakeConverted(full, repairs, &arena);
+  if (arena.Bytes() == kTooLarge) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
+  *bytes = arena.Bytes();
   return STARFOCUS_OK;
 }
 
@@ -162,9 +161,9 @@ starfocus_status CheckCall(const DepthCall& call, bool repairs,
 }
 
 // Converts the light field if necessary, and calls make(light_field) with the caller's runner and
-// progress function. The converted light field lies `made` bytes after the start of the workspace.
+// progress function. Takes the memory of the converted light field.
 template <class Make>
-starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, size_t made, Jobs* jobs,
+starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, Arena* arena, Jobs* jobs,
                          const Make& make) {
   const starfocus_depth_config& config = *call.config;
   jobs->runner = config.runner;
@@ -175,8 +174,7 @@ starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, size_t
   starfocus_light_field field = *call.light_field;
   starfocus_status status = STARFOCUS_OK;
   if (Converts(config)) {
-    ConvertedMemory memory;
-    LayOutConverted(config, plan.repairs, static_cast<uint8_t*>(call.workspace) + made, &memory);
+    const ConvertedMemory memory = TakeConverted(config, plan.repairs, arena);
     status = ConvertField(config, memory, plan.columns * plan.rows, jobs, &field);
   }
   if (status == STARFOCUS_OK) status = make(field);
@@ -190,11 +188,11 @@ starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, size_t
 starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
                                int32_t* has_coverage) {
   const EstimatePlan plan = PlanOf(*call.config, true);
+  Arena arena(call.workspace);
+  const ColourMemory memory = TakeColourRepair(plan, call.config->max_workers, &arena);
   bool found = false;
-  ColourMemory* memory = nullptr;
-  const size_t made = LayOutColourRepair(plan, call.config->max_workers, call.workspace, &memory);
   const starfocus_status status =
-      Watched(call, plan, made, &memory->jobs, [&](const starfocus_light_field& field) {
+      Watched(call, plan, &arena, memory.jobs, [&](const starfocus_light_field& field) {
         return RepairByColour(plan, field, simd::BestDepthKernels(), output, memory, &found);
       });
   *has_coverage = status == STARFOCUS_OK && found ? 1 : 0;
@@ -205,13 +203,21 @@ starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
 starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output) {
   const EstimatePlan plan = PlanOf(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
-  EstimateMemory* memory = nullptr;
-  const size_t made = LayOutEstimate(plan, call.config->max_workers, call.workspace, &memory);
-  const EstimateZones zones(plan, call.config->max_workers, call.workspace);
-  return Watched(call, plan, made, &memory->jobs, [&](const starfocus_light_field& field) {
-    return repairs ? Repair(plan, field, kernels, output, memory)
-                   : Estimate(plan, field, kernels, output, memory);
-  });
+  Arena arena(call.workspace);
+  const EstimateMemory memory = TakeEstimate(plan, call.config->max_workers, &arena);
+  // Calls visit(workspace, begin, end) for each piece of the memory.
+  const auto visit_pieces = [&](void (*visit)(void*, size_t, size_t)) {
+    const PieceVisitor visitor = {visit, call.workspace};
+    Arena counted(nullptr, PTRDIFF_MAX, &visitor);
+    if (kRedZone > 0) TakeEstimate(plan, call.config->max_workers, &counted);
+  };
+  visit_pieces(PoisonZone);
+  const starfocus_status status =
+      Watched(call, plan, &arena, memory.jobs, [&](const starfocus_light_field& field) {
+        return (repairs ? Repair : Estimate)(plan, field, kernels, output, memory);
+      });
+  visit_pieces(UnpoisonZone);
+  return status;
 }
 
 // Checks the arguments, then estimates or repairs the map.

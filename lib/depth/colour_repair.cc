@@ -50,7 +50,7 @@ uint8_t Choose(const ColourMap& map, const Choices& choices, size_t at,
   }
   const bool same = Abs(choices.disparity[best] - given) <= kSameSurface;
   const bool keeps = same && memory.doubt[at] != 0;
-  memory.maps[1][at] = keeps ? static_cast<int16_t>(given) : choices.disparity[best];
+  memory.chosen[at] = keeps ? static_cast<int16_t>(given) : choices.disparity[best];
   memory.gain[at] =
       same ? int16_t{0} : static_cast<int16_t>(choices.cost[own] - choices.cost[best]);
   return static_cast<uint8_t>(margin / kPaths);
@@ -58,7 +58,7 @@ uint8_t Choose(const ColourMap& map, const Choices& choices, size_t at,
 
 // Returns true if a doubtful pixel would move to another surface.
 bool Differs(const ColourMap& map, const ColourMemory& memory, size_t at) {
-  return Abs(memory.maps[1][at] - map.disparity[at]) > kSameSurface;
+  return Abs(memory.chosen[at] - map.disparity[at]) > kSameSurface;
 }
 
 TileCount CountTile(const ColourMap& map, const ColourMemory& memory, const Rect& tile) {
@@ -127,7 +127,7 @@ bool IsGainsaid(const EstimatePlan& plan, const int16_t* gains, int32_t least_ga
 // Returns the weighted mean of the map's disparities around pixel (x, y) that belong to the surface
 // chosen for this pixel.
 float MeanOfSurface(const ColourMap& map, const ColourMemory& memory, int32_t x, int32_t y) {
-  const int32_t own = memory.maps[1][map.plan.At(x, y)];
+  const int32_t own = memory.chosen[map.plan.At(x, y)];
   const Rect around = Widened(map.plan, {x, y, 1, 1}, kMeanRadius);
   int32_t sum = 0, weights = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
@@ -149,7 +149,7 @@ float MeanOfSurface(const ColourMap& map, const ColourMemory& memory, int32_t x,
 void WritePixel(const ColourMap& map, const ColourMemory& memory, const MapOutput& output,
                 int32_t least_gain, bool keeps, int32_t x, int32_t y, int16_t* repaired) {
   const size_t at = map.plan.At(x, y);
-  const int16_t chosen = memory.maps[1][at];
+  const int16_t chosen = memory.chosen[at];
   const bool known = std::isfinite(GivenAt(map.light_field, y)[x]);
   const bool differs = Differs(map, memory, at);
   const bool moves =
@@ -168,7 +168,7 @@ void WriteTile(const ColourMap& map, const ColourMemory& memory, const MapOutput
                int32_t least_gain, int32_t index, int16_t* repaired) {
   const Rect tile = TileOf(map.plan, index);
   const ThinGrid grid = GridOf(map.plan);
-  const bool noisy = map.disparity != memory.maps[0];
+  const bool noisy = map.disparity != memory.given;
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const size_t at = map.plan.At(tile.x, y);
     float* disparity = output.disparity.Row(y) + tile.x;
@@ -258,18 +258,18 @@ void EvenTile(const ColourMap& map, const ColourMemory& memory, const MapOutput&
   });
 }
 
-// Converts the given map to fixed point (maps[0]) and returns its noise.
+// Converts the given map to fixed point (memory.given) and returns its noise.
 int32_t ReadMap(const ColourMap& given, const ColourMemory& memory, Sequence* run) {
   const EstimatePlan& plan = given.plan;
   const auto rows = [&](int32_t index) {
     return PartOf({0, plan.height}, index, plan.columns * plan.rows);
   };
   run->Run([&](int32_t index, int32_t) {
-    ReadRows(plan, given.light_field, rows(index), memory.maps[0]);
+    ReadRows(plan, given.light_field, rows(index), memory.given);
   });
   if (run->status() != STARFOCUS_OK) return 0;
-  FillUnknownRows(plan, memory.maps[0]);
-  const int32_t workers = memory.jobs.max_workers;
+  FillUnknownRows(plan, memory.given);
+  const int32_t workers = memory.jobs->max_workers;
   for (int32_t k = 0; k < workers; ++k) *memory.workers[k].noise = {};
   run->Run([&](int32_t index, int32_t worker) {
     CountNoise(plan, given.disparity, rows(index), memory.workers[worker].noise);
@@ -279,14 +279,14 @@ int32_t ReadMap(const ColourMap& given, const ColourMemory& memory, Sequence* ru
   return NoiseOf(*all);
 }
 
-// Smooths `given` in two passes. Writes the half smoothed map to maps[1], and the smoothed map to
-// maps[2].
+// Smooths `given` in two passes, unless it is not noisy. Writes the half smoothed map to
+// memory.chosen, and the smoothed map to memory.smooth.
 void SmoothMap(const ColourMap& given, int32_t noise, const simd::DepthKernels& kernels,
                const ColourMemory& memory, Sequence* run) {
   // The first pass averages disparities within three standard deviations, which reduces the noise
   // to a third.
   const Smoothing passes[2] = {{3, 1, 3 * noise}, {4, 2, 3 * noise / 2}};
-  const ColourMap half = {given.plan, given.light_field, memory.maps[1]};
+  const ColourMap half = {given.plan, given.light_field, memory.chosen};
   for (int k = 0; k < 2; ++k) {
     if (noise == 0) {
       run->Skip();
@@ -294,7 +294,7 @@ void SmoothMap(const ColourMap& given, int32_t noise, const simd::DepthKernels& 
     }
     run->Run([&](int32_t index, int32_t worker) {
       SmoothTile(k == 0 ? given : half, passes[k], TileOf(given.plan, index), kernels,
-                 memory.workers[worker].smooth, memory.maps[k + 1]);
+                 memory.workers[worker].smooth, k == 0 ? memory.chosen : memory.smooth);
     });
   }
 }
@@ -311,7 +311,7 @@ void ChooseByColour(const ColourMap& map, bool has_hair, const simd::DepthKernel
   });
   if (run->status() != STARFOCUS_OK) return;
   const int32_t least_gain = JudgeMap(plan, memory, has_hair);
-  int16_t* const written = memory.maps[map.disparity == memory.maps[0] ? 2 : 0];
+  int16_t* const written = map.disparity == memory.given ? memory.smooth : memory.given;
   run->Run(
       [&](int32_t index, int32_t) { WriteTile(map, memory, output, least_gain, index, written); });
   const ColourMap repaired = {plan, map.light_field, written};
@@ -323,10 +323,10 @@ void ChooseByColour(const ColourMap& map, bool has_hair, const simd::DepthKernel
   });
   if (run->status() != STARFOCUS_OK) return;
   const int32_t softness = SoftnessOf(memory.soft, plan.columns * plan.rows);
-  const ColourMap wide = {plan, map.light_field, softness > 0 ? memory.maps[1] : written};
+  const ColourMap wide = {plan, map.light_field, softness > 0 ? memory.chosen : written};
   if (softness > 0) {
     run->Run([&](int32_t index, int32_t) {
-      WidenTile(repaired, memory, output, softness, index, memory.maps[1]);
+      WidenTile(repaired, memory, output, softness, index, memory.chosen);
     });
   } else {
     run->Skip();
@@ -356,66 +356,47 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
 
 }  // namespace
 
-size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
-                          ColourMemory** memory) {
-  Arena arena(base);
+ColourMemory TakeColourRepair(const EstimatePlan& plan, int32_t max_workers, Arena* arena) {
   const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
-  *memory = arena.Take<ColourMemory>(1);
   const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
-  auto* progress = arena.Take<std::atomic<uint32_t>>(ProgressWords(tiles));
-  int16_t* maps[3];
-  maps[0] = arena.Take<int16_t>(width, height);
-  const HairCells hair_cells = TakeHairCells(plan.width, plan.height, &arena);
-  const size_t mark = arena.Mark();
-  for (int k = 1; k < 3; ++k) maps[k] = arena.Take<int16_t>(width, height);
-  auto* gain = arena.Take<int16_t>(width, height);
-  auto* doubt = arena.Take<uint8_t>(width, height);
-  auto* counts = arena.Take<TileCount>(tiles);
-  auto* soft = arena.Take<SoftCount>(tiles);
-  const ThinCells thin = TakeThinCells(GridOf(plan), &arena);
-  const CellRanges ranges = TakeCellRanges(GridOf(plan), &arena);
-  // The search for coverage runs first, so the memory of the search may overlap the memory of all
-  // later phases.
-  arena.Reuse(mark);
-  const HairMemory hair = TakeHairMemory(plan, &arena);
-  arena.GoOn();
-  auto* workers = arena.Take<ColourTileMemory>(static_cast<size_t>(max_workers));
-  if (base != nullptr) {
-    ColourMemory& made = *new (*memory) ColourMemory();
-    made.jobs.max_workers = max_workers;
-    made.jobs.progress = progress;
-    for (int k = 0; k < 3; ++k) made.maps[k] = maps[k];
-    made.gain = gain;
-    made.doubt = doubt;
-    made.counts = counts;
-    made.soft = soft;
-    made.thin = thin;
-    made.ranges = ranges;
-    made.hair_cells = hair_cells;
-    made.hair = hair;
-    made.workers = workers;
-  }
+  ColourMemory memory = {};
+  memory.jobs = TakeJobs(plan, max_workers, arena);
+  memory.given = arena->Take<int16_t>(width, height);
+  memory.hair_cells = TakeHairCells(plan.width, plan.height, arena);
+  // The search for coverage has ended before the first of the other phases begins.
+  arena->Overlap([&] { memory.hair = TakeHairMemory(plan, arena); },
+                 [&] {
+                   memory.chosen = arena->Take<int16_t>(width, height);
+                   memory.smooth = arena->Take<int16_t>(width, height);
+                   memory.gain = arena->Take<int16_t>(width, height);
+                   memory.doubt = arena->Take<uint8_t>(width, height);
+                   memory.counts = arena->Take<TileCount>(tiles);
+                   memory.soft = arena->Take<SoftCount>(tiles);
+                   memory.thin = TakeThinCells(GridOf(plan), arena);
+                   memory.ranges = TakeCellRanges(GridOf(plan), arena);
+                 });
+  memory.workers = arena->Take<ColourTileMemory>(static_cast<size_t>(max_workers));
   for (int32_t worker = 0; worker < max_workers; ++worker) {
-    const ColourTileMemory tile = TakeTile(plan, &arena);
-    if (base != nullptr) workers[worker] = tile;
+    const ColourTileMemory tile = TakeTile(plan, arena);
+    if (memory.workers != nullptr) memory.workers[worker] = tile;
   }
-  return arena.Bytes();
+  return memory;
 }
 
 starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
-                                ColourMemory* memory, bool* has_coverage) {
-  const ColourMap given = {plan, light_field, memory->maps[0]};
+                                const ColourMemory& memory, bool* has_coverage) {
+  const ColourMap given = {plan, light_field, memory.given};
   const bool covers = output.coverage.data != nullptr;
-  Sequence run(&memory->jobs, kPhases + (covers ? kHairPhases : 0), plan.columns * plan.rows);
-  const int32_t noise = ReadMap(given, *memory, &run);
-  *has_coverage = covers && FindHairCoverage(given, output, memory->hair_cells, memory->hair, &run);
-  SmoothMap(given, noise, kernels, *memory, &run);
-  const ColourMap map = {plan, light_field, memory->maps[noise > 0 ? 2 : 0]};
-  ChooseByColour(map, *has_coverage, kernels, output, *memory, &run);
+  Sequence run(memory.jobs, kPhases + (covers ? kHairPhases : 0), plan.columns * plan.rows);
+  const int32_t noise = ReadMap(given, memory, &run);
+  *has_coverage = covers && FindHairCoverage(given, output, memory.hair_cells, memory.hair, &run);
+  SmoothMap(given, noise, kernels, memory, &run);
+  const ColourMap map = {plan, light_field, noise > 0 ? memory.smooth : memory.given};
+  ChooseByColour(map, *has_coverage, kernels, output, memory, &run);
   if (*has_coverage) {
     run.Run([&](int32_t index, int32_t) {
-      CompleteCoverage(map, output, memory->hair_cells, TileOf(plan, index));
+      CompleteCoverage(map, output, memory.hair_cells, TileOf(plan, index));
     });
   } else {
     run.Skip();

@@ -31,10 +31,12 @@ struct ColourTileMemory {
 // Memory of a repair by colour. All maps have the size of the picture, and disparities are in fixed
 // point (kDisparityBits).
 struct ColourMemory {
-  Jobs jobs;
-  // The given map, the map after one pass of smoothing, and the smoothed map. Later phases store
-  // their results in maps that are no longer used.
-  int16_t* maps[3];
+  Jobs* jobs;
+  int16_t* given;  // The given map. If it is noisy, later the repaired map.
+  // Disparities chosen for doubtful pixels. Before that, the map after one pass of smoothing; after
+  // that, the widened map.
+  int16_t* chosen;
+  int16_t* smooth;  // The smoothed map. If the given map is not noisy, the repaired map.
   // For each pixel, cost of the map's disparity minus the cost of the chosen disparity; 0 if both
   // disparities are on one surface.
   int16_t* gain;
@@ -48,11 +50,9 @@ struct ColourMemory {
   ColourTileMemory* workers;
 };
 
-// Lays out the memory of a repair by colour at `base`, which must be aligned to
-// STARFOCUS_ALIGNMENT. If `base` is null, only computes the size. Returns the number of bytes used,
-// or kTooLarge. LayOutColourRepair and RepairByColour read only the size and the tiles of `plan`.
-size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* base,
-                          ColourMemory** memory);
+// Takes the memory of a repair by colour. TakeColourRepair and RepairByColour read only the size
+// and the tiles of `plan`.
+ColourMemory TakeColourRepair(const EstimatePlan& plan, int32_t max_workers, Arena* arena);
 
 // Repairs light_field.depth using the colours of the centre view, and writes the result to
 // `output`. At least one pixel of light_field.depth must be finite.
@@ -71,7 +71,7 @@ size_t LayOutColourRepair(const EstimatePlan& plan, int32_t max_workers, void* b
 // STARFOCUS_ERROR_RUNNER.
 starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
-                                ColourMemory* memory, bool* has_coverage);
+                                const ColourMemory& memory, bool* has_coverage);
 
 }  // namespace starfocus
 

@@ -60,17 +60,15 @@ void ConvertRows(const simd::ImageKernels& kernels, const DepthSource& map, int3
 
 }  // namespace
 
-size_t LayOutConverted(const starfocus_depth_config& config, bool has_map, void* base,
-                       ConvertedMemory* memory) {
+ConvertedMemory TakeConverted(const starfocus_depth_config& config, bool has_map, Arena* arena) {
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
-  Arena arena(base);
-  *memory = {};
+  ConvertedMemory memory = {};
   for (int32_t k = 0; k < config.views; ++k) {
-    memory->views[k] = arena.Take<uint8_t>(3 * width, height);
+    memory.views[k] = arena->Take<uint8_t>(3 * width, height);
   }
-  if (has_map) memory->disparity = arena.Take<float>(width, height);
-  if (has_map) memory->columns = arena.Take<uint32_t>(width);
-  return arena.Bytes();
+  if (has_map) memory.disparity = arena->Take<float>(width, height);
+  if (has_map) memory.columns = arena->Take<uint32_t>(width);
+  return memory;
 }
 
 starfocus_status ConvertField(const starfocus_depth_config& config, const ConvertedMemory& memory,

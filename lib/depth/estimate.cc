@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
+#include <new>
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
@@ -143,30 +144,30 @@ SideReference MakeSideReference(const EstimatePlan& plan, const starfocus_light_
   return reference;
 }
 
-// Copies memory->second to memory->first for the pixels of `tile`. Pixels that no side view shows
+// Copies memory.second to memory.first for the pixels of `tile`. Pixels that no side view shows
 // are set to kNoSurface.
-void FindUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memory) {
+void FindUnseen(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       const size_t at = plan.At(x, y);
-      const int16_t d = memory->second[at];
-      memory->first[at] = IsSeen(plan, *memory, x, y, d) ? d : simd::kNoSurface;
+      const int16_t d = memory.second[at];
+      memory.first[at] = IsSeen(plan, memory, x, y, d) ? d : simd::kNoSurface;
     }
   }
 }
 
-// Sets each pixel of `tile` that is kNoSurface in memory->first to the disparity of the adjacent
+// Sets each pixel of `tile` that is kNoSurface in memory.first to the disparity of the adjacent
 // background, which is the second smallest disparity of the nearest known pixels in eight
-// directions. Writes the disparities to memory->second and sets the certainty to 0. Pixels without
+// directions. Writes the disparities to memory.second and sets the certainty to 0. Pixels without
 // known pixels nearby keep their disparity.
-void FillUnseen(const EstimatePlan& plan, const Rect& tile, EstimateMemory* memory) {
+void FillUnseen(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       const size_t at = plan.At(x, y);
-      if (memory->first[at] != simd::kNoSurface) continue;
-      memory->certainty[at] = 0;
-      const int16_t far = FarBeside(plan, memory->first, x, y);
-      if (far != simd::kNoSurface) memory->second[at] = far;
+      if (memory.first[at] != simd::kNoSurface) continue;
+      memory.certainty[at] = 0;
+      const int16_t far = FarBeside(plan, memory.first, x, y);
+      if (far != simd::kNoSurface) memory.second[at] = far;
     }
   }
 }
@@ -210,33 +211,82 @@ int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centr
   return std::abs(own - median) > kStray ? median : own;
 }
 
+Jobs* TakeJobs(const EstimatePlan& plan, int32_t max_workers, Arena* arena) {
+  auto* jobs = arena->Take<Jobs>(1);
+  const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+  auto* progress = arena->Take<std::atomic<uint32_t>>(ProgressWords(tiles));
+  if (jobs == nullptr) return nullptr;
+  new (jobs) Jobs();
+  jobs->max_workers = max_workers;
+  jobs->progress = progress;
+  return jobs;
+}
+
+EstimateMemory TakeEstimate(const EstimatePlan& plan, int32_t max_workers, Arena* arena) {
+  const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
+  const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+  EstimateMemory memory = {};
+  memory.jobs = TakeJobs(plan, max_workers, arena);
+  memory.first = arena->Take<int16_t>(width, height);
+  memory.second = arena->Take<int16_t>(width, height);
+  arena->Overlap([&] { memory.certainty = arena->Take<uint8_t>(width, height); },
+                 [&] { memory.doubt = arena->Take<uint8_t>(width, height); });
+  if (plan.one_sided()) {
+    memory.side_maps = arena->Take<int16_t>(width * height, static_cast<size_t>(plan.side_views));
+  }
+  if (plan.repairs) {
+    memory.given = arena->Take<int16_t>(width, height);
+    memory.trusted = arena->Take<int16_t>(width, height);
+    memory.given_cost = arena->Take<uint8_t>(width, height);
+    memory.found_cost = arena->Take<uint8_t>(width, height);
+    memory.swept = arena->Take<uint8_t>(width, height);
+    memory.given_cells = TakeThinCells(GridOf(plan), arena);
+    memory.found_cells = TakeThinCells(GridOf(plan), arena);
+    memory.counts = arena->Take<TileCount>(tiles);
+  }
+  memory.workers = arena->Take<TileMemory>(static_cast<size_t>(max_workers));
+  Rect largest = {0, 0, 0, 0};  // largest width and height of all tiles with their margins
+  for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
+    const Rect region = RegionOf(plan, tile);
+    largest.width = Max(largest.width, region.width);
+    largest.height = Max(largest.height, region.height);
+  }
+  for (int32_t worker = 0; worker < max_workers; ++worker) {
+    const TileMemory tile = TakeTileMemory(plan, largest, arena);
+    if (memory.workers == nullptr) continue;
+    memory.workers[worker] = tile;
+    memory.workers[worker].swept = memory.swept;
+  }
+  return memory;
+}
+
 starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,
-                          EstimateMemory* memory) {
+                          const EstimateMemory& memory) {
   const Sweep sweep = {plan, light_field, kernels, memory};
   const bool one_sided = plan.one_sided();
-  Sequence run(&memory->jobs, one_sided ? plan.side_views + 4 : 3, plan.columns * plan.rows);
+  Sequence run(memory.jobs, one_sided ? plan.side_views + 4 : 3, plan.columns * plan.rows);
   for (int32_t k = 0; one_sided && k < plan.side_views; ++k) {
     const SideReference side = MakeSideReference(plan, light_field, k);
     const Sweep of_side = {side.plan, side.light_field, kernels, memory};
     run.Run([&](int32_t index, int32_t worker) {
-      SweepOneSide(of_side, index, worker, SideMap(plan, *memory, k));
+      SweepOneSide(of_side, index, worker, SideMap(plan, memory, k));
     });
   }
   if (!one_sided) {
     run.Run(
-        [&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory->first); });
+        [&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory.first); });
   }
   run.Run([&](int32_t index, int32_t worker) {
     SweepAllViews(sweep, index, worker,
-                  output.confidence.data == nullptr ? nullptr : memory->certainty);
+                  output.confidence.data == nullptr ? nullptr : memory.certainty);
   });
   if (one_sided) {
     run.Run([&](int32_t index, int32_t) { FindUnseen(plan, TileOf(plan, index), memory); });
     run.Run([&](int32_t index, int32_t) { FillUnseen(plan, TileOf(plan, index), memory); });
   }
   run.Run([&](int32_t index, int32_t) {
-    WriteTile(plan, RowsOf(light_field.views[0]), TileOf(plan, index), *memory, output);
+    WriteTile(plan, RowsOf(light_field.views[0]), TileOf(plan, index), memory, output);
   });
   return run.status();
 }

@@ -69,48 +69,15 @@ struct EvidenceScale {
 // tiles of the map.
 int32_t LeastEvidence(const EvidenceScale& scale, const TileCount* counts, int32_t tiles);
 
-// The pixels of all views around a tile, as consecutive planes. Outside the picture, the nearest
-// pixels of the picture are repeated. In each plane, pixel (x, y) of the picture has index (y -
-// top) * stride + (x - left).
-struct TileViews {
-  int32_t left, top, rows;
-  size_t stride, plane;  // distance in samples between rows, and between planes
-  // Planes R, G and B of the centre view, followed by the planes of each side view in the order of
-  // the plan. Labels shift side views by fractions of a pixel. Each side view has one set of planes
-  // per fraction (EstimatePlan::Phases).
-  uint8_t* rgb;
-  uint8_t* split;  // scratch memory for making planes: two rows of R, G and B
-  // Number of labels that a nearer surface hides, for each pixel of each side view. The hidden
-  // labels are always the lowest labels. For pixels outside the picture, the value is
-  // simd::kViewEnds.
-  uint8_t* hidden;
-  bool ends;      // True if a part of the planes lies outside the picture.
-  bool all_seen;  // True if the planes lie inside the picture and no hidden labels are known.
+// Takes the state of the jobs of a call that processes the tiles of `plan` one by one.
+Jobs* TakeJobs(const EstimatePlan& plan, int32_t max_workers, Arena* arena);
 
-  size_t At(int32_t x, int32_t y) const {
-    return static_cast<size_t>(y - top) * stride + static_cast<size_t>(x - left);
-  }
-  // Returns the plane of a colour of the centre view.
-  const uint8_t* Centre(int32_t colour) const { return rgb + static_cast<size_t>(colour) * plane; }
-};
+struct TileMemory;
 
-// Scratch memory of a worker for one tile.
-struct TileMemory {
-  TileViews views;
-  uint8_t* cost;  // cost of each label at each pixel; pixels are PathLabels apart
-  // Cost added by the given map, in the layout of `cost`; null if no map is given.
-  uint8_t* prior;
-  int16_t* sum;           // Sums of path costs, in the layout of `cost`.
-  int16_t* path[2];       // Path costs of a row of pixels, plus one pixel on each side.
-  int16_t* least[2];      // Smallest path cost at each pixel of a row, plus one pixel on each side.
-  int16_t* jump;          // Costs of a jump between labels at each pixel of a row (FindJumps).
-  simd::ViewMove* moves;  // Movement of each side view for each label.
-  int16_t* choice;        // Chosen label of each pixel of a row.
-  const uint8_t* swept;   // Equal to EstimateMemory::swept.
-};
-
+// Memory of an estimate or repair: maps of the whole picture, and scratch memory of each worker for
+// one tile.
 struct EstimateMemory {
-  Jobs jobs;
+  Jobs* jobs;
   // Disparities of the whole picture after the first sweep, which ignores occlusion, in fixed point
   // (kDisparityBits). After the sweeps, a repair stores the result of EvenOut in `first`.
   int16_t* first;
@@ -128,14 +95,13 @@ struct EstimateMemory {
   uint8_t* doubt;
   uint8_t* swept;     // 1 for pixels that the sweeps process, else 0; null if all pixels are swept.
   TileCount* counts;  // One element for each tile.
-  int32_t least_evidence;
   // Cost of each pixel's disparity in the given map and in the map of the second sweep. The two
   // costs are equal at pixels without a given disparity.
   uint8_t* given_cost;
   uint8_t* found_cost;
   // Thin structure of the given map and of the result of the sweeps.
   ThinCells given_cells, found_cells;
-  TileMemory* workers;
+  TileMemory* workers;  // sweep.h
 };
 
 // Returns the map of side view k in memory.side_maps.
@@ -143,27 +109,8 @@ inline int16_t* SideMap(const EstimatePlan& plan, const EstimateMemory& memory, 
   return memory.side_maps + ptrdiff_t{k} * plan.width * plan.height;
 }
 
-// Lays out the memory at `base`, which must be aligned to STARFOCUS_ALIGNMENT. If `base` is null,
-// only computes the size. Returns the number of bytes used, or kTooLarge.
-size_t LayOutEstimate(const EstimatePlan& plan, int32_t max_workers, void* base,
-                      EstimateMemory** memory, const PieceVisitor* pieces = nullptr);
-
-// Poisons the red zones in the memory of an estimate or repair at `base` for the lifetime of this
-// object (lib/base/arena.h).
-class EstimateZones {
- public:
-  EstimateZones(const EstimatePlan& plan, int32_t max_workers, void* base);
-  ~EstimateZones();
-  EstimateZones(const EstimateZones&) = delete;
-  EstimateZones& operator=(const EstimateZones&) = delete;
-
- private:
-  void Visit(const PieceVisitor& visitor) const;
-
-  const EstimatePlan& plan_;
-  int32_t max_workers_;
-  void* base_;
-};
+// Takes the memory of an estimate or repair.
+EstimateMemory TakeEstimate(const EstimatePlan& plan, int32_t max_workers, Arena* arena);
 
 // Memory of a converted light field.
 struct ConvertedMemory {
@@ -171,11 +118,7 @@ struct ConvertedMemory {
   float* disparity;   // Null: the light field has no map.
   uint32_t* columns;  // Positions in the map of the columns of the picture (FillColumns).
 };
-
-// Lays out the memory at `base`; without a map if `has_map` is false. If `base` is null, only
-// computes the size. Returns the number of bytes, or kTooLarge.
-size_t LayOutConverted(const starfocus_depth_config& config, bool has_map, void* base,
-                       ConvertedMemory* memory);
+ConvertedMemory TakeConverted(const starfocus_depth_config& config, bool has_map, Arena* arena);
 
 // Replaces the views of *field, and its map if memory.disparity is not null, by converted copies.
 // Images and maps that are read in place are not copied. Disparities are rounded to 1/64 pixel and
@@ -188,7 +131,7 @@ starfocus_status ConvertField(const starfocus_depth_config& config, const Conver
 // STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
 starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,
-                          EstimateMemory* memory);
+                          const EstimateMemory& memory);
 
 // Repairs light_field.depth and writes the result to `output`. plan.repairs must be true. Pixels
 // whose disparity the views do not contradict keep this disparity exactly. Unknown pixels (NaN or
@@ -196,7 +139,7 @@ starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field&
 // STARFOCUS_ERROR_RUNNER.
 starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
                         const simd::DepthKernels& kernels, const MapOutput& output,
-                        EstimateMemory* memory);
+                        const EstimateMemory& memory);
 
 // Returns the disparity of pixel (x, y), or the weighted median of its neighbourhood if the pixel's
 // disparity differs too much from the median. Neighbours of similar colour have larger weights.

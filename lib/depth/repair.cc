@@ -123,12 +123,13 @@ TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMe
 // pixels around the pixel is large enough. Single contradicted pixels are more often right in the
 // given map than in memory.first. In rough parts of the map, contradicted pixels always change to
 // memory.first.
-int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
+int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t least_evidence,
+                   int32_t x, int32_t y) {
   const size_t own = plan.At(x, y);
   const int16_t given = memory.given[own], found = memory.first[own];
   if (given == simd::kNoSurface) return found;
   if (!Differs(memory, own)) {
-    return memory.least_evidence < kSweepEvidence.right ? found : given;
+    return least_evidence < kSweepEvidence.right ? found : given;
   }
   if (IsRough(plan, memory, x, y)) return found;
   const Rect around = Widened(plan, {x, y, 1, 1}, kEvidenceRadius);
@@ -139,7 +140,7 @@ int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32
       if (Differs(memory, at)) evidence += memory.given_cost[at] - memory.found_cost[at];
     }
   }
-  return evidence >= memory.least_evidence ? found : given;
+  return evidence >= least_evidence ? found : given;
 }
 
 // Fills `nearest` with the largest trusted disparity near each pixel of row y of a cell. The
@@ -176,24 +177,24 @@ int16_t PartedAt(const EstimateMemory& memory, size_t at, int16_t nearest) {
   return clear ? found : near;
 }
 
-// Writes the result of EvenOut to memory->first, whose previous content is no longer used, and
+// Writes the result of EvenOut to memory.first, whose previous content is no longer used, and
 // counts the edge pixels of the tile.
 void ValueTile(const EstimatePlan& plan, const Plane<const uint8_t>& centre, int32_t index,
-               EstimateMemory* memory) {
+               const EstimateMemory& memory) {
   const Rect tile = TileOf(plan, index);
-  EvenOut(plan, centre, tile, *memory, memory->first);
-  memory->counts[index] = CountTile(plan, tile, *memory);
+  EvenOut(plan, centre, tile, memory, memory.first);
+  memory.counts[index] = CountTile(plan, tile, memory);
   const ThinGrid grid = GridOf(plan);
-  CountBeside(grid, memory->given, tile, index, memory->given_cells);
-  CountBeside(grid, memory->first, tile, index, memory->found_cells);
+  CountBeside(grid, memory.given, tile, index, memory.given_cells);
+  CountBeside(grid, memory.first, tile, index, memory.found_cells);
 }
 
-// Determines from the counts of all tiles how much evidence a change of the map requires, and which
-// cells contain thin structures such as hair.
-void JudgeMaps(const EstimatePlan& plan, EstimateMemory* memory) {
-  memory->least_evidence = LeastEvidence(kSweepEvidence, memory->counts, plan.columns * plan.rows);
-  FindThin(GridOf(plan), kThinGiven, memory->given_cells);
-  FindThin(GridOf(plan), kThinFound, memory->found_cells);
+// Returns how much evidence a change of the map requires according to the counts of all tiles, and
+// finds the cells that contain thin structures such as hair.
+int32_t JudgeMaps(const EstimatePlan& plan, const EstimateMemory& memory) {
+  FindThin(GridOf(plan), kThinGiven, memory.given_cells);
+  FindThin(GridOf(plan), kThinFound, memory.found_cells);
+  return LeastEvidence(kSweepEvidence, memory.counts, plan.columns * plan.rows);
 }
 
 void WritePixel(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
@@ -219,7 +220,7 @@ void WriteParted(const EstimatePlan& plan, const EstimateMemory& memory, const M
 }
 
 void WriteCell(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
-               const Rect& cell, int32_t number) {
+               int32_t least_evidence, const Rect& cell, int32_t number) {
   const bool keeps = memory.given_cells.thin[number] != 0;
   if (!keeps && memory.found_cells.thin[number] != 0) {
     return WriteParted(plan, memory, output, cell);
@@ -227,13 +228,14 @@ void WriteCell(const EstimatePlan& plan, const EstimateMemory& memory, const Map
   ForSwept(plan, memory.swept, cell, [&](int32_t x, int32_t y) {
     const int16_t given = memory.given[plan.At(x, y)];
     const bool kept = keeps && given != simd::kNoSurface;
-    WritePixel(plan, memory, output, x, y, kept ? given : RepairedAt(plan, memory, x, y));
+    WritePixel(plan, memory, output, x, y,
+               kept ? given : RepairedAt(plan, memory, least_evidence, x, y));
   });
 }
 
 // Writes the given disparities of a tile, and then the disparities that the repair changes.
 void WriteTile(const EstimatePlan& plan, const starfocus_light_field& light_field, int32_t index,
-               const EstimateMemory& memory, const MapOutput& output) {
+               const EstimateMemory& memory, int32_t least_evidence, const MapOutput& output) {
   const Rect tile = TileOf(plan, index);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     std::copy_n(GivenAt(light_field, y) + tile.x, tile.width, output.disparity.Row(y) + tile.x);
@@ -242,7 +244,7 @@ void WriteTile(const EstimatePlan& plan, const starfocus_light_field& light_fiel
                 output.confidence.Row(y) + tile.x);
   }
   ForCells(GridOf(plan), index, [&](const Rect& cell, int32_t number) {
-    WriteCell(plan, memory, output, cell, number);
+    WriteCell(plan, memory, output, least_evidence, cell, number);
   });
 }
 
@@ -264,32 +266,33 @@ int32_t LeastEvidence(const EvidenceScale& scale, const TileCount* counts, int32
 
 starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
                         const simd::DepthKernels& kernels, const MapOutput& output,
-                        EstimateMemory* memory) {
+                        const EstimateMemory& memory) {
   const Sweep sweep = {plan, light_field, kernels, memory};
   const Plane<const uint8_t> centre = RowsOf(light_field.views[0]);
   const bool rates = output.confidence.data != nullptr;
-  Sequence run(&memory->jobs, 7, plan.columns * plan.rows);
+  Sequence run(memory.jobs, 7, plan.columns * plan.rows);
   run.Run(
       [&](int32_t index, int32_t) { ReadGiven(plan, light_field, TileOf(plan, index), memory); });
   run.Run([&](int32_t index, int32_t) {
-    FindTrusted(plan, TileOf(plan, index), memory->given, memory->trusted);
+    FindTrusted(plan, TileOf(plan, index), memory.given, memory.trusted);
     FindDoubts(plan, light_field, TileOf(plan, index), memory);
   });
   run.Run([&](int32_t index, int32_t worker) {
-    FindSwept(plan, TileOf(plan, index), memory->workers[worker].cost, memory);
+    FindSwept(plan, TileOf(plan, index), memory.workers[worker].cost, memory);
   });
-  run.Run(
-      [&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory->first); });
+  run.Run([&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory.first); });
   run.Run([&](int32_t index, int32_t worker) {
-    SweepAllViews(sweep, index, worker, rates ? memory->certainty : nullptr);
+    SweepAllViews(sweep, index, worker, rates ? memory.certainty : nullptr);
   });
   run.Run([&](int32_t index, int32_t) {
     ValueTile(plan, centre, index, memory);
     if (rates) RateUnswept(plan, centre, TileOf(plan, index), memory);
   });
   if (run.status() != STARFOCUS_OK) return run.status();
-  JudgeMaps(plan, memory);
-  run.Run([&](int32_t index, int32_t) { WriteTile(plan, light_field, index, *memory, output); });
+  const int32_t least_evidence = JudgeMaps(plan, memory);
+  run.Run([&](int32_t index, int32_t) {
+    WriteTile(plan, light_field, index, memory, least_evidence, output);
+  });
   return run.status();
 }
 

@@ -274,23 +274,23 @@ void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* tr
   }
 }
 
-// Fills memory->given_cost with the cost of the given disparity, and memory->found_cost with the
-// cost of memory->second, for the pixels of `tile_rect`. The written costs exclude the prior costs
+// Fills memory.given_cost with the cost of the given disparity, and memory.found_cost with the
+// cost of memory.second, for the pixels of `tile_rect`. The written costs exclude the prior costs
 // of AddMapPrior.
 void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& tile_rect,
-                   const TileMemory& tile, EstimateMemory* memory) {
+                   const TileMemory& tile, const EstimateMemory& memory) {
   const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
   const auto weigh = [&](int32_t x, int32_t y) {
     const size_t at = plan.At(x, y);
-    const int32_t given = memory->given[at];
+    const int32_t given = memory.given[at];
     const size_t pixel = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width) +
                          static_cast<size_t>(x - region.x);
     const uint8_t* cost = tile.cost + pixel * places;
     const uint8_t* prior = tile.prior + pixel * places;
-    const int32_t is = LabelOf(plan, memory->second[at]);
+    const int32_t is = LabelOf(plan, memory.second[at]);
     const int32_t was = given == simd::kNoSurface ? is : LabelOf(plan, given);
-    memory->given_cost[at] = static_cast<uint8_t>(cost[was] - prior[was]);
-    memory->found_cost[at] = static_cast<uint8_t>(cost[is] - prior[is]);
+    memory.given_cost[at] = static_cast<uint8_t>(cost[was] - prior[was]);
+    memory.found_cost[at] = static_cast<uint8_t>(cost[is] - prior[is]);
   };
   for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
     ForRuns(plan, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
@@ -304,7 +304,7 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker,
                uint8_t* certainty) {
   const bool first = seeing == Seeing::kOneSide;
   const EstimatePlan plan = first && sweep.plan.repairs ? CoarsePlan(sweep.plan) : sweep.plan;
-  EstimateMemory& memory = *sweep.memory;
+  const EstimateMemory& memory = sweep.memory;
   TileMemory& tile = memory.workers[worker];
   const Rect tile_rect = TileOf(plan, index);
   if (tile_rect.width == 0 || tile_rect.height == 0) return;
@@ -314,7 +314,7 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker,
   if (first) {
     MarkOutside(plan, &tile.views);
   } else if (plan.one_sided()) {
-    MarkHiddenInMaps(plan, memory, &tile.views);
+    MarkHiddenInMaps(plan, memory.side_maps, &tile.views);
   } else {
     MarkHidden(plan, memory.first, region, &tile.views);
   }
@@ -323,17 +323,38 @@ void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker,
   const EstimateTile of_tile = {plan, region, sweep.kernels, tile};
   AddAllPaths(of_tile);
   ChooseDisparities(of_tile, tile_rect, disparity, certainty);
-  if (plan.repairs && !first) WeighEvidence(plan, region, tile_rect, tile, &memory);
+  if (plan.repairs && !first) WeighEvidence(plan, region, tile_rect, tile, memory);
 }
 
 }  // namespace
+
+TileMemory TakeTileMemory(const EstimatePlan& plan, const Rect& region, Arena* arena) {
+  const auto width = static_cast<size_t>(region.width);
+  const size_t area = width * static_cast<size_t>(region.height);
+  const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
+  TileMemory tile = {};
+  tile.views = TakeTileViews(plan, region, arena);
+  tile.cost = arena->Take<uint8_t>(area, places);
+  tile.prior = plan.repairs ? arena->Take<uint8_t>(area, places) : nullptr;
+  tile.sum = arena->Take<int16_t>(area, places);
+  for (int k = 0; k < 2; ++k) {
+    int16_t* path = arena->Take<int16_t>((width + 2) * places + 1);
+    tile.path[k] = path == nullptr ? nullptr : path + places + 1;
+    int16_t* least = arena->Take<int16_t>(width + 2);
+    tile.least[k] = least == nullptr ? nullptr : least + 1;
+  }
+  tile.jump = arena->Take<int16_t>(width);
+  tile.moves = arena->Take<simd::ViewMove>(labels, static_cast<size_t>(plan.side_views));
+  tile.choice = arena->Take<int16_t>(width);
+  return tile;
+}
 
 void SweepOneSide(const Sweep& sweep, int32_t index, int32_t worker, int16_t* disparity) {
   SweepTile(sweep, Seeing::kOneSide, index, worker, disparity, nullptr);
 }
 
 void SweepAllViews(const Sweep& sweep, int32_t index, int32_t worker, uint8_t* certainty) {
-  SweepTile(sweep, Seeing::kAll, index, worker, sweep.memory->second, certainty);
+  SweepTile(sweep, Seeing::kAll, index, worker, sweep.memory.second, certainty);
 }
 
 }  // namespace starfocus

@@ -129,15 +129,15 @@ void ReadDoubts(const EstimatePlan& plan, const uint8_t* doubt, const Rect& arou
 }  // namespace
 
 void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_field, const Rect& tile,
-               EstimateMemory* memory) {
+               const EstimateMemory& memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const float* row = GivenAt(light_field, y);
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       const size_t at = plan.At(x, y);
-      memory->given[at] = std::isfinite(row[x]) ? static_cast<int16_t>(std::lrint(row[x] * kPixel))
-                                                : simd::kNoSurface;
-      memory->first[at] = memory->second[at] = memory->given[at];
-      memory->given_cost[at] = memory->found_cost[at] = 0;
+      memory.given[at] = std::isfinite(row[x]) ? static_cast<int16_t>(std::lrint(row[x] * kPixel))
+                                               : simd::kNoSurface;
+      memory.first[at] = memory.second[at] = memory.given[at];
+      memory.given_cost[at] = memory.found_cost[at] = 0;
     }
   }
 }
@@ -167,11 +167,11 @@ void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* give
 }
 
 void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
-                const Rect& tile, EstimateMemory* memory) {
+                const Rect& tile, const EstimateMemory& memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const size_t row = plan.At(0, y);
-    const int16_t* trusted = memory->trusted + row;
-    uint8_t* doubt = memory->doubt + row;
+    const int16_t* trusted = memory.trusted + row;
+    uint8_t* doubt = memory.doubt + row;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       doubt[x] = trusted[x] == simd::kNoSurface ? kDoubt : uint8_t{0};
     }
@@ -184,14 +184,14 @@ void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_fie
 }
 
 void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
-               EstimateMemory* memory) {
+               const EstimateMemory& memory) {
   const Rect around = Widened(plan, tile, kSweptRadius);
   const auto stride = static_cast<size_t>(tile.width);
   DoubtRow row = {};
   uint8_t* inside = row + kSweptRadius - (tile.x - around.x);
   // First mark the pixels that have a pixel in doubt within kSweptRadius pixels in their row.
   for (int32_t y = 0; y < around.height; ++y) {
-    ReadDoubts(plan, memory->doubt, around, around.y + y, inside);
+    ReadDoubts(plan, memory.doubt, around, around.y + y, inside);
     uint8_t* near = scratch + static_cast<size_t>(y) * stride;
     std::fill_n(near, stride, uint8_t{0});
     for (size_t k = 0; k <= 2 * kSweptRadius; ++k) {
@@ -199,7 +199,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
     }
   }
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    uint8_t* swept = memory->swept + plan.At(tile.x, y);
+    uint8_t* swept = memory.swept + plan.At(tile.x, y);
     std::fill_n(swept, tile.width, uint8_t{0});
     const int32_t first = Max(around.y, y - kSweptRadius);
     const int32_t last = Min(around.y + around.height - 1, y + kSweptRadius);
@@ -211,7 +211,7 @@ void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
 }
 
 void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
-                 EstimateMemory* memory) {
+                 const EstimateMemory& memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const size_t row = plan.At(0, y);
     const uint8_t* line = centre.data + static_cast<size_t>(y) * centre.stride;
@@ -221,12 +221,12 @@ void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, c
     const ptrdiff_t up = y > 0 ? -stride : down;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       const size_t at = row + static_cast<size_t>(x);
-      if (memory->swept[at] != 0) continue;
+      if (memory.swept[at] != 0) continue;
       const uint8_t* pixel = line + 3 * x;
       const ptrdiff_t right = x + 1 < plan.width ? 3 : x > 0 ? -3 : 0, left = x > 0 ? -3 : right;
       const int32_t across = Min(Apart(pixel, pixel + left), Apart(pixel, pixel + right));
       const int32_t along = Min(Apart(pixel, pixel + up), Apart(pixel, pixel + down));
-      memory->certainty[at] = static_cast<uint8_t>(simd::kCostScale * (across + along) / 2);
+      memory.certainty[at] = static_cast<uint8_t>(simd::kCostScale * (across + along) / 2);
     }
   }
 }

@@ -21,7 +21,7 @@ inline constexpr int32_t kSweptRadius = 5;
 // Converts the given disparities of a tile to fixed point (kDisparityBits). Disparities that are
 // not finite become kNoSurface. Initialises the maps of both sweeps with the converted disparities.
 void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_field, const Rect& tile,
-               EstimateMemory* memory);
+               const EstimateMemory& memory);
 
 // Copies the trusted pixels of a tile to `trusted`, and sets all other pixels to kNoSurface. A
 // pixel is trusted if its 3x3 neighbourhood is known and belongs to one surface. The slopes of
@@ -29,21 +29,21 @@ void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_fiel
 void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
                  int16_t* trusted);
 
-// Marks the pixels of a tile that are in doubt. Requires memory->trusted for the tile.
+// Marks the pixels of a tile that are in doubt. Requires memory.trusted for the tile.
 void FindDoubts(const EstimatePlan& plan, const starfocus_light_field& light_field,
-                const Rect& tile, EstimateMemory* memory);
+                const Rect& tile, const EstimateMemory& memory);
 
 // Marks the pixels of a tile that are swept. Requires the marks that FindDoubts sets for all tiles.
 // `scratch` has one byte for each pixel of the tile extended by kSweptRadius pixels.
 void FindSwept(const EstimatePlan& plan, const Rect& tile, uint8_t* scratch,
-               EstimateMemory* memory);
+               const EstimateMemory& memory);
 
 // Writes the certainty of the pixels of a tile that were not swept. The certainty is the difference
 // between the pixel and its neighbours in the centre view, along the row and the column. With a
 // wrong disparity, the views fit a pixel worse by approximately the difference between the pixel
 // and its neighbours.
 void RateUnswept(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
-                 EstimateMemory* memory);
+                 const EstimateMemory& memory);
 
 // Calls act(begin, end) for each run of swept pixels of row y in [from, to), from left to right. If
 // `swept` is null, all pixels are one run.

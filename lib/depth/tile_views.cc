@@ -114,6 +114,18 @@ Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect)
 
 }  // namespace
 
+TileViews TakeTileViews(const EstimatePlan& plan, const Rect& region, Arena* arena) {
+  const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
+  const auto beyond = 2 * static_cast<size_t>(plan.reach) + 1;
+  TileViews views = {};
+  views.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
+  views.plane = views.stride * (height + beyond);
+  views.rgb = arena->Take<uint8_t>(views.plane, 3 * (static_cast<size_t>(plan.AllPhases()) + 1));
+  views.split = arena->Take<uint8_t>(views.stride, 2 * 3);
+  views.hidden = arena->Take<uint8_t>(views.plane, static_cast<size_t>(plan.side_views));
+  return views;
+}
+
 void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_field,
                    const Rect& region, const simd::DepthKernels& kernels, TileViews* views) {
   views->left = region.x - plan.reach;
@@ -165,12 +177,12 @@ void MarkOutside(const EstimatePlan& plan, TileViews* views) {
   }
 }
 
-void MarkHiddenInMaps(const EstimatePlan& plan, const EstimateMemory& memory, TileViews* views) {
+void MarkHiddenInMaps(const EstimatePlan& plan, const int16_t* side_maps, TileViews* views) {
   MarkOutside(plan, views);
   views->all_seen = false;
   const Rect inside = PartInside(plan, *views);
   for (int32_t k = 0; k < plan.side_views; ++k) {
-    const int16_t* map = SideMap(plan, memory, k);
+    const int16_t* map = side_maps + ptrdiff_t{k} * plan.width * plan.height;
     uint8_t* hidden = views->hidden + static_cast<size_t>(k) * views->plane;
     for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
       const int16_t* disparity = map + plan.At(inside.x, y);

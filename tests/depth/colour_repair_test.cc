@@ -55,9 +55,11 @@ starfocus_light_field FieldOf(const Photo& photo) {
 
 Repaired Repair(const Photo& photo) {
   const starfocus::EstimatePlan plan = PlanOf(photo);
-  starfocus::ColourMemory* memory = nullptr;
-  const test::Memory base(starfocus::LayOutColourRepair(plan, 1, nullptr, &memory));
-  starfocus::LayOutColourRepair(plan, 1, base.data, &memory);
+  starfocus::Arena counted(nullptr);
+  TakeColourRepair(plan, 1, &counted);
+  const test::Memory base(counted.Bytes());
+  starfocus::Arena arena(base.data);
+  const starfocus::ColourMemory memory = TakeColourRepair(plan, 1, &arena);
   const auto width = size_t(photo.width);
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
   const starfocus::MapOutput output = {

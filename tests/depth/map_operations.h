@@ -155,16 +155,15 @@ struct Maps {
                           const starfocus_light_field& field, const starfocus::MapOutput& output) {
     starfocus::EstimatePlan plan = starfocus::MakePlan(config);
     plan.repairs = !input.given.empty();
+    starfocus::Arena arena(memory->data);
     if (config.views == 1) {
-      starfocus::ColourMemory* of_colour = nullptr;
-      starfocus::LayOutColourRepair(plan, 1, memory->data, &of_colour);
+      const starfocus::ColourMemory of_colour = TakeColourRepair(plan, 1, &arena);
       bool has_coverage = false;
       return starfocus::RepairByColour(plan, field, kernels, output, of_colour, &has_coverage);
     }
-    starfocus::EstimateMemory* laid_out = nullptr;
-    starfocus::LayOutEstimate(plan, 1, memory->data, &laid_out);
+    const starfocus::EstimateMemory taken = TakeEstimate(plan, 1, &arena);
     return (plan.repairs ? starfocus::Repair : starfocus::Estimate)(plan, field, kernels, output,
-                                                                    laid_out);
+                                                                    taken);
   }
 
   MapInput input;

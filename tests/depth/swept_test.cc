@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/depth/sweep.h"
 #include "tests/depth/depth_scene.h"
 
 namespace swept_test {
@@ -20,20 +21,22 @@ std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& 
   const test::PlaneField field = RenderPlanes(scene);
   EstimatePlan plan = starfocus::MakePlan(ConfigOf(field, -6, 8));
   plan.repairs = true;
-  EstimateMemory* memory = nullptr;
-  const test::Memory bytes(starfocus::LayOutEstimate(plan, 1, nullptr, &memory));
-  starfocus::LayOutEstimate(plan, 1, bytes.data, &memory);
+  starfocus::Arena counted(nullptr);
+  TakeEstimate(plan, 1, &counted);
+  const test::Memory bytes(counted.Bytes());
+  starfocus::Arena arena(bytes.data);
+  const EstimateMemory memory = TakeEstimate(plan, 1, &arena);
   starfocus_light_field light_field = field.Get();
   light_field.depth = starfocus_depth_float(given.data(), sizeof(float) * size_t(scene.width),
                                             scene.width, scene.height);
   const int tiles = plan.columns * plan.rows;
   for (int k = 0; k < tiles; ++k) ReadGiven(plan, light_field, TileOf(plan, k), memory);
   for (int k = 0; k < tiles; ++k) {
-    FindTrusted(plan, TileOf(plan, k), memory->given, memory->trusted);
+    FindTrusted(plan, TileOf(plan, k), memory.given, memory.trusted);
     FindDoubts(plan, light_field, TileOf(plan, k), memory);
   }
-  for (int k = 0; k < tiles; ++k) FindSwept(plan, TileOf(plan, k), memory->workers[0].cost, memory);
-  return {memory->swept, memory->swept + given.size()};
+  for (int k = 0; k < tiles; ++k) FindSwept(plan, TileOf(plan, k), memory.workers[0].cost, memory);
+  return {memory.swept, memory.swept + given.size()};
 }
 
 TEST_CASE(
