@@ -3,7 +3,6 @@
 #include "starfocus/depth.h"
 
 #include "lib/api/validate.h"
-#include "lib/api/validate_image.h"
 #include "lib/base/features.h"
 #include "lib/depth/colour_repair.h"
 #include "lib/depth/maps.h"

@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "lib/api/validate.h"
-#include "lib/api/validate_image.h"
 #include "lib/engine/lens.h"
 #include "lib/io/depth_rows.h"
 #include "lib/io/matte_rows.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: prepared light fields.
 #include "lib/api/validate.h"
-#include "lib/api/validate_image.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/light_field.h"
 #include "lib/engine/prepared.h"

@@ -3,7 +3,6 @@
 
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
-#include "lib/api/validate_image.h"
 #include "lib/engine/layout.h"
 
 namespace starfocus {

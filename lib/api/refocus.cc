@@ -4,7 +4,6 @@
 #include "lib/api/call.h"
 #include "lib/api/preview.h"
 #include "lib/api/validate.h"
-#include "lib/api/validate_image.h"
 #include "lib/engine/light_field.h"
 #include "lib/io/rows.h"
 #include "starfocus/starfocus.h"

@@ -3,7 +3,6 @@
 // finished rows.
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
-#include "lib/api/validate_image.h"
 #include "lib/base/features.h"
 #include "lib/engine/jobs.h"
 #include "lib/engine/layout.h"
