@@ -30,18 +30,15 @@ void CompareWith(const Call& call, EngineState* engine) {
 
 }  // namespace
 
-starfocus_status CheckCall(const starfocus_config& config, const starfocus_params& params,
-                           const Prepared* prepared) {
-  starfocus_status status = CheckParams(config, params);
-  if (status == STARFOCUS_OK)
-    status = CheckRegion(params.region, config.width, config.height, config.problem);
-  if (status != STARFOCUS_OK) return status;
-  Checker check(config.problem);
-  check.Need(prepared == nullptr || Fits(*prepared, config), STARFOCUS_ERROR_PREPARED, {"prepared"},
-             {"prepared with the engine's size, views, disparity range, max_layer and transfer"});
-  check.Need(prepared == nullptr || params.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"},
-             {"null if the light field is prepared"});
-  return check.status();
+void CheckCall(const starfocus_config& config, const starfocus_params& params,
+               const Prepared* prepared, Checker* check) {
+  CheckParams(config, params, check);
+  CheckRegion(params.region, config.width, config.height, check);
+  if (prepared == nullptr) return;
+  check->Need(Fits(*prepared, config), STARFOCUS_ERROR_PREPARED, {"prepared"},
+              {"prepared with the engine's size, views, disparity range, max_layer and transfer"});
+  check->Need(params.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"},
+              {"null if the light field is prepared"});
 }
 
 Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
@@ -56,12 +53,12 @@ starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report
   engine->stream.active = false;
   engine->jobs->call_progress.Begin(0, RegionOf(engine->config, params).height);
   starfocus_status status = SetLens(params, engine);
-  if (status != STARFOCUS_OK) return TellStatus(status, engine->config.problem);
+  if (status != STARFOCUS_OK) return Checker(engine->config.problem).Add(status);
   if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);
   if (call.previous != nullptr) CompareWith(call, engine);
   status = RefocusRows(call.source, call.out, engine);
   if (status == STARFOCUS_OK && report != nullptr) *report = engine->report;
-  return TellStatus(status, engine->config.problem);
+  return Checker(engine->config.problem).Add(status);
 }
 
 }  // namespace starfocus

@@ -4,6 +4,7 @@
 #define STARFOCUS_LIB_API_CALL_H_
 
 #include "lib/base/geometry.h"
+#include "lib/base/problem.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/prepared.h"
@@ -23,8 +24,8 @@ struct Call {
 
 // Checks `params` and the prepared light field, which may be null, against the configuration of
 // the engine.
-starfocus_status CheckCall(const starfocus_config& config, const starfocus_params& params,
-                           const Prepared* prepared);
+void CheckCall(const starfocus_config& config, const starfocus_params& params,
+               const Prepared* prepared, Checker* check);
 
 // Returns the address ranges of the engine and of a prepared light field. Outputs must not overlap
 // these address ranges.

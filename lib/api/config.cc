@@ -65,38 +65,37 @@ uint32_t starfocus_abi_version(void) { return STARFOCUS_ABI_VERSION; }
 const char* starfocus_version(void) { return STARFOCUS_VERSION_STRING; }
 
 size_t starfocus_struct_size(const char* name) {
-  struct Entry {
-    const char* name;
-    size_t size;
-  };
 #define SIZE_OF(type) \
   { #type, sizeof(type) }
-  constexpr Entry kSizes[] = {SIZE_OF(starfocus_allocator),
-                              SIZE_OF(starfocus_block),
-                              SIZE_OF(starfocus_config),
-                              SIZE_OF(starfocus_depth_config),
-                              SIZE_OF(starfocus_layer_report),
-                              SIZE_OF(starfocus_light_field),
-                              SIZE_OF(starfocus_disparity_stats),
-                              SIZE_OF(starfocus_params),
-                              SIZE_OF(starfocus_callbacks),
-                              SIZE_OF(starfocus_problem),
-                              SIZE_OF(starfocus_position),
-                              SIZE_OF(starfocus_previous),
-                              SIZE_OF(starfocus_region),
-                              SIZE_OF(starfocus_report),
-                              SIZE_OF(starfocus_timing),
-                              SIZE_OF(starfocus_tuning),
-                              SIZE_OF(starfocus_image),
-                              SIZE_OF(starfocus_depth_map),
-                              SIZE_OF(starfocus_disparity_output),
-                              SIZE_OF(starfocus_matte),
-                              SIZE_OF(starfocus_matte_stats),
-                              SIZE_OF(starfocus_matte_depth),
-                              SIZE_OF(starfocus_lens)};
+  constexpr struct {
+    const char* name;
+    size_t size;
+  } kSizes[] = {SIZE_OF(starfocus_allocator),
+                SIZE_OF(starfocus_block),
+                SIZE_OF(starfocus_config),
+                SIZE_OF(starfocus_depth_config),
+                SIZE_OF(starfocus_layer_report),
+                SIZE_OF(starfocus_light_field),
+                SIZE_OF(starfocus_disparity_stats),
+                SIZE_OF(starfocus_params),
+                SIZE_OF(starfocus_callbacks),
+                SIZE_OF(starfocus_problem),
+                SIZE_OF(starfocus_position),
+                SIZE_OF(starfocus_previous),
+                SIZE_OF(starfocus_region),
+                SIZE_OF(starfocus_report),
+                SIZE_OF(starfocus_timing),
+                SIZE_OF(starfocus_tuning),
+                SIZE_OF(starfocus_image),
+                SIZE_OF(starfocus_depth_map),
+                SIZE_OF(starfocus_disparity_output),
+                SIZE_OF(starfocus_matte),
+                SIZE_OF(starfocus_matte_stats),
+                SIZE_OF(starfocus_matte_depth),
+                SIZE_OF(starfocus_lens)};
 #undef SIZE_OF
   if (name == nullptr) return 0;
-  for (const Entry& entry : kSizes) {
+  for (const auto& entry : kSizes) {
     if (AreEqual(entry.name, name)) return entry.size;
   }
   return 0;
@@ -120,12 +119,13 @@ int starfocus_view_position(int32_t index, double* u, double* v) {
 
 starfocus_status starfocus_workspace_size(const starfocus_config* config, size_t* bytes) {
   starfocus_config full = DefaultConfig();
-  starfocus_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
-  if (status == STARFOCUS_OK) status = CheckConfig(full);
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(config, &full);
+  check.NotNull(bytes, "bytes");
+  CheckConfig(full, &check);
+  if (!check.passed()) return check.status();
   EngineState* counted = nullptr;
   const size_t needed = LayOut(Choose(full), nullptr, &counted);
-  if (needed == kTooLarge) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
+  if (needed == kTooLarge) return check.Add(STARFOCUS_ERROR_TOO_LARGE);
   *bytes = needed;
   return STARFOCUS_OK;
 }
@@ -134,12 +134,12 @@ starfocus_status starfocus_init(const starfocus_config* config, void* workspace,
                                 starfocus_engine** engine) {
   if (engine != nullptr) *engine = nullptr;
   starfocus_config full = DefaultConfig();
-  starfocus_status status = EnterConfig(config, {{"engine", engine}}, &full);
+  Checker check = Enter(config, &full);
+  check.NotNull(engine, "engine");
   size_t needed = 0;
-  if (status == STARFOCUS_OK) status = starfocus_workspace_size(config, &needed);
-  if (status != STARFOCUS_OK) return status;
-  status = CheckMemory({"workspace", workspace, bytes}, needed, full.problem);
-  if (status != STARFOCUS_OK) return status;
+  if (check.passed()) check.Add(starfocus_workspace_size(config, &needed));
+  CheckMemory("workspace", workspace, bytes, needed, &check);
+  if (!check.passed()) return check.status();
   EngineState* made = nullptr;
   LayOut(Choose(full), workspace, &made);
   *engine = reinterpret_cast<starfocus_engine*>(made);
@@ -152,8 +152,9 @@ const starfocus_problem* starfocus_engine_problem(const starfocus_engine* engine
 
 starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
                                          const starfocus_callbacks* callbacks) {
-  const starfocus_status status = EnterEngine(engine, {{"callbacks", callbacks}});
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(engine);
+  check.NotNull(callbacks, "callbacks");
+  if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   e.jobs->runner = callbacks->runner;
   e.jobs->runner_data = callbacks->runner_data;

@@ -27,12 +27,6 @@ void* AllocateFromHeap(void*, size_t bytes, size_t alignment) {
 
 void ReleaseToHeap(void*, void* memory, size_t) { std::free(static_cast<void**>(memory)[-1]); }
 
-// Converts a function pointer to a data pointer, for null checks.
-template <class Function>
-const void* Address(Function* function) {
-  return reinterpret_cast<const void*>(function);
-}
-
 }  // namespace
 }  // namespace starfocus
 
@@ -42,17 +36,16 @@ starfocus_status starfocus_create(const starfocus_config* config,
   const starfocus_allocator heap = {nullptr, AllocateFromHeap, ReleaseToHeap};
   const starfocus_allocator& from = allocator != nullptr ? *allocator : heap;
   starfocus_config full = DefaultConfig();
-  starfocus_status status = EnterConfig(config,
-                                        {{"engine", engine},
-                                         {"allocator.allocate", Address(from.allocate)},
-                                         {"allocator.release", Address(from.release)}},
-                                        &full);
+  Checker check = Enter(config, &full);
+  check.NotNull(engine, "engine");
+  check.Need(from.allocate != nullptr, STARFOCUS_ERROR_NULL, {"allocator.allocate"}, {"not null"});
+  check.Need(from.release != nullptr, STARFOCUS_ERROR_NULL, {"allocator.release"}, {"not null"});
   size_t bytes = 0;
-  if (status == STARFOCUS_OK) status = starfocus_workspace_size(config, &bytes);
-  if (status != STARFOCUS_OK) return status;
+  if (check.passed()) check.Add(starfocus_workspace_size(config, &bytes));
+  if (!check.passed()) return check.status();
   void* const memory = from.allocate(from.data, bytes, STARFOCUS_ALIGNMENT);
-  if (memory == nullptr) return TellStatus(STARFOCUS_ERROR_MEMORY, full.problem);
-  status = starfocus_init(config, memory, bytes, engine);
+  if (memory == nullptr) return check.Add(STARFOCUS_ERROR_MEMORY);
+  const starfocus_status status = starfocus_init(config, memory, bytes, engine);
   if (status != STARFOCUS_OK) {
     from.release(from.data, memory, bytes);
     return status;

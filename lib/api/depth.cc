@@ -11,33 +11,29 @@
 namespace starfocus {
 namespace {
 
-starfocus_status CheckDepthConfig(const starfocus_depth_config& config, bool repairs) {
-  Checker check(config.problem);
-  CheckPictureRange(
-      {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
-      &check);
-  if (check.status() != STARFOCUS_OK) return check.status();
+void CheckDepthConfig(const starfocus_depth_config& config, bool repairs, Checker* check) {
+  CheckPicture(config.width, config.height, config.disparity_min, config.disparity_max,
+               config.max_workers, check);
+  if (!check->passed()) return;
   ViewSet views;
-  const starfocus_status status = FindViews(config.views, config.positions, config.problem, &views);
-  if (status != STARFOCUS_OK) return status;
-  check.Need(views.count > 1 || repairs, STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
-             {"at least 2 views, or 1 view for a repair"});
-  check.Need(views.star || !repairs, STARFOCUS_ERROR_RANGE, {"positions[]"},
-             {"the positions of starfocus_view_position for a repair"});
-  check.Need((config.features & ~STARFOCUS_FEATURE_IMAGES) == 0, STARFOCUS_ERROR_RANGE,
-             {"features", double(config.features)}, {"STARFOCUS_FEATURE_IMAGES or 0"});
-  return check.status();
+  check->Add(FindViews(config.views, config.positions, config.problem, &views));
+  check->Need(views.count > 1 || repairs, STARFOCUS_ERROR_RANGE, {"views", double(config.views)},
+              {"at least 2 views, or 1 view for a repair"});
+  check->Need(views.star || !repairs, STARFOCUS_ERROR_RANGE, {"positions[]"},
+              {"the positions of starfocus_view_position for a repair"});
+  check->Need((config.features & ~STARFOCUS_FEATURE_IMAGES) == 0, STARFOCUS_ERROR_RANGE,
+              {"features", double(config.features)}, {"STARFOCUS_FEATURE_IMAGES or 0"});
 }
 
 // Checks that the outputs do not overlap the inputs, the workspace or each other.
-starfocus_status CheckOverlap(const starfocus_depth_config& config,
-                              const starfocus_light_field& light_field, bool repairs,
-                              const starfocus_disparity_output& map, const Extent& workspace) {
+void CheckOverlap(const starfocus_depth_config& config, const starfocus_light_field& light_field,
+                  bool repairs, const starfocus_disparity_output& map, const Extent& workspace,
+                  Checker* check) {
   const auto width = static_cast<size_t>(config.width), floats = width * sizeof(float);
   const int32_t height = config.height;
   Extents taken;
   for (int view = 0; view < config.views; ++view) {
-    AddImage(light_field.views[view], {config.width, height}, &taken);
+    AddImage(light_field.views[view], config.width, height, &taken);
   }
   if (repairs) AddDepthMap(light_field.depth, &taken);
   const Extent written[] = {workspace,
@@ -45,31 +41,30 @@ starfocus_status CheckOverlap(const starfocus_depth_config& config,
                             ExtentOf(map.confidence, map.confidence_stride, height, width),
                             ExtentOf(map.coverage, map.coverage_stride, height, width)};
   const bool wanted[] = {true, true, map.confidence != nullptr, map.coverage != nullptr};
-  starfocus_status status = STARFOCUS_OK;
-  for (int k = 0; k < 4 && status == STARFOCUS_OK; ++k) {
+  for (int k = 0; k < 4; ++k) {
     if (!wanted[k]) continue;
-    status = CheckApart(written[k], taken, "map", config.problem);
+    check->Apart(written[k], taken, "map");
     taken.Add(written[k]);
   }
-  return status;
 }
 
 // Checks the map to repair: at least one disparity is known, and all known disparities lie in the
 // configured range.
-starfocus_status CheckGiven(const starfocus_depth_config& config, const starfocus_depth_map& map) {
+void CheckGiven(const starfocus_depth_config& config, const starfocus_depth_map& map,
+                Checker* check) {
+  if (!check->passed()) return;
   starfocus_disparity_stats stats;
-  const starfocus_status status = starfocus_measure_disparity(&map, &stats);
-  if (status != STARFOCUS_OK) return TellStatus(status, config.problem);
-  Checker check(config.problem);
-  check.Need(stats.invalid < int64_t{map.width} * map.height, STARFOCUS_ERROR_ALL_INVALID,
-             {"disparity"}, {"a finite value"});
+  check->Add(starfocus_measure_disparity(&map, &stats));
+  if (!check->passed()) return;
+  check->Need(stats.invalid < int64_t{map.width} * map.height, STARFOCUS_ERROR_ALL_INVALID,
+              {"disparity"}, {"a finite value"});
   const auto low = static_cast<float>(config.disparity_min);
   const auto high = static_cast<float>(config.disparity_max);
   const double outside = stats.min < low ? stats.min : stats.max;
-  check.Need(stats.min >= low && stats.max <= high, STARFOCUS_ERROR_DISPARITY,
-             {"disparity", outside},
-             {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
-  return TellPlace(check.status(), map, 0, config.problem);
+  check->Need(stats.min >= low && stats.max <= high, STARFOCUS_ERROR_DISPARITY,
+              {"disparity", outside},
+              {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
+  TellPlace(check->status(), map, 0, config.problem);
 }
 
 starfocus_depth_config DefaultDepthConfig() {
@@ -94,9 +89,10 @@ bool Converts(const starfocus_depth_config& config) {
 // the memory of the converted light field.
 starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size_t* bytes) {
   starfocus_depth_config full = DefaultDepthConfig();
-  starfocus_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
-  if (status == STARFOCUS_OK) status = CheckDepthConfig(full, repairs);
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(config, &full);
+  check.NotNull(bytes, "bytes");
+  CheckDepthConfig(full, repairs, &check);
+  if (!check.passed()) return check.status();
   const EstimatePlan plan = PlanOf(full, repairs);
   Arena arena(nullptr);
   if (full.views == 1) {
@@ -105,7 +101,7 @@ starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size
     TakeEstimate(plan, full.max_workers, &arena);
   }
   if (Converts(full)) TakeConverted(full, repairs, &arena);
-  if (arena.Bytes() == kTooLarge) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, full.problem);
+  if (arena.Bytes() == kTooLarge) return check.Add(STARFOCUS_ERROR_TOO_LARGE);
   *bytes = arena.Bytes();
   return STARFOCUS_OK;
 }
@@ -118,45 +114,36 @@ struct DepthCall {
   size_t bytes;
 };
 
-starfocus_status CheckStrides(const starfocus_depth_config& config,
-                              const starfocus_disparity_output& map) {
+void CheckStrides(const starfocus_depth_config& config, const starfocus_disparity_output& map,
+                  Checker* check) {
   const auto width = static_cast<size_t>(config.width);
-  Checker check(config.problem);
-  check.Stride(
+  check->Stride(
       map.confidence == nullptr || ValidStride(map.confidence_stride, width, config.height),
       "map.confidence_stride", map.confidence_stride);
-  check.Stride(map.coverage == nullptr || ValidStride(map.coverage_stride, width, config.height),
-               "map.coverage_stride", map.coverage_stride);
-  return check.status();
+  check->Stride(map.coverage == nullptr || ValidStride(map.coverage_stride, width, config.height),
+                "map.coverage_stride", map.coverage_stride);
 }
 
 // Checks all arguments of an API call that estimates or repairs a map.
-starfocus_status CheckCall(const DepthCall& call, bool repairs,
-                           const starfocus_disparity_output& map) {
+void CheckCall(const DepthCall& call, bool repairs, const starfocus_disparity_output& map,
+               Checker* check) {
   size_t needed = 0;
-  starfocus_status status = SizeOf(call.config, repairs, &needed);
-  starfocus_problem* const problem = call.config->problem;
-  if (status == STARFOCUS_OK) {
-    status = CheckMemory({"workspace", call.workspace, call.bytes}, needed, problem);
-  }
-  if (status != STARFOCUS_OK) return status;
+  check->Add(SizeOf(call.config, repairs, &needed));
+  CheckMemory("workspace", call.workspace, call.bytes, needed, check);
+  if (!check->passed()) return;
   const starfocus_depth_config& config = *call.config;
   const starfocus_light_field& light_field = *call.light_field;
   const int32_t width = config.width, height = config.height;
-  status = CheckViews(light_field, config.views, {width, height}, problem);
-  const bool in_place = !Converts(config);
-  if (status == STARFOCUS_OK && in_place) status = CheckInPlace(light_field, config.views, problem);
-  if (status == STARFOCUS_OK)
-    status = CheckMap({map.disparity, map.disparity_stride}, width, height, problem);
-  if (status == STARFOCUS_OK && repairs)
-    status = CheckDepthMap(light_field.depth, {width, height}, problem);
-  if (status == STARFOCUS_OK && repairs && in_place)
-    status = CheckInPlace(light_field.depth, {width, height}, problem);
-  if (status == STARFOCUS_OK) status = CheckStrides(config, map);
-  if (status != STARFOCUS_OK) return status;
+  CheckViews(light_field, config.views, width, height, check);
+  if (!Converts(config)) CheckInPlace(light_field, config.views, check);
+  CheckMap(map.disparity, map.disparity_stride, width, height, check);
+  if (repairs) CheckDepthMap(light_field.depth, width, height, check);
+  if (repairs && !Converts(config)) CheckInPlace(light_field.depth, width, height, check);
+  CheckStrides(config, map, check);
+  if (!check->passed()) return;
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);
-  status = CheckOverlap(config, light_field, repairs, map, {begin, begin + needed});
-  return status == STARFOCUS_OK && repairs ? CheckGiven(config, light_field.depth) : status;
+  CheckOverlap(config, light_field, repairs, map, {begin, begin + needed}, check);
+  if (repairs) CheckGiven(config, light_field.depth, check);
 }
 
 // Converts the light field if necessary, and calls make(light_field) with the caller's runner and
@@ -222,21 +209,22 @@ starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput
 // Checks the arguments, then estimates or repairs the map.
 starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_output* map) {
   starfocus_depth_config full = DefaultDepthConfig();
-  starfocus_status status = EnterConfig(
-      call.config, {{"light_field", call.light_field}, {"map", map}, {"workspace", call.workspace}},
-      &full);
+  Checker check = Enter(call.config, &full);
+  check.NotNull(call.light_field, "light_field");
+  check.NotNull(map, "map");
+  check.NotNull(call.workspace, "workspace");
   call.config = &full;
-  if (status == STARFOCUS_OK) status = CheckCall(call, repairs, *map);
-  if (status != STARFOCUS_OK) return status;
+  if (check.passed()) CheckCall(call, repairs, *map, &check);
+  if (!check.passed()) return check.status();
   map->has_coverage = 0;
   const MapOutput output = {{map->disparity, map->disparity_stride / sizeof(float)},
                             static_cast<float>(call.config->disparity_min),
                             static_cast<float>(call.config->disparity_max),
                             {map->confidence, map->confidence_stride},
                             {map->coverage, map->coverage_stride}};
-  status = call.config->views == 1 ? RepairOneView(call, output, &map->has_coverage)
-                                   : SweepViews(call, repairs, output);
-  return TellStatus(status, full.problem);
+  check.Add(call.config->views == 1 ? RepairOneView(call, output, &map->has_coverage)
+                                    : SweepViews(call, repairs, output));
+  return check.status();
 }
 
 }  // namespace

@@ -73,16 +73,10 @@ struct Sorted {
   }
 };
 
-// Indices [first, last).
-struct SortedPart {
-  int32_t first, last;
-  int32_t count() const { return last - first; }
-};
-
-// Returns the part of the sorted values within kNear of `disparity`. At least one value must be
+// Returns the range of the sorted values within kNear of `disparity`. At least one value must be
 // within kNear of `disparity`.
-SortedPart PartNear(const Sorted& sorted, double disparity) {
-  SortedPart part = {0, 0};
+Range RangeNear(const Sorted& sorted, double disparity) {
+  Range part = {0, 0};
   while (part.first + 1 < sorted.count && sorted.values[part.first] < disparity - kNear) {
     ++part.first;
   }
@@ -91,7 +85,7 @@ SortedPart PartNear(const Sorted& sorted, double disparity) {
   return part;
 }
 
-double Median(const Sorted& sorted, const SortedPart& part) {
+double Median(const Sorted& sorted, const Range& part) {
   const float* middle = sorted.values + part.first + part.count() / 2;
   return part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
 }
@@ -109,7 +103,7 @@ bool HasNeighbour(const Place& place, double disparity) {
 double MostCommon(const Sorted& sorted) {
   int32_t most = 0, best = 0;
   for (int32_t k = 0; k < sorted.count; ++k) {
-    const int32_t count = PartNear(sorted, sorted.values[k]).count();
+    const int32_t count = RangeNear(sorted, sorted.values[k]).count();
     if (count <= most) continue;
     most = count;
     best = k;
@@ -131,8 +125,9 @@ using namespace starfocus;
 starfocus_status starfocus_measure_disparity(const starfocus_depth_map* depth,
                                              starfocus_disparity_stats* stats) {
   if (depth == nullptr || stats == nullptr) return STARFOCUS_ERROR_NULL;
-  const starfocus_status status = CheckLoneMap(*depth, {STARFOCUS_MAX_SIZE, STARFOCUS_MAX_SIZE});
-  if (status != STARFOCUS_OK) return status;
+  Checker check(nullptr);
+  CheckLoneMap(*depth, STARFOCUS_MAX_SIZE, STARFOCUS_MAX_SIZE, &check);
+  if (!check.passed()) return check.status();
   constexpr int32_t kPiece = 256;  // number of values that are converted at once, on the stack
   float least = std::numeric_limits<float>::infinity(), most = -least;
   int64_t known = 0;
@@ -157,10 +152,11 @@ starfocus_status starfocus_measure_disparity(const starfocus_depth_map* depth,
 starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32_t width,
                                           int32_t height) {
   starfocus_disparity_stats stats;
-  starfocus_status status = CheckMap({disparity, stride}, width, height, nullptr);
-  if (status != STARFOCUS_OK) return status;
+  Checker check(nullptr);
+  CheckMap(disparity, stride, width, height, &check);
+  if (!check.passed()) return check.status();
   const starfocus_depth_map map = starfocus_depth_float(disparity, stride, width, height);
-  status = starfocus_measure_disparity(&map, &stats);
+  const starfocus_status status = starfocus_measure_disparity(&map, &stats);
   if (status != STARFOCUS_OK || stats.invalid == 0) return status;
   const size_t row_step = stride / sizeof(float);
   if (stats.invalid == int64_t{width} * height) return STARFOCUS_ERROR_ALL_INVALID;
@@ -175,8 +171,9 @@ starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32
 starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t width, int32_t height,
                                     int32_t x, int32_t y, double* focus) {
   if (depth == nullptr || focus == nullptr) return STARFOCUS_ERROR_NULL;
-  const starfocus_status status = CheckLoneMap(*depth, {width, height});
-  if (status != STARFOCUS_OK) return status;
+  Checker check(nullptr);
+  CheckLoneMap(*depth, width, height, &check);
+  if (!check.passed()) return check.status();
   if (x < 0 || x >= width || y < 0 || y >= height) return STARFOCUS_ERROR_RANGE;
   const Place place = {*depth, ValueOf(x, width, depth->width), ValueOf(y, height, depth->height)};
   Sorted sorted;
@@ -186,7 +183,7 @@ starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t wi
   double surface = HasNeighbour(place, own) ? own : MostCommon(sorted);
   // Taking the median twice makes the focus less dependent on the noise of the tapped pixel.
   for (int round = 0; round < 2; ++round) {
-    surface = Median(sorted, PartNear(sorted, surface));
+    surface = Median(sorted, RangeNear(sorted, surface));
   }
   *focus = surface;
   return STARFOCUS_OK;
@@ -194,12 +191,14 @@ starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t wi
 
 starfocus_status starfocus_largest_aperture(starfocus_engine* engine, const starfocus_lens* lens,
                                             double* aperture) {
-  const starfocus_status status = EnterEngine(engine, {{"lens", lens}, {"aperture", aperture}});
-  if (status != STARFOCUS_OK) return status;
-  const starfocus_config& config = reinterpret_cast<EngineState*>(engine)->config;
-  Checker check(config.problem);
+  Checker check = Enter(engine);
+  check.NotNull(lens, "lens");
+  check.NotNull(aperture, "aperture");
+  if (!check.passed()) return check.status();
   CheckFocus(*lens, &check);
-  if (check.status() == STARFOCUS_OK) *aperture = LargestAperture(config, *lens);
+  if (check.passed()) {
+    *aperture = LargestAperture(reinterpret_cast<EngineState*>(engine)->config, *lens);
+  }
   return check.status();
 }
 

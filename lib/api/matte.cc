@@ -24,80 +24,55 @@ size_t RowBytes(const starfocus_matte& matte) {
   return static_cast<size_t>(matte.width - 1) * StepOf(matte) + 1;
 }
 
-starfocus_status CheckMatte(const starfocus_matte& matte) {
-  Checker check(nullptr);
-  check.NotNull(matte.data, "matte.data");
+void CheckMatte(const starfocus_matte& matte, Checker* check) {
+  check->NotNull(matte.data, "matte.data");
   const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check.In({"matte.width", double(matte.width)}, size);
-  check.In({"matte.height", double(matte.height)}, size);
-  check.In({"matte.pixel_stride", double(matte.pixel_stride)},
-           STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PIXEL_STRIDE));
-  if (check.status() != STARFOCUS_OK) return check.status();
-  check.Stride(ValidStride(matte.stride, RowBytes(matte), matte.height), "matte.stride",
-               matte.stride);
-  return check.status();
+  check->In({"matte.width", double(matte.width)}, size);
+  check->In({"matte.height", double(matte.height)}, size);
+  check->In({"matte.pixel_stride", double(matte.pixel_stride)},
+            STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PIXEL_STRIDE));
+  if (!check->passed()) return;
+  check->Stride(ValidStride(matte.stride, RowBytes(matte), matte.height), "matte.stride",
+                matte.stride);
 }
 
-starfocus_status CheckMatteDepth(const starfocus_matte_depth& depth) {
-  Checker check(nullptr);
+void CheckMatteDepth(const starfocus_matte_depth& depth, Checker* check) {
   const Allowed disparity = STARFOCUS_FROM_TO(-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY);
-  check.In({"depth.subject", depth.subject}, disparity);
-  check.In({"depth.background", depth.background},
-           {"at most subject", disparity.low, depth.subject});
-  if (depth.horizon == 0 && depth.ground == 0) return check.status();
-  check.In({"depth.ground", depth.ground}, {"above horizon and at most 1", 0, 1});
-  check.Need(depth.horizon >= 0 && depth.horizon < depth.ground, STARFOCUS_ERROR_RANGE,
-             {"depth.horizon", depth.horizon}, {"at least 0 and below ground"});
-  return check.status();
+  check->In({"depth.subject", depth.subject}, disparity);
+  check->In({"depth.background", depth.background},
+            {"at most subject", disparity.low, depth.subject});
+  if (depth.horizon == 0 && depth.ground == 0) return;
+  check->In({"depth.ground", depth.ground}, {"above horizon and at most 1", 0, 1});
+  check->Need(depth.horizon >= 0 && depth.horizon < depth.ground, STARFOCUS_ERROR_RANGE,
+              {"depth.horizon", depth.horizon}, {"at least 0 and below ground"});
 }
 
-// Checks the planes of the map and the coverage of `area`. A null plane of coverage is valid.
-starfocus_status CheckPlanes(const starfocus_matte& matte, const Rect& area,
-                             const starfocus_disparity_output& out) {
-  starfocus_status status =
-      CheckMap({out.disparity, out.disparity_stride}, area.width, area.height, nullptr);
-  if (status != STARFOCUS_OK) return status;
-  const auto width = static_cast<size_t>(area.width);
-  if (out.coverage != nullptr && !ValidStride(out.coverage_stride, width, area.height)) {
-    return STARFOCUS_ERROR_STRIDE;
-  }
-  Extents taken;
-  taken.AddRows(matte.data, matte.stride, matte.height, RowBytes(matte));
-  const Extent map =
-      ExtentOf(out.disparity, out.disparity_stride, area.height, width * sizeof(float));
-  status = CheckApart(map, taken, "out", nullptr);
-  if (status != STARFOCUS_OK || out.coverage == nullptr) return status;
-  taken.Add(map);
-  return CheckApart(ExtentOf(out.coverage, out.coverage_stride, area.height, width), taken, "out",
-                    nullptr);
+Extent ExtentOfMatte(const starfocus_matte& matte) {
+  return ExtentOf(matte.data, matte.stride, matte.height, RowBytes(matte));
 }
 
-// Checks the plane of the coverage of `area`.
-starfocus_status CheckCoverageOf(const starfocus_matte& matte, const starfocus_depth_map& depth,
-                                 const Rect& area, const starfocus_disparity_output& out) {
-  if (out.coverage == nullptr) return STARFOCUS_ERROR_NULL;
-  const auto width = static_cast<size_t>(area.width);
-  if (!ValidStride(out.coverage_stride, width, area.height)) return STARFOCUS_ERROR_STRIDE;
-  Extents read;
-  read.AddRows(matte.data, matte.stride, matte.height, RowBytes(matte));
-  AddDepthMap(depth, &read);
-  return CheckApart(ExtentOf(out.coverage, out.coverage_stride, area.height, width), read, "out",
-                    nullptr);
+Extent ExtentOfCoverage(const Rect& area, const starfocus_disparity_output& out) {
+  return ExtentOf(out.coverage, out.coverage_stride, area.height, static_cast<size_t>(area.width));
+}
+
+// Checks the stride of the coverage of `area`. A null plane of coverage is valid.
+void CheckCoverage(const Rect& area, const starfocus_disparity_output& out, Checker* check) {
+  check->Stride(out.coverage == nullptr ||
+                    ValidStride(out.coverage_stride, static_cast<size_t>(area.width), area.height),
+                "coverage_stride", out.coverage_stride);
 }
 
 // Finds the part of a picture of width x height that `region` selects. A null region selects the
 // whole picture.
-starfocus_status FindArea(const starfocus_region* region, int32_t width, int32_t height,
-                          Rect* area) {
-  Checker check(nullptr);
+void FindArea(const starfocus_region* region, int32_t width, int32_t height, Rect* area,
+              Checker* check) {
   const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check.In({"width", double(width)}, size);
-  check.In({"height", double(height)}, size);
-  if (check.status() != STARFOCUS_OK) return check.status();
+  check->In({"width", double(width)}, size);
+  check->In({"height", double(height)}, size);
   *area = {0, 0, width, height};
-  if (region == nullptr || IsWhole(*region)) return STARFOCUS_OK;
+  if (region == nullptr || IsWhole(*region)) return;
   *area = {region->x, region->y, region->width, region->height};
-  return CheckRegion(*region, width, height, nullptr);
+  CheckRegion(*region, width, height, check);
 }
 
 int64_t CountSubject(const starfocus_matte& matte, int32_t y) {
@@ -165,8 +140,9 @@ using namespace starfocus;
 starfocus_status starfocus_measure_matte(const starfocus_matte* matte,
                                          starfocus_matte_stats* stats) {
   if (matte == nullptr || stats == nullptr) return STARFOCUS_ERROR_NULL;
-  const starfocus_status status = CheckMatte(*matte);
-  if (status != STARFOCUS_OK) return status;
+  Checker check(nullptr);
+  CheckMatte(*matte, &check);
+  if (!check.passed()) return check.status();
   const int32_t width = matte->width, height = matte->height;
   int32_t left = width, right = 0, top = height, bottom = 0;
   uint64_t sum = 0;
@@ -204,12 +180,22 @@ starfocus_status starfocus_matte_field(const starfocus_matte* matte,
                                        int32_t height, const starfocus_region* region,
                                        starfocus_disparity_output* out) {
   if (matte == nullptr || depth == nullptr || out == nullptr) return STARFOCUS_ERROR_NULL;
-  starfocus_status status = CheckMatte(*matte);
-  if (status == STARFOCUS_OK) status = CheckMatteDepth(*depth);
-  Rect area = {};
-  if (status == STARFOCUS_OK) status = FindArea(region, width, height, &area);
-  if (status == STARFOCUS_OK) status = CheckPlanes(*matte, area, *out);
-  if (status != STARFOCUS_OK) return status;
+  Checker check(nullptr);
+  CheckMatte(*matte, &check);
+  CheckMatteDepth(*depth, &check);
+  Rect area;
+  FindArea(region, width, height, &area, &check);
+  CheckMap(out->disparity, out->disparity_stride, area.width, area.height, &check);
+  CheckCoverage(area, *out, &check);
+  if (!check.passed()) return check.status();
+  Extents taken;
+  taken.Add(ExtentOfMatte(*matte));
+  const Extent map_memory = ExtentOf(out->disparity, out->disparity_stride, area.height,
+                                     static_cast<size_t>(area.width) * sizeof(float));
+  check.Apart(map_memory, taken, "out");
+  taken.Add(map_memory);
+  if (out->coverage != nullptr) check.Apart(ExtentOfCoverage(area, *out), taken, "out");
+  if (!check.passed()) return check.status();
   const Background background(*depth, height);
   constexpr float kUnit = 1.0f / (1 << kDisparityBits);
   const auto subject = static_cast<float>(background.subject()) * kUnit;
@@ -237,12 +223,19 @@ starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
                                           int32_t height, const starfocus_region* region,
                                           starfocus_disparity_output* out) {
   if (matte == nullptr || depth == nullptr || out == nullptr) return STARFOCUS_ERROR_NULL;
-  starfocus_status status = CheckMatte(*matte);
-  if (status == STARFOCUS_OK) status = CheckLoneMap(*depth, {width, height});
-  Rect area = {};
-  if (status == STARFOCUS_OK) status = FindArea(region, width, height, &area);
-  if (status == STARFOCUS_OK) status = CheckCoverageOf(*matte, *depth, area, *out);
-  if (status != STARFOCUS_OK) return status;
+  Checker check(nullptr);
+  CheckMatte(*matte, &check);
+  CheckLoneMap(*depth, width, height, &check);
+  Rect area;
+  FindArea(region, width, height, &area, &check);
+  check.NotNull(out->coverage, "coverage");
+  CheckCoverage(area, *out, &check);
+  if (!check.passed()) return check.status();
+  Extents read;
+  read.Add(ExtentOfMatte(*matte));
+  AddDepthMap(*depth, &read);
+  check.Apart(ExtentOfCoverage(area, *out), read, "out");
+  if (!check.passed()) return check.status();
   constexpr auto kMost = static_cast<float>(STARFOCUS_MAX_DISPARITY);
   const DepthSource source = {*depth, RuleOf(*depth, -kMost, kMost), width, height, nullptr};
   const simd::ImageKernels& kernels = simd::BestImageKernels();

@@ -9,30 +9,27 @@
 namespace starfocus {
 namespace {
 
-// Computes the size of a prepared light field for a valid configuration.
-starfocus_status SizeOf(const starfocus_config& config, size_t* bytes) {
+// Returns the size of a prepared light field for a valid configuration.
+size_t SizeOf(const starfocus_config& config, Checker* check) {
+  if (!check->passed()) return 0;
   Prepared* counted = nullptr;
   const size_t needed = LayOutPrepared(config, nullptr, &counted);
-  if (needed == kTooLarge) return TellStatus(STARFOCUS_ERROR_TOO_LARGE, config.problem);
-  *bytes = needed;
-  return STARFOCUS_OK;
+  if (needed == kTooLarge) check->Add(STARFOCUS_ERROR_TOO_LARGE);
+  return needed;
 }
 
 // Checks the memory for a prepared light field, which must not overlap the light field or the
 // workspace.
 starfocus_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call,
                                      const starfocus_light_field& light_field) {
-  starfocus_problem* const problem = engine.config.problem;
-  size_t needed = 0;
-  starfocus_status status = SizeOf(engine.config, &needed);
-  if (status == STARFOCUS_OK) {
-    status = CheckMemory({"memory", call.memory, call.bytes}, needed, problem);
-  }
-  if (status != STARFOCUS_OK) return status;
+  Checker check(engine.config.problem);
+  const size_t needed = SizeOf(engine.config, &check);
+  CheckMemory("memory", call.memory, call.bytes, needed, &check);
   Extents read;
   AddLightField(engine.config, light_field, &read);
   read.Add(Workspace(engine));
-  return CheckApart(ExtentOf(call.memory, 0, 1, needed), read, "memory", problem);
+  check.Apart(ExtentOf(call.memory, 0, 1, needed), read, "memory");
+  return check.status();
 }
 
 // Prepares a light field, which CheckLightField has accepted, in the memory of `call`.
@@ -45,7 +42,7 @@ starfocus_status PrepareIn(const PrepareCall& call, const starfocus_light_field&
   UseLightField(field, engine);
   const starfocus_status status = Prepare(call, SourceOf(field), engine, prepared);
   if (status != STARFOCUS_OK) {
-    return TellPlace(TellStatus(status, &engine->problem), light_field.depth, 0, &engine->problem);
+    return TellPlace(Checker(&engine->problem).Add(status), light_field.depth, 0, &engine->problem);
   }
   (*prepared)->light_field = light_field;
   return STARFOCUS_OK;
@@ -55,12 +52,12 @@ starfocus_status PrepareIn(const PrepareCall& call, const starfocus_light_field&
 starfocus_status PrepareAllocated(const starfocus_light_field& light_field, EngineState* engine,
                                   Prepared** prepared) {
   const starfocus_allocator& allocator = engine->allocator;
-  size_t bytes = 0;
-  starfocus_status status = SizeOf(engine->config, &bytes);
-  if (status != STARFOCUS_OK) return status;
+  Checker check(&engine->problem);
+  const size_t bytes = SizeOf(engine->config, &check);
+  if (!check.passed()) return check.status();
   void* const memory = allocator.allocate(allocator.data, bytes, STARFOCUS_ALIGNMENT);
-  if (memory == nullptr) return TellStatus(STARFOCUS_ERROR_MEMORY, &engine->problem);
-  status = PrepareIn({memory, bytes}, light_field, engine, prepared);
+  if (memory == nullptr) return check.Add(STARFOCUS_ERROR_MEMORY);
+  const starfocus_status status = PrepareIn({memory, bytes}, light_field, engine, prepared);
   if (status == STARFOCUS_OK) {
     (*prepared)->allocator = allocator;
     (*prepared)->bytes = bytes;
@@ -77,25 +74,29 @@ using namespace starfocus;
 
 starfocus_status starfocus_prepared_size(const starfocus_config* config, size_t* bytes) {
   starfocus_config full = DefaultConfig();
-  starfocus_status status = EnterConfig(config, {{"bytes", bytes}}, &full);
-  if (status == STARFOCUS_OK) status = CheckConfig(full);
-  return status == STARFOCUS_OK ? SizeOf(full, bytes) : status;
+  Checker check = Enter(config, &full);
+  check.NotNull(bytes, "bytes");
+  CheckConfig(full, &check);
+  const size_t needed = SizeOf(full, &check);
+  if (check.passed()) *bytes = needed;
+  return check.status();
 }
 
 starfocus_status starfocus_prepare(starfocus_engine* engine,
                                    const starfocus_light_field* light_field, void* memory,
                                    size_t bytes, starfocus_prepared** prepared) {
   if (prepared != nullptr) *prepared = nullptr;
-  starfocus_status status =
-      EnterEngine(engine, {{"light_field", light_field}, {"prepared", prepared}});
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(engine);
+  check.NotNull(light_field, "light_field");
+  check.NotNull(prepared, "prepared");
+  if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = CheckLightField(e.config, *light_field);
-  if (status != STARFOCUS_OK) return status;
+  CheckLightField(e.config, *light_field, &check);
+  if (!check.passed()) return check.status();
   const bool allocates = memory == nullptr && e.allocator.allocate != nullptr;
   Prepared* made = nullptr;
-  status = allocates ? PrepareAllocated(*light_field, &e, &made)
-                     : PrepareIn({memory, bytes}, *light_field, &e, &made);
+  const starfocus_status status = allocates ? PrepareAllocated(*light_field, &e, &made)
+                                            : PrepareIn({memory, bytes}, *light_field, &e, &made);
   if (status == STARFOCUS_OK) *prepared = reinterpret_cast<starfocus_prepared*>(made);
   return status;
 }

@@ -30,10 +30,10 @@ void UseReduced(const Prepared& prepared, int32_t shift, EngineState* engine) {
 
 starfocus_status CheckPreview(const PreviewRequest& request, const EngineState& engine) {
   const starfocus_config& config = engine.config;
-  const starfocus_status status = CheckCall(config, request.params, &request.prepared);
-  if (status != STARFOCUS_OK) return status;
-  const int32_t most = request.prepared.config.previews;
   Checker check(config.problem);
+  CheckCall(config, request.params, &request.prepared, &check);
+  if (!check.passed()) return check.status();
+  const int32_t most = request.prepared.config.previews;
   check.Need(request.shift >= 1 && request.shift <= most, STARFOCUS_ERROR_PREPARED,
              {"preview_shift", double(request.shift)}, {"1 to previews", 1, double(most)});
   if (check.status() != STARFOCUS_OK) return check.status();
@@ -44,16 +44,13 @@ starfocus_status CheckPreview(const PreviewRequest& request, const EngineState& 
 
 starfocus_status RefocusPreview(const PreviewRequest& request, const starfocus_image& out,
                                 EngineState* engine, starfocus_report* report) {
-  starfocus_status status = CheckPreview(request, *engine);
+  const starfocus_status status = CheckPreview(request, *engine);
   if (status != STARFOCUS_OK) return status;
   const Rect rect = ReducedRect(RegionOf(engine->config, request.params), request.shift);
-  const PictureSize size = {rect.width, rect.height};
-  status = CheckOutput(engine->config, out, size);
-  if (status == STARFOCUS_OK) {
-    status =
-        CheckOutputApart(out, size, MemoryOf(*engine, &request.prepared), engine->config.problem);
-  }
-  if (status != STARFOCUS_OK) return status;
+  Checker check(engine->config.problem);
+  CheckOutput(engine->config, out, rect.width, rect.height, &check);
+  CheckOutputApart(out, rect.width, rect.height, MemoryOf(*engine, &request.prepared), &check);
+  if (!check.passed()) return check.status();
   EngineState reduced = PreviewEngine(ReducedConfig(engine->config, request.shift), engine);
   UseReduced(request.prepared, request.shift, &reduced);
   const starfocus_params params = ReducedParams(request, rect);

@@ -59,54 +59,51 @@ bool EndsIn(const char* name, const char* field) {
   return false;
 }
 
-// Names the rejected field of a check of the previous frame as a field of params.previous. Returns
-// `status`.
-starfocus_status OfPrevious(starfocus_status status, starfocus_problem* problem) {
-  if (status == STARFOCUS_OK || problem == nullptr) return status;
+// Names the rejected field of a check of the previous frame as a field of params.previous.
+void NamePrevious(starfocus_problem* problem) {
   for (const char* name : kPreviousFields) {
     if (!EndsIn(name, problem->field)) continue;
     problem->field = name;
     break;
   }
-  return status;
 }
 
-starfocus_status CheckFieldInPlace(const starfocus_config& config,
-                                   const starfocus_light_field& field) {
-  const starfocus_status status = CheckInPlace(field, config.views, config.problem);
-  if (status != STARFOCUS_OK) return status;
-  return CheckInPlace(field.depth, {config.width, config.height}, config.problem);
+void CheckFieldInPlace(const starfocus_config& config, const starfocus_light_field& field,
+                       Checker* check) {
+  CheckInPlace(field, config.views, check);
+  CheckInPlace(field.depth, config.width, config.height, check);
 }
 
 // Checks the previous frame unless params.previous is null. Frames can be compared only if both
 // frames are read in place.
-starfocus_status CheckPrevious(const starfocus_config& config, const Request& request,
-                               const PictureSize& size) {
+void CheckPrevious(const starfocus_config& config, const Request& request, const Rect& rect,
+                   Checker* check) {
   const starfocus_previous* const previous = request.params.previous;
-  if (previous == nullptr) return STARFOCUS_OK;
-  starfocus_status status = CheckFieldInPlace(config, request.light_field);
-  if (status != STARFOCUS_OK) return status;
-  status = CheckLightField(config, previous->light_field);
-  if (status == STARFOCUS_OK) status = CheckFieldInPlace(config, previous->light_field);
-  if (status == STARFOCUS_OK) status = CheckOutput(config, previous->out, size);
-  if (status != STARFOCUS_OK) return OfPrevious(status, config.problem);
-  Checker check(config.problem);
+  if (previous == nullptr) return;
+  CheckFieldInPlace(config, request.light_field, check);
+  if (!check->passed()) return;
+  CheckLightField(config, previous->light_field, check);
+  CheckFieldInPlace(config, previous->light_field, check);
+  CheckOutput(config, previous->out, rect.width, rect.height, check);
+  if (!check->passed()) {
+    NamePrevious(config.problem);
+    return;
+  }
   const auto need = [&](const starfocus_image& image, const char* name) {
-    check.Need(IsInPlace(image), STARFOCUS_ERROR_FEATURE, {name, double(image.format)},
-               {"STARFOCUS_FORMAT_RGB without gaps, for out and previous.out"});
+    check->Need(IsInPlace(image), STARFOCUS_ERROR_FEATURE, {name, double(image.format)},
+                {"STARFOCUS_FORMAT_RGB without gaps, for out and previous.out"});
   };
   need(request.out, "out.format");
   need(previous->out, "previous.out.format");
-  return check.status();
 }
 
 // Returns the memory that `out` must not overlap: the inputs and the engine.
-Extents ReadBy(const Request& request, const PictureSize& size, const EngineState& engine) {
+Extents ReadBy(const Request& request, const Rect& rect, const EngineState& engine) {
   Extents read = MemoryOf(engine, request.prepared);
   AddLightField(engine.config, request.light_field, &read);
   if (const starfocus_previous* const previous = request.params.previous) {
     AddLightField(engine.config, previous->light_field, &read);
-    AddImage(previous->out, size, &read);
+    AddImage(previous->out, rect.width, rect.height, &read);
   }
   return read;
 }
@@ -123,15 +120,16 @@ const starfocus_previous* ComparableOf(const Request& request) {
 
 starfocus_status CheckRequest(const Request& request, const EngineState& engine) {
   const starfocus_config& config = engine.config;
-  starfocus_status status = CheckCall(config, request.params, request.prepared);
-  if (status == STARFOCUS_OK) status = CheckLightField(config, request.light_field);
-  if (status != STARFOCUS_OK) return status;
+  Checker check(config.problem);
+  CheckCall(config, request.params, request.prepared, &check);
+  CheckLightField(config, request.light_field, &check);
+  if (!check.passed()) return check.status();
   const Rect rect = RegionOf(config, request.params);
-  const PictureSize size = {rect.width, rect.height};
-  status = CheckOutput(config, request.out, size);
-  if (status == STARFOCUS_OK) status = CheckPrevious(config, request, size);
-  if (status != STARFOCUS_OK) return status;
-  return CheckOutputApart(request.out, size, ReadBy(request, size, engine), config.problem);
+  CheckOutput(config, request.out, rect.width, rect.height, &check);
+  CheckPrevious(config, request, rect, &check);
+  if (!check.passed()) return check.status();
+  CheckOutputApart(request.out, rect.width, rect.height, ReadBy(request, rect, engine), &check);
+  return check.status();
 }
 
 starfocus_status Refocus(const Request& request, EngineState* engine, starfocus_report* report) {
@@ -160,14 +158,16 @@ starfocus_status starfocus_refocus(starfocus_engine* engine, const starfocus_par
                                    const starfocus_light_field* light_field,
                                    const starfocus_image* out, starfocus_report* report) {
   starfocus_params full;
-  const starfocus_status status = EnterCall(
-      engine, {{"params", params}, {"light_field", light_field}, {"out", out}}, params, &full);
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(engine);
+  check.NotNull(params, "params");
+  check.NotNull(light_field, "light_field");
+  check.NotNull(out, "out");
+  ReadParams(params, &full, &check);
+  if (!check.passed()) return check.status();
+  check.In({"preview_shift", double(full.preview_shift)},
+           {"0 unless the light field is prepared", 0, 0});
+  if (!check.passed()) return check.status();
   auto& e = *reinterpret_cast<EngineState*>(engine);
-  if (full.preview_shift != 0) {
-    return Refuse(STARFOCUS_ERROR_RANGE, {"preview_shift", double(full.preview_shift)},
-                  {"0 unless the light field is prepared", 0, 0}, &e.problem);
-  }
   return Refocus({full, *light_field, nullptr, *out}, &e, report);
 }
 
@@ -176,9 +176,12 @@ starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
                                             const starfocus_prepared* prepared,
                                             const starfocus_image* out, starfocus_report* report) {
   starfocus_params full;
-  const starfocus_status status =
-      EnterCall(engine, {{"params", params}, {"prepared", prepared}, {"out", out}}, params, &full);
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(engine);
+  check.NotNull(params, "params");
+  check.NotNull(prepared, "prepared");
+  check.NotNull(out, "out");
+  ReadParams(params, &full, &check);
+  if (!check.passed()) return check.status();
   auto& e = *reinterpret_cast<EngineState*>(engine);
   const auto& p = *reinterpret_cast<const Prepared*>(prepared);
   if (full.preview_shift != 0) {

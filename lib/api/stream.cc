@@ -33,23 +33,19 @@ starfocus_status RefocusNext(EngineState* engine) {
   return call_progress.Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
-starfocus_status CheckCount(const EngineState& engine, int32_t rows, int32_t most) {
-  Checker check(engine.config.problem);
-  check.Need(engine.stream.active, STARFOCUS_ERROR_STATE, {"stream"},
-             {"an earlier call of starfocus_stream_begin"});
-  check.In({"rows", double(rows)}, {"at most the number of remaining rows", 0, double(most)});
-  return check.status();
+void CheckCount(const EngineState& engine, int32_t rows, int32_t most, Checker* check) {
+  check->Need(engine.stream.active, STARFOCUS_ERROR_STATE, {"stream"},
+              {"an earlier call of starfocus_stream_begin"});
+  check->In({"rows", double(rows)}, {"at most the number of remaining rows", 0, double(most)});
 }
 
 // Checks the number of rows of a push or pull that starts at row `first`. YUV formats require pairs
 // of rows.
-starfocus_status CheckPairs(const starfocus_config& config, bool is_yuv, int32_t first,
-                            int32_t rows) {
-  Checker check(config.problem);
-  check.Need(!is_yuv || (first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height)),
-             STARFOCUS_ERROR_RANGE, {"rows", double(rows)},
-             {"even, except at the end of the picture"});
-  return check.status();
+void CheckPairs(const starfocus_config& config, bool is_yuv, int32_t first, int32_t rows,
+                Checker* check) {
+  check->Need(!is_yuv || (first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height)),
+              STARFOCUS_ERROR_RANGE, {"rows", double(rows)},
+              {"even, except at the end of the picture"});
 }
 
 bool AnyYuv(const starfocus_config& config, const starfocus_light_field& light_field) {
@@ -59,25 +55,23 @@ bool AnyYuv(const starfocus_config& config, const starfocus_light_field& light_f
   return false;
 }
 
-starfocus_status CheckPush(const EngineState& engine, const starfocus_light_field& light_field,
-                           int32_t rows) {
+void CheckPush(const EngineState& engine, const starfocus_light_field& light_field, int32_t rows,
+               Checker* check) {
   const starfocus_config& config = engine.config;
   const int32_t pushed = engine.stream.pushed;
-  starfocus_status status = CheckCount(engine, rows, config.height - pushed);
-  if (status == STARFOCUS_OK) status = CheckLightField(config, light_field);
-  if (status != STARFOCUS_OK) return status;
-  return CheckPairs(config, AnyYuv(config, light_field), pushed, rows);
+  CheckCount(engine, rows, config.height - pushed, check);
+  CheckLightField(config, light_field, check);
+  CheckPairs(config, AnyYuv(config, light_field), pushed, rows, check);
 }
 
 // Checks a pull of `rows` rows. `rows` must not exceed the number of remaining rows.
-starfocus_status CheckPull(const EngineState& engine, const starfocus_image& out, int32_t rows) {
+void CheckPull(const EngineState& engine, const starfocus_image& out, int32_t rows,
+               Checker* check) {
   const starfocus_config& config = engine.config;
-  starfocus_status status = CheckOutput(config, out, {config.width, config.height});
-  if (status == STARFOCUS_OK) {
-    status = CheckPairs(config, IsYuv(out.format), engine.stream.written, rows);
-  }
-  if (status != STARFOCUS_OK || rows == 0) return status;
-  return CheckOutputApart(out, {config.width, rows}, MemoryOf(engine, nullptr), config.problem);
+  CheckOutput(config, out, config.width, config.height, check);
+  CheckPairs(config, IsYuv(out.format), engine.stream.written, rows, check);
+  if (!check->passed() || rows == 0) return;
+  CheckOutputApart(out, config.width, rows, MemoryOf(engine, nullptr), check);
 }
 
 // Copies up to `rows` rows of the source, `unit` (1 or 2) at a time, until all input rows of the
@@ -143,22 +137,21 @@ using namespace starfocus;
 
 starfocus_status starfocus_stream_begin(starfocus_engine* engine, const starfocus_params* params) {
   starfocus_params full;
-  starfocus_status status = EnterCall(engine, {{"params", params}}, params, &full);
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(engine);
+  check.NotNull(params, "params");
+  ReadParams(params, &full, &check);
+  if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = CheckParams(e.config, full);
-  if (status != STARFOCUS_OK) return status;
-  Checker check(&e.problem);
+  CheckParams(e.config, full, &check);
   check.Need(Has(e.config.features, STARFOCUS_FEATURE_STREAMING), STARFOCUS_ERROR_FEATURE,
              {"features", double(e.config.features)}, {"STARFOCUS_FEATURE_STREAMING"});
   check.Need(IsWhole(full.region), STARFOCUS_ERROR_RANGE, {"region"}, {"all 0"});
   check.Need(full.preview_shift == 0, STARFOCUS_ERROR_RANGE, {"preview_shift"}, {"0 for a stream"});
   check.Need(full.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"}, {"null for a stream"});
-  if (check.status() != STARFOCUS_OK) return check.status();
+  if (!check.passed()) return check.status();
   e.stream = Stream();
   e.jobs->call_progress.Begin(0, e.config.height);
-  status = SetLens(full, &e);
-  if (status != STARFOCUS_OK) return TellStatus(status, &e.problem);
+  if (check.Add(SetLens(full, &e)) != STARFOCUS_OK) return check.status();
   SetPlanes(e.config, *e.kernels, e.rings, &e.row_store);
   e.stream.active = true;
   return STARFOCUS_OK;
@@ -168,12 +161,13 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
                                        const starfocus_light_field* light_field, int32_t rows,
                                        int32_t* consumed) {
   if (consumed != nullptr) *consumed = 0;
-  starfocus_status status =
-      EnterEngine(engine, {{"light_field", light_field}, {"consumed", consumed}});
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(engine);
+  check.NotNull(light_field, "light_field");
+  check.NotNull(consumed, "consumed");
+  if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = CheckPush(e, *light_field, rows);
-  if (status != STARFOCUS_OK) return status;
+  CheckPush(e, *light_field, rows, &check);
+  if (!check.passed()) return check.status();
   LightField field;
   MakeLightField(*light_field, e.stream.pushed, &e, &field);
   const int32_t unit = AnyYuv(e.config, *light_field) ? 2 : 1;
@@ -183,26 +177,27 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
     first = e.stream.pushed;
     map.height = rows;
   }
-  status = PushRows(SourceOf(field), rows, unit, &e, consumed);
+  const starfocus_status status = PushRows(SourceOf(field), rows, unit, &e, consumed);
   return TellPlace(status, map, first, &e.problem);
 }
 
 starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus_image* out,
                                        int32_t rows, int32_t* written, starfocus_report* report) {
   if (written != nullptr) *written = 0;
-  starfocus_status status = EnterEngine(engine, {{"out", out}, {"written", written}});
-  if (status != STARFOCUS_OK) return status;
+  Checker check = Enter(engine);
+  check.NotNull(out, "out");
+  check.NotNull(written, "written");
+  if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  status = CheckCount(e, rows, INT32_MAX);
-  if (status != STARFOCUS_OK) return status;
+  CheckCount(e, rows, INT32_MAX, &check);
   const int32_t first = e.stream.written, left = e.config.height - first;
   const int32_t most = Min(rows, left);
-  status = CheckPull(e, *out, most);
-  if (status != STARFOCUS_OK) return status;
+  CheckPull(e, *out, most, &check);
+  if (!check.passed()) return check.status();
   const Plane<uint8_t>& alpha = e.images.alpha;
   Output output = OutputOf(*out, {0, first, e.config.width, left}, e.images.odd_row);
   output.alpha = {alpha.data, alpha.stride, alpha.rows, 0};
-  status = PullRows(output, most, &e, written);
-  if (status == STARFOCUS_OK && report != nullptr) *report = e.report;
-  return TellStatus(status, &e.problem);
+  check.Add(PullRows(output, most, &e, written));
+  if (check.passed() && report != nullptr) *report = e.report;
+  return check.status();
 }

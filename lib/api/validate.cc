@@ -60,33 +60,29 @@ bool IsBlock(int32_t side) {
 
 }  // namespace
 
-starfocus_status EnterEngine(starfocus_engine* engine, std::initializer_list<Pointer> pointers) {
-  if (engine == nullptr) return STARFOCUS_ERROR_NULL;
-  return CheckPointers(pointers, &reinterpret_cast<EngineState*>(engine)->problem);
+Checker Enter(starfocus_engine* engine) {
+  if (engine == nullptr) return Checker(nullptr, STARFOCUS_ERROR_NULL);
+  return Enter(&reinterpret_cast<EngineState*>(engine)->problem);
 }
 
-starfocus_status EnterCall(starfocus_engine* engine, std::initializer_list<Pointer> pointers,
-                           const starfocus_params* params, starfocus_params* full) {
-  const starfocus_status status = EnterEngine(engine, pointers);
-  if (status != STARFOCUS_OK) return status;
+void ReadParams(const starfocus_params* params, starfocus_params* full, Checker* check) {
+  if (!check->passed()) return;
   *full = DefaultParams();
-  Checker check(&reinterpret_cast<EngineState*>(engine)->problem);
-  check.Need(ReadSized(*params, full), STARFOCUS_ERROR_STRUCTURE,
-             {"params.size", double(params->size)}, {"the value set by starfocus_params_init"});
-  return check.status();
+  check->Need(ReadSized(*params, full), STARFOCUS_ERROR_STRUCTURE,
+              {"params.size", double(params->size)}, {"the value set by starfocus_params_init"});
 }
 
-void CheckPictureRange(const PictureRange& picture, Checker* check) {
+void CheckPicture(int32_t width, int32_t height, double disparity_min, double disparity_max,
+                  int32_t max_workers, Checker* check) {
   const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check->In({"width", double(picture.width)}, size);
-  check->In({"height", double(picture.height)}, size);
+  check->In({"width", double(width)}, size);
+  check->In({"height", double(height)}, size);
   const Allowed disparity = STARFOCUS_FROM_TO(-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY);
-  check->In({"disparity_min", picture.disparity_min}, disparity);
-  check->In({"disparity_max", picture.disparity_max}, disparity);
-  check->In({"disparity_max", picture.disparity_max},
-            {"at least disparity_min", picture.disparity_min, STARFOCUS_MAX_DISPARITY});
-  check->In({"max_workers", double(picture.max_workers)},
-            STARFOCUS_FROM_TO(1, STARFOCUS_MAX_WORKERS));
+  check->In({"disparity_min", disparity_min}, disparity);
+  check->In({"disparity_max", disparity_max}, disparity);
+  check->In({"disparity_max", disparity_max},
+            {"at least disparity_min", disparity_min, STARFOCUS_MAX_DISPARITY});
+  check->In({"max_workers", double(max_workers)}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_WORKERS));
 }
 
 void CheckFocus(const starfocus_lens& lens, Checker* check) {
@@ -98,74 +94,63 @@ void CheckFocus(const starfocus_lens& lens, Checker* check) {
             {"at least 0 and at most 1000000 + lens.focus", 0, STARFOCUS_MAX_FOCUS + lens.focus});
 }
 
-starfocus_status CheckConfig(const starfocus_config& config) {
-  Checker check(config.problem);
-  CheckPictureRange(
-      {config.width, config.height, config.disparity_min, config.disparity_max, config.max_workers},
-      &check);
-  if (check.status() != STARFOCUS_OK) return check.status();
+void CheckConfig(const starfocus_config& config, Checker* check) {
+  CheckPicture(config.width, config.height, config.disparity_min, config.disparity_max,
+               config.max_workers, check);
+  if (!check->passed()) return;
   ViewSet views;
-  const starfocus_status status = FindViews(config.views, config.positions, config.problem, &views);
-  if (status != STARFOCUS_OK) return status;
-  check.Need(config.max_blur > 0.0 && config.max_blur <= STARFOCUS_MAX_BLUR, STARFOCUS_ERROR_RANGE,
-             {"max_blur", config.max_blur},
-             {"above 0 and at most STARFOCUS_MAX_BLUR", kNoNumber, STARFOCUS_MAX_BLUR});
-  check.Need(IsBlock(config.superblock), STARFOCUS_ERROR_RANGE,
-             {"superblock", double(config.superblock)}, {"0, 32, 64, 128 or 256"});
-  CheckTuning(config.tuning, &check);
+  check->Add(FindViews(config.views, config.positions, config.problem, &views));
+  check->Need(config.max_blur > 0.0 && config.max_blur <= STARFOCUS_MAX_BLUR, STARFOCUS_ERROR_RANGE,
+              {"max_blur", config.max_blur},
+              {"above 0 and at most STARFOCUS_MAX_BLUR", kNoNumber, STARFOCUS_MAX_BLUR});
+  check->Need(IsBlock(config.superblock), STARFOCUS_ERROR_RANGE,
+              {"superblock", double(config.superblock)}, {"0, 32, 64, 128 or 256"});
+  CheckTuning(config.tuning, check);
   constexpr uint32_t kFeatures = STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE |
                                  STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES |
                                  STARFOCUS_FEATURE_FILL_UNKNOWN | STARFOCUS_FEATURE_SHAPES;
-  check.Need((config.features & ~kFeatures) == 0, STARFOCUS_ERROR_RANGE,
-             {"features", double(config.features)}, {"bits of STARFOCUS_FEATURE_"});
-  check.In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PREVIEW));
-  check.In({"transfer", double(config.transfer)},
-           {"a starfocus_transfer", 0, STARFOCUS_TRANSFER_NONE});
-  check.In({"highlights", config.highlights}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_HIGHLIGHTS));
-  return check.status();
+  check->Need((config.features & ~kFeatures) == 0, STARFOCUS_ERROR_RANGE,
+              {"features", double(config.features)}, {"bits of STARFOCUS_FEATURE_"});
+  check->In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PREVIEW));
+  check->In({"transfer", double(config.transfer)},
+            {"a starfocus_transfer", 0, STARFOCUS_TRANSFER_NONE});
+  check->In({"highlights", config.highlights}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_HIGHLIGHTS));
 }
 
-starfocus_status CheckParams(const starfocus_config& config, const starfocus_params& params) {
-  Checker check(config.problem);
-  check.In({"mode", double(params.mode)}, {"a starfocus_mode", 0, STARFOCUS_MODE_BLUR});
-  check.In({"renderer", double(params.renderer)},
-           {"a starfocus_renderer", 0, STARFOCUS_RENDERER_SLICES});
-  CheckLens(config, params.lens, &check);
+void CheckParams(const starfocus_config& config, const starfocus_params& params, Checker* check) {
+  check->In({"mode", double(params.mode)}, {"a starfocus_mode", 0, STARFOCUS_MODE_BLUR});
+  check->In({"renderer", double(params.renderer)},
+            {"a starfocus_renderer", 0, STARFOCUS_RENDERER_SLICES});
+  CheckLens(config, params.lens, check);
   if (params.renderer == STARFOCUS_RENDERER_LINE_SCAN && params.mode != STARFOCUS_MODE_BLUR) {
-    check.Need(HasLineScan(config), STARFOCUS_ERROR_FEATURE, {"renderer", double(params.renderer)},
-               {"not STARFOCUS_RENDERER_LINE_SCAN without STARFOCUS_FEATURE_LINE_SCAN"});
-    check.Need(HasStar(config), STARFOCUS_ERROR_FEATURE, {"renderer", double(params.renderer)},
-               {"not STARFOCUS_RENDERER_LINE_SCAN without the views of starfocus_view_position"});
+    check->Need(HasLineScan(config), STARFOCUS_ERROR_FEATURE, {"renderer", double(params.renderer)},
+                {"not STARFOCUS_RENDERER_LINE_SCAN without STARFOCUS_FEATURE_LINE_SCAN"});
+    check->Need(HasStar(config), STARFOCUS_ERROR_FEATURE, {"renderer", double(params.renderer)},
+                {"not STARFOCUS_RENDERER_LINE_SCAN without the views of starfocus_view_position"});
   }
-  return check.status();
 }
 
-starfocus_status CheckMemory(const Memory& memory, size_t needed, starfocus_problem* problem) {
-  Checker check(problem);
-  const auto address = reinterpret_cast<uintptr_t>(memory.data);
-  check.NotNull(memory.data, memory.name);
-  check.Need(address % STARFOCUS_ALIGNMENT == 0, STARFOCUS_ERROR_WORKSPACE,
-             {memory.name, double(address % STARFOCUS_ALIGNMENT)},
-             {"a multiple of STARFOCUS_ALIGNMENT"});
-  check.Need(memory.bytes >= needed, STARFOCUS_ERROR_WORKSPACE, {"bytes", double(memory.bytes)},
-             {"at least the number of bytes that the size function returns", double(needed)});
-  return check.status();
+void CheckMemory(const char* name, const void* memory, size_t bytes, size_t needed,
+                 Checker* check) {
+  const auto address = reinterpret_cast<uintptr_t>(memory);
+  check->NotNull(memory, name);
+  check->Need(address % STARFOCUS_ALIGNMENT == 0, STARFOCUS_ERROR_WORKSPACE,
+              {name, double(address % STARFOCUS_ALIGNMENT)}, {"a multiple of STARFOCUS_ALIGNMENT"});
+  check->Need(bytes >= needed, STARFOCUS_ERROR_WORKSPACE, {"bytes", double(bytes)},
+              {"at least the number of bytes that the size function returns", double(needed)});
 }
 
-starfocus_status CheckMap(const MapPlane& map, int32_t width, int32_t height,
-                          starfocus_problem* problem) {
-  Checker check(problem);
-  check.NotNull(map.disparity, "disparity");
+void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height,
+              Checker* check) {
+  check->NotNull(disparity, "disparity");
   const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check.In({"width", double(width)}, size);
-  check.In({"height", double(height)}, size);
-  if (check.status() != STARFOCUS_OK) return check.status();
-  const bool aligned = map.stride % sizeof(float) == 0 &&
-                       reinterpret_cast<uintptr_t>(map.disparity) % alignof(float) == 0;
-  check.Stride(
-      aligned && ValidStride(map.stride, sizeof(float) * static_cast<size_t>(width), height),
-      "disparity_stride", map.stride);
-  return check.status();
+  check->In({"width", double(width)}, size);
+  check->In({"height", double(height)}, size);
+  if (!check->passed()) return;
+  const bool aligned =
+      stride % sizeof(float) == 0 && reinterpret_cast<uintptr_t>(disparity) % alignof(float) == 0;
+  check->Stride(aligned && ValidStride(stride, sizeof(float) * static_cast<size_t>(width), height),
+                "disparity_stride", stride);
 }
 
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
@@ -173,49 +158,37 @@ bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
          (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
 }
 
-starfocus_status CheckCoverage(const starfocus_config& config, const uint8_t* coverage,
-                               size_t stride) {
-  Checker check(config.problem);
-  check.Stride(
-      coverage == nullptr || ValidStride(stride, static_cast<size_t>(config.width), config.height),
-      "coverage_stride", stride);
-  return check.status();
-}
-
-starfocus_status CheckRegion(const starfocus_region& region, int32_t width, int32_t height,
-                             starfocus_problem* problem) {
-  if (IsWhole(region)) return STARFOCUS_OK;
-  Checker check(problem);
-  check.In({"region.x", double(region.x)}, {"inside the picture", 0, width - 1.0});
-  check.In({"region.y", double(region.y)}, {"inside the picture", 0, height - 1.0});
-  check.In({"region.width", double(region.width)},
-           {"inside the picture", 1, width - double(region.x)});
-  check.In({"region.height", double(region.height)},
-           {"inside the picture", 1, height - double(region.y)});
-  return check.status();
+void CheckRegion(const starfocus_region& region, int32_t width, int32_t height, Checker* check) {
+  if (IsWhole(region)) return;
+  check->In({"region.x", double(region.x)}, {"inside the picture", 0, width - 1.0});
+  check->In({"region.y", double(region.y)}, {"inside the picture", 0, height - 1.0});
+  check->In({"region.width", double(region.width)},
+            {"inside the picture", 1, width - double(region.x)});
+  check->In({"region.height", double(region.height)},
+            {"inside the picture", 1, height - double(region.y)});
 }
 namespace {
 
 int PlanesOfFormat(int32_t format) { return !IsYuv(format) ? 1 : IsPaired(format) ? 2 : 3; }
 
-// Number of rows of a plane, and bytes per row.
-struct PlaneSize {
-  int32_t rows;
-  size_t row_bytes;
-};
-
-PlaneSize SizeOfPlane(const starfocus_image& image, int plane, const PictureSize& picture) {
-  const auto pixels = static_cast<size_t>(picture.width), samples = (pixels + 1) / 2;
-  const int32_t given = image.pixel_stride, format = image.format;
-  const auto step = static_cast<size_t>(given != 0 ? given : LeastStep(format));
-  if (!IsYuv(format)) return {picture.height, (pixels - 1) * step + (HasAlpha(format) ? 4 : 3)};
-  if (plane == 0) return {picture.height, pixels};
-  return {(picture.height + 1) / 2, IsPaired(format) ? 2 * samples : (samples - 1) * step + 1};
+// Returns the number of rows of a plane of an image whose height is `height`.
+int32_t PlaneRows(int32_t format, int plane, int32_t height) {
+  return IsYuv(format) && plane != 0 ? (height + 1) / 2 : height;
 }
 
-Extent ExtentOfPlane(const starfocus_image& image, int plane, const PictureSize& picture) {
-  const PlaneSize size = SizeOfPlane(image, plane, picture);
-  return ExtentOf(image.planes[plane], image.strides[plane], size.rows, size.row_bytes);
+// Returns the number of bytes of a row of a plane.
+size_t PlaneRowBytes(const starfocus_image& image, int plane, int32_t width) {
+  const auto pixels = static_cast<size_t>(width), samples = (pixels + 1) / 2;
+  const int32_t given = image.pixel_stride, format = image.format;
+  const auto step = static_cast<size_t>(given != 0 ? given : LeastStep(format));
+  if (!IsYuv(format)) return (pixels - 1) * step + (HasAlpha(format) ? 4 : 3);
+  if (plane == 0) return pixels;
+  return IsPaired(format) ? 2 * samples : (samples - 1) * step + 1;
+}
+
+Extent ExtentOfPlane(const starfocus_image& image, int plane, int32_t width, int32_t height) {
+  return ExtentOf(image.planes[plane], image.strides[plane], PlaneRows(image.format, plane, height),
+                  PlaneRowBytes(image, plane, width));
 }
 
 bool ValidPixelStride(int32_t format, int32_t stride) {
@@ -235,12 +208,12 @@ constexpr ImageNames kOutNames = {"out.format",       "out.matrix", "out.range",
                                   "out.pixel_stride", "out.planes", "out.strides"};
 
 // Checks an image, which is view `index` of a light field or an output picture.
-void CheckImage(const starfocus_image& image, const PictureSize& size, const ImageNames& names,
-                int32_t index, Checker* check) {
+void CheckImage(const starfocus_image& image, int32_t width, int32_t height,
+                const ImageNames& names, int32_t index, Checker* check) {
   const int32_t format = image.format;
   check->In({names.format, double(format), index},
             {"a starfocus_format", 0, STARFOCUS_FORMAT_YUV_420_888});
-  if (check->status() != STARFOCUS_OK) return;
+  if (!check->passed()) return;
   if (IsYuv(format)) {
     check->In({names.matrix, double(image.matrix), index},
               {"a starfocus_matrix", STARFOCUS_MATRIX_BT601, STARFOCUS_MATRIX_BT709});
@@ -250,12 +223,13 @@ void CheckImage(const starfocus_image& image, const PictureSize& size, const Ima
   check->Need(ValidPixelStride(format, image.pixel_stride), STARFOCUS_ERROR_RANGE,
               {names.pixel_stride, double(image.pixel_stride), index},
               {"0, or a number of bytes that the format allows"});
-  if (check->status() != STARFOCUS_OK) return;
+  if (!check->passed()) return;
   for (int plane = 0; plane < PlanesOfFormat(format); ++plane) {
     check->NotNull(image.planes[plane], names.planes, index);
-    const PlaneSize bytes = SizeOfPlane(image, plane, size);
-    check->Stride(ValidStride(image.strides[plane], bytes.row_bytes, bytes.rows), names.strides,
-                  image.strides[plane], index);
+    const size_t stride = image.strides[plane];
+    check->Stride(
+        ValidStride(stride, PlaneRowBytes(image, plane, width), PlaneRows(format, plane, height)),
+        names.strides, stride, index);
   }
 }
 
@@ -268,78 +242,65 @@ void NeedInPlace(const starfocus_image& image, const ImageNames& names, int32_t 
 
 }  // namespace
 
-starfocus_status CheckViews(const starfocus_light_field& light_field, int32_t count,
-                            const PictureSize& size, starfocus_problem* problem) {
-  Checker check(problem);
+void CheckViews(const starfocus_light_field& light_field, int32_t count, int32_t width,
+                int32_t height, Checker* check) {
   for (int32_t view = 0; view < count; ++view) {
-    CheckImage(light_field.views[view], size, kViewNames, view, &check);
+    CheckImage(light_field.views[view], width, height, kViewNames, view, check);
   }
-  return check.status();
 }
 
-starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize& size,
-                               starfocus_problem* problem) {
-  Checker check(problem);
-  check.NotNull(map.data, "depth.data");
-  check.In({"depth.type", double(map.type)},
-           {"a starfocus_depth_type", 0, STARFOCUS_DEPTH_DEPTH16});
-  check.In({"depth.meaning", double(map.meaning)},
-           {"a starfocus_depth_meaning", 0, STARFOCUS_DEPTH_RECIPROCAL});
-  check.In({"depth.has_invalid", double(map.has_invalid)}, STARFOCUS_FROM_TO(0, 1));
+void CheckDepthMap(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check) {
+  check->NotNull(map.data, "depth.data");
+  check->In({"depth.type", double(map.type)},
+            {"a starfocus_depth_type", 0, STARFOCUS_DEPTH_DEPTH16});
+  check->In({"depth.meaning", double(map.meaning)},
+            {"a starfocus_depth_meaning", 0, STARFOCUS_DEPTH_RECIPROCAL});
+  check->In({"depth.has_invalid", double(map.has_invalid)}, STARFOCUS_FROM_TO(0, 1));
   const auto scale = static_cast<float>(map.scale), offset = static_cast<float>(map.offset);
-  check.Need(IsFinite(scale) && scale != 0, STARFOCUS_ERROR_RANGE, {"depth.scale", map.scale},
-             {"a finite float other than 0"});
-  check.Need(IsFinite(offset), STARFOCUS_ERROR_RANGE, {"depth.offset", map.offset},
-             {"a finite float"});
-  check.In({"depth.width", double(map.width)}, {"1 to width", 1, double(size.width)});
-  check.In({"depth.height", double(map.height)}, {"1 to height", 1, double(size.height)});
-  if (check.status() != STARFOCUS_OK) return check.status();
+  check->Need(IsFinite(scale) && scale != 0, STARFOCUS_ERROR_RANGE, {"depth.scale", map.scale},
+              {"a finite float other than 0"});
+  check->Need(IsFinite(offset), STARFOCUS_ERROR_RANGE, {"depth.offset", map.offset},
+              {"a finite float"});
+  check->In({"depth.width", double(map.width)}, {"1 to width", 1, double(width)});
+  check->In({"depth.height", double(map.height)}, {"1 to height", 1, double(height)});
+  if (!check->passed()) return;
   const size_t bytes = DepthBytes(map.type);
-  check.Stride(ValidStride(map.stride, bytes * static_cast<size_t>(map.width), map.height) &&
-                   map.stride % bytes == 0 && reinterpret_cast<uintptr_t>(map.data) % bytes == 0,
-               "depth.stride", map.stride);
-  return check.status();
+  check->Stride(ValidStride(map.stride, bytes * static_cast<size_t>(map.width), map.height) &&
+                    map.stride % bytes == 0 && reinterpret_cast<uintptr_t>(map.data) % bytes == 0,
+                "depth.stride", map.stride);
 }
 
-starfocus_status CheckLoneMap(const starfocus_depth_map& map, const PictureSize& size) {
-  Checker check(nullptr);
-  const Allowed allowed = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check.In({"width", double(size.width)}, allowed);
-  check.In({"height", double(size.height)}, allowed);
-  return check.status() == STARFOCUS_OK ? CheckDepthMap(map, size, nullptr) : check.status();
+void CheckLoneMap(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check) {
+  const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
+  check->In({"width", double(width)}, size);
+  check->In({"height", double(height)}, size);
+  CheckDepthMap(map, width, height, check);
 }
 
-starfocus_status CheckInPlace(const starfocus_light_field& light_field, int32_t count,
-                              starfocus_problem* problem) {
-  Checker check(problem);
+void CheckInPlace(const starfocus_light_field& light_field, int32_t count, Checker* check) {
   for (int32_t view = 0; view < count; ++view) {
-    NeedInPlace(light_field.views[view], kViewNames, view, &check);
+    NeedInPlace(light_field.views[view], kViewNames, view, check);
   }
-  return check.status();
 }
 
-starfocus_status CheckInPlace(const starfocus_depth_map& map, const PictureSize& size,
-                              starfocus_problem* problem) {
-  Checker check(problem);
-  check.Need(
-      IsInPlace(map, size.width, size.height), STARFOCUS_ERROR_FEATURE, {"depth"},
+void CheckInPlace(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check) {
+  check->Need(
+      IsInPlace(map, width, height), STARFOCUS_ERROR_FEATURE, {"depth"},
       {"a map of starfocus_depth_float in the size of the picture, or STARFOCUS_FEATURE_IMAGES "
        "in config.features"});
-  return check.status();
 }
 
-starfocus_status CheckLightField(const starfocus_config& config,
-                                 const starfocus_light_field& light_field) {
-  const PictureSize size = {config.width, config.height};
-  starfocus_problem* const problem = config.problem;
-  starfocus_status status = CheckViews(light_field, config.views, size, problem);
-  if (status == STARFOCUS_OK) {
-    status = CheckCoverage(config, light_field.coverage, light_field.coverage_stride);
-  }
-  if (status == STARFOCUS_OK) status = CheckDepthMap(light_field.depth, size, problem);
-  if (status != STARFOCUS_OK || Has(config.features, STARFOCUS_FEATURE_IMAGES)) return status;
-  status = CheckInPlace(light_field, config.views, problem);
-  return status == STARFOCUS_OK ? CheckInPlace(light_field.depth, size, problem) : status;
+void CheckLightField(const starfocus_config& config, const starfocus_light_field& light_field,
+                     Checker* check) {
+  const int32_t width = config.width, height = config.height;
+  CheckViews(light_field, config.views, width, height, check);
+  check->Stride(light_field.coverage == nullptr ||
+                    ValidStride(light_field.coverage_stride, static_cast<size_t>(width), height),
+                "coverage_stride", light_field.coverage_stride);
+  CheckDepthMap(light_field.depth, width, height, check);
+  if (Has(config.features, STARFOCUS_FEATURE_IMAGES)) return;
+  CheckInPlace(light_field, config.views, check);
+  CheckInPlace(light_field.depth, width, height, check);
 }
 
 void AddDepthMap(const starfocus_depth_map& map, Extents* extents) {
@@ -350,33 +311,32 @@ void AddDepthMap(const starfocus_depth_map& map, Extents* extents) {
 void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
                    Extents* extents) {
   AddDepthMap(light_field.depth, extents);
-  extents->AddCoverage(config, light_field.coverage, light_field.coverage_stride);
+  if (light_field.coverage != nullptr) {
+    extents->AddRows(light_field.coverage, light_field.coverage_stride, config.height,
+                     static_cast<size_t>(config.width));
+  }
   for (int view = 0; view < config.views; ++view) {
-    AddImage(light_field.views[view], {config.width, config.height}, extents);
+    AddImage(light_field.views[view], config.width, config.height, extents);
   }
 }
 
-void AddImage(const starfocus_image& image, const PictureSize& size, Extents* extents) {
+void AddImage(const starfocus_image& image, int32_t width, int32_t height, Extents* extents) {
   for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
-    extents->Add(ExtentOfPlane(image, plane, size));
+    extents->Add(ExtentOfPlane(image, plane, width, height));
   }
 }
 
-starfocus_status CheckOutput(const starfocus_config& config, const starfocus_image& image,
-                             const PictureSize& size) {
-  Checker check(config.problem);
-  CheckImage(image, size, kOutNames, 0, &check);
-  if (!Has(config.features, STARFOCUS_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, &check);
-  return check.status();
+void CheckOutput(const starfocus_config& config, const starfocus_image& image, int32_t width,
+                 int32_t height, Checker* check) {
+  CheckImage(image, width, height, kOutNames, 0, check);
+  if (!Has(config.features, STARFOCUS_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, check);
 }
 
-starfocus_status CheckOutputApart(const starfocus_image& image, const PictureSize& size,
-                                  const Extents& read, starfocus_problem* problem) {
-  starfocus_status status = STARFOCUS_OK;
-  for (int plane = 0; status == STARFOCUS_OK && plane < PlanesOfFormat(image.format); ++plane) {
-    status = CheckApart(ExtentOfPlane(image, plane, size), read, "out", problem);
+void CheckOutputApart(const starfocus_image& image, int32_t width, int32_t height,
+                      const Extents& read, Checker* check) {
+  for (int plane = 0; plane < PlanesOfFormat(image.format); ++plane) {
+    check->Apart(ExtentOfPlane(image, plane, width, height), read, "out");
   }
-  return status;
 }
 
 starfocus_status TellPlace(starfocus_status status, const starfocus_depth_map& map, int32_t first,

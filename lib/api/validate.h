@@ -37,102 +37,69 @@ bool ReadSized(const Structure& given, Structure* full) {
   return true;
 }
 
-// Starts an API call that receives a configuration. Copies the configuration to *full, which must
-// contain the defaults. Clears the error description (`problem`) of the previous call, and checks
-// that no pointer is null.
-template <class Config>
-starfocus_status EnterConfig(const Config* config, std::initializer_list<Pointer> pointers,
-                             Config* full) {
-  if (config == nullptr) return STARFOCUS_ERROR_NULL;
-  if (!ReadSized(*config, full)) return STARFOCUS_ERROR_STRUCTURE;
-  return CheckPointers(pointers, full->problem);
-}
-
 starfocus_config DefaultConfig();
 
 starfocus_params DefaultParams();
 
-// Starts an API call that receives an engine: clears the engine's error description (`problem`) and
-// checks that no pointer is null.
-starfocus_status EnterEngine(starfocus_engine* engine, std::initializer_list<Pointer> pointers);
+// Start an API call that receives a configuration or an engine, which may be null. Clear the error
+// description (`problem`) of the previous call. Copy the configuration to *full, which must contain
+// the defaults.
+template <class Config>
+Checker Enter(const Config* config, Config* full) {
+  if (config == nullptr) return Checker(nullptr, STARFOCUS_ERROR_NULL);
+  if (!ReadSized(*config, full)) return Checker(nullptr, STARFOCUS_ERROR_STRUCTURE);
+  return Enter(full->problem);
+}
+Checker Enter(starfocus_engine* engine);
 
-// Starts an API call that refocuses: performs the checks of EnterEngine and copies `params` to
-// *full. `params` must be one of the pointers.
-starfocus_status EnterCall(starfocus_engine* engine, std::initializer_list<Pointer> pointers,
-                           const starfocus_params* params, starfocus_params* full);
+// All functions below that take a Checker have no effect after an error.
 
-// Fields that starfocus_config and starfocus_depth_config have in common.
-struct PictureRange {
-  int32_t width, height;
-  double disparity_min, disparity_max;
-  int32_t max_workers;
-};
-void CheckPictureRange(const PictureRange& picture, Checker* check);
+// Copies `params` to *full.
+void ReadParams(const starfocus_params* params, starfocus_params* full, Checker* check);
+
+// Checks the fields that starfocus_config and starfocus_depth_config have in common.
+void CheckPicture(int32_t width, int32_t height, double disparity_min, double disparity_max,
+                  int32_t max_workers, Checker* check);
 
 // Checks the fields of a lens that determine which disparities are in focus.
 void CheckFocus(const starfocus_lens& lens, Checker* check);
 
-// CheckConfig and CheckParams report a rejected field to config.problem, which may be null.
-starfocus_status CheckConfig(const starfocus_config& config);
-starfocus_status CheckParams(const starfocus_config& config, const starfocus_params& params);
+void CheckConfig(const starfocus_config& config, Checker* check);
+void CheckParams(const starfocus_config& config, const starfocus_params& params, Checker* check);
 
-// Memory that the caller passes to an API call as the argument `name`.
-struct Memory {
-  const char* name;
-  const void* data;
-  size_t bytes;
-};
-
-// Checks that memory is aligned to STARFOCUS_ALIGNMENT and has at least `needed` bytes.
-starfocus_status CheckMemory(const Memory& memory, size_t needed, starfocus_problem* problem);
-
-struct MapPlane {
-  const float* disparity;
-  size_t stride;
-};
+// Checks that memory, which the caller passes as the argument `name`, is aligned to
+// STARFOCUS_ALIGNMENT and has at least `needed` bytes.
+void CheckMemory(const char* name, const void* memory, size_t bytes, size_t needed, Checker* check);
 
 // Checks the pointer, size and stride of a disparity map.
-starfocus_status CheckMap(const MapPlane& map, int32_t width, int32_t height,
-                          starfocus_problem* problem);
+void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height, Checker* check);
 
 // Returns true if a stride is at least `row_bytes` and all rows are addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
 
-// Checks the stride of the coverage of a light field. A null `coverage` is valid.
-starfocus_status CheckCoverage(const starfocus_config& config, const uint8_t* coverage,
-                               size_t stride);
-
 // Checks that all fields of a region are 0, or that the region lies inside a picture of
 // width x height.
-starfocus_status CheckRegion(const starfocus_region& region, int32_t width, int32_t height,
-                             starfocus_problem* problem);
+void CheckRegion(const starfocus_region& region, int32_t width, int32_t height, Checker* check);
 
-struct PictureSize {
-  int32_t width, height;
-};
+// Checks `count` views of a picture of width x height.
+void CheckViews(const starfocus_light_field& light_field, int32_t count, int32_t width,
+                int32_t height, Checker* check);
 
-// Checks `count` views.
-starfocus_status CheckViews(const starfocus_light_field& light_field, int32_t count,
-                            const PictureSize& size, starfocus_problem* problem);
-
-// Checks the depth map of a picture of the given size.
-starfocus_status CheckDepthMap(const starfocus_depth_map& map, const PictureSize& size,
-                               starfocus_problem* problem);
+// Checks the depth map of a picture of width x height.
+void CheckDepthMap(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check);
 
 // Checks a depth map and the size of its picture, which no configuration has checked.
-starfocus_status CheckLoneMap(const starfocus_depth_map& map, const PictureSize& size);
+void CheckLoneMap(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check);
 
 // Checks that `count` views have formats that are read in place.
-starfocus_status CheckInPlace(const starfocus_light_field& light_field, int32_t count,
-                              starfocus_problem* problem);
+void CheckInPlace(const starfocus_light_field& light_field, int32_t count, Checker* check);
 
 // Checks that a depth map has a format that is read in place.
-starfocus_status CheckInPlace(const starfocus_depth_map& map, const PictureSize& size,
-                              starfocus_problem* problem);
+void CheckInPlace(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check);
 
 // Checks a light field for an engine of `config`.
-starfocus_status CheckLightField(const starfocus_config& config,
-                                 const starfocus_light_field& light_field);
+void CheckLightField(const starfocus_config& config, const starfocus_light_field& light_field,
+                     Checker* check);
 
 // Adds the address range of a depth map to *extents.
 void AddDepthMap(const starfocus_depth_map& map, Extents* extents);
@@ -141,16 +108,16 @@ void AddDepthMap(const starfocus_depth_map& map, Extents* extents);
 void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
                    Extents* extents);
 
-// Adds the address ranges of the planes of a picture of the given size to *extents.
-void AddImage(const starfocus_image& image, const PictureSize& size, Extents* extents);
+// Adds the address ranges of the planes of a picture of width x height to *extents.
+void AddImage(const starfocus_image& image, int32_t width, int32_t height, Extents* extents);
 
-// Checks an output picture of the given size, except for overlaps with other memory.
-starfocus_status CheckOutput(const starfocus_config& config, const starfocus_image& image,
-                             const PictureSize& size);
+// Checks an output picture of width x height, except for overlaps with other memory.
+void CheckOutput(const starfocus_config& config, const starfocus_image& image, int32_t width,
+                 int32_t height, Checker* check);
 
 // Checks that an output picture does not overlap the inputs.
-starfocus_status CheckOutputApart(const starfocus_image& image, const PictureSize& size,
-                                  const Extents& read, starfocus_problem* problem);
+void CheckOutputApart(const starfocus_image& image, int32_t width, int32_t height,
+                      const Extents& read, Checker* check);
 
 // If `status` is the error of a wrong disparity, adds the place of the first disparity of `map`
 // that is not finite or outside the range of *problem. `first` is the row of the whole map at which

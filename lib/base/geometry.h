@@ -28,12 +28,14 @@ constexpr Rect Extended(const Rect& rect, const Border& border) {
 // Rows, columns or other indices in [first, last).
 struct Range {
   int32_t first, last;
+
+  constexpr int32_t count() const { return last - first; }
 };
 
 // Returns part `index` when `rows` are divided into `parts` parts. The sizes of the parts differ by
 // at most one row.
 constexpr Range PartOf(const Range& rows, int32_t index, int32_t parts) {
-  const int64_t count = rows.last - rows.first;
+  const int64_t count = rows.count();
   return {rows.first + static_cast<int32_t>(count * index / parts),
           rows.first + static_cast<int32_t>(count * (index + 1) / parts)};
 }
@@ -77,10 +79,6 @@ struct Extents {
   void Add(const Extent& extent) { of[count++] = extent; }
   void AddRows(const void* data, size_t stride, int32_t rows, size_t row_bytes) {
     Add(ExtentOf(data, stride, rows, row_bytes));
-  }
-  void AddCoverage(const starfocus_config& config, const uint8_t* coverage, size_t stride) {
-    if (coverage == nullptr) return;
-    AddRows(coverage, stride, config.height, static_cast<size_t>(config.width));
   }
 };
 

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 
 #include "lib/base/geometry.h"
 #include "starfocus/starfocus.h"
@@ -39,57 +38,47 @@ struct FieldValue {
   int32_t index = 0;
 };
 
-// Fills *problem, unless `problem` is null. Returns `status`.
-starfocus_status Refuse(starfocus_status status, const FieldValue& field, const Allowed& allowed,
-                        starfocus_problem* problem);
-
-// Fills *problem if no check has filled it before. Callers use this function for errors of the
-// runner, the progress function or memory. Returns `status`.
-starfocus_status TellStatus(starfocus_status status, starfocus_problem* problem);
-
-// Checks that an output does not overlap the address ranges in `read`. `name` is the name of the
-// output argument.
-inline starfocus_status CheckApart(const Extent& out, const Extents& read, const char* name,
-                                   starfocus_problem* problem) {
-  if (!Overlaps(out, read)) return STARFOCUS_OK;
-  return Refuse(STARFOCUS_ERROR_OVERLAP, {name},
-                {"memory that overlaps neither the inputs nor the workspace"}, problem);
-}
-
-// Checks a sequence of values. *problem describes the first rejected value.
+// Checks the arguments of an API call one after another. After the first error, which *problem
+// describes, all further checks have no effect.
 class Checker {
  public:
-  explicit Checker(starfocus_problem* problem) : problem_(problem) {}
+  // `problem` may be null.
+  explicit Checker(starfocus_problem* problem, starfocus_status status = STARFOCUS_OK)
+      : problem_(problem), status_(status) {}
 
   // Rejects the field if `good` is false.
   void Need(bool good, starfocus_status status, const FieldValue& field, const Allowed& allowed) {
-    if (!good && status_ == STARFOCUS_OK) status_ = Refuse(status, field, allowed, problem_);
+    if (!good && passed()) Refuse(status, field, allowed);
   }
   // Rejects numbers outside the allowed range.
   void In(const FieldValue& field, const Allowed& allowed) {
     Need(allowed.Has(field.value), STARFOCUS_ERROR_RANGE, field, allowed);
   }
   void Stride(bool good, const char* name, size_t stride, int32_t index = 0);
-  void NotNull(const void* pointer, const char* name, int32_t index = 0) {
-    Need(pointer != nullptr, STARFOCUS_ERROR_NULL, {name, kNoNumber, index}, {"not null"});
+  void NotNull(const void* pointer, const char* name, int32_t index = 0);
+  // Checks that an output does not overlap the address ranges in `read`.
+  void Apart(const Extent& out, const Extents& read, const char* name) {
+    Need(!Overlaps(out, read), STARFOCUS_ERROR_OVERLAP, {name},
+         {"memory that overlaps neither the inputs nor the workspace"});
   }
+  // Adds the result of another function: a check, the runner, the progress function or the
+  // allocator. Fills *problem if that function has not filled it. Returns status().
+  starfocus_status Add(starfocus_status status);
 
+  starfocus_problem* problem() const { return problem_; }
   starfocus_status status() const { return status_; }
+  bool passed() const { return status_ == STARFOCUS_OK; }
 
  private:
+  // Sets status_ and fills *problem.
+  void Refuse(starfocus_status status, const FieldValue& field, const Allowed& allowed);
+
   starfocus_problem* const problem_;
-  starfocus_status status_ = STARFOCUS_OK;
+  starfocus_status status_;
 };
 
-// An argument that must not be null.
-struct Pointer {
-  const char* name;
-  const void* pointer;
-};
-
-// Starts a call: clears *problem, unless `problem` is null, and checks that all arguments are not
-// null.
-starfocus_status CheckPointers(std::initializer_list<Pointer> pointers, starfocus_problem* problem);
+// Starts an API call: clears *problem, unless `problem` is null.
+Checker Enter(starfocus_problem* problem);
 
 }  // namespace starfocus
 
