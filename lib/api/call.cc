@@ -54,9 +54,8 @@ starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report
   engine->jobs->call_progress.Begin(0, RegionOf(engine->config, params).height);
   starfocus_status status = SetLens(params, engine);
   if (status != STARFOCUS_OK) return Checker(engine->config.problem).Add(status);
-  if (call.prepared != nullptr) UsePrepared(*call.prepared, engine);
   if (call.previous != nullptr) CompareWith(call, engine);
-  status = RefocusRows(call.source, call.out, engine);
+  status = RefocusRows(call.out, engine);
   if (status == STARFOCUS_OK && report != nullptr) *report = engine->report;
   return Checker(engine->config.problem).Add(status);
 }

@@ -13,10 +13,7 @@ namespace starfocus {
 
 struct Call {
   const starfocus_params& params;
-  RowSource source;
   Output out;
-  // Prepared light field; null if the light field is not prepared.
-  const Prepared* prepared = nullptr;
   // Previous frame and current light field of a video; null if frames are not compared.
   const starfocus_previous* previous = nullptr;
   const starfocus_light_field* now = nullptr;
@@ -31,8 +28,8 @@ void CheckCall(const starfocus_config& config, const starfocus_params& params,
 // these address ranges.
 Extents MemoryOf(const EngineState& engine, const Prepared* prepared);
 
-// Runs a refocusing. Before this call, the caller must set the engine's views and check all
-// arguments except the values of the map.
+// Runs a refocusing. Before this call, the caller must set the engine's input and check
+// all arguments except the values of the map.
 starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report* report);
 
 }  // namespace starfocus

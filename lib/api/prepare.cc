@@ -2,7 +2,6 @@
 // C API: prepared light fields.
 #include "lib/api/validate.h"
 #include "lib/engine/layout.h"
-#include "lib/engine/light_field.h"
 #include "lib/engine/prepared.h"
 #include "starfocus/starfocus.h"
 
@@ -37,10 +36,8 @@ starfocus_status PrepareIn(const PrepareCall& call, const starfocus_light_field&
                            EngineState* engine, Prepared** prepared) {
   const starfocus_status fits = CheckPreparedMemory(*engine, call, light_field);
   if (fits != STARFOCUS_OK) return fits;
-  LightField field;
-  MakeLightField(light_field, 0, engine, &field);
-  UseLightField(field, engine);
-  const starfocus_status status = Prepare(call, SourceOf(field), engine, prepared);
+  engine->input = InputOf(engine->config, *engine->kernels, light_field, 0, &engine->rings);
+  const starfocus_status status = Prepare(call, engine, prepared);
   if (status != STARFOCUS_OK) {
     return TellPlace(Checker(&engine->problem).Add(status), light_field.depth, 0, &engine->problem);
   }

@@ -18,16 +18,6 @@ starfocus_params ReducedParams(const PreviewRequest& request, const Rect& rect) 
   return params;
 }
 
-void UseReduced(const Prepared& prepared, int32_t shift, EngineState* engine) {
-  const ReducedField& field = prepared.reduced[shift];
-  SetPlanes(engine->config, *engine->kernels, field.views, &engine->row_store);
-  for (Window& window : engine->row_store.windows) {
-    window.disparity = {field.disparity.data, field.disparity.stride, 0, 0};
-  }
-  if (!prepared.covers) return;
-  engine->row_store.windows[0].given_coverage = {field.coverage.data, field.coverage.stride, 0, 0};
-}
-
 starfocus_status CheckPreview(const PreviewRequest& request, const EngineState& engine) {
   const starfocus_config& config = engine.config;
   Checker check(config.problem);
@@ -52,9 +42,11 @@ starfocus_status RefocusPreview(const PreviewRequest& request, const starfocus_i
   CheckOutputApart(out, rect.width, rect.height, MemoryOf(*engine, &request.prepared), &check);
   if (!check.passed()) return check.status();
   EngineState reduced = PreviewEngine(ReducedConfig(engine->config, request.shift), engine);
-  UseReduced(request.prepared, request.shift, &reduced);
+  const ReducedField& field = request.prepared.reduced[request.shift];
+  reduced.input = InputOf(reduced.config, *reduced.kernels, field.views, field.disparity,
+                          request.prepared.covers ? field.coverage : Plane<uint8_t>());
   const starfocus_params params = ReducedParams(request, rect);
-  return RunCall({params, {}, OutputOf(out, rect, reduced.images.odd_row)}, &reduced, report);
+  return RunCall({params, OutputOf(out, rect, reduced.odd_row)}, &reduced, report);
 }
 
 }  // namespace starfocus

@@ -4,7 +4,6 @@
 #include "lib/api/call.h"
 #include "lib/api/preview.h"
 #include "lib/api/validate.h"
-#include "lib/engine/light_field.h"
 #include "lib/io/rows.h"
 #include "starfocus/starfocus.h"
 
@@ -135,16 +134,12 @@ starfocus_status CheckRequest(const Request& request, const EngineState& engine)
 starfocus_status Refocus(const Request& request, EngineState* engine, starfocus_report* report) {
   const starfocus_status status = CheckRequest(request, *engine);
   if (status != STARFOCUS_OK) return status;
-  LightField field;
-  MakeLightField(request.light_field, 0, engine, &field);
-  UseLightField(field, engine);
-  Output out =
-      OutputOf(request.out, RegionOf(engine->config, request.params), engine->images.odd_row);
-  out.alpha = AlphaOf(field.views[0]);
-  out.alpha_step = field.views[0].step;
-  Call call = {request.params,   SourceOf(field),       out,
-               request.prepared, ComparableOf(request), &request.light_field};
-  if (request.prepared != nullptr) call.source.map = nullptr;
+  Input in = InputOf(engine->config, *engine->kernels, request.light_field, 0, &engine->rings);
+  engine->input = request.prepared == nullptr ? in : InputOf(*request.prepared, in);
+  Output out = OutputOf(request.out, RegionOf(engine->config, request.params), engine->odd_row);
+  out.alpha = AlphaOf(in.images[0]);
+  out.alpha_step = in.images[0].step;
+  const Call call = {request.params, out, ComparableOf(request), &request.light_field};
   return TellPlace(RunCall(call, engine, report), request.light_field.depth, 0,
                    engine->config.problem);
 }

@@ -4,9 +4,9 @@
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
 #include "lib/base/features.h"
+#include "lib/engine/driver.h"
 #include "lib/engine/jobs.h"
 #include "lib/engine/layout.h"
-#include "lib/engine/light_field.h"
 #include "lib/engine/stripe.h"
 #include "starfocus/starfocus.h"
 
@@ -74,18 +74,32 @@ void CheckPull(const EngineState& engine, const starfocus_image& out, int32_t ro
   CheckOutputApart(out, config.width, rows, MemoryOf(engine, nullptr), check);
 }
 
-// Copies up to `rows` rows of the source, `unit` (1 or 2) at a time, until all input rows of the
+// Copies `rows` of a light field to the rings, unless a value of the map is invalid.
+starfocus_status PushUnit(const Input& from, const Range& rows, EngineState* engine) {
+  uint64_t unknown = 0;
+  for (int32_t y = rows.first; y < rows.last; ++y) {
+    const uint32_t flags = ReadMap(from, {y, y + 1}, &engine->rings.disparity, &unknown);
+    const starfocus_status status = CheckFlags(flags, engine->config);
+    if (status != STARFOCUS_OK) return status;
+  }
+  CopyRows(from, rows, engine->rings);
+  engine->report.unknown_pixels += unknown;
+  return STARFOCUS_OK;
+}
+
+// Copies up to `rows` rows of a light field, `unit` (1 or 2) at a time, until all input rows of the
 // next stripe are stored. Adds the number of copied rows to *consumed.
-starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, EngineState* engine,
+starfocus_status PushRows(const Input& from, int32_t rows, int32_t unit, EngineState* engine,
                           int32_t* consumed) {
   Stream& stream = engine->stream;
-  const bool covers = source.coverage != nullptr;
+  const InputRings& rings = engine->rings;
+  const bool covers = from.given_coverage.data != nullptr;
   if (stream.pushed == 0) {
     stream.covers = covers;
-    const Plane<uint8_t>& ring = engine->stripe.coverage.given;
-    if (covers) {
-      engine->row_store.windows[0].given_coverage = {ring.data, ring.stride, ring.rows, 0};
-    }
+    Plane<uint8_t> views[kMaxViews];
+    for (int view = 0; view < engine->config.views; ++view) views[view] = rings.View(view);
+    engine->input = InputOf(engine->config, *engine->kernels, views, rings.disparity,
+                            covers ? rings.coverage : Plane<uint8_t>());
   }
   Checker check(engine->config.problem);
   check.Need(covers == stream.covers, STARFOCUS_ERROR_STATE, {"coverage"},
@@ -93,14 +107,8 @@ starfocus_status PushRows(const RowSource& source, int32_t rows, int32_t unit, E
   if (check.status() != STARFOCUS_OK) return check.status();
   while (*consumed < rows && stream.pushed < NeededRows(*engine)) {
     const int32_t some = Min(unit, rows - *consumed);
-    const starfocus_report report = engine->report;
-    // Copies either both rows of a pair or neither row.
-    for (int32_t k = 0; k < some; ++k) {
-      const starfocus_status status = CopyRow(source, stream.pushed + k, engine);
-      if (status == STARFOCUS_OK) continue;
-      engine->report = report;
-      return status;
-    }
+    const starfocus_status status = PushUnit(from, {stream.pushed, stream.pushed + some}, engine);
+    if (status != STARFOCUS_OK) return status;
     stream.pushed += some;
     *consumed += some;
   }
@@ -152,7 +160,6 @@ starfocus_status starfocus_stream_begin(starfocus_engine* engine, const starfocu
   e.stream = Stream();
   e.jobs->call_progress.Begin(0, e.config.height);
   if (check.Add(SetLens(full, &e)) != STARFOCUS_OK) return check.status();
-  SetPlanes(e.config, *e.kernels, e.rings, &e.row_store);
   e.stream.active = true;
   return STARFOCUS_OK;
 }
@@ -168,8 +175,7 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   CheckPush(e, *light_field, rows, &check);
   if (!check.passed()) return check.status();
-  LightField field;
-  MakeLightField(*light_field, e.stream.pushed, &e, &field);
+  const Input from = InputOf(e.config, *e.kernels, *light_field, e.stream.pushed, &e.rings);
   const int32_t unit = AnyYuv(e.config, *light_field) ? 2 : 1;
   starfocus_depth_map map = light_field->depth;
   int32_t first = 0;
@@ -177,7 +183,7 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
     first = e.stream.pushed;
     map.height = rows;
   }
-  const starfocus_status status = PushRows(SourceOf(field), rows, unit, &e, consumed);
+  const starfocus_status status = PushRows(from, rows, unit, &e, consumed);
   return TellPlace(status, map, first, &e.problem);
 }
 
@@ -194,8 +200,8 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   const int32_t most = Min(rows, left);
   CheckPull(e, *out, most, &check);
   if (!check.passed()) return check.status();
-  const Plane<uint8_t>& alpha = e.images.alpha;
-  Output output = OutputOf(*out, {0, first, e.config.width, left}, e.images.odd_row);
+  const Plane<uint8_t>& alpha = e.rings.alpha;
+  Output output = OutputOf(*out, {0, first, e.config.width, left}, e.odd_row);
   output.alpha = {alpha.data, alpha.stride, alpha.rows, 0};
   check.Add(PullRows(output, most, &e, written));
   if (check.passed() && report != nullptr) *report = e.report;

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

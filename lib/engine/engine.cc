@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "lib/engine/borders.h"
+
 namespace starfocus {
 namespace {
 
@@ -35,10 +37,9 @@ starfocus_status SetLens(const starfocus_params& params, EngineState* engine) {
   engine->report.r_max = engine->lens.r_max;
   engine->report.superblock = engine->config.superblock;
   DropCounts(engine);
-  engine->row_store.prepared = false;
   engine->stripe.changes.active = false;
   ForgetStripe(&engine->stripe);
-  ForgetLayers(engine->config, &engine->row_store);
+  ForgetLayers(engine->config, &engine->layers);
   return STARFOCUS_OK;
 }
 
@@ -59,6 +60,19 @@ void ForgetStripe(StripeState* stripe) {
   std::memset(stripe->map.layers, kNoLayer, static_cast<size_t>(stripe->map.columns));
   stripe->plan.all_measured = false;
   for (int32_t& done : stripe->coverage.done) done = -1;
+}
+
+void ForgetLayers(const starfocus_config& config, StripeLayers* layers) {
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
+    LayerPlane& plane = layers->planes[layer];
+    plane.width = LayerSize(config.width, layer);
+    plane.height = LayerSize(config.height, layer);
+    // The ring holds the largest number of rows that a stripe may read, so that rows of the
+    // previous stripe are kept.
+    plane.samples.rows = LayerRows(config, layer);
+    plane.rows = {0, 0};
+    std::memset(layers->needed[layer], 0, static_cast<size_t>(Columns(config)));
+  }
 }
 
 }  // namespace starfocus

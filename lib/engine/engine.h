@@ -8,10 +8,11 @@
 
 #include "lib/base/jobs.h"
 #include "lib/engine/lens.h"
-#include "lib/engine/row_store.h"
 #include "lib/engine/scratch.h"
 #include "lib/engine/stripe_state.h"
 #include "lib/engine/tables.h"
+#include "lib/io/input.h"
+#include "lib/io/layers.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
@@ -25,17 +26,6 @@ struct Stream {
   int32_t next = 0;      // First row of the next stripe.
   int32_t finished = 0;  // Number of output rows that no later stripe changes.
   int32_t written = 0;   // Number of output rows that the caller has pulled.
-};
-
-// Memory for the input and output of images, in addition to the ring for the rows of the centre
-// view.
-struct ImageMemory {
-  // Horizontal position in the depth map, for each column of the picture.
-  uint32_t* columns = nullptr;
-  // Width of the depth map for which `columns` was set; 0 if `columns` is not set yet.
-  int32_t map_width = 0;
-  uint8_t* odd_row = nullptr;  // Output row whose chroma is written together with the next row.
-  Plane<uint8_t> alpha;        // With streaming: ring of rows of the centre view's alpha.
 };
 
 struct EngineMemory;
@@ -56,8 +46,8 @@ struct EngineState {
   // Frees the memory of the engine. If the allocator's functions are null, the caller owns the
   // memory.
   starfocus_allocator allocator = {};
-  Plane<uint8_t> rings[kMaxViews];  // With streaming: pushed rows.
-  ImageMemory images;               // Used together with rings[0] for image formats.
+  InputRings rings;
+  uint8_t* odd_row = nullptr;  // With images: see Output::odd_row.
 
   // The following members are valid until the next call of starfocus_set_callbacks, like the runner
   // and the progress function in `jobs`.
@@ -67,7 +57,8 @@ struct EngineState {
 
   // The following members are valid for one refocusing.
   Lens lens;
-  RowStore row_store;
+  Input input;
+  StripeLayers layers;
   Stream stream;
   starfocus_report report;
 
@@ -86,6 +77,9 @@ void DropCounts(EngineState* engine);
 
 // Discards the state of the previous stripe, so that the next stripe reuses no data.
 void ForgetStripe(StripeState* stripe);
+
+// Discards the rows of the layers, which belong to another picture or are incomplete.
+void ForgetLayers(const starfocus_config& config, StripeLayers* layers);
 
 }  // namespace starfocus
 

@@ -82,38 +82,18 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   return scratch;
 }
 
-// Allocates the memory for images. `rows` is the number of rows in the ring of the centre view.
-void TakeImages(const starfocus_config& config, int32_t rows, Arena* arena, ImageMemory* images) {
-  *images = {};
-  if (!Has(config.features, STARFOCUS_FEATURE_IMAGES)) return;
-  const auto width = static_cast<size_t>(config.width);
-  images->columns = arena->Take<uint32_t>(width);
-  images->odd_row = arena->Take<uint8_t>(3 * width);
-  if (!Has(config.features, STARFOCUS_FEATURE_STREAMING)) return;
-  // The ring keeps the alpha of the previous stripe, because the last rows of the previous stripe
-  // are written together with the current stripe.
-  images->alpha = TakeRing<uint8_t>(width, rows + config.superblock + kDeblockRows, arena);
-}
-
 void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = Has(config.features, STARFOCUS_FEATURE_STREAMING);
   const Borders borders = LargestBorders(config);
   const int32_t rows = config.superblock + 2 * (streaming ? borders.streamed : borders.centre);
-  engine->row_store.disparity = TakeRing<int16_t>(width, rows, arena);
+  // The last rows of a stripe are written together with the next stripe.
+  TakeInput(config, rows, rows + config.superblock + kDeblockRows, arena, &engine->rings);
   engine->stripe.out =
       arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
   engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
-  if (streaming && HasCoverage(config)) {
-    engine->stripe.coverage.given = TakeRing<uint8_t>(width, rows, arena);
-  }
-  const int rings = streaming                                        ? config.views
-                    : Has(config.features, STARFOCUS_FEATURE_IMAGES) ? 1
-                                                                     : 0;
-  for (int view = 0; view < rings; ++view) {
-    engine->rings[view] = TakeRing<uint8_t>(3 * width, rows, arena);
-  }
-  TakeImages(config, rows, arena, &engine->images);
+  const bool images = Has(config.features, STARFOCUS_FEATURE_IMAGES);
+  engine->odd_row = images ? arena->Take<uint8_t>(3 * width) : nullptr;
 }
 
 // Allocates what does not depend on the size of the picture: pieces of memory that the pictures of
@@ -135,7 +115,7 @@ void TakeEngine(const starfocus_config& config, Arena* arena, EngineMemory* memo
 
 void TakePicture(const starfocus_config& config, Arena* arena, EngineState* engine) {
   TakeRows(config, arena, engine);
-  TakeLayers(config, arena, &engine->row_store);
+  TakeLayers(config, arena, &engine->layers);
   const Borders borders = LargestBorders(config);
   TakeCoverage(config, borders.parted, arena, &engine->stripe.coverage);
   TakePlan(config, arena, &engine->stripe);
@@ -178,7 +158,7 @@ size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
 
 EngineState PreviewEngine(const starfocus_config& config, EngineState* engine) {
   engine->stream.active = false;
-  engine->images.map_width = 0;
+  engine->rings.map_width = 0;
   EngineState preview = *engine;
   preview.config = config;
   Arena arena(engine->picture_memory);

@@ -27,17 +27,17 @@ starfocus_status MakeLayers(const Prepared& prepared, const PreparedStripe& stri
   // Layers extend beyond the picture (LayerSize) by fewer than kBeyond pixels of the picture.
   // PlaceLayers omits rows outside the layers.
   const starfocus_config& config = engine->config;
-  RowStore* const store = &engine->row_store;
+  StripeLayers* const store = &engine->layers;
   const int32_t most = config.tuning.max_layer;
   ForgetLayers(config, store);
   MarkLayerColumns(config, store);
   PlaceLayers({stripe.rows.first, stripe.is_last ? config.height + kBeyond : stripe.rows.last},
-              Borders(), store);
+              Borders(), engine);
   for (int layer = 1; layer <= most; ++layer) {
-    store->layers[layer].samples = prepared.layers[layer];
+    store->planes[layer].samples = prepared.layers[layer];
   }
-  LayerPlane& second = store->layers[2];
-  const LayerPlane& first = store->layers[1];
+  LayerPlane& second = store->planes[2];
+  const LayerPlane& first = store->planes[1];
   const starfocus_status status = FillLayers({1, 2}, nullptr, engine);
   // Row y of layer 2 depends on the rows of layer 1 before 2 * y + 4.
   *two = {two->last, stripe.is_last ? second.height : Max(two->last, first.rows.last / 2 - 1)};
@@ -47,11 +47,8 @@ starfocus_status MakeLayers(const Prepared& prepared, const PreparedStripe& stri
 }
 
 // Converts the map and computes the layers and reduced light fields into the planes of `prepared`.
-starfocus_status MakePlanes(const Prepared& prepared, const RowSource& source,
-                            EngineState* engine) {
-  LayerPlane own[STARFOCUS_LAYERS];
-  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer)
-    own[layer] = engine->row_store.layers[layer];
+starfocus_status MakePlanes(const Prepared& prepared, EngineState* engine) {
+  const StripeLayers own = engine->layers;
   const int32_t height = engine->config.height, side = engine->config.superblock;
   Range read = {0, 0}, two = {0, 0};
   starfocus_status status = STARFOCUS_OK;
@@ -59,7 +56,7 @@ starfocus_status MakePlanes(const Prepared& prepared, const RowSource& source,
     engine->jobs->call_progress.SetRows(y);
     // The filters of the layers read up to kBeyond rows below the rows that they process.
     read = {read.last, Min(height, y + side + kBeyond)};
-    status = LoadRows(source, read, prepared.disparity, engine);
+    status = ReadRows(read, &prepared.disparity, engine);
     if (status != STARFOCUS_OK) break;
     const Range rows = {y, Min(y + side, height)};
     status = MakeLayers(prepared, {rows, rows.last == height}, &two, engine);
@@ -67,9 +64,8 @@ starfocus_status MakePlanes(const Prepared& prepared, const RowSource& source,
     status =
         ReduceRows(prepared.disparity, rows, prepared.config.previews, prepared.reduced, engine);
   }
-  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer)
-    engine->row_store.layers[layer] = own[layer];
-  ForgetLayers(engine->config, &engine->row_store);
+  engine->layers = own;
+  ForgetLayers(engine->config, &engine->layers);
   return status;
 }
 
@@ -95,20 +91,19 @@ size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** pre
   return arena.Bytes();
 }
 
-starfocus_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
-                         Prepared** prepared) {
+starfocus_status Prepare(const PrepareCall& call, EngineState* engine, Prepared** prepared) {
   const int32_t height = engine->config.height;
   CallProgress& call_progress = engine->jobs->call_progress;
   engine->stream.active = false;
   call_progress.Begin(0, height);
-  starfocus_status status = CheckRows(source, {0, height}, engine);
+  starfocus_status status = ReadRows({0, height}, nullptr, engine);
   if (status != STARFOCUS_OK) return status;
   new (call.memory) Prepared();
   Prepared* made = nullptr;
   LayOutPrepared(engine->config, call.memory, &made);
   made->config = engine->config;
-  made->covers = engine->row_store.windows[0].given_coverage.data != nullptr;
-  status = MakePlanes(*made, source, engine);
+  made->covers = engine->input.given_coverage.data != nullptr;
+  status = MakePlanes(*made, engine);
   if (status != STARFOCUS_OK) return status;
   call_progress.SetRows(height);
   if (!call_progress.Ask()) return STARFOCUS_ERROR_CANCELLED;
@@ -128,14 +123,15 @@ Extent PreparedMemory(const Prepared& prepared) {
   return ExtentOf(&prepared, 0, 1, LayOutPrepared(prepared.config, nullptr, &counted));
 }
 
-void UsePrepared(const Prepared& prepared, EngineState* engine) {
-  const Plane<int16_t>& disparity = prepared.disparity;
-  for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
-    engine->row_store.windows[layer].disparity = {disparity.data, disparity.stride, 0, 0};
-    const Plane<int16_t>& plane = prepared.layers[layer];
-    if (layer > 0) engine->row_store.windows[layer].samples = {plane.data, plane.stride, 0, 0};
+Input InputOf(const Prepared& prepared, const Input& views) {
+  Input in = views;
+  in.map = {};
+  in.disparity = {prepared.disparity.data, prepared.disparity.stride, 0, 0};
+  for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
+    in.layers[layer] = {prepared.layers[layer].data, prepared.layers[layer].stride, 0, 0};
   }
-  engine->row_store.prepared = true;
+  in.has_layers = true;
+  return in;
 }
 
 }  // namespace starfocus

@@ -36,12 +36,11 @@ struct PrepareCall {
   size_t bytes;
 };
 
-// Prepares the light field that consists of the engine's views and the map of `source`. Checks and
-// converts the map, and computes the layers and reduced light fields stripe by stripe. The engine's
-// planes, except for the pixels, serve as scratch memory. On error *prepared is null. If a row of
-// the map is invalid, the memory is not changed.
-starfocus_status Prepare(const PrepareCall& call, const RowSource& source, EngineState* engine,
-                         Prepared** prepared);
+// Prepares the light field of the engine's input. Checks and converts the map, and computes the
+// layers and reduced light fields stripe by stripe. The engine's planes, except for the pixels,
+// serve as scratch memory. On error *prepared is null. If a row of the map is invalid, the memory
+// is not changed.
+starfocus_status Prepare(const PrepareCall& call, EngineState* engine, Prepared** prepared);
 
 // Returns true if an engine of `config` can refocus the prepared light field.
 bool Fits(const Prepared& prepared, const starfocus_config& config);
@@ -49,9 +48,9 @@ bool Fits(const Prepared& prepared, const starfocus_config& config);
 // Returns the address range of the prepared light field.
 Extent PreparedMemory(const Prepared& prepared);
 
-// Sets `prepared` as the source of the engine's disparities and layers. Before UsePrepared, the
-// caller must set the engine's views and lens.
-void UsePrepared(const Prepared& prepared, EngineState* engine);
+// Returns `views`, the pictures of a prepared light field, with its disparities and layers. The map
+// is not read again.
+Input InputOf(const Prepared& prepared, const Input& views);
 
 }  // namespace starfocus
 

@@ -33,14 +33,13 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
 // Reduces the columns `part` of a view to all sizes of previews. Returns false after cancellation.
 bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch* scratch) {
   const EngineState& engine = *job.engine;
-  const Window& window = engine.row_store.windows[0];
-  const simd::Encoding& encoding = window.transfer->encoding;
+  const simd::Encoding& encoding = engine.input.transfer->encoding;
   const size_t samples = 3 * static_cast<size_t>(part.width);
   int16_t* const light = scratch->picture_samples;
   int16_t* const mean = light + 6 * engine.config.superblock;
   for (int32_t y = job.rows.first; y < job.rows.last; ++y) {
     if (!scratch->cancel.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
-    window.reader.Light(view, part.x, y, part.width, light);
+    engine.input.Light(view, part.x, y, part.width, light);
     for (int shift = 1; shift <= job.previews; ++shift) {
       uint32_t* const sums = scratch->sums + 3 * shift * engine.config.superblock;
       const int32_t row = y & ((1 << shift) - 1);
@@ -90,7 +89,7 @@ bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch*
 // Reduces the columns `part` of the coverage to 1/2^shift of its size. Returns false after
 // cancellation.
 bool ReduceCoverage(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
-  const Plane<const uint8_t>& given = job.engine->row_store.windows[0].given_coverage;
+  const Plane<const uint8_t>& given = job.engine->input.given_coverage;
   const Plane<uint8_t>& coverage = job.fields[shift].coverage;
   if (given.data == nullptr || coverage.data == nullptr) return true;
   const int32_t side = 1 << shift;

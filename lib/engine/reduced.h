@@ -24,7 +24,7 @@ starfocus_config ReducedConfig(const starfocus_config& config, int shift);
 
 void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field);
 
-// Reduces rows [rows.first, rows.last) of the light field in the engine's windows to 1/2^shift of
+// Reduces rows [rows.first, rows.last) of the engine's input to 1/2^shift of
 // its size, for each shift from 1 to `previews`. Writes the results to fields[shift]. Reads
 // disparities from `disparity`. rows.first and rows.last must be multiples of the superblock size;
 // rows.last may also be the height of the picture.

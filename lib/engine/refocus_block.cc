@@ -18,7 +18,7 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
   return out.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x);
 }
 
-const simd::Encoding& EncodingOf(const BlockInputs& in) { return in.windows[0].transfer->encoding; }
+const simd::Encoding& EncodingOf(const BlockInputs& in) { return in.input->transfer->encoding; }
 
 void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Plane<uint8_t>& out,
                    const Scratch& scratch) {
@@ -72,10 +72,10 @@ void FinishLayer(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   }
 }
 
-void CopyCentre(const Window& window, const Rect& rect, const Plane<uint8_t>& out) {
+void CopyCentre(const Input& input, const Rect& rect, const Plane<uint8_t>& out) {
   for (int32_t row = 0; row < rect.height; ++row) {
     std::memcpy(At(out, rect, row),
-                window.centre.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x),
+                input.centre.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x),
                 3 * static_cast<size_t>(rect.width));
   }
 }
@@ -96,44 +96,21 @@ int SumBits(const BlockInputs& in, const RenderJob& job) {
   return in.lens->renderer->sum_bits(job.grid->aperture);
 }
 
-ExcessSum ExcessOf(const BlockInputs& in) {
-  return {in.kernels, in.windows[0].transfer,
-          ExcessFactor(static_cast<float>(in.config->highlights))};
+ExcessSum SumOf(const BlockInputs& in) {
+  return {in.kernels, in.input->transfer, ExcessFactor(static_cast<float>(in.config->highlights))};
 }
-
-// Window on pictures that contain only the excess: the light of highlights beyond white.
-class ExcessWindow {
- public:
-  ExcessWindow(const BlockInputs& in, Scratch* scratch)
-      : views_{in.windows[0].reader, in.config->width, in.config->height,
-               LargestLamp(in.config->width), scratch->lamp_runs},
-        window_(in.windows[0]) {
-    scratch->lamp_runs->Clear();
-    window_.light = window_.reader;
-    window_.reader = ReaderOf(views_);
-    window_.is_excess = true;
-  }
-  ExcessWindow(const ExcessWindow&) = delete;
-  ExcessWindow& operator=(const ExcessWindow&) = delete;
-
-  const Window& window() const { return window_; }
-
- private:
-  const ExcessViews views_;
-  Window window_;
-};
 
 // Renders the light of highlights beyond white and adds this light to the block. Returns the number
 // of samples of a view.
 uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>& out,
                       Scratch* scratch) {
-  const ExcessWindow excess(in, scratch);
-  job.window = &excess.window();
+  const Input excess = ExcessOf(*in.input, scratch->lamp_runs);
+  job.input = &excess;
   const uint64_t samples = RenderSums(in, job, scratch);
   if (!scratch->cancel.Spend(0)) return 0;
   const size_t row_samples = 3 * static_cast<size_t>(job.rect.width);
   for (int32_t row = 0; row < job.rect.height; ++row) {
-    AddExcess(ExcessOf(in), scratch->sums + static_cast<size_t>(row) * row_samples, row_samples,
+    AddExcess(SumOf(in), scratch->sums + static_cast<size_t>(row) * row_samples, row_samples,
               SumBits(in, job), At(out, job.rect, row));
   }
   return samples;
@@ -160,9 +137,9 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
                  Scratch* scratch) {
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
-  const GatherJob job = {&in.windows[block.layer], in.cells,    cells,
-                         in.lens->scale,           tables.psfs, LastGatherStep(*in.lens),
-                         tables.mean_square,       in.kernels,  &scratch->cancel};
+  const GatherJob job = {in.input,           in.cells,    cells,
+                         in.lens->scale,     tables.psfs, LastGatherStep(*in.lens),
+                         tables.mean_square, in.kernels,  &scratch->cancel};
   const Rect frame = LayerFrame(block.rect, block.layer);
   const size_t stride = block.layer == 0 ? out.stride : 3 * static_cast<size_t>(frame.width);
   scratch->counts.gathered_pixels +=
@@ -178,7 +155,7 @@ const Rect& ViewsRect(const Block& block) { return block.layer == 0 ? block.rend
 Rendered CopyBlock(const BlockInputs& in, const Rect& rect, const Plane<uint8_t>& out,
                    Scratch* scratch) {
   const uint64_t samples = Samples(rect);
-  CopyCentre(in.windows[0], rect, out);
+  CopyCentre(*in.input, rect, out);
   scratch->counts.copied_pixels += samples / 3;
   return {1, samples};
 }
@@ -189,9 +166,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const ViewGrid grid = ViewGridOf(in, block, scratch->aperture_weights);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;
-  const RenderJob job = {
-      &in.windows[block.layer], &grid,    in.kernels, block.rendered,   block.border,
-      &scratch->cancel,         gathered, lens.r_max, IsBenchmark(lens)};
+  const RenderJob job = {in.input,     block.layer,      &grid,    in.kernels, block.rendered,
+                         block.border, &scratch->cancel, gathered, lens.r_max, IsBenchmark(lens)};
   // If some cells of a block at layer 1 or 2 are blurred without views, GatherBlock upsamples the
   // whole block later.
   const bool in_part = block.layer > 0 && block.gathers;
@@ -203,14 +179,14 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
 
 void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                Scratch* scratch) {
-  const auto blur = [&](const Window& window, const ExcessSum& excess) {
-    const BlurJob job = {&window,    in.lens->scale,    in.tables->psfs, in.kernels,
+  const auto blur = [&](const Input& input, const ExcessSum& excess) {
+    const BlurJob job = {&input,     in.lens->scale,    in.tables->psfs, in.kernels,
                          block.rect, block.border.left, excess,          &scratch->cancel};
     BlurRectangle(job, scratch->field.rgb, scratch->sums, scratch->spans, At(out, block.rect, 0),
                   out.stride);
   };
-  blur(in.windows[0], {in.kernels, in.windows[0].transfer, 0});
-  if (block.has_highlights) blur(ExcessWindow(in, scratch).window(), ExcessOf(in));
+  blur(*in.input, {in.kernels, in.input->transfer, 0});
+  if (block.has_highlights) blur(ExcessOf(*in.input, scratch->lamp_runs), SumOf(in));
 }
 
 }  // namespace

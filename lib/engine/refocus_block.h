@@ -9,7 +9,7 @@
 #include "lib/engine/lens.h"
 #include "lib/engine/scratch.h"
 #include "lib/engine/tables.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/optics/view_grid.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
@@ -24,7 +24,7 @@ struct BlockInputs {
   const simd::Kernels* kernels;
   const Tables* tables;
   const Lens* lens;
-  const Window* windows;  // one window onto the pictures for each layer
+  const Input* input;
   const CellGrid* cells;
   const GatherMap* gathered;
   starfocus_clock clock;  // a null clock disables measuring the time of blocks

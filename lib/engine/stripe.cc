@@ -17,7 +17,7 @@ namespace {
 // kSmallestBlock finished rows.
 starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
   const starfocus_config& config = engine->config;
-  const Transfer* transfer = engine->row_store.windows[0].transfer;
+  const Transfer* transfer = engine->input.transfer;
   const DeblockJob job = {
       &engine->stripe.map,      out,      config.width,   config.height, stripe.y,
       config.tuning.deblocking, transfer, engine->kernels};
@@ -42,8 +42,8 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   const Lens& lens = engine->lens;
   starfocus_status status = FindCoverage(stripe, engine);
   if (status == STARFOCUS_OK) status = PlanStripe(stripe, engine);
-  if (status == STARFOCUS_OK && IsBlockMode(lens) && !engine->row_store.prepared) {
-    PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, &engine->row_store);
+  if (status == STARFOCUS_OK && IsBlockMode(lens) && !engine->input.has_layers) {
+    PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, engine);
     status = FillLayers(kAllLayers, nullptr, engine);
   }
   if (status != STARFOCUS_OK) return status;
@@ -80,7 +80,7 @@ void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
   engine->report = report;
   DropCounts(engine);
   engine->stripe.plan.all_measured = false;
-  ForgetLayers(engine->config, &engine->row_store);
+  ForgetLayers(engine->config, &engine->layers);
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ BlockInputs InputsOf(const EngineState& engine) {
           engine.kernels,
           engine.tables,
           &engine.lens,
-          engine.row_store.windows,
+          &engine.input,
           &engine.stripe.cells,
           &engine.stripe.plan.gathered,
           engine.clock};

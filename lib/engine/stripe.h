@@ -23,7 +23,7 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y);
 
 // Refocuses the part of the stripe at row y that affects the region of the lens, into BufferRows.
 // `y` must be a multiple of the superblock size, and stripes must be refocused in order. The
-// windows must contain all input rows within the borders of the stripe. After
+// input must contain all rows within the borders of the stripe. After
 // STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the rows are unspecified and the state of
 // the engine is restored, so that a stream can refocus the stripe again.
 starfocus_status RefocusStripe(EngineState* engine, int32_t y);

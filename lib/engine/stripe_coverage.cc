@@ -41,7 +41,7 @@ bool FindsCoverage(const EngineState& engine) {
 // job of a pass processes one column of superblocks.
 starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
-  const CoverageInput in = {engine->kernels, &engine->row_store.windows[0], &state.map};
+  const CoverageInput in = {engine->kernels, &engine->input, &state.map};
   const int32_t side = TilesOfSuperblock(engine->config);
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
     const int32_t ahead = TilesAhead(engine->config, pass);
@@ -95,9 +95,9 @@ void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
 starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
   const bool finds = FindsCoverage(*engine);
-  for (Window& window : engine->row_store.windows) window.coverage = finds ? &state.map : nullptr;
+  engine->input.coverage = finds ? &state.map : nullptr;
   if (!finds) return STARFOCUS_OK;
-  const bool given = engine->row_store.windows[0].given_coverage.data != nullptr;
+  const bool given = engine->input.given_coverage.data != nullptr;
   state.map.around = given ? kAroundGiven : 1;
   const int32_t border = engine->lens.borders.parted;
   const int32_t top = Max(0, stripe.y - border) / kCoverageTile;

@@ -10,10 +10,9 @@ namespace {
 // layer.
 void DownsampleColumn(const EngineState& engine, const LayerPlane* layer_one, int32_t layer,
                       int32_t index, const ResampleScratch& scratch) {
-  const RowStore& row_store = engine.row_store;
-  const int need = row_store.needed[layer][index];
+  const int need = engine.layers.needed[layer][index];
   if ((need & kNeeded) == 0) return;
-  LayerPlane missing = row_store.layers[layer];
+  LayerPlane missing = engine.layers.planes[layer];
   if ((need & kNeededBefore) != 0) missing.rows.first = missing.known;
   if (missing.rows.first == missing.rows.last) return;
   const int32_t side = engine.config.superblock >> layer, begin = index * side;
@@ -22,7 +21,7 @@ void DownsampleColumn(const EngineState& engine, const LayerPlane* layer_one, in
   if (layer_one != nullptr) {
     DownsampleLayer(*engine.kernels, *layer_one, {begin, end}, scratch, missing);
   } else {
-    DownsamplePicture(*engine.kernels, row_store.windows[0], layer, {begin, end}, scratch, missing);
+    DownsamplePicture(*engine.kernels, engine.input, layer, {begin, end}, scratch, missing);
   }
 }
 
@@ -48,35 +47,34 @@ void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch*
   resample->above = arena->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
 }
 
-void TakeLayers(const starfocus_config& config, Arena* arena, RowStore* row_store) {
+void TakeLayers(const starfocus_config& config, Arena* arena, StripeLayers* layers) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
-    row_store->layers[layer].samples =
-        TakePlane<int16_t>(3 * width, LayerRows(config, layer), arena);
+    layers->planes[layer].samples = TakePlane<int16_t>(3 * width, LayerRows(config, layer), arena);
   }
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
-    row_store->needed[layer] = arena->Take<uint8_t>(static_cast<size_t>(Columns(config)));
+    layers->needed[layer] = arena->Take<uint8_t>(static_cast<size_t>(Columns(config)));
   }
 }
 
-void ClearLayerColumns(const starfocus_config& config, RowStore* row_store) {
+void ClearLayerColumns(const starfocus_config& config, StripeLayers* layers) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
-      uint8_t& need = row_store->needed[layer][column];
+      uint8_t& need = layers->needed[layer][column];
       need = (need & kNeeded) != 0 ? kNeededBefore : 0;
     }
   }
 }
 
-void MarkLayerColumns(const starfocus_config& config, RowStore* row_store) {
+void MarkLayerColumns(const starfocus_config& config, StripeLayers* layers) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
-      row_store->needed[layer][column] |= kNeeded;
+      layers->needed[layer][column] |= kNeeded;
     }
   }
 }
 
-void MarkLayerColumns(const starfocus_config& config, const Block& block, RowStore* row_store) {
+void MarkLayerColumns(const starfocus_config& config, const Block& block, StripeLayers* layers) {
   if (block.layer == 0) return;
   const int32_t side = config.superblock, scale = 1 << block.layer;
   int32_t left = block.rendered.x - block.border.left;
@@ -89,13 +87,13 @@ void MarkLayerColumns(const starfocus_config& config, const Block& block, RowSto
   const int32_t first = Max(0, left * scale / side);
   const int32_t last = Min(Columns(config) - 1, right * scale / side);
   for (int32_t column = first; column <= last; ++column) {
-    row_store->needed[block.layer][column] |= kNeeded;
+    layers->needed[block.layer][column] |= kNeeded;
   }
 }
 
-void PlaceLayers(const Range& of_picture, const Borders& borders, RowStore* row_store) {
+void PlaceLayers(const Range& of_picture, const Borders& borders, EngineState* engine) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
-    LayerPlane& plane = row_store->layers[layer];
+    LayerPlane& plane = engine->layers.planes[layer];
     const int32_t beyond = borders.layer[layer];
     const int32_t last = (of_picture.last + (1 << layer) - 1) >> layer;
     const Range inside = {Max(0, (of_picture.first >> layer) - beyond),
@@ -104,8 +102,8 @@ void PlaceLayers(const Range& of_picture, const Borders& borders, RowStore* row_
     plane.known = kept ? Clamp(plane.rows.last, inside.first, inside.last) : inside.first;
     plane.rows = inside;
     plane.samples.first = plane.rows.first;
-    row_store->windows[layer].samples = {plane.samples.data, plane.samples.stride,
-                                         plane.samples.rows, plane.samples.first};
+    engine->input.layers[layer] = {plane.samples.data, plane.samples.stride, plane.samples.rows,
+                                   plane.samples.first};
   }
 }
 
@@ -113,7 +111,7 @@ starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, En
   const int32_t columns = Columns(engine->config);
   bool any = false;
   for (int32_t layer = layers.first; layer < layers.last; ++layer) {
-    any = any || AnyColumn(engine->row_store.needed[layer], columns);
+    any = any || AnyColumn(engine->layers.needed[layer], columns);
   }
   if (!any) return STARFOCUS_OK;
   return ForEach(columns, engine->jobs, [&](int32_t column, int32_t worker) {

@@ -14,21 +14,21 @@ namespace starfocus {
 void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample);
 
 // Allocates the planes of layers 1 and 2 around a stripe, and the marks of their columns.
-void TakeLayers(const starfocus_config& config, Arena* arena, RowStore* row_store);
+void TakeLayers(const starfocus_config& config, Arena* arena, StripeLayers* layers);
 
 // Clears the marks of the columns to subsample, for a new stripe. Keeps the old marks as the marks
 // of the previous stripe.
-void ClearLayerColumns(const starfocus_config& config, RowStore* row_store);
+void ClearLayerColumns(const starfocus_config& config, StripeLayers* layers);
 
 // Marks all columns of all layers that the engine may use.
-void MarkLayerColumns(const starfocus_config& config, RowStore* row_store);
+void MarkLayerColumns(const starfocus_config& config, StripeLayers* layers);
 
 // Marks the columns of superblocks that `block` reads.
-void MarkLayerColumns(const starfocus_config& config, const Block& block, RowStore* row_store);
+void MarkLayerColumns(const starfocus_config& config, const Block& block, StripeLayers* layers);
 
-// Moves the layers and their windows to the rows `of_picture` of the picture, extended by
-// `borders`. Rows of the layers that were computed for the previous stripe are kept.
-void PlaceLayers(const Range& of_picture, const Borders& borders, RowStore* row_store);
+// Moves the layers, also of the engine's input, to the rows `of_picture` of the picture, extended
+// by `borders`. Rows of the layers that were computed for the previous stripe are kept.
+void PlaceLayers(const Range& of_picture, const Borders& borders, EngineState* engine);
 
 // All layers that FillLayers computes.
 inline constexpr Range kAllLayers = {1, STARFOCUS_LAYERS};

@@ -27,12 +27,11 @@ int32_t LargestSide(const EngineState& engine) {
 // a lamp covers the whole area within reach.
 bool HasHighlights(const EngineState& engine, const Rect& rect) {
   if (!(engine.config.highlights > 1)) return false;
-  const Window& window = engine.row_store.windows[0];
   const int32_t around = engine.lens.borders.highlights;
   const Rect near = Extended(rect, {around, around, around, around});
-  if (!MayHaveHighlights(window, near)) return false;
+  if (!MayHaveHighlights(engine.input, near)) return false;
   const int32_t lamp = LampReach(LargestLamp(engine.config.width));
-  return !AreAllHighlights(window, Extended(near, {lamp, lamp, lamp, lamp}));
+  return !AreAllHighlights(engine.input, Extended(near, {lamp, lamp, lamp, lamp}));
 }
 
 Block WholeBlock(const EngineState& engine, const Rect& rect) {
@@ -165,17 +164,17 @@ void ReportBlock(const Block& block, EngineState* engine) {
 // from these blocks.
 void ReadPlan(const Stripe& stripe, EngineState* engine) {
   const starfocus_config& config = engine->config;
-  RowStore& row_store = engine->row_store;
+  StripeLayers& layers = engine->layers;
   StripePlan& plan = engine->stripe.plan;
   plan.used = 0;
   ClearMap(stripe, &engine->stripe.map);
-  ClearLayerColumns(config, &row_store);
+  ClearLayerColumns(config, &layers);
   for (int32_t column = 0; column < plan.columns; ++column) {
     const Block* const planned = plan.BlocksOf(column);
     for (int32_t k = 0; k < plan.counts[column]; ++k) {
       if (!IsInRegion(*engine, planned[k].rect) || !IsNew(*engine, planned[k].rect)) continue;
       const Block& block = plan.blocks[plan.used++] = planned[k];
-      MarkLayerColumns(config, block, &row_store);
+      MarkLayerColumns(config, block, &layers);
       MapBlock(stripe, block, engine->stripe.map);
       ReportBlock(block, engine);
     }
@@ -238,7 +237,7 @@ starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
       const int32_t per_block = plan.side / kCellSize, first = column * per_block;
       const int32_t last = Min(first + per_block, cells.columns);
       for (int32_t row = first_row; row < cells.last_row; ++row) {
-        MeasureCells(*engine->kernels, engine->row_store.windows[0], lens.scale, row, {first, last},
+        MeasureCells(*engine->kernels, engine->input, lens.scale, row, {first, last},
                      cells.At(first, row));
       }
     };

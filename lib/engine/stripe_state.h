@@ -40,7 +40,6 @@ struct StripePlan {
 // Coverage map, and the first row of tiles that each pass has not processed yet. The entry in
 // `done` is negative if the pass has not processed any row.
 struct CoverageState {
-  Plane<uint8_t> given;  // with streaming: ring of the coverage of the light field
   CoverageMap map;
   int32_t done[kCoveragePasses];
 };

@@ -12,13 +12,13 @@ namespace {
 // the picture.
 void LoadPixels(const BlurJob& job, int16_t* rgb) {
   const int32_t width = job.rect.width + 2 * job.border;
-  const Window& window = *job.window;
+  const Input& input = *job.input;
   for (int32_t row = 0; row < job.rect.height + 2 * job.border; ++row) {
-    const int32_t y = Clamp(job.rect.y - job.border + row, 0, window.height - 1);
+    const int32_t y = Clamp(job.rect.y - job.border + row, 0, input.height - 1);
     int16_t* to = rgb + 3 * static_cast<size_t>(row) * width;
     const int32_t left = job.rect.x - job.border;
-    const int32_t first = Clamp(-left, 0, width), last = Clamp(window.width - left, 0, width);
-    LoadLight(window, left + first, y, last - first, to + 3 * first);
+    const int32_t first = Clamp(-left, 0, width), last = Clamp(input.width - left, 0, width);
+    LoadLight(input, 0, left + first, y, last - first, to + 3 * first);
     for (int32_t k = 0; k < 3 * first; ++k) to[k] = to[3 * first + k % 3];
     for (int32_t k = 3 * last; k < 3 * width; ++k) to[k] = to[k - 3];
   }
@@ -65,7 +65,7 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
   SpanList list(*job.kernels, spans, accumulators);
   const bool turns = job.psfs_of_radius[0].full;
   for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
-    const int16_t* disparity = job.window->disparity.Row(rect.y + y) + rect.x;
+    const int16_t* disparity = job.input->disparity.Row(rect.y + y) + rect.x;
     const int16_t* row =
         rgb + static_cast<size_t>(y + job.border) * stride + 3 * static_cast<size_t>(job.border);
     const auto step_at = [&](int32_t x) {
@@ -91,7 +91,7 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
         AddExcess(job.excess, accumulators, samples, bits, out + 3 * begin);
         continue;
       }
-      job.kernels->Finish(accumulators, samples, bits, job.window->transfer->encoding,
+      job.kernels->Finish(accumulators, samples, bits, job.input->transfer->encoding,
                           out + 3 * begin);
     }
   }

@@ -11,7 +11,7 @@
 #include "lib/base/jobs.h"
 #include "lib/gather/span_list.h"
 #include "lib/io/add_excess.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/optics/psf.h"
 #include "lib/plan/cells.h"
 #include "simd/kernels.h"
@@ -19,13 +19,13 @@
 namespace starfocus {
 
 struct BlurJob {
-  const Window* window;
+  const Input* input;
   BlurScale scale;
   const Psf* psfs_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
   int32_t border;    // Largest Psf::size in the picture, in pixels.
-  ExcessSum excess;  // If excess.factor > 0, BlurRectangle adds the excess of the window to `out`.
+  ExcessSum excess;  // If excess.factor > 0, BlurRectangle adds the excess of the input to `out`.
   CancelToken* cancel;  // Cancels the call; `out` is incomplete after cancellation.
 };
 

@@ -130,7 +130,7 @@ class Gather {
       }
     }
     loaded_ = job_.cells.BoundsOf(true);
-    LoadBlock(*job_.window, loaded_, {border_, border_, border_, border_}, field_);
+    LoadBlock(*job_.input, job_.cells.layer, loaded_, {border_, border_, border_, border_}, field_);
   }
 
   void Filter() {
@@ -211,7 +211,7 @@ class Gather {
     const simd::SampleRows in = RowsOf(part);
     const simd::Disc disc = DiscOf(psf);
     if (job_.cells.layer == 0) {
-      job_.kernels->FilterDisc(in, disc, job_.window->transfer->encoding, codes_ + FirstOut(part),
+      job_.kernels->FilterDisc(in, disc, job_.input->transfer->encoding, codes_ + FirstOut(part),
                                stride_);
     } else {
       job_.kernels->FilterDiscLayer(in, disc, samples_ + FirstOut(part), stride_);
@@ -289,7 +289,7 @@ class Gather {
       if (job_.cells.layer > 0) {
         std::memcpy(samples_ + at, moved, count * sizeof(*moved));
       } else {
-        job_.kernels->Narrow(moved, count, job_.window->transfer->encoding, codes_ + at);
+        job_.kernels->Narrow(moved, count, job_.input->transfer->encoding, codes_ + at);
       }
       at += stride_;
       moved += kCell;

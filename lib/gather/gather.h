@@ -66,7 +66,7 @@ class Slope {
 static_assert(kMaxGather <= simd::kMaxDisc, "");
 
 struct GatherJob {
-  const Window* window;  // window at the layer of the cells
+  const Input* input;
   const CellGrid* grid;
   BlockCells cells;  // cells of a block whose coordinates are multiples of kCellSize
   BlurScale scale;

@@ -25,6 +25,7 @@ void TransposePixels(const BlockPixels& from, BlockPixels* to) {
 
 void TransposeDisparity(const BlockPixels& from, BlockPixels* to) {
   to->transposed = !from.transposed;
+  to->layer = from.layer;
   to->width = from.height;
   to->height = from.width;
   to->x = from.y;
@@ -73,11 +74,11 @@ namespace {
 struct InsidePart {
   int32_t left, right, top, bottom;
 
-  InsidePart(const Window& window, const Rect& rect)
+  InsidePart(const Input& input, int layer, const Rect& rect)
       : left(Clamp(-rect.x, 0, rect.width)),
-        right(Clamp(Inside(window.picture_width, window.layer) - rect.x, 0, rect.width)),
+        right(Clamp(Inside(input.width, layer) - rect.x, 0, rect.width)),
         top(Clamp(-rect.y, 0, rect.height)),
-        bottom(Clamp(Inside(window.picture_height, window.layer) - rect.y, 0, rect.height)) {}
+        bottom(Clamp(Inside(input.height, layer) - rect.y, 0, rect.height)) {}
 
   // Returns the number of pixels of the layer for `size` pixels of the picture. A stored layer has
   // more pixels (LayerSize).
@@ -102,12 +103,12 @@ struct ShiftedPlace {
 // Fills the pixels of a field beyond the edges of the picture.
 class Beyond {
  public:
-  Beyond(const Window& window, BlockPixels* field)
-      : window_(window), field_(*field), rect_{field->x, field->y, field->width, field->height} {}
+  Beyond(const Input& input, BlockPixels* field)
+      : input_(input), field_(*field), rect_{field->x, field->y, field->width, field->height} {}
 
   void Look() {
     const int32_t width = rect_.width, height = rect_.height;
-    const InsidePart part(window_, rect_);
+    const InsidePart part(input_, field_.layer, rect_);
     const bool inside = part.right - part.left == width && part.bottom - part.top == height;
     if (inside) return;  // most fields lie inside the picture
     for (int32_t row = part.top; row < part.bottom; ++row) {
@@ -122,7 +123,7 @@ class Beyond {
 
  private:
   int32_t DisparityAt(int32_t x, int32_t y) const {
-    return window_.disparity.Row(y << window_.layer)[x << window_.layer];
+    return input_.disparity.Row(y << field_.layer)[x << field_.layer];
   }
 
   void LookOver(const EdgePixel& edge) {
@@ -131,7 +132,7 @@ class Beyond {
     // Views on the side of the picture's edge show how surfaces of positive disparity continue.
     // Views on the opposite side show how other surfaces continue.
     const OcclusionView& look =
-        window_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
+        input_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
     if (look.view == 0) return;
     const ShiftedPlace moved = {Moved(look.at.u, disparity), Moved(look.at.v, disparity)};
     const int32_t along = edge.out()[0] != 0 ? moved.x : moved.y;
@@ -146,7 +147,7 @@ class Beyond {
   // `position`, in pixels of the layer, kShiftBits.
   int32_t Moved(int32_t position, int32_t disparity) const {
     return ScaledByView(position, disparity,
-                        kViewBits + kDisparityBits - kShiftBits + window_.layer);
+                        kViewBits + kDisparityBits - kShiftBits + field_.layer);
   }
 
   // Returns how many of the `seen` pixels beyond the edge precede the first covered pixel. A pixel
@@ -155,10 +156,10 @@ class Beyond {
   // nearer surfaces farther away.
   int32_t Uncovered(const EdgePixel& edge, const OcclusionView& look, int32_t disparity,
                     int32_t seen) const {
-    const int layer = window_.layer;
+    const int layer = field_.layer;
     const int32_t unit = int32_t{1} << (kDisparityBits + layer);
-    const int32_t width = InsidePart::Inside(window_.picture_width, layer);
-    const int32_t height = InsidePart::Inside(window_.picture_height, layer);
+    const int32_t width = InsidePart::Inside(input_.width, layer);
+    const int32_t height = InsidePart::Inside(input_.height, layer);
     const int8_t* const out = edge.out();
     const int32_t position = out[0] != 0 ? Abs(look.at.u) : Abs(look.at.v);
     const int32_t room = Min(kLookBack >> layer, out[0] != 0 ? width : height);
@@ -183,7 +184,7 @@ class Beyond {
       const int32_t count = Min(kAtOnce, seen + 1 - first);
       const int32_t x = (rect_.x + edge.column + first * dx) * kShiftOne - moved.x;
       const int32_t y = (rect_.y + edge.row + first * dy) * kShiftOne - moved.y;
-      ReadCaptured(window_, look.view, {x, y, dx, dy}, count, rgb);
+      ReadCaptured(input_, field_.layer, look.view, {x, y, dx, dy}, count, rgb);
       for (int32_t k = 0; k < count; ++k) std::memcpy(Rgb(edge, first + k), rgb + 3 * k, kBytes);
     }
   }
@@ -202,15 +203,15 @@ class Beyond {
 
   static constexpr size_t kBytes = 3 * sizeof(int16_t);  // bytes of one pixel
 
-  const Window& window_;
+  const Input& input_;
   const BlockPixels& field_;
   const Rect rect_;
 };
 
 }  // namespace
 
-void ExtendEdges(const Window& window, BlockPixels* field) {
-  if (window.views > 1) Beyond(window, field).Look();
+void ExtendEdges(const Input& input, BlockPixels* field) {
+  if (input.views > 1) Beyond(input, field).Look();
 }
 
 namespace {
@@ -242,13 +243,13 @@ void CopyEvery(const int16_t* from, int32_t count, int16_t* to) {
 
 // Copies the disparities of `count` pixels of the layer from column x on. The last column of a
 // layer may lie outside the picture.
-void CopyDisparity(const Window& window, const int16_t* row, int32_t x, int32_t count,
+void CopyDisparity(const Input& input, int layer, const int16_t* row, int32_t x, int32_t count,
                    int16_t* disparity) {
-  const int32_t column = x * (1 << window.layer), last = window.picture_width - 1;
-  const int32_t inside = Clamp((last >> window.layer) + 1 - x, 0, count);
-  if (window.layer == 0) {
+  const int32_t column = x * (1 << layer), last = input.width - 1;
+  const int32_t inside = Clamp((last >> layer) + 1 - x, 0, count);
+  if (layer == 0) {
     std::memcpy(disparity, row + x, sizeof(*disparity) * static_cast<size_t>(inside));
-  } else if (window.layer == 1) {
+  } else if (layer == 1) {
     CopyEvery<1>(row + column, inside, disparity);
   } else {
     CopyEvery<2>(row + column, inside, disparity);
@@ -258,37 +259,39 @@ void CopyDisparity(const Window& window, const int16_t* row, int32_t x, int32_t 
 
 }  // namespace
 
-void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
-  if (window.layer == 0) {
-    if (count > 0) window.reader.Light(0, x, y, count, rgb);
+void LoadLight(const Input& input, int layer, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
+  if (layer == 0) {
+    if (count > 0) input.Light(0, x, y, count, rgb);
     return;
   }
-  const int16_t* from = window.samples.Row(y) + 3 * x;
+  const int16_t* from = input.layers[layer].Row(y) + 3 * x;
   for (int32_t k = 0; k < 3 * count; ++k) {
     rgb[k] = static_cast<int16_t>(from[k] << (kLightBits - simd::kLayerBits));
   }
 }
 
-void LoadBlock(const Window& window, const Rect& rect, const Border& border, BlockPixels* field) {
+void LoadBlock(const Input& input, int layer, const Rect& rect, const Border& border,
+               BlockPixels* field) {
   field->transposed = false;
+  field->layer = layer;
   field->width = border.left + rect.width + border.right;
   field->height = border.top + rect.height + border.bottom;
   field->x = rect.x - border.left;
   field->y = rect.y - border.top;
   field->inner = {border.left, border.top, rect.width, rect.height};
   const int32_t first = Clamp(-field->x, 0, field->width);
-  const int32_t last = Clamp(window.width - field->x, 0, field->width);  // exclusive
+  const int32_t last = Clamp(input.Width(layer) - field->x, 0, field->width);  // exclusive
+  const int32_t bottom = input.Height(layer) - 1;
   for (int32_t row = 0; row < field->height; ++row) {
-    const int32_t y = Clamp(field->y + row, 0, window.height - 1);
+    const int32_t y = Clamp(field->y + row, 0, bottom);
     int16_t* rgb = field->Rgb(0, row);
     int16_t* disparity = field->Disparity(0, row);
-    const int16_t* from_disparity =
-        window.disparity.Row(Min(y << window.layer, window.picture_height - 1));
-    LoadLight(window, field->x + first, y, last - first, rgb + 3 * first);
-    CopyDisparity(window, from_disparity, field->x + first, last - first, disparity + first);
+    const int16_t* from_disparity = input.disparity.Row(Min(y << layer, input.height - 1));
+    LoadLight(input, layer, field->x + first, y, last - first, rgb + 3 * first);
+    CopyDisparity(input, layer, from_disparity, field->x + first, last - first, disparity + first);
     RepeatEdges(first, last, field->width, rgb, disparity);
   }
-  ExtendEdges(window, field);
+  ExtendEdges(input, field);
 }
 
 }  // namespace starfocus

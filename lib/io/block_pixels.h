@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 
 namespace starfocus {
 
@@ -29,7 +29,8 @@ void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t column
 struct BlockPixels {
   bool transposed = false;
   int32_t width = 0, height = 0;  // Size of the extended rectangle.
-  int32_t x = 0, y = 0;           // Position of pixel (0, 0) in the picture.
+  int layer = 0;                  // Layer L of the pixels.
+  int32_t x = 0, y = 0;           // Position of pixel (0, 0) in the layer.
   Rect inner = {0, 0, 0, 0};      // The rectangle without its border, in pixels of the field.
   int16_t* rgb = nullptr;         // Light: rows of RgbStride(width) samples.
   int16_t* disparity = nullptr;   // Rows of `width` samples, kDisparityBits.
@@ -83,18 +84,17 @@ inline constexpr int32_t kLookBack = 32;
 // surface ends earlier if a nearer surface covers the continued surface in the captured view.
 // Pixels farther outside repeat the colour of the last continued pixel. Pixels beyond corners, and
 // fields of light fields without side views, are not changed.
-void ExtendEdges(const Window& window, BlockPixels* field);
+void ExtendEdges(const Input& input, BlockPixels* field);
 
-// Copies pixels from a window to the field of a block.
+// Writes the light of `count` pixels of a layer of the centre view. The pixels start at (x, y) and
+// must be inside the layer.
+void LoadLight(const Input& input, int layer, int32_t x, int32_t y, int32_t count, int16_t* rgb);
 
-// Writes the light of `count` pixels of the centre view, or the excess of these pixels if
-// window.is_excess. The pixels start at (x, y) of the layer and must be inside the picture.
-void LoadLight(const Window& window, int32_t x, int32_t y, int32_t count, int16_t* rgb);
-
-// Copies `rect` and its border from the window to field->rgb and field->disparity, which must be
-// set. Each sample of the centre view is decoded once for all views of the aperture. Pixels outside
-// the picture repeat its edge, or contain the content of side views (picture_edge.h).
-void LoadBlock(const Window& window, const Rect& rect, const Border& border, BlockPixels* field);
+// Copies `rect` of a layer and its border to field->rgb and field->disparity, which must be set.
+// Each sample of the centre view is decoded once for all views of the aperture. Pixels outside the
+// picture repeat its edge, or contain the content of side views (ExtendEdges).
+void LoadBlock(const Input& input, int layer, const Rect& rect, const Border& border,
+               BlockPixels* field);
 
 }  // namespace starfocus
 

@@ -10,29 +10,29 @@ namespace {
 
 constexpr int32_t kSteps = 255 - kFirstExcess + 1;
 
-int32_t ExcessOf(uint8_t code) {
+int32_t ExcessOfCode(uint8_t code) {
   const int32_t step = Max(0, code - kFirstExcess + 1);
   return kLightWhite * step * step / (kSteps * kSteps);
 }
 
 // A row or a column of a captured view.
 struct ViewLine {
-  const ExcessViews& of;
+  const Input& in;
   int view;
   bool is_row;
   int32_t index;
 
-  int32_t Size() const { return is_row ? of.width : of.height; }
+  int32_t Size() const { return is_row ? in.width : in.height; }
   bool HasHighlight(int32_t at) const {
     uint8_t room[3];
-    return IsHighlight(of.views.Codes(view, is_row ? at : index, is_row ? index : at, 1, room));
+    return IsHighlight(in.Codes(view, is_row ? at : index, is_row ? index : at, 1, room));
   }
 };
 
 // Counts the consecutive highlights around `at`, which must be a highlight. The length of a run is
 // at most LampReach. Runs that reach the edge of the picture have the length LampReach.
 LampRun CountRun(const ViewLine& line, int32_t at) {
-  const int32_t most = LampReach(line.of.lamp), size = line.Size();
+  const int32_t most = LampReach(LargestLamp(line.in.width)), size = line.Size();
   int32_t first = at, last = at;
   while (last - first + 1 < most && last + 1 < size && line.HasHighlight(last + 1)) ++last;
   const bool ends = last + 1 < size;
@@ -45,7 +45,7 @@ LampRun CountRun(const ViewLine& line, int32_t at) {
 
 // Returns the length of the run of highlights that contains `at`.
 int32_t RunThrough(const ViewLine& line, int32_t at) {
-  LampRun* const runs = line.is_row ? line.of.runs->along : line.of.runs->down;
+  LampRun* const runs = line.is_row ? line.in.runs->along : line.in.runs->down;
   const int32_t span = at >> LampRuns::kSpanBits;
   LampRun& run = runs[(line.index + 127 * span + 331 * line.view) & (LampRuns::kCount - 1)];
   const bool known =
@@ -61,30 +61,62 @@ int32_t RunThrough(const ViewLine& line, int32_t at) {
 }
 
 // Writes the excess of a pixel with the given codes.
-void ReadPixel(const ExcessViews& of, int view, int32_t x, int32_t y, const uint8_t* codes,
+void ReadPixel(const Input& in, int view, int32_t x, int32_t y, const uint8_t* codes,
                int16_t* rgb) {
   rgb[0] = rgb[1] = rgb[2] = 0;
   if (!IsHighlight(codes)) return;
-  int32_t run = RunThrough({of, view, true, y}, x);
-  if (run > of.lamp) run = Min(run, RunThrough({of, view, false, x}, y));
-  const int32_t share = Clamp(LampReach(of.lamp) - run, 0, of.lamp);
+  const int32_t lamp = LargestLamp(in.width);
+  int32_t run = RunThrough({in, view, true, y}, x);
+  if (run > lamp) run = Min(run, RunThrough({in, view, false, x}, y));
+  const int32_t share = Clamp(LampReach(lamp) - run, 0, lamp);
   if (share == 0) return;
   for (int c = 0; c < 3; ++c) {
-    rgb[c] = static_cast<int16_t>(ExcessOf(codes[c]) * share / of.lamp);
+    rgb[c] = static_cast<int16_t>(ExcessOfCode(codes[c]) * share / lamp);
   }
 }
 
-void ReadExcess(const void* self, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
-  const auto& of = *static_cast<const ExcessViews*>(self);
+void ReadExcess(const Input& in, int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) {
   for (int32_t p = 0; p < count; ++p) {
     uint8_t room[3];
-    ReadPixel(of, view, x + p, y, of.views.Codes(view, x + p, y, 1, room), rgb + 3 * p);
+    ReadPixel(in, view, x + p, y, in.Codes(view, x + p, y, 1, room), rgb + 3 * p);
   }
 }
 
-const uint8_t* CapturedCodes(const void* self, int view, int32_t x, int32_t y, int32_t count,
-                             uint8_t* room) {
-  return static_cast<const ExcessViews*>(self)->views.Codes(view, x, y, count, room);
+bool IsBright(const uint8_t* codes, int32_t pixels) {
+  uint8_t brightest = 0;
+  for (int32_t k = 0; k < 3 * pixels; ++k) brightest = codes[k] > brightest ? codes[k] : brightest;
+  return brightest >= kFirstExcess;
+}
+
+// Returns true if at least one of the pixels is not a highlight.
+bool HasOthers(const uint8_t* codes, int32_t pixels) {
+  uint8_t least = 255;
+  for (int32_t n = 0; n < 3 * pixels; ++n) least = codes[n] < least ? codes[n] : least;
+  if (least >= kFirstExcess) return false;
+  for (int32_t p = 0; p < pixels; ++p) {
+    if (!IsHighlight(codes + 3 * p)) return true;
+  }
+  return false;
+}
+
+// Returns true if test(codes, pixels) is true for any piece of a row of any view in `rect`. The
+// part of `rect` outside the picture is ignored.
+bool AnyPiece(const Input& in, const Rect& rect, bool (*test)(const uint8_t*, int32_t)) {
+  constexpr int32_t kPiece = 1024;
+  const int32_t left = Clamp(rect.x, 0, in.width - 1);
+  const int32_t right = Clamp(rect.x + rect.width, left + 1, in.width);
+  const int32_t top = Clamp(rect.y, 0, in.height - 1);
+  const int32_t bottom = Clamp(rect.y + rect.height, top + 1, in.height);
+  uint8_t room[3 * kPiece];
+  for (int32_t y = top; y < bottom; ++y) {
+    for (int32_t view = 0; view < in.views; ++view) {
+      for (int32_t x = left; x < right; x += kPiece) {
+        const int32_t pixels = Min(kPiece, right - x);
+        if (test(in.Codes(view, x, y, pixels, room), pixels)) return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -95,6 +127,17 @@ bool IsHighlight(const uint8_t* codes) {
   return bright >= 2;
 }
 
-ViewReader ReaderOf(const ExcessViews& views) { return {ReadExcess, CapturedCodes, &views}; }
+bool MayHaveHighlights(const Input& in, const Rect& rect) { return AnyPiece(in, rect, IsBright); }
+
+bool AreAllHighlights(const Input& in, const Rect& rect) { return !AnyPiece(in, rect, HasOthers); }
+
+Input ExcessOf(const Input& captured, LampRuns* runs) {
+  runs->Clear();
+  Input in = captured;
+  in.read_light = ReadExcess;
+  in.captured = &captured;
+  in.runs = runs;
+  return in;
+}
 
 }  // namespace starfocus

@@ -8,7 +8,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
-#include "lib/io/view_reader.h"
+#include "lib/io/input.h"
 
 namespace starfocus {
 
@@ -24,6 +24,12 @@ constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
 // reaches kFirstExcess.
 inline constexpr int32_t kFirstExcess = 251;
 bool IsHighlight(const uint8_t* codes);
+
+// Returns true if any view has a code of at least kFirstExcess in `rect`.
+bool MayHaveHighlights(const Input& in, const Rect& rect);
+
+// Returns true if all pixels of all views in `rect` are highlights.
+bool AreAllHighlights(const Input& in, const Rect& rect);
 
 // Run of highlights in a row or column: pixels [first, last]. `length` is at most LampReach and
 // applies to all pixels of the run.
@@ -46,21 +52,15 @@ struct LampRuns {
   }
 };
 
-// Captured views at layer 0. Highlights are lamps if they are at most `lamp` pixels across.
-struct ExcessViews {
-  ViewReader views;
-  int32_t width, height, lamp;  // Size of the picture, and LargestLamp of its width.
-  LampRuns* runs;  // Cache of the runs in `views`; must not be shared with other pictures.
-};
-
-// Returns a reader of the excess light of highlights. `views` must outlive the reader. The excess
-// of a highlight rises with the square of the code, from kFirstExcess on, and equals white for a
-// clipped sample. Other pixels have no excess.
+// Returns an input whose light is the excess of the highlights of `captured`, at layer 0. Clears
+// `runs`, its cache. `captured` and `runs` must outlive the result. The excess of a highlight rises
+// with the square of the code, from kFirstExcess on, and equals white for a clipped sample. Other
+// pixels have no excess.
 //
-// A highlight that is at most views.lamp pixels high or wide has its full excess. The excess of
-// larger highlights decreases to 0 at a size of 2 * views.lamp. Highlights that reach the edge of
-// the picture count as large.
-ViewReader ReaderOf(const ExcessViews& views);
+// A highlight that is at most LargestLamp pixels high or wide has its full excess. The excess of
+// larger highlights decreases to 0 at twice this size. Highlights that reach the edge of the
+// picture count as large.
+Input ExcessOf(const Input& captured, LampRuns* runs);
 
 }  // namespace starfocus
 

@@ -17,10 +17,12 @@ namespace starfocus {
 template <class Byte>
 struct ImagePlanes {
   bool is_yuv, blue_first, has_alpha;
-  size_t step;
-  const simd::YuvMatrix* matrix;
+  uint8_t matrix;  // 2 * starfocus_matrix + starfocus_range, of YUV formats
+  uint32_t step;
   Byte* planes[3];
   size_t strides[3];
+
+  const simd::YuvMatrix& Matrix() const { return kYuvMatrices[matrix / 2][matrix % 2]; }
 
   // Returns true if rows are packed RGB.
   bool IsPacked() const { return !is_yuv && !blue_first && step == 3; }
@@ -63,8 +65,8 @@ ImagePlanes<Byte> PlanesOf(const starfocus_image& image) {
   of.is_yuv = IsYuv(format);
   of.blue_first = format == STARFOCUS_FORMAT_BGR || format == STARFOCUS_FORMAT_BGRX;
   of.has_alpha = HasAlpha(format);
-  of.step = static_cast<size_t>(image.pixel_stride != 0 ? image.pixel_stride : LeastStep(format));
-  if (of.is_yuv) of.matrix = &kYuvMatrices[image.matrix][image.range];
+  of.step = static_cast<uint32_t>(image.pixel_stride != 0 ? image.pixel_stride : LeastStep(format));
+  if (of.is_yuv) of.matrix = static_cast<uint8_t>(2 * image.matrix + image.range);
   for (int plane = 0; plane < 3; ++plane) {
     of.planes[plane] = static_cast<Byte*>(image.planes[plane]);
     of.strides[plane] = image.strides[plane];

@@ -57,7 +57,7 @@ void ReadYuv(const simd::ImageKernels& kernels, const ImageSource& image, int32_
     const int32_t piece = x % 2 != 0 ? 1 : Min(2 * kPiece, end - x);
     const ChromaSamples chroma(kernels, image, x, y, (piece + 1) / 2);
     kernels.YuvToRgb(image.Luma(x, y), chroma.u(), chroma.v(), static_cast<size_t>(piece),
-                     *image.matrix, rgb);
+                     image.Matrix(), rgb);
     x += piece;
     rgb += 3 * piece;
   }
@@ -99,7 +99,7 @@ void WriteCodes(const simd::ImageKernels& kernels, const uint8_t* rgb, int32_t w
                 const ImageTarget& image) {
   const auto count = static_cast<size_t>(width);
   if (image.is_yuv) {
-    kernels.RgbToLuma(rgb, count, *image.matrix, image.Luma(0, y));
+    kernels.RgbToLuma(rgb, count, image.Matrix(), image.Luma(0, y));
     return;
   }
   uint8_t* pixels = image.Pixel(0, y);
@@ -122,7 +122,7 @@ void WriteChroma(const simd::ImageKernels& kernels, const uint8_t* upper, const 
     const size_t at = 3 * static_cast<size_t>(x);
     uint8_t own[2][kPiece];
     const bool in_place = image.step == 1;
-    kernels.RgbToChroma(upper + at, lower + at, piece, *image.matrix,
+    kernels.RgbToChroma(upper + at, lower + at, piece, image.Matrix(),
                         in_place ? image.Chroma(1, x, y) : own[0],
                         in_place ? image.Chroma(2, x, y) : own[1]);
     if (pairs) {

@@ -90,16 +90,16 @@ void Downsample(const Kernels& kernels, const RowAt& row_at, int32_t width, int3
   HalveRows(kernels, scratch.half, columns, to);
 }
 
-void DownsampleOnce(const Kernels& kernels, const Window& picture, const Range& columns,
+void DownsampleOnce(const Kernels& kernels, const Input& picture, const Range& columns,
                     const ResampleScratch& scratch, const LayerPlane& to) {
   const auto row = [&](int32_t y) { return CodeRow{picture.centre.Row(y), *picture.transfer}; };
-  Downsample(kernels, row, picture.picture_width, picture.picture_height, columns, scratch, to);
+  Downsample(kernels, row, picture.width, picture.height, columns, scratch, to);
 }
 
-void DownsampleTwice(const Kernels& kernels, const Window& picture, const Range& columns,
+void DownsampleTwice(const Kernels& kernels, const Input& picture, const Range& columns,
                      const ResampleScratch& scratch, const LayerPlane& to) {
-  const int32_t width = LayerSize(picture.picture_width, 1);
-  const int32_t height = LayerSize(picture.picture_height, 1);
+  const int32_t width = LayerSize(picture.width, 1);
+  const int32_t height = LayerSize(picture.height, 1);
   const Range pairs = PairsOf(columns);
   const Range wanted = {Max(2 * pairs.first, 0), Min(2 * pairs.last, width)};
   LayerPlane above;
@@ -128,7 +128,7 @@ void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const Range
   Downsample(kernels, row, from.width, from.height, columns, scratch, to);
 }
 
-void DownsamplePicture(const Kernels& kernels, const Window& picture, int32_t layer,
+void DownsamplePicture(const Kernels& kernels, const Input& picture, int32_t layer,
                        const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
   if (layer == 1) {
     DownsampleOnce(kernels, picture, columns, scratch, to);

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -20,12 +20,6 @@ inline constexpr simd::HalfBand kUpFilter = {16384, 9544, -1352};   // beta_U = 
 static_assert(kDownFilter.centre + 2 * (kDownFilter.near + kDownFilter.far) == 1 << simd::kTapBits);
 static_assert(2 * (kUpFilter.near + kUpFilter.far) == 1 << simd::kTapBits);
 
-// Returns the number of pixels of a layer along an axis of `size` pixels. A layer has one pixel
-// more than the picture covers, so that upsampling reads the colour of the edge beyond the edge.
-constexpr int32_t LayerSize(int32_t size, int32_t layer) {
-  return layer == 0 ? size : (LayerSize(size, layer - 1) + 1) / 2 + 1;
-}
-
 // One layer of the centre view around a stripe.
 struct LayerPlane {
   int32_t width = 0, height = 0;  // Size of the whole layer.
@@ -34,6 +28,16 @@ struct LayerPlane {
   // read.
   int32_t known = 0;
   Plane<int16_t> samples;  // simd::kLayerBits, clamped to the range of samples
+};
+
+// Flags of a column of a layer: kNeeded if the current stripe reads the column, and kNeededBefore
+// if the previous stripe read the column.
+enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
+
+// Layers 1 and 2 around a stripe, and ColumnNeed for each of their columns of superblocks.
+struct StripeLayers {
+  LayerPlane planes[STARFOCUS_LAYERS];
+  uint8_t* needed[STARFOCUS_LAYERS];
 };
 
 // Number of source pixels that the 7 filter taps read before the two source pixels of a layer's
@@ -53,7 +57,7 @@ struct ResampleScratch {
 
 // Computes some columns of all rows of `to`, which is layer 1 or 2, from the centre view. Layer 2
 // is computed from TapsOfLayer columns and rows of layer 1.
-void DownsamplePicture(const simd::Kernels& kernels, const Window& picture, int32_t layer,
+void DownsamplePicture(const simd::Kernels& kernels, const Input& picture, int32_t layer,
                        const Range& columns, const ResampleScratch& scratch, const LayerPlane& to);
 
 // Computes some columns of all rows of `to`, which is layer 2, from the whole layer 1. The result

@@ -71,10 +71,10 @@ HoleOffset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t dispar
 void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t count,
           int16_t* rgb) {
   if (view.transposed) {
-    ReadCaptured(*view.window, CapturedView(v, u, view.half), {line.y, line.x, line.dy, line.dx},
-                 count, rgb);
+    ReadCaptured(*view.input, view.layer, CapturedView(v, u, view.half),
+                 {line.y, line.x, line.dy, line.dx}, count, rgb);
   } else {
-    ReadCaptured(*view.window, CapturedView(u, v, view.half), line, count, rgb);
+    ReadCaptured(*view.input, view.layer, CapturedView(u, v, view.half), line, count, rgb);
   }
 }
 
@@ -105,7 +105,7 @@ void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, in
 void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
               const int16_t* colour, int16_t* out) {
   const int32_t begin = part.begin, end = part.end;
-  if (view.window->views == 1) {
+  if (view.input->views == 1) {
     for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3 * sizeof(*out));
     return;
   }
@@ -118,7 +118,7 @@ void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, 
         (line.y + line.dy * p) * kShiftOne + (v != 0 ? across.captured : across.centre);
     Read(view, u, v, {x, y, line.dx, line.dy}, count, rgb);
   };
-  if (!diagonal || view.window->views != 5) {
+  if (!diagonal || view.input->views != 5) {
     read(view.u, view.v, begin, end - begin, out);
     return;
   }

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "lib/gather/span_list.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/optics/view_grid.h"
 
@@ -20,7 +20,8 @@ namespace starfocus {
 // from the centre, or half of this distance if `half` is true. All fields are in the orientation of
 // the view's lines.
 struct HoleView {
-  const Window* window;
+  const Input* input;
+  int layer;
   const ViewGrid* grid;
   bool transposed;
   int u, v;

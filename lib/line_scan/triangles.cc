@@ -30,7 +30,8 @@ struct LineHoles {
 
   void Fill(int32_t begin, int32_t end, int32_t disparity, const int16_t* colour,
             int16_t* out) const {
-    const HoleView view = {job.window,
+    const HoleView view = {job.input,
+                           field.layer,
                            job.grid,
                            field.transposed,
                            u,
@@ -52,8 +53,8 @@ class Star {
 
   void Refocus() {
     BlockPixels rows = MakeField(0);
-    LoadBlock(*job_.window, job_.rect, job_.border, &rows);
-    UnmixEdges(*job_.kernels, *job_.window, grid_, &rows);
+    LoadBlock(*job_.input, job_.layer, job_.rect, job_.border, &rows);
+    UnmixEdges(*job_.kernels, *job_.input, grid_, &rows);
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     Clear(scratch_->column_sums);
     BlockPixels columns = MakeField(1);
@@ -400,8 +401,8 @@ constexpr int32_t kStill = kShiftOne / 3 - 1;
 
 // Returns false at layers 1 and 2, because blocks at these layers are resampled.
 bool NothingMoves(const RenderJob& job) {
-  const Window& window = *job.window;
-  if (window.layer != 0) return false;
+  const Input& input = *job.input;
+  if (job.layer != 0) return false;
   const int64_t still =
       (int64_t{kStill} << (kStepBits + kDisparityBits - kShiftBits)) / job.grid->step;
   // Disparities that differ from a single focus by at most `limit` form no depth edge, so no pixel
@@ -413,12 +414,12 @@ bool NothingMoves(const RenderJob& job) {
   // The ranges of rows and columns are clamped so that at least one row and one column lie inside
   // the picture.
   const Rect rect = Extended(job.rect, job.border);
-  const int32_t left = Clamp(rect.x, 0, window.width - 1);
-  const int32_t right = Clamp(rect.x + rect.width, 1, window.width);
-  const int32_t top = Clamp(rect.y, 0, window.height - 1);
-  const int32_t bottom = Clamp(rect.y + rect.height, 1, window.height);
+  const int32_t left = Clamp(rect.x, 0, input.width - 1);
+  const int32_t right = Clamp(rect.x + rect.width, 1, input.width);
+  const int32_t top = Clamp(rect.y, 0, input.height - 1);
+  const int32_t bottom = Clamp(rect.y + rect.height, 1, input.height);
   for (int32_t y = top; y < bottom; ++y) {
-    const int16_t* row = window.disparity.Row(y);
+    const int16_t* row = input.disparity.Row(y);
     for (int32_t x = left; x < right; ++x) {
       if (Abs(focus.Distance(row[x])) > limit) return false;
     }

@@ -21,8 +21,8 @@ int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
 
 class Unmixer {
  public:
-  Unmixer(const Window& window, const ViewGrid& grid)
-      : centre_{window}, grid_(grid), rim_(grid.Move(grid.n())) {}
+  Unmixer(const Input& input, const ViewGrid& grid)
+      : centre_{input}, grid_(grid), rim_(grid.Move(grid.n())) {}
 
   // Writes the colour of the far surface at pixel (x, y): the mean over the adjacent depth edges,
   // weighted by the share of the nearer surface.
@@ -67,11 +67,11 @@ class Unmixer {
 
 }  // namespace
 
-void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+void UnmixEdges(const simd::Kernels& kernels, const Input& input, const ViewGrid& grid,
                 BlockPixels* field) {
-  if (window.layer != 0 || window.views == 1) return;
-  const Unmixer unmixer(window, grid);
-  ForEachBesideEdge(kernels, window, *field, kSurfaceStep, [&](int32_t column, int32_t row) {
+  if (field->layer != 0 || input.views == 1) return;
+  const Unmixer unmixer(input, grid);
+  ForEachBesideEdge(kernels, input, *field, kSurfaceStep, [&](int32_t column, int32_t row) {
     unmixer.Unmix(field->x + column, field->y + row, field->Rgb(column, row));
   });
 }

@@ -4,7 +4,7 @@
 #define STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 
 #include "lib/io/block_pixels.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 
@@ -19,7 +19,7 @@ namespace starfocus {
 // The field must come from LoadBlock. Pixels outside the picture and the outermost pixels, which do
 // not splat into the rectangle, are not changed. Only layer 0 requires UnmixEdges, because
 // subsampled layers are sufficiently blurred.
-void UnmixEdges(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+void UnmixEdges(const simd::Kernels& kernels, const Input& input, const ViewGrid& grid,
                 BlockPixels* field);
 
 }  // namespace starfocus

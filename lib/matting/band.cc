@@ -75,11 +75,11 @@ uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {
 // outermost pixels of the picture are repeated.
 class TileRow {
  public:
-  TileRow(const Window& window, int32_t left, int32_t top, int32_t columns) {
-    const int32_t right = window.picture_width - 1;
+  TileRow(const Input& input, int32_t left, int32_t top, int32_t columns) {
+    const int32_t right = input.width - 1;
     const int32_t first = Max(left - 1, 0), end = Min(left + columns, right) + 1;
     for (int32_t y = 0; y < kCoverageTile + 2; ++y) {
-      const int16_t* from = window.disparity.Row(Clamp(top + y - 1, 0, window.picture_height - 1));
+      const int16_t* from = input.disparity.Row(Clamp(top + y - 1, 0, input.height - 1));
       int16_t* to = At(-1, y - 1);
       std::memcpy(to + first - left + 1, from + first,
                   static_cast<size_t>(end - first) * sizeof(*to));
@@ -134,7 +134,7 @@ void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t ro
   const CoverageMap& map = *in.map;
   for (int32_t from = first; from < last; from += TileRow::kMostTiles) {
     const int32_t count = Min(TileRow::kMostTiles, last - from);
-    TileRow tiles(*in.window, from * kCoverageTile, row * kCoverageTile, count * kCoverageTile);
+    TileRow tiles(*in.input, from * kCoverageTile, row * kCoverageTile, count * kCoverageTile);
     for (int32_t k = 0; k < count; ++k) {
       CoverageTile& tile = map.Tile(from + k, row);
       int32_t low, high;
@@ -148,31 +148,31 @@ void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t ro
 }
 
 void ClearTile(const CoverageInput& in, int32_t column, int32_t row) {
-  const Window& window = *in.window;
+  const Input& input = *in.input;
   const CoverageMap& map = *in.map;
   const int32_t left = column * kCoverageTile, count = Min(kCoverageTile, map.width - left);
   for (int32_t y = row * kCoverageTile; y < Min((row + 1) * kCoverageTile, map.height); ++y) {
     const size_t to = map.At(left, y);
     for (int32_t x = count; x < kCoverageTile; ++x)
       map.near[to + static_cast<size_t>(x)] = kNowhere;
-    std::memcpy(map.near + to, window.disparity.Row(y) + left,
+    std::memcpy(map.near + to, input.disparity.Row(y) + left,
                 static_cast<size_t>(count) * sizeof(*map.near));
     std::memset(map.first + to, kWhole, kCoverageTile);
   }
 }
 
 void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
-  const Window& window = *in.window;
+  const Input& input = *in.input;
   const CoverageMap& map = *in.map;
-  const BandDisparities around(window, column, row);
+  const BandDisparities around(input, column, row);
   CoverageTile& tile = map.Tile(column, row);
   tile.near_bins = 0;
   const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
-  const int32_t columns = Min(kCoverageTile, window.picture_width - left);
-  const int32_t rows = Min(kCoverageTile, window.picture_height - top);
+  const int32_t columns = Min(kCoverageTile, input.width - left);
+  const int32_t rows = Min(kCoverageTile, input.height - top);
   for (int32_t y = 0; y < kCoverageTile; ++y) {
     int16_t light[3 * kCoverageTile];
-    if (y < rows) window.reader.Light(0, left, top + y, columns, light);
+    if (y < rows) input.Light(0, left, top + y, columns, light);
     for (int32_t x = 0; x < kCoverageTile; ++x) {
       const size_t to = map.At(left + x, top + y);
       const int32_t at = BandDisparities::At(x, y);

@@ -77,18 +77,18 @@ Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Co
 
 // Returns the captured view on the side away from the nearer surface. In the returned view, the
 // nearer surface is shifted away from the pixel.
-const OcclusionView& OcclusionViewAway(const Window& window, const BoundaryPixel& pixel) {
-  return window.occlusion_views.Last(pixel.side ^ 1);
+const OcclusionView& OcclusionViewAway(const Input& input, const BoundaryPixel& pixel) {
+  return input.occlusion_views.Last(pixel.side ^ 1);
 }
 
 // Reads the colour of the far surface from the captured view that OcclusionViewAway returns.
-Colour ReadFar(const Window& window, const BoundaryPixel& pixel) {
-  const OcclusionView& look = OcclusionViewAway(window, pixel);
+Colour ReadFar(const Input& input, const BoundaryPixel& pixel) {
+  const OcclusionView& look = OcclusionViewAway(input, pixel);
   constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
   const int32_t x = pixel.x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, kBits);
   const int32_t y = pixel.y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, kBits);
   int32_t sums[3];
-  InterpolateCaptured(window, look.view, x, y, sums);
+  InterpolateCaptured(input, look.view, x, y, sums);
   Colour far;
   for (int c = 0; c < 3; ++c)
     far.rgb[c] = static_cast<int16_t>(RoundShift(sums[c], 2 * kShiftBits));
@@ -104,8 +104,8 @@ BoundaryColours ReadColours(const CentreView& centre, const BoundaryPixel& pixel
   BoundaryColours colours;
   colours.mixed = centre.ColourAt(x, y);
   colours.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  colours.far = OcclusionViewAway(centre.window, pixel).view != 0
-                    ? ReadFar(centre.window, pixel)
+  colours.far = OcclusionViewAway(centre.input, pixel).view != 0
+                    ? ReadFar(centre.input, pixel)
                     : ReadBeside(centre, pixel, colours.mixed);
   return colours;
 }
@@ -125,19 +125,17 @@ Mixture MixtureOf(const Division& division, const BoundaryColours& colours) {
 }  // namespace
 
 Colour CentreView::ColourAt(int32_t x, int32_t y) const {
-  const int32_t column = Clamp(x, 0, window.width - 1), row = Clamp(y, 0, window.height - 1);
+  const int32_t column = Clamp(x, 0, input.width - 1), row = Clamp(y, 0, input.height - 1);
   Colour colour;
-  window.reader.Light(0, column, row, 1, colour.rgb);
+  input.Light(0, column, row, 1, colour.rgb);
   return colour;
 }
 
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const BoundaryColours colours = ReadColours(centre, pixel);
-  if (!centre.window.is_excess) return Unmix(colours);
-  Window light = centre.window;
-  light.reader = light.light;
-  light.is_excess = false;
-  return MixtureOf(DivisionOf(ReadColours({light}, pixel)), colours);
+  const Input* const captured = centre.input.captured;
+  if (captured == nullptr) return Unmix(colours);
+  return MixtureOf(DivisionOf(ReadColours({*captured}, pixel)), colours);
 }
 
 Mixture Unmix(const BoundaryColours& colours) { return MixtureOf(DivisionOf(colours), colours); }

@@ -8,7 +8,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/io/block_pixels.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -26,13 +26,12 @@ struct Colour {
 
 // Reads the centre view at layer 0. Coordinates outside the picture read the nearest pixel inside.
 struct CentreView {
-  const Window& window;
+  const Input& input;
 
   int32_t Disparity(int32_t x, int32_t y) const {
-    return window.disparity.Row(
-        Clamp(y, 0, window.picture_height - 1))[Clamp(x, 0, window.picture_width - 1)];
+    return input.disparity.Row(Clamp(y, 0, input.height - 1))[Clamp(x, 0, input.width - 1)];
   }
-  // Returns the light of a pixel, or the light beyond white (excess) if window.is_excess.
+  // Returns the light of a pixel, or the light beyond white (excess) if `input` reads excess.
   Colour ColourAt(int32_t x, int32_t y) const;
 };
 
@@ -59,7 +58,7 @@ struct Mixture {
 // Separates a boundary pixel. The near colour is read at the second pixel beyond the edge, or at
 // the first pixel if the two pixels are on different surfaces. The far colour comes from a captured
 // side view in which the nearer surface does not cover the far surface. Without such a view, the
-// far colour is the colour of the next pixel away from the edge. If the window contains excess,
+// far colour is the colour of the next pixel away from the edge. If the input reads excess,
 // both colours are excess, but the share is computed from light.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
@@ -72,12 +71,14 @@ Mixture Unmix(const BoundaryColours& colours);
 // is larger by more than `step`. Pixels outside the picture and the outermost pixels of the field
 // are skipped.
 template <class Visit>
-void ForEachBesideEdge(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
+void ForEachBesideEdge(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
                        int16_t step, const Visit& visit) {
   constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes),
                     kAtOnce = 16 * kStripColumns;
-  const int32_t left = Max(1, -field.x), right = Min(field.width - 1, window.width - field.x);
-  const int32_t top = Max(1, -field.y), bottom = Min(field.height - 1, window.height - field.y);
+  const int32_t left = Max(1, -field.x),
+                right = Min(field.width - 1, input.Width(field.layer) - field.x);
+  const int32_t top = Max(1, -field.y),
+                bottom = Min(field.height - 1, input.Height(field.layer) - field.y);
   uint16_t beside[kAtOnce / kStripColumns];
   for (int32_t row = top; row < bottom; ++row) {
     for (int32_t from = left; from < right; from += kAtOnce) {

@@ -3,7 +3,7 @@
 #ifndef STARFOCUS_LIB_MATTING_COVERAGE_INPUT_H_
 #define STARFOCUS_LIB_MATTING_COVERAGE_INPUT_H_
 
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/matting/coverage_map.h"
 #include "simd/kernels.h"
 
@@ -12,13 +12,13 @@ namespace starfocus {
 // The data that all passes read, and the coverage map that all passes write.
 struct CoverageInput {
   const simd::Kernels* kernels;
-  const Window* window;  // at layer 0
+  const Input* input;
   const CoverageMap* map;
 };
 
 // Returns true if the light field contains coverage. If the light field contains no coverage, the
 // passes estimate the coverage.
-inline bool HasGiven(const CoverageInput& in) { return in.window->given_coverage.data != nullptr; }
+inline bool HasGiven(const CoverageInput& in) { return in.input->given_coverage.data != nullptr; }
 
 }  // namespace starfocus
 

@@ -17,17 +17,16 @@ struct DisparitiesAround {
   int16_t disparity[kSide * kSide];
 
   DisparitiesAround() = default;
-  DisparitiesAround(const Window& window, int32_t column, int32_t row) {
+  DisparitiesAround(const Input& input, int32_t column, int32_t row) {
     const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
     for (int32_t y = 0; y < kSide; ++y) {
-      const int16_t* from = window.disparity.Row(Clamp(top + y, 0, window.picture_height - 1));
+      const int16_t* from = input.disparity.Row(Clamp(top + y, 0, input.height - 1));
       int16_t* to = disparity + y * kSide;
-      if (left >= 0 && left + kSide <= window.picture_width) {
+      if (left >= 0 && left + kSide <= input.width) {
         std::memcpy(to, from + left, kSide * sizeof(*to));
         continue;
       }
-      for (int32_t x = 0; x < kSide; ++x)
-        to[x] = from[Clamp(left + x, 0, window.picture_width - 1)];
+      for (int32_t x = 0; x < kSide; ++x) to[x] = from[Clamp(left + x, 0, input.width - 1)];
     }
   }
   static constexpr int32_t At(int32_t x, int32_t y) { return (y + kAround) * kSide + x + kAround; }

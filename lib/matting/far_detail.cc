@@ -25,14 +25,14 @@ class DetailAdder {
  public:
   DetailAdder(const CoverageInput& in, int32_t column, int32_t row)
       : map_(*in.map), left_(column * kCoverageTile), top_(row * kCoverageTile) {
-    const Window& window = *in.window;
+    const Input& input = *in.input;
     const int32_t left = left_ - kNearReach, first = Max(0, left);
     const int32_t end = Min(left + kSide, map_.width);
     for (int32_t k = 0; k < kSide; ++k) {
       const int32_t y = top_ - kNearReach + k;
       if (y < 0 || y >= map_.height) continue;
-      window.reader.Light(0, first, y, end - first, light_[k] + 3 * (first - left));
-      const uint8_t* const coverage = window.given_coverage.Row(y);
+      input.Light(0, first, y, end - first, light_[k] + 3 * (first - left));
+      const uint8_t* const coverage = input.given_coverage.Row(y);
       for (int32_t x = first; x < end; ++x) {
         const int32_t alpha = (coverage[x] * kWhole + 127) / 255;
         weights_[k][x - left] = static_cast<int16_t>(EighthPower(alpha));

@@ -16,11 +16,11 @@ constexpr int32_t kLeastMixed = kWhole / 16;
 class GivenStarter {
  public:
   GivenStarter(const CoverageInput& in, int32_t column, int32_t row)
-      : window_(*in.window),
+      : input_(*in.input),
         map_(*in.map),
         left_(column * kCoverageTile),
         top_(row * kCoverageTile),
-        around_(window_, column, row),
+        around_(input_, column, row),
         search_(around_),
         tile_(map_.Tile(column, row)) {}
 
@@ -30,7 +30,7 @@ class GivenStarter {
     for (int32_t y = top_; y < top_ + kCoverageTile; ++y) {
       int16_t light[3 * kCoverageTile] = {};
       const bool inside = y < map_.height;
-      if (inside) window_.reader.Light(0, left_, y, columns, light);
+      if (inside) input_.Light(0, left_, y, columns, light);
       for (int32_t k = 0; k < kCoverageTile; ++k) {
         StartPixel(left_ + k, y);
         FarCell& far = map_.FarAt(left_ + k, y);
@@ -69,7 +69,7 @@ class GivenStarter {
     if (x >= map_.width || y >= map_.height) return;
     const size_t to = map_.At(x, y);
     FarCell& far = map_.FarAt(x, y);
-    const int32_t alpha = (window_.given_coverage.Row(y)[x] * kWhole + 127) / 255;
+    const int32_t alpha = (input_.given_coverage.Row(y)[x] * kWhole + 127) / 255;
     if (Abs(alpha - map_.alpha[to]) > kLeastMixed) tile_.mixed = 1;
     map_.first[to] = static_cast<uint8_t>(alpha);
     far.weight = static_cast<int16_t>(FarWeight(alpha));
@@ -77,7 +77,7 @@ class GivenStarter {
     tile_.high = static_cast<int16_t>(Max(tile_.high, map_.near[to]));
   }
 
-  const Window& window_;
+  const Input& input_;
   const CoverageMap& map_;
   const int32_t left_, top_;
   const GivenDisparities around_;

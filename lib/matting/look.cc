@@ -34,12 +34,12 @@ class TileLooker {
  public:
   TileLooker(const CoverageInput& in, int32_t column, int32_t row)
       : kernels_(*in.kernels),
-        window_(*in.window),
+        input_(*in.input),
         map_(*in.map),
         left_(column * kCoverageTile),
         columns_(Min(kCoverageTile, map_.width - left_)) {
     for (int side = 0; side < kSideCount; ++side) {
-      for (const OcclusionView& look : window_.occlusion_views.on[side]) AddView(look);
+      for (const OcclusionView& look : input_.occlusion_views.on[side]) AddView(look);
     }
     if (count_ > 0) FindBins(column, row);
   }
@@ -54,7 +54,7 @@ class TileLooker {
     }
     if (!any) return;
     int16_t light[3 * kCoverageTile];
-    window_.reader.Light(0, left_, y, columns_, light);
+    input_.Light(0, left_, y, columns_, light);
     for (int32_t k = 0; k < columns_; ++k) {
       Add(light + 3 * k, FarWeight(map_.first[map_.At(left_ + k, y)]) >> kCentreBits, &sums_[k]);
     }
@@ -118,7 +118,7 @@ class TileLooker {
           (left_ + k) * kShiftOne - ScaledByView(view.look.at.u, far_[k], kBits),
           y * kShiftOne - ScaledByView(view.look.at.v, far_[k], kBits), 1, 0};
       int16_t light[3 * kCoverageTile];
-      ReadCaptured(window_, view.look.view, line, end - k, light);
+      ReadCaptured(input_, 0, view.look.view, line, end - k, light);
       for (int32_t n = k; n < end; ++n) Add(light + 3 * (n - k), weights[n], &sums_[n]);
     }
   }
@@ -176,7 +176,7 @@ class TileLooker {
   }
 
   const simd::Kernels& kernels_;
-  const Window& window_;
+  const Input& input_;
   const CoverageMap& map_;
   const int32_t left_, columns_;
   SideLook views_[kSideCount * kOcclusionViews];

@@ -12,7 +12,7 @@ namespace {
 
 // Returns true if the light field contains coverage, and no side view that shows far surfaces.
 // StartGiven has then already read the light of the far surfaces.
-bool IsGivenAlone(const CoverageInput& in) { return HasGiven(in) && in.window->views == 1; }
+bool IsGivenAlone(const CoverageInput& in) { return HasGiven(in) && in.input->views == 1; }
 
 void Start(const CoverageInput& in, int32_t column, int32_t row) {
   if (!in.map->IsStarted(column, row)) {

@@ -65,7 +65,7 @@ void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const We
   for (int32_t y = Max(0, -top); y < Min(kSide, map.height - top); ++y) {
     int16_t light[3 * kSide + simd::kPadding / sizeof(int16_t)];
     const auto at = static_cast<size_t>(y * kSide + first);
-    in.window->reader.Light(0, left + first, top + y, last - first, light);
+    in.input->Light(0, left + first, top + y, last - first, light);
     in.kernels->Split(light, static_cast<size_t>(last - first), NearTile::kPlane, tile->light + at);
     std::memcpy(tile->near + at, map.near + map.At(left + first, top + y),
                 static_cast<size_t>(last - first) * sizeof(*tile->near));

@@ -74,9 +74,9 @@ void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
 // Measures the cells of one row.
 class CellRow {
  public:
-  CellRow(const simd::Kernels& kernels, const Window& window, const BlurScale& scale, int32_t row)
+  CellRow(const simd::Kernels& kernels, const Input& input, const BlurScale& scale, int32_t row)
       : kernels_(kernels),
-        window_(window),
+        input_(input),
         scale_(scale),
         y_(row * kCellSize),
         near_focus_(Clamp(scale.focus.far, INT16_MIN, INT16_MAX)),
@@ -84,13 +84,13 @@ class CellRow {
                 static_cast<int16_t>(DisparityOf(kRunDrift, scale.step)),
                 static_cast<int16_t>(DisparityOf(kLargestGap * kRadiusOne, scale.step))} {
     for (int32_t k = 0; k < kRows; ++k) {
-      rows_[k] = window.disparity.Row(Clamp(row * kCellSize + k - 1, 0, window.height - 1));
+      rows_[k] = input.disparity.Row(Clamp(row * kCellSize + k - 1, 0, input.height - 1));
     }
   }
 
   Cell Measure(int32_t column) const {
     simd::CellMeasure found = Find(column * kCellSize);
-    if (window_.coverage != nullptr) AddThin(column * kCellSize, &found);
+    if (input_.coverage != nullptr) AddThin(column * kCellSize, &found);
     Cell cell = {};
     cell.low = found.column_low[0];
     cell.high = found.column_high[0];
@@ -131,12 +131,12 @@ class CellRow {
   simd::CellMeasure Find(int32_t x) const {
     const int16_t* rows[kRows];
     int16_t copies[kRows][kRows];
-    if (x > 0 && x + kCellSize < window_.width && scale_.focus.IsSingle()) {
+    if (x > 0 && x + kCellSize < input_.width && scale_.focus.IsSingle()) {
       for (int32_t k = 0; k < kRows; ++k) rows[k] = rows_[k] + x;
     } else {
       for (int32_t k = 0; k < kRows; ++k) {
         for (int32_t column = 0; column < kRows; ++column) {
-          const int32_t from = Clamp(x + column - 1, 0, window_.width - 1);
+          const int32_t from = Clamp(x + column - 1, 0, input_.width - 1);
           copies[k][column] = scale_.focus.WithoutRange(rows_[k][from]);
         }
         rows[k] = copies[k] + 1;
@@ -149,7 +149,7 @@ class CellRow {
 
   // A cell with thin structures contains a near and a far surface, and therefore a depth edge.
   void AddThin(int32_t x, simd::CellMeasure* found) const {
-    const CoverageMap& map = *window_.coverage;
+    const CoverageMap& map = *input_.coverage;
     const int32_t column = x / kCoverageTile, row = y_ / kCoverageTile;
     const CoverageTile& tile = map.Tile(column, row);
     if (tile.thin == 0 || tile.low > tile.high) return;
@@ -171,7 +171,7 @@ class CellRow {
   }
 
   const simd::Kernels& kernels_;
-  const Window& window_;
+  const Input& input_;
   const BlurScale& scale_;
   const int32_t y_;  // first row of pixels of the cells
   const int32_t near_focus_;
@@ -196,9 +196,9 @@ void AddCell(const Cell& cell, Content (*sum)[2]) {
   AddContent(part, sum);
 }
 
-void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+void MeasureCells(const simd::Kernels& kernels, const Input& input, const BlurScale& scale,
                   int32_t row, const Range& columns, Cell* cells) {
-  const CellRow measure(kernels, window, scale, row);
+  const CellRow measure(kernels, input, scale, row);
   for (int32_t column = columns.first; column < columns.last; ++column) {
     *cells++ = measure.Measure(column);
   }

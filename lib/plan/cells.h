@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 
@@ -103,7 +103,7 @@ inline constexpr int32_t kCellBorder = 1;
 
 // Measures the cells of some columns of one row of the grid, and writes them to `cells`. The window
 // must be at layer 0.
-void MeasureCells(const simd::Kernels& kernels, const Window& window, const BlurScale& scale,
+void MeasureCells(const simd::Kernels& kernels, const Input& input, const BlurScale& scale,
                   int32_t row, const Range& columns, Cell* cells);
 
 // Number of pixels of a layer that upsampling by two reads beyond each side of a block.

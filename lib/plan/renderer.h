@@ -10,7 +10,7 @@
 #include "lib/base/arena.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_grid.h"
 #include "lib/optics/view_weights.h"
@@ -43,10 +43,11 @@ inline void AddScans(uint64_t views, uint64_t lines, const Content& content, int
   work->hole += views * (content.gaps >> 2 * layer) / kContentOne;
 }
 
-// Task of rendering all views of one rectangle at the layer of the window. `border` is the distance
-// from which pixels splat into the rectangle.
+// Task of rendering all views of one rectangle of a layer. `border` is the distance from which
+// pixels splat into the rectangle.
 struct RenderJob {
-  const Window* window;
+  const Input* input;
+  int layer;
   const ViewGrid* grid;
   const simd::Kernels* kernels;
   Rect rect;

@@ -168,18 +168,18 @@ class TilePart {
 // CentreRow. Returns the position of the rectangle in `scratch->surfaces`, in pixels.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
   BlockPixels& field = scratch->field;
-  LoadBlock(*job.window, job.rect, job.border, &field);
-  TakeThinDisparities(*job.window, &field);
-  FindLayeredDepth(*job.kernels, *job.window, field, &scratch->surfaces);
-  FindMatte(*job.kernels, *job.window, *job.grid, field, &scratch->surfaces);
+  LoadBlock(*job.input, job.layer, job.rect, job.border, &field);
+  TakeThinDisparities(*job.input, &field);
+  FindLayeredDepth(*job.kernels, *job.input, field, &scratch->surfaces);
+  FindMatte(*job.kernels, *job.input, *job.grid, field, &scratch->surfaces);
   const Rect& inner = field.inner;
   const size_t row = 3 * static_cast<size_t>(inner.width);
   for (int32_t y = 0; y < inner.height; ++y) {
     std::memcpy(CentreRow(accumulators + static_cast<size_t>(y) * row, inner.width),
                 field.Rgb(inner.x, inner.y + y), row * sizeof(*field.rgb));
   }
-  PartThin(*job.window, field, &scratch->surfaces);
-  InpaintHidden(*job.kernels, job.window->layer, scratch->fill, &scratch->surfaces);
+  PartThin(*job.input, field, &scratch->surfaces);
+  InpaintHidden(*job.kernels, job.layer, scratch->fill, &scratch->surfaces);
   RemoveFocusRange(job.grid->focus, &scratch->surfaces);
   return inner;
 }

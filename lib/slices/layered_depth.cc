@@ -22,7 +22,7 @@ class HiddenColours {
  public:
   int16_t rgb[3 * kStripColumns + simd::kPadding / sizeof(int16_t)] = {};
 
-  HiddenColours(const Window& window, const BlockPixels& field) : window_(window), field_(field) {}
+  HiddenColours(const Input& input, const BlockPixels& field) : input_(input), field_(field) {}
 
   // Reads the colour of each pixel k of a strip for which bit k of `pixels` is set. Pixel 0 of the
   // strip is pixel (x, y) of the field. `disparity` and `source` belong to the pixels of the strip,
@@ -89,23 +89,23 @@ class HiddenColours {
     const int16_t disparity = disparity_[k];
     const CapturedLine line = {(field_.x + x_ + k) * kShiftOne - Moved(look.at.u, disparity),
                                (field_.y + y_) * kShiftOne - Moved(look.at.v, disparity), 1, 0};
-    ReadCaptured(window_, look.view, line, count, to);
+    ReadCaptured(input_, field_.layer, look.view, line, count, to);
   }
 
   // Returns the movement along one axis of a point of `disparity` from the centre view to a view at
   // `position`. The movement is in pixels of the layer with kShiftBits.
   int32_t Moved(int32_t position, int32_t disparity) const {
     return ScaledByView(position, disparity,
-                        kViewBits + kDisparityBits - kShiftBits + window_.layer);
+                        kViewBits + kDisparityBits - kShiftBits + field_.layer);
   }
 
   // Returns the view on side `side` that shows a hidden pixel whose source is `source`. The result
   // is meaningless if no view shows the hidden pixel.
   const OcclusionView& LookOf(int32_t side, uint32_t source) const {
-    return window_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
+    return input_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
   }
 
-  const Window& window_;
+  const Input& input_;
   const BlockPixels& field_;
   int32_t x_ = 0, y_ = 0;  // position of the strip that is read
   const int16_t* disparity_ = nullptr;
@@ -128,18 +128,17 @@ simd::ViewLook ViewLookOf(const OcclusionView& look, int unit_bits) {
 
 class SurfaceFinder {
  public:
-  SurfaceFinder(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
+  SurfaceFinder(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
                 LayeredDepth* surfaces)
       : kernels_(kernels),
-        window_(window),
+        layer_(field.layer),
         surfaces_(*surfaces),
-        colours_(window, field),
-        unit_(int32_t{1} << (kDisparityBits + window.layer)),
-        step_(kDepthEdge << window.layer) {
+        colours_(input, field),
+        unit_(int32_t{1} << (kDisparityBits + layer_)),
+        step_(kDepthEdge << layer_) {
     for (int side = 0; side < kSideCount; ++side) {
       for (int k = 0; k < kOcclusionViews; ++k) {
-        looks_[side][k] =
-            ViewLookOf(window.occlusion_views.on[side][k], kDisparityBits + window.layer);
+        looks_[side][k] = ViewLookOf(input.occlusion_views.on[side][k], kDisparityBits + layer_);
       }
     }
   }
@@ -207,8 +206,7 @@ class SurfaceFinder {
   void FollowEdge(const int16_t* near, int direction, int32_t count, uint8_t* distance) const {
     if (*distance != 0) return;
     const int32_t far = near[-direction];
-    const int32_t farthest =
-        Min(simd::FarthestEdge(kDisparityBits + window_.layer), surfaces_.high - far);
+    const int32_t farthest = Min(simd::FarthestEdge(kDisparityBits + layer_), surfaces_.high - far);
     for (int32_t k = 1, moved = 0; k <= count && moved <= farthest; ++k, moved += unit_) {
       const int32_t depth = *near - far;
       if (depth > step_ && moved <= depth) *distance = static_cast<uint8_t>(k);
@@ -232,7 +230,7 @@ class SurfaceFinder {
   }
 
   void FindEdgesOfColumns(int32_t y, int32_t beside, int side) {
-    const simd::EdgeLimits limits = {static_cast<int16_t>(step_), kDisparityBits + window_.layer};
+    const simd::EdgeLimits limits = {static_cast<int16_t>(step_), kDisparityBits + layer_};
     const simd::EdgeRows rows = {Row(y), Row(beside), surfaces_.moved, surfaces_.behind,
                                  Edges(side, y)};
     kernels_.FindEdges(rows, limits, static_cast<size_t>(surfaces_.width));
@@ -247,7 +245,7 @@ class SurfaceFinder {
     row.above = y;
     row.below = surfaces_.height - 1 - y;
     row.high = surfaces_.high;
-    row.unit_bits = kDisparityBits + window_.layer;
+    row.unit_bits = kDisparityBits + layer_;
     std::memcpy(row.looks, looks_, sizeof(looks_));
     for (int side = 0; side < 4; ++side) row.edges[side] = Edges(side, y);
     uint16_t found[simd::kSurfaces - 1][kMaxStrips];
@@ -271,8 +269,8 @@ class SurfaceFinder {
   // a disparity step, the function inserts a copy of the pixel with the far side's disparity. With
   // these copies, the surface stays closed, however its slices move.
   void CloseRow(int32_t y) {
-    const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << window_.layer),
-                                     static_cast<int16_t>(kMostCopy << window_.layer)};
+    const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << layer_),
+                                     static_cast<int16_t>(kMostCopy << layer_)};
     const size_t at = surfaces_.At(0, y);
     // The array `moved` can be reused, because FindEdges no longer needs its content.
     int16_t* const copies = surfaces_.moved;
@@ -330,7 +328,7 @@ class SurfaceFinder {
   }
 
   const simd::Kernels& kernels_;
-  const Window& window_;
+  const int layer_;
   LayeredDepth& surfaces_;
   HiddenColours colours_;
   // disparity of a point that moves by one pixel of the layer in a view at distance 1
@@ -341,7 +339,7 @@ class SurfaceFinder {
 
 }  // namespace
 
-void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
+void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
                       LayeredDepth* surfaces) {
   surfaces->width = field.width;
   surfaces->height = field.height;
@@ -358,7 +356,7 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const 
   }
   for (int16_t* disparity : surfaces->disparity) ClearStrip(disparity + surfaces->plane);
   std::memset(surfaces->share + surfaces->plane, simd::kSliceWhole, simd::kSliceLanes);
-  SurfaceFinder(kernels, window, field, surfaces).Find();
+  SurfaceFinder(kernels, input, field, surfaces).Find();
 }
 
 void RemoveFocusRange(const FocusRange& focus, LayeredDepth* surfaces) {

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "lib/io/block_pixels.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 
@@ -86,7 +86,7 @@ struct SurfaceBands {
 // of the background beyond the edge is repeated. If several sides provide a surface of the same
 // disparity at the same distance, their colours are averaged. At steps within a surface, each pixel
 // on the near side hides a copy of itself (kLeastCopy).
-void FindLayeredDepth(const simd::Kernels& kernels, const Window& window, const BlockPixels& field,
+void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
                       LayeredDepth* surfaces);
 
 // Replaces the disparities of all surfaces by disparities without the range

@@ -15,13 +15,13 @@ constexpr int32_t kLeastMove = kShiftOne;
 
 class MatteFinder {
  public:
-  MatteFinder(const Window& window, const ViewGrid& grid, const BlockPixels& field,
+  MatteFinder(const Input& input, const ViewGrid& grid, const BlockPixels& field,
               LayeredDepth* surfaces)
-      : centre_{window},
+      : centre_{input},
         grid_(grid),
         field_(field),
         surfaces_(*surfaces),
-        step_(static_cast<int16_t>(kDepthEdge << window.layer)),
+        step_(static_cast<int16_t>(kDepthEdge << field.layer)),
         rim_(grid.Move(grid.n())) {}
 
   int16_t step() const { return step_; }
@@ -43,8 +43,8 @@ class MatteFinder {
  private:
   // Returns true if the coverage map splits the pixel.
   bool IsThin(int32_t x, int32_t y) const {
-    const CoverageMap* const map = centre_.window.coverage;
-    return map != nullptr && centre_.window.layer == 0 &&
+    const CoverageMap* const map = centre_.input.coverage;
+    return map != nullptr && field_.layer == 0 &&
            map->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0;
   }
 
@@ -70,7 +70,7 @@ class MatteFinder {
 
   // Returns the mixture at a boundary pixel. The coordinates in `pixel` are relative to the field.
   Mixture MixtureAt(const BoundaryPixel& pixel) const {
-    if (centre_.window.layer > 0) return MixtureOfLevel(pixel);
+    if (field_.layer > 0) return MixtureOfLevel(pixel);
     BoundaryPixel of_picture = pixel;
     of_picture.x += field_.x;
     of_picture.y += field_.y;
@@ -102,18 +102,18 @@ class MatteFinder {
   // captured view on the far side of the edge. If no captured view looks behind the edge, returns
   // the colour of the next pixel away from the edge.
   Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const {
-    const Window& window = centre_.window;
-    const OcclusionView& look = window.occlusion_views.Last(pixel.side ^ 1);
+    const Input& input = centre_.input;
+    const OcclusionView& look = input.occlusion_views.Last(pixel.side ^ 1);
     if (look.view == 0) {
       const int32_t x = pixel.x - kSides[pixel.side][0], y = pixel.y - kSides[pixel.side][1];
       return Abs(DisparityAt(x, y) - pixel.disparity) <= pixel.step ? ColourAt(x, y) : mixed;
     }
-    const int bits = kViewBits + kDisparityBits - kShiftBits + window.layer;
+    const int bits = kViewBits + kDisparityBits - kShiftBits + field_.layer;
     const CapturedLine line = {
         (field_.x + pixel.x) * kShiftOne - ScaledByView(look.at.u, pixel.disparity, bits),
         (field_.y + pixel.y) * kShiftOne - ScaledByView(look.at.v, pixel.disparity, bits), 1, 0};
     Colour far;
-    ReadCaptured(window, look.view, line, 1, far.rgb);
+    ReadCaptured(input, field_.layer, look.view, line, 1, far.rgb);
     return far;
   }
 
@@ -154,10 +154,10 @@ class MatteFinder {
 
 }  // namespace
 
-void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+void FindMatte(const simd::Kernels& kernels, const Input& input, const ViewGrid& grid,
                const BlockPixels& field, LayeredDepth* surfaces) {
-  MatteFinder finder(window, grid, field, surfaces);
-  ForEachBesideEdge(kernels, window, field, finder.step(),
+  MatteFinder finder(input, grid, field, surfaces);
+  ForEachBesideEdge(kernels, input, field, finder.step(),
                     [&](int32_t column, int32_t row) { finder.FindPixel(column, row); });
 }
 
@@ -173,8 +173,11 @@ constexpr int32_t kSameStructure = 4 << kDisparityBits;
 
 class ThinParter {
  public:
-  ThinParter(const Window& window, const BlockPixels& field, LayeredDepth* surfaces)
-      : map_(*window.coverage), is_excess_(window.is_excess), field_(field), surfaces_(*surfaces) {}
+  ThinParter(const Input& input, const BlockPixels& field, LayeredDepth* surfaces)
+      : map_(*input.coverage),
+        is_excess_(input.captured != nullptr),
+        field_(field),
+        surfaces_(*surfaces) {}
 
   void PartPixel(int32_t x, int32_t y) {
     const size_t from = map_.At(x, y), at = surfaces_.At(x - field_.x, y - field_.y);
@@ -259,7 +262,7 @@ class ThinParter {
   }
 
   const CoverageMap& map_;
-  const bool is_excess_;  // true if the window's light is the excess of highlights beyond white
+  const bool is_excess_;  // true if the input's light is the excess of highlights beyond white
   const BlockPixels& field_;
   LayeredDepth& surfaces_;
 };
@@ -280,9 +283,9 @@ void ForThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
 
 }  // namespace
 
-void TakeThinDisparities(const Window& window, BlockPixels* field) {
-  if (window.coverage == nullptr || window.layer > 0) return;
-  const CoverageMap& map = *window.coverage;
+void TakeThinDisparities(const Input& input, BlockPixels* field) {
+  if (input.coverage == nullptr || field->layer > 0) return;
+  const CoverageMap& map = *input.coverage;
   ForThin(map, *field, [&](int32_t x, int32_t y) {
     const size_t from = map.At(x, y);
     const int32_t alpha = map.alpha[from];
@@ -293,10 +296,10 @@ void TakeThinDisparities(const Window& window, BlockPixels* field) {
   });
 }
 
-void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces) {
-  if (window.coverage == nullptr || window.layer > 0) return;
-  ThinParter parter(window, field, surfaces);
-  ForThin(*window.coverage, field, [&](int32_t x, int32_t y) { parter.PartPixel(x, y); });
+void PartThin(const Input& input, const BlockPixels& field, LayeredDepth* surfaces) {
+  if (input.coverage == nullptr || field.layer > 0) return;
+  ThinParter parter(input, field, surfaces);
+  ForThin(*input.coverage, field, [&](int32_t x, int32_t y) { parter.PartPixel(x, y); });
 }
 
 }  // namespace starfocus

@@ -5,7 +5,7 @@
 #define STARFOCUS_LIB_SLICES_MATTE_H_
 
 #include "lib/io/block_pixels.h"
-#include "lib/io/window.h"
+#include "lib/io/input.h"
 #include "lib/optics/view_grid.h"
 #include "lib/slices/layered_depth.h"
 
@@ -19,7 +19,7 @@ namespace starfocus {
 // than a pixel relative to each other in some view. The outermost pixels of the field are not
 // split, because these pixels do not splat into any rectangle. `surfaces` is the output of
 // FindLayeredDepth. If a split pixel would have four surfaces, the farthest surface is dropped.
-void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGrid& grid,
+void FindMatte(const simd::Kernels& kernels, const Input& input, const ViewGrid& grid,
                const BlockPixels& field, LayeredDepth* surfaces);
 
 // Turns the coverage map of thin structures (lib/matting) into surfaces for slices.
@@ -27,12 +27,12 @@ void FindMatte(const simd::Kernels& kernels, const Window& window, const ViewGri
 // Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
 // these disparities, hidden surfaces end at the boundary of the thin structure. The caller must
 // call this function before FindLayeredDepth.
-void TakeThinDisparities(const Window& window, BlockPixels* field);
+void TakeThinDisparities(const Input& input, BlockPixels* field);
 
 // Gives each pixel of thin tiles the two surfaces that the coverage map contains for the pixel. The
 // surfaces of the coverage map replace the surfaces that FindLayeredDepth and FindMatte found. The
 // caller must call this function before InpaintHidden.
-void PartThin(const Window& window, const BlockPixels& field, LayeredDepth* surfaces);
+void PartThin(const Input& input, const BlockPixels& field, LayeredDepth* surfaces);
 
 }  // namespace starfocus
 

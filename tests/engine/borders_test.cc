@@ -10,12 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "lib/io/input.h"
 #include "lib/io/layers.h"
-#include "lib/io/window.h"
 #include "starfocus/starfocus.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/rounds.h"
+#include "tests/support/star_views.h"
 #include "tests/support/test_scene.h"
 
 namespace borders_test {
@@ -305,17 +306,17 @@ TEST_CASE("borders: the layer filters read exactly as far as their declared bord
     dependence.Add(starfocus::kDownBorder, [&](int border) {
       const Rect pair = {2 * kAt, 2 * kAt, 2, 2};
       const std::vector<uint8_t> picture = NoiseAround(kSide, pair, border, seed);
-      starfocus::Window window;
-      window.width = window.height = window.picture_width = window.picture_height = kSide;
-      window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
-      window.centre = {picture.data(), 3 * size_t(kSide), 0, 0};
+      starfocus::Input input;
+      input.width = input.height = kSide;
+      input.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
+      input.centre = {picture.data(), 3 * size_t(kSide), 0, 0};
       std::vector<int16_t> samples(3 * kRows * kRows + 64), even(3 * kSide), odd(even),
           half(3 * kSide * size_t(starfocus::TapsOfLayer(kRows)) + 64);
       starfocus::LayerPlane plane;
       plane.width = plane.height = kRows - 1;
       plane.rows = {kAt, kAt + 1};
       plane.samples = {samples.data(), 3 * kRows, 0, 0};
-      DownsamplePicture(starfocus::simd::BestKernels(), window, 1, {0, plane.width},
+      DownsamplePicture(starfocus::simd::BestKernels(), input, 1, {0, plane.width},
                         {even.data(), odd.data(), half.data(), nullptr}, plane);
       const int16_t* const sample = plane.samples.Row(kAt) + 3 * kAt;
       return std::vector<int16_t>(sample, sample + 3);
@@ -333,19 +334,14 @@ TEST_CASE("borders: captured views are read exactly as far as the declared borde
       dependence.Add(starfocus::CapturedBorder(layer), [&](int border) {
         const Rect place = {16, 16, 1, 1};
         const std::vector<uint8_t> picture = NoiseAround(kSide, place, border, seed);
-        starfocus::PlaneViews planes;
-        planes.kernels = &starfocus::simd::BestKernels();
-        planes.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
-        planes.view[1] = {picture.data(), 3 * size_t(kSide), 0, 0};
-        starfocus::Window window;
-        window.layer = layer;
-        window.views = 2;
-        window.picture_width = window.picture_height = kSide;
-        window.transfer = planes.transfer;
-        window.reader = starfocus::ReaderOf(planes);
+        starfocus::Input input;
+        test::SetPixels(1, picture, 3 * size_t(kSide), &input);
+        input.views = 2;
+        input.width = input.height = kSide;
+        input.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
         const int at = (16 << starfocus::kShiftBits >> layer) + (layer == 0 ? 77 : 0);
         std::vector<int16_t> rgb(3);
-        ReadCaptured(window, 1, {at, at, 1, 0}, 1, rgb.data());
+        ReadCaptured(input, layer, 1, {at, at, 1, 0}, 1, rgb.data());
         return rgb;
       });
     }

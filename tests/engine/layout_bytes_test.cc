@@ -171,7 +171,7 @@ TEST_CASE(
   const uint32_t* sums = workers[1].sums;
   const uint16_t* weights = state.tables->apertures[0].weights;
   const uint8_t *out = state.stripe.out, *last_rows = state.stripe.last_rows;
-  state.images.map_width = 300;
+  state.rings.map_width = 300;
   state.stream.active = true;
   const starfocus::EngineState preview =
       starfocus::PreviewEngine(starfocus::ReducedConfig(config, 2), &state);
@@ -180,13 +180,13 @@ TEST_CASE(
   CHECK(preview.scratch[1].sums == sums);
   CHECK(preview.tables->apertures[0].weights == weights);
   CHECK(preview.jobs == state.jobs);
-  CHECK(preview.row_store.disparity.data == state.row_store.disparity.data);
+  CHECK(preview.rings.disparity.data == state.rings.disparity.data);
   CHECK(preview.stripe.last_rows == nullptr);  // previews are not streamed
   CHECK(state.config.width == 300);
   CHECK(state.stripe.out == out);
   CHECK(state.stripe.last_rows == last_rows);
-  CHECK_FALSE(state.stream.active);    // the preview overwrites the rows of the stream
-  CHECK(state.images.map_width == 0);  // and the table of the map's columns
+  CHECK_FALSE(state.stream.active);   // the preview overwrites the rows of the stream
+  CHECK(state.rings.map_width == 0);  // and the table of the map's columns
 }
 
 // On 32-bit machines, wide streaming configurations exceed the address space.

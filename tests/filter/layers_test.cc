@@ -110,9 +110,9 @@ Image Up(Image from, int width, int height) {
 
 // Owns a layer in memory of exactly the required size.
 struct Layer {
-  Layer(int picture_width, int picture_height, int layer) {
-    plane.width = LayerSize(picture_width, layer);
-    plane.height = LayerSize(picture_height, layer);
+  Layer(int width, int height, int layer) {
+    plane.width = LayerSize(width, layer);
+    plane.height = LayerSize(height, layer);
     plane.rows = {0, plane.height};
     const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
     samples.assign(stride * rows + kPadding, 0x7123);
@@ -124,14 +124,14 @@ struct Layer {
   std::vector<int16_t> samples;
 };
 
-// Returns a window that has only the centre view, without a transfer function.
-starfocus::Window WindowOf(const std::vector<uint8_t>& picture, int width, int height) {
-  starfocus::Window window;
-  window.width = window.picture_width = width;
-  window.height = window.picture_height = height;
-  window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
-  window.centre = {picture.data(), 3 * size_t(width), 0, 0};
-  return window;
+// Returns an input that has only the centre view, without a transfer function.
+starfocus::Input InputOf(const std::vector<uint8_t>& picture, int width, int height) {
+  starfocus::Input input;
+  input.width = width;
+  input.height = height;
+  input.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
+  input.centre = {picture.data(), 3 * size_t(width), 0, 0};
+  return input;
 }
 
 // Scratch memory for the columns and rows of layer 1.
@@ -154,7 +154,7 @@ struct Layers {
          const starfocus::simd::Kernels& kernels)
       : one(width, height, 1), two(width, height, 2) {
     const Scratch scratch(superblock / 2 + 16, 2 * height + 20);
-    const starfocus::Window from = WindowOf(picture, width, height);
+    const starfocus::Input from = InputOf(picture, width, height);
     const int columns = (width + superblock - 1) / superblock;
     for (int layer = 1; layer <= 2; ++layer) {
       LayerPlane* to = layer == 1 ? &one.plane : &two.plane;
@@ -350,7 +350,7 @@ TEST_CASE("layers: a computed range of rows equals the same rows of the whole la
       Layer part(width, height, layer);
       part.plane.rows = rows;
       part.plane.samples.first = rows.first;
-      DownsamplePicture(kernels, WindowOf(picture, width, height), layer, {0, part.plane.width},
+      DownsamplePicture(kernels, InputOf(picture, width, height), layer, {0, part.plane.width},
                         scratch.memory, part.plane);
       for (int y = rows.first; y < rows.last; ++y) {
         CHECK(std::equal(part.plane.samples.Row(y),

@@ -125,18 +125,17 @@ struct Row {
   explicit Row(int views) : side(size_t(views)) {
     for (size_t view = 0; view < side.size(); ++view) {
       side[view].assign(3 * kWidth * kHeight, uint8_t(100 + view));
-      planes.view[view] = {side[view].data(), 3 * kWidth, 0, 0};
+      test::SetPixels(int(view), side[view], 3 * kWidth, &input);
     }
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) side[0][size_t(3 * (y * kWidth + x))] = uint8_t(x);
     }
-    window.width = window.picture_width = kWidth;
-    window.height = window.picture_height = kHeight;
-    test::SetStar(views, &window);
-    window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
-    test::ReadPlanes(&planes, &window);
+    input.width = kWidth;
+    input.height = kHeight;
+    test::SetStar(views, &input);
+    input.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
     disparity.assign(kWidth * kHeight, 0);
-    window.disparity = {disparity.data(), kWidth, 0, 0};
+    input.disparity = {disparity.data(), kWidth, 0, 0};
   }
   Row(const Row&) = delete;
 
@@ -155,7 +154,7 @@ struct Row {
     starfocus::BlockPixels field;
     field.rgb = rgb.data();
     field.disparity = copy.data();
-    starfocus::LoadBlock(window, {0, 0, kWidth, kHeight}, {kBorder, kBorder, 0, 0}, &field);
+    starfocus::LoadBlock(input, 0, {0, 0, kWidth, kHeight}, {kBorder, kBorder, 0, 0}, &field);
     std::vector<int> row;
     for (int x = 0; x < width; ++x) row.push_back(*field.Rgb(x, 3) >> starfocus::kLightBits);
     return row;
@@ -163,8 +162,7 @@ struct Row {
 
   std::vector<std::vector<uint8_t>> side;
   std::vector<int16_t> disparity;
-  starfocus::PlaneViews planes;
-  starfocus::Window window;
+  starfocus::Input input;
 };
 
 TEST_CASE("picture edge: pixels beyond an edge are read from the side view that shows them") {
@@ -197,7 +195,7 @@ TEST_CASE("picture edge: pixels beyond an edge are read from the side view that 
 TEST_CASE("picture edge: with a pair, pixels beyond one edge are read from the second view") {
   for (const int unit : {-10, 10}) {
     Row scene(17);
-    test::SetPositions({{0.5, 0}}, &scene.window);
+    test::SetPositions({{0.5, 0}}, &scene.input);
     scene.Fill(0, kWidth, unit);
     const std::vector<int> row = scene.Load();
     for (int k = 1; k <= kBorder; ++k) {

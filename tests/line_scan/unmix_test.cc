@@ -28,8 +28,7 @@ struct Scene {
   std::vector<uint8_t> centre, side;
   std::vector<int16_t> disparity;
   std::vector<int16_t> rgb;
-  starfocus::PlaneViews planes;
-  Window window;
+  Input input;
   BlockPixels field;
 
   Scene(double far, double near, const Greys& greys, int views = 5, bool mirrored = false)
@@ -45,13 +44,13 @@ struct Scene {
         disparity[size_t(at)] = int16_t(64 * (x >= kEdge ? near : far));
       }
     }
-    window.width = window.picture_width = kSize;
-    window.height = window.picture_height = kSize;
-    test::SetStar(views, &window);
-    window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
-    planes.view[0] = {centre.data(), 3 * kSize, 0, 0};
-    for (int view = 1; view < views; ++view) planes.view[view] = {side.data(), 3 * kSize, 0, 0};
-    window.disparity = {disparity.data(), kSize, 0, 0};
+    input.width = kSize;
+    input.height = kSize;
+    test::SetStar(views, &input);
+    input.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
+    test::SetPixels(0, centre, 3 * kSize, &input);
+    for (int view = 1; view < views; ++view) test::SetPixels(view, side, 3 * kSize, &input);
+    input.disparity = {disparity.data(), kSize, 0, 0};
     field.rgb = rgb.data();
     field.disparity = disparity.data();
   }
@@ -60,13 +59,12 @@ struct Scene {
   std::vector<int> Unmixed(int layer = 0) {
     std::vector<int16_t> copy(disparity.size() + starfocus::simd::kPadding);
     field.disparity = copy.data();
-    test::ReadPlanes(&planes, &window);
-    starfocus::LoadBlock(window, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
+    starfocus::LoadBlock(input, 0, {4, 4, kSize - 8, kSize - 8}, {4, 4, 4, 4}, &field);
     starfocus::ViewWeights aperture;
     aperture.n = aperture.last = 4;
-    window.layer = layer;
+    field.layer = layer;
     const ViewGrid grid = starfocus::MakeViewGrid(aperture, {}, 1, 0, false);
-    starfocus::UnmixEdges(starfocus::simd::BestKernels(), window, grid, &field);
+    starfocus::UnmixEdges(starfocus::simd::BestKernels(), input, grid, &field);
     std::vector<int> greys;
     for (int x = 0; x < kSize; ++x)
       greys.push_back((*field.Rgb(x, kSize / 2) + 64) >> starfocus::kLightBits);
@@ -103,7 +101,7 @@ TEST_CASE("unmix: the far colour is read from the view that sees behind the edge
       std::vector<uint8_t> other(scene.side.size(), 240);
       const int right = views == 17 ? 9 : 1, left = right + 1, behind = mirrored ? right : left;
       for (int view = 1; view < views; ++view) {
-        if (view != behind) scene.planes.view[view].data = other.data();
+        if (view != behind) scene.input.images[view].planes[0] = other.data();
       }
       // In the view that sees behind the edge, only the pixel that moves by -u d is grey.
       const int x = mirrored ? kSize - kEdge : kEdge - 1;
@@ -112,7 +110,7 @@ TEST_CASE("unmix: the far colour is read from the view that sees behind the edge
       for (int y = 0; y < kSize; ++y) {
         for (int c = 0; c < 3; ++c) one[size_t(3 * (y * kSize + moved) + c)] = 40;
       }
-      scene.planes.view[behind].data = one.data();
+      scene.input.images[behind].planes[0] = one.data();
       CHECK(scene.Unmixed()[size_t(x)] == 40);
     }
   }

@@ -130,10 +130,10 @@ Map RandomMap(int width, int height, Content content, double amplitude, test::Ra
 // report accesses beyond the cells.
 struct Cells {
   Cells(const Map& map, int y, int side, int around) {
-    Window window;
-    window.width = window.picture_width = map.width;
-    window.height = window.picture_height = map.height;
-    window.disparity = {map.disparity.data(), size_t(map.width), 0, 0};
+    Input input;
+    input.width = map.width;
+    input.height = map.height;
+    input.disparity = {map.disparity.data(), size_t(map.width), 0, 0};
     grid.columns = (map.width + kCellSize - 1) / kCellSize;
     grid.rows = (map.height + kCellSize - 1) / kCellSize;
     const int end = std::min(y + side, map.height);
@@ -142,7 +142,7 @@ struct Cells {
     cells.resize(size_t(grid.last_row - grid.first_row) * size_t(grid.columns));
     grid.cells = cells.data();
     for (int row = grid.first_row; row < grid.last_row; ++row) {
-      starfocus::MeasureCells(starfocus::simd::BestKernels(), window, map.scale, row,
+      starfocus::MeasureCells(starfocus::simd::BestKernels(), input, map.scale, row,
                               {0, grid.columns}, grid.At(0, row));
     }
   }

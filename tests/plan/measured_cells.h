@@ -18,17 +18,17 @@ namespace test {
 inline starfocus::CellGrid MeasureCells(const std::vector<int16_t>& disparity, int width,
                                         int height, const starfocus::BlurScale& scale,
                                         std::vector<starfocus::Cell>* cells) {
-  starfocus::Window window;
-  window.width = window.picture_width = width;
-  window.height = window.picture_height = height;
-  window.disparity = {disparity.data(), size_t(width), 0, 0};
+  starfocus::Input input;
+  input.width = width;
+  input.height = height;
+  input.disparity = {disparity.data(), size_t(width), 0, 0};
   starfocus::CellGrid grid;
   grid.columns = (width + starfocus::kCellSize - 1) / starfocus::kCellSize;
   grid.rows = grid.last_row = (height + starfocus::kCellSize - 1) / starfocus::kCellSize;
   cells->resize(size_t(grid.columns) * size_t(grid.rows));
   grid.cells = cells->data();
   for (int row = 0; row < grid.rows; ++row) {
-    starfocus::MeasureCells(starfocus::simd::BestKernels(), window, scale, row, {0, grid.columns},
+    starfocus::MeasureCells(starfocus::simd::BestKernels(), input, scale, row, {0, grid.columns},
                             grid.At(0, row));
   }
   return grid;

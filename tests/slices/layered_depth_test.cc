@@ -54,7 +54,7 @@ TEST_CASE("surfaces: captured views show the background behind a near square") {
 
 TEST_CASE("surfaces: a pair sees behind edges on one side; elsewhere the background continues") {
   Scene scene(17);
-  test::SetPositions({{1, 0}}, &scene.window);
+  test::SetPositions({{1, 0}}, &scene.input);
   scene.Fill(0, kSize, 0, kSize, 1, 10);
   scene.Fill(12, 28, 12, 28, 5, 90);
   scene.Find();
@@ -74,7 +74,7 @@ TEST_CASE("surfaces: a view at any position supplies the hidden pixels that it s
   for (const starfocus_position& at :
        {starfocus_position{0.5, 0.25}, starfocus_position{0.75, -0.5}}) {
     Scene scene(17);
-    test::SetPositions({at}, &scene.window);
+    test::SetPositions({at}, &scene.input);
     scene.Fill(0, kSize, 0, kSize, 4, 10);
     scene.Fill(12, 28, 12, 28, 12, 90);
     scene.Find();
@@ -96,7 +96,7 @@ TEST_CASE("surfaces: a view at any position supplies the hidden pixels that it s
 
 TEST_CASE("surfaces: if the farther of two views does not show a pixel, the nearer view is used") {
   Scene scene(17);
-  test::SetPositions({{1, 0}, {0.25, 0}}, &scene.window);
+  test::SetPositions({{1, 0}, {0.25, 0}}, &scene.input);
   scene.Fill(0, kSize, 0, kSize, 0, 10);
   scene.Fill(10, 14, 0, kSize, 4, 90);
   scene.Fill(15, 25, 0, kSize, 4, 90);  // only the nearer view sees through the gap

@@ -34,8 +34,7 @@ struct LayeredScene {
   std::vector<uint8_t> edges[4], share;
   std::vector<int16_t> colours[3], rgb;
   std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
-  starfocus::PlaneViews views_of;
-  starfocus::Window window;
+  starfocus::Input input;
   LayeredDepth surfaces;
   starfocus::BlockPixels field;
   std::vector<int16_t> copy;
@@ -49,10 +48,10 @@ struct LayeredScene {
         pixel[1] = uint8_t(at / kSize);
         pixel[2] = uint8_t(view);
       }
-      views_of.view[view] = {side[view].data(), 3 * kSize, 0, 0};
+      test::SetPixels(view, side[view], 3 * kSize, &input);
     }
-    window.width = window.picture_width = window.height = window.picture_height = kSize;
-    test::SetStar(views, &window);
+    input.width = input.height = kSize;
+    test::SetStar(views, &input);
   }
 
   void Set(int x, int y, double pixels, int grey) {
@@ -66,10 +65,9 @@ struct LayeredScene {
   }
 
   void Find() {
-    window.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
-    views_of.view[0] = {centre.data(), 3 * kSize, 0, 0};
-    test::ReadPlanes(&views_of, &window);
-    window.disparity = {disparity.data(), kSize, 0, 0};
+    input.transfer = &starfocus::TransferOf(STARFOCUS_TRANSFER_NONE);
+    test::SetPixels(0, centre, 3 * kSize, &input);
+    input.disparity = {disparity.data(), kSize, 0, 0};
     for (int k = 0; k < 3; ++k) {
       planes[k].assign(kArea + 2 * kStripColumns, 0);
       colours[k].assign(3 * kArea, 0);
@@ -97,8 +95,8 @@ struct LayeredScene {
     field = {};
     field.rgb = rgb.data();
     field.disparity = copy.data();
-    starfocus::LoadBlock(window, {0, 0, kSize, kSize}, {0, 0, 0, 0}, &field);
-    starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), window, field, &surfaces);
+    starfocus::LoadBlock(input, 0, {0, 0, kSize, kSize}, {0, 0, 0, 0}, &field);
+    starfocus::FindLayeredDepth(starfocus::simd::BestKernels(), input, field, &surfaces);
   }
 
   // Returns a disparity in pixels per unit, or -1000 if there is no surface.

@@ -51,10 +51,10 @@ TEST_CASE("surface search: finds the nearest pixel, and prefers the same among e
   for (const int32_t surfaces : {0, 1, 3, 12, 200, 2000}) {
     CAPTURE(surfaces);
     const std::vector<int16_t> picture = Picture(surfaces, &random);
-    starfocus::Window window;
-    window.picture_width = window.picture_height = kSide;
-    window.disparity = {picture.data(), kSide};
-    const GivenDisparities around(window, 2, 2);
+    starfocus::Input input;
+    input.width = input.height = kSide;
+    input.disparity = {picture.data(), kSide};
+    const GivenDisparities around(input, 2, 2);
     const SurfaceSearch search(around);
     for (int32_t y = 0; y < starfocus::kCoverageTile; ++y) {
       for (int32_t x = 0; x < starfocus::kCoverageTile; ++x) {

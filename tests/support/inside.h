@@ -88,7 +88,7 @@ inline int LayerColumns(starfocus_engine* engine) {
   int columns = 0;
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     for (int32_t column = 0; column < starfocus::Columns(state.config); ++column) {
-      columns += (state.row_store.needed[layer][column] & starfocus::kNeeded) != 0;
+      columns += (state.layers.needed[layer][column] & starfocus::kNeeded) != 0;
     }
   }
   return columns;

@@ -51,25 +51,27 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
 void BlockBench::HoldDisparity() {
   const FloatMap& map = light_field_->disparity;
   disparity_.resize(map.values.size() + simd::kPadding);
-  engine_->row_store.disparity = {disparity_.data(), size_t(map.width), 0, 0};
+  const Plane<int16_t> disparity = {disparity_.data(), size_t(map.width), 0, 0};
   // Disparities cannot be out of range, because the configuration has the range of the map.
   const starfocus_config& config = engine_->config;
   const starfocus_depth_map given = EngineMap(map);
   const simd::DepthRule rule =
       RuleOf(given, float(config.disparity_min), float(config.disparity_max));
   ReadDepth(simd::BestImageKernels(), {given, rule, map.width, map.height, nullptr},
-            {0, 0, map.width, map.height}, engine_->row_store.disparity);
-  views_.kernels = engine_->kernels;
-  views_.transfer = &TransferOf(engine_->config.transfer);
+            {0, 0, map.width, map.height}, disparity);
+  // The engine only reads the pixels.
+  Plane<uint8_t> views[kMaxViews];
   for (size_t i = 0; i < light_field_->views.size(); ++i) {
     const Image& view = light_field_->views[i];
-    views_.view[i] = {view.pixels.data(), view.stride(), 0, 0};
+    views[i] = {const_cast<uint8_t*>(view.pixels.data()), view.stride(), 0, 0};
   }
-  SetViews(engine_->config, ReaderOf(views_), views_.view[0], &engine_->row_store);
+  engine_->input = InputOf(config, *engine_->kernels, views, disparity, {});
 }
 
 void BlockBench::HoldLayer(int layer) {
-  LayerPlane& plane = engine_->row_store.layers[layer];
+  LayerPlane& plane = engine_->layers.planes[layer];
+  plane.width = engine_->input.Width(layer);
+  plane.height = engine_->input.Height(layer);
   const size_t stride = 3 * size_t(plane.width), rows = size_t(plane.height);
   layer_samples_[layer].resize(stride * rows + simd::kPadding);
   plane.rows = {0, plane.height};
@@ -84,10 +86,9 @@ void BlockBench::HoldLayer(int layer) {
   const ResampleScratch scratch = {even.data(), odd.data(), halved.data(), layer_one.data()};
   for (int32_t begin = 0; begin < plane.width; begin += step) {
     const int32_t end = std::min(begin + step, plane.width);
-    DownsamplePicture(*engine_->kernels, engine_->row_store.windows[0], layer, {begin, end},
-                      scratch, plane);
+    DownsamplePicture(*engine_->kernels, engine_->input, layer, {begin, end}, scratch, plane);
   }
-  engine_->row_store.windows[layer].samples = {plane.samples.data, stride, 0, 0};
+  engine_->input.layers[layer] = {plane.samples.data, stride, 0, 0};
 }
 
 void BlockBench::Focus(const BlockTask& task) {
@@ -106,8 +107,8 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   std::vector<Cell> cells(size_t((rect.width + kCellSize - 1) / kCellSize));
   const int first = rect.x / kCellSize;
   for (int y = rect.y; y < rect.y + rect.height; y += kCellSize) {
-    MeasureCells(*engine_->kernels, engine_->row_store.windows[0], engine_->lens.scale,
-                 y / kCellSize, {first, first + int(cells.size())}, cells.data());
+    MeasureCells(*engine_->kernels, engine_->input, engine_->lens.scale, y / kCellSize,
+                 {first, first + int(cells.size())}, cells.data());
     for (const Cell& cell : cells) AddCell(cell, &content);
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);

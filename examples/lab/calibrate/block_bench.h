@@ -44,7 +44,6 @@ class BlockBench {
   const LightField* light_field_ = nullptr;
   Engine owner_;
   EngineState* engine_ = nullptr;
-  PlaneViews views_;
   std::vector<int16_t> disparity_;
   std::vector<int16_t> layer_samples_[STARFOCUS_LAYERS];
   Image picture_;

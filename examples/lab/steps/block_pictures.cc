@@ -68,12 +68,20 @@ class BlockArtist {
       : planned_(planned),
         engine_(planned.engine),
         rect_(planned.block.rect),
-        window_(engine_.row_store.windows[0]),
+        input_(engine_.input),
         memory_(
             static_cast<CompositorScratch*>(engine_.scratch[0].renderers[kSliceRenderer.index])),
         grid_(ViewGridOf(InputsOf(engine_), planned_.block, engine_.scratch[0].aperture_weights)),
-        job_{&window_, &grid_,  engine_.kernels,    rect_, planned_.block.border,
-             nullptr,  nullptr, engine_.lens.r_max, false},
+        job_{&input_,
+             0,
+             &grid_,
+             engine_.kernels,
+             rect_,
+             planned_.block.border,
+             nullptr,
+             nullptr,
+             engine_.lens.r_max,
+             false},
         pictures_(*pictures) {}
 
   void Draw() {
@@ -108,7 +116,7 @@ class BlockArtist {
     const size_t samples = 3 * static_cast<size_t>(rect_.width);
     for (int32_t y = 0; y < rect_.height; ++y) {
       engine_.kernels->Finish(engine_.scratch[0].sums + static_cast<size_t>(y) * samples, samples,
-                              kSliceRenderer.sum_bits(weights), window_.transfer->encoding,
+                              kSliceRenderer.sum_bits(weights), input_.transfer->encoding,
                               PixelOf(&pictures_.view, rect_.x, rect_.y + y));
     }
   }
@@ -158,7 +166,7 @@ class BlockArtist {
       const CapturedLine line = {
           rect_.x * kShiftOne - ScaledByView(at.u, grid_.focus.far, kBits),
           (rect_.y + y) * kShiftOne - ScaledByView(at.v, grid_.focus.far, kBits), 1, 0};
-      ReadCaptured(window_, view, line, rect_.width, row.data());
+      ReadCaptured(input_, 0, view, line, rect_.width, row.data());
       for (size_t k = 0; k < row.size(); ++k) sums[k] += row[k];
     }
     for (size_t k = 0; k < row.size(); ++k) {
@@ -168,7 +176,7 @@ class BlockArtist {
 
   void Encode(const LightRow& row, int32_t y, Image* picture) const {
     engine_.kernels->Encode(row.data(), 3 * static_cast<size_t>(rect_.width),
-                            window_.transfer->encoding, PixelOf(picture, rect_.x, rect_.y + y));
+                            input_.transfer->encoding, PixelOf(picture, rect_.x, rect_.y + y));
   }
 
   // Tints the pixels of each tile by the slices that the compositor makes for this tile.
@@ -223,7 +231,7 @@ class BlockArtist {
 
   void DrawCoverage(int32_t x, int32_t y) {
     uint8_t* const pixel = PixelOf(&pictures_.coverage, x, y);
-    const CoverageMap& map = *window_.coverage;
+    const CoverageMap& map = *input_.coverage;
     const int alpha = map.alpha[map.At(x, y)];
     if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 && alpha != kUnparted) {
       std::fill_n(pixel, 3, static_cast<uint8_t>(alpha * 255 / kWhole));
@@ -236,7 +244,7 @@ class BlockArtist {
   const PlannedBlock& planned_;
   const EngineState& engine_;
   const Rect& rect_;
-  const Window& window_;
+  const Input& input_;
   CompositorScratch* const memory_;
   const ViewGrid grid_;  // Grid of the engine.
   const RenderJob job_;  // The engine's job for this block.
