@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "lib/gather/gather.h"
-#include "lib/io/add_excess.h"
 #include "lib/io/excess.h"
 
 namespace starfocus {
@@ -96,21 +95,17 @@ int SumBits(const BlockInputs& in, const RenderJob& job) {
   return in.lens->renderer->sum_bits(job.grid->aperture);
 }
 
-ExcessSum SumOf(const BlockInputs& in) {
-  return {in.kernels, in.input->transfer, ExcessFactor(static_cast<float>(in.config->highlights))};
-}
-
 // Renders the light of highlights beyond white and adds this light to the block. Returns the number
 // of samples of a view.
 uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>& out,
                       Scratch* scratch) {
-  const Input excess = ExcessOf(*in.input, scratch->lamp_runs);
+  const Input excess = ExcessOf(*in.input, in.config->highlights, scratch->lamp_runs);
   job.input = &excess;
   const uint64_t samples = RenderSums(in, job, scratch);
   if (!scratch->cancel.Spend(0)) return 0;
   const size_t row_samples = 3 * static_cast<size_t>(job.rect.width);
   for (int32_t row = 0; row < job.rect.height; ++row) {
-    AddExcess(SumOf(in), scratch->sums + static_cast<size_t>(row) * row_samples, row_samples,
+    AddExcess(excess, scratch->sums + static_cast<size_t>(row) * row_samples, row_samples,
               SumBits(in, job), At(out, job.rect, row));
   }
   return samples;
@@ -179,14 +174,16 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
 
 void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                Scratch* scratch) {
-  const auto blur = [&](const Input& input, const ExcessSum& excess) {
+  const auto blur = [&](const Input& input) {
     const BlurJob job = {&input,     in.lens->scale,    in.tables->psfs, in.kernels,
-                         block.rect, block.border.left, excess,          &scratch->cancel};
+                         block.rect, block.border.left, &scratch->cancel};
     BlurRectangle(job, scratch->field.rgb, scratch->sums, scratch->spans, At(out, block.rect, 0),
                   out.stride);
   };
-  blur(*in.input, {in.kernels, in.input->transfer, 0});
-  if (block.has_highlights) blur(ExcessOf(*in.input, scratch->lamp_runs), SumOf(in));
+  blur(*in.input);
+  if (block.has_highlights) {
+    blur(ExcessOf(*in.input, in.config->highlights, scratch->lamp_runs));
+  }
 }
 
 }  // namespace

@@ -22,16 +22,10 @@ int32_t LargestSide(const EngineState& engine) {
   return IsBenchmark(lens) ? Min(largest, lens.renderer->benchmark_side) : largest;
 }
 
-// Returns true if blocks in `rect` may show light of highlights beyond white: some view has a
-// highlight within the reach of blur and disparity. Returns false if a single highlight larger than
-// a lamp covers the whole area within reach.
-bool HasHighlights(const EngineState& engine, const Rect& rect) {
-  if (!(engine.config.highlights > 1)) return false;
-  const int32_t around = engine.lens.borders.highlights;
-  const Rect near = Extended(rect, {around, around, around, around});
-  if (!MayHaveHighlights(engine.input, near)) return false;
-  const int32_t lamp = LampReach(LargestLamp(engine.config.width));
-  return !AreAllHighlights(engine.input, Extended(near, {lamp, lamp, lamp, lamp}));
+// Returns true if blocks in `rect` may show light of highlights beyond white.
+bool ShowsHighlights(const EngineState& engine, const Rect& rect) {
+  return engine.config.highlights > 1 &&
+         HasHighlights(engine.input, rect, engine.lens.borders.highlights);
 }
 
 Block WholeBlock(const EngineState& engine, const Rect& rect) {
@@ -54,7 +48,7 @@ Block WholeBlock(const EngineState& engine, const Rect& rect) {
 int32_t PlanWhole(const EngineState& engine, const Rect& superblock, Block* blocks) {
   const int32_t side = LargestSide(engine);
   const int32_t right = superblock.x + superblock.width, bottom = superblock.y + superblock.height;
-  const bool has_highlights = !IsPinhole(engine.lens) && HasHighlights(engine, superblock);
+  const bool has_highlights = !IsPinhole(engine.lens) && ShowsHighlights(engine, superblock);
   int32_t count = 0;
   for (int32_t y = superblock.y; y < bottom; y += side) {
     for (int32_t x = superblock.x; x < right; x += side) {
@@ -71,7 +65,7 @@ int32_t PlanBlocks(const EngineState& engine, const Rect& superblock, const Scra
                    Block* blocks) {
   const Lens& lens = engine.lens;
   if (!IsPartitioned(lens)) return PlanWhole(engine, superblock, blocks);
-  const bool has_highlights = HasHighlights(engine, superblock);
+  const bool has_highlights = ShowsHighlights(engine, superblock);
   // Blocks with highlights are rendered from views at layer 0, because light beyond white is read
   // only at layer 0.
   const PartitionRules rules = {engine.kernels,

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lib/io/block_pixels.h"
+#include "lib/io/excess.h"
 
 namespace starfocus {
 namespace {
@@ -87,8 +88,8 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
       list.Flush();
       const int bits = psf.sum_bits + kLightBits;
       CheckSums(accumulators, samples, bits);
-      if (job.excess.factor != 0) {
-        AddExcess(job.excess, accumulators, samples, bits, out + 3 * begin);
+      if (job.input->captured != nullptr) {
+        AddExcess(*job.input, accumulators, samples, bits, out + 3 * begin);
         continue;
       }
       job.kernels->Finish(accumulators, samples, bits, job.input->transfer->encoding,

@@ -10,7 +10,6 @@
 
 #include "lib/base/jobs.h"
 #include "lib/gather/span_list.h"
-#include "lib/io/add_excess.h"
 #include "lib/io/input.h"
 #include "lib/optics/psf.h"
 #include "lib/plan/cells.h"
@@ -19,13 +18,12 @@
 namespace starfocus {
 
 struct BlurJob {
-  const Input* input;
+  const Input* input;  // If it reads excess, BlurRectangle adds the blurred excess to `out`.
   BlurScale scale;
   const Psf* psfs_of_radius;
   const simd::Kernels* kernels;
   Rect rect;
-  int32_t border;    // Largest Psf::size in the picture, in pixels.
-  ExcessSum excess;  // If excess.factor > 0, BlurRectangle adds the excess of the input to `out`.
+  int32_t border;       // Largest Psf::size in the picture, in pixels.
   CancelToken* cancel;  // Cancels the call; `out` is incomplete after cancellation.
 };
 

@@ -8,6 +8,15 @@
 namespace starfocus {
 namespace {
 
+bool IsHighlight(const uint8_t* codes) {
+  const int bright = (codes[0] >= kFirstExcess ? 1 : 0) + (codes[1] >= kFirstExcess ? 1 : 0) +
+                     (codes[2] >= kFirstExcess ? 1 : 0);
+  return bright >= 2;
+}
+
+// Fractional bits of Input::excess_factor.
+constexpr int kExcessBits = 8;
+
 constexpr int32_t kSteps = 255 - kFirstExcess + 1;
 
 int32_t ExcessOfCode(uint8_t code) {
@@ -121,23 +130,40 @@ bool AnyPiece(const Input& in, const Rect& rect, bool (*test)(const uint8_t*, in
 
 }  // namespace
 
-bool IsHighlight(const uint8_t* codes) {
-  const int bright = (codes[0] >= kFirstExcess ? 1 : 0) + (codes[1] >= kFirstExcess ? 1 : 0) +
-                     (codes[2] >= kFirstExcess ? 1 : 0);
-  return bright >= 2;
+bool HasHighlights(const Input& in, const Rect& rect, int32_t reach) {
+  const Rect near = Extended(rect, {reach, reach, reach, reach});
+  if (!AnyPiece(in, near, IsBright)) return false;
+  const int32_t lamp = LampReach(LargestLamp(in.width));
+  return AnyPiece(in, Extended(near, {lamp, lamp, lamp, lamp}), HasOthers);
 }
 
-bool MayHaveHighlights(const Input& in, const Rect& rect) { return AnyPiece(in, rect, IsBright); }
-
-bool AreAllHighlights(const Input& in, const Rect& rect) { return !AnyPiece(in, rect, HasOthers); }
-
-Input ExcessOf(const Input& captured, LampRuns* runs) {
+Input ExcessOf(const Input& captured, double highlights, LampRuns* runs) {
   runs->Clear();
   Input in = captured;
   in.read_light = ReadExcess;
   in.captured = &captured;
   in.runs = runs;
+  in.excess_factor =
+      static_cast<int32_t>((static_cast<float>(highlights) - 1.0F) * (1 << kExcessBits) + 0.5F);
   return in;
+}
+
+void AddExcess(const Input& excess, const uint32_t* sums, size_t count, int shift, uint8_t* codes) {
+  constexpr size_t kAtOnce = 96;
+  const int bits = shift - kLightBits + kExcessBits;
+  const uint64_t half = uint64_t{1} << (bits - 1);
+  int16_t light[kAtOnce];
+  for (size_t begin = 0; begin < count; begin += kAtOnce) {
+    const size_t end = count - begin < kAtOnce ? count : begin + kAtOnce;
+    for (size_t n = begin; n < end; ++n) {
+      // The product of the sum and the factor is at most 2^32 * 63 * 2^8.
+      const uint64_t more =
+          (uint64_t{sums[n]} * static_cast<uint64_t>(excess.excess_factor) + half) >> bits;
+      const uint64_t sum = static_cast<uint64_t>(excess.transfer->light[codes[n]]) + more;
+      light[n - begin] = sum < kLightWhite ? static_cast<int16_t>(sum) : kLightWhite;
+    }
+    excess.kernels->Encode(light, end - begin, excess.transfer->encoding, codes + begin);
+  }
 }
 
 }  // namespace starfocus

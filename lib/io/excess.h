@@ -4,6 +4,7 @@
 #ifndef STARFOCUS_LIB_IO_EXCESS_H_
 #define STARFOCUS_LIB_IO_EXCESS_H_
 
+#include <cstddef>
 #include <cstdint>
 
 #include "lib/base/fixed.h"
@@ -23,13 +24,11 @@ constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
 // are highlights. Darker saturated colours are not highlights, because at most one of their codes
 // reaches kFirstExcess.
 inline constexpr int32_t kFirstExcess = 251;
-bool IsHighlight(const uint8_t* codes);
 
-// Returns true if any view has a code of at least kFirstExcess in `rect`.
-bool MayHaveHighlights(const Input& in, const Rect& rect);
-
-// Returns true if all pixels of all views in `rect` are highlights.
-bool AreAllHighlights(const Input& in, const Rect& rect);
+// Returns true if pixels of `rect` may show light of highlights beyond white: some view has a
+// highlight at most `reach` pixels away. Returns false if a single highlight larger than a lamp
+// covers the whole area within reach.
+bool HasHighlights(const Input& in, const Rect& rect, int32_t reach);
 
 // Run of highlights in a row or column: pixels [first, last]. `length` is at most LampReach and
 // applies to all pixels of the run.
@@ -55,12 +54,17 @@ struct LampRuns {
 // Returns an input whose light is the excess of the highlights of `captured`, at layer 0. Clears
 // `runs`, its cache. `captured` and `runs` must outlive the result. The excess of a highlight rises
 // with the square of the code, from kFirstExcess on, and equals white for a clipped sample. Other
-// pixels have no excess.
+// pixels have no excess. `highlights` is starfocus_config.highlights.
 //
 // A highlight that is at most LargestLamp pixels high or wide has its full excess. The excess of
 // larger highlights decreases to 0 at twice this size. Highlights that reach the edge of the
 // picture count as large.
-Input ExcessOf(const Input& captured, LampRuns* runs);
+Input ExcessOf(const Input& captured, double highlights, LampRuns* runs);
+
+// Last step of rendering highlights: adds the rendered excess in `sums`, which have `shift`
+// fractional bits, to the light of `codes`. Results beyond white are clipped to white. Sums of 0 do
+// not change the codes.
+void AddExcess(const Input& excess, const uint32_t* sums, size_t count, int shift, uint8_t* codes);
 
 }  // namespace starfocus
 

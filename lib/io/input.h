@@ -91,9 +91,11 @@ struct Input {
   const CoverageMap* coverage = nullptr;
 
   // Not null: this input reads the excess of the highlights of `captured`, at layer 0, instead of
-  // its light (excess.h). `runs` is the cache of their sizes.
+  // its light (highlights.h). `runs` is the cache of their sizes. `excess_factor` multiplies the
+  // rendered excess.
   const Input* captured = nullptr;
   LampRuns* runs = nullptr;
+  int32_t excess_factor = 0;
 
   void Light(int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) const {
     read_light(*this, view, x, y, count, rgb);
