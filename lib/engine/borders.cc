@@ -5,7 +5,7 @@
 #include "lib/base/fixed.h"
 #include "lib/engine/deblock.h"
 #include "lib/io/block_pixels.h"
-#include "lib/io/excess.h"
+#include "lib/io/highlights.h"
 #include "lib/io/layers.h"
 #include "lib/matting/boundary_pixel.h"
 #include "lib/matting/passes.h"

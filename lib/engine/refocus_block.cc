@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "lib/gather/gather.h"
-#include "lib/io/excess.h"
+#include "lib/io/highlights.h"
 
 namespace starfocus {
 namespace {

@@ -9,7 +9,7 @@
 #include "lib/engine/tables.h"
 #include "lib/gather/depth_blur.h"
 #include "lib/io/block_pixels.h"
-#include "lib/io/excess.h"
+#include "lib/io/highlights.h"
 #include "lib/io/layers.h"
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"

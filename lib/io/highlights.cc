@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/io/excess.h"
+#include "lib/io/highlights.h"
 
 #include <cstddef>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Highlights: computes the light beyond white that clipped samples represent
 // (starfocus_config.highlights).
-#ifndef STARFOCUS_LIB_IO_EXCESS_H_
-#define STARFOCUS_LIB_IO_EXCESS_H_
+#ifndef STARFOCUS_LIB_IO_HIGHLIGHTS_H_
+#define STARFOCUS_LIB_IO_HIGHLIGHTS_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -68,4 +68,4 @@ void AddExcess(const Input& excess, const uint32_t* sums, size_t count, int shif
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_IO_EXCESS_H_
+#endif  // STARFOCUS_LIB_IO_HIGHLIGHTS_H_
