@@ -22,7 +22,7 @@ constexpr int32_t kSameSurface = kPixel;
 // required. Maps that are mostly right are wrong only at objects with the colour of the background,
 // and colours are unreliable at such objects.
 constexpr int32_t kGainRadius = 3;
-constexpr EvidenceScale kGains = {18, 22, 1000, 60};
+constexpr int32_t kRightGain = 1000, kWrongGain = 60;
 // Number of directions of the paths along which costs are summed.
 constexpr int32_t kPaths = 4;
 // Number of phases, without the phases of FindHairCoverage.
@@ -107,7 +107,7 @@ int32_t JudgeMap(const EstimatePlan& plan, const ColourMemory& memory, bool has_
     const Rect cell = grid.CellAt(number % grid.columns, number / grid.columns);
     if (HasHair(memory.hair_cells, cell)) memory.thin.thin[number] = 1;
   }
-  return LeastEvidence(kGains, memory.counts, plan.columns * plan.rows);
+  return LeastEvidence(memory.counts, plan.columns * plan.rows, kRightGain, kWrongGain);
 }
 
 // Returns true if the total gain of the changes around a pixel is large enough to contradict the
@@ -331,7 +331,7 @@ void ChooseByColour(const ColourMap& map, bool has_hair, const simd::DepthKernel
   } else {
     run->Skip();
   }
-  const bool is_right = least_gain == kGains.right;
+  const bool is_right = least_gain == kRightGain;
   run->Run([&](int32_t index, int32_t) { EvenTile(wide, memory, output, is_right, index); });
 }
 

@@ -56,18 +56,12 @@ struct TileCount {
   int32_t differs;  // Pixels that the repair contradicts.
 };
 
-// Required evidence as a function of the percentage of edge pixels that the repair contradicts. Up
-// to `right_percent` the map is assumed to be right, and the required evidence is `right`. From
-// `wrong_percent` on, the required evidence is `wrong`. Between the two percentages, the required
-// evidence is interpolated.
-struct EvidenceScale {
-  int32_t right_percent, wrong_percent;
-  int32_t right, wrong;
-};
-
-// Returns the evidence required for a change. `counts` has one element for each of the `tiles`
-// tiles of the map.
-int32_t LeastEvidence(const EvidenceScale& scale, const TileCount* counts, int32_t tiles);
+// Returns the evidence required for a change, which depends on the percentage of edge pixels that
+// the repair contradicts. If the percentage is small, the map is assumed to be right, and the
+// required evidence is `right`. If it is large, the required evidence is `wrong`. In between, the
+// required evidence is interpolated. `counts` has one element for each of the `tiles` tiles of the
+// map.
+int32_t LeastEvidence(const TileCount* counts, int32_t tiles, int32_t right, int32_t wrong);
 
 // Takes the state of the jobs of a call that processes the tiles of `plan` one by one.
 Jobs* TakeJobs(const EstimatePlan& plan, int32_t max_workers, Arena* arena);

@@ -36,35 +36,32 @@ constexpr int32_t kClearCost = 44;
 // that fit 7.5 grey levels worse. In a map that is right except at details of low contrast, a
 // change requires a total of 1600. If changes require a total of 1600, a pixel whose new disparity
 // is on the surface of the given disparity is not changed.
-inline constexpr EvidenceScale kSweepEvidence = {18, 22, 1600, 240};
+constexpr int32_t kRightEvidence = 1600, kWrongEvidence = 240;
 
-struct Mean {
-  int32_t sum = 0, count = 0;
-
-  void Add(int32_t value) {
-    sum += value;
-    ++count;
-  }
-  // Returns the mean of the added values, with halves rounded away from zero.
-  int32_t Value() const { return (2 * sum + (sum < 0 ? -count : count)) / (2 * count); }
-};
+// Returns the mean of `count` values with the sum `sum`, with halves rounded away from zero.
+int32_t MeanOf(int32_t sum, int32_t count) {
+  return (2 * sum + (sum < 0 ? -count : count)) / (2 * count);
+}
 
 // Returns the mean disparity, around pixel (x, y), of the surface at disparity `own`. If trusted
 // disparities of this surface exist, only trusted disparities are averaged.
 int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
                       int32_t own) {
   const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
-  Mean trusted, found;
+  int32_t trusted_sum = 0, trusted = 0, sum = 0, count = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
       const size_t at = plan.At(column, row);
       if (std::abs(memory.second[at] - own) > kSameSurface) continue;
-      found.Add(memory.second[at]);
+      sum += memory.second[at];
+      ++count;
       const int32_t d = memory.trusted[at];
-      if (d != simd::kNoSurface && std::abs(d - own) <= kSameSurface) trusted.Add(d);
+      if (d == simd::kNoSurface || std::abs(d - own) > kSameSurface) continue;
+      trusted_sum += d;
+      ++trusted;
     }
   }
-  return trusted.count > 0 ? trusted.Value() : found.Value();
+  return trusted > 0 ? MeanOf(trusted_sum, trusted) : MeanOf(sum, count);
 }
 
 // Returns true if less than a quarter of the pixels around pixel (x, y) are trusted. A rough part
@@ -129,7 +126,7 @@ int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32
   const int16_t given = memory.given[own], found = memory.first[own];
   if (given == simd::kNoSurface) return found;
   if (!Differs(memory, own)) {
-    return least_evidence < kSweepEvidence.right ? found : given;
+    return least_evidence < kRightEvidence ? found : given;
   }
   if (IsRough(plan, memory, x, y)) return found;
   const Rect around = Widened(plan, {x, y, 1, 1}, kEvidenceRadius);
@@ -194,7 +191,7 @@ void ValueTile(const EstimatePlan& plan, const Plane<const uint8_t>& centre, int
 int32_t JudgeMaps(const EstimatePlan& plan, const EstimateMemory& memory) {
   FindThin(GridOf(plan), kThinGiven, memory.given_cells);
   FindThin(GridOf(plan), kThinFound, memory.found_cells);
-  return LeastEvidence(kSweepEvidence, memory.counts, plan.columns * plan.rows);
+  return LeastEvidence(memory.counts, plan.columns * plan.rows, kRightEvidence, kWrongEvidence);
 }
 
 void WritePixel(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
@@ -250,18 +247,19 @@ void WriteTile(const EstimatePlan& plan, const starfocus_light_field& light_fiel
 
 }  // namespace
 
-int32_t LeastEvidence(const EvidenceScale& scale, const TileCount* counts, int32_t tiles) {
+int32_t LeastEvidence(const TileCount* counts, int32_t tiles, int32_t right, int32_t wrong) {
+  // Up to kRightPercent, the map is assumed to be right; from kWrongPercent on, to be wrong.
+  constexpr int32_t kRightPercent = 18, kWrongPercent = 22;
   int64_t rough = 1, differs = 0;
   for (int32_t tile = 0; tile < tiles; ++tile) {
     rough += counts[tile].rough;
     differs += counts[tile].differs;
   }
   const int64_t percent = 100 * differs / rough;
-  if (percent <= scale.right_percent) return scale.right;
-  if (percent >= scale.wrong_percent) return scale.wrong;
-  const auto beyond = static_cast<int32_t>(scale.wrong_percent - percent);
-  return scale.wrong +
-         (scale.right - scale.wrong) * beyond / (scale.wrong_percent - scale.right_percent);
+  if (percent <= kRightPercent) return right;
+  if (percent >= kWrongPercent) return wrong;
+  const auto beyond = static_cast<int32_t>(kWrongPercent - percent);
+  return wrong + (right - wrong) * beyond / (kWrongPercent - kRightPercent);
 }
 
 starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,

@@ -15,133 +15,123 @@
 namespace starfocus {
 namespace {
 
-// Selects the views that are assumed to see a pixel.
-enum class Seeing {
-  kOneSide,  // The views on the side whose views fit the pixel best.
-  kAll       // All views except views in which the pixel is known to be hidden.
+// The given map adds no cost to a label whose disparity differs from the pixel's trusted disparity
+// by at most kOwnLabels (kDisparityBits).
+constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
+
+// A tile of a sweep: the region that consists of the tile and its margin, and the tile's memory.
+struct SweptTile {
+  const EstimatePlan& plan;
+  const Rect& region;
+  const simd::DepthKernels& kernels;
+  const TileMemory& memory;
+  const uint8_t* swept;  // EstimateMemory::swept
+  size_t places;         // Number of elements of a pixel in the arrays of costs (PathLabels).
+
+  // Calls act(begin, end) for each run of swept pixels of row y of the region (ForRuns).
+  template <class Act>
+  void ForRow(int32_t y, const Act& act) const {
+    ForRuns(plan, swept, y, region.x, region.x + region.width, act);
+  }
+  // Returns the index of the first element of pixel (x, y) in the arrays of costs.
+  size_t At(int32_t x, int32_t y) const {
+    const size_t row = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width);
+    return (row + static_cast<size_t>(x - region.x)) * places;
+  }
 };
 
-// Fills tile->cost for the pixels of `region`. The caller must have loaded the views around
-// `region`, and marked the labels (disparities) that nearer surfaces hide in each view
+// Fills the costs of the pixels of the region. If `one_side` is true, the views on the side whose
+// views fit a pixel best are assumed to see the pixel. Otherwise, all views are assumed to see it,
+// except views in which the pixel is known to be hidden. The caller must have loaded the views
+// around the region, and marked the labels (disparities) that nearer surfaces hide in each view
 // (tile_views.h).
-void MeasureCosts(const EstimatePlan& plan, const Rect& region, Seeing seeing,
-                  const simd::DepthKernels& kernels, TileMemory* tile) {
-  const TileViews& views = tile->views;
-  const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
+void MeasureCosts(const SweptTile& tile, bool one_side) {
+  const EstimatePlan& plan = tile.plan;
+  const TileViews& views = tile.memory.views;
   simd::LabelRow row = {};
   row.plane = views.plane;
-  row.moves = tile->moves;
-  row.labels = labels;
+  row.moves = tile.memory.moves;
+  row.labels = static_cast<size_t>(plan.labels);
   row.views = static_cast<size_t>(plan.side_views);
   const auto all_views = static_cast<uint16_t>((1U << plan.side_views) - 1);
   if (plan.arms == 0) {
-    const bool all = seeing == Seeing::kAll;
-    row.sides = {all ? &all_views : plan.sides, all ? 1 : static_cast<size_t>(plan.side_count)};
+    row.sides = {one_side ? plan.sides : &all_views,
+                 one_side ? static_cast<size_t>(plan.side_count) : 1};
   }
   row.arms = static_cast<size_t>(plan.arms);
   row.rings = static_cast<size_t>(plan.rings);
-  row.one_side = seeing == Seeing::kOneSide;
+  row.one_side = one_side;
   row.ends = views.ends;
   // If the views form a star and a pixel moves beyond the edge of a view, the opposite view
   // replaces this view. In an estimate from a star, the opposite view also replaces each view in
   // which a nearer surface hides the pixel. In a repair, such a hidden view remains in use with a
   // limited cost, because the map of a repair may be wrong.
-  row.limits = plan.repairs && seeing == Seeing::kAll;
-  for (int32_t y = region.y; y < region.y + region.height; ++y) {
-    uint8_t* cost =
-        tile->cost + static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width) * places;
-    ForRuns(plan, tile->swept, y, region.x, region.x + region.width,
-            [&](int32_t begin, int32_t end) {
-              const size_t at = views.At(begin, y);
-              row.pixels = views.Centre(0) + at;
-              row.hidden = views.all_seen ? nullptr : views.hidden + at;
-              kernels.CostLabels(row, static_cast<size_t>(end - begin), places,
-                                 cost + static_cast<size_t>(begin - region.x) * places);
-            });
+  row.limits = plan.repairs && !one_side;
+  for (int32_t y = tile.region.y; y < tile.region.y + tile.region.height; ++y) {
+    tile.ForRow(y, [&](int32_t begin, int32_t end) {
+      const size_t at = views.At(begin, y);
+      row.pixels = views.Centre(0) + at;
+      row.hidden = views.all_seen ? nullptr : views.hidden + at;
+      tile.kernels.CostLabels(row, static_cast<size_t>(end - begin), tile.places,
+                              tile.memory.cost + tile.At(begin, y));
+    });
   }
 }
 
-// A tile of an estimate: the region that consists of the tile and its margin, and the tile's
-// memory.
-struct EstimateTile {
-  const EstimatePlan& plan;
-  const Rect& region;
-  const simd::DepthKernels& kernels;
-  const TileMemory& memory;
-};
-
-// Direction of a path, as the difference between a pixel and the previous pixel of the path.
-struct PathStep {
-  int32_t x, y;
-};
-constexpr PathStep kDirections[8] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
-                                     {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
-
-// Path costs of the previous row (index 0) and of the current row (index 1).
-struct PathRows {
-  int16_t* path[2];
-  int16_t* least[2];
-};
-
-// Starts paths at pixel k of a row, with a cost of 0 for all labels.
-void BeginAt(const PathRows& rows, int from, size_t labels, int32_t k) {
-  const size_t places = simd::PathLabels(labels);
-  int16_t* path = rows.path[from] + k * static_cast<ptrdiff_t>(places);
+// Starts a path at pixel k of a row of paths, with a cost of 0 for all labels.
+void BeginAt(const SweptTile& tile, int32_t k, int16_t* path, int16_t* least) {
+  const auto labels = static_cast<size_t>(tile.plan.labels), places = tile.places;
+  path += k * static_cast<ptrdiff_t>(places);
   std::fill_n(path, labels, int16_t{0});
   std::fill(path + labels, path + places, simd::kNoLabel);
-  rows.least[from][k] = 0;
+  least[k] = 0;
 }
 
 // Starts paths at all pixels of row y in columns [first, last) that are not swept.
-void BeginBeside(const EstimateTile& tile, int32_t y, int32_t first, int32_t last,
-                 const PathRows& rows) {
-  const EstimatePlan& plan = tile.plan;
+void BeginBeside(const SweptTile& tile, int32_t y, int32_t first, int32_t last, int16_t* path,
+                 int16_t* least) {
   const Rect& region = tile.region;
-  const uint8_t* all_swept = tile.memory.swept;
   const bool inside = y >= region.y && y < region.y + region.height;
   const uint8_t* swept =
-      all_swept == nullptr || !inside ? nullptr : all_swept + ptrdiff_t{y} * plan.width;
+      tile.swept == nullptr || !inside ? nullptr : tile.swept + ptrdiff_t{y} * tile.plan.width;
   for (int32_t x = first; x < last; ++x) {
     const bool goes_on = inside && x >= region.x && x < region.x + region.width &&
                          (swept == nullptr || swept[x] != 0);
-    if (!goes_on) BeginAt(rows, 0, static_cast<size_t>(plan.labels), x - region.x);
+    if (!goes_on) BeginAt(tile, x - region.x, path, least);
   }
 }
 
-// Adds the path costs of row y of the region to the sums. The paths continue from the swept pixels
-// of the previous row. If `adds` is false, the sums are overwritten.
-void AddRow(const EstimateTile& tile, int32_t y, const PathStep& direction, bool adds,
-            const PathRows& rows) {
-  const EstimatePlan& plan = tile.plan;
-  const Rect& region = tile.region;
+// Adds the costs of the paths from pixels (x - dx, y - dy) to pixels (x, y) of row y of the region
+// to the sums. The paths of the row are stored in path[own] and least[own], those of the previous
+// row at the other index. The paths continue from the swept pixels. If `adds` is false, the sums
+// are overwritten.
+void AddRow(const SweptTile& tile, int32_t y, int32_t dx, int32_t dy, bool adds, int own) {
   const TileMemory& memory = tile.memory;
-  const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
-  const auto stride = static_cast<ptrdiff_t>(places);
-  const ptrdiff_t row = ptrdiff_t{y - region.y} * region.width;
-  const int from = direction.y == 0 ? 1 : 0;
-  const int32_t right = region.x + region.width;
-  ForRuns(plan, memory.swept, y, region.x, right, [&](int32_t begin, int32_t end) {
-    const ptrdiff_t k = (direction.x < 0 ? end - 1 : begin) - region.x;
-    if (direction.y == 0) {
-      BeginAt(rows, from, labels, static_cast<int32_t>(k) - direction.x);
+  const auto labels = static_cast<size_t>(tile.plan.labels);
+  const auto places = static_cast<ptrdiff_t>(tile.places);
+  const int from = dy == 0 ? own : 1 - own;
+  tile.ForRow(y, [&](int32_t begin, int32_t end) {
+    const int32_t first = dx < 0 ? end - 1 : begin, k = first - tile.region.x;
+    if (dy == 0) {
+      BeginAt(tile, k - dx, memory.path[from], memory.least[from]);
     } else {
-      BeginBeside(tile, y - direction.y, begin - direction.x, end - direction.x, rows);
+      BeginBeside(tile, y - dy, begin - dx, end - dx, memory.path[from], memory.least[from]);
     }
     const auto count = static_cast<size_t>(end - begin);
     const TileViews& views = memory.views;
     tile.kernels.FindJumps(views.Centre(0) + views.At(begin, y),
-                           views.Centre(0) + views.At(begin - direction.x, y - direction.y),
-                           views.plane, count, memory.jump + (begin - region.x));
+                           views.Centre(0) + views.At(begin - dx, y - dy), views.plane, count,
+                           memory.jump + (begin - tile.region.x));
     simd::PathRow paths = {};
-    paths.cost = memory.cost + (row + k) * stride;
-    paths.sum = memory.sum + (row + k) * stride;
+    paths.cost = memory.cost + tile.At(first, y);
+    paths.sum = memory.sum + tile.At(first, y);
     paths.adds = adds;
-    paths.path = rows.path[1] + k * stride;
-    paths.least = rows.least[1] + k;
+    paths.path = memory.path[own] + k * places;
+    paths.least = memory.least[own] + k;
     paths.jump = memory.jump + k;
-    paths.before = rows.path[from] + (k - direction.x) * stride;
-    paths.before_least = rows.least[from] + k - direction.x;
-    tile.kernels.AddPaths(paths, labels, direction.x < 0 ? -1 : 1, count);
+    paths.before = memory.path[from] + (k - dx) * places;
+    paths.before_least = memory.least[from] + k - dx;
+    tile.kernels.AddPaths(paths, labels, dx < 0 ? -1 : 1, count);
   });
 }
 
@@ -150,55 +140,46 @@ int16_t ToDisparity(const EstimatePlan& plan, int32_t choice) {
   return static_cast<int16_t>(plan.low + moved);
 }
 
-// Computes memory.sum from memory.cost for the pixels of the region.
-void AddAllPaths(const EstimateTile& tile) {
+// Computes the sums of path costs from the costs of the pixels of the region.
+void AddAllPaths(const SweptTile& tile) {
   const EstimatePlan& plan = tile.plan;
   const Rect& region = tile.region;
-  const TileMemory& memory = tile.memory;
   // Set the element before each pixel's first label to kNoLabel, because this element belongs to no
   // label.
-  const auto places = static_cast<ptrdiff_t>(simd::PathLabels(static_cast<size_t>(plan.labels)));
-  for (int16_t* path : memory.path) {
+  const auto places = static_cast<ptrdiff_t>(tile.places);
+  for (int16_t* path : tile.memory.path) {
     for (ptrdiff_t k = -1; k <= region.width; ++k) path[k * places - 1] = simd::kNoLabel;
   }
   for (int32_t n = 0; n < plan.directions; ++n) {
-    const PathStep& direction = kDirections[n];
-    PathRows rows = {{memory.path[0], memory.path[1]}, {memory.least[0], memory.least[1]}};
+    const int8_t* direction = kEightDirections[n * (8 / plan.directions)];
     for (int32_t k = 0; k < region.height; ++k) {
-      const int32_t y = region.y + (direction.y < 0 ? region.height - 1 - k : k);
-      AddRow(tile, y, direction, n > 0, rows);
-      std::swap(rows.path[0], rows.path[1]);
-      std::swap(rows.least[0], rows.least[1]);
+      const int32_t y = region.y + (direction[1] < 0 ? region.height - 1 - k : k);
+      AddRow(tile, y, direction[0], direction[1], n > 0, k & 1);
     }
   }
 }
 
 // Writes the disparities (kDisparityBits) of the part `tile_rect` of the region, and the certainty
 // of these disparities, to maps of the whole picture. `certainty` may be null.
-void ChooseDisparities(const EstimateTile& tile, const Rect& tile_rect, int16_t* disparity,
+void ChooseDisparities(const SweptTile& tile, const Rect& tile_rect, int16_t* disparity,
                        uint8_t* certainty) {
   const EstimatePlan& plan = tile.plan;
-  const Rect& region = tile.region;
   const TileMemory& memory = tile.memory;
-  const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
+  const auto labels = static_cast<size_t>(plan.labels);
   for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
-    const size_t row = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width);
-    const size_t to = plan.At(0, y);
-    ForRuns(plan, memory.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
+    ForRuns(plan, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
             [&](int32_t begin, int32_t end) {
               const auto count = static_cast<size_t>(end - begin);
-              const size_t from = row + static_cast<size_t>(begin - region.x);
-              tile.kernels.ChooseLabels(memory.sum + from * places, labels, count, memory.choice,
-                                        certainty == nullptr ? nullptr : certainty + to + begin);
-              int16_t* out = disparity + to + begin;
-              for (size_t k = 0; k < count; ++k) out[k] = ToDisparity(plan, memory.choice[k]);
+              const size_t to = plan.At(begin, y);
+              tile.kernels.ChooseLabels(memory.sum + tile.At(begin, y), labels, count,
+                                        memory.choice,
+                                        certainty == nullptr ? nullptr : certainty + to);
+              for (size_t k = 0; k < count; ++k) {
+                disparity[to + k] = ToDisparity(plan, memory.choice[k]);
+              }
             });
   }
 }
-
-// The given map adds no cost to a label whose disparity differs from the pixel's trusted disparity
-// by at most kOwnLabels (kDisparityBits).
-constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
 // Writes the initial prior of one pixel: 0 for the labels near the pixel's disparity, and the
 // largest cost for all other labels.
@@ -217,113 +198,98 @@ int32_t LabelOf(const EstimatePlan& plan, int32_t d) {
   return Max(0, Min(label, plan.labels - 1));
 }
 
-// Adds a prior cost to the cost of each label at the pixels of `region`. The prior cost of a label
-// increases with the distance to the nearest trusted pixel with the label's disparity. `trusted`
-// has the size of the picture.
-void AddMapPrior(const EstimatePlan& plan, const Rect& region, const int16_t* trusted,
-                 const simd::DepthKernels& kernels, TileMemory* tile) {
-  const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
-  const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
-  const size_t row_places = width * places;
-  // Propagates the prior costs of row y along the row in direction `step`. If `goes_on` is true,
+// Adds a prior cost to the cost of each label at the pixels of the region. The prior cost of a
+// label increases with the distance to the nearest trusted pixel with the label's disparity.
+// `trusted` has the size of the picture.
+void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
+  const EstimatePlan& plan = tile.plan;
+  const Rect& region = tile.region;
+  const TileMemory& memory = tile.memory;
+  const size_t places = tile.places;
+  const ptrdiff_t row_places = region.width * static_cast<ptrdiff_t>(places);
+  // Propagates the prior costs of row y along the row in direction `step`. If `from` is not 0,
   // prior costs are also propagated from row y + from to row y.
-  const auto spread = [&](size_t y, bool goes_on, ptrdiff_t step, ptrdiff_t from) {
-    uint8_t* prior = tile->prior + y * row_places;
-    const ptrdiff_t before = from * static_cast<ptrdiff_t>(row_places);
-    const uint8_t* swept = tile->swept + (region.y + static_cast<ptrdiff_t>(y) + from) * plan.width;
-    ForRuns(plan, tile->swept, region.y + static_cast<int32_t>(y), region.x,
-            region.x + region.width, [&](int32_t begin, int32_t end) {
-              // Pixels for which no disparity is searched (swept[x] == 0) contribute no prior
-              // costs.
-              for (int32_t x = begin; goes_on && x < end; ++x) {
-                if (swept[x] != 0) continue;
-                std::fill_n(prior + before + (x - region.x) * static_cast<ptrdiff_t>(places),
-                            places, simd::kMostPrior);
-              }
-              uint8_t* first =
-                  prior + static_cast<size_t>((step > 0 ? begin : end - 1) - region.x) * places;
-              kernels.SpreadPrior({first, goes_on ? first + before : nullptr, places, step,
-                                   static_cast<size_t>(end - begin)});
-            });
+  const auto spread = [&](int32_t y, ptrdiff_t step, int32_t from) {
+    const uint8_t* swept = tile.swept + plan.At(0, y + from);
+    tile.ForRow(y, [&](int32_t begin, int32_t end) {
+      // Pixels for which no disparity is searched (swept[x] == 0) contribute no prior costs.
+      for (int32_t x = begin; from != 0 && x < end; ++x) {
+        if (swept[x] != 0) continue;
+        std::fill_n(memory.prior + tile.At(x, y + from), places, simd::kMostPrior);
+      }
+      uint8_t* first = memory.prior + tile.At(step > 0 ? begin : end - 1, y);
+      tile.kernels.SpreadPrior({first, from != 0 ? first + from * row_places : nullptr, places,
+                                step, static_cast<size_t>(end - begin)});
+    });
   };
-  for (size_t y = 0; y < height; ++y) {
-    uint8_t* prior = tile->prior + y * row_places;
-    const int32_t row = region.y + static_cast<int32_t>(y);
-    const int16_t* disparity = trusted + plan.At(0, row);
-    ForRuns(plan, tile->swept, row, region.x, region.x + region.width,
-            [&](int32_t begin, int32_t end) {
-              for (int32_t x = begin; x < end; ++x) {
-                SeedPrior(plan, disparity[x], places,
-                          prior + static_cast<size_t>(x - region.x) * places);
-              }
-            });
+  const int32_t bottom = region.y + region.height - 1;
+  for (int32_t y = region.y; y <= bottom; ++y) {
+    const int16_t* disparity = trusted + plan.At(0, y);
+    tile.ForRow(y, [&](int32_t begin, int32_t end) {
+      for (int32_t x = begin; x < end; ++x) {
+        SeedPrior(plan, disparity[x], places, memory.prior + tile.At(x, y));
+      }
+    });
     // First spread the prior forwards along row y and from the row above, then backwards along row
     // y.
-    spread(y, y > 0, 1, -1);
-    spread(y, false, -1, 0);
+    spread(y, 1, y > region.y ? -1 : 0);
+    spread(y, -1, 0);
   }
-  for (size_t y = height; y-- > 0;) {
-    spread(y, y + 1 < height, -1, 1);
-    spread(y, false, 1, 0);
-    ForRuns(plan, tile->swept, region.y + static_cast<int32_t>(y), region.x,
-            region.x + region.width, [&](int32_t begin, int32_t end) {
-              const size_t at = y * row_places + static_cast<size_t>(begin - region.x) * places;
-              kernels.AddPrior(tile->prior + at, static_cast<size_t>(end - begin) * places,
-                               tile->cost + at);
-            });
+  for (int32_t y = bottom; y >= region.y; --y) {
+    spread(y, -1, y < bottom ? 1 : 0);
+    spread(y, 1, 0);
+    tile.ForRow(y, [&](int32_t begin, int32_t end) {
+      const size_t at = tile.At(begin, y);
+      tile.kernels.AddPrior(memory.prior + at, static_cast<size_t>(end - begin) * places,
+                            memory.cost + at);
+    });
   }
 }
 
 // Fills memory.given_cost with the cost of the given disparity, and memory.found_cost with the
 // cost of memory.second, for the pixels of `tile_rect`. The written costs exclude the prior costs
 // of AddMapPrior.
-void WeighEvidence(const EstimatePlan& plan, const Rect& region, const Rect& tile_rect,
-                   const TileMemory& tile, const EstimateMemory& memory) {
-  const size_t places = simd::PathLabels(static_cast<size_t>(plan.labels));
-  const auto weigh = [&](int32_t x, int32_t y) {
+void WeighEvidence(const SweptTile& tile, const Rect& tile_rect, const EstimateMemory& memory) {
+  const EstimatePlan& plan = tile.plan;
+  ForSwept(plan, tile.swept, tile_rect, [&](int32_t x, int32_t y) {
     const size_t at = plan.At(x, y);
     const int32_t given = memory.given[at];
-    const size_t pixel = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width) +
-                         static_cast<size_t>(x - region.x);
-    const uint8_t* cost = tile.cost + pixel * places;
-    const uint8_t* prior = tile.prior + pixel * places;
+    const uint8_t* cost = tile.memory.cost + tile.At(x, y);
+    const uint8_t* prior = tile.memory.prior + tile.At(x, y);
     const int32_t is = LabelOf(plan, memory.second[at]);
     const int32_t was = given == simd::kNoSurface ? is : LabelOf(plan, given);
     memory.given_cost[at] = static_cast<uint8_t>(cost[was] - prior[was]);
     memory.found_cost[at] = static_cast<uint8_t>(cost[is] - prior[is]);
-  };
-  for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
-    ForRuns(plan, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
-            [&](int32_t begin, int32_t end) {
-              for (int32_t x = begin; x < end; ++x) weigh(x, y);
-            });
-  }
+  });
 }
 
-void SweepTile(const Sweep& sweep, Seeing seeing, int32_t index, int32_t worker, int16_t* disparity,
+// Sweeps tile `index`. If `one_side` is true, uses the views on one side of each pixel, otherwise
+// the views that see the pixel.
+void SweepTile(const Sweep& sweep, bool one_side, int32_t index, int32_t worker, int16_t* disparity,
                uint8_t* certainty) {
-  const bool first = seeing == Seeing::kOneSide;
-  const EstimatePlan plan = first && sweep.plan.repairs ? CoarsePlan(sweep.plan) : sweep.plan;
+  const EstimatePlan plan = one_side && sweep.plan.repairs ? CoarsePlan(sweep.plan) : sweep.plan;
   const EstimateMemory& memory = sweep.memory;
-  TileMemory& tile = memory.workers[worker];
+  TileViews* views = &memory.workers[worker].views;
   const Rect tile_rect = TileOf(plan, index);
   if (tile_rect.width == 0 || tile_rect.height == 0) return;
   const Rect region = RegionOf(plan, index);
-  LoadTileViews(plan, sweep.light_field, region, sweep.kernels, &tile.views);
-  FindMoves(plan, tile.views, tile.moves);
-  if (first) {
-    MarkOutside(plan, &tile.views);
+  LoadTileViews(plan, sweep.light_field, region, sweep.kernels, views);
+  FindMoves(plan, *views, memory.workers[worker].moves);
+  if (one_side) {
+    MarkOutside(plan, views);
   } else if (plan.one_sided()) {
-    MarkHiddenInMaps(plan, memory.side_maps, &tile.views);
+    MarkHiddenInMaps(plan, memory.side_maps, views);
   } else {
-    MarkHidden(plan, memory.first, region, &tile.views);
+    MarkHidden(plan, memory.first, region, views);
   }
-  MeasureCosts(plan, region, seeing, sweep.kernels, &tile);
-  if (plan.repairs) AddMapPrior(plan, region, memory.trusted, sweep.kernels, &tile);
-  const EstimateTile of_tile = {plan, region, sweep.kernels, tile};
-  AddAllPaths(of_tile);
-  ChooseDisparities(of_tile, tile_rect, disparity, certainty);
-  if (plan.repairs && !first) WeighEvidence(plan, region, tile_rect, tile, memory);
+  const SweptTile tile = {plan,          region,
+                          sweep.kernels, memory.workers[worker],
+                          memory.swept,  simd::PathLabels(static_cast<size_t>(plan.labels))};
+  MeasureCosts(tile, one_side);
+  if (plan.repairs) AddMapPrior(tile, memory.trusted);
+  AddAllPaths(tile);
+  ChooseDisparities(tile, tile_rect, disparity, certainty);
+  if (plan.repairs && !one_side) WeighEvidence(tile, tile_rect, memory);
 }
 
 }  // namespace
@@ -350,11 +316,11 @@ TileMemory TakeTileMemory(const EstimatePlan& plan, const Rect& region, Arena* a
 }
 
 void SweepOneSide(const Sweep& sweep, int32_t index, int32_t worker, int16_t* disparity) {
-  SweepTile(sweep, Seeing::kOneSide, index, worker, disparity, nullptr);
+  SweepTile(sweep, true, index, worker, disparity, nullptr);
 }
 
 void SweepAllViews(const Sweep& sweep, int32_t index, int32_t worker, uint8_t* certainty) {
-  SweepTile(sweep, Seeing::kAll, index, worker, sweep.memory.second, certainty);
+  SweepTile(sweep, false, index, worker, sweep.memory.second, certainty);
 }
 
 }  // namespace starfocus

@@ -23,7 +23,6 @@ struct TileMemory {
   int16_t* jump;          // Costs of a jump between labels at each pixel of a row (FindJumps).
   simd::ViewMove* moves;  // Movement of each side view for each label.
   int16_t* choice;        // Chosen label of each pixel of a row.
-  const uint8_t* swept;   // Equal to EstimateMemory::swept.
 };
 // Takes the memory of a worker for regions of at most the size of `region`.
 TileMemory TakeTileMemory(const EstimatePlan& plan, const Rect& region, Arena* arena);

@@ -18,25 +18,15 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 // are blurred edges.
 constexpr int32_t kMostSlope = kPixel / 2;
 
-// Smallest and largest disparity in each column of three pixels: the pixel of a row and the pixels
-// above and below it.
-struct ColumnExtremes {
-  int16_t low[kMostTileSide + 2], high[kMostTileSide + 2];
-
-  void Copy(int32_t from, int32_t to) {
-    low[to] = low[from];
-    high[to] = high[from];
-  }
-};
-
-// Fills elements [begin, end) of `columns`. `at` points to a row of disparities. The previous row
-// is `above` samples before this row, and the next row is `below` samples after this row.
+// Fills elements [begin, end) of `low` and `high` with the smallest and the largest disparity of
+// each column of three pixels: the pixel of the row `at` and the pixels above and below it. The
+// previous row is `above` samples before this row, and the next row is `below` samples after it.
 void FindColumns(const int16_t* at, ptrdiff_t above, ptrdiff_t below, int32_t begin, int32_t end,
-                 ColumnExtremes* columns) {
+                 int16_t* low, int16_t* high) {
   for (int32_t k = begin; k < end; ++k) {
     const int16_t up = at[k - above], here = at[k], down = at[k + below];
-    columns->low[k] = std::min(std::min(up, down), here);
-    columns->high[k] = std::max(std::max(up, down), here);
+    low[k] = std::min(std::min(up, down), here);
+    high[k] = std::max(std::max(up, down), here);
   }
 }
 
@@ -144,20 +134,19 @@ void ReadGiven(const EstimatePlan& plan, const starfocus_light_field& light_fiel
 
 void FindTrusted(const EstimatePlan& plan, const Rect& tile, const int16_t* given,
                  int16_t* trusted) {
-  ColumnExtremes columns;
-  // Element 0 of `columns` is the column to the left of the tile. The range [begin, end) omits
-  // columns outside the picture.
-  const int32_t begin = tile.x > 0 ? 0 : 1,
-                end = tile.width + (tile.x + tile.width < plan.width ? 2 : 1);
+  int16_t low[kMostTileSide + 2], high[kMostTileSide + 2];
+  // Element 0 of `low` and `high` is the column to the left of the tile. The range [begin, end)
+  // omits columns outside the picture, which get the values of the columns beside them.
+  const int32_t width = tile.width, begin = tile.x > 0 ? 0 : 1;
+  const int32_t end = width + (tile.x + width < plan.width ? 2 : 1);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const ptrdiff_t above = y > 0 ? plan.width : 0, below = y + 1 < plan.height ? plan.width : 0;
-    FindColumns(given + plan.At(tile.x, y) - 1, above, below, begin, end, &columns);
-    if (begin > 0) columns.Copy(1, 0);
-    if (end < tile.width + 2) columns.Copy(tile.width, tile.width + 1);
+    FindColumns(given + plan.At(tile.x, y) - 1, above, below, begin, end, low, high);
+    if (begin > 0) low[0] = low[1], high[0] = high[1];
+    if (end < width + 2) low[width + 1] = low[width], high[width + 1] = high[width];
     const int16_t* from = given + plan.At(tile.x, y);
     int16_t* to = trusted + plan.At(tile.x, y);
-    const int16_t *low = columns.low, *high = columns.high;
-    for (int32_t k = 0; k < tile.width; ++k) {
+    for (int32_t k = 0; k < width; ++k) {
       const int16_t least = std::min(std::min(low[k], low[k + 2]), low[k + 1]);
       const int16_t most = std::max(std::max(high[k], high[k + 2]), high[k + 1]);
       const bool smooth = (least != simd::kNoSurface) & (most <= least + kMostSlope);

@@ -26,33 +26,26 @@ void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews&
   }
 }
 
-// A view, and the `moves` shifts by fractions of a pixel for which planes of the view are computed.
-// Shifts are in 1/128 pixel.
-struct MovedView {
-  Plane<const uint8_t> picture;
-  int32_t moves;
-  int32_t across[kMostPhases], down[kMostPhases];
-};
-
-// Makes the planes of a view for all shifts. The planes are stored consecutively from `out` on.
-void MakePlanes(const MovedView& view, const EstimatePlan& plan, const simd::DepthKernels& kernels,
-                const TileViews& views, uint8_t* out) {
+// Makes the planes of a view for the fractions of a pixel in all its phases. The planes are stored
+// consecutively from `out` on.
+void MakePlanes(const Plane<const uint8_t>& picture, const ViewPhases& phases,
+                const EstimatePlan& plan, const simd::DepthKernels& kernels, const TileViews& views,
+                uint8_t* out) {
   // `stride` is larger than `count`, because interpolation reads samples after the end of a row. No
   // label moves a pixel to a sample after the first `count` samples.
   const size_t stride = views.stride, count = stride - simd::kSliceLanes;
   for (int32_t row = 0; row <= views.rows; ++row) {
     uint8_t* next = views.split + static_cast<size_t>(row % 2) * 3 * stride;
     const int32_t y = Inside(views.top + row, plan.height);
-    SplitPictureRow(view.picture.data + static_cast<size_t>(y) * view.picture.stride, plan.width,
-                    views, kernels, next);
+    SplitPictureRow(picture.Row(y), plan.width, views, kernels, next);
     if (row == 0) continue;
     const uint8_t* here = views.split + static_cast<size_t>((row - 1) % 2) * 3 * stride;
-    for (int32_t k = 0; k < view.moves; ++k) {
+    for (int32_t k = 0; k < phases.count; ++k) {
       for (size_t c = 0; c < 3; ++c) {
         uint8_t* to = out + (3 * static_cast<size_t>(k) + c) * views.plane +
                       static_cast<size_t>(row - 1) * stride;
-        kernels.InterpolateRow(here + c * stride, next + c * stride, view.across[k], view.down[k],
-                               count, to);
+        kernels.InterpolateRow(here + c * stride, next + c * stride, phases.move[k].across & 127,
+                               phases.move[k].down & 127, count, to);
       }
     }
   }
@@ -73,32 +66,28 @@ uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
   return static_cast<uint8_t>(Min(labels, plan.labels));
 }
 
-// Pixels [from, to) of row y of a map. disparity[0] is column 0 of the row.
-struct MapRow {
-  const int16_t* disparity;
-  int32_t y, from, to;
-};
-
-// Marks the labels that the pixels of a row hide in the part `inside` of a view. kAcross is false
-// if the view does not move horizontally, and kDown is false if the view does not move vertically.
-// If kAcross or kDown is false, the compiler removes the computation of this movement.
+// Marks the labels that the pixels of a map in row y of `from` hide in the part `inside` of a view.
+// `hidden` is the pixel of the view at the first pixel of `inside`; its rows are `stride` apart.
+// kAcross is false if the view does not move horizontally, and kDown is false if the view does not
+// move vertically. If kAcross or kDown is false, the compiler removes the computation of this
+// movement.
 template <bool kAcross, bool kDown>
-void HideBehindRow(const EstimatePlan& plan, const SideView& view, const MapRow& of_map,
-                   const Rect& inside, const TileViews& views, uint8_t* hidden) {
+void HideBehindRow(const EstimatePlan& plan, const SideView& view, const int16_t* map, int32_t y,
+                   const Rect& from, const Rect& inside, size_t stride, uint8_t* hidden) {
   const auto columns = static_cast<uint32_t>(inside.width);
   const auto rows = static_cast<uint32_t>(inside.height);
-  hidden += views.At(inside.x, inside.y);
+  const int16_t* disparity = map + plan.At(0, y);
   int32_t last = plan.low;
   uint8_t behind = HiddenBehind(plan, last);
-  for (int32_t x = of_map.from; x < of_map.to; ++x) {
-    const int32_t d = of_map.disparity[x];
+  for (int32_t x = from.x; x < from.x + from.width; ++x) {
+    const int32_t d = disparity[x];
     const int32_t across = kAcross ? WholeMoveBy(view.at.u, d) : 0;
     const int32_t down = kDown ? WholeMoveBy(view.at.v, d) : 0;
     const auto column = static_cast<uint32_t>(x + across - inside.x);
-    const auto row = static_cast<uint32_t>(of_map.y + down - inside.y);
+    const auto row = static_cast<uint32_t>(y + down - inside.y);
     if ((kAcross && column >= columns) || (kDown && row >= rows)) continue;
     if (d != last) behind = HiddenBehind(plan, last = d);
-    uint8_t& here = hidden[row * views.stride + column];
+    uint8_t& here = hidden[row * stride + column];
     here = std::max(here, behind);
   }
 }
@@ -131,18 +120,15 @@ void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_
   views->left = region.x - plan.reach;
   views->top = region.y - plan.reach;
   views->rows = region.height + 2 * plan.reach + 1;
-  MakePlanes({RowsOf(light_field.views[0]), 1, {}, {}}, plan, kernels, *views, views->rgb);
+  ViewPhases whole;  // The centre view does not move.
+  whole.count = 1;
+  MakePlanes(RowsOf(light_field.views[0]), whole, plan, kernels, *views, views->rgb);
   uint8_t* planes = views->rgb + 3 * views->plane;
   for (int32_t k = 0; k < plan.side_views; ++k) {
     const SideView& side = plan.side[k];
     const ViewPhases phases = plan.PhasesOf(side);
-    MovedView view = {RowsOf(light_field.views[side.index]), phases.count, {}, {}};
-    for (int32_t phase = 0; phase < view.moves; ++phase) {
-      view.across[phase] = phases.move[phase].across & 127;
-      view.down[phase] = phases.move[phase].down & 127;
-    }
-    MakePlanes(view, plan, kernels, *views, planes);
-    planes += 3 * static_cast<size_t>(view.moves) * views->plane;
+    MakePlanes(RowsOf(light_field.views[side.index]), phases, plan, kernels, *views, planes);
+    planes += 3 * static_cast<size_t>(phases.count) * views->plane;
   }
 }
 
@@ -199,13 +185,13 @@ void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region
   for (int32_t k = 0; k < plan.side_views; ++k) {
     const SideView& view = plan.side[k];
     const Rect inside = WithReach(plan, view, region), from = WithReach(plan, view, inside);
-    uint8_t* hidden = views->hidden + static_cast<size_t>(k) * views->plane;
+    uint8_t* hidden =
+        views->hidden + static_cast<size_t>(k) * views->plane + views->At(inside.x, inside.y);
     const auto hide = view.at.v == 0   ? HideBehindRow<true, false>
                       : view.at.u == 0 ? HideBehindRow<false, true>
                                        : HideBehindRow<true, true>;
     for (int32_t y = from.y; y < from.y + from.height; ++y) {
-      const int16_t* row = map + plan.At(0, y);
-      hide(plan, view, {row, y, from.x, from.x + from.width}, inside, *views, hidden);
+      hide(plan, view, map, y, from, inside, views->stride, hidden);
     }
   }
 }
