@@ -191,7 +191,6 @@ bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int3
 // any tolerance.
 constexpr int32_t kOutside = INT32_MIN / 2;
 constexpr uint8_t kBlack[3] = {};
-constexpr int32_t kPlane = SmoothMemory::kPlane;
 
 // Fills columns [first, first + count) of the planes of row y. Columns may lie outside the picture.
 void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, int32_t* row) {
@@ -200,9 +199,9 @@ void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, i
     const bool inside = x >= 0 && x < map.plan.width;
     const uint8_t* colour = inside ? map.Pixel(x, y) : kBlack;
     row[k] = inside ? map.disparity[map.plan.At(x, y)] : kOutside;
-    row[k + kPlane] = colour[0] + colour[1] + colour[2];
-    row[k + 2 * kPlane] = colour[0] - colour[1];
-    row[k + 3 * kPlane] = colour[1] - colour[2];
+    row[k + kSmoothPlane] = colour[0] + colour[1] + colour[2];
+    row[k + 2 * kSmoothPlane] = colour[0] - colour[1];
+    row[k + 3 * kSmoothPlane] = colour[1] - colour[2];
   }
 }
 
@@ -237,23 +236,23 @@ void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity) {
 }
 
 void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const Range& rows,
-                NoiseCounts* noise) {
+                uint32_t* counts) {
   const ptrdiff_t width = plan.width;
   for (int32_t y = Max(rows.first, 1); y < Min(rows.last, plan.height - 1); ++y) {
     const int16_t* row = disparity + y * width;
     for (ptrdiff_t x = 1; x + 1 < width; ++x) {
       const int16_t* d = row + x;
       const int32_t others = *(d - 1) + *(d + 1) + *(d - width) + *(d + width);
-      ++noise->counts[Min(Abs(others - 4 * *d), NoiseCounts::kMost)];
+      ++counts[Min(Abs(others - 4 * *d), kNoiseCounts - 1)];
     }
   }
 }
 
-int32_t NoiseOf(const NoiseCounts& noise) {
+int32_t NoiseOf(const uint32_t* counts) {
   size_t total = 0;
-  for (const uint32_t count : noise.counts) total += count;
+  for (int32_t k = 0; k < kNoiseCounts; ++k) total += counts[k];
   int32_t median = 0;
-  for (size_t below = noise.counts[0]; 2 * below < total; below += noise.counts[median]) ++median;
+  for (size_t below = counts[0]; 2 * below < total; below += counts[median]) ++median;
   // For normally distributed noise, the median is 0.6745 * sqrt(20), or approximately 3, standard
   // deviations.
   const int32_t deviation = median / 3;
@@ -299,15 +298,16 @@ void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint
   }
 }
 
-void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
-                const simd::DepthKernels& kernels, SmoothMemory* memory, int16_t* smooth) {
-  const int32_t radius = smoothing.radius, bottom = tile.y + tile.height;
-  const auto row_at = [memory](int32_t y) { return memory->rows[y % SmoothMemory::kRows]; };
+void SmoothTile(const ColourMap& map, int32_t radius, int32_t step, int32_t tolerance,
+                const Rect& tile, const simd::DepthKernels& kernels, int32_t* ring,
+                int16_t* smooth) {
+  const int32_t bottom = tile.y + tile.height;
+  const auto row_at = [ring](int32_t y) { return ring + y % kSmoothRows * 4 * kSmoothPlane; };
   simd::SmoothRows rows = {};
-  rows.plane = kPlane;
+  rows.plane = kSmoothPlane;
   rows.radius = radius;
-  rows.step = smoothing.step;
-  rows.tolerance = smoothing.tolerance;
+  rows.step = step;
+  rows.tolerance = tolerance;
   int32_t filled = Max(tile.y - radius, 0);
   for (int32_t y = tile.y; y < bottom; ++y) {
     for (; filled <= y + radius && filled < map.plan.height; ++filled) {
@@ -315,7 +315,7 @@ void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& ti
     }
     rows.own = row_at(y) + radius;
     rows.count = 0;
-    for (int32_t row = y - radius; row <= y + radius; row += smoothing.step) {
+    for (int32_t row = y - radius; row <= y + radius; row += step) {
       if (row >= 0 && row < map.plan.height) rows.rows[rows.count++] = row_at(row) + radius;
     }
     kernels.SmoothDisparity(rows, static_cast<size_t>(tile.width), smooth + map.plan.At(tile.x, y));

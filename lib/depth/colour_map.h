@@ -80,26 +80,19 @@ void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field
 // FillUnknownRows after ReadRows has read all rows.
 void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity);
 
-// Numbers of pixels by the absolute difference between four times the pixel's disparity and the sum
-// of the disparities of its neighbours.
-struct NoiseCounts {
-  static constexpr int32_t kMost = 1023;  // counts[kMost] includes all larger values
+// Number of differences that CountNoise counts apart. The last one stands for all larger ones.
+inline constexpr int32_t kNoiseCounts = 1024;
 
-  uint32_t counts[kMost + 1];
-
-  void Add(const NoiseCounts& other) {
-    for (int32_t k = 0; k <= kMost; ++k) counts[k] += other.counts[k];
-  }
-};
-
-// Adds the pixels of `rows` to `noise`, except the pixels at the edges of the picture.
+// Adds the pixels of `rows`, except the pixels at the edges of the picture, to the numbers of
+// pixels by the absolute difference between four times the pixel's disparity and the sum of the
+// disparities of its neighbours.
 void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const Range& rows,
-                NoiseCounts* noise);
+                uint32_t* counts);
 
-// Returns the standard deviation of the map's noise in kDisparityBits, or 0 if the noise is
-// invisible. The deviation is computed from the median difference between a pixel and the mean of
-// its neighbours. Edges do not affect the median.
-int32_t NoiseOf(const NoiseCounts& noise);
+// Returns the standard deviation of the map's noise in kDisparityBits from the numbers of
+// CountNoise, or 0 if the noise is invisible. The deviation is computed from the median difference
+// between a pixel and the mean of its neighbours. Edges do not affect the median.
+int32_t NoiseOf(const uint32_t* counts);
 
 // Returns true if any two disparities in `rect`, extended by `margin` pixels, differ by more than
 // `step`.
@@ -117,25 +110,19 @@ void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint
 
 inline constexpr int32_t kMostSmoothRadius = 4;
 
-// Parameters for smoothing a map. A pixel is averaged with every `step`-th neighbour within
-// `radius` pixels whose disparity differs by at most `tolerance` (kDisparityBits). Neighbours of
-// similar colour have the largest weights.
-struct Smoothing {
-  int32_t radius, step, tolerance;
-};
+// A ring buffer of kSmoothRows rows around the row that is being smoothed. Each row consists of the
+// four planes of simd::SmoothRows, kSmoothPlane samples apart.
+inline constexpr int32_t kSmoothRows = 2 * kMostSmoothRadius + 1;
+inline constexpr int32_t kSmoothPlane = kMostTileSide + 2 * kMostSmoothRadius;
+inline constexpr size_t kSmoothSamples = size_t{kSmoothRows} * 4 * kSmoothPlane;
 
-// A ring buffer of rows around the row that is being smoothed. Each row consists of the planes of
-// simd::SmoothRows.
-struct SmoothMemory {
-  static constexpr int32_t kRows = 2 * kMostSmoothRadius + 1;
-  static constexpr int32_t kPlane = kMostTileSide + 2 * kMostSmoothRadius;
-
-  int32_t rows[kRows][4 * kPlane];
-};
-
-// Smooths the pixels of `tile` and writes the smoothed disparities to the map `smooth`.
-void SmoothTile(const ColourMap& map, const Smoothing& smoothing, const Rect& tile,
-                const simd::DepthKernels& kernels, SmoothMemory* memory, int16_t* smooth);
+// Smooths the pixels of `tile` and writes the smoothed disparities to the map `smooth`. A pixel is
+// averaged with every `step`-th neighbour within `radius` pixels, at most kMostSmoothRadius, whose
+// disparity differs by at most `tolerance` (kDisparityBits). Neighbours of similar colour have the
+// largest weights. `ring` is scratch memory of kSmoothSamples samples.
+void SmoothTile(const ColourMap& map, int32_t radius, int32_t step, int32_t tolerance,
+                const Rect& tile, const simd::DepthKernels& kernels, int32_t* ring,
+                int16_t* smooth);
 
 }  // namespace starfocus
 

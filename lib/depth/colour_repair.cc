@@ -270,33 +270,38 @@ int32_t ReadMap(const ColourMap& given, const ColourMemory& memory, Sequence* ru
   if (run->status() != STARFOCUS_OK) return 0;
   FillUnknownRows(plan, memory.given);
   const int32_t workers = memory.jobs->max_workers;
-  for (int32_t k = 0; k < workers; ++k) *memory.workers[k].noise = {};
+  for (int32_t k = 0; k < workers; ++k) std::fill_n(memory.workers[k].noise, kNoiseCounts, 0U);
   run->Run([&](int32_t index, int32_t worker) {
     CountNoise(plan, given.disparity, rows(index), memory.workers[worker].noise);
   });
-  NoiseCounts* all = memory.workers[0].noise;
-  for (int32_t k = 1; k < workers; ++k) all->Add(*memory.workers[k].noise);
-  return NoiseOf(*all);
+  uint32_t* all = memory.workers[0].noise;
+  for (int32_t k = 1; k < workers; ++k) {
+    for (int32_t n = 0; n < kNoiseCounts; ++n) all[n] += memory.workers[k].noise[n];
+  }
+  return NoiseOf(all);
 }
 
 // Smooths `given` in two passes, unless it is not noisy. Writes the half smoothed map to
 // memory.chosen, and the smoothed map to memory.smooth.
 void SmoothMap(const ColourMap& given, int32_t noise, const simd::DepthKernels& kernels,
                const ColourMemory& memory, Sequence* run) {
+  if (noise == 0) {
+    run->Skip();
+    run->Skip();
+    return;
+  }
+  const EstimatePlan& plan = given.plan;
   // The first pass averages disparities within three standard deviations, which reduces the noise
   // to a third.
-  const Smoothing passes[2] = {{3, 1, 3 * noise}, {4, 2, 3 * noise / 2}};
-  const ColourMap half = {given.plan, given.light_field, memory.chosen};
-  for (int k = 0; k < 2; ++k) {
-    if (noise == 0) {
-      run->Skip();
-      continue;
-    }
-    run->Run([&](int32_t index, int32_t worker) {
-      SmoothTile(k == 0 ? given : half, passes[k], TileOf(given.plan, index), kernels,
-                 memory.workers[worker].smooth, k == 0 ? memory.chosen : memory.smooth);
-    });
-  }
+  run->Run([&](int32_t index, int32_t worker) {
+    SmoothTile(given, 3, 1, 3 * noise, TileOf(plan, index), kernels, memory.workers[worker].ring,
+               memory.chosen);
+  });
+  const ColourMap half = {plan, given.light_field, memory.chosen};
+  run->Run([&](int32_t index, int32_t worker) {
+    SmoothTile(half, 4, 2, 3 * noise / 2, TileOf(plan, index), kernels, memory.workers[worker].ring,
+               memory.smooth);
+  });
 }
 
 // Repairs the map, except where hair was found.
@@ -349,8 +354,8 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
   memory.choices.paths = arena->Take<ChoicePath>(width);
   memory.choices.cell = arena->Take<ColourCell>(1);
   memory.doubt = arena->Take<uint8_t>(area);
-  memory.smooth = arena->Take<SmoothMemory>(1);
-  memory.noise = arena->Take<NoiseCounts>(1);
+  memory.ring = arena->Take<int32_t>(kSmoothSamples);
+  memory.noise = arena->Take<uint32_t>(kNoiseCounts);
   return memory;
 }
 

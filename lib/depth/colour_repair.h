@@ -24,8 +24,8 @@ namespace starfocus {
 struct ColourTileMemory {
   ChoiceMemory choices;
   uint8_t* doubt;
-  SmoothMemory* smooth;
-  NoiseCounts* noise;  // noise of the pixels that the worker has counted
+  int32_t* ring;    // SmoothTile
+  uint32_t* noise;  // CountNoise of the rows that the worker has counted
 };
 
 // Memory of a repair by colour. All maps have the size of the picture, and disparities are in fixed

@@ -23,15 +23,11 @@ constexpr int32_t kLeastContrast = 60 * 60, kLeastPixelContrast = 30 * 30;
 // photographs, the nearer surface has a share of 0.09 to 0.34.
 constexpr int32_t kLeastShare = 14, kLeastPixelShare = 8;
 
-// The first pixel (x, y) of the farther surface, and the direction (dx, dy) away from the nearer
-// surface.
-struct ProfileEdge {
-  int32_t x, y, dx, dy;
-};
-
-bool IsProfile(const ColourMap& map, const ProfileEdge& edge) {
+// Returns true if a colour profile can be measured from pixel (x, y), the first pixel of the
+// farther surface, in the direction `side`, which leads away from the nearer surface.
+bool IsProfile(const ColourMap& map, int32_t x, int32_t y, const int8_t* side) {
   const auto at = [&](int32_t k) {
-    return map.disparity[map.plan.At(edge.x + k * edge.dx, edge.y + k * edge.dy)];
+    return map.disparity[map.plan.At(x + k * side[0], y + k * side[1])];
   };
   const int32_t near = at(-1), far = at(0);
   if (near - far <= kSoftStep || Abs(at(-kInside) - near) >= kSame) return false;
@@ -41,38 +37,16 @@ bool IsProfile(const ColourMap& map, const ProfileEdge& edge) {
   return true;
 }
 
-// Position of a pixel's colour on the line between the colours at the ends of a profile. `contrast`
-// is the squared length of the line. share / contrast is the share of the nearer surface.
-struct ProfilePlace {
-  int32_t share, contrast;
-};
-
-// Returns the position of the colour of the pixel that lies k pixels beyond the first pixel of the
-// farther surface.
-ProfilePlace PlaceAt(const ColourMap& map, const ProfileEdge& edge, int32_t k) {
-  const auto pixel = [&](int32_t at) {
-    return map.Pixel(edge.x + at * edge.dx, edge.y + at * edge.dy);
-  };
+// Returns the position of a pixel's colour on the line between the colours at the ends of a
+// profile: 0 at the far end (k = kOutside), and the squared length of the line, which is the
+// contrast of the profile, at the near end (k = -kInside). The pixel lies k pixels beyond pixel (x,
+// y).
+int32_t PlaceAt(const ColourMap& map, int32_t x, int32_t y, const int8_t* side, int32_t k) {
+  const auto pixel = [&](int32_t at) { return map.Pixel(x + at * side[0], y + at * side[1]); };
   const uint8_t *const near = pixel(-kInside), *const far = pixel(kOutside), *const here = pixel(k);
-  ProfilePlace place = {0, 0};
-  for (int c = 0; c < 3; ++c) {
-    place.contrast += (near[c] - far[c]) * (near[c] - far[c]);
-    place.share += (here[c] - far[c]) * (near[c] - far[c]);
-  }
+  int32_t place = 0;
+  for (int c = 0; c < 3; ++c) place += (here[c] - far[c]) * (near[c] - far[c]);
   return place;
-}
-
-void CountProfile(const ColourMap& map, const ProfileEdge& edge, SoftCount* count) {
-  if (PlaceAt(map, edge, 0).contrast < kLeastContrast) return;
-  ++count->edges;
-  for (int32_t k = 1; k <= kMostSoft; ++k) {
-    const ProfilePlace place = PlaceAt(map, edge, k);
-    count->mixed[k - 1] += kLeastShare * place.share >= place.contrast ? 1 : 0;
-  }
-}
-
-bool ShowsNear(const ProfilePlace& place) {
-  return place.contrast >= kLeastPixelContrast && kLeastPixelShare * place.share >= place.contrast;
 }
 
 // Returns true if profiles in all four directions at pixel (x, y) lie in the picture.
@@ -93,40 +67,6 @@ constexpr int32_t kNearWeight = 36, kColourWeight = 64;
 // A pixel moves to the median of its surface only if both differ by more than kRough, in fixed
 // point (kDisparityBits).
 constexpr int32_t kRough = (1 << kDisparityBits) / 4;
-
-// Range of the disparities around a pixel, or of the disparities in a column.
-struct MajorityRange {
-  int32_t low = INT16_MAX, high = INT16_MIN;
-
-  void Add(const MajorityRange& range) {
-    low = Min(low, range.low);
-    high = Max(high, range.high);
-  }
-  bool IsOneSurface() const { return high - low <= kMajorityStep; }
-};
-
-// Range of the disparities in each column around a row of pixels. Each column extends
-// kMajorityReach rows up and down from the row.
-struct ColumnRanges {
-  Rect around;
-  MajorityRange ranges[kMostMajority + 2 * kMajorityReach], all;
-
-  ColumnRanges(const ColourMap& map, const Rect& row)
-      : around(Widened(map.plan, row, kMajorityReach)) {
-    for (int32_t y = around.y; y < around.y + around.height; ++y) {
-      const int16_t* disparities = map.disparity + map.plan.At(around.x, y);
-      for (int32_t k = 0; k < around.width; ++k) ranges[k].Add({disparities[k], disparities[k]});
-    }
-    for (int32_t k = 0; k < around.width; ++k) all.Add(ranges[k]);
-  }
-  MajorityRange Around(int32_t x) const {
-    const int32_t first = Max(x - kMajorityReach - around.x, 0);
-    const int32_t last = Min(x + kMajorityReach - around.x, around.width - 1);
-    MajorityRange range;
-    for (int32_t k = first; k <= last; ++k) range.Add(ranges[k]);
-    return range;
-  }
-};
 
 // The disparities of a pixel and of those of its eight neighbours that are on the pixel's surface.
 struct SurfaceAround {
@@ -150,8 +90,10 @@ struct SurfaceAround {
   }
 };
 
-int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, const MajorityRange& range) {
-  const int32_t own = map.disparity[map.plan.At(x, y)], middle = (range.low + range.high) / 2;
+// Returns the disparity of pixel (x, y) after the vote of the surrounding pixels. Disparities up to
+// `middle` belong to one side, and larger disparities to the other side.
+int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, int32_t middle) {
+  const int32_t own = map.disparity[map.plan.At(x, y)];
   const uint8_t* colour = map.Pixel(x, y);
   int64_t sums[2] = {};
   int32_t votes[2] = {};
@@ -219,8 +161,13 @@ void CountSoft(const ColourMap& map, const Rect& rect, SoftCount* count) {
     for (int32_t x = rect.x; x < rect.x + rect.width; ++x) {
       if (!IsInside(map, x, y)) continue;
       for (const auto& side : kSides) {
-        const ProfileEdge edge = {x, y, side[0], side[1]};
-        if (IsProfile(map, edge)) CountProfile(map, edge, count);
+        if (!IsProfile(map, x, y, side)) continue;
+        const int32_t contrast = PlaceAt(map, x, y, side, -kInside);
+        if (contrast < kLeastContrast) continue;
+        ++count->edges;
+        for (int32_t k = 1; k <= kMostSoft; ++k) {
+          count->mixed[k - 1] += kLeastShare * PlaceAt(map, x, y, side, k) >= contrast ? 1 : 0;
+        }
       }
     }
   }
@@ -242,11 +189,14 @@ int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) 
   int16_t nearest = own;
   for (const auto& side : kSides) {
     for (int32_t k = 0; k < softness; ++k) {
-      const ProfileEdge edge = {x - k * side[0], y - k * side[1], side[0], side[1]};
-      if (!IsInside(map, edge.x, edge.y)) break;
-      const int16_t near = map.disparity[map.plan.At(edge.x - side[0], edge.y - side[1])];
+      const int32_t column = x - k * side[0], row = y - k * side[1];
+      if (!IsInside(map, column, row)) break;
+      const int16_t near = map.disparity[map.plan.At(column - side[0], row - side[1])];
       if (near - own <= kSoftStep) continue;
-      if (near > nearest && ShowsNear(PlaceAt(map, edge, k))) nearest = near;
+      if (near <= nearest) break;
+      const int32_t contrast = PlaceAt(map, column, row, side, -kInside);
+      const int32_t place = PlaceAt(map, column, row, side, k);
+      if (contrast >= kLeastPixelContrast && kLeastPixelShare * place >= contrast) nearest = near;
       break;
     }
   }
@@ -255,11 +205,27 @@ int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) 
 
 void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
   std::copy_n(map.disparity + map.plan.At(row.x, row.y), row.width, disparity);
-  const ColumnRanges columns(map, row);
-  if (columns.all.IsOneSurface()) return;
+  const Rect around = Widened(map.plan, row, kMajorityReach);
+  // Range of the disparities in each column of `around`.
+  int16_t low[kMostMajority + 2 * kMajorityReach], high[kMostMajority + 2 * kMajorityReach];
+  std::fill_n(low, around.width, INT16_MAX);
+  std::fill_n(high, around.width, INT16_MIN);
+  for (int32_t y = around.y; y < around.y + around.height; ++y) {
+    const int16_t* disparities = map.disparity + map.plan.At(around.x, y);
+    for (int32_t k = 0; k < around.width; ++k) {
+      low[k] = std::min(low[k], disparities[k]);
+      high[k] = std::max(high[k], disparities[k]);
+    }
+  }
+  const int32_t nearest = *std::max_element(high, high + around.width);
+  if (nearest - *std::min_element(low, low + around.width) <= kMajorityStep) return;
   for (int32_t k = 0; k < row.width; ++k) {
-    const MajorityRange range = columns.Around(row.x + k);
-    if (!range.IsOneSurface()) disparity[k] = MajorityAt(map, row.x + k, row.y, range);
+    const int32_t first = Max(row.x + k - kMajorityReach - around.x, 0);
+    const int32_t end = Min(row.x + k + kMajorityReach + 1 - around.x, around.width);
+    const int32_t least = *std::min_element(low + first, low + end);
+    const int32_t most = *std::max_element(high + first, high + end);
+    if (most - least <= kMajorityStep) continue;
+    disparity[k] = MajorityAt(map, row.x + k, row.y, (least + most) / 2);
   }
 }
 
