@@ -6,8 +6,63 @@
 #include <initializer_list>
 
 #include "lib/base/fixed.h"
+#include "simd/colours.h"
 
 namespace starfocus {
+namespace {
+
+// Cost of keeping a pixel's own disparity, indexed by the pixel's doubt. Pixels of doubt 0 lie on a
+// ramp or are unknown. Doubtful pixels are not compared with pixels of doubt 0. Doubts 1 to 3 have
+// equal costs, because a map may displace steps by up to 3 pixels.
+constexpr int16_t kDoubtCosts[kDoubtReach + 2] = {80, 45, 45, 45, 22, 11, 0};
+
+// kColourCell is the largest side of a cell in pixels, and kCellBlock is the side of a block in
+// pixels. One call of CompareColours processes every second pixel of a block.
+constexpr int32_t kColourCell = 64, kCellBlock = 2 * simd::kColourBlock;
+
+// Rounds a length in pixels up to a multiple of kCellBlock.
+int32_t WholeBlocks(int32_t length) { return (length + kCellBlock - 1) / kCellBlock * kCellBlock; }
+
+// Number of groups of disparities. Each group contains a range of one pixel of disparity.
+constexpr int32_t kGroups = 1024;
+
+}  // namespace
+
+// A cell of the picture and its surroundings, stored as four pictures of half the size, one for
+// each combination of even or odd rows and columns, because each doubtful pixel is compared with
+// pixels in every second row and column only.
+struct ColourCell {
+  static constexpr int32_t kHalf = (kColourCell + 4 * simd::kColourReach) / 2;
+  // Largest number of slots of a cell. Each group of disparities that occurs in the cell or its
+  // surroundings has a slot. An unused slot separates groups that are not adjacent.
+  static constexpr int32_t kMostPlaces = kGroups + 2;
+
+  // The pixels of the cell and of its surroundings. The first index of `samples` is the lowest bit
+  // of the row, and the second index is the lowest bit of the column.
+  simd::ColourSample samples[2][2][kHalf * kHalf];
+  // Number of slots, which are ordered from the nearest group to the farthest. The first and the
+  // last slot are unused.
+  int32_t places;
+  int16_t highest[kMostPlaces];  // largest disparity of the group in each slot
+  // Index of the slot of each group, multiplied by kSliceLanes; 0 for groups that do not occur in
+  // the cell.
+  uint16_t place[kGroups];
+  uint16_t least[kMostPlaces * simd::kSliceLanes];  // result of CompareColours for a block
+
+  // Returns the samples around the block whose first pixel is (x, y). Coordinates are relative to
+  // the first pixel of the cell.
+  const simd::ColourSample* Window(int32_t x, int32_t y) const {
+    return samples[y & 1][x & 1] + y / 2 * kHalf + x / 2;
+  }
+};
+
+// Costs of a path up to a pixel, one for each choice of the pixel. `at` is the pixel's position on
+// the line of the path.
+struct ChoicePath {
+  int32_t at;
+  int16_t cost[kMostChoices];
+};
+
 namespace {
 
 constexpr int32_t kReach = 2 * simd::kColourReach;
@@ -64,6 +119,24 @@ void FillEverySecond(const ColourMap& map, const uint8_t* doubt, const Rect& row
     sample->key = static_cast<uint16_t>((kDoubtCosts[doubts[x]] << kDisparityBits) + kLow -
                                         (disparity & kLow));
     sample->place = cell.place[GroupOf(disparity)];
+  }
+}
+
+// Fills `cell` with the samples and slots for the rectangle `area` of the picture.
+void FillCell(const ColourMap& map, const uint8_t* doubt, const Rect& area, ColourCell* cell) {
+  PlaceGroups(map, doubt, Widened(map.plan, area, kReach), cell);
+  const int32_t width = WholeBlocks(area.width) + 2 * kReach;
+  const int32_t height = WholeBlocks(area.height) + 2 * kReach;
+  for (int32_t k = 0; k < height; ++k) {
+    const int32_t y = area.y - kReach + k;
+    for (int32_t odd = 0; odd < 2; ++odd) {
+      simd::ColourSample* row = cell->samples[k & 1][odd] + k / 2 * ColourCell::kHalf;
+      if (y < 0 || y >= map.plan.height) {
+        for (int32_t n = 0; n < width / 2; ++n) row[n] = kOutside;
+      } else {
+        FillEverySecond(map, doubt, {area.x - kReach + odd, y, width - odd, 1}, *cell, row);
+      }
+    }
   }
 }
 
@@ -331,21 +404,8 @@ int32_t CellSide(int32_t length) {
 
 }  // namespace
 
-void FillCell(const ColourMap& map, const uint8_t* doubt, const Rect& area, ColourCell* cell) {
-  PlaceGroups(map, doubt, Widened(map.plan, area, kReach), cell);
-  const int32_t width = WholeBlocks(area.width) + 2 * kReach;
-  const int32_t height = WholeBlocks(area.height) + 2 * kReach;
-  for (int32_t k = 0; k < height; ++k) {
-    const int32_t y = area.y - kReach + k;
-    for (int32_t odd = 0; odd < 2; ++odd) {
-      simd::ColourSample* row = cell->samples[k & 1][odd] + k / 2 * ColourCell::kHalf;
-      if (y < 0 || y >= map.plan.height) {
-        for (int32_t n = 0; n < width / 2; ++n) row[n] = kOutside;
-      } else {
-        FillEverySecond(map, doubt, {area.x - kReach + odd, y, width - odd, 1}, *cell, row);
-      }
-    }
-  }
+ChoiceMemory TakeChoices(size_t width, size_t area, Arena* arena) {
+  return {arena->Take<Choices>(area), arena->Take<ChoicePath>(width), arena->Take<ColourCell>(1)};
 }
 
 void WeighChoices(const ColourMap& map, const uint8_t* doubt, const Rect& region,

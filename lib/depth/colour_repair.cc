@@ -350,9 +350,7 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
     area = pixels > area ? pixels : area;
   }
   ColourTileMemory memory;
-  memory.choices.choices = arena->Take<Choices>(area);
-  memory.choices.paths = arena->Take<ChoicePath>(width);
-  memory.choices.cell = arena->Take<ColourCell>(1);
+  memory.choices = TakeChoices(width, area, arena);
   memory.doubt = arena->Take<uint8_t>(area);
   memory.ring = arena->Take<int32_t>(kSmoothSamples);
   memory.noise = arena->Take<uint32_t>(kNoiseCounts);

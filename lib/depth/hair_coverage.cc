@@ -8,6 +8,13 @@
 #include "lib/depth/maps.h"
 
 namespace starfocus {
+
+// Counts over a tile. `inside` is the number of near pixels that lie 2 to 4 cells inside outlines.
+// `far` is the number of such inside pixels that look like background, multiplied by 256.
+struct InsideCount {
+  int32_t inside, far;
+};
+
 namespace {
 
 // Input, output and memory of the phases of FindHairCoverage. Each phase processes one tile at a

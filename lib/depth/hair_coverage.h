@@ -13,12 +13,9 @@
 
 namespace starfocus {
 
-// Counts over a tile. `inside` is the number of near pixels that lie 2 to 4 cells inside outlines.
-// `far` is the number of such inside pixels that look like background, multiplied by 256.
-struct InsideCount {
-  int32_t inside, far;
-};
+struct InsideCount;
 
+// Memory of the search for hair coverage.
 struct HairMemory {
   ColourPyramid far, near;
   // `contrast` and `near_pixels` have one value per cell. At first, `contrast` holds the largest
