@@ -24,13 +24,6 @@ starfocus_config Choose(const starfocus_config& config) {
   return chosen;
 }
 
-bool AreEqual(const char* a, const char* b) {
-  for (; *a == *b; ++a, ++b) {
-    if (*a == 0) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 starfocus_config DefaultConfig() {

@@ -45,11 +45,6 @@ constexpr const char* kPreviousFields[] = {
     "previous.out.strides",
 };
 
-bool AreEqual(const char* a, const char* b) {
-  for (; *a != 0 && *a == *b; ++a) ++b;
-  return *a == *b;
-}
-
 // Returns true if `name` is `field` of a structure, such as "previous.out.format" of "out.format".
 bool EndsIn(const char* name, const char* field) {
   for (; *name != 0; ++name) {

@@ -60,6 +60,11 @@ bool IsBlock(int32_t side) {
 
 }  // namespace
 
+bool AreEqual(const char* a, const char* b) {
+  for (; *a != 0 && *a == *b; ++a) ++b;
+  return *a == *b;
+}
+
 Checker Enter(starfocus_engine* engine) {
   if (engine == nullptr) return Checker(nullptr, STARFOCUS_ERROR_NULL);
   return Enter(&reinterpret_cast<EngineState*>(engine)->problem);

@@ -37,6 +37,9 @@ bool ReadSized(const Structure& given, Structure* full) {
   return true;
 }
 
+// Returns true if two strings are equal. The engine does not use the strings of the C library.
+bool AreEqual(const char* a, const char* b);
+
 starfocus_config DefaultConfig();
 
 starfocus_params DefaultParams();

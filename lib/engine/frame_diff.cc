@@ -13,19 +13,15 @@ namespace {
 // Number of pixels that are compared at once.
 constexpr int32_t kUnit = 16;
 
-// Range of the stripes that depend on one row of the input.
-struct StripeRange {
-  int32_t first, last;
-};
-
-StripeRange StripesOf(const FrameDiff& changes, int32_t y, int32_t reach) {
-  return {Max(0, y - reach) / changes.side, Min(changes.height - 1, y + reach) / changes.side};
+// Returns the stripes that depend on row y of the input.
+Range StripesOf(const FrameDiff& changes, int32_t y, int32_t reach) {
+  return {Max(0, y - reach) / changes.side, Min(changes.height - 1, y + reach) / changes.side + 1};
 }
 
 // Returns true if all superblocks of the stripes are already flagged as changed. If large parts of
 // the picture change, this test avoids the comparison of most rows.
-bool AllFlagged(const FrameDiff& changes, const StripeRange& stripes) {
-  for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
+bool AllFlagged(const FrameDiff& changes, const Range& stripes) {
+  for (int32_t stripe = stripes.first; stripe < stripes.last; ++stripe) {
     if (std::memchr(changes.Flags(stripe), 0, static_cast<size_t>(changes.columns)) != nullptr) {
       return false;
     }
@@ -52,7 +48,7 @@ struct RowPair {
 template <class Widen>
 void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_t reach,
                 const Widen& widen) {
-  const StripeRange stripes = StripesOf(changes, y, reach);
+  const Range stripes = StripesOf(changes, y, reach);
   if (AllFlagged(changes, stripes) || !rows.Differs(0, changes.width)) return;
   // Last column of superblocks that was flagged for row y. If unknown disparities are filled,
   // pixels beyond the flagged columns may change.
@@ -65,7 +61,7 @@ void CompareRow(const FrameDiff& changes, const RowPair& rows, int32_t y, int32_
     widen(&left, &right);
     const int32_t first = Max(0, left - reach) / changes.side;
     flagged = Min(changes.width - 1, right - 1 + reach) / changes.side;
-    for (int32_t stripe = stripes.first; stripe <= stripes.last; ++stripe) {
+    for (int32_t stripe = stripes.first; stripe < stripes.last; ++stripe) {
       std::memset(changes.Flags(stripe) + first, 1, static_cast<size_t>(flagged - first + 1));
     }
   }
