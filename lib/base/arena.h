@@ -78,7 +78,7 @@ class Arena {
 
   // Returns the size of all pieces, or kTooLarge. If the result is kTooLarge, the addresses of the
   // pieces are meaningless.
-  size_t Bytes() const { return too_large_ ? kTooLarge : used_ > largest_ ? used_ : largest_; }
+  size_t Bytes() const { return too_large_ ? kTooLarge : used_; }
 
   // Calls each function of `parts`, all of which allocate from the same address, because only one
   // of them is in use at a time. Later pieces lie after the longest part.
@@ -93,19 +93,6 @@ class Arena {
   // Within a part of Overlap: returns the largest size of the next piece with which this part is no
   // longer than the longest part before it. Overlaps may be nested.
   size_t Rest() const { return longest_ < used_ + kExtra ? 0 : longest_ - used_ - kExtra; }
-
-  // Reuse() lets later pieces share the memory of the pieces that were allocated after Mark()
-  // returned `mark`.
-  size_t Mark() const { return used_; }
-  void Reuse(size_t mark) {
-    if (kRedZone > 0) return;
-    largest_ = used_ > largest_ ? used_ : largest_;
-    used_ = mark;
-  }
-  // Returns the largest size of the next piece for which the shared memory does not grow.
-  size_t Shared() const { return largest_ < used_ + kExtra ? 0 : largest_ - used_ - kExtra; }
-  // Ends the sharing of memory: later pieces lie after all earlier pieces.
-  void GoOn() { used_ = used_ > largest_ ? used_ : largest_; }
 
  private:
   // Returns a * b, or SIZE_MAX if the product overflows.
@@ -138,7 +125,7 @@ class Arena {
   uint8_t* base_;
   size_t most_;
   const PieceVisitor* pieces_;
-  size_t used_ = 0, largest_ = 0;
+  size_t used_ = 0;
   size_t longest_ = 0;  // End of the longest part so far of the overlaps around it.
   bool too_large_ = false;
 };
