@@ -18,7 +18,7 @@ void CompareWith(const Call& call, EngineState* engine) {
   changes.now = call.now;
   // STARFOCUS_MODE_BLUR reads only the centre view.
   changes.views = call.params.mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
-  changes.fills = Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN);
+  changes.fills = Has(config, STARFOCUS_FEATURE_FILL_UNKNOWN);
   changes.width = config.width;
   changes.height = config.height;
   changes.side = config.superblock;

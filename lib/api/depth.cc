@@ -58,8 +58,8 @@ void CheckGiven(const starfocus_depth_config& config, const starfocus_depth_map&
   if (!check->passed()) return;
   check->Need(stats.invalid < int64_t{map.width} * map.height, STARFOCUS_ERROR_ALL_INVALID,
               {"disparity"}, {"a finite value"});
-  const auto low = static_cast<float>(config.disparity_min);
-  const auto high = static_cast<float>(config.disparity_max);
+  const auto low = MinDisparity(config);
+  const auto high = MaxDisparity(config);
   const double outside = stats.min < low ? stats.min : stats.max;
   check->Need(stats.min >= low && stats.max <= high, STARFOCUS_ERROR_DISPARITY,
               {"disparity", outside},
@@ -82,7 +82,7 @@ EstimatePlan PlanOf(const starfocus_depth_config& config, bool repairs) {
 }
 
 bool Converts(const starfocus_depth_config& config) {
-  return Has(config.features, STARFOCUS_FEATURE_IMAGES);
+  return Has(config, STARFOCUS_FEATURE_IMAGES);
 }
 
 // Computes the size of a workspace, which contains the memory of an estimate or repair, followed by
@@ -218,8 +218,8 @@ starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_outpu
   if (!check.passed()) return check.status();
   map->has_coverage = 0;
   const MapOutput output = {{map->disparity, map->disparity_stride / sizeof(float)},
-                            static_cast<float>(call.config->disparity_min),
-                            static_cast<float>(call.config->disparity_max),
+                            MinDisparity(*call.config),
+                            MaxDisparity(*call.config),
                             {map->confidence, map->confidence_stride},
                             {map->coverage, map->coverage_stride}};
   check.Add(call.config->views == 1 ? RepairOneView(call, output, &map->has_coverage)

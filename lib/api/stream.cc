@@ -151,7 +151,7 @@ starfocus_status starfocus_stream_begin(starfocus_engine* engine, const starfocu
   if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   CheckParams(e.config, full, &check);
-  check.Need(Has(e.config.features, STARFOCUS_FEATURE_STREAMING), STARFOCUS_ERROR_FEATURE,
+  check.Need(Has(e.config, STARFOCUS_FEATURE_STREAMING), STARFOCUS_ERROR_FEATURE,
              {"features", double(e.config.features)}, {"STARFOCUS_FEATURE_STREAMING"});
   check.Need(IsWhole(full.region), STARFOCUS_ERROR_RANGE, {"region"}, {"all 0"});
   check.Need(full.preview_shift == 0, STARFOCUS_ERROR_RANGE, {"preview_shift"}, {"0 for a stream"});

@@ -25,7 +25,7 @@ void CheckLens(const starfocus_config& config, const starfocus_lens& lens, Check
   check->In({"lens.curvature", lens.curvature}, STARFOCUS_FROM_TO(0, 1));
   check->In({"lens.ring_inner", lens.ring_inner}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_RING_INNER));
   check->In({"lens.cats_eye", lens.cats_eye}, STARFOCUS_FROM_TO(0, 1));
-  if (HasShapes(config)) return;
+  if (Has(config, STARFOCUS_FEATURE_SHAPES)) return;
   check->Need(lens.shape != STARFOCUS_SHAPE_POLYGON, STARFOCUS_ERROR_FEATURE,
               {"lens.shape", double(lens.shape)},
               {"not STARFOCUS_SHAPE_POLYGON without STARFOCUS_FEATURE_SHAPES"});
@@ -128,7 +128,8 @@ void CheckParams(const starfocus_config& config, const starfocus_params& params,
             {"a starfocus_renderer", 0, STARFOCUS_RENDERER_SLICES});
   CheckLens(config, params.lens, check);
   if (params.renderer == STARFOCUS_RENDERER_LINE_SCAN && params.mode != STARFOCUS_MODE_BLUR) {
-    check->Need(HasLineScan(config), STARFOCUS_ERROR_FEATURE, {"renderer", double(params.renderer)},
+    check->Need(Has(config, STARFOCUS_FEATURE_LINE_SCAN), STARFOCUS_ERROR_FEATURE,
+                {"renderer", double(params.renderer)},
                 {"not STARFOCUS_RENDERER_LINE_SCAN without STARFOCUS_FEATURE_LINE_SCAN"});
     check->Need(HasStar(config), STARFOCUS_ERROR_FEATURE, {"renderer", double(params.renderer)},
                 {"not STARFOCUS_RENDERER_LINE_SCAN without the views of starfocus_view_position"});
@@ -303,7 +304,7 @@ void CheckLightField(const starfocus_config& config, const starfocus_light_field
                     ValidStride(light_field.coverage_stride, static_cast<size_t>(width), height),
                 "coverage_stride", light_field.coverage_stride);
   CheckDepthMap(light_field.depth, width, height, check);
-  if (Has(config.features, STARFOCUS_FEATURE_IMAGES)) return;
+  if (Has(config, STARFOCUS_FEATURE_IMAGES)) return;
   CheckInPlace(light_field, config.views, check);
   CheckInPlace(light_field.depth, width, height, check);
 }
@@ -334,7 +335,7 @@ void AddImage(const starfocus_image& image, int32_t width, int32_t height, Exten
 void CheckOutput(const starfocus_config& config, const starfocus_image& image, int32_t width,
                  int32_t height, Checker* check) {
   CheckImage(image, width, height, kOutNames, 0, check);
-  if (!Has(config.features, STARFOCUS_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, check);
+  if (!Has(config, STARFOCUS_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, check);
 }
 
 void CheckOutputApart(const starfocus_image& image, int32_t width, int32_t height,

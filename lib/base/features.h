@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Queries of a configuration.
+// Queries of the features and the limits of a configuration.
 #ifndef STARFOCUS_LIB_BASE_FEATURES_H_
 #define STARFOCUS_LIB_BASE_FEATURES_H_
 
@@ -9,20 +9,21 @@
 
 namespace starfocus {
 
-// Returns true if `features` contains the STARFOCUS_FEATURE_ bit `feature`.
-constexpr bool Has(uint32_t features, uint32_t feature) { return (features & feature) != 0; }
-
-// Returns true if the engine supports polygons and cat's eyes.
-inline bool HasShapes(const starfocus_config& config) {
-  return Has(config.features, STARFOCUS_FEATURE_SHAPES);
+// Returns true if a starfocus_config or a starfocus_depth_config contains the STARFOCUS_FEATURE_
+// bit `feature`.
+template <class Config>
+constexpr bool Has(const Config& config, uint32_t feature) {
+  return (config.features & feature) != 0;
 }
 
-// Range of disparities in float, the type of the values in depth maps.
-struct DisparityRange {
-  float min, max;
-};
-inline DisparityRange RangeOf(const starfocus_config& config) {
-  return {static_cast<float>(config.disparity_min), static_cast<float>(config.disparity_max)};
+// Return the limits of disparities in float, the type of the values in depth maps.
+template <class Config>
+constexpr float MinDisparity(const Config& config) {
+  return static_cast<float>(config.disparity_min);
+}
+template <class Config>
+constexpr float MaxDisparity(const Config& config) {
+  return static_cast<float>(config.disparity_max);
 }
 
 }  // namespace starfocus

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "lib/base/arena.h"
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/depth/maps.h"
 #include "lib/io/depth_rows.h"
@@ -92,8 +93,7 @@ starfocus_status ConvertField(const starfocus_depth_config& config, const Conver
   starfocus_depth_map& map = field->depth;
   if (memory.disparity == nullptr || IsInPlace(map, width, height)) return STARFOCUS_OK;
   FillColumns(width, map.width, 0, width, memory.columns);
-  const simd::DepthRule rule = RuleOf(map, static_cast<float>(config.disparity_min),
-                                      static_cast<float>(config.disparity_max));
+  const simd::DepthRule rule = RuleOf(map, MinDisparity(config), MaxDisparity(config));
   const DepthSource source = {map, rule, width, height, memory.columns};
   const starfocus_status status = ForGroups(width, height, most_jobs, jobs, [&](const Range& rows) {
     ConvertRows(kernels, source, width, rows, memory.disparity);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 
 namespace starfocus {
@@ -97,9 +98,8 @@ EstimatePlan MakePlan(const starfocus_depth_config& config) {
   plan.width = config.width;
   plan.height = config.height;
   constexpr float kScale = 1 << kDisparityBits;
-  plan.low = static_cast<int32_t>(std::floor(static_cast<float>(config.disparity_min) * kScale));
-  const auto high =
-      static_cast<int32_t>(std::ceil(static_cast<float>(config.disparity_max) * kScale));
+  plan.low = static_cast<int32_t>(std::floor(MinDisparity(config) * kScale));
+  const auto high = static_cast<int32_t>(std::ceil(MaxDisparity(config) * kScale));
   const int32_t range = high - plan.low;
   const int32_t least = (range + kMostLabels - 2) / (kMostLabels - 1);
   plan.step = Max(1, (least + kLabelStep - 1) / kLabelStep) * kLabelStep;

@@ -66,8 +66,9 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
   borders.centre = Max(borders.centre, borders.layer[0] + kMixedPixelBorder);
   borders.parted = borders.centre;
   borders.centre = borders.parted + CoverageBorder(config);
-  const int32_t read =
-      one_view || !HasCoverage(config) ? 0 : LargestMove(config) + CapturedBorder(0);
+  const int32_t read = one_view || !Has(config, STARFOCUS_FEATURE_COVERAGE)
+                           ? 0
+                           : LargestMove(config) + CapturedBorder(0);
   borders.views = Max(borders.views, borders.centre + read);
   if (config.highlights > 1) {
     // The border for highlights affects how superblocks are split, and therefore the bytes of the
@@ -78,7 +79,7 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
     borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));
   }
   borders.streamed =
-      borders.views + (Has(config.features, STARFOCUS_FEATURE_IMAGES) ? borders.views % 2 : 0);
+      borders.views + (Has(config, STARFOCUS_FEATURE_IMAGES) ? borders.views % 2 : 0);
   return borders;
 }
 

@@ -53,9 +53,9 @@ Range StripeRows(const EngineState& engine) {
 
 starfocus_status CheckFlags(uint32_t flags, const starfocus_config& config) {
   Checker check(config.problem);
-  check.Need(
-      (flags & simd::kUnknownDepth) == 0 || Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN),
-      STARFOCUS_ERROR_NOT_FINITE, {"disparity"}, {"finite, or STARFOCUS_FEATURE_FILL_UNKNOWN"});
+  check.Need((flags & simd::kUnknownDepth) == 0 || Has(config, STARFOCUS_FEATURE_FILL_UNKNOWN),
+             STARFOCUS_ERROR_NOT_FINITE, {"disparity"},
+             {"finite, or STARFOCUS_FEATURE_FILL_UNKNOWN"});
   check.Need((flags & simd::kDepthOutside) == 0, STARFOCUS_ERROR_DISPARITY, {"disparity"},
              {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
   return check.status();

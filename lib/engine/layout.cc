@@ -61,7 +61,8 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
     scratch.renderers[k] = arena->Take<uint8_t>(kRenderers[k]->scratch_bytes);
   }
   scratch.sums = arena->Take<uint32_t>(3 * side * side);
-  if (HasShapes(config)) scratch.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
+  if (Has(config, STARFOCUS_FEATURE_SHAPES))
+    scratch.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
   if (config.highlights > 1) scratch.lamp_runs = arena->Take<LampRuns>(1);
   const auto renderer = [&](int32_t k) {
     if (k >= renderers) return;
@@ -84,7 +85,7 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
 
 void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
-  const bool streaming = Has(config.features, STARFOCUS_FEATURE_STREAMING);
+  const bool streaming = Has(config, STARFOCUS_FEATURE_STREAMING);
   const Borders borders = LargestBorders(config);
   const int32_t rows = config.superblock + 2 * (streaming ? borders.streamed : borders.centre);
   // The last rows of a stripe are written together with the next stripe.
@@ -92,7 +93,7 @@ void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine)
   engine->stripe.out =
       arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
   engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
-  const bool images = Has(config.features, STARFOCUS_FEATURE_IMAGES);
+  const bool images = Has(config, STARFOCUS_FEATURE_IMAGES);
   engine->odd_row = images ? arena->Take<uint8_t>(3 * width) : nullptr;
 }
 

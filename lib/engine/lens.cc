@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "lib/base/features.h"
 #include "lib/base/problem.h"
 #include "lib/optics/psf.h"
 #include "lib/optics/rules.h"
@@ -38,7 +39,7 @@ const Renderer& RendererOf(const starfocus_config& config, const starfocus_param
                           params.mode == STARFOCUS_MODE_FRAME && config.views > 1 &&
                           HasStar(config);
   const bool is_paper = params.renderer == STARFOCUS_RENDERER_LINE_SCAN || by_default;
-  return is_paper && HasLineScan(config) ? kLineScanRenderer : kSliceRenderer;
+  return is_paper && Has(config, STARFOCUS_FEATURE_LINE_SCAN) ? kLineScanRenderer : kSliceRenderer;
 }
 
 // Returns the aperture of a mode that uses one number of views for all blocks. The aperture of

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/reduced.h"
 
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/engine/jobs.h"
 #include "lib/matting/passes.h"
@@ -66,8 +67,8 @@ bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch*
   const starfocus_config reduced = ReducedConfig(job.engine->config, shift);
   // A rounded disparity may exceed the disparity range by one unit of fixed point, so the result is
   // clamped.
-  const int16_t low = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_min));
-  const int16_t high = ConvertedEnd(*job.engine, static_cast<float>(reduced.disparity_max));
+  const int16_t low = ConvertedEnd(*job.engine, MinDisparity(reduced));
+  const int16_t high = ConvertedEnd(*job.engine, MaxDisparity(reduced));
   const int32_t side = 1 << shift;
   for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
     if (!scratch->cancel.Spend(int64_t{4} * side * part.width)) return false;
@@ -144,7 +145,7 @@ void TakeReduced(const starfocus_config& config, int shift, Arena* arena, Reduce
   }
   field->disparity.stride = width;
   field->disparity.data = arena->Take<int16_t>(width, height);
-  if (!HasCoverage(config)) return;
+  if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return;
   field->coverage.stride = width;
   field->coverage.data = arena->Take<uint8_t>(width, height);
 }

@@ -33,7 +33,7 @@ void ClearAside(const CoverageMap& map) {
 // Returns true if the engine computes coverage for its lens. Only the slice renderer uses coverage.
 bool FindsCoverage(const EngineState& engine) {
   const Lens& lens = engine.lens;
-  return HasCoverage(engine.config) && lens.renderer->gathers &&
+  return Has(engine.config, STARFOCUS_FEATURE_COVERAGE) && lens.renderer->gathers &&
          lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
 }
 
@@ -69,16 +69,15 @@ starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
 
 void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
                   CoverageState* state) {
-  if (!HasCoverage(config)) return;
+  if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return;
   CoverageMap& map = state->map;
   map.width = config.width;
   map.height = config.height;
   map.columns = (config.width + kCoverageTile - 1) / kCoverageTile;
   map.tile_rows = MostTileRows(config, border);
-  const DisparityRange disparities = RangeOf(config);
-  map.disparity_min = static_cast<int16_t>(disparities.min * (1 << kDisparityBits));
-  const auto range =
-      static_cast<int32_t>((disparities.max - disparities.min) * (1 << kDisparityBits));
+  const float least = MinDisparity(config), range_size = MaxDisparity(config) - least;
+  map.disparity_min = static_cast<int16_t>(least * (1 << kDisparityBits));
+  const auto range = static_cast<int32_t>(range_size * (1 << kDisparityBits));
   map.bin_bits = 0;
   while (range >> map.bin_bits >= 64) ++map.bin_bits;
   const auto tiles = static_cast<size_t>(map.columns) * static_cast<size_t>(map.tile_rows);

@@ -15,7 +15,7 @@ int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Deman
 }
 
 void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables) {
-  const bool full = HasShapes(config);
+  const bool full = Has(config, STARFOCUS_FEATURE_SHAPES);
   const auto weights_of = [&](int32_t n) {
     return full ? FullApertureSize(n) : ViewWeightsSize(n);
   };

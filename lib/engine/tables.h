@@ -19,10 +19,9 @@ namespace starfocus {
 // All renderers, indexed by Renderer::index. An engine uses the first RendererCount renderers.
 inline constexpr int32_t kMaxRenderers = 2;
 inline constexpr const Renderer* kRenderers[kMaxRenderers] = {&kSliceRenderer, &kLineScanRenderer};
-inline bool HasLineScan(const starfocus_config& config) {
-  return Has(config.features, STARFOCUS_FEATURE_LINE_SCAN);
+inline int32_t RendererCount(const starfocus_config& config) {
+  return Has(config, STARFOCUS_FEATURE_LINE_SCAN) ? 2 : 1;
 }
-inline int32_t RendererCount(const starfocus_config& config) { return HasLineScan(config) ? 2 : 1; }
 
 // Returns the largest N that the block and frame modes use for blur radii up to r_max pixels. The
 // modes round radii up before they choose N. Of all shapes of the opening, rings (Demand::kRing)

@@ -155,15 +155,15 @@ int32_t FillUnknown(const Input& in, int16_t* row) {
 void TakeInput(const starfocus_config& config, int32_t rows, int32_t alpha_rows, Arena* arena,
                InputRings* rings) {
   const auto width = static_cast<size_t>(config.width);
-  const bool streaming = Has(config.features, STARFOCUS_FEATURE_STREAMING);
-  const bool images = Has(config.features, STARFOCUS_FEATURE_IMAGES);
+  const bool streaming = Has(config, STARFOCUS_FEATURE_STREAMING);
+  const bool images = Has(config, STARFOCUS_FEATURE_IMAGES);
   const int views = streaming ? config.views : images ? 1 : 0;
   *rings = {};
   rings->disparity = TakeRing<int16_t>(width, rows, arena);
   for (int view = 0; view < views; ++view) {
     rings->views[view] = arena->Take<uint8_t>(3 * width, static_cast<size_t>(rows));
   }
-  if (streaming && Has(config.features, STARFOCUS_FEATURE_COVERAGE)) {
+  if (streaming && Has(config, STARFOCUS_FEATURE_COVERAGE)) {
     rings->coverage = TakeRing<uint8_t>(width, rows, arena);
   }
   if (images) rings->columns = arena->Take<uint32_t>(width);
@@ -210,13 +210,12 @@ Input InputOf(const starfocus_config& config, const simd::Kernels& kernels,
     rings->map_width = given.depth.width;
     FillColumns(in.width, rings->map_width, 0, in.width, rings->columns);
   }
-  const DisparityRange range = RangeOf(config);
-  in.map = {given.depth, RuleOf(given.depth, range.min, range.max), in.width, in.height,
-            rings->columns};
+  in.map = {given.depth, RuleOf(given.depth, MinDisparity(config), MaxDisparity(config)), in.width,
+            in.height, rings->columns};
   // If the map has fewer rows than the picture, the caller always passes all rows of the map, so
   // the first row is 0.
   if (given.depth.height == in.height) in.map.first = first;
-  in.fills_unknown = Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN);
+  in.fills_unknown = Has(config, STARFOCUS_FEATURE_FILL_UNKNOWN);
   in.disparity = Constant(rings->disparity);
   in.given_coverage = {given.coverage, given.coverage_stride, 0, first};
   return in;

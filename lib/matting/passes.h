@@ -17,11 +17,6 @@ enum CoveragePass { kFindRagged, kStart, kUnmixFirst, kLook, kUnmixAgain, kCover
 // of tiles ahead as TilesAhead requires.
 void RunPass(const CoverageInput& in, int pass, int32_t first, int32_t last, int32_t row);
 
-// Returns true if the engine has memory for coverage.
-inline bool HasCoverage(const starfocus_config& config) {
-  return Has(config.features, STARFOCUS_FEATURE_COVERAGE);
-}
-
 // Value of CoverageMap::around if the light field has coverage, because edges are then searched up
 // to two tiles away.
 inline constexpr int32_t kAroundGiven = 2;
@@ -30,8 +25,8 @@ inline constexpr int32_t kAroundGiven = 2;
 // view that is read.
 inline int32_t LargestMoveBefore(const starfocus_config& config) {
   if (config.views == 1) return 0;
-  const DisparityRange range = RangeOf(config);
-  return Min(static_cast<int32_t>(range.max - range.min) + 3, kMostMove + 1);
+  const float range = MaxDisparity(config) - MinDisparity(config);
+  return Min(static_cast<int32_t>(range) + 3, kMostMove + 1);
 }
 
 // Returns the number of rows of tiles by which a pass must be ahead of the last pass.
@@ -57,7 +52,7 @@ inline int32_t TilesAhead(const starfocus_config& config, int pass) {
 // Returns the distance in pixels from a split pixel to the farthest pixels that the passes read.
 // Returns 0 if the engine has no memory for coverage.
 inline int32_t CoverageBorder(const starfocus_config& config) {
-  if (!HasCoverage(config)) return 0;
+  if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return 0;
   return (TilesAhead(config, kFindRagged) + 1) * kCoverageTile + kBandReach + 2;
 }
 
