@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores the pixels from which a block is refocused, as lines in three orientations (paper, IV-B).
-// The lines are rows, columns (90 degrees) and diagonals (the lossless 45 degree layout). Line
-// scans, and the blur without views (lib/gather/gather.h), read these lines.
+// Loads the pixels from which a block is refocused: copies the pixels of an extended rectangle, and
+// continues surfaces beyond the edges of the picture.
 #ifndef STARFOCUS_LIB_IO_BLOCK_PIXELS_H_
 #define STARFOCUS_LIB_IO_BLOCK_PIXELS_H_
 
@@ -16,13 +15,6 @@ namespace starfocus {
 // Stride in samples between the rows of an RGB picture that can be transposed. The extra sample at
 // the end of a row exists because transposing copies each pixel together with the sample after it.
 constexpr size_t RgbStride(int32_t width) { return 3 * static_cast<size_t>(width) + 1; }
-
-// Transposes pixels: pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of
-// `out`. Strides are in samples. The function reads one sample past the end of each row of `in` and
-// writes one sample past the end of each row of `out`. Rows of `in` are read in order, so a picture
-// can be transposed in strips of rows.
-void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t columns, int16_t* out,
-               size_t out_stride);
 
 // Copy of the pixels of an extended rectangle: a rectangle and its border. Coordinates are
 // oriented: in a transposed field, x runs down the picture and y runs across.
@@ -43,32 +35,6 @@ struct BlockPixels {
            static_cast<size_t>(column);
   }
 };
-
-// Transpose a field. The output array (to->disparity or to->rgb) must be set and must differ from
-// the input array. TransposeDisparity must be called before TransposePixels.
-void TransposeDisparity(const BlockPixels& from, BlockPixels* to);
-void TransposePixels(const BlockPixels& from, BlockPixels* to);
-
-// Diagonal lines of a field in direction (1, 1), or (1, -1) if `anti`.
-struct Diagonals {
-  bool anti = false;
-  int16_t* rgb = nullptr;  // all lines, packed
-  int16_t* disparity = nullptr;
-  uint32_t* offsets = nullptr;  // number of pixels stored before each of the Count(field) lines
-
-  static int32_t Count(const BlockPixels& field) { return field.width + field.height - 1; }
-};
-
-// Start and length of a diagonal in pixels. From pixel to pixel of the diagonal, x increases by 1,
-// and y increases by 1, or decreases by 1 if `anti`.
-struct DiagonalLine {
-  int32_t x, y, length;
-};
-DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index);
-
-// Copies all diagonals of a field. The arrays of `diagonals` must be set, and each array must have
-// room for the whole field.
-void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals);
 
 // Extends surfaces beyond the edges of the picture with the content of side views.
 

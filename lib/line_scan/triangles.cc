@@ -19,6 +19,91 @@ Direction DirectionOf(int sign) {
   return sign > 0 ? Direction::kRightToLeft : Direction::kLeftToRight;
 }
 
+// Transposes pixels: pixel `column` of row `row` of `in` becomes pixel `row` of row `column` of
+// `out`. Strides are in samples. The function reads one sample past the end of each row of `in` and
+// writes one sample past the end of each row of `out`. Rows of `in` are read in order, so a picture
+// can be transposed in strips of rows.
+void Transpose(const int16_t* in, size_t in_stride, int32_t rows, int32_t columns, int16_t* out,
+               size_t out_stride) {
+  for (int32_t row = 0; row < rows; ++row, in += in_stride, out += 3) {
+    const int16_t* from = in;
+    int16_t* to = out;
+    for (int32_t column = 0; column < columns; ++column, from += 3, to += out_stride) {
+      std::memcpy(to, from, 4 * sizeof(*to));
+    }
+  }
+}
+
+// Transposes the light of a field. The output array to->rgb must be set and must differ from the
+// input array.
+void TransposePixels(const BlockPixels& from, BlockPixels* to) {
+  Transpose(from.rgb, RgbStride(from.width), from.height, from.width, to->rgb,
+            RgbStride(to->width));
+}
+
+// Transposes the disparities of a field. The output array to->disparity must be set and must differ
+// from the input array. TransposeDisparity must be called before TransposePixels.
+void TransposeDisparity(const BlockPixels& from, BlockPixels* to) {
+  to->transposed = !from.transposed;
+  to->layer = from.layer;
+  to->width = from.height;
+  to->height = from.width;
+  to->x = from.y;
+  to->y = from.x;
+  to->inner = {from.inner.y, from.inner.x, from.inner.height, from.inner.width};
+  for (int32_t row = 0; row < to->height; ++row) {
+    int16_t* disparity = to->Disparity(0, row);
+    const int16_t* from_disparity = from.Disparity(row, 0);
+    for (int32_t column = 0; column < to->width; ++column, from_disparity += from.width) {
+      disparity[column] = *from_disparity;
+    }
+  }
+}
+
+// Diagonal lines of a field in direction (1, 1), or (1, -1) if `anti`.
+struct Diagonals {
+  bool anti = false;
+  int16_t* rgb = nullptr;  // all lines, packed
+  int16_t* disparity = nullptr;
+  uint32_t* offsets = nullptr;  // number of pixels stored before each of the Count(field) lines
+
+  static int32_t Count(const BlockPixels& field) { return field.width + field.height - 1; }
+};
+
+// Start and length of a diagonal in pixels. From pixel to pixel of the diagonal, x increases by 1,
+// and y increases by 1, or decreases by 1 if `anti`.
+struct DiagonalLine {
+  int32_t x, y, length;
+};
+DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index) {
+  const int32_t x = Max(0, index - (field.height - 1));
+  const int32_t y = anti ? Min(index, field.height - 1) : Max(0, field.height - 1 - index);
+  const int32_t rest = anti ? y + 1 : field.height - y;
+  return {x, y, Min(field.width - x, rest)};
+}
+
+// Copies all diagonals of a field. The arrays of `diagonals` must be set, and each array must have
+// room for the whole field.
+void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals) {
+  diagonals->anti = anti;
+  uint32_t offset = 0;
+  const ptrdiff_t step = anti ? 1 - ptrdiff_t{field.width} : 1 + ptrdiff_t{field.width};
+  const auto stride = static_cast<ptrdiff_t>(RgbStride(field.width));
+  const ptrdiff_t rgb_step = anti ? 3 - stride : 3 + stride;
+  for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
+    const DiagonalLine line = GetDiagonal(field, anti, index);
+    diagonals->offsets[index] = offset;
+    const int16_t* from = field.Rgb(line.x, line.y);
+    const int16_t* from_disparity = field.Disparity(line.x, line.y);
+    for (int32_t t = 0; t < line.length; ++t, ++offset) {
+      std::memcpy(diagonals->rgb + 3 * size_t{offset}, from, 3 * sizeof(*from));
+      diagonals->disparity[offset] = *from_disparity;
+      from += rgb_step;
+      from_disparity += step;
+    }
+  }
+}
+
 // Hole filler for a line of the rendered view (u * i, v * j), in the orientation of the field.
 struct LineHoles {
   const RenderJob& job;
