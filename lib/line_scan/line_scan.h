@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
+#include "lib/base/geometry.h"
 #include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 
@@ -30,14 +31,6 @@ struct Run {
 // above the centre are mirrored.
 enum class Direction { kRightToLeft, kLeftToRight };
 
-// Adjacent lines: position q of line k is disparity[q * step + k].
-struct LineBundle {
-  const int16_t* disparity;
-  ptrdiff_t step;
-  int32_t length;  // [1, 65535]
-  int32_t lines;
-};
-
 // Sizes of the arrays of RunMarks: `starts` and `edges` have RunMarkWords elements, and `middles`
 // has RunMiddles elements.
 constexpr size_t RunMarkStride(size_t lines) {
@@ -48,11 +41,13 @@ constexpr size_t RunMarkWords(size_t length, size_t lines) {
 }
 constexpr size_t RunMiddles(size_t length, size_t lines) { return length * RunMarkStride(lines); }
 
-// Splits lines into runs whose disparities vary by at most grid.spread, greedily in scan order.
-// Sets marks->stride. The arrays of `marks` must have room for the bundle, and the disparities must
-// be followed by simd::kPadding bytes.
-void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBundle& bundle,
-              Direction direction, simd::RunMarks* marks);
+// Splits adjacent lines into runs whose disparities vary by at most grid.spread, greedily in scan
+// order. Position q of line k is disparity[q * step + k]; `length` is in [1, 65535]. Sets
+// marks->stride. The arrays of `marks` must have room for the lines, and the disparities must be
+// followed by simd::kPadding bytes.
+void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const int16_t* disparity,
+              ptrdiff_t step, int32_t length, int32_t lines, Direction direction,
+              simd::RunMarks* marks);
 
 // Reads the runs of line k in scan order, from high positions to low positions. With kLeftToRight,
 // positions are mirrored: position q is pixel length - 1 - q. `subaperture_move` is
@@ -60,28 +55,14 @@ void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBund
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,
                  int64_t subaperture_move, Run* runs);
 
-// A line of the centre view or of a type A view, with its disparities.
+// A line of the centre view or of a type A view, with its disparities and its runs in scan order.
 struct Line {
   const int16_t* rgb;  // light
   const int16_t* disparity;
   ptrdiff_t step;  // distance in samples between the disparities of neighbouring pixels
   int32_t length;
-};
-
-// Required part of the rendered lines: pixels [begin, end), begin < end.
-struct LinePart {
-  int32_t begin, end;
-};
-
-// Input of a scan: a line with `run_count` runs, the required part, and the range of views
-// first_view .. last_view.
-struct ScanTask {
-  Line line;
-  Direction direction;
   const Run* runs;
   int32_t run_count;
-  LinePart part;
-  int32_t first_view, last_view;
 };
 
 // Widest gap in pixels that may be a stretched surface, regardless of the disparities.
@@ -116,8 +97,8 @@ struct Rim {
   int32_t covered;  // Part of the hole's outermost pixel that the surface covers, kShiftBits.
 };
 
-// Scans the line of a task for several views. The scan calls the following functions of the sink,
-// with positions in pixels of the line that are never mirrored.
+// Scans a line for several views. The scan calls the following functions of the sink, with
+// positions in pixels of the line that are never mirrored.
 //
 // sink.Surface(begin, end, source, neighbour, weight): rendered pixel p shows line pixel q = source
 // + (p - begin), and with `weight` (simd::kBlendBits) line pixel q + neighbour; `neighbour` is +-1.
@@ -133,14 +114,14 @@ struct Rim {
 template <Direction kDirection, class Sink>
 class LineScan {
  public:
-  LineScan(const ScanTask& task, const ViewGrid& grid, Sink* sink)
-      : line_(task.line),
-        runs_(task.runs),
-        runs_end_(task.runs + task.run_count),
+  // `part` are the required pixels of the rendered lines; at least one pixel is required.
+  LineScan(const Line& line, const Range& part, const ViewGrid& grid, Sink* sink)
+      : line_(line),
+        runs_end_(line.runs + line.run_count),
         grid_(grid),
         sink_(sink),
-        begin_(kMirrored ? line_.length - task.part.end : task.part.begin),
-        end_(kMirrored ? line_.length - task.part.begin : task.part.end) {}
+        begin_(kMirrored ? line_.length - part.last : part.first),
+        end_(kMirrored ? line_.length - part.first : part.last) {}
 
   // `move` is ViewGrid::Move of the distance of the view along the line.
   void Scan(int64_t move) {
@@ -148,39 +129,35 @@ class LineScan {
     edge_ = {nullptr, 0, 0};
     // The scan starts at the end of the line, because the surface next to a gap may lie outside the
     // required part.
-    filled_ = {Max(end_, line_.length - Whole(Shift(*runs_))), line_.length - 1};
+    filled_from_ = Max(end_, line_.length - Whole(Shift(*line_.runs)));
+    filled_pixel_ = line_.length - 1;
     int32_t run_end = line_.length;
-    for (const Run* run = runs_; run != runs_end_; ++run) {
-      if (filled_.from <= begin_ && !AwaitsBehind()) break;
+    for (const Run* run = line_.runs; run != runs_end_; ++run) {
+      if (filled_from_ <= begin_ && !AwaitsBehind()) break;
       const int32_t shift = Shift(*run), begin = run->begin, whole = Whole(shift);
       const int32_t low = begin - whole;
-      if (low < filled_.from) {
+      if (low < filled_from_) {
         if (low >= end_) {
           // A run outside the required part may still cover a part of the last required pixel.
           edge_ = {EndsAtEdge(run) ? run : nullptr, shift - whole * kShiftOne, whole};
         } else if (IsPlain(run, run_end, whole)) {
           const int32_t offset = shift - whole * kShiftOne;
-          Emit(Max(low, begin_), Min(filled_.from, end_), whole, offset > 0 ? 1 : -1,
+          Emit(Max(low, begin_), Min(filled_from_, end_), whole, offset > 0 ? 1 : -1,
                SubapertureWeight(offset, Min(run->subaperture, kShiftOne)));
         } else {
           AddRun(run, run_end, shift);
         }
-        filled_ = {low, begin};
+        filled_from_ = low;
+        filled_pixel_ = begin;
       }
       run_end = begin;
     }
     FlushEdge();
-    if (filled_.from > begin_) Hole(begin_, filled_.from, filled_.pixel, {-1, 0});
+    if (filled_from_ > begin_) Hole(begin_, filled_from_, filled_pixel_, {-1, 0});
   }
 
  private:
   static constexpr bool kMirrored = kDirection == Direction::kLeftToRight;
-
-  // Lowest position of the rendered line that is filled so far, and the line position shown there.
-  // Pixels that are scanned later and move to a filled position are hidden.
-  struct Filled {
-    int32_t from = 0, pixel = 0;
-  };
 
   int32_t Pixel(int32_t q) const { return kMirrored ? line_.length - 1 - q : q; }
   int32_t Disparity(int32_t q) const { return line_.disparity[Pixel(q) * line_.step]; }
@@ -206,15 +183,15 @@ class LineScan {
   // Returns true if the last required pixel has not yet been mixed with the surface behind the
   // edge.
   bool AwaitsBehind() const {
-    return filled_.from == begin_ && edge_.run != nullptr && edge_.offset < 0;
+    return filled_from_ == begin_ && edge_.run != nullptr && edge_.offset < 0;
   }
 
   // Returns true if the visible part of a run is inside one surface and not next to a gap. Most
   // runs meet this condition.
   bool IsPlain(const Run* run, int32_t run_end, int32_t whole) const {
-    const int32_t begin = run->begin, end = Min(filled_.from, end_);
+    const int32_t begin = run->begin, end = Min(filled_from_, end_);
     const bool inside = begin - whole < begin_ || (run + 1 != runs_end_ && !EndsAtEdge(run));
-    return inside && run_end - whole >= filled_.from && edge_.run == nullptr &&
+    return inside && run_end - whole >= filled_from_ && edge_.run == nullptr &&
            end + whole < run->surface_end;
   }
 
@@ -224,7 +201,7 @@ class LineScan {
   [[gnu::noinline]] void AddRun(const Run* run, int32_t run_end, int32_t shift) {
     const int32_t whole = Whole(shift);
     const int32_t offset = shift - whole * kShiftOne;
-    int32_t end = filled_.from;
+    int32_t end = filled_from_;
     if (run_end - whole < end) {
       FlushEdge();
       end = CloseGap(run_end - 1, whole, offset);
@@ -319,18 +296,18 @@ class LineScan {
   // the run is the rim of the hole.
   int32_t CloseGap(int32_t q, int32_t whole, int32_t offset) const {
     const int32_t gap = q + 1 - whole;
-    const int32_t step = Disparity(q) - Disparity(filled_.pixel);
-    const bool stretched = step <= kSurfaceStep && filled_.from - gap <= kMaxStretch &&
-                           filled_.from + whole <= line_.length;
-    if (stretched) return filled_.from;
+    const int32_t step = Disparity(q) - Disparity(filled_pixel_);
+    const bool stretched = step <= kSurfaceStep && filled_from_ - gap <= kMaxStretch &&
+                           filled_from_ + whole <= line_.length;
+    if (stretched) return filled_from_;
     if (step <= kSurfaceStep) {
-      Hole(Max(gap, begin_), filled_.from, step < 0 ? q : filled_.pixel, {-1, 0});
+      Hole(Max(gap, begin_), filled_from_, step < 0 ? q : filled_pixel_, {-1, 0});
       return gap;
     }
     const int32_t begin = offset > 0 ? gap - 1 : gap;
     const int32_t covered = offset > 0 ? kShiftOne - offset : -offset;
     const bool wanted = begin >= begin_ && covered > 0;
-    Hole(Max(begin, begin_), filled_.from, filled_.pixel, {wanted ? Pixel(q) : -1, covered});
+    Hole(Max(begin, begin_), filled_from_, filled_pixel_, {wanted ? Pixel(q) : -1, covered});
     return begin;
   }
 
@@ -359,28 +336,29 @@ class LineScan {
   }
 
   const Line& line_;
-  const Run* const runs_;
   const Run* const runs_end_;
   const ViewGrid& grid_;
   Sink* const sink_;
   const int32_t begin_;  // positions [begin_, end_) of the rendered line are required
   const int32_t end_;
   int64_t move_ = 0;
-  Filled filled_;
+  // Lowest position of the rendered line that is filled so far, and the line position shown there.
+  // Pixels that are scanned later and move to a filled position are hidden.
+  int32_t filled_from_ = 0, filled_pixel_ = 0;
   Edge edge_ = {nullptr, 0, 0};
 };
 
-// Scans a line for all views of a task. next(k) prepares the sink for view k and returns the move
-// of this view.
+// Scans the pixels `part` of the rendered lines for a range of views. next(k) prepares the sink for
+// view k and returns the move of this view.
 template <class Sink, class Next>
-void ScanLine(const ScanTask& task, const ViewGrid& grid, Sink* sink, const Next& next) {
-  const int32_t first = task.first_view, last = task.last_view;
-  if (task.direction == Direction::kRightToLeft) {
-    LineScan<Direction::kRightToLeft, Sink> scan(task, grid, sink);
-    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
+void ScanLine(const Line& line, Direction direction, const Range& part, const Range& views,
+              const ViewGrid& grid, Sink* sink, const Next& next) {
+  if (direction == Direction::kRightToLeft) {
+    LineScan<Direction::kRightToLeft, Sink> scan(line, part, grid, sink);
+    for (int32_t k = views.first; k < views.last; ++k) scan.Scan(next(k));
   } else {
-    LineScan<Direction::kLeftToRight, Sink> scan(task, grid, sink);
-    for (int32_t k = first; k <= last; ++k) scan.Scan(next(k));
+    LineScan<Direction::kLeftToRight, Sink> scan(line, part, grid, sink);
+    for (int32_t k = views.first; k < views.last; ++k) scan.Scan(next(k));
   }
 }
 

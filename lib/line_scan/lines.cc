@@ -7,14 +7,14 @@
 
 namespace starfocus {
 
-void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const LineBundle& bundle,
-              Direction direction, simd::RunMarks* marks) {
-  marks->stride = RunMarkStride(static_cast<size_t>(bundle.lines));
+void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const int16_t* disparity,
+              ptrdiff_t step, int32_t length, int32_t lines, Direction direction,
+              simd::RunMarks* marks) {
+  marks->stride = RunMarkStride(static_cast<size_t>(lines));
   const bool mirrored = direction == Direction::kLeftToRight;
   const simd::RunLimits limits = {static_cast<int16_t>(grid.spread), kSurfaceStep};
-  kernels.FindRuns(bundle.disparity + (mirrored ? 0 : (bundle.length - 1) * bundle.step),
-                   mirrored ? bundle.step : -bundle.step, static_cast<size_t>(bundle.length),
-                   static_cast<size_t>(bundle.lines), limits, *marks);
+  kernels.FindRuns(disparity + (mirrored ? 0 : (length - 1) * step), mirrored ? step : -step,
+                   static_cast<size_t>(length), static_cast<size_t>(lines), limits, *marks);
 }
 
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,
@@ -54,30 +54,6 @@ int64_t CapturedShift(const ViewGrid& grid, int32_t disparity, bool half) {
   return RoundShift(full * 2, 1 + grid.layer + (half ? 1 : 0));
 }
 
-// Displacements of a surface point along one axis, in the centre view and in the captured view,
-// relative to its position in the rendered view, kShiftBits.
-struct HoleOffset {
-  int32_t centre, captured;
-};
-
-HoleOffset OffsetOf(const HoleView& view, int sign, int64_t move, int32_t disparity) {
-  const int64_t shift = view.grid->Shift(move, disparity);
-  const int64_t captured = shift - CapturedShift(*view.grid, disparity, view.half);
-  return {static_cast<int32_t>(sign * shift), static_cast<int32_t>(sign * captured)};
-}
-
-// Reads `count` positions of a line in the captured view at (u, v). All arguments are in the
-// orientation of the lines.
-void Read(const HoleView& view, int u, int v, const CapturedLine& line, int32_t count,
-          int16_t* rgb) {
-  if (view.transposed) {
-    ReadCaptured(*view.input, view.layer, CapturedView(v, u, view.half),
-                 {line.y, line.x, line.dy, line.dx}, count, rgb);
-  } else {
-    ReadCaptured(*view.input, view.layer, CapturedView(u, v, view.half), line, count, rgb);
-  }
-}
-
 // Returns the square of the sum of the absolute differences of R, G and B, at most (3
 // kLightWhite)^2.
 int64_t Difference(const int16_t* a, const int16_t* b) {
@@ -102,32 +78,40 @@ void MixNeighbours(const int16_t* a, const int16_t* b, const int16_t* colour, in
 
 }  // namespace
 
-void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
-              const int16_t* colour, int16_t* out) {
-  const int32_t begin = part.begin, end = part.end;
-  if (view.input->views == 1) {
+void HoleFiller::Fill(int32_t begin, int32_t end, int32_t disparity, const int16_t* colour,
+                      int16_t* out) const {
+  if (input.views == 1) {
     for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3 * sizeof(*out));
     return;
   }
-  const HoleOffset along = OffsetOf(view, view.u, view.move_u, disparity);
-  const HoleOffset across = OffsetOf(view, view.v, view.move_v, disparity);
-  const bool diagonal = view.u != 0 && view.v != 0;
-  const auto read = [&](int u, int v, int32_t p, int32_t count, int16_t* rgb) {
-    const int32_t x = (line.x + line.dx * p) * kShiftOne + (u != 0 ? along.captured : along.centre);
-    const int32_t y =
-        (line.y + line.dy * p) * kShiftOne + (v != 0 ? across.captured : across.centre);
-    Read(view, u, v, {x, y, line.dx, line.dy}, count, rgb);
+  const bool half = Max(i, j) <= grid.half_views;
+  // Displacements of the surface relative to its position in the rendered view, kShiftBits: in the
+  // centre view along each axis, and from there to the captured view.
+  const int32_t along = u == 0 ? 0 : grid.Shift(moves[i], disparity);
+  const int32_t across = v == 0 ? 0 : grid.Shift(moves[j], disparity);
+  const auto captured = static_cast<int32_t>(CapturedShift(grid, disparity, half));
+  // Reads `count` pixels of the line from pixel p on, in the captured view at (from_u, from_v).
+  const auto read = [&](int from_u, int from_v, int32_t p, int32_t count, int16_t* rgb) {
+    const int32_t left = (x + dx * p) * kShiftOne + u * along - from_u * captured;
+    const int32_t top = (y + dy * p) * kShiftOne + v * across - from_v * captured;
+    if (transposed) {
+      ReadCaptured(input, layer, CapturedView(from_v, from_u, half), {top, left, dy, dx}, count,
+                   rgb);
+    } else {
+      ReadCaptured(input, layer, CapturedView(from_u, from_v, half), {left, top, dx, dy}, count,
+                   rgb);
+    }
   };
-  if (!diagonal || view.input->views != 5) {
-    read(view.u, view.v, begin, end - begin, out);
+  if (u == 0 || v == 0 || input.views != 5) {
+    read(u, v, begin, end - begin, out);
     return;
   }
   constexpr int32_t kAtOnce = 16;
   int16_t horizontal[3 * kAtOnce];
   for (int32_t p = begin; p < end; p += kAtOnce) {
     const int32_t count = Min(kAtOnce, end - p);
-    read(view.u, 0, p, count, horizontal);
-    read(0, view.v, p, count, out);
+    read(u, 0, p, count, horizontal);
+    read(0, v, p, count, out);
     for (int32_t k = 0; k < count; ++k, out += 3) {
       MixNeighbours(horizontal + 3 * k, out, colour, out);
     }

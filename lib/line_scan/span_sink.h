@@ -13,45 +13,29 @@
 
 namespace starfocus {
 
-// Fills holes: reads colours that the centre view does not show from the captured side views.
-
-// Position of a rendered view, and the captured view (u, v) that fills the holes of the rendered
-// view. The coordinates u and v are -1, 0 or 1. Their unit is the distance of the outermost views
-// from the centre, or half of this distance if `half` is true. All fields are in the orientation of
-// the view's lines.
-struct HoleView {
-  const Input* input;
+// Fills the holes of a line of a rendered view: reads colours that the centre view does not show
+// from a captured side view. All members are in the orientation of the view's lines.
+struct HoleFiller {
+  const Input& input;
   int layer;
-  const ViewGrid* grid;
-  bool transposed;
+  const ViewGrid& grid;
+  const int64_t* moves;  // ViewGrid::Move of views 0 to N along an axis
+  bool transposed;       // true: lines run down the picture
+  // The rendered view is (u * i, v * j), and the captured view (u, v) fills its holes. The
+  // coordinates u and v are -1, 0 or 1. Their unit is the distance of the outermost views from the
+  // centre, or half of this distance if i and j are at most grid.half_views.
   int u, v;
-  // ViewGrid::Move of the rendered view's distance along each axis. `move_u` is 0 if u is 0, and
-  // `move_v` is 0 if v is 0.
-  int64_t move_u, move_v;
-  bool half;
-};
-
-// A line of the rendered view: position of pixel 0 of the line in the picture, and distance between
-// neighbouring pixels.
-struct HoleLine {
+  int32_t i, j;
+  // Position of pixel 0 of the line in the picture, and distance between neighbouring pixels.
   int32_t x, y, dx, dy;
-};
 
-// Writes the colours (3 samples each) of the rendered pixels [part.begin, part.end) of a line. The
-// pixels show a background of disparity `disparity`. The captured view is read at the position that
-// the disparity implies (IV-A). If the light field has 5 views, a diagonal view is interpolated
-// from its horizontal and its vertical neighbour. Each neighbour is weighted by its similarity to
-// the visible background `colour`. With only the centre view, the background colour is repeated.
-void FillHole(const HoleView& view, const HoleLine& line, const LinePart& part, int32_t disparity,
-              const int16_t* colour, int16_t* out);
-
-// Destination of the pixels of a rendered line.
-struct SpanTarget {
-  int32_t out_begin;  // First rendered pixel.
-  uint32_t pixel;     // Index of the target pixel that receives rendered pixel out_begin.
-  uint32_t weight;    // Weight of each rendered pixel; 2^simd::kBlendBits if the SpanList blends.
-  // Receives the disparities of the rendered view from out_begin on; may be null.
-  int16_t* disparity;
+  // Writes the colours (3 samples each) of the rendered pixels [begin, end). The pixels show a
+  // background of disparity `disparity`. The captured view is read at the position that the
+  // disparity implies (IV-A). If the light field has 5 views, a diagonal view is interpolated from
+  // its horizontal and its vertical neighbour. Each neighbour is weighted by its similarity to the
+  // visible background `colour`. With only the centre view, the background colour is repeated.
+  void Fill(int32_t begin, int32_t end, int32_t disparity, const int16_t* colour,
+            int16_t* out) const;
 };
 
 // Sink of LineScan. The sink calls holes.Fill(begin, end, disparity, colour, out) to write the
@@ -60,31 +44,40 @@ struct SpanTarget {
 template <class Holes>
 class SpanSink {
  public:
-  // line.step must be 1 if target.disparity is set.
-  SpanSink(const Line& line, const SpanTarget& target, const Holes& holes, SpanList* list)
-      : line_(line), target_(target), holes_(holes), list_(list) {}
+  // Rendered pixel `first` of the line is written to target pixel `pixel`. `weight` is the weight
+  // of each rendered pixel; 2^simd::kBlendBits if the list blends. `disparity` receives the
+  // disparities of the rendered view from `first` on; it may be null, and requires that line.step
+  // is 1.
+  SpanSink(const Line& line, int32_t first, uint32_t pixel, uint32_t weight, int16_t* disparity,
+           const Holes& holes, SpanList* list)
+      : line_(line),
+        first_(first),
+        pixel_(pixel),
+        weight_(weight),
+        disparity_(disparity),
+        holes_(holes),
+        list_(list) {}
 
   // Sets the weight of subsequent pixels.
-  void SetWeight(uint32_t weight) { target_.weight = weight; }
+  void SetWeight(uint32_t weight) { weight_ = weight; }
 
   void Surface(int32_t begin, int32_t end, int32_t source, int32_t neighbour, int32_t weight) {
     constexpr uint32_t kHalf = 1 << (simd::kBlendBits - 1);
     const uint32_t neighbour_weight =
-        (target_.weight * static_cast<uint32_t>(weight) + kHalf) >> simd::kBlendBits;
+        (weight_ * static_cast<uint32_t>(weight) + kHalf) >> simd::kBlendBits;
     Add(begin, end, line_.rgb + 3 * static_cast<ptrdiff_t>(source), neighbour_weight,
         3 * neighbour);
-    if (target_.disparity == nullptr) return;
-    CopyDisparities(line_.disparity + source, end - begin,
-                    target_.disparity + (begin - target_.out_begin));
+    if (disparity_ == nullptr) return;
+    CopyDisparities(line_.disparity + source, end - begin, disparity_ + (begin - first_));
   }
 
   void Mix(int32_t p, int32_t source, int32_t other, int32_t weight) {
     const uint32_t other_weight =
-        (target_.weight * static_cast<uint32_t>(weight) + kShiftOne / 2) >> kShiftBits;
+        (weight_ * static_cast<uint32_t>(weight) + kShiftOne / 2) >> kShiftBits;
     Add(p, p + 1, line_.rgb + 3 * static_cast<ptrdiff_t>(source), other_weight,
         3 * (other - source));
-    if (target_.disparity != nullptr) {
-      target_.disparity[p - target_.out_begin] = line_.disparity[source];
+    if (disparity_ != nullptr) {
+      disparity_[p - first_] = line_.disparity[source];
     }
   }
 
@@ -103,10 +96,10 @@ class SpanSink {
       }
     }
     Add(begin, end, pixels, 0, 0);
-    if (target_.disparity == nullptr) return;
-    for (int32_t p = begin; p < end; ++p) target_.disparity[p - target_.out_begin] = disparity;
+    if (disparity_ == nullptr) return;
+    for (int32_t p = begin; p < end; ++p) disparity_[p - first_] = disparity;
     if (rim.pixel >= 0 && rim.covered > kShiftOne / 2) {
-      target_.disparity[rim_at - target_.out_begin] = line_.disparity[rim.pixel];
+      disparity_[rim_at - first_] = line_.disparity[rim.pixel];
     }
   }
 
@@ -128,15 +121,18 @@ class SpanSink {
            int32_t neighbour_offset) {
     simd::Span* span = list_->Next();
     span->source = source;
-    span->target = 3 * (target_.pixel + static_cast<uint32_t>(begin - target_.out_begin));
+    span->target = 3 * (pixel_ + static_cast<uint32_t>(begin - first_));
     span->samples = 3 * static_cast<uint32_t>(end - begin);
-    span->weight = static_cast<uint16_t>(target_.weight - neighbour_weight);
+    span->weight = static_cast<uint16_t>(weight_ - neighbour_weight);
     span->neighbour_weight = static_cast<uint16_t>(neighbour_weight);
     span->neighbour_offset = neighbour_offset;
   }
 
   const Line& line_;
-  SpanTarget target_;
+  const int32_t first_;
+  const uint32_t pixel_;
+  uint32_t weight_;
+  int16_t* const disparity_;
   const Holes& holes_;
   SpanList* list_;
 };

@@ -60,73 +60,21 @@ void TransposeDisparity(const BlockPixels& from, BlockPixels* to) {
   }
 }
 
-// Diagonal lines of a field in direction (1, 1), or (1, -1) if `anti`.
-struct Diagonals {
-  bool anti = false;
-  int16_t* rgb = nullptr;  // all lines, packed
-  int16_t* disparity = nullptr;
-  uint32_t* offsets = nullptr;  // number of pixels stored before each of the Count(field) lines
-
-  static int32_t Count(const BlockPixels& field) { return field.width + field.height - 1; }
-};
+// Number of diagonals of a field in one direction.
+int32_t DiagonalCount(const BlockPixels& field) { return field.width + field.height - 1; }
 
 // Start and length of a diagonal in pixels. From pixel to pixel of the diagonal, x increases by 1,
 // and y increases by 1, or decreases by 1 if `anti`.
 struct DiagonalLine {
   int32_t x, y, length;
 };
+
 DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index) {
   const int32_t x = Max(0, index - (field.height - 1));
   const int32_t y = anti ? Min(index, field.height - 1) : Max(0, field.height - 1 - index);
   const int32_t rest = anti ? y + 1 : field.height - y;
   return {x, y, Min(field.width - x, rest)};
 }
-
-// Copies all diagonals of a field. The arrays of `diagonals` must be set, and each array must have
-// room for the whole field.
-void LoadDiagonals(const BlockPixels& field, bool anti, Diagonals* diagonals) {
-  diagonals->anti = anti;
-  uint32_t offset = 0;
-  const ptrdiff_t step = anti ? 1 - ptrdiff_t{field.width} : 1 + ptrdiff_t{field.width};
-  const auto stride = static_cast<ptrdiff_t>(RgbStride(field.width));
-  const ptrdiff_t rgb_step = anti ? 3 - stride : 3 + stride;
-  for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
-    const DiagonalLine line = GetDiagonal(field, anti, index);
-    diagonals->offsets[index] = offset;
-    const int16_t* from = field.Rgb(line.x, line.y);
-    const int16_t* from_disparity = field.Disparity(line.x, line.y);
-    for (int32_t t = 0; t < line.length; ++t, ++offset) {
-      std::memcpy(diagonals->rgb + 3 * size_t{offset}, from, 3 * sizeof(*from));
-      diagonals->disparity[offset] = *from_disparity;
-      from += rgb_step;
-      from_disparity += step;
-    }
-  }
-}
-
-// Hole filler for a line of the rendered view (u * i, v * j), in the orientation of the field.
-struct LineHoles {
-  const RenderJob& job;
-  const BlockPixels& field;
-  const int64_t* moves;
-  int u, v;
-  int32_t i, j;
-  HoleLine line;
-
-  void Fill(int32_t begin, int32_t end, int32_t disparity, const int16_t* colour,
-            int16_t* out) const {
-    const HoleView view = {job.input,
-                           field.layer,
-                           job.grid,
-                           field.transposed,
-                           u,
-                           v,
-                           u == 0 ? 0 : moves[i],
-                           v == 0 ? 0 : moves[j],
-                           Max(i, j) <= job.grid->half_views};
-    FillHole(view, line, {begin, end}, disparity, colour, out);
-  }
-};
 
 // Renders all views of the aperture for one rectangle. "Along" is the direction of the parallax of
 // type A views, and "across" is the additional direction of type C views (types of section IV-B of
@@ -155,11 +103,6 @@ class Star {
   }
 
  private:
-  // Range of rows of a field that a set of views reads.
-  struct Rows {
-    int32_t begin, end;
-  };
-
   void Clear(uint32_t* sums) const {
     const size_t samples = 3 * static_cast<size_t>(job_.rect.width) * job_.rect.height;
     std::memset(sums, 0, samples * sizeof(uint32_t));
@@ -176,6 +119,14 @@ class Star {
     return SpanList(*job_.kernels, scratch_->spans, accumulators);
   }
   SpanList Blending(int16_t* line) const { return SpanList(*job_.kernels, scratch_->spans, line); }
+
+  // Returns the filler of holes of a line of view (u * i, v * j). Pixel 0 of the line is pixel (x,
+  // y) of the picture in the orientation of the field.
+  HoleFiller HolesOf(const BlockPixels& field, int u, int v, int32_t x, int32_t y, int32_t dx,
+                     int32_t dy) const {
+    return {*job_.input, field.layer, grid_, scratch_->moves, field.transposed, u, v, 0, 0, x,
+            y,           dx,          dy};
+  }
 
   // Adds `pixels` pixels of a line, all with weight `weight`.
   static void AddLine(const int16_t* rgb, int32_t pixels, uint32_t weight, uint32_t target,
@@ -208,7 +159,7 @@ class Star {
       FindAllRuns(field, other, DirectionOf(sign));
       for (int32_t i = 1; i <= grid_.n() && GoesOn(job_.cancel, samples); ++i) {
         const int32_t last = LastAcross(i);
-        const Rows rows = RowsFor(field, last);
+        const Range rows = RowsFor(field, last);
         RenderTypeA(field, sign, i, rows);
         AddColumns(field, sign, i, last, rows, accumulators);
       }
@@ -216,7 +167,7 @@ class Star {
   }
 
   void FindAllRuns(const BlockPixels& field, const BlockPixels& other, Direction direction) {
-    MarkRuns(*job_.kernels, grid_, {other.disparity, other.width, field.width, field.height},
+    MarkRuns(*job_.kernels, grid_, other.disparity, other.width, field.width, field.height,
              direction, &scratch_->marks);
     for (int32_t row = 0; row < field.height; ++row) {
       scratch_->run_counts[row] = ReadRuns(scratch_->marks, row, field.width, grid_,
@@ -237,7 +188,7 @@ class Star {
   }
 
   // Returns the range of rows that the type C views (i, j) with j <= last read.
-  Rows RowsFor(const BlockPixels& field, int32_t last) const {
+  Range RowsFor(const BlockPixels& field, int32_t last) const {
     const Rect& inner = field.inner;
     const int32_t n = grid_.n(), above = inner.y, end = inner.y + inner.height;
     const auto reach = [&](int32_t border) {
@@ -249,15 +200,14 @@ class Star {
 
   // Renders view (sign * i, 0) and the disparities of this view, one line per column of the
   // rectangle.
-  void RenderTypeA(const BlockPixels& field, int sign, int32_t i, const Rows& rows) {
-    const int32_t width = field.inner.width, height = rows.end - rows.begin;
+  void RenderTypeA(const BlockPixels& field, int sign, int32_t i, const Range& rows) {
+    const int32_t width = field.inner.width, height = rows.last - rows.first;
     for (int32_t row = 0; row < height; row += kStripRows) {
       const int32_t count = Min(kStripRows, height - row);
       SpanList list = Blending(scratch_->strip_rgb);
       for (int32_t k = 0; k < count; ++k) {
-        const SpanTarget target = {field.inner.x, static_cast<uint32_t>(k * width), kBlendOne,
-                                   scratch_->view_disparity + (row + k) * width};
-        RenderRow(field, sign, i, rows.begin + row + k, target, &list);
+        RenderRow(field, sign, i, rows.first + row + k, static_cast<uint32_t>(k * width),
+                  scratch_->view_disparity + (row + k) * width, &list);
       }
       list.Flush();
       Transpose(scratch_->strip_rgb, 3 * static_cast<size_t>(width), count, width,
@@ -265,123 +215,116 @@ class Star {
     }
   }
 
-  void RenderRow(const BlockPixels& field, int sign, int32_t i, int32_t row,
-                 const SpanTarget& target, SpanList* list) {
-    const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1, field.width};
-    const LineHoles holes = {
-        job_, field, scratch_->moves, sign, 0, i, 0, {field.x, field.y + row, 1, 0}};
-    SpanSink<LineHoles> sink(line, target, holes, list);
-    const LinePart part = {field.inner.x, field.inner.x + field.inner.width};
-    const ScanTask task = {
-        line, DirectionOf(sign), RunsOf(field, row), scratch_->run_counts[row], part, i, i};
-    ScanLine(task, grid_, &sink, [&](int32_t k) { return scratch_->moves[k]; });
+  // Renders a row of view (sign * i, 0) to the list's line, from target pixel `pixel` on.
+  void RenderRow(const BlockPixels& field, int sign, int32_t i, int32_t row, uint32_t pixel,
+                 int16_t* disparity, SpanList* list) {
+    const Line line = {field.Rgb(0, row), field.Disparity(0, row), 1,
+                       field.width,       RunsOf(field, row),      scratch_->run_counts[row]};
+    HoleFiller holes = HolesOf(field, sign, 0, field.x, field.y + row, 1, 0);
+    holes.i = i;
+    SpanSink<HoleFiller> sink(line, field.inner.x, pixel, kBlendOne, disparity, holes, list);
+    ScanLine(line, DirectionOf(sign), {field.inner.x, field.inner.x + field.inner.width},
+             {i, i + 1}, grid_, &sink, [&](int32_t k) { return scratch_->moves[k]; });
   }
 
   // Adds the views (sign * i, j), |j| <= last, scanned along the columns of the type A view.
-  void AddColumns(const BlockPixels& field, int sign, int32_t i, int32_t last, const Rows& rows,
+  void AddColumns(const BlockPixels& field, int sign, int32_t i, int32_t last, const Range& rows,
                   uint32_t* accumulators) {
-    const int32_t width = field.inner.width, height = rows.end - rows.begin;
+    const int32_t width = field.inner.width, height = rows.last - rows.first;
+    const int32_t top = field.inner.y - rows.first;
     SpanList list = Accumulating(accumulators);
     for (const int across : {1, -1}) {
       if (across < 0 && last == 0) continue;
-      const bool scan = last > 0;
-      if (scan) {
-        MarkRuns(*job_.kernels, grid_, {scratch_->view_disparity, width, height, width},
+      if (last > 0) {
+        MarkRuns(*job_.kernels, grid_, scratch_->view_disparity, width, height, width,
                  DirectionOf(across), &scratch_->marks);
       }
-      LineHoles holes = {job_,
-                         field,
-                         scratch_->moves,
-                         sign,
-                         across,
-                         i,
-                         0,
-                         {field.x + field.inner.x, field.y + rows.begin, 0, 1}};
-      for (int32_t x = 0; x < width; ++x, ++holes.line.x) {
+      HoleFiller holes =
+          HolesOf(field, sign, across, field.x + field.inner.x, field.y + rows.first, 0, 1);
+      holes.i = i;
+      for (int32_t x = 0; x < width; ++x, ++holes.x) {
         if (!GoesOn(job_.cancel, 3 * int64_t{height} * (last + 1))) return;
-        const int32_t count = scan ? ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1],
-                                              scratch_->line_runs)
-                                   : 0;
         int16_t* rgb = scratch_->columns_rgb + static_cast<size_t>(x) * RgbStride(height);
-        const Line line = {rgb, scratch_->view_disparity + x, width, height};
-        const int32_t top = field.inner.y - rows.begin;
         const auto first = static_cast<uint32_t>(x * field.inner.height);
         if (across > 0) {
           AddLine(rgb + 3 * top, field.inner.height, WeightOf(field, sign * i, 0), 3 * first,
                   &list);
         }
-        if (scan) {
-          const LinePart part = {top, top + field.inner.height};
-          const ScanTask task = {line, DirectionOf(across), scratch_->line_runs, count, part, 1,
-                                 last};
-          AddColumn(task, first, &holes, &list);
-        }
+        if (last == 0) continue;
+        const int32_t count =
+            ReadRuns(scratch_->marks, x, height, grid_, scratch_->moves[1], scratch_->line_runs);
+        const Line line = {rgb,    scratch_->view_disparity + x, width,
+                           height, scratch_->line_runs,          count};
+        SpanSink<HoleFiller> sink(line, top, first, 0, nullptr, holes, &list);
+        ScanLine(line, DirectionOf(across), {top, top + field.inner.height}, {1, last + 1}, grid_,
+                 &sink, [&](int32_t j) {
+                   holes.j = j;
+                   sink.SetWeight(WeightOf(field, sign * i, across * j));
+                   return scratch_->moves[j];
+                 });
       }
     }
     list.Flush();
   }
 
-  // For one part of a column, adds the views (i, j) on one side of the axis.
-  void AddColumn(const ScanTask& task, uint32_t pixel, LineHoles* view, SpanList* list) {
-    LineHoles& holes = *view;
-    const SpanTarget target = {task.part.begin, pixel, 0, nullptr};
-    SpanSink<LineHoles> sink(task.line, target, holes, list);
-    ScanLine(task, grid_, &sink, [&](int32_t j) {
-      holes.j = j;
-      sink.SetWeight(WeightOf(holes.field, holes.u * holes.i, holes.v * j));
-      return scratch_->moves[j];
-    });
-  }
-
-  Diagonals GetDiagonals(const BlockPixels& field, bool anti) {
-    Diagonals diagonals;
-    diagonals.rgb = scratch_->diagonal_rgb;
-    diagonals.disparity = scratch_->diagonal_disparity;
-    diagonals.offsets = scratch_->diagonal_offsets;
-    LoadDiagonals(field, anti, &diagonals);
-    return diagonals;
-  }
-
-  static Line GetLine(const Diagonals& diagonals, int32_t index, int32_t length) {
-    const size_t offset = diagonals.offsets[index];
-    return {diagonals.rgb + 3 * offset, diagonals.disparity + offset, 1, length};
+  // Copies all diagonals of a field in one direction to the scratch memory.
+  void LoadDiagonals(const BlockPixels& field, bool anti) {
+    uint32_t offset = 0;
+    const ptrdiff_t step = anti ? 1 - ptrdiff_t{field.width} : 1 + ptrdiff_t{field.width};
+    const auto stride = static_cast<ptrdiff_t>(RgbStride(field.width));
+    const ptrdiff_t rgb_step = anti ? 3 - stride : 3 + stride;
+    for (int32_t index = 0; index < DiagonalCount(field); ++index) {
+      const DiagonalLine line = GetDiagonal(field, anti, index);
+      scratch_->diagonal_offsets[index] = offset;
+      const int16_t* from = field.Rgb(line.x, line.y);
+      const int16_t* from_disparity = field.Disparity(line.x, line.y);
+      for (int32_t t = 0; t < line.length; ++t, ++offset) {
+        std::memcpy(scratch_->diagonal_rgb + 3 * size_t{offset}, from, 3 * sizeof(*from));
+        scratch_->diagonal_disparity[offset] = *from_disparity;
+        from += rgb_step;
+        from_disparity += step;
+      }
+    }
   }
 
   // Adds the type B views on one diagonal of the aperture, inside the disc.
   void TypeB(const BlockPixels& field, bool anti) {
     const int32_t last = LastOnDiagonal(grid_.n());
     if (last == 0) return;
-    const Diagonals diagonals = GetDiagonals(field, anti);
+    LoadDiagonals(field, anti);
     const Rect& inner = field.inner;
-    for (int32_t index = 0; index < Diagonals::Count(field); ++index) {
+    for (int32_t index = 0; index < DiagonalCount(field); ++index) {
       const DiagonalLine at = GetDiagonal(field, anti, index);
       const int32_t top = anti ? at.y - (inner.y + inner.height - 1) : inner.y - at.y;
       const int32_t begin = Max(Max(0, inner.x - at.x), top);
       const int32_t end = Min(Min(at.length, inner.x + inner.width - at.x), top + inner.height);
       if (begin >= end) continue;
       if (!GoesOn(job_.cancel, 6 * int64_t{at.length} * last)) return;
-      AddDiagonal(field, diagonals, at, index, {begin, end}, last);
+      AddDiagonal(field, anti, index, {begin, end}, last);
     }
   }
 
-  void AddDiagonal(const BlockPixels& field, const Diagonals& diagonals, const DiagonalLine& at,
-                   int32_t index, const LinePart& part, int32_t last) {
-    const int32_t begin = part.begin, end = part.end;
-    const Line line = GetLine(diagonals, index, at.length);
+  // Adds the type B views of the pixels `part` of a diagonal.
+  void AddDiagonal(const BlockPixels& field, bool anti, int32_t index, const Range& part,
+                   int32_t last) {
+    const DiagonalLine at = GetDiagonal(field, anti, index);
+    const size_t offset = scratch_->diagonal_offsets[index];
+    const int16_t* const disparity = scratch_->diagonal_disparity + offset;
     uint32_t* sums = scratch_->line_accumulators;
-    std::memset(sums, 0, 3 * static_cast<size_t>(end - begin) * sizeof(uint32_t));
+    std::memset(sums, 0, 3 * static_cast<size_t>(part.last - part.first) * sizeof(uint32_t));
     SpanList list = Accumulating(sums);
     for (const int sign : {1, -1}) {
-      MarkRuns(*job_.kernels, grid_, {line.disparity, 1, at.length, 1}, DirectionOf(sign),
+      MarkRuns(*job_.kernels, grid_, disparity, 1, at.length, 1, DirectionOf(sign),
                &scratch_->marks);
-      const int32_t runs =
+      const int32_t count =
           ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1], scratch_->line_runs);
-      const int across = diagonals.anti ? -sign : sign;
-      const HoleLine hole_line = {field.x + at.x, field.y + at.y, 1, diagonals.anti ? -1 : 1};
-      LineHoles holes = {job_, field, scratch_->moves, sign, across, 0, 0, hole_line};
-      SpanSink<LineHoles> sink(line, {begin, 0, 0, nullptr}, holes, &list);
-      const ScanTask task = {line, DirectionOf(sign), scratch_->line_runs, runs, part, 1, last};
-      ScanLine(task, grid_, &sink, [&](int32_t k) {
+      const Line line = {
+          scratch_->diagonal_rgb + 3 * offset, disparity, 1, at.length, scratch_->line_runs, count};
+      const int across = anti ? -sign : sign;
+      HoleFiller holes =
+          HolesOf(field, sign, across, field.x + at.x, field.y + at.y, 1, anti ? -1 : 1);
+      SpanSink<HoleFiller> sink(line, part.first, 0, 0, nullptr, holes, &list);
+      ScanLine(line, DirectionOf(sign), part, {1, last + 1}, grid_, &sink, [&](int32_t k) {
         holes.i = holes.j = k;
         sink.SetWeight(WeightOf(field, sign * k, across * k));
         return scratch_->moves[k];
@@ -389,11 +332,12 @@ class Star {
     }
     list.Flush();
     const Rect& inner = field.inner;
-    for (int32_t t = begin; t < end; ++t) {
-      const int32_t x = at.x + t - inner.x;
-      const int32_t y = (diagonals.anti ? at.y - t : at.y + t) - inner.y;
-      uint32_t* target = sums_ + 3 * (static_cast<size_t>(y) * inner.width + x);
-      for (int c = 0; c < 3; ++c) target[c] += sums[3 * (t - begin) + c];
+    const int32_t x = at.x + part.first - inner.x;
+    const int32_t y = (anti ? at.y - part.first : at.y + part.first) - inner.y;
+    const ptrdiff_t step = 3 * (ptrdiff_t{anti ? -inner.width : inner.width} + 1);
+    ptrdiff_t target = 3 * (ptrdiff_t{y} * inner.width + x);
+    for (int32_t t = part.first; t < part.last; ++t, target += step, sums += 3) {
+      for (int c = 0; c < 3; ++c) sums_[target + c] += sums[c];
     }
   }
 

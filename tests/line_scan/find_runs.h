@@ -31,9 +31,8 @@ inline std::vector<std::vector<starfocus::Run>> FindRuns(const starfocus::simd::
   std::vector<uint16_t> edges = starts;
   std::vector<int16_t> middles(starfocus::RunMiddles(length, lines.size()), 0x5A5A);
   starfocus::simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
-  MarkRuns(kernels, grid,
-           {disparity.data(), ptrdiff_t(step), int32_t(length), int32_t(lines.size())}, direction,
-           &marks);
+  MarkRuns(kernels, grid, disparity.data(), ptrdiff_t(step), int32_t(length), int32_t(lines.size()),
+           direction, &marks);
   std::vector<std::vector<starfocus::Run>> found;
   for (size_t k = 0; k < lines.size(); ++k) {
     std::vector<starfocus::Run> runs(length);

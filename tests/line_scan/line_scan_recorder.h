@@ -92,14 +92,10 @@ inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direc
   Depths spaced(line.size() * size_t(step));
   for (size_t q = 0; q < line.size(); ++q) spaced[q * size_t(step)] = line[q];
   Recorder recorder = {direction, Picture(line.size()), {}};
-  const starfocus::ScanTask task = {{nullptr, spaced.data(), step, length},
-                                    direction,
-                                    runs.data(),
-                                    int32_t(runs.size()),
-                                    {begin, end},
-                                    view,
-                                    view};
-  starfocus::ScanLine(task, grid, &recorder, [&](int32_t k) { return grid.Move(k); });
+  const starfocus::Line scanned = {nullptr, spaced.data(), step,
+                                   length,  runs.data(),   int32_t(runs.size())};
+  starfocus::ScanLine(scanned, direction, {begin, end}, {view, view + 1}, grid, &recorder,
+                      [&](int32_t k) { return grid.Move(k); });
   return recorder;
 }
 

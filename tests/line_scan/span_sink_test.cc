@@ -51,7 +51,7 @@ struct Drawing {
   // colours without disparities.
   template <class Draw>
   void Run(uint32_t weight, const Draw& draw) {
-    const starfocus::Line line = {rgb.data(), depths.data(), 1, kLength};
+    const starfocus::Line line = {rgb.data(), depths.data(), 1, kLength, nullptr, 0};
     std::vector<Span> spans(4);
     std::vector<int16_t> pixels(3 * kLength);
     const starfocus::SpanMemory memory = {spans.data(), spans.size(), pixels.data(), pixels.size()};
@@ -59,8 +59,8 @@ struct Drawing {
     const bool blends = weight == kBlendOne;
     starfocus::SpanList list = blends ? starfocus::SpanList(kernels, memory, line_.data())
                                       : starfocus::SpanList(kernels, memory, sums.data());
-    starfocus::SpanSink<GrayHoles> sink(
-        line, {kBegin, 0, weight, blends ? disparity.data() : nullptr}, holes, &list);
+    starfocus::SpanSink<GrayHoles> sink(line, kBegin, 0, weight,
+                                        blends ? disparity.data() : nullptr, holes, &list);
     draw(&sink);
     list.Flush();
   }

@@ -55,13 +55,13 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   ViewWeights aperture;
   aperture.n = kViewNumber;
   const ViewGrid grid = MakeViewGrid(aperture, {}, 1, 0, false);
-  const Line line = {rgb.data(), disparity.data(), 1, kPixels};
+  Line line = {rgb.data(), disparity.data(), 1, kPixels, runs.data(), 0};
   for (auto _ : state) {
     Ignore ignore;
     for (const Direction direction : {Direction::kRightToLeft, Direction::kLeftToRight}) {
-      MarkRuns(kernels, grid, {disparity.data(), 1, kPixels, 1}, direction, &marks);
-      const int32_t count = ReadRuns(marks, 0, kPixels, grid, grid.Move(1), runs.data());
-      ScanLine({line, direction, runs.data(), count, {0, kPixels}, 1, kViewNumber}, grid, &ignore,
+      MarkRuns(kernels, grid, disparity.data(), 1, kPixels, 1, direction, &marks);
+      line.run_count = ReadRuns(marks, 0, kPixels, grid, grid.Move(1), runs.data());
+      ScanLine(line, direction, {0, kPixels}, {1, kViewNumber + 1}, grid, &ignore,
                [&](int32_t i) { return grid.Move(i); });
     }
     benchmark::DoNotOptimize(ignore.pixels);
