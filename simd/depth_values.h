@@ -4,11 +4,14 @@
 #ifndef STARFOCUS_SIMD_DEPTH_VALUES_H_
 #define STARFOCUS_SIMD_DEPTH_VALUES_H_
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "simd/disparities.h"
+#include "simd/samples.h"
 
 namespace starfocus::simd {
 
@@ -39,13 +42,51 @@ inline constexpr int kSpreadSpare = 8;
 
 namespace reference {
 
+inline constexpr uint16_t kHalfSign = 0x8000, kHalfInfinity = 0x7C00;
+
+inline float HalfToFloat(uint16_t half) {
+  const uint32_t magnitude = half & (kHalfSign - 1u);
+  if (magnitude > kHalfInfinity) return std::numeric_limits<float>::quiet_NaN();
+  float value = static_cast<float>(magnitude) / (1 << 24);
+  if (magnitude == kHalfInfinity) {
+    value = std::numeric_limits<float>::infinity();
+  } else if (magnitude >= 1 << 10) {
+    // The biased exponent of a float is larger by 112 than that of a half-precision float.
+    const uint32_t bits = (magnitude << 13) + (112u << 23);
+    std::memcpy(&value, &bits, sizeof(value));
+  }
+  return (half & kHalfSign) != 0 ? -value : value;
+}
+
+inline int16_t BlendSamples(int32_t a, int32_t b, int32_t share) {
+  const int32_t difference = b - a;
+  if (difference < -kBlendStep || difference > kBlendStep) {
+    return static_cast<int16_t>(share < 128 ? a : b);
+  }
+  return static_cast<int16_t>(a + ((share * difference + 128) >> 8));
+}
+
 // Convert bytes, 16-bit numbers, half-precision floats (IEEE 754 binary16) or DEPTH16 to z[n] for
 // n < count. Infinity remains infinity: an infinite distance has a known disparity. DEPTH16 is a
 // distance in the lower 13 bits, where 0 is unknown (NaN).
-void BytesToDepth(const uint8_t* values, size_t count, float* z);
-void WordsToDepth(const uint16_t* values, size_t count, float* z);
-void HalvesToDepth(const uint16_t* values, size_t count, float* z);
-void Depth16ToDepth(const uint16_t* values, size_t count, float* z);
+STARFOCUS_REFERENCE void BytesToDepth(const uint8_t* values, size_t count, float* z) {
+  for (size_t n = 0; n < count; ++n) z[n] = static_cast<float>(values[n]);
+}
+
+STARFOCUS_REFERENCE void WordsToDepth(const uint16_t* values, size_t count, float* z) {
+  for (size_t n = 0; n < count; ++n) z[n] = static_cast<float>(values[n]);
+}
+
+STARFOCUS_REFERENCE void HalvesToDepth(const uint16_t* values, size_t count, float* z) {
+  for (size_t n = 0; n < count; ++n) z[n] = HalfToFloat(values[n]);
+}
+
+STARFOCUS_REFERENCE void Depth16ToDepth(const uint16_t* values, size_t count, float* z) {
+  for (size_t n = 0; n < count; ++n) {
+    const int32_t distance = values[n] & kDepth16Distance;
+    z[n] = distance == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(distance);
+  }
+}
 
 // Returns the disparity of z according to `rule`, with each operation rounded to single precision.
 // The result is NaN if z is invalid or the disparity is not finite.
@@ -59,19 +100,43 @@ inline float DisparityOf(float z, const DepthRule& rule) {
 // Computes the disparity of each z[n] like DisparityOf. Sets out[n] to disparity * 64, rounded half
 // up. If the disparity is NaN, out[n] is kNoSurface. If the disparity lies outside [low, high],
 // out[n] is unspecified. Returns DepthFlags.
-uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule, int16_t* out);
+STARFOCUS_REFERENCE uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule,
+                                              int16_t* out) {
+  uint32_t flags = 0;
+  for (size_t n = 0; n < count; ++n) {
+    const float disparity = DisparityOf(z[n], rule);
+    if (std::isnan(disparity)) {
+      flags |= kUnknownDepth;
+      out[n] = kNoSurface;
+    } else if (disparity >= rule.low && disparity <= rule.high) {
+      out[n] = static_cast<int16_t>(std::floor(disparity * 64.0f + 0.5f));
+    } else {
+      flags |= kDepthOutside;
+      out[n] = 0;
+    }
+  }
+  return flags;
+}
 
 // Interpolates between a[n] and b[n], where b has the weight `share` in [0, kColumnOne). If a[n]
 // and b[n] differ by at most kBlendStep, out[n] is a + ((share (b - a) + 128) >> 8). If a[n] and
 // b[n] differ by more than kBlendStep, out[n] is a[n] if share < 128, and b[n] otherwise.
-void BlendRows(const int16_t* a, const int16_t* b, size_t count, uint32_t share, int16_t* out);
+STARFOCUS_REFERENCE void BlendRows(const int16_t* a, const int16_t* b, size_t count, uint32_t share,
+                                   int16_t* out) {
+  for (size_t n = 0; n < count; ++n) out[n] = BlendSamples(a[n], b[n], static_cast<int32_t>(share));
+}
 
 // Interpolates along a row like BlendRows. columns[n] is the position of output pixel n, in a row
 // whose element `first` is row[0]. Positions increase by at most kColumnOne from pixel to pixel.
 // The element to the right of the last position must exist. kSpreadSpare elements after this
 // element may be read, but do not affect the result.
-void SpreadRow(const int16_t* row, const uint32_t* columns, size_t count, uint32_t first,
-               int16_t* out);
+STARFOCUS_REFERENCE void SpreadRow(const int16_t* row, const uint32_t* columns, size_t count,
+                                   uint32_t first, int16_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    const int16_t* const at = row + (columns[n] / kColumnOne - first);
+    out[n] = BlendSamples(at[0], at[1], static_cast<int32_t>(columns[n] % kColumnOne));
+  }
+}
 
 }  // namespace reference
 }  // namespace starfocus::simd

@@ -64,8 +64,8 @@ HWY_INLINE bool AllZero(D d, hn::Vec<D> v) {
 #endif
 }
 
-// Returns first, first + 1, first + 2 and so on. Iota of Highway 1.0.3 computes such lanes one by one
-// unless `first` is a constant.
+// Returns first, first + 1, first + 2 and so on. Iota of Highway 1.0.3 computes such lanes one by
+// one unless `first` is a constant.
 template <class D>
 HWY_INLINE hn::Vec<D> CountFrom(D d, hn::TFromD<D> first) {
   return hn::Add(hn::Iota(d, 0), hn::Set(d, first));
