@@ -47,7 +47,26 @@ namespace reference {
 // is in column n % kColourBlock and row n / kColourBlock. For each sample within reach of pixel n,
 // least[place + n] is lowered to the sample's key plus the colour difference (in units of cost), if
 // this sum is smaller. `stride` is the distance in samples between rows of the window.
-void CompareColours(const ColourSample* window, size_t stride, uint16_t* least);
+STARFOCUS_REFERENCE void CompareColours(const ColourSample* window, size_t stride,
+                                        uint16_t* least) {
+  constexpr size_t kBlock = kColourBlock, kReach = kColourReach;
+  for (size_t n = 0; n < kSliceLanes; ++n) {
+    const size_t left = n % kBlock, top = n / kBlock;
+    const ColourSample& own = window[(top + kReach) * stride + left + kReach];
+    for (size_t row = top; row <= top + 2 * kReach; ++row) {
+      for (size_t column = left; column <= left + 2 * kReach; ++column) {
+        const ColourSample& other = window[row * stride + column];
+        if (other.key == kNoColourKey) continue;
+        int32_t key = ColourDifference(own.sum - other.sum, own.red_green - other.red_green,
+                                       own.green_blue - other.green_blue);
+        if (key > kMostColourDifference) key = kMostColourDifference;
+        key = (key << kColourKeyBits) + other.key;
+        uint16_t* of_group = least + other.place + n;
+        if (key < *of_group) *of_group = static_cast<uint16_t>(key);
+      }
+    }
+  }
+}
 
 }  // namespace reference
 }  // namespace starfocus::simd

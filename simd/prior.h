@@ -29,15 +29,38 @@ struct PriorRow {
 
 namespace reference {
 
+inline void Lessen(const uint8_t* from, int way, size_t places, uint8_t* prior) {
+  for (size_t l = 0; l < places; ++l) {
+    if (from[l] + way < prior[l]) prior[l] = static_cast<uint8_t>(from[l] + way);
+  }
+}
+
 // Reduces the priors of each pixel, one pixel after the other. Priors propagate to a pixel from the
 // previous pixel of the row and from the three adjacent pixels of the previous row. A pixel's prior
 // is at most the prior of each adjacent source pixel, plus the cost of the step from the source
 // pixel.
-void SpreadPrior(const PriorRow& row);
+STARFOCUS_REFERENCE void SpreadPrior(const PriorRow& row) {
+  const auto places = static_cast<ptrdiff_t>(row.places);
+  for (size_t k = 0; k < row.count; ++k) {
+    const ptrdiff_t at = static_cast<ptrdiff_t>(k) * row.step * places, next = row.step * places;
+    uint8_t* prior = row.prior + at;
+    if (k > 0) Lessen(prior - next, kBesideCost, row.places, prior);
+    if (row.before == nullptr) continue;
+    const uint8_t* before = row.before + at;
+    Lessen(before, kBesideCost, row.places, prior);
+    if (k > 0) Lessen(before - next, kDiagonalCost, row.places, prior);
+    if (k + 1 < row.count) Lessen(before + next, kDiagonalCost, row.places, prior);
+  }
+}
 
 // Adds prior[n] to cost[n] for n < count. Sums are limited to 255. `count` is a multiple of
 // kSliceLanes.
-void AddPrior(const uint8_t* prior, size_t count, uint8_t* cost);
+STARFOCUS_REFERENCE void AddPrior(const uint8_t* prior, size_t count, uint8_t* cost) {
+  for (size_t n = 0; n < count; ++n) {
+    const int sum = cost[n] + prior[n];
+    cost[n] = static_cast<uint8_t>(sum < 255 ? sum : 255);
+  }
+}
 
 }  // namespace reference
 }  // namespace starfocus::simd
