@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/samples.h"
+
 namespace starfocus::simd {
 
 // Scale of light: 1/255 of white, with kLightBits fractional bits. The value of white, kLightWhite,
@@ -33,19 +35,44 @@ struct Encoding {
 
 namespace reference {
 
+inline uint8_t CodeOf(int32_t light, const Encoding& encoding) {
+  if (encoding.entries == nullptr) {
+    return static_cast<uint8_t>((light + (1 << (kLightBits - 1))) >> kLightBits);
+  }
+  const int32_t entry = encoding.entries[light / kEncodeStep];
+  return static_cast<uint8_t>((entry + light % kEncodeStep) >> kEncodeBits);
+}
+
 // Sets light[n] to the light of codes[n], n < count.
-void Decode(const uint8_t* codes, size_t count, const Encoding& encoding, int16_t* light);
+STARFOCUS_REFERENCE void Decode(const uint8_t* codes, size_t count, const Encoding& encoding,
+                                int16_t* light) {
+  for (size_t n = 0; n < count; ++n) {
+    light[n] = encoding.light == nullptr ? static_cast<int16_t>(codes[n] << kLightBits)
+                                         : encoding.light[codes[n]];
+  }
+}
 
 // Sets codes[n] to the code of light[n] for n < count. Each light[n] must be in [0, kLightWhite].
 // No other elements of `codes` are written.
-void Encode(const int16_t* light, size_t count, const Encoding& encoding, uint8_t* codes);
+STARFOCUS_REFERENCE void Encode(const int16_t* light, size_t count, const Encoding& encoding,
+                                uint8_t* codes) {
+  for (size_t n = 0; n < count; ++n) codes[n] = CodeOf(light[n], encoding);
+}
 
 // Encodes accumulators with `shift` fractional bits, in [8, 24]. If light is the code itself,
 // out[n] is (accumulators[n] + 2^(shift - 1)) >> shift. If light is not the code itself, the
 // accumulators are rounded half up to light, and the light is encoded. Nothing past out[count - 1]
 // is written.
-void Finish(const uint32_t* accumulators, size_t count, int shift, const Encoding& encoding,
-            uint8_t* out);
+STARFOCUS_REFERENCE void Finish(const uint32_t* accumulators, size_t count, int shift,
+                                const Encoding& encoding, uint8_t* out) {
+  const int bits = encoding.entries == nullptr ? shift : shift - kLightBits;
+  const uint32_t half = uint32_t{1} << (bits - 1);
+  for (size_t n = 0; n < count; ++n) {
+    const uint32_t value = (accumulators[n] + half) >> bits;
+    out[n] = encoding.entries == nullptr ? static_cast<uint8_t>(value)
+                                         : CodeOf(static_cast<int32_t>(value), encoding);
+  }
+}
 
 }  // namespace reference
 }  // namespace starfocus::simd

@@ -6,6 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+
+#include "simd/samples.h"
 
 namespace starfocus::simd {
 
@@ -31,13 +34,37 @@ struct RunMarks {
 
 namespace reference {
 
+inline void FindRunsOfLine(const int16_t* disparity, ptrdiff_t step, size_t length,
+                           const RunLimits& limits, const RunMarks& marks) {
+  int low = disparity[0], high = low, before = low;
+  for (size_t q = 0; q < length; ++q, disparity += step) {
+    const int here = *disparity;
+    low = here < low ? here : low;
+    high = here > high ? here : high;
+    const bool start = high - low > limits.spread;
+    if (start) low = high = here;
+    const bool edge = std::abs(here - before) > limits.edge;
+    before = here;
+    const size_t word = q / 16 * marks.stride;
+    if (q % 16 == 0) marks.starts[word] = marks.edges[word] = 0;
+    marks.starts[word] = static_cast<uint16_t>(marks.starts[word] | (start ? 1 << q % 16 : 0));
+    marks.edges[word] = static_cast<uint16_t>(marks.edges[word] | (edge ? 1 << q % 16 : 0));
+    marks.middles[q * marks.stride] = static_cast<int16_t>((low + high) >> 1);
+  }
+}
+
 // Splits lines 0 .. lines - 1 of `length` positions into runs, greedily from position 0 on.
 // Position q of line k is disparity[q * step + k]. The bits of position 0, and of positions past
 // the last one, are 0. The middle at position q is the mean, rounded down, of the lowest and the
 // highest disparity of the run up to position q. Marks are written in whole groups of kRunLanes
 // lines; marks of lines at or beyond `lines` are unspecified.
-void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
-              const RunLimits& limits, const RunMarks& marks);
+STARFOCUS_REFERENCE void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length,
+                                  size_t lines, const RunLimits& limits, const RunMarks& marks) {
+  for (size_t k = 0; k < lines; ++k) {
+    FindRunsOfLine(disparity + k, step, length, limits,
+                   {marks.starts + k, marks.edges + k, marks.middles + k, marks.stride});
+  }
+}
 
 }  // namespace reference
 }  // namespace starfocus::simd

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/samples.h"
+
 namespace starfocus::simd {
 
 // A span of samples with interleaved R, G and B, which come from one source surface and go to one
@@ -28,14 +30,48 @@ inline constexpr int kBlendBits = 14;
 
 namespace reference {
 
+// SourceOf returns sample n of the source, and NeighbourOf the neighbour of sample n.
+inline int32_t SourceOf(const Span& span, uint32_t n) { return span.source[n]; }
+
+inline int32_t NeighbourOf(const Span& span, uint32_t n) {
+  return span.source[static_cast<ptrdiff_t>(n) + span.neighbour_offset];
+}
+
+inline uint32_t SpanValue(const Span& span, uint32_t n) {
+  uint32_t value = uint32_t{span.weight} * static_cast<uint32_t>(SourceOf(span, n));
+  if (span.neighbour_weight != 0) {
+    value += uint32_t{span.neighbour_weight} * static_cast<uint32_t>(NeighbourOf(span, n));
+  }
+  return value;
+}
+
+inline int16_t BlendValue(const Span& span, uint32_t n) {
+  const int32_t value = SourceOf(span, n);
+  if (span.neighbour_weight == 0) return static_cast<int16_t>(value);
+  const int32_t weight = span.neighbour_weight << (15 - kBlendBits);
+  return static_cast<int16_t>(value + Product15(NeighbourOf(span, n) - value, weight));
+}
+
 // Adds value n of each span to accumulators[target + n]. Sums must not exceed 2^32 - 1.
-void Accumulate(const Span* spans, size_t count, uint32_t* accumulators);
+STARFOCUS_REFERENCE void Accumulate(const Span* spans, size_t count, uint32_t* accumulators) {
+  for (size_t i = 0; i < count; ++i) {
+    for (uint32_t n = 0; n < spans[i].samples; ++n) {
+      accumulators[spans[i].target + n] += SpanValue(spans[i], n);
+    }
+  }
+}
 
 // Stores value n of each span in line[target + n]. The two weights of a span sum to 2^kBlendBits,
 // and the neighbour's weight is at most half of this sum. The weighted difference between neighbour
 // and sample is rounded half up. Sources must not overlap the line. Samples of the line outside the
 // spans are not written.
-void Blend(const Span* spans, size_t count, int16_t* line);
+STARFOCUS_REFERENCE void Blend(const Span* spans, size_t count, int16_t* line) {
+  for (size_t i = 0; i < count; ++i) {
+    for (uint32_t n = 0; n < spans[i].samples; ++n) {
+      line[spans[i].target + n] = BlendValue(spans[i], n);
+    }
+  }
+}
 
 }  // namespace reference
 }  // namespace starfocus::simd
