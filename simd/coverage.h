@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "simd/samples.h"
 
@@ -42,24 +43,49 @@ struct NearSums {
   int16_t weight[kSliceLanes];
 };
 
-namespace reference {
-
-// For each n < kSliceLanes, raises covered[n] to coverage[n] if near pixel n (disparity near[n])
-// occludes far pixel n (disparity far[n]) in the view. CoverPlaces never lowers covered[n].
-void CoverPlaces(const int16_t* near, const uint8_t* coverage, const int16_t* far,
-                 const CoverView& view, int16_t* covered);
-
-// Sums the light around each pixel n < kSliceLanes. The sum includes the pixels within kNearReach
-// whose near surface is the near surface of pixel n. The light of each pixel is multiplied by the
-// pixel's weight and by a filter coefficient from kNearTaps. Each product is rounded half up.
-void SumNear(const NearRows& rows, NearSums* sums);
-
-}  // namespace reference
-
 // Filter coefficients of SumNear, by the distance in columns and rows. The coefficients of all
 // pixels sum to 118, so that with weights of 256 the total is less than 1 (15 fractional bits).
 inline constexpr int16_t kNearTaps[kNearReach + 1][kNearReach + 1] = {
     {10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
+
+namespace reference {
+
+// For each n < kSliceLanes, raises covered[n] to coverage[n] if near pixel n (disparity near[n])
+// occludes far pixel n (disparity far[n]) in the view. CoverPlaces never lowers covered[n].
+STARFOCUS_REFERENCE void CoverPlaces(const int16_t* near, const uint8_t* coverage,
+                                     const int16_t* far, const CoverView& view, int16_t* covered) {
+  for (size_t n = 0; n < kSliceLanes; ++n) {
+    const int16_t nearer = Saturated(near[n] - far[n]);
+    const int16_t beside = Saturated(Product15(nearer, view.along) - view.place);
+    const bool covers = nearer > view.least && beside >= -view.within && beside <= view.within;
+    if (covers && coverage[n] > covered[n]) covered[n] = coverage[n];
+  }
+}
+
+// Sums the light around each pixel n < kSliceLanes. The sum includes the pixels within kNearReach
+// whose near surface is the near surface of pixel n. The light of each pixel is multiplied by the
+// pixel's weight and by a filter coefficient from kNearTaps. Each product is rounded half up.
+STARFOCUS_REFERENCE void SumNear(const NearRows& rows, NearSums* sums) {
+  *sums = {};
+  for (int32_t y = -kNearReach; y <= kNearReach; ++y) {
+    for (int32_t x = -kNearReach; x <= kNearReach; ++x) {
+      const int16_t tap = kNearTaps[std::abs(y)][std::abs(x)];
+      for (size_t n = 0; n < kSliceLanes; ++n) {
+        const ptrdiff_t here = static_cast<ptrdiff_t>(n), there = here + y * rows.stride + x;
+        const int16_t beyond = Saturated(rows.disparity[there] - rows.disparity[here]);
+        if (beyond > rows.step || beyond < -rows.step) continue;
+        const int32_t weight = rows.weight[there] * tap;
+        sums->weight[n] = static_cast<int16_t>(sums->weight[n] + weight);
+        for (int c = 0; c < 3; ++c) {
+          const int16_t part = Product15(rows.light[c][there], weight);
+          sums->light[c][n] = static_cast<int16_t>(sums->light[c][n] + part);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace reference
 
 }  // namespace starfocus::simd
 
