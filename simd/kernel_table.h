@@ -19,8 +19,9 @@
 // - Reference##Table returns the table of the references.
 // - Table##OfTarget returns the table of target `index`, or null if there are at most `index`
 //   targets. `index` counts the targets that are compiled in and supported by this machine, from
-//   the best to the worst. Table##OfTarget is only for tests and the bench: the function is slow,
-//   and temporarily changes Highway's choice of a target for all threads.
+//   the best to the worst. The function is slow, and temporarily changes Highway's choice of a
+//   target for all threads.
+// Reference##Table and Table##OfTarget are only for tests and the bench (targets.cc).
 #define STARFOCUS_DECLARE_TABLE(Table, LIST) \
   struct Table {                             \
     const char* name; /* of the target */    \

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of the engine's SIMD kernels. Each kernel family x has three files. `x.h` contains the
-// contracts. `x_ref.cc` contains plain C++ code that defines every result. `x-inl.h` contains the
-// vector code, which produces bit-identical results on every target. Pointers require only the
-// alignment of their type. Vector types never appear in a contract header.
+// Table of the engine's SIMD kernels. Each kernel family x has two files. `x.h` contains the
+// contracts, and beside each contract the reference, which is the plain C++ code that defines the
+// result. `x-inl.h` contains the vector code, which produces bit-identical results on every target.
+// Pointers require only the alignment of their type. Vector types never appear in `x.h`.
 #ifndef STARFOCUS_SIMD_KERNELS_H_
 #define STARFOCUS_SIMD_KERNELS_H_
 

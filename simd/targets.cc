@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the kernel tables of the machine's SIMD targets. This unit is not part of the engine's
-// library, because its functions temporarily change Highway's process-wide choice of a target.
+// Tables of kernels for tests and the bench: the references, and the vector code of each SIMD
+// target of the machine. This unit is not part of the engine's library. No engine needs the
+// references, and the other functions temporarily change Highway's process-wide choice of a target.
 #include <hwy/highway.h>
 
 #include <cstring>
@@ -37,12 +38,17 @@ const Table* TableOfTarget(const Table& (*best)(), size_t index) {
 
 }  // namespace
 
-#define STARFOCUS_DEFINE_OF_TARGET(Table) \
+#define STARFOCUS_DEFINE_TABLES(Table, LIST)                               \
+  const Table& Reference##Table() {                                        \
+    using namespace reference;                                             \
+    static constexpr Table kernels = {"reference", LIST(STARFOCUS_ENTRY)}; \
+    return kernels;                                                        \
+  }                                                                        \
   const Table* Table##OfTarget(size_t index) { return TableOfTarget(Best##Table, index); }
 
-STARFOCUS_DEFINE_OF_TARGET(Kernels)
-STARFOCUS_DEFINE_OF_TARGET(DepthKernels)
-STARFOCUS_DEFINE_OF_TARGET(ImageKernels)
+STARFOCUS_DEFINE_TABLES(Kernels, STARFOCUS_KERNELS)
+STARFOCUS_DEFINE_TABLES(DepthKernels, STARFOCUS_DEPTH_KERNELS)
+STARFOCUS_DEFINE_TABLES(ImageKernels, STARFOCUS_IMAGE_KERNELS)
 
 const Kernels* FindKernels(const char* name) {
   const Kernels* kernels = nullptr;
