@@ -8,20 +8,17 @@
 
 #define STARFOCUS_TABLE Kernels
 #include "simd/cells-inl.h"
+#include "simd/composite-inl.h"
 #include "simd/coverage-inl.h"
-#include "simd/disc-inl.h"
 #include "simd/disparities-inl.h"
-#include "simd/finish_composite-inl.h"
+#include "simd/gather-inl.h"
 #include "simd/hidden_fill-inl.h"
 #include "simd/layered_depth-inl.h"
 #include "simd/light-inl.h"
-#include "simd/neighbourhood-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
-#include "simd/slope-inl.h"
 #include "simd/spans-inl.h"
-#include "simd/strips-inl.h"
 
 #define STARFOCUS_LIST STARFOCUS_KERNELS
 #include "simd/table-inl.h"

@@ -7,22 +7,19 @@
 #define STARFOCUS_SIMD_KERNELS_H_
 
 #include "simd/cells.h"
+#include "simd/composite.h"
 #include "simd/coverage.h"
-#include "simd/disc.h"
 #include "simd/disparities.h"
-#include "simd/finish_composite.h"
+#include "simd/gather.h"
 #include "simd/hidden_fill.h"
 #include "simd/kernel_table.h"
 #include "simd/layered_depth.h"
 #include "simd/light.h"
-#include "simd/neighbourhood.h"
 #include "simd/resample.h"
 #include "simd/runs.h"
 #include "simd/samples.h"
 #include "simd/slices.h"
-#include "simd/slope.h"
 #include "simd/spans.h"
-#include "simd/strips.h"
 
 // List of all kernels. The table, the reference, the vector code and the test case use one name for
 // a kernel. The build fails if the table, the references, the vector code or the test cases lack a

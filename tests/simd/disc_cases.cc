@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/disc.h.
+// Test and benchmark calls of the kernels in simd/gather.h.
 #include <algorithm>
 #include <cstdlib>
 

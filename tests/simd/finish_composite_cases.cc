@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernel in simd/finish_composite.h.
+// Test and benchmark calls of the kernel in simd/composite.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/neighbourhood.h.
+// Test and benchmark calls of the kernels in simd/cells.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test::kernel_cases {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/strips.h.
+// Test and benchmark calls of the kernels in simd/composite.h.
 #include <algorithm>
 
 #include "tests/simd/kernel_cases.h"
@@ -73,7 +73,7 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
 
 namespace {
 
-// Returns the marks of the rows of a strip (strips.h). `covered` holds the number of covered
+// Returns the marks of the rows of a strip (composite.h). `covered` holds the number of covered
 // samples of each row. If `full` is true, a row that is not empty covers all of its pixels.
 std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
   std::vector<int8_t> near(covered.size() - kRowsAhead);
