@@ -7,12 +7,10 @@
 #include "simd/targets.h"  // compiles this file again for each other SIMD target
 
 #define STARFOCUS_TABLE DepthKernels
-#include "simd/colours-inl.h"
-#include "simd/label_costs-inl.h"
+#include "simd/match-inl.h"
+#include "simd/matting-inl.h"
 #include "simd/paths-inl.h"
 #include "simd/planes-inl.h"
-#include "simd/prior-inl.h"
-#include "simd/smooth-inl.h"
 
 #define STARFOCUS_LIST STARFOCUS_DEPTH_KERNELS
 #include "simd/table-inl.h"

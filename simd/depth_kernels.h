@@ -4,13 +4,11 @@
 #ifndef STARFOCUS_SIMD_DEPTH_KERNELS_H_
 #define STARFOCUS_SIMD_DEPTH_KERNELS_H_
 
-#include "simd/colours.h"
 #include "simd/kernel_table.h"
-#include "simd/label_costs.h"
+#include "simd/match.h"
+#include "simd/matting.h"
 #include "simd/paths.h"
 #include "simd/planes.h"
-#include "simd/prior.h"
-#include "simd/smooth.h"
 
 // List of the kernels for disparity maps, in the format of STARFOCUS_KERNELS (simd/kernels.h).
 #define STARFOCUS_DEPTH_KERNELS(KERNEL) \

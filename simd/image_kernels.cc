@@ -9,7 +9,6 @@
 #define STARFOCUS_TABLE ImageKernels
 #include "simd/depth_values-inl.h"
 #include "simd/pixels-inl.h"
-#include "simd/yuv-inl.h"
 
 #define STARFOCUS_LIST STARFOCUS_IMAGE_KERNELS
 #include "simd/table-inl.h"

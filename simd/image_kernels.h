@@ -7,7 +7,6 @@
 #include "simd/depth_values.h"
 #include "simd/kernel_table.h"
 #include "simd/pixels.h"
-#include "simd/yuv.h"
 
 // List of the conversion kernels, in the format of STARFOCUS_KERNELS (simd/kernels.h).
 #define STARFOCUS_IMAGE_KERNELS(KERNEL) \

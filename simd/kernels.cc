@@ -9,12 +9,12 @@
 #define STARFOCUS_TABLE Kernels
 #include "simd/cells-inl.h"
 #include "simd/composite-inl.h"
-#include "simd/coverage-inl.h"
 #include "simd/disparities-inl.h"
 #include "simd/gather-inl.h"
 #include "simd/hidden_fill-inl.h"
 #include "simd/layered_depth-inl.h"
 #include "simd/light-inl.h"
+#include "simd/matting-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/runs-inl.h"
 #include "simd/slices-inl.h"

@@ -6,7 +6,7 @@
 #include <initializer_list>
 
 #include "lib/base/fixed.h"
-#include "simd/colours.h"
+#include "simd/matting.h"
 
 namespace starfocus {
 namespace {

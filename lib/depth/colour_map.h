@@ -13,8 +13,8 @@
 #include "lib/depth/maps.h"
 #include "lib/depth/setup.h"
 #include "lib/io/rows.h"
-#include "simd/colours.h"
 #include "simd/depth_kernels.h"
+#include "simd/matting.h"
 
 namespace starfocus {
 

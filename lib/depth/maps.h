@@ -20,7 +20,7 @@
 #include "lib/depth/thin_cells.h"
 #include "lib/io/rows.h"
 #include "simd/depth_kernels.h"
-#include "simd/label_costs.h"
+#include "simd/match.h"
 #include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "simd/yuv.h"
+#include "simd/pixels.h"
 #include "starfocus/image.h"
 
 namespace starfocus {

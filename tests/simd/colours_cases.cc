@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simd/colours.h"
+#include "simd/matting.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/coverage.h.
+// Test and benchmark calls of the kernels in simd/matting.h.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simd/prior.h"
+#include "simd/paths.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {

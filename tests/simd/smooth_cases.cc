@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "simd/smooth.h"
+#include "simd/matting.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {

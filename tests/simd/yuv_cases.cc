@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/yuv.h.
-#include "simd/yuv.h"
+// Test and benchmark calls of the kernels in simd/pixels.h.
+#include "simd/pixels.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace test::image_cases {

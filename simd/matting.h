@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// SIMD kernels for pixels that mix two surfaces (lib/matting). CoverPlaces and SumNear process a
+// row of kSliceLanes pixels. CompareColours compares the colours of pixels with the colours of the
+// surrounding pixels, and finds the surrounding pixel with the lowest cost for each group of
+// disparities. SmoothDisparity averages a noisy disparity map over neighbouring pixels on one
+// surface.
+#ifndef STARFOCUS_SIMD_MATTING_H_
+#define STARFOCUS_SIMD_MATTING_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "simd/samples.h"
+
+namespace starfocus::simd {
+
+// Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude far pixels in the
+// view. All disparities must have the same scale; any scale is permitted.
+struct CoverView {
+  int16_t along;  // movement in the view per unit of disparity, 15 fractional bits
+  // Movement in the view that places the near pixel onto the far pixel, in the scale of
+  // disparities.
+  int16_t place;
+  int16_t within;  // Largest deviation from `place` at which the near pixel covers the far pixel.
+  int16_t least;   // A near pixel covers far pixels only if it is nearer by more than `least`.
+};
+
+// Largest distance, in columns and rows, of the pixels that SumNear adds.
+inline constexpr int32_t kNearReach = 2;
+
+// The pixels around a row of kSliceLanes pixels. All pointers point to the first pixel of the row.
+// Rows are `stride` samples apart.
+struct NearRows {
+  const int16_t* light[3];
+  const int16_t* disparity;  // disparity of the near surface
+  // Weight of the pixel in a mean of the near surface's light, [0, 256].
+  const int16_t* weight;
+  ptrdiff_t stride;
+  int16_t step;  // largest difference between the disparities of one surface
+};
+
+// Output of SumNear: sums of light, and sums of weights with 15 fractional bits.
+struct NearSums {
+  int16_t light[3][kSliceLanes];
+  int16_t weight[kSliceLanes];
+};
+
+// Filter coefficients of SumNear, by the distance in columns and rows. The coefficients of all
+// pixels sum to 118, so that with weights of 256 the total is less than 1 (15 fractional bits).
+inline constexpr int16_t kNearTaps[kNearReach + 1][kNearReach + 1] = {
+    {10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
+
+// Geometry of the comparison. Each pixel of a block of 4x4 pixels is compared with all pixels up to
+// kColourReach columns and rows away.
+inline constexpr int32_t kColourBlock = 4, kColourReach = 8;
+inline constexpr int32_t kColourWindow = kColourBlock + 2 * kColourReach;
+static_assert(kColourBlock * kColourBlock == kSliceLanes, "a block is a group");
+
+// Upper limit of a colour difference. Larger differences are clamped.
+inline constexpr int16_t kMostColourDifference = 100;
+// Number of low bits of a key that decide between pixels of equal cost. The high bits of a key are
+// the cost. Keys of samples are small enough that a key plus the largest colour difference fits in
+// 16 bits.
+inline constexpr int kColourKeyBits = 6;
+inline constexpr uint16_t kNoColourKey = UINT16_MAX;
+
+struct ColourSample {
+  int16_t sum;                    // Red + green + blue, [0, 765].
+  int16_t red_green, green_blue;  // Red - green, green - blue, [-255, 255].
+  // Key of the sample before the colour difference is added; samples with kNoColourKey are skipped.
+  uint16_t key;
+  uint16_t place;  // index in the array `least` of the results for the sample's group
+};
+
+// Returns the difference of two colours from the differences of the members of ColourSample. Hue
+// and saturation have four times the weight of brightness, because shading changes the brightness
+// of a surface.
+inline int32_t ColourDifference(int32_t sum, int32_t red_green, int32_t green_blue) {
+  const auto size = [](int32_t value) { return value < 0 ? -value : value; };
+  return size(sum) / 4 + size(red_green) + size(green_blue) + size(red_green + green_blue);
+}
+
+// Largest number of rows over which a pixel is averaged.
+inline constexpr size_t kMostSmoothRows = 7;
+// Weight of a neighbour of equal colour. The weight of a neighbour decreases with the difference of
+// the colours, down to 1.
+inline constexpr int32_t kMostSmoothWeight = 64;
+
+// A row of pixels (`own`) and the rows over which its pixels are averaged. Each pointer points to
+// the first pixel of a row. `radius` more pixels at both ends of a row must be readable. A row has
+// four planes, which are `plane` elements apart: disparity, and the members sum, red_green and
+// green_blue of ColourSample.
+struct SmoothRows {
+  const int32_t* own;
+  const int32_t* rows[kMostSmoothRows];
+  size_t count;  // number of rows
+  size_t plane;
+  int32_t radius, step;  // Neighbours are in every `step`-th column within `radius`.
+  int32_t tolerance;     // Largest difference of disparities within a surface.
+};
+
+// Weighted sums over the neighbours of a pixel.
+struct SmoothSums {
+  // Sum of weighted disparities, below 2^27, and sum of weights, below 2^13.
+  int32_t disparity, weights;
+
+  // Returns the mean disparity. Halves are rounded away from zero.
+  int16_t Mean() const {
+    const int32_t half = disparity < 0 ? -weights : weights;
+    return static_cast<int16_t>((2 * disparity + half) / (2 * weights));
+  }
+};
+
+namespace reference {
+
+// For each n < kSliceLanes, raises covered[n] to coverage[n] if near pixel n (disparity near[n])
+// occludes far pixel n (disparity far[n]) in the view. CoverPlaces never lowers covered[n].
+STARFOCUS_REFERENCE void CoverPlaces(const int16_t* near, const uint8_t* coverage,
+                                     const int16_t* far, const CoverView& view, int16_t* covered) {
+  for (size_t n = 0; n < kSliceLanes; ++n) {
+    const int16_t nearer = Saturated(near[n] - far[n]);
+    const int16_t beside = Saturated(Product15(nearer, view.along) - view.place);
+    const bool covers = nearer > view.least && beside >= -view.within && beside <= view.within;
+    if (covers && coverage[n] > covered[n]) covered[n] = coverage[n];
+  }
+}
+
+// Sums the light around each pixel n < kSliceLanes. The sum includes the pixels within kNearReach
+// whose near surface is the near surface of pixel n. The light of each pixel is multiplied by the
+// pixel's weight and by a filter coefficient from kNearTaps. Each product is rounded half up.
+STARFOCUS_REFERENCE void SumNear(const NearRows& rows, NearSums* sums) {
+  *sums = {};
+  for (int32_t y = -kNearReach; y <= kNearReach; ++y) {
+    for (int32_t x = -kNearReach; x <= kNearReach; ++x) {
+      const int16_t tap = kNearTaps[std::abs(y)][std::abs(x)];
+      for (size_t n = 0; n < kSliceLanes; ++n) {
+        const ptrdiff_t here = static_cast<ptrdiff_t>(n), there = here + y * rows.stride + x;
+        const int16_t beyond = Saturated(rows.disparity[there] - rows.disparity[here]);
+        if (beyond > rows.step || beyond < -rows.step) continue;
+        const int32_t weight = rows.weight[there] * tap;
+        sums->weight[n] = static_cast<int16_t>(sums->weight[n] + weight);
+        for (int c = 0; c < 3; ++c) {
+          const int16_t part = Product15(rows.light[c][there], weight);
+          sums->light[c][n] = static_cast<int16_t>(sums->light[c][n] + part);
+        }
+      }
+    }
+  }
+}
+
+// Compares the block in the middle of a window with the samples of the window. Pixel n of the block
+// is in column n % kColourBlock and row n / kColourBlock. For each sample within reach of pixel n,
+// least[place + n] is lowered to the sample's key plus the colour difference (in units of cost), if
+// this sum is smaller. `stride` is the distance in samples between rows of the window.
+STARFOCUS_REFERENCE void CompareColours(const ColourSample* window, size_t stride,
+                                        uint16_t* least) {
+  constexpr size_t kBlock = kColourBlock, kReach = kColourReach;
+  for (size_t n = 0; n < kSliceLanes; ++n) {
+    const size_t left = n % kBlock, top = n / kBlock;
+    const ColourSample& own = window[(top + kReach) * stride + left + kReach];
+    for (size_t row = top; row <= top + 2 * kReach; ++row) {
+      for (size_t column = left; column <= left + 2 * kReach; ++column) {
+        const ColourSample& other = window[row * stride + column];
+        if (other.key == kNoColourKey) continue;
+        int32_t key = ColourDifference(own.sum - other.sum, own.red_green - other.red_green,
+                                       own.green_blue - other.green_blue);
+        if (key > kMostColourDifference) key = kMostColourDifference;
+        key = (key << kColourKeyBits) + other.key;
+        uint16_t* of_group = least + other.place + n;
+        if (key < *of_group) *of_group = static_cast<uint16_t>(key);
+      }
+    }
+  }
+}
+
+inline int32_t SmoothWeight(const int32_t* own, const int32_t* other, size_t plane) {
+  const auto differs = [&](size_t k) { return own[k * plane] - other[k * plane]; };
+  const int32_t difference = ColourDifference(differs(1), differs(2), differs(3));
+  return difference < kMostSmoothWeight ? kMostSmoothWeight - difference : 1;
+}
+
+// Sets smooth[n] to the weighted mean disparity over neighbours of pixel n, for n < count. The mean
+// includes pixel n and all neighbours whose disparity differs from the disparity of pixel n by at
+// most `tolerance`.
+STARFOCUS_REFERENCE void SmoothDisparity(const SmoothRows& rows, size_t count, int16_t* smooth) {
+  for (size_t n = 0; n < count; ++n) {
+    const int32_t* own = rows.own + n;
+    SmoothSums sums = {0, 0};
+    for (size_t k = 0; k < rows.count; ++k) {
+      for (int32_t x = -rows.radius; x <= rows.radius; x += rows.step) {
+        const int32_t* other = rows.rows[k] + static_cast<ptrdiff_t>(n) + x;
+        const int32_t apart = *other < *own ? *own - *other : *other - *own;
+        if (apart > rows.tolerance) continue;
+        const int32_t weight = SmoothWeight(own, other, rows.plane);
+        sums.disparity += weight * *other;
+        sums.weights += weight;
+      }
+    }
+    smooth[n] = sums.Mean();
+  }
+}
+
+}  // namespace reference
+}  // namespace starfocus::simd
+
+#endif  // STARFOCUS_SIMD_MATTING_H_
