@@ -71,8 +71,9 @@ class RowMarks {
 // Shifts rows one at a time, with vectors of at most one row. Wider vectors that combine the planes
 // of two rows are slower.
 template <int kTaps>
-HWY_INLINE void ShiftRows(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                          size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
+HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceFraction& fraction,
+                          size_t rows, size_t plane, int16_t* HWY_RESTRICT out,
+                          int8_t* HWY_RESTRICT near) {
   const LanesTag d;
   const size_t lanes = hn::Lanes(d);
   const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
@@ -81,9 +82,9 @@ HWY_INLINE void ShiftRows(const SlicePlanes& in, const SliceFraction& fraction, 
   for (size_t row = 0; row < rows; ++row, out += kSliceLanes) {
     auto most = hn::Zero(d), least = hn::Set(d, kSliceOne);
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
-      const int16_t* HWY_RESTRICT from = in.samples + row * 4 * in.plane + n;
+      const int16_t* HWY_RESTRICT from = in + row * 4 * in_plane + n;
       const auto load = [&](size_t c, size_t next)
-                            HWY_ATTR { return hn::LoadU(d, from + c * in.plane + next); };
+                            HWY_ATTR { return hn::LoadU(d, from + c * in_plane + next); };
       const auto covered = load(3, 0), next = load(3, 1);
       auto any = hn::Or(covered, next);
       if (kTaps > 2) any = hn::Or(any, load(3, 2));
@@ -113,14 +114,15 @@ HWY_INLINE void ShiftRows(const SlicePlanes& in, const SliceFraction& fraction, 
   }
 }
 
-inline void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction, size_t rows,
-                       size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
+inline void ShiftSlice(const int16_t* in, size_t in_plane, const SliceFraction& fraction,
+                       size_t rows, size_t plane, int16_t* HWY_RESTRICT out,
+                       int8_t* HWY_RESTRICT near) {
   if (fraction.third == 0) {
-    ShiftRows<2>(in, fraction, rows, plane, out, near);
+    ShiftRows<2>(in, in_plane, fraction, rows, plane, out, near);
   } else if (fraction.fourth == 0) {
-    ShiftRows<3>(in, fraction, rows, plane, out, near);
+    ShiftRows<3>(in, in_plane, fraction, rows, plane, out, near);
   } else {
-    ShiftRows<4>(in, fraction, rows, plane, out, near);
+    ShiftRows<4>(in, in_plane, fraction, rows, plane, out, near);
   }
 }
 
@@ -410,20 +412,20 @@ HWY_INLINE void CopyMissing(const int16_t* centre, int bits, uint32_t* out) {
 
 // Converts the sums of a vector of pixels to accumulators.
 HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const int16_t* centre,
-                            const CompositeFinish& finish, Inverses& inverses, uint32_t* out) {
+                            uint32_t least, int bits, Inverses& inverses, uint32_t* out) {
   const CompositeTag d32;
   const hn::Repartition<uint64_t, CompositeTag> d64;
   const hn::RebindToSigned<decltype(d64)> di64;
   const auto covered = hn::LoadU(d32, sums + 3 * plane);
-  const auto missing = hn::Lt(covered, hn::Set(d32, finish.least));
+  const auto missing = hn::Lt(covered, hn::Set(d32, least));
   if (hn::AllTrue(d32, missing)) {
-    CopyMissing(centre, finish.bits, out);
+    CopyMissing(centre, bits, out);
     return;
   }
   inverses.Load(covered);
-  const int shift = kInverseBits - 8 - finish.bits;
+  const int shift = kInverseBits - 8 - bits;
   const auto half = hn::Set(d64, uint64_t{1} << (shift - 1));
-  const auto white = hn::Set(di64, int64_t{255} << finish.bits);
+  const auto white = hn::Set(di64, int64_t{255} << bits);
   const auto low = hn::Load(d32, inverses.low), high = hn::Load(d32, inverses.high);
   const auto odd = [&](CompositeVec v) HWY_ATTR {
     return hn::BitCast(d32, hn::ShiftRight<32>(hn::BitCast(d64, v)));
@@ -438,19 +440,19 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const int16_t* c
   hn::StoreInterleaved3(divide(0), divide(1), divide(2), d32, out);
   if (hn::AllFalse(d32, missing)) return;
   for (size_t n = 0; n < hn::Lanes(d32); ++n) {
-    if (sums[3 * plane + n] >= finish.least) continue;
+    if (sums[3 * plane + n] >= least) continue;
     for (size_t c = 0; c < 3; ++c)
-      out[3 * n + c] = static_cast<uint32_t>(centre[3 * n + c]) << (finish.bits - kLightBits);
+      out[3 * n + c] = static_cast<uint32_t>(centre[3 * n + c]) << (bits - kLightBits);
   }
 }
 
 inline void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* centre,
-                            const CompositeFinish& finish, size_t count, uint32_t* out) {
-  Inverses inverses(finish.least);
+                            uint32_t least, int bits, size_t count, uint32_t* out) {
+  Inverses inverses(least);
   const bool done = ForVectors(count, hn::Lanes(CompositeTag()), [&](size_t n) HWY_ATTR {
-    FinishGroup(sums + n, plane, centre + 3 * n, finish, inverses, out + 3 * n);
+    FinishGroup(sums + n, plane, centre + 3 * n, least, bits, inverses, out + 3 * n);
   });
-  if (!done) reference::FinishComposite(sums, plane, centre, finish, count, out);
+  if (!done) reference::FinishComposite(sums, plane, centre, least, bits, count, out);
 }
 
 #endif

@@ -16,13 +16,6 @@
 
 namespace starfocus::simd {
 
-// Rows of a slice before the slice is shifted to its position in a view. The four planes of each
-// row are `plane` samples apart.
-struct SlicePlanes {
-  const int16_t* samples;
-  size_t plane;
-};
-
 // Factors of the interpolation between up to four consecutive samples p of a slice:
 //   p[1] + first (p[1] - p[0]) + third (p[1] - p[2]) + fourth (p[2] - p[3]).
 // The factor `first` is `inside` if p[0] and p[1] have equal coverage, and `edge` if not. All
@@ -80,12 +73,6 @@ struct SliceViews {
   int extra_bits;
 };
 
-// Parameters of FinishComposite. Pixels with a coverage below `least` get the colour of the centre
-// view. Accumulators have `bits` fractional bits.
-struct CompositeFinish {
-  uint32_t least;  // Smallest coverage by which colours are divided, > 0.
-  int bits;        // Fractional bits of accumulators, [kLightBits, 24].
-};
 inline constexpr int kInverseBits = 48;
 
 namespace reference {
@@ -116,21 +103,23 @@ inline int16_t SliceShare(int16_t covered, int16_t light) {
 }
 
 // Shifts rows of a slice along the row by a fraction of a sample, and stores the result in a strip.
-// The planes of the strip are `plane` samples apart. Sample out[n] is interpolated between in[n]
-// and the following samples. Each product is rounded half up.
+// The four planes of each row of `in` are `in_plane` samples apart. The planes of the strip are
+// `plane` samples apart. Sample out[n] is interpolated between in[n] and the following samples.
+// Each product is rounded half up.
 //
 // near[row] is the mark of a row; kRowsAhead more marks precede near[0]. Before the call, all marks
 // must be at least kNothingNear. The kernel sets the marks of rows in which the slice covers a
 // pixel, and the marks of the kRowsAhead rows before such a row. The marks of all other rows are
 // not changed.
-STARFOCUS_REFERENCE void ShiftSlice(const SlicePlanes& in, const SliceFraction& fraction,
-                                    size_t rows, size_t plane, int16_t* out, int8_t* near) {
+STARFOCUS_REFERENCE void ShiftSlice(const int16_t* in, size_t in_plane,
+                                    const SliceFraction& fraction, size_t rows, size_t plane,
+                                    int16_t* out, int8_t* near) {
   // Number of consecutive fully covered rows up to and including the current row.
   size_t all_covered = 0;
   for (size_t row = 0; row < rows; ++row) {
-    const int16_t* covered = in.samples + (4 * row + 3) * in.plane;
+    const int16_t* covered = in + (4 * row + 3) * in_plane;
     for (size_t c = 0; c < 4; ++c) {
-      const int16_t* from = in.samples + (4 * row + c) * in.plane;
+      const int16_t* from = in + (4 * row + c) * in_plane;
       int16_t* to = out + c * plane + row * kSliceLanes;
       for (size_t n = 0; n < kSliceLanes; ++n)
         to[n] = Between15(from + n, covered + n, 1, fraction);
@@ -191,26 +180,25 @@ STARFOCUS_REFERENCE void Composite(const SliceViews& views, size_t rows, uint32_
   }
 }
 
-// Divides colours by coverage. Colour c of pixel n is sums[c * plane + n], and its coverage is
-// covered = sums[3 * plane + n]. If covered >= least, out[3 n + c] is sums[c * plane + n] *
-// (2^kInverseBits / covered) in units of 2^-bits. The division truncates; the product is rounded
-// half up and limited to 255. If covered < least, out[3 n + c] is the light centre[3 n + c],
-// converted to units of 2^-bits. Sums are read in whole groups of kSliceLanes; nothing past out[3
-// count - 1] is written.
+// Divides colours by coverage. `least` is the smallest coverage by which colours are divided, > 0.
+// Accumulators have `bits` fractional bits, [kLightBits, 24]. Colour c of pixel n is sums[c * plane
+// + n], and its coverage is covered = sums[3 * plane + n]. If covered >= least, out[3 n + c] is
+// sums[c * plane + n] * (2^kInverseBits / covered) in units of 2^-bits. The division truncates; the
+// product is rounded half up and limited to 255. If covered < least, out[3 n + c] is the light
+// centre[3 n + c], converted to units of 2^-bits. Sums are read in whole groups of kSliceLanes;
+// nothing past out[3 count - 1] is written.
 STARFOCUS_REFERENCE void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* centre,
-                                         const CompositeFinish& finish, size_t count,
-                                         uint32_t* out) {
-  const int shift = kInverseBits - 8 - finish.bits;
-  const uint64_t white = uint64_t{255} << finish.bits, half = uint64_t{1} << (shift - 1);
+                                         uint32_t least, int bits, size_t count, uint32_t* out) {
+  const int shift = kInverseBits - 8 - bits;
+  const uint64_t white = uint64_t{255} << bits, half = uint64_t{1} << (shift - 1);
   for (size_t n = 0; n < count; ++n) {
     const uint32_t covered = sums[3 * plane + n];
-    const bool missing = covered < finish.least;
+    const bool missing = covered < least;
     const uint64_t inverse = missing ? 0 : (uint64_t{1} << kInverseBits) / covered;
     for (size_t c = 0; c < 3; ++c) {
       const uint64_t value = (sums[c * plane + n] * inverse + half) >> shift;
-      out[3 * n + c] = missing
-                           ? static_cast<uint32_t>(centre[3 * n + c]) << (finish.bits - kLightBits)
-                           : static_cast<uint32_t>(value < white ? value : white);
+      out[3 * n + c] = missing ? static_cast<uint32_t>(centre[3 * n + c]) << (bits - kLightBits)
+                               : static_cast<uint32_t>(value < white ? value : white);
     }
   }
 }

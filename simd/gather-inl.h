@@ -70,11 +70,8 @@ struct DiscMeans {
 // weights of two adjacent columns. Each weight is the sum of the weights of all pixels that mirror
 // each other.
 struct DiscTaps {
-  struct Pair {
-    uint16_t first, second;
-  };
   struct Tap {
-    Pair weights, second_weights;
+    uint16_t weights[2], second_weights[2];
     int32_t right, left;  // offsets in DiscMeans of the first column and of its mirror image
   };
   Tap taps[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
@@ -83,16 +80,15 @@ struct DiscTaps {
 
   // Creates a `Tap` for each pair of columns in which either disc has a nonzero weight.
   DiscTaps(const Disc& disc, const Disc& second) {
-    const auto pair_of = [](const Disc& of, int32_t x, int32_t y) {
-      return Pair{Weight(of, x, y), Weight(of, x + 1, y)};
-    };
     constexpr auto kRow = static_cast<int32_t>(DiscMeans::kStride);
     constexpr auto kPixel = static_cast<int32_t>(DiscMeans::kPixel);
     for (int32_t y = 0; y <= disc.size || y <= second.size; ++y) {
       const int32_t last = LastOf(disc, y), second_last = LastOf(second, y);
       if (last >= 0 || second_last >= 0) rows = y + 1;
       for (int32_t x = 0; x <= last || x <= second_last; x += 2) {
-        taps[count++] = {pair_of(disc, x, y), pair_of(second, x, y), y * kRow + kPixel * x,
+        taps[count++] = {{Weight(disc, x, y), Weight(disc, x + 1, y)},
+                         {Weight(second, x, y), Weight(second, x + 1, y)},
+                         y * kRow + kPixel * x,
                          y * kRow - kPixel * x};
       }
     }
@@ -130,20 +126,15 @@ struct DiscScale {
   int bits, whole;
 };
 
-// Output buffer for the light that a disc filter computes, and the scale of the light. The buffer
-// needs spare room, because vectors write past the last sample.
-struct DiscTarget {
-  DiscScale scale;
-  int16_t* light;
-};
-
 // Filters `count` samples with a disc: multiplies the means by the weights of the disc and adds the
-// products. If kTwo is true, also computes sums weighted by a second disc.
+// products. If kTwo is true, also computes sums weighted by a second disc. `light` and
+// `second_light` need spare room, because vectors write past the last sample.
 #if HWY_TARGET == HWY_SCALAR
 
 template <bool kTwo>
 inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
-                        const DiscTarget& target, const DiscTarget& second_target) {
+                        const DiscScale& scale, int16_t* HWY_RESTRICT light,
+                        const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
   constexpr ptrdiff_t kPixel = DiscMeans::kPixel;
   const auto finish = [](uint32_t sum, const DiscScale& by) {
     const uint32_t half = uint32_t{1} << (by.bits - 1);
@@ -157,11 +148,11 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
       const uint16_t *right = at + tap.right, *left = at + tap.left;
       const uint32_t first = (right[0] + left[0] + uint32_t{1}) >> 1;
       const uint32_t next = (right[kPixel] + left[-kPixel] + uint32_t{1}) >> 1;
-      sum += first * tap.weights.first + next * tap.weights.second;
-      if (kTwo) second_sum += first * tap.second_weights.first + next * tap.second_weights.second;
+      sum += first * tap.weights[0] + next * tap.weights[1];
+      if (kTwo) second_sum += first * tap.second_weights[0] + next * tap.second_weights[1];
     }
-    target.light[n] = finish(sum, target.scale);
-    if (kTwo) second_target.light[n] = finish(second_sum, second_target.scale);
+    light[n] = finish(sum, scale);
+    if (kTwo) second_light[n] = finish(second_sum, second_scale);
   }
 }
 
@@ -182,10 +173,9 @@ struct DiscSums {
     return hn::AverageRound(hn::LoadU(d16, right), hn::LoadU(d16, left));
   }
 
-  // Multiplies two vectors of means by the two weights in `pair` and adds the products to the sums.
-  static HWY_INLINE void Add(V16 first, V16 second, const DiscTaps::Pair& pair, V32& low,
-                             V32& high) {
-    AddWeighed(hn::BitCast(di16, first), hn::BitCast(di16, second), pair.first, pair.second, low,
+  // Multiplies two vectors of means by two weights and adds the products to the sums.
+  static HWY_INLINE void Add(V16 first, V16 second, const uint16_t* weights, V32& low, V32& high) {
+    AddWeighed(hn::BitCast(di16, first), hn::BitCast(di16, second), weights[0], weights[1], low,
                high);
   }
 
@@ -236,9 +226,8 @@ HWY_NOINLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RE
 
 template <bool kTwo>
 inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
-                        const DiscTarget& target, const DiscTarget& second_target) {
-  const DiscScale &scale = target.scale, &second_scale = second_target.scale;
-  int16_t *HWY_RESTRICT light = target.light, *HWY_RESTRICT second_light = second_target.light;
+                        const DiscScale& scale, int16_t* HWY_RESTRICT light,
+                        const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
   const size_t lanes = hn::Lanes(DiscSums::d16);
   size_t n = 0;
   if (kTwo) {
@@ -294,8 +283,8 @@ inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& small
     const size_t chunk = in.count - begin < kDiscChunk ? in.count - begin : kDiscChunk;
     for (size_t row = 0; row < in.rows; ++row) {
       means.Fill(in.samples + row * in.stride + begin, in.stride, disc, taps.rows, chunk);
-      FilterMeans<kTwo>(taps, means.First(disc), chunk, {out.scale, light},
-                        {second_out.scale, second_light});
+      FilterMeans<kTwo>(taps, means.First(disc), chunk, out.scale, light, second_out.scale,
+                        second_light);
       out.Store(light, chunk, row * out.stride + begin);
       if (kTwo) second_out.Store(second_light, chunk, row * second_out.stride + begin);
     }

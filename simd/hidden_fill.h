@@ -84,11 +84,9 @@ STARFOCUS_REFERENCE int32_t TakeFarthest(const SourcedRow& row, size_t count, co
 // is rounded half up.
 STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t count,
                                    int16_t* rgb) {
-  struct Neighbour {
-    int row;
-    ptrdiff_t across;
-  };
-  const Neighbour neighbours[4] = {{1, -step}, {1, step}, {0, 0}, {2, 0}};
+  // Left, right, above and below.
+  const int row_of[4] = {1, 1, 0, 2};
+  const ptrdiff_t across[4] = {-step, step, 0, 0};
   for (size_t n = 0; n < SliceSamples(count); ++n) {
     if (2 * (rows.source[n] >> kSourceDistance) < step) continue;
     for (size_t c = 0; c < 3; ++c) {
@@ -96,11 +94,10 @@ STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int16_t unit, int32_t st
       const int16_t here = rows.rgb[1][at];
       int32_t colours[4];
       for (int k = 0; k < 4; ++k) {
-        const Neighbour& next = neighbours[k];
-        const int16_t disparity = rows.disparity[next.row][static_cast<ptrdiff_t>(n) + next.across];
+        const int16_t disparity = rows.disparity[row_of[k]][static_cast<ptrdiff_t>(n) + across[k]];
         const int16_t less = Saturated(rows.disparity[1][n] - disparity);
         const bool same = less <= unit && less >= -unit;
-        colours[k] = same ? rows.rgb[next.row][static_cast<ptrdiff_t>(at) + next.across] : here;
+        colours[k] = same ? rows.rgb[row_of[k]][static_cast<ptrdiff_t>(at) + across[k]] : here;
       }
       const int32_t around = Mean(Mean(colours[0], colours[1]), Mean(colours[2], colours[3]));
       rgb[at] = static_cast<int16_t>(Mean(here, around));

@@ -211,19 +211,19 @@ HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, F
 #endif
 
 inline void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
-                           const SampleRange& range, int16_t* out) {
+                           int16_t low, int16_t high, int16_t* out) {
   // `taps` is a local copy, because the compiler must assume that writes to `out` change `filter`.
   const HalfBand taps = filter;
   const FilterTag d16;
-  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
+  const auto least = hn::Set(d16, low), most = hn::Set(d16, high);
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = in + n;
     const auto value = HalfBandOf(taps, load(at), load(at - step), load(at + step),
                                   load(at - 3 * step), load(at + 3 * step));
-    hn::StoreU(hn::Min(hn::Max(value, low), high), d16, out + n);
+    hn::StoreU(hn::Min(hn::Max(value, least), most), d16, out + n);
   });
-  if (!done) reference::FilterHalfBand(in, step, filter, count, range, out);
+  if (!done) reference::FilterHalfBand(in, step, filter, count, low, high, out);
 }
 
 inline void Halve(const int16_t* HWY_RESTRICT even, const int16_t* HWY_RESTRICT odd,
@@ -241,18 +241,18 @@ inline void Halve(const int16_t* HWY_RESTRICT even, const int16_t* HWY_RESTRICT 
 }
 
 inline void Between(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
-                    const SampleRange& range, int16_t* out) {
+                    int16_t low, int16_t high, int16_t* out) {
   const HalfBand taps = filter;
   const FilterTag d16;
-  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
+  const auto least = hn::Set(d16, low), most = hn::Set(d16, high);
   const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = in + n;
     const auto value =
         BetweenOf(taps, load(at), load(at + step), load(at - step), load(at + 2 * step));
-    hn::StoreU(hn::Min(hn::Max(value, low), high), d16, out + n);
+    hn::StoreU(hn::Min(hn::Max(value, least), most), d16, out + n);
   });
-  if (!done) reference::Between(in, step, filter, count, range, out);
+  if (!done) reference::Between(in, step, filter, count, low, high, out);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -24,11 +24,6 @@ struct HalfBand {
   int32_t centre, near, far;
 };
 
-// Range to which output samples are clamped.
-struct SampleRange {
-  int16_t low, high;
-};
-
 // A rectangle of `rows` rows of `count` samples. Rows are `stride` samples apart.
 struct SampleRows {
   const int16_t* samples;
@@ -37,11 +32,9 @@ struct SampleRows {
 
 namespace reference {
 
-inline int16_t RoundTaps(int32_t sum, const SampleRange& range) {
+inline int16_t RoundTaps(int32_t sum, int16_t low, int16_t high) {
   const int32_t value = (sum + (1 << (kTapBits - 1))) >> kTapBits;
-  return static_cast<int16_t>(value < range.low    ? range.low
-                              : value > range.high ? range.high
-                                                   : value);
+  return static_cast<int16_t>(value < low ? low : value > high ? high : value);
 }
 
 // Splits a line of codes into samples of even and odd pixels, for n < pairs. Sample even[3 n + c]
@@ -102,14 +95,14 @@ STARFOCUS_REFERENCE void FinishLayer(const uint32_t* accumulators, size_t count,
 
 // Filters samples that are `step` apart. Output out[n] is
 //   centre in[n] + near (in[n - step] + in[n + step]) + far (in[n - 3 step] + in[n + 3 step]),
-// rounded half up to a sample and clamped to `range`.
+// rounded half up to a sample and clamped to [low, high].
 STARFOCUS_REFERENCE void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& taps,
-                                        size_t count, const SampleRange& range, int16_t* out) {
+                                        size_t count, int16_t low, int16_t high, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
     const int16_t* at = in + n;
     out[n] = RoundTaps(taps.centre * at[0] + taps.near * (at[-step] + at[step]) +
                            taps.far * (at[-3 * step] + at[3 * step]),
-                       range);
+                       low, high);
   }
 }
 
@@ -123,19 +116,19 @@ STARFOCUS_REFERENCE void Halve(const int16_t* even, const int16_t* odd, const Ha
     const int16_t* at = odd + n;
     out[n] = RoundTaps(
         taps.centre * even[n] + taps.near * (at[-3] + at[0]) + taps.far * (at[-6] + at[3]),
-        {INT16_MIN, INT16_MAX});
+        INT16_MIN, INT16_MAX);
   }
 }
 
 // Interpolates the samples halfway between in[n] and in[n + step]. out[n] is
 //   near (in[n] + in[n + step]) + far (in[n - step] + in[n + 2 step]),
-// rounded half up to a sample and clamped to `range`.
+// rounded half up to a sample and clamped to [low, high].
 STARFOCUS_REFERENCE void Between(const int16_t* in, ptrdiff_t step, const HalfBand& taps,
-                                 size_t count, const SampleRange& range, int16_t* out) {
+                                 size_t count, int16_t low, int16_t high, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
     const int16_t* at = in + n;
-    out[n] =
-        RoundTaps(taps.near * (at[0] + at[step]) + taps.far * (at[-step] + at[2 * step]), range);
+    out[n] = RoundTaps(taps.near * (at[0] + at[step]) + taps.far * (at[-step] + at[2 * step]), low,
+                       high);
   }
 }
 

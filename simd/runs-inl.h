@@ -17,12 +17,13 @@ namespace HWY_NAMESPACE {
 // Splits adjacent lines into runs, one line in each lane of a vector.
 template <class D16>
 HWY_INLINE void FindRunsOfVector(D16 d16, const int16_t* HWY_RESTRICT disparity, ptrdiff_t step,
-                                 size_t length, const RunLimits& limits, const RunMarks& marks) {
+                                 size_t length, int16_t spread_limit, int16_t edge_limit,
+                                 const RunMarks& marks) {
   uint16_t *HWY_RESTRICT starts = marks.starts, *HWY_RESTRICT edges = marks.edges;
   int16_t* HWY_RESTRICT middles = marks.middles;
   const size_t stride = marks.stride;
   const hn::RebindToUnsigned<D16> du16;
-  const auto spread = hn::Set(d16, limits.spread), edge = hn::Set(d16, limits.edge);
+  const auto spread = hn::Set(d16, spread_limit), edge = hn::Set(d16, edge_limit);
   const auto last_bit = hn::Set(du16, uint16_t{0x8000});
   auto before = hn::LoadU(d16, disparity);
   auto low = before, high = before;
@@ -58,14 +59,14 @@ HWY_INLINE void FindRunsOfVector(D16 d16, const int16_t* HWY_RESTRICT disparity,
 }
 
 inline void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, size_t lines,
-                     const RunLimits& limits, const RunMarks& marks) {
+                     int16_t spread, int16_t edge, const RunMarks& marks) {
   const hn::CappedTag<int16_t, kRunLanes> d16;
   for (size_t line = 0; line < lines; line += hn::Lanes(d16)) {
     RunMarks of_vector = marks;
     of_vector.starts += line;
     of_vector.edges += line;
     of_vector.middles += line;
-    FindRunsOfVector(d16, disparity + line, step, length, limits, of_vector);
+    FindRunsOfVector(d16, disparity + line, step, length, spread, edge, of_vector);
   }
 }
 

@@ -12,13 +12,6 @@
 
 namespace starfocus::simd {
 
-// Limits of the disparities in a run. All disparities must have the same scale; any scale is
-// permitted.
-struct RunLimits {
-  int16_t spread;  // Largest difference between disparities in a run, [0, edge].
-  int16_t edge;    // Largest step that is not a depth edge, < 32767.
-};
-
 inline constexpr size_t kRunLanes = 16;
 
 // Output of FindRuns for adjacent lines. The marks of line k are in column k of each array. Rows of
@@ -34,16 +27,16 @@ struct RunMarks {
 
 namespace reference {
 
-inline void FindRunsOfLine(const int16_t* disparity, ptrdiff_t step, size_t length,
-                           const RunLimits& limits, const RunMarks& marks) {
+inline void FindRunsOfLine(const int16_t* disparity, ptrdiff_t step, size_t length, int16_t spread,
+                           int16_t edge_limit, const RunMarks& marks) {
   int low = disparity[0], high = low, before = low;
   for (size_t q = 0; q < length; ++q, disparity += step) {
     const int here = *disparity;
     low = here < low ? here : low;
     high = here > high ? here : high;
-    const bool start = high - low > limits.spread;
+    const bool start = high - low > spread;
     if (start) low = high = here;
-    const bool edge = std::abs(here - before) > limits.edge;
+    const bool edge = std::abs(here - before) > edge_limit;
     before = here;
     const size_t word = q / 16 * marks.stride;
     if (q % 16 == 0) marks.starts[word] = marks.edges[word] = 0;
@@ -56,12 +49,19 @@ inline void FindRunsOfLine(const int16_t* disparity, ptrdiff_t step, size_t leng
 // Splits lines 0 .. lines - 1 of `length` positions into runs, greedily from position 0 on.
 // Position q of line k is disparity[q * step + k]. The bits of position 0, and of positions past
 // the last one, are 0. The middle at position q is the mean, rounded down, of the lowest and the
-// highest disparity of the run up to position q. Marks are written in whole groups of kRunLanes
-// lines; marks of lines at or beyond `lines` are unspecified.
+// highest disparity of the run up to position q.
+//
+// `spread` is the largest difference between disparities in a run, in [0, edge]. `edge` is the
+// largest step that is not a depth edge, < 32767. All disparities must have the same scale; any
+// scale is permitted.
+//
+// Marks are written in whole groups of kRunLanes lines; marks of lines at or beyond `lines` are
+// unspecified.
 STARFOCUS_REFERENCE void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length,
-                                  size_t lines, const RunLimits& limits, const RunMarks& marks) {
+                                  size_t lines, int16_t spread, int16_t edge,
+                                  const RunMarks& marks) {
   for (size_t k = 0; k < lines; ++k) {
-    FindRunsOfLine(disparity + k, step, length, limits,
+    FindRunsOfLine(disparity + k, step, length, spread, edge,
                    {marks.starts + k, marks.edges + k, marks.middles + k, marks.stride});
   }
 }

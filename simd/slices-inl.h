@@ -51,19 +51,14 @@ HWY_INLINE void StoreNothing(size_t plane, int16_t* HWY_RESTRICT out) {
   for (size_t c = 0; c < 4; ++c) hn::StoreU(hn::Zero(d16), d16, out + c * plane);
 }
 
-// Destination of a row of a slice: `count` pixels in planes that are `plane` samples apart.
-struct SliceTarget {
-  int16_t* out;
-  size_t plane, count;
-};
+// SelectFirst and SelectAny write to a row of `count` pixels in planes that are `plane` samples
+// apart.
 
 // Selects a vector of pixels that are fully covered by their first surface. The first pixel is n.
-HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size_t n,
-                            const SliceTarget& target, GroupCover& cover) {
+HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size_t n, size_t plane,
+                            size_t count, int16_t* HWY_RESTRICT out, GroupCover& cover) {
   const LanesTag d16;
   const auto low = hn::Set(d16, range.low), overlap = hn::Set(d16, range.overlap);
-  const size_t count = target.count, plane = target.plane;
-  int16_t* HWY_RESTRICT out = target.out;
   const auto found = LiesIn(row.disparity[0] + n, low, overlap);
   if (hn::AllFalse(d16, found)) {
     StoreNothing(plane, out + n);
@@ -79,17 +74,16 @@ HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size
 }
 
 // Selects a vector of pixels, considering all surfaces. The first pixel is n.
-HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t n,
-                          const SliceTarget& target, GroupCover& cover) {
+HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t n, size_t plane,
+                          size_t count, int16_t* HWY_RESTRICT out, GroupCover& cover) {
   const LanesTag d16;
   const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
   const auto overlap = hn::Set(d16, range.overlap);
-  const size_t count = target.count, plane = target.plane;
   const auto pixel = hn::Set(d16, kSliceWhole);
   const auto nearest = LiesIn(row.disparity[0] + n, low, overlap);
   const auto next = LiesIn(row.disparity[1] + n, low, overlap);
   const auto last = LiesIn(row.disparity[2] + n, low, overlap);
-  int16_t* HWY_RESTRICT to = target.out + n;
+  int16_t* HWY_RESTRICT to = out + n;
   // Most vectors contain no pixel of the slice.
   if (hn::AllFalse(d16, hn::Or(nearest, hn::Or(next, last)))) {
     StoreNothing(plane, to);
@@ -128,18 +122,17 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
                               size_t plane, int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
   const size_t lanes = hn::Lanes(d16);
-  const SliceTarget target = {out, plane, count};
   SliceCover cover = {0, 0};
   uint64_t bit = 1;
   for (size_t strip = 0; strip < count; strip += kSliceLanes, bit <<= 1) {
     GroupCover group;
     if ((row.hiding & bit) == 0) {  // Most groups have one surface per pixel.
       for (size_t n = strip; n < strip + kSliceLanes; n += lanes) {
-        SelectFirst(row, range, n, target, group);
+        SelectFirst(row, range, n, plane, count, out, group);
       }
     } else {
       for (size_t n = strip; n < strip + kSliceLanes; n += lanes) {
-        SelectAny(row, range, n, target, group);
+        SelectAny(row, range, n, plane, count, out, group);
       }
     }
     if (group.some) cover.some |= bit;

@@ -68,8 +68,8 @@ void HalveRows(const Kernels& kernels, const int16_t* half, const Range& columns
   half += 3 * count;
   for (int32_t y = to.rows.first; y < to.rows.last; ++y, half += 2 * count) {
     int16_t* samples = to.samples.Row(y) + 3 * columns.first;
-    kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), kDownFilter, count,
-                           {0, kLayerWhite}, samples);
+    kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), kDownFilter, count, 0, kLayerWhite,
+                           samples);
     CheckAll(ranges::kLayerSample, samples, count);
   }
 }
@@ -143,13 +143,13 @@ void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,
   for (int32_t y = 0; y < out.height; ++y) {
     const int16_t* line = in.samples + static_cast<size_t>(first + (y >> 1)) * count;
     if (y % 2 == 1) {
-      kernels.Between(line, static_cast<ptrdiff_t>(count), kUpFilter, count, {INT16_MIN, INT16_MAX},
+      kernels.Between(line, static_cast<ptrdiff_t>(count), kUpFilter, count, INT16_MIN, INT16_MAX,
                       scratch.line);
       CheckAll(ranges::kUpsampledAlongY, scratch.line, count);
       line = scratch.line;
     }
     line += 3 * first;
-    kernels.Between(line, 3, kUpFilter, 3 * static_cast<size_t>(out.width / 2), {0, kLayerWhite},
+    kernels.Between(line, 3, kUpFilter, 3 * static_cast<size_t>(out.width / 2), 0, kLayerWhite,
                     scratch.between);
     const int32_t pairs = (out.width + 1) / 2;
     for (int32_t n = 0; n < 3 * pairs; ++n) {

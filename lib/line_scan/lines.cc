@@ -12,9 +12,9 @@ void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const int16_t*
               simd::RunMarks* marks) {
   marks->stride = RunMarkStride(static_cast<size_t>(lines));
   const bool mirrored = direction == Direction::kLeftToRight;
-  const simd::RunLimits limits = {static_cast<int16_t>(grid.spread), kSurfaceStep};
   kernels.FindRuns(disparity + (mirrored ? 0 : (length - 1) * step), mirrored ? step : -step,
-                   static_cast<size_t>(length), static_cast<size_t>(lines), limits, *marks);
+                   static_cast<size_t>(length), static_cast<size_t>(lines),
+                   static_cast<int16_t>(grid.spread), kSurfaceStep, *marks);
 }
 
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,

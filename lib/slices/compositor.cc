@@ -127,7 +127,6 @@ class TilePart {
   // Divides the summed colours by the summed coverage. Pixels that hardly any view shows get the
   // colour of the centre view.
   void FinishRows(int32_t x, int32_t first, int32_t end) {
-    const simd::CompositeFinish finish = {stack_.weights.least_covered, kCompositeBits};
     const size_t columns = Columns(x), left = 3 * static_cast<size_t>(rect_.x + x);
     int16_t centre[3 * simd::kStripColumns + simd::kPadding / sizeof(int16_t)] = {};
     for (int32_t row = first; row < end; ++row) {
@@ -135,7 +134,8 @@ class TilePart {
       std::memcpy(centre, CentreRow(accumulators_ + at - left, job_.rect.width) + left,
                   3 * columns * sizeof(*centre));
       job_.kernels->FinishComposite(SumsOfRow(scratch_.sums, row), simd::kSliceLanes, centre,
-                                    finish, columns, accumulators_ + at);
+                                    stack_.weights.least_covered, kCompositeBits, columns,
+                                    accumulators_ + at);
     }
   }
 

@@ -224,7 +224,7 @@ void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const Sl
   // Resets the marks of rows, which still hold the values of the previous column of views.
   std::memset(near - simd::kRowsAhead, simd::kNothingNear, count + simd::kRowsAhead);
   const int16_t* from = placed.samples + row * 4 * placed.plane;
-  kernels.ShiftSlice({from + x + placed.reach + offset.whole, placed.plane}, offset.fraction, count,
+  kernels.ShiftSlice(from + x + placed.reach + offset.whole, placed.plane, offset.fraction, count,
                      shifted.plane, shifted.samples + row * simd::kSliceLanes, near);
 }
 

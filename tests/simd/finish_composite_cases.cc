@@ -10,8 +10,9 @@ namespace test::kernel_cases {
 void FinishComposite(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
   const size_t plane = whole + draw->Size(0, 5, 0);
-  const CompositeFinish finish = {uint32_t(draw->Int(1, 90000)), draw->Int(kLightBits, 24)};
-  const uint32_t all = 4 * finish.least + uint32_t(draw->Int(0, 5));
+  const auto least = uint32_t(draw->Int(1, 90000));
+  const int bits = draw->Int(kLightBits, 24);
+  const uint32_t all = 4 * least + uint32_t(draw->Int(0, 5));
   std::vector<uint32_t> values(3 * plane + whole);
   uint32_t covered = all;
   for (size_t n = 0; n < whole; ++n) {
@@ -19,7 +20,7 @@ void FinishComposite(Draw* draw, KernelCall* call) {
     if (kind < 2) covered = all;
     if (kind == 2) covered = 0;
     if (kind == 3) covered = uint32_t(draw->Int(0, int(all)));
-    if (kind == 4) covered = finish.least - uint32_t(draw->Int(0, 1));
+    if (kind == 4) covered = least - uint32_t(draw->Int(0, 1));
     values[3 * plane + n] = covered;
     for (size_t c = 0; c < 3; ++c) {
       const int colour = kind == 5 ? 256 : kind == 6 ? 255 : draw->Int(0, 255);
@@ -33,11 +34,11 @@ void FinishComposite(Draw* draw, KernelCall* call) {
   const int16_t* centre = call->Input("centre", Light(3 * count, draw), kPadding);
   auto* out = call->Results<uint32_t>("out", 3 * count);
   call->Runs([=](const Kernels& kernels) {
-    kernels.FinishComposite(sums, plane, centre, finish, count, out);
+    kernels.FinishComposite(sums, plane, centre, least, bits, count, out);
   });
   call->is_right = [=](uint64_t, Met* met) {
     for (size_t n = 0; n < count; ++n) {
-      (*met)[sums[3 * plane + n] < finish.least ? "missing" : "covered"] += 1;
+      (*met)[sums[3 * plane + n] < least ? "missing" : "covered"] += 1;
     }
     return true;
   };

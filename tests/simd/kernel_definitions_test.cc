@@ -44,7 +44,7 @@ TEST_CASE(
   covered[3 * 16 + 1] = 99;
   const int16_t centre[6] = {9 << 7, 9 << 7, 9 << 7, 5 << 7, 6 << 7, 7 << 7};
   uint32_t accumulators[6];
-  ReferenceKernels().FinishComposite(covered.data(), 16, centre, {100, 16}, 2, accumulators);
+  ReferenceKernels().FinishComposite(covered.data(), 16, centre, 100, 16, 2, accumulators);
   CHECK(accumulators[0] == 64 << 16);
   CHECK(accumulators[1] == 0);
   CHECK(accumulators[3] == 5 << 16);
@@ -109,7 +109,7 @@ TEST_CASE("kernel definitions: FindRuns and MeasureCell return values computed b
   const int16_t lines[5][2] = {{40, -32000}, {11, 32000}, {0, 31995}, {5, 31990}, {-5, 31989}};
   uint16_t starts[2 * kRunLanes], edges[2 * kRunLanes];
   int16_t middles[17 * kRunLanes];
-  ReferenceKernels().FindRuns(lines[4], -2, 5, 2, {10, 10},
+  ReferenceKernels().FindRuns(lines[4], -2, 5, 2, 10, 10,
                               RunMarks{starts, edges, middles, kRunLanes});
   CheckValues("starts", starts, {0b11000, 0b11000});
   CheckValues("edges", edges, {0b11000, 0b10000});
@@ -120,8 +120,7 @@ TEST_CASE("kernel definitions: FindRuns and MeasureCell return values computed b
 
   int16_t line[17] = {};
   line[15] = 20, line[16] = 40;
-  ReferenceKernels().FindRuns(line, 1, 17, 1, {10, 10},
-                              RunMarks{starts, edges, middles, kRunLanes});
+  ReferenceKernels().FindRuns(line, 1, 17, 1, 10, 10, RunMarks{starts, edges, middles, kRunLanes});
   for (const uint16_t* words : {starts, edges}) {
     CHECK(words[0] == 1 << 15);
     CHECK(words[kRunLanes] == 1);
@@ -177,8 +176,8 @@ TEST_CASE("kernel definitions: Halve applies the half-band filter at every even 
   std::vector<int16_t> even(3 * kPairs), odd = even, halved(3 * kKept), whole(6 * kPairs);
   kernels.SplitPhases(line.data(), kPairs, even.data(), odd.data());
   kernels.Halve(even.data() + 6, odd.data() + 6, starfocus::kDownFilter, 3 * kKept, halved.data());
-  kernels.FilterHalfBand(line.data() + 12, 3, starfocus::kDownFilter, 6 * kKept - 3,
-                         {INT16_MIN, INT16_MAX}, whole.data());
+  kernels.FilterHalfBand(line.data() + 12, 3, starfocus::kDownFilter, 6 * kKept - 3, INT16_MIN,
+                         INT16_MAX, whole.data());
   for (size_t n = 0; n < 3 * kKept; ++n) CHECK(halved[n] == whole[n / 3 * 6 + n % 3]);
 }
 

@@ -40,11 +40,11 @@ void FilterLine(Filter filter, Draw* draw, KernelCall* call) {
   const auto samples = Samples(count + 6 * step, false, draw);
   const int16_t* in = call->Input("in", samples, kPadding) + 3 * step;
   const HalfBand taps = Taps(draw);
-  const SampleRange in_range = {0, kLayerWhite}, all = {INT16_MIN, INT16_MAX};
-  const SampleRange range = draw->Int(0, 1) == 0 ? in_range : all;
+  const bool all = draw->Int(0, 1) != 0;
+  const int16_t low = all ? INT16_MIN : int16_t{0}, high = all ? INT16_MAX : kLayerWhite;
   auto* out = call->Results<int16_t>("out", count);
   call->Runs([=](const Kernels& kernels) {
-    filter(kernels)(in, ptrdiff_t(step), taps, count, range, out);
+    filter(kernels)(in, ptrdiff_t(step), taps, count, low, high, out);
   });
 }
 

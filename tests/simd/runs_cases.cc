@@ -5,12 +5,6 @@
 namespace test::kernel_cases {
 namespace {
 
-RunLimits DrawRunLimits(Draw* draw) {
-  const int kind = draw->Int(0, 3);
-  const int edge = kind == 0 ? 32766 : kind == 1 ? draw->Int(0, 32766) : draw->Int(0, 96);
-  return {int16_t(draw->Int(0, 2) == 0 ? edge : draw->Int(0, edge)), int16_t(edge)};
-}
-
 std::vector<int16_t> LineDisparities(size_t count, Draw* draw) {
   const int kind = draw->timed() ? 2 : draw->Int(0, 3);
   const int most = kind == 0 ? 32000 : kind == 1 ? 300 : 40;
@@ -31,7 +25,9 @@ void FindRuns(Draw* draw, KernelCall* call) {
   call->IgnoreRows(disparity + count, length - 1, stride, stride - count);
   const int16_t* first = disparity + (backwards ? (length - 1) * stride : 0);
   const ptrdiff_t step = backwards ? -ptrdiff_t(stride) : ptrdiff_t(stride);
-  const RunLimits limits = DrawRunLimits(draw);
+  const int kind = draw->Int(0, 3);
+  const int edge = kind == 0 ? 32766 : kind == 1 ? draw->Int(0, 32766) : draw->Int(0, 96);
+  const int spread = draw->Int(0, 2) == 0 ? edge : draw->Int(0, edge);
 
   const size_t whole = (count + kRunLanes - 1) / kRunLanes * kRunLanes, rows = (length + 15) / 16;
   RunMarks marks;
@@ -43,8 +39,9 @@ void FindRuns(Draw* draw, KernelCall* call) {
   for (const uint16_t* words : {marks.starts, marks.edges}) {
     call->ResultRows(words, rows, marks.stride, count, whole - count);
   }
-  call->Runs(
-      [=](const Kernels& kernels) { kernels.FindRuns(first, step, length, count, limits, marks); });
+  call->Runs([=](const Kernels& kernels) {
+    kernels.FindRuns(first, step, length, count, int16_t(spread), int16_t(edge), marks);
+  });
 }
 
 }  // namespace test::kernel_cases

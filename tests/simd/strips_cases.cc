@@ -53,7 +53,7 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   const size_t first = size_t(draw->Int(0, int(more)));
   // The memory of `in` ends with the last sample that the kernel reads.
   samples.resize(samples.size() - (more - first));
-  const SlicePlanes in = {call->Input("in", samples) + first, in_plane};
+  const int16_t* in = call->Input("in", samples) + first;
   const SliceFraction fraction = Fraction(draw);
   auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
   call->ResultRows(out, 4, plane, rows * kSliceLanes);
@@ -61,7 +61,7 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
   call->Runs([=](const Kernels& kernels) {
-    kernels.ShiftSlice(in, fraction, rows, plane, out, near + kRowsAhead);
+    kernels.ShiftSlice(in, in_plane, fraction, rows, plane, out, near + kRowsAhead);
   });
   call->is_right = [=](uint64_t, Met* met) {
     const int8_t *begin = near, *end = near + kRowsAhead + rows;
