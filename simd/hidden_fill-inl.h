@@ -16,11 +16,11 @@ namespace HWY_NAMESPACE {
 
 // Copies the farthest surfaces of a vector of pixels, some of which have hidden surfaces. Returns
 // the largest distance over which a colour is repeated.
-HWY_INLINE int32_t TakeHidden(const SourcedRow& row, size_t n, const FarRow& far) {
+HWY_INLINE int32_t TakeHidden(const SurfaceRow& from, const uint16_t* const* source, size_t n,
+                              const FarRow& far) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   const hn::Rebind<uint8_t, LanesTag> d8;
-  const SurfaceRow& from = row.surfaces;
   const auto nothing = hn::Set(d16, kNoSurface);
   const auto first = hn::LoadU(d16, from.disparity[0] + n);
   const auto second = hn::LoadU(d16, from.disparity[1] + n);
@@ -39,25 +39,25 @@ HWY_INLINE int32_t TakeHidden(const SourcedRow& row, size_t n, const FarRow& far
   const auto share = hn::PromoteTo(d16, hn::LoadU(d8, from.share + n));
   const auto whole = hn::Or(hn::Eq(share, hn::Set(d16, kSliceWhole)),
                             hn::Eq(share, hn::Set(d16, int16_t{kSliceEnd})));
-  const auto of_second = hn::BitCast(d16, hn::LoadU(du16, row.source[0] + n));
-  const auto of_third = hn::BitCast(d16, hn::LoadU(du16, row.source[1] + n));
+  const auto of_second = hn::BitCast(d16, hn::LoadU(du16, source[0] + n));
+  const auto of_third = hn::BitCast(d16, hn::LoadU(du16, source[1] + n));
   const auto behind = hn::IfThenElse(whole, of_third, of_second);
   const auto before = hn::IfThenElseZero(hn::And(is_second, whole), of_second);
-  const auto source = hn::BitCast(du16, hn::IfThenElse(is_third, behind, before));
-  const auto distance = hn::ShiftRight<kSourceDistance>(source);
+  const auto found = hn::BitCast(du16, hn::IfThenElse(is_third, behind, before));
+  const auto distance = hn::ShiftRight<kSourceDistance>(found);
   const auto repeated = hn::Ne(distance, hn::Zero(du16));
-  hn::StoreU(hn::IfThenElseZero(repeated, source), du16, far.source + n);
+  hn::StoreU(hn::IfThenElseZero(repeated, found), du16, far.source + n);
   return hn::GetLane(hn::MaxOfLanes(d16, hn::BitCast(d16, distance)));
 }
 
-inline int32_t TakeFarthest(const SourcedRow& row, size_t count, const FarRow& far) {
+inline int32_t TakeFarthest(const SurfaceRow& from, const uint16_t* const* source, size_t count,
+                            const FarRow& far) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
-  const SurfaceRow& from = row.surfaces;
   int32_t most = 0;
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     if ((from.hiding >> (n / kSliceLanes) & 1) != 0) {
-      const int32_t distance = TakeHidden(row, n, far);
+      const int32_t distance = TakeHidden(from, source, n, far);
       most = distance > most ? distance : most;
       continue;
     }
@@ -91,8 +91,9 @@ inline void PutFarthest(const FarRow& far, const int16_t* HWY_RESTRICT disparity
   }
 }
 
-inline void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t count,
-                      int16_t* HWY_RESTRICT rgb) {
+inline void SmoothFar(const int16_t* const* disparity, const int16_t* const* rgb, size_t plane,
+                      const uint16_t* source, int16_t unit, int32_t step, size_t count,
+                      int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   const auto most = hn::Set(d16, unit), least = hn::Set(d16, static_cast<int16_t>(-unit));
@@ -102,30 +103,30 @@ inline void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t co
     return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
   };
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
-    const auto distance = hn::ShiftRight<kSourceDistance>(hn::LoadU(du16, rows.source + n));
+    const auto distance = hn::ShiftRight<kSourceDistance>(hn::LoadU(du16, source + n));
     const auto takes = hn::Gt(hn::BitCast(d16, distance), short_of);
     if (hn::AllFalse(d16, takes)) continue;
-    const auto disparity = hn::LoadU(d16, rows.disparity[1] + n);
+    const auto own = hn::LoadU(d16, disparity[1] + n);
     const auto is_other = [&](const int16_t* at) HWY_ATTR {
-      const auto less = hn::SaturatedSub(disparity, hn::LoadU(d16, at));
+      const auto less = hn::SaturatedSub(own, hn::LoadU(d16, at));
       return hn::Or(hn::Gt(less, most), hn::Gt(least, less));
     };
-    const auto left = is_other(rows.disparity[1] + n - step);
-    const auto right = is_other(rows.disparity[1] + n + step);
-    const auto above = is_other(rows.disparity[0] + n);
-    const auto below = is_other(rows.disparity[2] + n);
+    const auto left = is_other(disparity[1] + n - step);
+    const auto right = is_other(disparity[1] + n + step);
+    const auto above = is_other(disparity[0] + n);
+    const auto below = is_other(disparity[2] + n);
     for (size_t c = 0; c < 3; ++c) {
-      const int16_t* at = rows.rgb[1] + c * rows.plane + n;
+      const int16_t* at = rgb[1] + c * plane + n;
       const auto here = hn::LoadU(d16, at);
       const auto across = mean(hn::IfThenElse(left, here, hn::LoadU(d16, at - step)),
                                hn::IfThenElse(right, here, hn::LoadU(d16, at + step)));
-      const auto upper = hn::LoadU(d16, rows.rgb[0] + c * rows.plane + n);
-      const auto lower = hn::LoadU(d16, rows.rgb[2] + c * rows.plane + n);
+      const auto upper = hn::LoadU(d16, rgb[0] + c * plane + n);
+      const auto lower = hn::LoadU(d16, rgb[2] + c * plane + n);
       const auto down =
           mean(hn::IfThenElse(above, here, upper), hn::IfThenElse(below, here, lower));
       const auto smooth = mean(here, mean(across, down));
-      int16_t* out = rgb + c * rows.plane + n;
-      hn::StoreU(hn::IfThenElse(takes, smooth, hn::LoadU(d16, out)), d16, out);
+      int16_t* const to = out + c * plane + n;
+      hn::StoreU(hn::IfThenElse(takes, smooth, hn::LoadU(d16, to)), d16, to);
     }
   }
 }

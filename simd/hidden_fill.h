@@ -13,14 +13,6 @@
 
 namespace starfocus::simd {
 
-// A row of the surfaces of a field, with the sources of the hidden surfaces in the format of
-// HiddenRow. Element source[k] belongs to surface k + 1. If the first surface covers only a part of
-// a pixel, source[0] belongs to surface 2 instead.
-struct SourcedRow {
-  SurfaceRow surfaces;
-  const uint16_t* source[kSurfaces - 1];
-};
-
 // Farthest surface of each pixel of a row. The planes R, G and B are `plane` samples apart.
 // `source` is 0 at pixels at which a captured view shows the farthest surface.
 struct FarRow {
@@ -28,16 +20,6 @@ struct FarRow {
   int16_t* rgb;
   uint16_t* source;
   size_t plane;
-};
-
-// A row (index 1), the row `step` rows above (index 0) and the row `step` rows below (index 2).
-// `source` belongs to row 1. At both ends of the rows, kSliceLanes more pixels must be readable.
-// Colours are light and not negative.
-struct FarRows {
-  const int16_t* disparity[3];
-  const int16_t* rgb[3];
-  size_t plane;
-  const uint16_t* source;
 };
 
 namespace reference {
@@ -55,20 +37,23 @@ inline int FarthestOf(const SurfaceRow& surfaces, size_t n) {
 }
 
 // Copies the farthest surfaces of a row of `count` pixels, in whole groups of kSliceLanes. Returns
-// the largest distance over which a copied colour is repeated, or 0 if no colour is repeated.
-STARFOCUS_REFERENCE int32_t TakeFarthest(const SourcedRow& row, size_t count, const FarRow& far) {
+// the largest distance over which a copied colour is repeated, or 0 if no colour is repeated. The
+// sources of the hidden surfaces have the format of HiddenRow: source[k] belongs to surface k + 1.
+// If the first surface covers only a part of a pixel, source[0] belongs to surface 2 instead.
+STARFOCUS_REFERENCE int32_t TakeFarthest(const SurfaceRow& row, const uint16_t* const* source,
+                                         size_t count, const FarRow& far) {
   int32_t most = 0;
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    const int farthest = FarthestOf(row.surfaces, n);
-    const uint8_t share = row.surfaces.share[n];
+    const int farthest = FarthestOf(row, n);
+    const uint8_t share = row.share[n];
     const bool parted = share != kSliceWhole && share != kSliceEnd;
     const int found = farthest - (parted ? 1 : 0);
-    const int source = found > 0 ? row.source[found - 1][n] : 0;
-    const int distance = source >> kSourceDistance;
-    far.source[n] = static_cast<uint16_t>(distance > 0 ? source : 0);
-    far.disparity[n] = row.surfaces.disparity[farthest][n];
+    const int from = found > 0 ? source[found - 1][n] : 0;
+    const int distance = from >> kSourceDistance;
+    far.source[n] = static_cast<uint16_t>(distance > 0 ? from : 0);
+    far.disparity[n] = row.disparity[farthest][n];
     for (size_t c = 0; c < 3; ++c) {
-      far.rgb[c * far.plane + n] = row.surfaces.rgb[farthest][c * row.surfaces.plane + n];
+      far.rgb[c * far.plane + n] = row.rgb[farthest][c * row.plane + n];
     }
     most = distance > most ? distance : most;
   }
@@ -82,25 +67,31 @@ STARFOCUS_REFERENCE int32_t TakeFarthest(const SourcedRow& row, size_t count, co
 // differs by more than `unit`, the pixel itself replaces the neighbour. The mean of the neighbours
 // is the mean of two means: the mean of left and right, and the mean of above and below. Each mean
 // is rounded half up.
-STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int16_t unit, int32_t step, size_t count,
-                                   int16_t* rgb) {
+//
+// The row has index 1 in `disparity` and `rgb`. The row `step` rows above has index 0, and the row
+// `step` rows below has index 2. `source` belongs to row 1. At both ends of the rows, kSliceLanes
+// more pixels must be readable. Colours are light and not negative. All planes are `plane` samples
+// apart.
+STARFOCUS_REFERENCE void SmoothFar(const int16_t* const* disparity, const int16_t* const* rgb,
+                                   size_t plane, const uint16_t* source, int16_t unit, int32_t step,
+                                   size_t count, int16_t* out) {
   // Left, right, above and below.
   const int row_of[4] = {1, 1, 0, 2};
   const ptrdiff_t across[4] = {-step, step, 0, 0};
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    if (2 * (rows.source[n] >> kSourceDistance) < step) continue;
+    if (2 * (source[n] >> kSourceDistance) < step) continue;
     for (size_t c = 0; c < 3; ++c) {
-      const size_t at = c * rows.plane + n;
-      const int16_t here = rows.rgb[1][at];
+      const size_t at = c * plane + n;
+      const int16_t here = rgb[1][at];
       int32_t colours[4];
       for (int k = 0; k < 4; ++k) {
-        const int16_t disparity = rows.disparity[row_of[k]][static_cast<ptrdiff_t>(n) + across[k]];
-        const int16_t less = Saturated(rows.disparity[1][n] - disparity);
+        const int16_t other = disparity[row_of[k]][static_cast<ptrdiff_t>(n) + across[k]];
+        const int16_t less = Saturated(disparity[1][n] - other);
         const bool same = less <= unit && less >= -unit;
-        colours[k] = same ? rows.rgb[row_of[k]][static_cast<ptrdiff_t>(at) + across[k]] : here;
+        colours[k] = same ? rgb[row_of[k]][static_cast<ptrdiff_t>(at) + across[k]] : here;
       }
       const int32_t around = Mean(Mean(colours[0], colours[1]), Mean(colours[2], colours[3]));
-      rgb[at] = static_cast<int16_t>(Mean(here, around));
+      out[at] = static_cast<int16_t>(Mean(here, around));
     }
   }
 }

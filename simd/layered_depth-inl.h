@@ -29,16 +29,15 @@ inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
   if (!done) reference::Split(rgb, count, plane, out);
 }
 
-inline void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t count) {
-  const int16_t *HWY_RESTRICT near = rows.near, *HWY_RESTRICT far = rows.far;
-  int16_t *HWY_RESTRICT moved = rows.moved, *HWY_RESTRICT behind = rows.behind;
-  uint8_t* HWY_RESTRICT distance = rows.distance;
+inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,
+                      int16_t least_step, int unit_bits, size_t count, int16_t* HWY_RESTRICT moved,
+                      int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
   const LanesTag d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
-  const auto step = hn::Set(d16, limits.step);
-  const auto unit = hn::Set(d16, static_cast<int16_t>(1 << limits.unit_bits));
-  const auto farthest = hn::Set(d16, FarthestEdge(limits.unit_bits));
+  const auto step = hn::Set(d16, least_step);
+  const auto unit = hn::Set(d16, static_cast<int16_t>(1 << unit_bits));
+  const auto farthest = hn::Set(d16, FarthestEdge(unit_bits));
   const auto one = hn::Set(d16, int16_t{1});
   for (size_t n = 0; n < SliceSamples(count); n += lanes) {
     const auto here = hn::LoadU(d16, near + n), next = hn::LoadU(d16, far + n);
@@ -55,7 +54,7 @@ inline void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t cou
     const auto depth = hn::SaturatedSub(here, surface);
     const auto beyond = hn::Gt(moves, hn::Min(depth, farthest));
     const auto hides = hn::AndNot(beyond, hn::Gt(depth, step));
-    const auto pixels = hn::Add(hn::ShiftRightSame(moves, limits.unit_bits), one);
+    const auto pixels = hn::Add(hn::ShiftRightSame(moves, unit_bits), one);
     hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hides, pixels)), d8, distance + n);
   }
 }
@@ -73,24 +72,14 @@ struct StripSides {
   int16_t rank[kEdges][kSliceLanes], disparity[kEdges][kSliceLanes], second[kEdges][kSliceLanes];
 };
 
-// A line of pixels that may cover hidden pixels in a view. The pixels of the line are `step`
-// samples apart. A disparity of `unit` moves a pixel of the view by one pixel.
-struct OcclusionQuery {
-  const int16_t* at;
-  ptrdiff_t step;
-  int16_t unit;
-  int32_t sure;  // Number of pixels of the line that are inside the field in all lanes.
-  int32_t last;  // Last pixel of the line that can cover the hidden pixel.
-};
-
-// Returns a mask of the lanes in which the hidden pixel, at `disparity`, is covered. `room` is the
-// number of pixels of each lane's line that lie in the field.
+// Returns a mask of the lanes in which the hidden pixel, at `disparity`, is covered by a pixel of
+// the line that starts at `at`. The pixels of the line are `step` samples apart. A disparity of
+// `unit` moves a pixel of the view by one pixel. The pixels of the line up to `last` can cover the
+// hidden pixel, and the pixels up to `sure` are inside the field in all lanes. `room` is the number
+// of pixels of each lane's line that lie in the field.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> FindCovered(D d16, const OcclusionQuery& query, V disparity, V room) {
-  const int16_t* at = query.at;
-  const ptrdiff_t step = query.step;
-  const int32_t sure = query.sure, last = query.last;
-  const int16_t unit = query.unit;
+HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, int16_t unit,
+                                   int32_t sure, int32_t last, V disparity, V room) {
   const auto reach = static_cast<int16_t>((3 * unit - 1) / 4);
   const auto nearer = hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(unit / 2)));
   // The comparison with `end` tests whether the movement of the pixel differs by at most `reach`
@@ -212,9 +201,8 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
   const int32_t most = side == 0   ? row.width - 1 - column
                        : side == 1 ? column + lanes - 1
                                    : vertical;
-  const OcclusionQuery query = {row.disparity + column, StepOf(row, side), look.unit, sure,
-                                last < most ? last : most};
-  return FindCovered(d16, query, disparity, room);
+  return FindCovered(d16, row.disparity + column, StepOf(row, side), look.unit, sure,
+                     last < most ? last : most, disparity, room);
 }
 
 // Looks behind an edge of each pixel of `lanes`. In the other lanes, the distances to the far sides
@@ -430,10 +418,10 @@ inline void BesideSteps(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_
 }
 
 inline uint64_t FindCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, size_t count,
-                           const CopyLimits& limits, int16_t* HWY_RESTRICT copies) {
+                           int16_t least_step, int16_t most_step, int16_t* HWY_RESTRICT copies) {
   const LanesTag d16;
-  const auto most = hn::Set(d16, limits.most), none = hn::Set(d16, kNoSurface);
-  const auto below_least = hn::Set(d16, static_cast<int16_t>(limits.least - 1));
+  const auto most = hn::Set(d16, most_step), none = hn::Set(d16, kNoSurface);
+  const auto below_least = hn::Set(d16, static_cast<int16_t>(least_step - 1));
   uint64_t strips = 0;
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const auto here = hn::LoadU(d16, row + n);

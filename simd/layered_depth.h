@@ -24,14 +24,6 @@ inline constexpr int kSliceBits = 7;
 inline constexpr int16_t kSliceWhole = 1 << kSliceBits;
 inline constexpr uint8_t kSliceEnd = 255;
 
-// A step of disparity of more than `step` from one pixel to the next is a depth edge. A depth edge
-// hides a part of the background from the centre view. For each 2^unit_bits of the disparity step,
-// a side view reveals one more pixel of the hidden background.
-struct EdgeLimits {
-  int16_t step;
-  int unit_bits;  // [6, 8]
-};
-
 // Returns the largest supported distance, in units of disparity, between a pixel and the last pixel
 // before a depth edge. The returned distance leaves room for the edge's far side, one pixel
 // farther, because distances in pixels must fit in a byte. A pixel whose distance to a depth edge
@@ -46,19 +38,6 @@ constexpr int16_t FarthestEdge(int unit_bits) {
 // already hidden by the pixel. Disparity maps computed by neural networks are uneven, and the
 // background behind an outline must extend behind the whole surface.
 inline constexpr int kSmallStepBits = 3;
-
-// Rows that one call of FindEdges reads and writes.
-struct EdgeRows {
-  const int16_t *near, *far;
-  int16_t *moved, *behind;
-  uint8_t* distance;
-};
-
-// Range of the differences in disparity between adjacent pixels of one surface that may open a gap,
-// because adjacent slices move by different distances.
-struct CopyLimits {
-  int16_t least, most;  // > 0
-};
 
 // Depth edges between each of kSliceLanes pixels of a row and the next pixel. Bit k of `falls` is
 // set if a depth edge follows pixel k, and pixel k is nearer to the camera than pixel k + 1. Bit k
@@ -93,7 +72,7 @@ struct DepthRow {
   int32_t width;         // Number of pixels of the row, at most 64 kSliceLanes.
   int32_t above, below;  // Number of rows of the field above and below this row.
   int16_t high;          // Upper bound of the disparities of the field.
-  int unit_bits;         // EdgeLimits::unit_bits of the field.
+  int unit_bits;         // `unit_bits` of FindEdges.
   // Views that look behind the edges of each side, in the order of `edges`.
   ViewLook looks[4][kViewLooks];
   // Distances from each pixel to the far sides of edges to the right, left, bottom and top, as
@@ -208,30 +187,33 @@ STARFOCUS_REFERENCE void Split(const int16_t* rgb, size_t count, size_t plane, i
   }
 }
 
-// Follows depth edges by one row, from rows.far to rows.near. The caller decides which of two
-// adjacent rows is `near`. For each pixel, moved[n] is the distance to the next edge in units of
-// disparity, and behind[n] is the disparity beyond that edge. On entry, moved[n] and behind[n]
-// describe row `far`; on return, they describe row `near`. Before the first call, the caller sets
-// moved[n] to INT16_MAX.
+// Follows depth edges by one row, from `far` to `near`. The caller decides which of two adjacent
+// rows is `near`. A step of disparity of more than `step` from one pixel to the next is a depth
+// edge. A depth edge hides a part of the background from the centre view. For each 2^unit_bits of
+// the disparity step, a side view reveals one more pixel of the hidden background. `unit_bits` is
+// in [6, 8].
+//
+// For each pixel, moved[n] is the distance to the next edge in units of disparity, and behind[n] is
+// the disparity beyond that edge. On entry, moved[n] and behind[n] describe row `far`; on return,
+// they describe row `near`. Before the first call, the caller sets moved[n] to INT16_MAX.
 //
 // If the near pixel hides the far side of the edge from some view, distance[n] is the distance in
 // pixels to the far side. If the near pixel hides nothing, distance[n] is 0. Whole groups of
 // kSliceLanes are read and written.
-STARFOCUS_REFERENCE void FindEdges(const EdgeRows& rows, const EdgeLimits& limits, size_t count) {
-  const int16_t *near = rows.near, *far = rows.far;
-  int16_t *moved = rows.moved, *behind = rows.behind;
+STARFOCUS_REFERENCE void FindEdges(const int16_t* near, const int16_t* far, int16_t step,
+                                   int unit_bits, size_t count, int16_t* moved, int16_t* behind,
+                                   uint8_t* distance) {
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    const int16_t farther = Saturated(moved[n] + (1 << limits.unit_bits));
+    const int16_t farther = Saturated(moved[n] + (1 << unit_bits));
     const int16_t change = Saturated(near[n] - far[n]), so_far = Saturated(near[n] - behind[n]);
-    const bool goes_on = farther <= so_far && farther <= FarthestEdge(limits.unit_bits) &&
+    const bool goes_on = farther <= so_far && farther <= FarthestEdge(unit_bits) &&
                          change <= so_far >> kSmallStepBits;
-    const bool edge = change > limits.step && !goes_on;
+    const bool edge = change > step && !goes_on;
     moved[n] = edge ? int16_t{0} : farther;
     if (edge) behind[n] = far[n];
     const int16_t depth = Saturated(near[n] - behind[n]);
-    const bool hides =
-        depth > limits.step && moved[n] <= depth && moved[n] <= FarthestEdge(limits.unit_bits);
-    rows.distance[n] = static_cast<uint8_t>(hides ? (moved[n] >> limits.unit_bits) + 1 : 0);
+    const bool hides = depth > step && moved[n] <= depth && moved[n] <= FarthestEdge(unit_bits);
+    distance[n] = static_cast<uint8_t>(hides ? (moved[n] >> unit_bits) + 1 : 0);
   }
 }
 
@@ -267,12 +249,13 @@ STARFOCUS_REFERENCE void BesideSteps(const int16_t* row, ptrdiff_t stride, size_
 
 // For each pixel, finds the disparity of a copy that continues the pixel's surface behind the
 // pixel. The candidates for pixel n < count are the disparities of its four neighbours that are
-// lower than the pixel's disparity by `least` to `most`. Element copies[n] is the lowest candidate,
-// or kNoSurface if there is no candidate. Rows are `stride` samples apart. Whole groups of
-// kSliceLanes are written. In the result, bit c is set if group c has copies. A row has at most 64
-// groups.
+// lower than the pixel's disparity by `least` to `most`, both > 0. In this range, the difference
+// may open a gap in a surface, because adjacent slices move by different distances. Element
+// copies[n] is the lowest candidate, or kNoSurface if there is no candidate. Rows are `stride`
+// samples apart. Whole groups of kSliceLanes are written. In the result, bit c is set if group c
+// has copies. A row has at most 64 groups.
 STARFOCUS_REFERENCE uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count,
-                                        const CopyLimits& limits, int16_t* copies) {
+                                        int16_t least, int16_t most, int16_t* copies) {
   uint64_t strips = 0;
   for (size_t n = 0; n < SliceSamples(count); ++n) {
     copies[n] = kNoSurface;
@@ -280,7 +263,7 @@ STARFOCUS_REFERENCE uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, si
     int16_t farthest = 0;
     for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride, -stride}) {
       const int16_t step = Saturated(row[n] - row[static_cast<ptrdiff_t>(n) + next]);
-      if (step >= limits.least && step <= limits.most && step > farthest) farthest = step;
+      if (step >= least && step <= most && step > farthest) farthest = step;
     }
     if (farthest == 0) continue;
     copies[n] = static_cast<int16_t>(row[n] - farthest);

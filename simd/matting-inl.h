@@ -80,32 +80,24 @@ struct OutOfReach {
   }
 };
 
-// Colours of the 16 pixels of a block, one array for each member of ColourSample.
-struct BlockColours {
-  int16_t sum[kSliceLanes], red_green[kSliceLanes], green_blue[kSliceLanes];
-};
-
-HWY_INLINE BlockColours ColoursOf(const ColourSample* block, size_t stride) {
-  BlockColours colours;
-  for (size_t n = 0; n < kSliceLanes; ++n) {
-    const ColourSample& sample = block[n / kColourBlock * stride + n % kColourBlock];
-    colours.sum[n] = sample.sum;
-    colours.red_green[n] = sample.red_green;
-    colours.green_blue[n] = sample.green_blue;
-  }
-  return colours;
-}
-
 inline void CompareColours(const ColourSample* HWY_RESTRICT window, size_t stride,
                            uint16_t* HWY_RESTRICT least) {
   static constexpr OutOfReach kOut;
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
-  const BlockColours own = ColoursOf(window + kColourReach * (stride + 1), stride);
+  // Colours of the 16 pixels of the block, one array for each member of ColourSample.
+  int16_t sums[kSliceLanes], red_greens[kSliceLanes], green_blues[kSliceLanes];
+  const ColourSample* block = window + kColourReach * (stride + 1);
+  for (size_t n = 0; n < kSliceLanes; ++n) {
+    const ColourSample& sample = block[n / kColourBlock * stride + n % kColourBlock];
+    sums[n] = sample.sum;
+    red_greens[n] = sample.red_green;
+    green_blues[n] = sample.green_blue;
+  }
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
-    const auto sum = hn::LoadU(d16, own.sum + n);
-    const auto red_green = hn::LoadU(d16, own.red_green + n);
-    const auto green_blue = hn::LoadU(d16, own.green_blue + n);
+    const auto sum = hn::LoadU(d16, sums + n);
+    const auto red_green = hn::LoadU(d16, red_greens + n);
+    const auto green_blue = hn::LoadU(d16, green_blues + n);
     const ColourSample* row = window;
     for (int32_t y = 0; y < kColourWindow; ++y, row += stride) {
       const auto row_out = hn::LoadU(du16, kOut.row[y] + n);
@@ -170,7 +162,7 @@ inline void SmoothDisparity(const SmoothRows& rows, size_t count, int16_t* HWY_R
     hn::StoreU(disparity, d32, disparities);
     hn::StoreU(weight, d32, weights);
     for (size_t k = 0; k < lanes && n + k < count; ++k) {
-      smooth[n + k] = SmoothSums{disparities[k], weights[k]}.Mean();
+      smooth[n + k] = SmoothMean(disparities[k], weights[k]);
     }
   }
 }

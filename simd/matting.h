@@ -100,17 +100,13 @@ struct SmoothRows {
   int32_t tolerance;     // Largest difference of disparities within a surface.
 };
 
-// Weighted sums over the neighbours of a pixel.
-struct SmoothSums {
-  // Sum of weighted disparities, below 2^27, and sum of weights, below 2^13.
-  int32_t disparity, weights;
-
-  // Returns the mean disparity. Halves are rounded away from zero.
-  int16_t Mean() const {
-    const int32_t half = disparity < 0 ? -weights : weights;
-    return static_cast<int16_t>((2 * disparity + half) / (2 * weights));
-  }
-};
+// Returns the mean disparity over the neighbours of a pixel. `disparity` is the sum of the weighted
+// disparities, below 2^27, and `weights` is the sum of the weights, below 2^13. Halves are rounded
+// away from zero.
+inline int16_t SmoothMean(int32_t disparity, int32_t weights) {
+  const int32_t half = disparity < 0 ? -weights : weights;
+  return static_cast<int16_t>((2 * disparity + half) / (2 * weights));
+}
 
 namespace reference {
 
@@ -186,18 +182,18 @@ inline int32_t SmoothWeight(const int32_t* own, const int32_t* other, size_t pla
 STARFOCUS_REFERENCE void SmoothDisparity(const SmoothRows& rows, size_t count, int16_t* smooth) {
   for (size_t n = 0; n < count; ++n) {
     const int32_t* own = rows.own + n;
-    SmoothSums sums = {0, 0};
+    int32_t disparity = 0, weights = 0;
     for (size_t k = 0; k < rows.count; ++k) {
       for (int32_t x = -rows.radius; x <= rows.radius; x += rows.step) {
         const int32_t* other = rows.rows[k] + static_cast<ptrdiff_t>(n) + x;
         const int32_t apart = *other < *own ? *own - *other : *other - *own;
         if (apart > rows.tolerance) continue;
         const int32_t weight = SmoothWeight(own, other, rows.plane);
-        sums.disparity += weight * *other;
-        sums.weights += weight;
+        disparity += weight * *other;
+        weights += weight;
       }
     }
-    smooth[n] = sums.Mean();
+    smooth[n] = SmoothMean(disparity, weights);
   }
 }
 

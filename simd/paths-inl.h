@@ -154,17 +154,18 @@ HWY_INLINE hn::Vec<PriorTag> WayFrom(const uint8_t* from, uint8_t way) {
 // If a diagonal neighbour is missing, an adjacent neighbour with a lower step cost takes its place,
 // which does not change the result.
 template <bool kBefore>
-HWY_INLINE void SpreadPriorOf(const PriorRow& row) {
+HWY_INLINE void SpreadPriorOf(uint8_t* first, const uint8_t* first_before, size_t places,
+                              ptrdiff_t step, size_t count) {
   const PriorTag d8;
-  const ptrdiff_t next = row.step * static_cast<ptrdiff_t>(row.places);
-  for (size_t k = 0; k < row.count; ++k) {
+  const ptrdiff_t next = step * static_cast<ptrdiff_t>(places);
+  for (size_t k = 0; k < count; ++k) {
     const ptrdiff_t at = static_cast<ptrdiff_t>(k) * next;
-    uint8_t* prior = row.prior + at;
+    uint8_t* prior = first + at;
     const uint8_t* beside = k > 0 ? prior - next : prior;
-    const uint8_t* before = kBefore ? row.before + at : nullptr;
+    const uint8_t* before = kBefore ? first_before + at : nullptr;
     const uint8_t* behind = kBefore && k > 0 ? before - next : before;
-    const uint8_t* ahead = kBefore && k + 1 < row.count ? before + next : before;
-    for (size_t l = 0; l < row.places; l += hn::Lanes(d8)) {
+    const uint8_t* ahead = kBefore && k + 1 < count ? before + next : before;
+    for (size_t l = 0; l < places; l += hn::Lanes(d8)) {
       auto least = hn::Min(hn::LoadU(d8, prior + l), WayFrom(beside + l, kBesideCost));
       if (kBefore) {
         const auto diagonal = hn::Min(hn::LoadU(d8, behind + l), hn::LoadU(d8, ahead + l));
@@ -176,11 +177,12 @@ HWY_INLINE void SpreadPriorOf(const PriorRow& row) {
   }
 }
 
-inline void SpreadPrior(const PriorRow& row) {
-  if (row.before != nullptr) {
-    SpreadPriorOf<true>(row);
+inline void SpreadPrior(uint8_t* prior, const uint8_t* before, size_t places, ptrdiff_t step,
+                        size_t count) {
+  if (before != nullptr) {
+    SpreadPriorOf<true>(prior, before, places, step, count);
   } else {
-    SpreadPriorOf<false>(row);
+    SpreadPriorOf<false>(prior, before, places, step, count);
   }
 }
 

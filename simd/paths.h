@@ -54,16 +54,6 @@ struct PathRow {
 // from the labels of all trusted pixels within 8 pixels, the prior of the label is kMostPrior.
 inline constexpr uint8_t kBesideCost = 3, kDiagonalCost = 4, kMostPrior = 24;
 
-// A row of `count` pixels. Each pixel has `places` elements, one per label; `places` is a multiple
-// of kSliceLanes. Pixel k is k * step pixels after pixel 0; step is 1 or -1.
-struct PriorRow {
-  uint8_t* prior;         // In and out: priors, [0, kMostPrior].
-  const uint8_t* before;  // Finished priors of the previous row; null if there is no previous row.
-  size_t places;
-  ptrdiff_t step;
-  size_t count;
-};
-
 namespace reference {
 
 inline int Least(int a, int b) { return a < b ? a : b; }
@@ -160,17 +150,22 @@ inline void Lessen(const uint8_t* from, int way, size_t places, uint8_t* prior) 
 // previous pixel of the row and from the three adjacent pixels of the previous row. A pixel's prior
 // is at most the prior of each adjacent source pixel, plus the cost of the step from the source
 // pixel.
-STARFOCUS_REFERENCE void SpreadPrior(const PriorRow& row) {
-  const auto places = static_cast<ptrdiff_t>(row.places);
-  for (size_t k = 0; k < row.count; ++k) {
-    const ptrdiff_t at = static_cast<ptrdiff_t>(k) * row.step * places, next = row.step * places;
-    uint8_t* prior = row.prior + at;
-    if (k > 0) Lessen(prior - next, kBesideCost, row.places, prior);
-    if (row.before == nullptr) continue;
-    const uint8_t* before = row.before + at;
-    Lessen(before, kBesideCost, row.places, prior);
-    if (k > 0) Lessen(before - next, kDiagonalCost, row.places, prior);
-    if (k + 1 < row.count) Lessen(before + next, kDiagonalCost, row.places, prior);
+//
+// Each of the `count` pixels has `places` elements, one per label; `places` is a multiple of
+// kSliceLanes. Pixel k is k * step pixels after pixel 0; step is 1 or -1. Priors are in [0,
+// kMostPrior]. `before` has the finished priors of the previous row, or is null if there is no
+// previous row.
+STARFOCUS_REFERENCE void SpreadPrior(uint8_t* prior, const uint8_t* before, size_t places,
+                                     ptrdiff_t step, size_t count) {
+  const ptrdiff_t next = step * static_cast<ptrdiff_t>(places);
+  for (size_t k = 0; k < count; ++k) {
+    uint8_t* here = prior + static_cast<ptrdiff_t>(k) * next;
+    if (k > 0) Lessen(here - next, kBesideCost, places, here);
+    if (before == nullptr) continue;
+    const uint8_t* above = before + static_cast<ptrdiff_t>(k) * next;
+    Lessen(above, kBesideCost, places, here);
+    if (k > 0) Lessen(above - next, kDiagonalCost, places, here);
+    if (k + 1 < count) Lessen(above + next, kDiagonalCost, places, here);
   }
 }
 

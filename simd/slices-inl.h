@@ -55,10 +55,11 @@ HWY_INLINE void StoreNothing(size_t plane, int16_t* HWY_RESTRICT out) {
 // apart.
 
 // Selects a vector of pixels that are fully covered by their first surface. The first pixel is n.
-HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size_t n, size_t plane,
-                            size_t count, int16_t* HWY_RESTRICT out, GroupCover& cover) {
+HWY_INLINE void SelectFirst(const SurfaceRow& row, int16_t least, int16_t most, size_t n,
+                            size_t plane, size_t count, int16_t* HWY_RESTRICT out,
+                            GroupCover& cover) {
   const LanesTag d16;
-  const auto low = hn::Set(d16, range.low), overlap = hn::Set(d16, range.overlap);
+  const auto low = hn::Set(d16, least), overlap = hn::Set(d16, most);
   const auto found = LiesIn(row.disparity[0] + n, low, overlap);
   if (hn::AllFalse(d16, found)) {
     StoreNothing(plane, out + n);
@@ -74,11 +75,12 @@ HWY_INLINE void SelectFirst(const SurfaceRow& row, const SliceRange& range, size
 }
 
 // Selects a vector of pixels, considering all surfaces. The first pixel is n.
-HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t n, size_t plane,
-                          size_t count, int16_t* HWY_RESTRICT out, GroupCover& cover) {
+HWY_INLINE void SelectAny(const SurfaceRow& row, int16_t least, int16_t most, int16_t overlapping,
+                          size_t n, size_t plane, size_t count, int16_t* HWY_RESTRICT out,
+                          GroupCover& cover) {
   const LanesTag d16;
-  const auto low = hn::Set(d16, range.low), high = hn::Set(d16, range.high);
-  const auto overlap = hn::Set(d16, range.overlap);
+  const auto low = hn::Set(d16, least), high = hn::Set(d16, most);
+  const auto overlap = hn::Set(d16, overlapping);
   const auto pixel = hn::Set(d16, kSliceWhole);
   const auto nearest = LiesIn(row.disparity[0] + n, low, overlap);
   const auto next = LiesIn(row.disparity[1] + n, low, overlap);
@@ -118,8 +120,8 @@ HWY_INLINE void SelectAny(const SurfaceRow& row, const SliceRange& range, size_t
   hn::StoreU(covered, d16, to + 3 * plane);
 }
 
-inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, size_t count,
-                              size_t plane, int16_t* HWY_RESTRICT out) {
+inline SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high, int16_t overlap,
+                              size_t count, size_t plane, int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
   const size_t lanes = hn::Lanes(d16);
   SliceCover cover = {0, 0};
@@ -128,11 +130,11 @@ inline SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range, si
     GroupCover group;
     if ((row.hiding & bit) == 0) {  // Most groups have one surface per pixel.
       for (size_t n = strip; n < strip + kSliceLanes; n += lanes) {
-        SelectFirst(row, range, n, plane, count, out, group);
+        SelectFirst(row, low, overlap, n, plane, count, out, group);
       }
     } else {
       for (size_t n = strip; n < strip + kSliceLanes; n += lanes) {
-        SelectAny(row, range, n, plane, count, out, group);
+        SelectAny(row, low, high, overlap, n, plane, count, out, group);
       }
     }
     if (group.some) cover.some |= bit;

@@ -32,14 +32,6 @@ struct SurfaceRow {
   uint64_t hiding;
 };
 
-// Range of the disparities of a slice. The slice contains the disparities in [low, high], and the
-// overlap, which is the disparities above `high` up to `overlap`. A first surface that ends at a
-// pixel, or that covers only a part of the pixel, is excluded from the overlap. Without this
-// exclusion, the surface would be in two slices, and its coverage would count twice.
-struct SliceRange {
-  int16_t low, high, overlap;
-};
-
 // Coverage of up to 64 groups of kSliceLanes samples of a row. Bit c of `some` is set if the slice
 // covers any pixel of group c. Bit c of `all` is set if the slice completely covers all pixels of
 // group c.
@@ -58,14 +50,21 @@ inline constexpr int32_t kMaxSpread = 3;
 
 namespace reference {
 
-// Selects the surfaces in the range, for each pixel n < count. A first surface in the range
-// contributes its light times its share. The next surface in the range contributes its light times
-// the rest of the pixel. The fourth output plane is the sum of the coverage of all selected
-// surfaces. All outputs are zero if no surface is in the range. If both surfaces share a pixel, the
-// contribution of the first surface is rounded half up. Whole groups of kSliceLanes are read and
-// written; `count` is at most 64 groups. Returns the coverage of each group.
-STARFOCUS_REFERENCE SliceCover SelectSlice(const SurfaceRow& row, const SliceRange& range,
-                                           size_t count, size_t plane, int16_t* out) {
+// Selects the surfaces of a slice, for each pixel n < count. The slice contains the disparities in
+// [low, high], and the overlap, which is the disparities above `high` up to `overlap`. A first
+// surface that ends at a pixel, or that covers only a part of the pixel, is excluded from the
+// overlap. Without this exclusion, the surface would be in two slices, and its coverage would count
+// twice.
+//
+// A first surface of the slice contributes its light times its share. The next surface of the slice
+// contributes its light times the rest of the pixel. The fourth output plane is the sum of the
+// coverage of all selected surfaces. All outputs are zero if the slice contains no surface. If both
+// surfaces share a pixel, the contribution of the first surface is rounded half up. Whole groups of
+// kSliceLanes are read and written; `count` is at most 64 groups. Returns the coverage of each
+// group.
+STARFOCUS_REFERENCE SliceCover SelectSlice(const SurfaceRow& row, int16_t low, int16_t high,
+                                           int16_t overlap, size_t count, size_t plane,
+                                           int16_t* out) {
   SliceCover cover = {0, 0};
   for (size_t strip = 0; strip < count; strip += kSliceLanes) {
     const uint64_t bit = uint64_t{1} << (strip / kSliceLanes);
@@ -74,8 +73,8 @@ STARFOCUS_REFERENCE SliceCover SelectSlice(const SurfaceRow& row, const SliceRan
       const bool hiding = (row.hiding & bit) != 0;
       const auto inside = [&](int surface) {
         const bool end = hiding && surface == 0 && row.share[n] != kSliceWhole;
-        return row.disparity[surface][n] >= range.low &&
-               row.disparity[surface][n] <= (end ? range.high : range.overlap);
+        return row.disparity[surface][n] >= low &&
+               row.disparity[surface][n] <= (end ? high : overlap);
       };
       int next = hiding ? 1 : kSurfaces;
       while (next < kSurfaces && !inside(next)) ++next;

@@ -56,17 +56,18 @@ class HiddenFiller {
 
   void TakeRow(int32_t y) {
     const size_t at = surfaces_.At(0, y);
-    simd::SourcedRow row = {};
+    simd::SurfaceRow row = {};
+    const uint16_t* source[simd::kSurfaces - 1];
     for (int k = 0; k < simd::kSurfaces; ++k) {
-      row.surfaces.disparity[k] = surfaces_.disparity[k] + at;
-      row.surfaces.rgb[k] = surfaces_.rgb[k] + at;
-      if (k > 0) row.source[k - 1] = surfaces_.sources[k - 1] + at;
+      row.disparity[k] = surfaces_.disparity[k] + at;
+      row.rgb[k] = surfaces_.rgb[k] + at;
+      if (k > 0) source[k - 1] = surfaces_.sources[k - 1] + at;
     }
-    row.surfaces.share = surfaces_.share + at;
-    row.surfaces.plane = surfaces_.plane;
-    row.surfaces.hiding = surfaces_.hiding[y];
+    row.share = surfaces_.share + at;
+    row.plane = surfaces_.plane;
+    row.hiding = surfaces_.hiding[y];
     const int32_t farthest =
-        kernels_.TakeFarthest(row, static_cast<size_t>(surfaces_.width), FarOf(y));
+        kernels_.TakeFarthest(row, source, static_cast<size_t>(surfaces_.width), FarOf(y));
     Separate(RowAt(y));
     scratch_.farthest[y] = static_cast<uint8_t>(farthest);
   }
@@ -137,16 +138,14 @@ class HiddenFiller {
     int16_t* const row = Colours(y);
     int16_t* const here = Saved(y, step);
     std::memcpy(here, row, 3 * stride_ * sizeof(*row));
-    simd::FarRows rows = {};
-    rows.disparity[0] = scratch_.disparity + RowAt(above) + Column(0);
-    rows.disparity[1] = scratch_.disparity + RowAt(y) + Column(0);
-    rows.disparity[2] = scratch_.disparity + RowAt(next) + Column(0);
-    rows.rgb[0] = (Takes(above, step) ? Saved(above, step) : Colours(above)) + Column(0);
-    rows.rgb[1] = here + Column(0);
-    rows.rgb[2] = (next == y ? here : Colours(next)) + Column(0);
-    rows.source = scratch_.source + RowAt(y) + Column(0);
-    rows.plane = stride_;
-    kernels_.SmoothFar(rows, unit_, step, static_cast<size_t>(surfaces_.width), row + Column(0));
+    const int16_t* const first = scratch_.disparity + Column(0);
+    const int16_t* const disparity[3] = {first + RowAt(above), first + RowAt(y),
+                                         first + RowAt(next)};
+    const int16_t* const rgb[3] = {
+        (Takes(above, step) ? Saved(above, step) : Colours(above)) + Column(0), here + Column(0),
+        (next == y ? here : Colours(next)) + Column(0)};
+    kernels_.SmoothFar(disparity, rgb, stride_, scratch_.source + RowAt(y) + Column(0), unit_, step,
+                       static_cast<size_t>(surfaces_.width), row + Column(0));
   }
 
   const simd::Kernels& kernels_;

@@ -230,10 +230,9 @@ class SurfaceFinder {
   }
 
   void FindEdgesOfColumns(int32_t y, int32_t beside, int side) {
-    const simd::EdgeLimits limits = {static_cast<int16_t>(step_), kDisparityBits + layer_};
-    const simd::EdgeRows rows = {Row(y), Row(beside), surfaces_.moved, surfaces_.behind,
-                                 Edges(side, y)};
-    kernels_.FindEdges(rows, limits, static_cast<size_t>(surfaces_.width));
+    kernels_.FindEdges(Row(y), Row(beside), static_cast<int16_t>(step_), kDisparityBits + layer_,
+                       static_cast<size_t>(surfaces_.width), surfaces_.moved, surfaces_.behind,
+                       Edges(side, y));
   }
 
   void FindRow(int32_t y) {
@@ -269,13 +268,13 @@ class SurfaceFinder {
   // a disparity step, the function inserts a copy of the pixel with the far side's disparity. With
   // these copies, the surface stays closed, however its slices move.
   void CloseRow(int32_t y) {
-    const simd::CopyLimits limits = {static_cast<int16_t>(kLeastCopy << layer_),
-                                     static_cast<int16_t>(kMostCopy << layer_)};
     const size_t at = surfaces_.At(0, y);
     // The array `moved` can be reused, because FindEdges no longer needs its content.
     int16_t* const copies = surfaces_.moved;
-    uint64_t strips = kernels_.FindCopies(Row(y), surfaces_.stride,
-                                          static_cast<size_t>(surfaces_.width), limits, copies);
+    uint64_t strips =
+        kernels_.FindCopies(Row(y), surfaces_.stride, static_cast<size_t>(surfaces_.width),
+                            static_cast<int16_t>(kLeastCopy << layer_),
+                            static_cast<int16_t>(kMostCopy << layer_), copies);
     copies[0] = copies[surfaces_.width - 1] = kNoSurface;
     for (int32_t x = 0; strips != 0; strips >>= 1, x += kStripColumns) {
       if ((strips & 1) == 0) continue;

@@ -100,7 +100,7 @@ simd::SliceCover SelectRow(const simd::Kernels& kernels, const LayeredDepth& sur
     from.rgb[k] = surfaces.rgb[k] + at;
   }
   const simd::SliceCover cover =
-      kernels.SelectSlice(from, {slice.low, slice.high, slice.overlap},
+      kernels.SelectSlice(from, slice.low, slice.high, slice.overlap,
                           static_cast<size_t>(last - first), plane, row + first);
   ClearTail(static_cast<size_t>(width), plane, row);
   if (last - first == width) return cover;

@@ -112,7 +112,7 @@ TEST_CASE(
   uint8_t row[2][3][16];
   std::fill_n(row[0][0], sizeof(row), uint8_t{kMostPrior});
   row[0][1][7] = 0;  // cost 0 at label 7 of the previous row's middle pixel
-  ReferenceDepthKernels().SpreadPrior({row[1][2], row[0][2], 16, -1, 3});
+  ReferenceDepthKernels().SpreadPrior(row[1][2], row[0][2], 16, -1, 3);
   CHECK(int(row[1][2][7]) == 4);
   CHECK(int(row[1][1][7]) == 3);
   CHECK(int(row[1][0][7]) == 4);

@@ -51,21 +51,22 @@ FarRow OutputOf(size_t whole, Draw* draw, KernelCall* call) {
 
 void TakeFarthest(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedWidth), whole = SliceSamples(count);
-  SourcedRow row = {};
-  row.surfaces.plane = whole;
-  row.surfaces.hiding = draw->Next() & ((uint64_t{1} << whole / kSliceLanes) - 1);
+  SurfaceRow row = {};
+  const uint16_t* source[kSurfaces - 1];
+  row.plane = whole;
+  row.hiding = draw->Next() & ((uint64_t{1} << whole / kSliceLanes) - 1);
   constexpr const char* kNames[3] = {"first", "second", "third"};
   std::vector<int16_t> disparity = Disparities(whole, draw);
   for (int k = 0; k < kSurfaces; ++k) {
     if (k > 0) disparity = Behind(disparity, draw);
-    row.surfaces.disparity[k] = call->Input(kNames[k], disparity);
-    row.surfaces.rgb[k] = call->Input("rgb", Light(3 * whole, draw));
-    if (k > 0) row.source[k - 1] = call->Input("source", AnySources(whole, draw));
+    row.disparity[k] = call->Input(kNames[k], disparity);
+    row.rgb[k] = call->Input("rgb", Light(3 * whole, draw));
+    if (k > 0) source[k - 1] = call->Input("source", AnySources(whole, draw));
   }
-  row.surfaces.share = call->Input("share", Shares(whole, draw));
+  row.share = call->Input("share", Shares(whole, draw));
   const FarRow far = OutputOf(whole, draw, call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    return uint64_t(kernels.TakeFarthest(row, count, far));
+    return uint64_t(kernels.TakeFarthest(row, source, count, far));
   };
   call->is_right = [=](uint64_t returned, Met* met) {
     int most = 0;
@@ -73,9 +74,8 @@ void TakeFarthest(Draw* draw, KernelCall* call) {
       const int distance = far.source[n] >> kSourceDistance;
       most = std::max(most, distance);
       (*met)["repeated"] += distance != 0;
-      (*met)["hidden"] += far.disparity[n] < row.surfaces.disparity[0][n];
-      return far.disparity[n] <= row.surfaces.disparity[0][n] &&
-             (distance != 0) == (far.source[n] != 0);
+      (*met)["hidden"] += far.disparity[n] < row.disparity[0][n];
+      return far.disparity[n] <= row.disparity[0][n] && (distance != 0) == (far.source[n] != 0);
     });
     return right && returned == uint64_t(most);
   };
@@ -88,24 +88,25 @@ void SmoothFar(Draw* draw, KernelCall* call) {
   const size_t row = whole + 2 * kSliceLanes;
   const int32_t step = 1 << draw->Int(0, 4);
   const auto unit = int16_t(64 << draw->Int(0, 2));
-  FarRows rows = {};
-  rows.plane = row;
+  const int16_t *disparity[3], *rgb[3];
   for (int k = 0; k < 3; ++k) {
-    std::vector<int16_t> disparity = Disparities(row, draw);
-    for (int16_t& value : disparity) {
+    std::vector<int16_t> values = Disparities(row, draw);
+    for (int16_t& value : values) {
       if (draw->Int(0, 9) == 0) value = kNoSurface;
     }
-    rows.disparity[k] = call->Input("disparity", disparity) + kSliceLanes;
-    rows.rgb[k] = call->Input("rgb", Light(3 * row, draw)) + kSliceLanes;
+    disparity[k] = call->Input("disparity", values) + kSliceLanes;
+    rgb[k] = call->Input("rgb", Light(3 * row, draw)) + kSliceLanes;
   }
-  rows.source = call->Input("source", AnySources(whole, draw));
+  const uint16_t* source = call->Input("source", AnySources(whole, draw));
   auto* out = call->Output<int16_t>("out", 3 * row);
   std::fill_n(out, 3 * row, int16_t{77});
   call->ResultRows(out, 3, row, whole);
-  call->Runs([=](const Kernels& kernels) { kernels.SmoothFar(rows, unit, step, count, out); });
+  call->Runs([=](const Kernels& kernels) {
+    kernels.SmoothFar(disparity, rgb, row, source, unit, step, count, out);
+  });
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(whole, [&](size_t n) {
-      const bool takes = 2 * (rows.source[n] >> kSourceDistance) >= step;
+      const bool takes = 2 * (source[n] >> kSourceDistance) >= step;
       ++(*met)[takes ? "smoothed" : "left"];
       return takes || out[n] == 77;
     });

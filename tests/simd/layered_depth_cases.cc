@@ -40,8 +40,9 @@ void Split(Draw* draw, KernelCall* call) {
 void FindEdges(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 50, kTimedFieldWidth), whole = SliceSamples(count);
   const size_t rows = draw->Size(2, 20, kTimedSamples / kTimedFieldWidth + 1);
-  const EdgeLimits limits = {draw->Rarely(2) ? int16_t(draw->Int(1, 300)) : kStep, draw->Int(6, 8)};
-  const int16_t* disparity = call->Input("disparity", MovedRows(rows, whole, limits.step, draw));
+  const int16_t step = draw->Rarely(2) ? int16_t(draw->Int(1, 300)) : kStep;
+  const int unit_bits = draw->Int(6, 8);
+  const int16_t* disparity = call->Input("disparity", MovedRows(rows, whole, step, draw));
   auto* moved = call->Results<int16_t>("moved", whole);
   auto* behind = call->Results<int16_t>("behind", whole);
   auto* distance = call->Results<uint8_t>("distance", (rows - 1) * whole);
@@ -50,7 +51,7 @@ void FindEdges(Draw* draw, KernelCall* call) {
     for (size_t row = 1; row < rows; ++row) {
       const int16_t* near = disparity + row * whole;
       uint8_t* distances = distance + (row - 1) * whole;
-      kernels.FindEdges({near, near - whole, moved, behind, distances}, limits, count);
+      kernels.FindEdges(near, near - whole, step, unit_bits, count, moved, behind, distances);
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
@@ -85,13 +86,13 @@ void FindCopies(Draw* draw, KernelCall* call) {
   std::vector<int16_t> disparities = Disparities((rows + 2) * stride, draw);
   for (int16_t& d : disparities) d = int16_t(std::clamp(d + draw->Int(-9, 9), -32000, 32000));
   const int16_t* field = call->Input("field", disparities, kPadding);
-  const CopyLimits limits = {int16_t(draw->Int(1, 20)), int16_t(draw->Int(20, 100))};
+  const auto least = int16_t(draw->Int(1, 20)), most = int16_t(draw->Int(20, 100));
   auto* copies = call->Results<int16_t>("copies", rows * samples);
   auto* strips = call->Results<uint64_t>("strips", rows);
   const int16_t* first = field + stride + 1;
   call->Runs([=](const Kernels& kernels) {
     for (size_t y = 0; y < rows; ++y) {
-      strips[y] = kernels.FindCopies(first + y * stride, ptrdiff_t(stride), count, limits,
+      strips[y] = kernels.FindCopies(first + y * stride, ptrdiff_t(stride), count, least, most,
                                      copies + y * samples);
     }
   });
@@ -102,7 +103,7 @@ void FindCopies(Draw* draw, KernelCall* call) {
       int expected = kNoSurface;
       for (const int16_t next : {at[-1], at[1], *(at - stride), at[stride]}) {
         const int step = *at - next;
-        if (n >= count || step < limits.least || step > limits.most) continue;
+        if (n >= count || step < least || step > most) continue;
         expected = expected == kNoSurface ? next : std::min<int>(expected, next);
       }
       (*met)["copies"] += expected != kNoSurface;

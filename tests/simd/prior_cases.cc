@@ -15,17 +15,16 @@ std::vector<uint8_t> Priors(size_t count, Draw* draw) {
 void SpreadPrior(Draw* draw, DepthCall* call) {
   const size_t places = kSliceLanes * draw->Size(1, 4, 4), count = draw->Length(1, 40, 200);
   const size_t size = places * count;
-  PriorRow row = {};
-  row.places = places;
-  row.count = count;
-  row.step = draw->Int(0, 1) == 0 ? 1 : -1;
-  const size_t first = row.step > 0 ? 0 : size - places;
+  const ptrdiff_t step = draw->Int(0, 1) == 0 ? 1 : -1;
+  const size_t first = step > 0 ? 0 : size - places;
   auto* prior = call->Results<uint8_t>("prior", size);
   const std::vector<uint8_t> own = Priors(size, draw);
   std::copy(own.begin(), own.end(), prior);
-  row.prior = prior + first;
-  if (!draw->Rarely(4)) row.before = call->Input("before", Priors(size, draw)) + first;
-  call->Runs([=](const DepthKernels& kernels) { kernels.SpreadPrior(row); });
+  const uint8_t* before = nullptr;
+  if (!draw->Rarely(4)) before = call->Input("before", Priors(size, draw)) + first;
+  call->Runs([=](const DepthKernels& kernels) {
+    kernels.SpreadPrior(prior + first, before, places, step, count);
+  });
   // SpreadPrior must not increase the cost of any label.
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(size, [&](size_t k) {

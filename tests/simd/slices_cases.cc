@@ -52,14 +52,15 @@ void SelectSlice(Draw* draw, KernelCall* call) {
   const size_t plane = whole + draw->Size(0, 20, 0);
   const SurfaceRow row = MakeSurfaces(count, draw, call);
   const int middle = row.disparity[0][count / 2], more = draw->Int(0, 400);
-  const SliceRange range = {int16_t(std::max(-32700, middle - more)),
-                            int16_t(std::min(32700, middle + more / 2)),
-                            int16_t(std::min(32700, middle + more))};
+  const auto low = int16_t(std::max(-32700, middle - more));
+  const auto high = int16_t(std::min(32700, middle + more / 2));
+  const auto overlap = int16_t(std::min(32700, middle + more));
   auto* out = call->Output<int16_t>("out", 3 * plane + whole);
   call->ResultRows(out, 4, plane, count, whole - count);
   auto* cover = call->Results<SliceCover>("cover", 1);
-  call->Runs(
-      [=](const Kernels& kernels) { *cover = kernels.SelectSlice(row, range, count, plane, out); });
+  call->Runs([=](const Kernels& kernels) {
+    *cover = kernels.SelectSlice(row, low, high, overlap, count, plane, out);
+  });
   call->is_right = [=](uint64_t, Met* met) {
     SliceCover expected = {0, (uint64_t{1} << whole / kSliceLanes) - 1};
     for (size_t n = 0; n < count; ++n) {
