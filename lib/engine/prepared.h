@@ -1,17 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prepared light field, which stores data that do not depend on the lens. The data are checked and
-// converted disparities, the layers of the centre view, and reduced light fields.
+// Prepared light field, which stores data that do not depend on the lens: checked and converted
+// disparities, the layers of the centre view, and copies of the light field at 1/2, 1/4 and 1/8 of
+// its size, for previews.
 #ifndef STARFOCUS_LIB_ENGINE_PREPARED_H_
 #define STARFOCUS_LIB_ENGINE_PREPARED_H_
 
 #include <cstddef>
+#include <cstdint>
 
+#include "lib/base/arena.h"
 #include "lib/base/geometry.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
-#include "lib/engine/reduced.h"
 
 namespace starfocus {
+
+inline constexpr int kMaxReduction = 3;  // largest shift
+
+// Returns the width or height of a reduced picture.
+constexpr int32_t ReducedSize(int32_t size, int shift) {
+  return (size + (1 << shift) - 1) >> shift;
+}
+
+// Returns the rectangle of reduced pixels that overlap `rect`.
+Rect ReducedRect(const Rect& rect, int shift);
+
+// Computes the mean light of blocks of pixels, rounded half up. `sums` contains the sums of `rows`
+// rows of light: one RGB sum for each of `columns` columns.
+void MeanOfBlocks(const uint32_t* sums, int32_t columns, int32_t rows, int shift, int16_t* light);
+
+// Returns the median of `count` values; `count` is at most 4^kMaxReduction. For an even count, the
+// median is the larger of the two middle values. The median of disparities therefore always lies on
+// a surface, not between two surfaces.
+int16_t MedianOf(const int16_t* values, int32_t count);
+
+// Converts a disparity to pixels of the reduced picture, rounded half up.
+constexpr int16_t ReducedDisparity(int16_t disparity, int shift) {
+  return static_cast<int16_t>((disparity + (1 << shift >> 1)) >> shift);
+}
+
+static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction,
+              "each preview size must be a supported size of reduced light fields");
+
+struct ReducedField {
+  Plane<uint8_t> views[kMaxViews];  // 8-bit samples (codes) of all rows.
+  Plane<int16_t> disparity;  // In fixed point (kDisparityBits), in pixels of the reduced picture.
+  Plane<uint8_t> coverage;   // Null: the configuration has no coverage.
+};
+
+// Returns the configuration of an engine for a light field of `config` at 1/2^shift of its size.
+starfocus_config ReducedConfig(const starfocus_config& config, int shift);
+
+void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field);
+
+// Reduces rows [rows.first, rows.last) of the engine's input to 1/2^shift of
+// its size, for each shift from 1 to `previews`. Writes the results to fields[shift]. Reads
+// disparities from `disparity`. rows.first and rows.last must be multiples of the superblock size;
+// rows.last may also be the height of the picture.
+starfocus_status ReduceRows(const Plane<int16_t>& disparity, const Range& rows, int32_t previews,
+                            const ReducedField* fields, EngineState* engine);
 
 struct Prepared {
   // Allocator and size of the memory; `release` is null if the memory belongs to the caller.

@@ -12,7 +12,6 @@
 #include "lib/engine/engine.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/prepared.h"
-#include "lib/engine/reduced.h"
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
 #include "tests/support/test_scene.h"
