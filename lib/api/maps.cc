@@ -8,8 +8,7 @@
 #include "lib/base/fixed.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/lens.h"
-#include "lib/io/depth_values.h"
-#include "lib/io/gaps.h"
+#include "lib/io/depth_map.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -7,7 +7,7 @@
 
 #include "lib/api/validate.h"
 #include "lib/engine/lens.h"
-#include "lib/io/depth_rows.h"
+#include "lib/io/depth_map.h"
 #include "lib/io/matte_rows.h"
 #include "lib/matting/matte_coverage.h"
 

@@ -4,7 +4,7 @@
 #include "lib/api/call.h"
 #include "lib/api/preview.h"
 #include "lib/api/validate.h"
-#include "lib/io/rows.h"
+#include "lib/io/image.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -3,10 +3,8 @@
 
 #include "lib/base/features.h"
 #include "lib/engine/engine.h"
-#include "lib/io/depth_values.h"
-#include "lib/io/gaps.h"
-#include "lib/io/image_planes.h"
-#include "lib/io/rows.h"
+#include "lib/io/depth_map.h"
+#include "lib/io/image.h"
 #include "lib/optics/view_set.h"
 
 namespace starfocus {

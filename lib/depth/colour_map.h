@@ -12,7 +12,7 @@
 #include "lib/base/fixed.h"
 #include "lib/depth/maps.h"
 #include "lib/depth/setup.h"
-#include "lib/io/rows.h"
+#include "lib/io/image.h"
 #include "simd/depth_kernels.h"
 #include "simd/matting.h"
 

@@ -5,9 +5,8 @@
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/depth/maps.h"
-#include "lib/io/depth_rows.h"
-#include "lib/io/image_rows.h"
-#include "lib/io/rows.h"
+#include "lib/io/depth_map.h"
+#include "lib/io/image.h"
 
 namespace starfocus {
 namespace {

@@ -7,7 +7,7 @@
 #include "lib/depth/maps.h"
 #include "lib/depth/sweep.h"
 #include "lib/depth/tile_views.h"
-#include "lib/io/rows.h"
+#include "lib/io/image.h"
 #include "simd/disparities.h"
 
 namespace starfocus {

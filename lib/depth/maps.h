@@ -18,7 +18,7 @@
 #include "lib/base/jobs.h"
 #include "lib/depth/setup.h"
 #include "lib/depth/thin_cells.h"
-#include "lib/io/rows.h"
+#include "lib/io/depth_map.h"
 #include "simd/depth_kernels.h"
 #include "simd/match.h"
 #include "starfocus/depth.h"

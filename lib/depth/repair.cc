@@ -9,7 +9,7 @@
 #include "lib/depth/sweep.h"
 #include "lib/depth/swept.h"
 #include "lib/depth/thin_cells.h"
-#include "lib/io/rows.h"
+#include "lib/io/image.h"
 #include "simd/disparities.h"
 
 namespace starfocus {

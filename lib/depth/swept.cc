@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
-#include "lib/io/rows.h"
+#include "lib/io/image.h"
 #include "simd/disparities.h"
 #include "simd/match.h"
 

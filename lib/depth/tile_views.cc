@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "lib/base/fixed.h"
-#include "lib/io/rows.h"
+#include "lib/io/image.h"
 
 namespace starfocus {
 namespace {

@@ -8,7 +8,7 @@
 #include "lib/base/problem.h"
 #include "lib/engine/jobs.h"
 #include "lib/engine/stripe.h"
-#include "lib/io/rows.h"
+#include "lib/io/image.h"
 #include "simd/depth_values.h"
 
 namespace starfocus {

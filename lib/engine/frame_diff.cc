@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
-#include "lib/io/gaps.h"
-#include "lib/io/rows.h"
+#include "lib/io/depth_map.h"
+#include "lib/io/image.h"
 
 namespace starfocus {
 namespace {

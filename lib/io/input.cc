@@ -5,8 +5,8 @@
 #include <initializer_list>
 
 #include "lib/base/features.h"
-#include "lib/io/gaps.h"
-#include "lib/io/rows.h"
+#include "lib/io/depth_map.h"
+#include "lib/io/image.h"
 
 namespace starfocus {
 namespace {

@@ -4,7 +4,7 @@
 #define STARFOCUS_LIB_IO_OUTPUT_H_
 
 #include "lib/base/jobs.h"
-#include "lib/io/image_rows.h"
+#include "lib/io/image.h"
 
 namespace starfocus {
 

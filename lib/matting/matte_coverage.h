@@ -5,7 +5,7 @@
 #ifndef STARFOCUS_LIB_MATTING_MATTE_COVERAGE_H_
 #define STARFOCUS_LIB_MATTING_MATTE_COVERAGE_H_
 
-#include "lib/io/depth_rows.h"
+#include "lib/io/depth_map.h"
 #include "starfocus/matte.h"
 
 namespace starfocus {

@@ -5,7 +5,7 @@
 
 #include "examples/lab/lab_config.h"
 #include "lib/engine/stripe.h"
-#include "lib/io/depth_rows.h"
+#include "lib/io/depth_map.h"
 #include "platform/clock.h"
 #include "platform/file.h"
 

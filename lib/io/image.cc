@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/io/image_rows.h"
+#include "lib/io/image.h"
 
 #include <cstring>
 
