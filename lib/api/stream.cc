@@ -96,7 +96,7 @@ starfocus_status PushRows(const Input& from, int32_t rows, int32_t unit, EngineS
   const bool covers = from.given_coverage.data != nullptr;
   if (stream.pushed == 0) {
     stream.covers = covers;
-    Plane<uint8_t> views[kMaxViews];
+    Plane<uint8_t> views[STARFOCUS_MAX_VIEWS];
     for (int view = 0; view < engine->config.views; ++view) views[view] = rings.View(view);
     engine->input = InputOf(engine->config, *engine->kernels, views, rings.disparity,
                             covers ? rings.coverage : Plane<uint8_t>());

@@ -43,7 +43,7 @@ static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction,
               "each preview size must be a supported size of reduced light fields");
 
 struct ReducedField {
-  Plane<uint8_t> views[kMaxViews];  // 8-bit samples (codes) of all rows.
+  Plane<uint8_t> views[STARFOCUS_MAX_VIEWS];  // 8-bit samples (codes) of all rows.
   Plane<int16_t> disparity;  // In fixed point (kDisparityBits), in pixels of the reduced picture.
   Plane<uint8_t> coverage;   // Null: the configuration has no coverage.
 };

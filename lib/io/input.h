@@ -27,7 +27,7 @@ struct LampRuns;
 struct InputRings {
   // Codes, with the number of rows of `disparity`. With streaming: pushed rows of all views. With
   // images: converted rows of the centre view.
-  uint8_t* views[kMaxViews] = {};
+  uint8_t* views[STARFOCUS_MAX_VIEWS] = {};
   Plane<int16_t> disparity;        // Converted rows of the disparity map, kDisparityBits.
   Plane<uint8_t> coverage, alpha;  // With streaming: pushed rows; the alpha of the centre view.
   uint32_t* columns = nullptr;     // With images: see DepthSource::columns.
@@ -74,7 +74,7 @@ struct Input {
 
   // Rows of the views. Row 0 of `images` is row `first` of the picture. If `centre` is a ring,
   // packed views are rings with the same number of rows.
-  ImageSource images[kMaxViews] = {};
+  ImageSource images[STARFOCUS_MAX_VIEWS] = {};
   int32_t first = 0;
   Plane<const uint8_t> centre;   // Codes of the centre view.
   bool converts_centre = false;  // True: ReadView must fill `centre` before its rows are read.

@@ -9,7 +9,7 @@ namespace starfocus {
 namespace {
 
 constexpr int16_t kOne = kViewOne, kHalf = kViewOne / 2;
-constexpr ViewPosition kStar[kMaxViews] = {
+constexpr ViewPosition kStar[STARFOCUS_MAX_VIEWS] = {
     {0, 0},        {kOne, 0},      {-kOne, 0},      {0, kOne},       {0, -kOne},       {kOne, kOne},
     {-kOne, kOne}, {kOne, -kOne},  {-kOne, -kOne},  {kHalf, 0},      {-kHalf, 0},      {0, kHalf},
     {0, -kHalf},   {kHalf, kHalf}, {-kHalf, kHalf}, {kHalf, -kHalf}, {-kHalf, -kHalf},

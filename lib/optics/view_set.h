@@ -10,8 +10,6 @@
 
 namespace starfocus {
 
-inline constexpr int kMaxViews = STARFOCUS_MAX_VIEWS;
-
 // Directions from a pixel in which surfaces may be hidden.
 inline constexpr int kSideCount = 4;
 inline constexpr int8_t kSides[kSideCount][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
@@ -45,7 +43,7 @@ struct OcclusionViews {
 struct ViewSet {
   int32_t count = 0;
   bool star = false;  // true if the views have the positions that starfocus_view_position returns
-  ViewPosition at[kMaxViews] = {};
+  ViewPosition at[STARFOCUS_MAX_VIEWS] = {};
 };
 
 // Returns the position of view `index` in the standard layout of 1, 5, 9 or 17 views.

@@ -60,7 +60,7 @@ void BlockBench::HoldDisparity() {
   ReadDepth(simd::BestImageKernels(), {given, rule, map.width, map.height, nullptr},
             {0, 0, map.width, map.height}, disparity);
   // The engine only reads the pixels.
-  Plane<uint8_t> views[kMaxViews];
+  Plane<uint8_t> views[STARFOCUS_MAX_VIEWS];
   for (size_t i = 0; i < light_field_->views.size(); ++i) {
     const Image& view = light_field_->views[i];
     views[i] = {const_cast<uint8_t*>(view.pixels.data()), view.stride(), 0, 0};
