@@ -19,25 +19,25 @@ size_t SizeOf(const starfocus_config& config, Checker* check) {
 
 // Checks the memory for a prepared light field, which must not overlap the light field or the
 // workspace.
-starfocus_status CheckPreparedMemory(const EngineState& engine, const PrepareCall& call,
+starfocus_status CheckPreparedMemory(const EngineState& engine, const void* memory, size_t bytes,
                                      const starfocus_light_field& light_field) {
   Checker check(engine.config.problem);
   const size_t needed = SizeOf(engine.config, &check);
-  CheckMemory("memory", call.memory, call.bytes, needed, &check);
+  CheckMemory("memory", memory, bytes, needed, &check);
   Extents read;
   AddLightField(engine.config, light_field, &read);
   read.Add(Workspace(engine));
-  check.Apart(ExtentOf(call.memory, 0, 1, needed), read, "memory");
+  check.Apart(ExtentOf(memory, 0, 1, needed), read, "memory");
   return check.status();
 }
 
-// Prepares a light field, which CheckLightField has accepted, in the memory of `call`.
-starfocus_status PrepareIn(const PrepareCall& call, const starfocus_light_field& light_field,
+// Prepares a light field, which CheckLightField has accepted, in `memory`.
+starfocus_status PrepareIn(void* memory, size_t bytes, const starfocus_light_field& light_field,
                            EngineState* engine, Prepared** prepared) {
-  const starfocus_status fits = CheckPreparedMemory(*engine, call, light_field);
+  const starfocus_status fits = CheckPreparedMemory(*engine, memory, bytes, light_field);
   if (fits != STARFOCUS_OK) return fits;
   engine->input = InputOf(engine->config, *engine->kernels, light_field, 0, &engine->rings);
-  const starfocus_status status = Prepare(call, engine, prepared);
+  const starfocus_status status = Prepare(memory, engine, prepared);
   if (status != STARFOCUS_OK) {
     return TellPlace(Checker(&engine->problem).Add(status), light_field.depth, 0, &engine->problem);
   }
@@ -54,7 +54,7 @@ starfocus_status PrepareAllocated(const starfocus_light_field& light_field, Engi
   if (!check.passed()) return check.status();
   void* const memory = allocator.allocate(allocator.data, bytes, STARFOCUS_ALIGNMENT);
   if (memory == nullptr) return check.Add(STARFOCUS_ERROR_MEMORY);
-  const starfocus_status status = PrepareIn({memory, bytes}, light_field, engine, prepared);
+  const starfocus_status status = PrepareIn(memory, bytes, light_field, engine, prepared);
   if (status == STARFOCUS_OK) {
     (*prepared)->allocator = allocator;
     (*prepared)->bytes = bytes;
@@ -93,7 +93,7 @@ starfocus_status starfocus_prepare(starfocus_engine* engine,
   const bool allocates = memory == nullptr && e.allocator.allocate != nullptr;
   Prepared* made = nullptr;
   const starfocus_status status = allocates ? PrepareAllocated(*light_field, &e, &made)
-                                            : PrepareIn({memory, bytes}, *light_field, &e, &made);
+                                            : PrepareIn(memory, bytes, *light_field, &e, &made);
   if (status == STARFOCUS_OK) *prepared = reinterpret_cast<starfocus_prepared*>(made);
   return status;
 }

@@ -314,16 +314,16 @@ size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** pre
   return arena.Bytes();
 }
 
-starfocus_status Prepare(const PrepareCall& call, EngineState* engine, Prepared** prepared) {
+starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared) {
   const int32_t height = engine->config.height;
   CallProgress& call_progress = engine->jobs->call_progress;
   engine->stream.active = false;
   call_progress.Begin(0, height);
   starfocus_status status = ReadRows({0, height}, nullptr, engine);
   if (status != STARFOCUS_OK) return status;
-  new (call.memory) Prepared();
+  new (memory) Prepared();
   Prepared* made = nullptr;
-  LayOutPrepared(engine->config, call.memory, &made);
+  LayOutPrepared(engine->config, memory, &made);
   made->config = engine->config;
   made->covers = engine->input.given_coverage.data != nullptr;
   status = MakePlanes(*made, engine);

@@ -77,17 +77,11 @@ struct Prepared {
 // counts the bytes and sets *prepared to null. Returns the number of bytes, or kTooLarge.
 size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared);
 
-// Memory that the caller passes for a prepared light field.
-struct PrepareCall {
-  void* memory;
-  size_t bytes;
-};
-
-// Prepares the light field of the engine's input. Checks and converts the map, and computes the
-// layers and reduced light fields stripe by stripe. The engine's planes, except for the pixels,
-// serve as scratch memory. On error *prepared is null. If a row of the map is invalid, the memory
-// is not changed.
-starfocus_status Prepare(const PrepareCall& call, EngineState* engine, Prepared** prepared);
+// Prepares the light field of the engine's input in `memory`. Checks and converts the map, and
+// computes the layers and reduced light fields stripe by stripe. The engine's planes, except for
+// the pixels, serve as scratch memory. On error *prepared is null. If a row of the map is invalid,
+// the memory is not changed.
+starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared);
 
 // Returns true if an engine of `config` can refocus the prepared light field.
 bool Fits(const Prepared& prepared, const starfocus_config& config);
