@@ -75,12 +75,6 @@ starfocus_depth_config DefaultDepthConfig() {
   return config;
 }
 
-EstimatePlan PlanOf(const starfocus_depth_config& config, bool repairs) {
-  EstimatePlan plan = MakePlan(config);
-  plan.repairs = repairs;
-  return plan;
-}
-
 bool Converts(const starfocus_depth_config& config) {
   return Has(config, STARFOCUS_FEATURE_IMAGES);
 }
@@ -93,7 +87,7 @@ starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size
   check.NotNull(bytes, "bytes");
   CheckDepthConfig(full, repairs, &check);
   if (!check.passed()) return check.status();
-  const EstimatePlan plan = PlanOf(full, repairs);
+  const EstimatePlan plan = MakePlan(full, repairs);
   Arena arena(nullptr);
   if (full.views == 1) {
     TakeColourRepair(plan, full.max_workers, &arena);
@@ -173,7 +167,7 @@ starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, Arena*
 // of hair was found, otherwise to 0.
 starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
                                int32_t* has_coverage) {
-  const EstimatePlan plan = PlanOf(*call.config, true);
+  const EstimatePlan plan = MakePlan(*call.config, true);
   Arena arena(call.workspace);
   const ColourMemory memory = TakeColourRepair(plan, call.config->max_workers, &arena);
   bool found = false;
@@ -187,7 +181,7 @@ starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
 
 // Estimates a map from all views, or repairs a given map with all views.
 starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output) {
-  const EstimatePlan plan = PlanOf(*call.config, repairs);
+  const EstimatePlan plan = MakePlan(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
   Arena arena(call.workspace);
   const EstimateMemory memory = TakeEstimate(plan, call.config->max_workers, &arena);

@@ -93,10 +93,11 @@ int32_t EstimatePlan::AllPhases() const {
   return phases;
 }
 
-EstimatePlan MakePlan(const starfocus_depth_config& config) {
+EstimatePlan MakePlan(const starfocus_depth_config& config, bool repairs) {
   EstimatePlan plan = {};
   plan.width = config.width;
   plan.height = config.height;
+  plan.repairs = repairs;
   constexpr float kScale = 1 << kDisparityBits;
   plan.low = static_cast<int32_t>(std::floor(MinDisparity(config) * kScale));
   const auto high = static_cast<int32_t>(std::ceil(MaxDisparity(config) * kScale));

@@ -97,8 +97,8 @@ struct EstimatePlan {
   int32_t AllPhases() const;
 };
 
-// Returns the plan for a valid configuration.
-EstimatePlan MakePlan(const starfocus_depth_config& config);
+// Returns the plan for a valid configuration of an estimate or, if `repairs` is true, of a repair.
+EstimatePlan MakePlan(const starfocus_depth_config& config, bool repairs);
 
 // Returns a plan with every second label of `plan` and with half of the paths. The last label of
 // the coarse plan does not exceed the last label of `plan`. The first sweep of a repair uses the

@@ -41,7 +41,7 @@ starfocus::EstimatePlan PlanOf(const Photo& photo) {
   config.height = photo.height;
   config.disparity_min = -500;
   config.disparity_max = 500;
-  return starfocus::MakePlan(config);
+  return starfocus::MakePlan(config, true);
 }
 
 starfocus_light_field FieldOf(const Photo& photo) {

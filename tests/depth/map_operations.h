@@ -153,8 +153,7 @@ struct Maps {
   // Makes the map by functions inside the library, with the given SIMD kernels.
   starfocus_status MakeBy(const starfocus::simd::DepthKernels& kernels,
                           const starfocus_light_field& field, const starfocus::MapOutput& output) {
-    starfocus::EstimatePlan plan = starfocus::MakePlan(config);
-    plan.repairs = !input.given.empty();
+    const starfocus::EstimatePlan plan = starfocus::MakePlan(config, !input.given.empty());
     starfocus::Arena arena(memory->data);
     if (config.views == 1) {
       const starfocus::ColourMemory of_colour = TakeColourRepair(plan, 1, &arena);

@@ -25,7 +25,7 @@ EstimatePlan PlanOf(int width, int height, int views, float low, float high) {
   config.views = views;
   config.disparity_min = low;
   config.disparity_max = high;
-  return MakePlan(config);
+  return MakePlan(config, false);
 }
 
 TEST_CASE("setup: tiles cover the picture, are symmetric, and are neither small nor large") {
@@ -72,7 +72,7 @@ EstimatePlan PlanAt(const std::vector<starfocus_position>& positions, float low,
   std::copy(positions.begin(), positions.end(), config.positions);
   config.disparity_min = low;
   config.disparity_max = high;
-  return MakePlan(config);
+  return MakePlan(config, false);
 }
 
 TEST_CASE(
@@ -143,7 +143,7 @@ TEST_CASE("setup: CoarsePlan keeps every other label and the range of the labels
   for (int range = 0; range <= 1000; range = range < 70 ? range + 1 : range + 93) {
     config.disparity_min = -float(range) / 2;
     config.disparity_max = float(range) / 2;
-    const EstimatePlan plan = MakePlan(config), coarse = CoarsePlan(plan);
+    const EstimatePlan plan = MakePlan(config, false), coarse = CoarsePlan(plan);
     CAPTURE(range);
     CHECK(coarse.labels >= 1);
     CHECK(coarse.Disparity(coarse.labels - 1) <= plan.Disparity(plan.labels - 1));

@@ -19,8 +19,7 @@ using test::PlaneScene;
 // Returns a mask of the pixels at which a repair of the map `given` tries all disparities.
 std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& given) {
   const test::PlaneField field = RenderPlanes(scene);
-  EstimatePlan plan = starfocus::MakePlan(ConfigOf(field, -6, 8));
-  plan.repairs = true;
+  const EstimatePlan plan = starfocus::MakePlan(ConfigOf(field, -6, 8), true);
   starfocus::Arena counted(nullptr);
   TakeEstimate(plan, 1, &counted);
   const test::Memory bytes(counted.Bytes());
