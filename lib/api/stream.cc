@@ -20,19 +20,6 @@ int32_t NeededRows(const EngineState& engine) {
                                        LargestBorders(engine.config).streamed);
 }
 
-// Refocuses the next stripe, whose rows must have been pushed.
-starfocus_status RefocusNext(EngineState* engine) {
-  Stream& stream = engine->stream;
-  CallProgress& call_progress = engine->jobs->call_progress;
-  call_progress.Begin(stream.finished, engine->config.height);
-  const starfocus_status status = RefocusStripe(engine, stream.next);
-  if (status != STARFOCUS_OK) return status;
-  stream.finished = FinishedRows(engine->config, stream.next);
-  stream.next += engine->config.superblock;
-  call_progress.SetRows(stream.finished);
-  return call_progress.Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
-}
-
 void CheckCount(const EngineState& engine, int32_t rows, int32_t most, Checker* check) {
   check->Need(engine.stream.active, STARFOCUS_ERROR_STATE, {"stream"},
               {"an earlier call of starfocus_stream_begin"});
@@ -115,27 +102,45 @@ starfocus_status PushRows(const Input& from, int32_t rows, int32_t unit, EngineS
   return STARFOCUS_OK;
 }
 
-// Writes up to `rows` finished rows to `out`. Before writing, refocuses stripes that are not yet
-// finished, if all required input rows have been pushed. Adds the number of written rows to
-// *written.
-starfocus_status PullRows(const Output& out, int32_t rows, EngineState* engine, int32_t* written) {
+// Writes up to `rows` finished rows to `out`, but at most up to row `end`. Adds the number of
+// written rows to *written.
+starfocus_status StoreFinished(const Output& out, int32_t end, EngineState* engine,
+                               int32_t* written) {
   Stream& stream = engine->stream;
-  while (*written < rows && stream.written < engine->config.height) {
-    if (stream.written == stream.finished) {
-      if (stream.pushed < NeededRows(*engine)) break;
-      const starfocus_status status = RefocusNext(engine);
-      if (status != STARFOCUS_OK) return status;
-    }
-    const int32_t some = Min(rows - *written, stream.finished - stream.written);
-    const starfocus_status status =
-        StoreRows(out, {stream.written, stream.written + some},
-                  BufferRows(*engine, stream.next - engine->config.superblock),
-                  MaxJobs(engine->config), engine->jobs);
-    if (status != STARFOCUS_OK) return status;
-    stream.written += some;
-    *written += some;
-  }
+  const Range rows = {stream.written, Min(stream.finished, end)};
+  if (rows.first >= rows.last) return STARFOCUS_OK;
+  const starfocus_status status =
+      StoreRows(out, rows, BufferRows(*engine, stream.next - engine->config.superblock),
+                MaxJobs(engine->config), engine->jobs);
+  if (status != STARFOCUS_OK) return status;
+  stream.written = rows.last;
+  *written += rows.last - rows.first;
   return STARFOCUS_OK;
+}
+
+// Writes up to `rows` finished rows to `out`. Refocuses the stripes of these rows if their input
+// rows have been pushed. Adds the number of written rows to *written.
+starfocus_status PullRows(const Output& out, int32_t rows, EngineState* engine, int32_t* written) {
+  const starfocus_config& config = engine->config;
+  Stream& stream = engine->stream;
+  CallProgress& call_progress = engine->jobs->call_progress;
+  const int32_t end = stream.written + rows;
+  const starfocus_status status = StoreFinished(out, end, engine, written);
+  if (status != STARFOCUS_OK) return status;
+  // A stripe finishes the last kDeblockRows rows above it.
+  const Range stripes = {
+      stream.next, stream.finished < end ? Min(config.height, end + kDeblockRows) : stream.next};
+  const int32_t reach = LargestBorders(config).streamed;
+  return ForStripes(stripes, reach, stream.pushed, config, [&](int32_t y, const Range&) {
+    call_progress.Begin(stream.finished, config.height);
+    const starfocus_status refocused = RefocusStripe(engine, y);
+    if (refocused != STARFOCUS_OK) return refocused;
+    stream.finished = FinishedRows(config, y);
+    stream.next += config.superblock;
+    call_progress.SetRows(stream.finished);
+    if (!call_progress.Ask()) return STARFOCUS_ERROR_CANCELLED;
+    return StoreFinished(out, end, engine, written);
+  });
 }
 
 }  // namespace

@@ -96,31 +96,31 @@ starfocus_status RefocusRows(const Output& out, EngineState* engine) {
   const int32_t side = config.superblock, reach = lens.borders.centre, top = lens.region.y;
   const int32_t bottom = top + lens.region.height;
   const Range stripes = StripeRows(*engine);
-  Range rows = {Max(0, stripes.first - reach), 0};
   // First row of the last stripe of the region.
   const int32_t last = (stripes.last - 1) / side * side;
-  rows.last = Min(config.height, last + side + reach);
-  starfocus_status status = ReadRows(rows, nullptr, engine);
-  for (int32_t y = stripes.first; y <= last && status == STARFOCUS_OK; y += side) {
-    rows.last = Min(config.height, y + side + reach);
-    status = ReadRows(rows, &engine->rings.disparity, engine);
-    rows.first = rows.last;
+  CallProgress& call_progress = engine->jobs->call_progress;
+  const auto refocus = [&](int32_t y, const Range& read) {
+    starfocus_status status = ReadRows(read, &engine->rings.disparity, engine);
     if (status == STARFOCUS_OK && engine->stripe.changes.active) {
       status = CompareRows(y, &engine->scratch[0].cancel, &engine->stripe.changes);
     }
     if (status == STARFOCUS_OK) status = RefocusStripe(engine, y);
-    if (status != STARFOCUS_OK) break;
+    if (status != STARFOCUS_OK) return status;
     // The next stripe may change the last rows of this stripe. The last stripe of the region has no
     // next stripe.
     const int32_t end = y == last ? bottom : Min(FinishedRows(config, y), bottom);
     const Range finished = {Max(y - kDeblockRows, top), end};
-    if (finished.first < end) {
-      status = Store(out, finished, BufferRows(*engine, y), engine);
-    }
-    if (status == STARFOCUS_OK) engine->jobs->call_progress.SetRows(Max(0, end - top));
+    if (finished.first < end) status = Store(out, finished, BufferRows(*engine, y), engine);
+    if (status == STARFOCUS_OK) call_progress.SetRows(Max(0, end - top));
+    return status;
+  };
+  const Range rows = {Max(0, stripes.first - reach), Min(config.height, last + side + reach)};
+  starfocus_status status = ReadRows(rows, nullptr, engine);
+  if (status == STARFOCUS_OK) {
+    status = ForStripes(stripes, reach, config.height, config, refocus);
   }
   if (status != STARFOCUS_OK) return status;
-  return engine->jobs->call_progress.Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
+  return call_progress.Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
 }
 
 }  // namespace starfocus

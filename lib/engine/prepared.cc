@@ -5,7 +5,6 @@
 
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
-#include "lib/engine/jobs.h"
 #include "lib/engine/layout.h"
 #include "lib/engine/stripe_layers.h"
 #include "lib/matting/passes.h"
@@ -83,20 +82,6 @@ int16_t MedianOf(const int16_t* values, int32_t count) {
 
 namespace {
 
-// Arguments of jobs that reduce rows. Each job reduces the rows of one column of superblocks.
-struct ReduceJob {
-  const EngineState* engine;
-  Plane<int16_t> disparity;
-  Range rows;
-  int32_t previews;
-  const ReducedField* fields;
-};
-
-// Range of columns of the picture.
-struct ColumnPart {
-  int32_t x, width;
-};
-
 void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sums) {
   if (is_first) {
     for (size_t n = 0; n < samples; ++n) sums[n] = static_cast<uint32_t>(light[n]);
@@ -105,25 +90,29 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
   }
 }
 
-// Reduces the columns `part` of a view to all sizes of previews. Returns false after cancellation.
-bool ReduceView(const ReduceJob& job, int view, const ColumnPart& part, Scratch* scratch) {
-  const EngineState& engine = *job.engine;
+// The functions below reduce the pixels of `part`, the rows of a stripe in one column of
+// superblocks, and return false after cancellation.
+
+// Reduces a view to all sizes of previews.
+bool ReduceView(const Prepared& prepared, const EngineState& engine, int view, const Rect& part,
+                Scratch* scratch) {
   const simd::Encoding& encoding = engine.input.transfer->encoding;
+  const int32_t previews = prepared.config.previews;
   const size_t samples = 3 * static_cast<size_t>(part.width);
   int16_t* const light = scratch->picture_samples;
   int16_t* const mean = light + 6 * engine.config.superblock;
-  for (int32_t y = job.rows.first; y < job.rows.last; ++y) {
-    if (!scratch->cancel.Spend(static_cast<int64_t>(samples) * (1 + job.previews))) return false;
+  for (int32_t y = part.y; y < part.y + part.height; ++y) {
+    if (!scratch->cancel.Spend(static_cast<int64_t>(samples) * (1 + previews))) return false;
     engine.input.Light(view, part.x, y, part.width, light);
-    for (int shift = 1; shift <= job.previews; ++shift) {
+    for (int shift = 1; shift <= previews; ++shift) {
       uint32_t* const sums = scratch->sums + 3 * shift * engine.config.superblock;
       const int32_t row = y & ((1 << shift) - 1);
       AddLight(light, samples, row == 0, sums);
       if (row + 1 < 1 << shift && y + 1 < engine.config.height) continue;
       MeanOfBlocks(sums, part.width, row + 1, shift, mean);
-      engine.kernels->Encode(mean, 3 * static_cast<size_t>(ReducedSize(part.width, shift)),
-                             encoding,
-                             job.fields[shift].views[view].Row(y >> shift) + 3 * (part.x >> shift));
+      engine.kernels->Encode(
+          mean, 3 * static_cast<size_t>(ReducedSize(part.width, shift)), encoding,
+          prepared.reduced[shift].views[view].Row(y >> shift) + 3 * (part.x >> shift));
     }
   }
   return true;
@@ -136,23 +125,24 @@ int16_t ConvertedEnd(const EngineState& engine, float end) {
   return converted;
 }
 
-// Reduces the columns `part` of the map to 1/2^shift of its size. Returns false after cancellation.
-bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
-  const starfocus_config reduced = ReducedConfig(job.engine->config, shift);
+// Reduces the map to 1/2^shift of its size.
+bool ReduceMap(const Prepared& prepared, const EngineState& engine, int shift, const Rect& part,
+               Scratch* scratch) {
+  const starfocus_config reduced = ReducedConfig(engine.config, shift);
   // A rounded disparity may exceed the disparity range by one unit of fixed point, so the result is
   // clamped.
-  const int16_t low = ConvertedEnd(*job.engine, MinDisparity(reduced));
-  const int16_t high = ConvertedEnd(*job.engine, MaxDisparity(reduced));
-  const int32_t side = 1 << shift;
-  for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
+  const int16_t low = ConvertedEnd(engine, MinDisparity(reduced));
+  const int16_t high = ConvertedEnd(engine, MaxDisparity(reduced));
+  const int32_t side = 1 << shift, right = part.x + part.width, bottom = part.y + part.height;
+  for (int32_t y = part.y; y < bottom; y += side) {
     if (!scratch->cancel.Spend(int64_t{4} * side * part.width)) return false;
-    int16_t* const out = job.fields[shift].disparity.Row(y >> shift);
-    for (int32_t x = part.x; x < part.x + part.width; x += side) {
-      int16_t values[1 << (2 * kMaxReduction)];
+    int16_t* const out = prepared.reduced[shift].disparity.Row(y >> shift);
+    for (int32_t x = part.x; x < right; x += side) {
+      int16_t values[1 << (2 * kMaxReduction)] = {};
       int32_t count = 0;
-      for (int32_t row = y; row < Min(y + side, job.rows.last); ++row) {
-        const int16_t* from = job.disparity.Row(row);
-        for (int32_t k = x; k < Min(x + side, part.x + part.width); ++k) values[count++] = from[k];
+      for (int32_t row = y; row < Min(y + side, bottom); ++row) {
+        const int16_t* from = prepared.disparity.Row(row);
+        for (int32_t k = x; k < Min(x + side, right); ++k) values[count++] = from[k];
       }
       const int16_t median = ReducedDisparity(MedianOf(values, count), shift);
       out[x >> shift] = median < low ? low : median > high ? high : median;
@@ -161,21 +151,19 @@ bool ReduceMap(const ReduceJob& job, int shift, const ColumnPart& part, Scratch*
   return true;
 }
 
-// Reduces the columns `part` of the coverage to 1/2^shift of its size. Returns false after
-// cancellation.
-bool ReduceCoverage(const ReduceJob& job, int shift, const ColumnPart& part, Scratch* scratch) {
-  const Plane<const uint8_t>& given = job.engine->input.given_coverage;
-  const Plane<uint8_t>& coverage = job.fields[shift].coverage;
+// Reduces the coverage to 1/2^shift of its size.
+bool ReduceCoverage(const Prepared& prepared, const EngineState& engine, int shift,
+                    const Rect& part, Scratch* scratch) {
+  const Plane<const uint8_t>& given = engine.input.given_coverage;
+  const Plane<uint8_t>& coverage = prepared.reduced[shift].coverage;
   if (given.data == nullptr || coverage.data == nullptr) return true;
-  const int32_t side = 1 << shift;
-  for (int32_t y = job.rows.first; y < job.rows.last; y += side) {
+  const int32_t side = 1 << shift, right = part.x + part.width, bottom = part.y + part.height;
+  for (int32_t y = part.y; y < bottom; y += side) {
     if (!scratch->cancel.Spend(int64_t{side} * part.width)) return false;
-    for (int32_t x = part.x; x < part.x + part.width; x += side) {
+    for (int32_t x = part.x; x < right; x += side) {
       int32_t sum = 0, count = 0;
-      for (int32_t row = y; row < Min(y + side, job.rows.last); ++row) {
-        for (int32_t k = x; k < Min(x + side, part.x + part.width); ++k, ++count) {
-          sum += given.Row(row)[k];
-        }
+      for (int32_t row = y; row < Min(y + side, bottom); ++row) {
+        for (int32_t k = x; k < Min(x + side, right); ++k, ++count) sum += given.Row(row)[k];
       }
       coverage.Row(y >> shift)[x >> shift] = static_cast<uint8_t>((sum + count / 2) / count);
     }
@@ -183,17 +171,25 @@ bool ReduceCoverage(const ReduceJob& job, int shift, const ColumnPart& part, Scr
   return true;
 }
 
-void ReduceColumn(const ReduceJob& job, int32_t index, Scratch* scratch) {
-  const starfocus_config& config = job.engine->config;
-  const int32_t x = index * config.superblock;
-  const ColumnPart part = {x, Min(config.superblock, config.width - x)};
-  for (int view = 0; view < config.views; ++view) {
-    if (!ReduceView(job, view, part, scratch)) return;
-  }
-  for (int shift = 1; shift <= job.previews; ++shift) {
-    if (!ReduceMap(job, shift, part, scratch)) return;
-    if (!ReduceCoverage(job, shift, part, scratch)) return;
-  }
+// Reduces the rows of a stripe of the engine's input to all sizes of previews.
+starfocus_status ReduceRows(const Prepared& prepared, const Range& rows,
+                            const EngineState& engine) {
+  const starfocus_config& config = engine.config;
+  const int32_t previews = prepared.config.previews;
+  if (previews == 0) return STARFOCUS_OK;
+  return ForEach(Columns(config), engine.jobs, [&](int32_t column, int32_t worker) {
+    const int32_t x = column * config.superblock;
+    const Rect part = {x, rows.first, Min(config.superblock, config.width - x),
+                       rows.last - rows.first};
+    Scratch* const scratch = &engine.scratch[worker];
+    for (int view = 0; view < config.views; ++view) {
+      if (!ReduceView(prepared, engine, view, part, scratch)) return;
+    }
+    for (int shift = 1; shift <= previews; ++shift) {
+      if (!ReduceMap(prepared, engine, shift, part, scratch)) return;
+      if (!ReduceCoverage(prepared, engine, shift, part, scratch)) return;
+    }
+  });
 }
 
 }  // namespace
@@ -210,52 +206,36 @@ starfocus_config ReducedConfig(const starfocus_config& config, int shift) {
   return reduced;
 }
 
+namespace {
+
 void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field) {
   const auto width = static_cast<size_t>(ReducedSize(config.width, shift));
-  const auto height = static_cast<size_t>(ReducedSize(config.height, shift));
+  const int32_t height = ReducedSize(config.height, shift);
   for (int view = 0; view < config.views; ++view) {
-    field->views[view].stride = 3 * width;
-    field->views[view].data = arena->Take<uint8_t>(3 * width, height);
+    field->views[view] = TakePlane<uint8_t>(3 * width, height, arena);
   }
-  field->disparity.stride = width;
-  field->disparity.data = arena->Take<int16_t>(width, height);
+  field->disparity = TakePlane<int16_t>(width, height, arena);
   if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return;
-  field->coverage.stride = width;
-  field->coverage.data = arena->Take<uint8_t>(width, height);
+  field->coverage = TakePlane<uint8_t>(width, height, arena);
 }
-
-starfocus_status ReduceRows(const Plane<int16_t>& disparity, const Range& rows, int32_t previews,
-                            const ReducedField* fields, EngineState* engine) {
-  if (previews == 0) return STARFOCUS_OK;
-  const ReduceJob job = {engine, disparity, rows, previews, fields};
-  return RunJobs<ReduceJob, ReduceColumn>(job, Columns(engine->config), engine);
-}
-
-namespace {
 
 // Largest number of rows of the picture that the filters of the layers read beyond a stripe.
 constexpr int32_t kBeyond = 16;
 
-// Rows of one stripe of the picture.
-struct PreparedStripe {
-  Range rows;
-  bool is_last;
-};
-
 // Computes the rows of layer 1 of a stripe from the picture, and the rows of layer 2 whose source
 // rows are complete. `two` are the rows of layer 2 of the previous stripe, and are replaced by the
 // rows of this stripe. Computing layer 2 from layer 1 halves the number of codes that are decoded.
-starfocus_status MakeLayers(const Prepared& prepared, const PreparedStripe& stripe, Range* two,
+starfocus_status MakeLayers(const Prepared& prepared, const Range& rows, Range* two,
                             EngineState* engine) {
   // Layers extend beyond the picture (LayerSize) by fewer than kBeyond pixels of the picture.
   // PlaceLayers omits rows outside the layers.
   const starfocus_config& config = engine->config;
+  const bool is_last = rows.last == config.height;
   StripeLayers* const store = &engine->layers;
   const int32_t most = config.tuning.max_layer;
   ForgetLayers(config, store);
   MarkLayerColumns(config, store);
-  PlaceLayers({stripe.rows.first, stripe.is_last ? config.height + kBeyond : stripe.rows.last},
-              Borders(), engine);
+  PlaceLayers({rows.first, is_last ? config.height + kBeyond : rows.last}, Borders(), engine);
   for (int layer = 1; layer <= most; ++layer) {
     store->planes[layer].samples = prepared.layers[layer];
   }
@@ -263,33 +243,25 @@ starfocus_status MakeLayers(const Prepared& prepared, const PreparedStripe& stri
   const LayerPlane& first = store->planes[1];
   const starfocus_status status = FillLayers({1, 2}, nullptr, engine);
   // Row y of layer 2 depends on the rows of layer 1 before 2 * y + 4.
-  *two = {two->last, stripe.is_last ? second.height : Max(two->last, first.rows.last / 2 - 1)};
+  *two = {two->last, is_last ? second.height : Max(two->last, first.rows.last / 2 - 1)};
   second.rows = *two;
   if (status != STARFOCUS_OK || most < 2) return status;
   return FillLayers({2, 3}, &first, engine);
 }
 
 // Converts the map and computes the layers and reduced light fields into the planes of `prepared`.
-starfocus_status MakePlanes(const Prepared& prepared, EngineState* engine) {
-  const StripeLayers own = engine->layers;
-  const int32_t height = engine->config.height, side = engine->config.superblock;
-  Range read = {0, 0}, two = {0, 0};
-  starfocus_status status = STARFOCUS_OK;
-  for (int32_t y = 0; y < height && status == STARFOCUS_OK; y += side) {
-    engine->jobs->call_progress.SetRows(y);
-    // The filters of the layers read up to kBeyond rows below the rows that they process.
-    read = {read.last, Min(height, y + side + kBeyond)};
-    status = ReadRows(read, &prepared.disparity, engine);
-    if (status != STARFOCUS_OK) break;
-    const Range rows = {y, Min(y + side, height)};
-    status = MakeLayers(prepared, {rows, rows.last == height}, &two, engine);
-    if (status != STARFOCUS_OK) break;
-    status =
-        ReduceRows(prepared.disparity, rows, prepared.config.previews, prepared.reduced, engine);
-  }
-  engine->layers = own;
-  ForgetLayers(engine->config, &engine->layers);
-  return status;
+// `maker` is a copy of the engine, whose layers are those of `prepared`.
+starfocus_status MakePlanes(const Prepared& prepared, EngineState maker) {
+  const int32_t height = maker.config.height;
+  Range two = {0, 0};
+  // The filters of the layers read up to kBeyond rows below the rows that they process.
+  return ForStripes({0, height}, kBeyond, height, maker.config, [&](int32_t y, const Range& read) {
+    maker.jobs->call_progress.SetRows(y);
+    const Range rows = {y, Min(y + maker.config.superblock, height)};
+    starfocus_status status = ReadRows(read, &prepared.disparity, &maker);
+    if (status == STARFOCUS_OK) status = MakeLayers(prepared, rows, &two, &maker);
+    return status == STARFOCUS_OK ? ReduceRows(prepared, rows, maker) : status;
+  });
 }
 
 }  // namespace
@@ -299,14 +271,10 @@ size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** pre
   *prepared = arena.Take<Prepared>(1);
   Prepared counted;  // used instead of **prepared if `base` is null
   Prepared& p = *prepared == nullptr ? counted : **prepared;
-  const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
-  p.disparity.stride = width;
-  p.disparity.data = arena.Take<int16_t>(width, height);
+  p.disparity = TakePlane<int16_t>(static_cast<size_t>(config.width), config.height, &arena);
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
-    Plane<int16_t>& plane = p.layers[layer];
-    plane.stride = 3 * static_cast<size_t>(LayerSize(config.width, layer));
-    plane.data =
-        arena.Take<int16_t>(plane.stride, static_cast<size_t>(LayerSize(config.height, layer)));
+    p.layers[layer] = TakePlane<int16_t>(3 * static_cast<size_t>(LayerSize(config.width, layer)),
+                                         LayerSize(config.height, layer), &arena);
   }
   for (int shift = 1; shift <= config.previews; ++shift) {
     TakeReduced(config, shift, &arena, &p.reduced[shift]);
@@ -326,7 +294,8 @@ starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared)
   LayOutPrepared(engine->config, memory, &made);
   made->config = engine->config;
   made->covers = engine->input.given_coverage.data != nullptr;
-  status = MakePlanes(*made, engine);
+  status = MakePlanes(*made, *engine);
+  ForgetLayers(engine->config, &engine->layers);
   if (status != STARFOCUS_OK) return status;
   call_progress.SetRows(height);
   if (!call_progress.Ask()) return STARFOCUS_ERROR_CANCELLED;

@@ -51,15 +51,6 @@ struct ReducedField {
 // Returns the configuration of an engine for a light field of `config` at 1/2^shift of its size.
 starfocus_config ReducedConfig(const starfocus_config& config, int shift);
 
-void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field);
-
-// Reduces rows [rows.first, rows.last) of the engine's input to 1/2^shift of
-// its size, for each shift from 1 to `previews`. Writes the results to fields[shift]. Reads
-// disparities from `disparity`. rows.first and rows.last must be multiples of the superblock size;
-// rows.last may also be the height of the picture.
-starfocus_status ReduceRows(const Plane<int16_t>& disparity, const Range& rows, int32_t previews,
-                            const ReducedField* fields, EngineState* engine);
-
 struct Prepared {
   // Allocator and size of the memory; `release` is null if the memory belongs to the caller.
   starfocus_allocator allocator = {};
