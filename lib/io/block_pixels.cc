@@ -6,24 +6,11 @@
 #include "lib/base/fixed.h"
 
 namespace starfocus {
-
 namespace {
 
-// Part of a rectangle of the layer that lies inside the picture, in pixels from the upper left
-// corner of the rectangle. `right` and `bottom` are exclusive.
-struct InsidePart {
-  int32_t left, right, top, bottom;
-
-  InsidePart(const Input& input, int layer, const Rect& rect)
-      : left(Clamp(-rect.x, 0, rect.width)),
-        right(Clamp(Inside(input.width, layer) - rect.x, 0, rect.width)),
-        top(Clamp(-rect.y, 0, rect.height)),
-        bottom(Clamp(Inside(input.height, layer) - rect.y, 0, rect.height)) {}
-
-  // Returns the number of pixels of the layer for `size` pixels of the picture. A stored layer has
-  // more pixels (LayerSize).
-  static int32_t Inside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
-};
+// Returns the number of pixels of the layer for `size` pixels of the picture. A stored layer has
+// more pixels (LayerSize).
+int32_t PixelsInside(int32_t size, int layer) { return (size + (1 << layer) - 1) >> layer; }
 
 // A pixel of a rectangle that lies at an edge of the picture, and the number of pixels of the
 // rectangle beyond this edge.
@@ -35,29 +22,34 @@ struct EdgePixel {
   const int8_t* out() const { return kSides[side]; }
 };
 
-// Position or displacement in x and y, kShiftBits.
-struct ShiftedPlace {
-  int32_t x, y;
-};
-
-// Fills the pixels of a field beyond the edges of the picture.
+// In a field, replaces the repeated edge pixels of the picture by a continuation of the surface at
+// the edge. Pixels beyond the edge get their colour from the captured view that shows them. The
+// number of pixels that the view shows is the displacement of the edge in that view. The continued
+// surface ends earlier if a nearer surface covers the continued surface in the captured view.
+// Pixels farther outside repeat the colour of the last continued pixel. Pixels beyond corners, and
+// fields of light fields without side views, are not changed.
 class Beyond {
  public:
-  Beyond(const Input& input, BlockPixels* field)
-      : input_(input), field_(*field), rect_{field->x, field->y, field->width, field->height} {}
+  Beyond(const Input& input, const BlockPixels& field)
+      : input_(input),
+        field_(field),
+        layer_width_(PixelsInside(input.width, field.layer)),
+        layer_height_(PixelsInside(input.height, field.layer)) {}
 
   void Look() {
-    const int32_t width = rect_.width, height = rect_.height;
-    const InsidePart part(input_, field_.layer, rect_);
-    const bool inside = part.right - part.left == width && part.bottom - part.top == height;
-    if (inside) return;  // most fields lie inside the picture
-    for (int32_t row = part.top; row < part.bottom; ++row) {
-      LookOver({part.right - 1, row, 0, width - part.right});
-      LookOver({part.left, row, 1, part.left});
+    // The part of the field inside the picture; `right` and `bottom` are exclusive.
+    const int32_t width = field_.width, height = field_.height;
+    const int32_t left = Clamp(-field_.x, 0, width), top = Clamp(-field_.y, 0, height);
+    const int32_t right = Clamp(layer_width_ - field_.x, 0, width);
+    const int32_t bottom = Clamp(layer_height_ - field_.y, 0, height);
+    if (right - left == width && bottom - top == height) return;  // the most frequent case
+    for (int32_t row = top; row < bottom; ++row) {
+      LookOver({right - 1, row, 0, width - right});
+      LookOver({left, row, 1, left});
     }
-    for (int32_t column = part.left; column < part.right; ++column) {
-      LookOver({column, part.bottom - 1, 2, height - part.bottom});
-      LookOver({column, part.top, 3, part.top});
+    for (int32_t column = left; column < right; ++column) {
+      LookOver({column, bottom - 1, 2, height - bottom});
+      LookOver({column, top, 3, top});
     }
   }
 
@@ -68,18 +60,18 @@ class Beyond {
 
   void LookOver(const EdgePixel& edge) {
     if (edge.beyond == 0) return;
-    const int32_t disparity = DisparityAt(rect_.x + edge.column, rect_.y + edge.row);
+    const int32_t disparity = DisparityAt(field_.x + edge.column, field_.y + edge.row);
     // Views on the side of the picture's edge show how surfaces of positive disparity continue.
     // Views on the opposite side show how other surfaces continue.
     const OcclusionView& look =
         input_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
     if (look.view == 0) return;
-    const ShiftedPlace moved = {Moved(look.at.u, disparity), Moved(look.at.v, disparity)};
-    const int32_t along = edge.out()[0] != 0 ? moved.x : moved.y;
+    const int32_t moved_x = Moved(look.at.u, disparity), moved_y = Moved(look.at.v, disparity);
+    const int32_t along = edge.out()[0] != 0 ? moved_x : moved_y;
     int32_t seen = Min(edge.beyond, Abs(along) >> kShiftBits);
     if (disparity < 0 && seen > 0) seen = Uncovered(edge, look, disparity, seen);
     if (seen == 0) return;
-    Read(edge, look, moved, seen);
+    Read(edge, look.view, moved_x, moved_y, seen);
     RepeatLast(edge, seen);
   }
 
@@ -98,12 +90,10 @@ class Beyond {
                     int32_t seen) const {
     const int layer = field_.layer;
     const int32_t unit = int32_t{1} << (kDisparityBits + layer);
-    const int32_t width = InsidePart::Inside(input_.width, layer);
-    const int32_t height = InsidePart::Inside(input_.height, layer);
     const int8_t* const out = edge.out();
     const int32_t position = out[0] != 0 ? Abs(look.at.u) : Abs(look.at.v);
-    const int32_t room = Min(kLookBack >> layer, out[0] != 0 ? width : height);
-    int32_t x = rect_.x + edge.column, y = rect_.y + edge.row;
+    const int32_t room = Min(kLookBack >> layer, out[0] != 0 ? layer_width_ : layer_height_);
+    int32_t x = field_.x + edge.column, y = field_.y + edge.row;
     for (int32_t m = 0; m < room; ++m, x -= out[0], y -= out[1]) {
       const int32_t nearer = ScaledByView(position, DisparityAt(x, y) - disparity, kViewBits);
       // Distance beyond the edge at which the view shows the nearer pixel, in quarters of `unit`.
@@ -115,16 +105,17 @@ class Beyond {
     return seen;
   }
 
-  void Read(const EdgePixel& edge, const OcclusionView& look, const ShiftedPlace& moved,
-            int32_t seen) {
+  // Reads the first `seen` pixels beyond the edge from a captured view, in which their surface is
+  // displaced by (moved_x, moved_y), kShiftBits.
+  void Read(const EdgePixel& edge, int view, int32_t moved_x, int32_t moved_y, int32_t seen) {
     const int dx = edge.out()[0], dy = edge.out()[1];
     constexpr int32_t kAtOnce = 16;
     int16_t rgb[3 * kAtOnce];
     for (int32_t first = 1; first <= seen; first += kAtOnce) {
       const int32_t count = Min(kAtOnce, seen + 1 - first);
-      const int32_t x = (rect_.x + edge.column + first * dx) * kShiftOne - moved.x;
-      const int32_t y = (rect_.y + edge.row + first * dy) * kShiftOne - moved.y;
-      ReadCaptured(input_, field_.layer, look.view, {x, y, dx, dy}, count, rgb);
+      const int32_t x = (field_.x + edge.column + first * dx) * kShiftOne - moved_x;
+      const int32_t y = (field_.y + edge.row + first * dy) * kShiftOne - moved_y;
+      ReadCaptured(input_, field_.layer, view, {x, y, dx, dy}, count, rgb);
       for (int32_t k = 0; k < count; ++k) std::memcpy(Rgb(edge, first + k), rgb + 3 * k, kBytes);
     }
   }
@@ -145,16 +136,8 @@ class Beyond {
 
   const Input& input_;
   const BlockPixels& field_;
-  const Rect rect_;
+  const int32_t layer_width_, layer_height_;  // size of the picture in pixels of the layer
 };
-
-}  // namespace
-
-void ExtendEdges(const Input& input, BlockPixels* field) {
-  if (input.views > 1) Beyond(input, field).Look();
-}
-
-namespace {
 
 // Fills the pixels outside [first, last) of a row with the nearest pixel inside. The range must not
 // be empty.
@@ -231,7 +214,7 @@ void LoadBlock(const Input& input, int layer, const Rect& rect, const Border& bo
     CopyDisparity(input, layer, from_disparity, field->x + first, last - first, disparity + first);
     RepeatEdges(first, last, field->width, rgb, disparity);
   }
-  ExtendEdges(input, field);
+  if (input.views > 1) Beyond(input, *field).Look();
 }
 
 }  // namespace starfocus

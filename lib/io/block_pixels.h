@@ -36,21 +36,11 @@ struct BlockPixels {
   }
 };
 
-// Extends surfaces beyond the edges of the picture with the content of side views.
-
 // Number of pixels inside the picture's edge that are searched for surfaces that may cover a pixel
 // outside. The rows stored around a stripe suffice for a search over kLookBack pixels. If
 // disparities differ by less than kLookBack, a search over fewer pixels finds all covering surfaces
 // (docs/constants.md).
 inline constexpr int32_t kLookBack = 32;
-
-// In a field, replaces the repeated edge pixels of the picture by a continuation of the surface at
-// the edge. Pixels beyond the edge get their colour from the captured view that shows them. The
-// number of pixels that the view shows is the displacement of the edge in that view. The continued
-// surface ends earlier if a nearer surface covers the continued surface in the captured view.
-// Pixels farther outside repeat the colour of the last continued pixel. Pixels beyond corners, and
-// fields of light fields without side views, are not changed.
-void ExtendEdges(const Input& input, BlockPixels* field);
 
 // Writes the light of `count` pixels of a layer of the centre view. The pixels start at (x, y) and
 // must be inside the layer.
@@ -58,7 +48,7 @@ void LoadLight(const Input& input, int layer, int32_t x, int32_t y, int32_t coun
 
 // Copies `rect` of a layer and its border to field->rgb and field->disparity, which must be set.
 // Each sample of the centre view is decoded once for all views of the aperture. Pixels outside the
-// picture repeat its edge, or contain the content of side views (ExtendEdges).
+// picture repeat its edge, or continue the surface at the edge with the content of side views.
 void LoadBlock(const Input& input, int layer, const Rect& rect, const Border& border,
                BlockPixels* field);
 
