@@ -2,6 +2,7 @@
 // Gathering: blurs 8x8 cells of a single surface without views. Each gathered pixel is the mean of
 // its neighbours in the centre view, weighted by the ideal PSF (4) of its blur. If disparity varies
 // little within reach of the blur, this weighted mean equals the mean of all views of the aperture.
+// On a slope, each pixel has its own radius, and the blurred image is displaced (Slope).
 #ifndef STARFOCUS_LIB_GATHER_GATHER_H_
 #define STARFOCUS_LIB_GATHER_GATHER_H_
 
@@ -19,13 +20,12 @@
 
 namespace starfocus {
 
-// Blur across a gathered cell on a slope, derived from the surrounding cells. This module computes
-// the radius of each pixel, and the displacement of the blurred image of a slanted surface
-// (docs/method.md, Gathering).
-
 // Fractional bits of radii on a slope.
 inline constexpr int kSlopeBits = 10;
 
+// Blur across a gathered cell on a slope, derived from the surrounding cells: the radius of each
+// pixel, and the displacement of the blurred image of a slanted surface (docs/method.md,
+// Gathering).
 class Slope {
  public:
   // Describes the cell at (column, row) of the grid, at a layer. The grid must store the cells

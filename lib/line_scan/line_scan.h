@@ -14,10 +14,8 @@
 
 namespace starfocus {
 
-// Runs of equal disparity along a line. Runs are found once per line and shared by all views of the
-// line.
-
-// Positions [begin, end) of a line. `end` equals `begin` of the previous run in scan order.
+// A run of equal disparity along a line: positions [begin, end). Runs are found once per line and
+// shared by all views of the line. `end` equals `begin` of the previous run in scan order.
 struct Run {
   uint16_t begin;
   // End of the surface that the run belongs to: the next depth edge or the end of the line.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Converts the results of a line scan to spans for the SIMD kernels.
+// Converts the results of a line scan to spans for the SIMD kernels, and fills holes.
 #ifndef STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_
 #define STARFOCUS_LIB_LINE_SCAN_SPAN_SINK_H_
 

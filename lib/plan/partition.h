@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quadtree partition of a superblock by predicted time (paper, V-B).
+// Quadtree partition of a superblock by predicted time (paper, V-B), and the timing model (13)-(15)
+// that predicts the time.
 #ifndef STARFOCUS_LIB_PLAN_PARTITION_H_
 #define STARFOCUS_LIB_PLAN_PARTITION_H_
 
@@ -10,8 +11,6 @@
 #include "lib/plan/smooth_cells.h"
 
 namespace starfocus {
-
-// Timing model (13)-(15): predicts the time of a block.
 
 // Returns the predicted time of refocusing a block, in picoseconds. The computation uses integers,
 // so that all machines choose the same partition.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interface of the two renderers: slices, and the paper's line scan. Each lens uses one renderer.
-// The engine accesses both renderers only through this interface.
+// The engine accesses both renderers only through this interface. A renderer also measures the work
+// of a block, from which the timing model (lib/plan/partition.h) predicts the time.
 #ifndef STARFOCUS_LIB_PLAN_RENDERER_H_
 #define STARFOCUS_LIB_PLAN_RENDERER_H_
 

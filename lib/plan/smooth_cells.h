@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores which cells are gathered (lib/gather/gather.h) instead of rendered from views, and finds
-// the pixels of a block that belong to gathered cells.
+// Smooth cells: finds the cells that are gathered (lib/gather/gather.h) instead of rendered from
+// views, stores them, and finds the pixels of a block that belong to them. Also measures the blocks
+// of the partition from the cells within their reach.
 #ifndef STARFOCUS_LIB_PLAN_SMOOTH_CELLS_H_
 #define STARFOCUS_LIB_PLAN_SMOOTH_CELLS_H_
 
@@ -60,9 +61,6 @@ struct BlockCells {
   // Returns true if all pixels of `part` belong to cells that are blurred without views.
   bool AreGathered(const Rect& part) const;
 };
-
-// Analysis of the cells within reach of a block or cell: computes the borders of blocks, and finds
-// smooth cells.
 
 // A rectangle of cells and the cells up to `around` cells away, as planes for the SIMD kernels.
 // Cells outside the picture repeat its edge.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splits the boundary pixels of a field (lib/matting/boundary_pixel.h) into the two surfaces that
-// each pixel mixes. The compositor calls FindMatte after FindLayeredDepth.
+// Splits mixed pixels of a field into the two surfaces that each pixel mixes: boundary pixels
+// (lib/matting/boundary_pixel.h), and the pixels of thin structures in the coverage map of
+// lib/matting. The compositor calls FindMatte after FindLayeredDepth.
 #ifndef STARFOCUS_LIB_SLICES_MATTE_H_
 #define STARFOCUS_LIB_SLICES_MATTE_H_
 
@@ -21,8 +22,6 @@ namespace starfocus {
 // FindLayeredDepth. If a split pixel would have four surfaces, the farthest surface is dropped.
 void FindMatte(const simd::Kernels& kernels, const Input& input, const ViewGrid& grid,
                const BlockPixels& field, LayeredDepth* surfaces);
-
-// Turns the coverage map of thin structures (lib/matting) into surfaces for slices.
 
 // Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
 // these disparities, hidden surfaces end at the boundary of the thin structure. The caller must

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Composites a strip, which consists of kSliceLanes adjacent pixel columns in a tile. All views of
-// a strip are composited while the slices of the strip are in the L1 cache.
+// a strip are composited while the slices of the strip are in the L1 cache. Also defines the stack
+// of slices of a tile, with the weights and offsets of all views of the aperture.
 #ifndef STARFOCUS_LIB_SLICES_STRIP_H_
 #define STARFOCUS_LIB_SLICES_STRIP_H_
 
@@ -15,9 +16,6 @@
 #include "simd/kernels.h"
 
 namespace starfocus {
-
-// Defines the stack of slices of a tile, with the weights and offsets of all views of the aperture.
-// The compositor passes the stack to CompositeStrip.
 
 // Largest number of views of a column that are summed together in 16 bits. If more views were
 // summed together, each weight would be smaller, and the products of small weights and faint light
@@ -70,7 +68,7 @@ struct ScaledWeights {
 // kGroupSum / 4 are multiplied by the number of shares, which is at most kMostShares.
 ScaledWeights ScaleWeights(const ViewWeights& aperture);
 
-// A stack of slices, ordered from the nearest to the farthest.
+// The stack of slices of a tile, ordered from the nearest to the farthest.
 struct SliceStack {
   const ViewGrid* grid;
   ScaledWeights weights;
