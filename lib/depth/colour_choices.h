@@ -11,8 +11,6 @@
 
 #include "lib/base/arena.h"
 #include "lib/depth/colour_map.h"
-#include "simd/depth_kernels.h"
-#include "simd/matting.h"
 
 namespace starfocus {
 

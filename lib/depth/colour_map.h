@@ -11,9 +11,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/depth/maps.h"
-#include "lib/depth/setup.h"
 #include "lib/io/image.h"
-#include "simd/depth_kernels.h"
 #include "simd/matting.h"
 
 namespace starfocus {

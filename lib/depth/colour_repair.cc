@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
-#include "lib/base/arena.h"
 #include "lib/base/fixed.h"
 #include "lib/depth/outlines.h"
 
@@ -90,8 +88,8 @@ void ChooseTile(const ColourMap& map, const MapOutput& output, const simd::Depth
       std::fill_n(output.confidence.Row(y) + tile.x, tile.width, uint8_t{UINT8_MAX});
     }
     ForDoubtful(memory.doubt + at, tile.width, [&](int32_t k) {
-      output.WriteConfidence(tile.x + k, y,
-                             Choose(map, row[k], at + static_cast<size_t>(k), memory));
+      const uint8_t certainty = Choose(map, row[k], at + static_cast<size_t>(k), memory);
+      output.WriteConfidence(tile.x + k, y, certainty);
     });
   }
   memory.counts[index] = CountTile(map, memory, tile);

@@ -7,16 +7,12 @@
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 
-#include <cstddef>
 #include <cstdint>
 
-#include "lib/base/jobs.h"
 #include "lib/depth/colour_choices.h"
-#include "lib/depth/colour_map.h"
 #include "lib/depth/hair_coverage.h"
 #include "lib/depth/maps.h"
 #include "lib/depth/outlines.h"
-#include "lib/depth/thin_cells.h"
 
 namespace starfocus {
 
@@ -46,7 +42,7 @@ struct ColourMemory {
   ThinCells thin;     // Thin structure of the map.
   CellRanges ranges;  // Disparities of the repaired map.
   HairCells hair_cells;
-  HairMemory hair;  // Shares the memory of maps[1], maps[2] and all later planes.
+  HairMemory hair;  // Shares memory with `chosen` and all other arrays of later phases.
   ColourTileMemory* workers;
 };
 

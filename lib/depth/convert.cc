@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 
-#include "lib/base/arena.h"
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/depth/maps.h"

@@ -3,10 +3,7 @@
 #include <new>
 
 #include "lib/base/fixed.h"
-#include "lib/base/geometry.h"
-#include "lib/depth/maps.h"
 #include "lib/depth/sweep.h"
-#include "lib/depth/tile_views.h"
 #include "lib/io/image.h"
 #include "simd/disparities.h"
 

@@ -4,8 +4,6 @@
 #include <initializer_list>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/hair_cells.h"
-#include "lib/depth/maps.h"
 
 namespace starfocus {
 

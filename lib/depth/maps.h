@@ -14,15 +14,12 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
-#include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/depth/setup.h"
 #include "lib/depth/thin_cells.h"
 #include "lib/io/depth_map.h"
 #include "simd/depth_kernels.h"
-#include "simd/match.h"
 #include "starfocus/depth.h"
-#include "starfocus/starfocus.h"
 
 namespace starfocus {
 

@@ -4,11 +4,8 @@
 #include <cstdlib>
 
 #include "lib/base/fixed.h"
-#include "lib/base/geometry.h"
-#include "lib/depth/maps.h"
 #include "lib/depth/sweep.h"
 #include "lib/depth/swept.h"
-#include "lib/depth/thin_cells.h"
 #include "lib/io/image.h"
 #include "simd/disparities.h"
 

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "lib/base/features.h"
-#include "lib/base/fixed.h"
-
 namespace starfocus {
 namespace {
 

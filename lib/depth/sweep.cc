@@ -2,13 +2,9 @@
 #include "lib/depth/sweep.h"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/maps.h"
 #include "lib/depth/swept.h"
-#include "lib/depth/tile_views.h"
-#include "simd/depth_kernels.h"
 #include "simd/disparities.h"
 #include "simd/paths.h"
 

@@ -7,7 +7,6 @@
 
 #include "lib/depth/maps.h"
 #include "lib/depth/tile_views.h"
-#include "simd/depth_kernels.h"
 
 namespace starfocus {
 

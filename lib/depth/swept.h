@@ -8,9 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "lib/base/geometry.h"
 #include "lib/depth/maps.h"
-#include "starfocus/starfocus.h"
 
 namespace starfocus {
 

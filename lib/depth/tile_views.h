@@ -9,7 +9,6 @@
 #include "lib/base/arena.h"
 #include "lib/depth/setup.h"
 #include "simd/depth_kernels.h"
-#include "starfocus/starfocus.h"
 
 namespace starfocus {
 
