@@ -48,6 +48,7 @@ void CheckPush(const EngineState& engine, const starfocus_light_field& light_fie
   const int32_t pushed = engine.stream.pushed;
   CheckCount(engine, rows, config.height - pushed, check);
   CheckLightField(config, light_field, check);
+  if (!check->passed()) return;
   CheckPairs(config, AnyYuv(config, light_field), pushed, rows, check);
 }
 
