@@ -3,7 +3,7 @@
 
 #include "lib/api/validate.h"
 #include "lib/base/features.h"
-#include "lib/engine/layout.h"
+#include "lib/engine/engine.h"
 
 namespace starfocus {
 namespace {

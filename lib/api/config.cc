@@ -2,7 +2,6 @@
 // C API: default values, sizes and initialisation of engines, and texts of status codes.
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
-#include "lib/engine/layout.h"
 #include "starfocus/depth.h"
 #include "starfocus/matte.h"
 #include "starfocus/starfocus.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: prepared light fields.
 #include "lib/api/validate.h"
-#include "lib/engine/layout.h"
+#include "lib/engine/engine.h"
 #include "lib/engine/prepared.h"
 #include "starfocus/starfocus.h"
 

@@ -3,7 +3,7 @@
 
 #include "lib/api/call.h"
 #include "lib/api/validate.h"
-#include "lib/engine/layout.h"
+#include "lib/engine/engine.h"
 
 namespace starfocus {
 namespace {

@@ -5,8 +5,7 @@
 #include "lib/api/validate.h"
 #include "lib/base/features.h"
 #include "lib/engine/driver.h"
-#include "lib/engine/jobs.h"
-#include "lib/engine/layout.h"
+#include "lib/engine/engine.h"
 #include "lib/engine/stripe.h"
 #include "starfocus/starfocus.h"
 

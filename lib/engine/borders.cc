@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/borders.h"
-
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/engine/deblock.h"
+#include "lib/engine/lens.h"
 #include "lib/io/block_pixels.h"
 #include "lib/io/highlights.h"
 #include "lib/io/layers.h"

@@ -6,7 +6,7 @@
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/base/problem.h"
-#include "lib/engine/jobs.h"
+#include "lib/engine/engine.h"
 #include "lib/engine/stripe.h"
 #include "lib/io/image.h"
 #include "simd/depth_values.h"

@@ -2,10 +2,188 @@
 #include "lib/engine/engine.h"
 
 #include <cstring>
+#include <new>
 
-#include "lib/engine/borders.h"
+#include "lib/base/features.h"
+#include "lib/engine/lens.h"
+#include "lib/io/block_pixels.h"
+#include "lib/optics/rules.h"
+#include "lib/plan/partition.h"
 
 namespace starfocus {
+
+int32_t MaxJobs(const starfocus_config& config) {
+  const int32_t side = config.superblock;
+  // A set has one job per block of a stripe, or one job per column of superblocks. Deblocking has
+  // one job per row of smallest blocks in a stripe and in the rows kept above the stripe. A stripe
+  // never has more columns of superblocks than blocks.
+  return Max(Columns(config) * MaxBlocks(side), side / kSmallestBlock + 1);
+}
+
+// An engine, and what its calls change for later calls. All copies of an engine share the latter.
+struct EngineMemory {
+  EngineState engine;
+  Tables tables;
+  Jobs jobs;
+};
+
+namespace {
+
+// Memory of blocks that are blurred without views, and of layers that are upsampled.
+void TakeUpsampling(const starfocus_config& config, size_t extended, Arena* arena,
+                    Scratch* scratch) {
+  const auto side = static_cast<size_t>(config.superblock);
+  const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
+  // Gathering reads `field` and writes to `layer_samples`.
+  scratch->layer_samples = arena->Take<int16_t>(3 * half * half);
+  const auto gather = [&] {
+    const size_t stride = RgbStride(static_cast<int32_t>(extended));
+    scratch->field.rgb = arena->Take<int16_t>(extended * stride);
+    scratch->field.disparity = arena->Take<int16_t>(extended * extended);
+    scratch->spans = TakeSpans(extended, arena);
+  };
+  const auto upsample = [&] {
+    scratch->upsample.line = arena->Take<int16_t>(3 * half);
+    scratch->upsample.between = arena->Take<int16_t>(3 * half);
+    scratch->upsample.even = arena->Take<int16_t>(3 * half);
+    scratch->middle_samples = arena->Take<int16_t>(3 * half * half);
+    scratch->picture_samples = arena->Take<int16_t>(3 * side * side);
+  };
+  arena->Overlap(gather, upsample);
+}
+
+// A worker runs one step at a time, and keeps only the sums of the rendered pixels. Therefore the
+// steps share memory.
+Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
+  const auto side = static_cast<size_t>(config.superblock);
+  const Borders borders = LargestBorders(config);
+  Scratch scratch = {};
+  const size_t extended = side + 2 * static_cast<size_t>(borders.layer[0]);
+  const int32_t renderers = RendererCount(config);
+  int32_t max_n[kMaxRenderers] = {}, most = 0;
+  for (int32_t k = 0; k < renderers; ++k) {
+    max_n[k] = Max(LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur),
+                   ViewsOfBenchmark(config.max_blur));
+    most = Max(most, max_n[k]);
+    scratch.renderers[k] = arena->Take<uint8_t>(kRenderers[k]->scratch_bytes);
+  }
+  scratch.sums = arena->Take<uint32_t>(3 * side * side);
+  if (Has(config, STARFOCUS_FEATURE_SHAPES))
+    scratch.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
+  if (config.highlights > 1) scratch.lamp_runs = arena->Take<LampRuns>(1);
+  const auto renderer = [&](int32_t k) {
+    if (k >= renderers) return;
+    kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,
+                                scratch.renderers[k]);
+  };
+  const auto partition = [&] {
+    scratch.candidates = arena->Take<PartitionCandidate>(
+        static_cast<size_t>(PartitionCandidates(config.superblock)));
+    scratch.cell_samples =
+        arena->Take<int16_t>(SurroundingSamples(config.superblock / kCellSize, borders.cells));
+  };
+  // The slices come last, because their pool fills the memory of the longest other step.
+  arena->Overlap([&] { renderer(kLineScanRenderer.index); },
+                 [&] { TakeUpsampling(config, extended, arena, &scratch); },
+                 [&] { TakeResample(config, arena, &scratch.resample); }, partition,
+                 [&] { renderer(kSliceRenderer.index); });
+  return scratch;
+}
+
+void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine) {
+  const auto width = static_cast<size_t>(config.width);
+  const bool streaming = Has(config, STARFOCUS_FEATURE_STREAMING);
+  const Borders borders = LargestBorders(config);
+  const int32_t rows = config.superblock + 2 * (streaming ? borders.streamed : borders.centre);
+  // The last rows of a stripe are written together with the next stripe.
+  TakeInput(config, rows, rows + config.superblock + kDeblockRows, arena, &engine->rings);
+  engine->stripe.out =
+      arena->Take<uint8_t>(3 * width, static_cast<size_t>(config.superblock + kDeblockRows));
+  engine->stripe.last_rows = streaming ? arena->Take<uint8_t>(3 * width, kDeblockRows) : nullptr;
+  const bool images = Has(config, STARFOCUS_FEATURE_IMAGES);
+  engine->odd_row = images ? arena->Take<uint8_t>(3 * width) : nullptr;
+}
+
+// Allocates what does not depend on the size of the picture: pieces of memory that the pictures of
+// previews use as well.
+void TakeEngine(const starfocus_config& config, Arena* arena, EngineMemory* memory) {
+  TakeTables(config, arena, &memory->tables);
+  memory->jobs.max_workers = config.max_workers;
+  memory->jobs.progress =
+      arena->Take<std::atomic<uint32_t>>(ProgressWords(static_cast<size_t>(MaxJobs(config))));
+  auto* const scratch = arena->Take<Scratch>(static_cast<size_t>(config.max_workers));
+  for (int32_t worker = 0; worker < config.max_workers; ++worker) {
+    const Scratch taken = TakeScratch(config, arena);
+    if (scratch == nullptr) continue;
+    scratch[worker] = taken;
+    scratch[worker].cancel = CancelToken(&memory->jobs.call_progress);
+  }
+  memory->engine.scratch = scratch;
+}
+
+void TakePicture(const starfocus_config& config, Arena* arena, EngineState* engine) {
+  TakeRows(config, arena, engine);
+  TakeLayers(config, arena, &engine->layers);
+  const Borders borders = LargestBorders(config);
+  TakeCoverage(config, borders.parted, arena, &engine->stripe.coverage);
+  TakePlan(config, arena, &engine->stripe);
+  TakeFrameDiff(Columns(config), config.superblock, borders.views, arena, &engine->stripe.changes);
+}
+
+#ifdef STARFOCUS_RED_ZONES
+void VisitZones(const EngineState& engine, void (*visit)(void*, size_t, size_t)) {
+  const PieceVisitor zones = {visit, engine.memory};
+  Arena arena(nullptr, PTRDIFF_MAX, &zones);
+  EngineMemory counted;
+  arena.Take<EngineMemory>(1);
+  TakeEngine(engine.memory->engine.config, &arena, &counted);
+  TakePicture(engine.config, &arena, &counted.engine);
+}
+#endif
+
+}  // namespace
+
+size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
+              const PieceVisitor* pieces) {
+  Arena arena(base, PTRDIFF_MAX, pieces);
+  EngineMemory counted;  // replaces *taken while the layout only counts
+  auto* const taken = arena.Take<EngineMemory>(1);
+  EngineMemory& memory = taken == nullptr ? counted : *new (taken) EngineMemory();
+  TakeEngine(config, &arena, &memory);
+  EngineState& made = memory.engine;
+  made.picture_memory = arena.Here();
+  TakePicture(config, &arena, &made);
+  made.config = config;
+  made.config.problem = &made.problem;
+  made.kernels = &simd::BestKernels();
+  made.tables = &memory.tables;
+  made.jobs = &memory.jobs;
+  made.memory = taken;
+  made.bytes = arena.Bytes();
+  *engine = taken == nullptr ? nullptr : &made;
+  return made.bytes;
+}
+
+EngineState PreviewEngine(const starfocus_config& config, EngineState* engine) {
+  engine->stream.active = false;
+  engine->rings.map_width = 0;
+  EngineState preview = *engine;
+  preview.config = config;
+  Arena arena(engine->picture_memory);
+  TakePicture(config, &arena, &preview);
+  return preview;
+}
+
+#ifdef STARFOCUS_RED_ZONES
+RedZones::RedZones(const EngineState& engine) : engine_(engine) { VisitZones(engine, PoisonZone); }
+RedZones::~RedZones() { VisitZones(engine_, UnpoisonZone); }
+#else
+RedZones::RedZones(const EngineState& engine) : engine_(engine) {}
+RedZones::~RedZones() = default;
+#endif
+
+Extent Workspace(const EngineState& engine) { return ExtentOf(engine.memory, 0, 1, engine.bytes); }
+
 namespace {
 
 void Add(const starfocus_layer_report& part, starfocus_layer_report* sum) {

@@ -1,22 +1,104 @@
 // SPDX-License-Identifier: Apache-2.0
-// State of an engine, grouped by lifetime.
+// One engine: its state, grouped by lifetime, and its memory. LayOut both computes the size of the
+// workspace and divides the workspace into pieces; each part takes its own pieces.
 #ifndef STARFOCUS_LIB_ENGINE_ENGINE_H_
 #define STARFOCUS_LIB_ENGINE_ENGINE_H_
 
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/arena.h"
+#include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
+#include "lib/engine/deblock.h"
+#include "lib/engine/frame_diff.h"
 #include "lib/engine/lens.h"
-#include "lib/engine/scratch.h"
-#include "lib/engine/stripe_state.h"
-#include "lib/engine/tables.h"
+#include "lib/gather/depth_blur.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/highlights.h"
 #include "lib/io/input.h"
 #include "lib/io/layers.h"
+#include "lib/matting/passes.h"
+#include "lib/plan/cells.h"
+#include "lib/plan/partition.h"
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+// Counts of one worker in one stripe.
+struct Counts {
+  starfocus_layer_report layers[STARFOCUS_LAYERS];
+  uint64_t copied_pixels;
+  uint64_t gathered_pixels;
+  uint64_t unknown_pixels;
+  uint32_t depth_flags;  // simd::DepthFlags of the rows that were read
+};
+
+// Scratch memory of one worker. Each renderer leaves the weighted sums of a block in `sums`. The
+// pointers except `sums` and the weights share memory, because a worker runs one step at a time
+// (engine.cc). R is the largest side of a rectangle to refocus, in pixels.
+struct Scratch {
+  void* renderers[kMaxRenderers];  // Scratch memory of each renderer.
+  uint32_t* sums;                  // 3 R^2 samples.
+  uint16_t* aperture_weights;  // With cat's eyes: view weights of a block, for up to the largest N.
+  LampRuns* lamp_runs;         // Cache of runs of highlights, if highlights are enabled.
+  BlockPixels field;           // Memory for the pixels of a block that is blurred without views.
+  SpanMemory spans;            // Spans of a block that is blurred by depth.
+  ResampleScratch resample;
+  UpsampleScratch upsample;
+  int16_t* layer_samples;          // Samples of the rendered rectangle.
+  int16_t* middle_samples;         // Result at layer 1 while upsampling from layer 2.
+  int16_t* picture_samples;        // 3 R^2 samples: the block at layer 0.
+  PartitionCandidate* candidates;  // Memory of PartitionBlock.
+  int16_t* cell_samples;
+  Counts counts;
+  CancelToken cancel;
+};
+
+// Stripe of superblocks: rows [y, y + height) of the picture.
+struct Stripe {
+  int32_t y, height;
+};
+
+// Blocks of a stripe. Planning stores the blocks of each superblock in a separate part of `blocks`.
+// After planning, the blocks to refocus are moved to the start of `blocks`.
+struct StripePlan {
+  int32_t side;        // Side of a superblock in pixels.
+  int32_t columns;     // Number of columns of superblocks.
+  uint8_t* wanted;     // Per superblock: 1 if the superblock is refocused.
+  uint8_t* measured;   // Per superblock: 1 if its cells are measured.
+  bool all_measured;   // True: the previous stripe measured the cells of every column.
+  Block* blocks;       // Memory for MaxBlocks blocks per superblock.
+  int32_t* counts;     // Number of blocks of each superblock.
+  int32_t used;        // Number of blocks to refocus.
+  GatherMap gathered;  // In block mode, the cells that are blurred without views.
+
+  Block* BlocksOf(int32_t column) const {
+    return blocks + static_cast<size_t>(column) * static_cast<size_t>(MaxBlocks(side));
+  }
+};
+
+// Coverage map, and the first row of tiles that each pass has not processed yet. The entry in
+// `done` is negative if the pass has not processed any row.
+struct CoverageState {
+  CoverageMap map;
+  int32_t done[kCoveragePasses];
+};
+
+struct StripeState {
+  CellGrid cells;  // Cells of the stripe and of the surroundings that splat into the stripe.
+  CoverageState coverage;  // Coverage of the stripe and of the rows around the stripe.
+  StripePlan plan;
+  LayerMap map;       // Layer of each smallest block, for deblocking.
+  FrameDiff changes;  // Superblocks that differ from the previous light field.
+  // Output: the last kDeblockRows rows of the previous stripe, and the stripe, packed.
+  uint8_t* out;
+  // With streaming: the last kDeblockRows rows of the previous stripe, saved when that stripe was
+  // finished. Null without streaming, because a failed call is not resumed and the last rows can
+  // stay in `out`.
+  uint8_t* last_rows;
+};
 
 // Progress of a streamed refocusing, in rows.
 struct Stream {
@@ -80,6 +162,51 @@ void ForgetStripe(StripeState* stripe);
 
 // Discards the rows of the layers, which belong to another picture or are incomplete.
 void ForgetLayers(const starfocus_config& config, StripeLayers* layers);
+
+// Allocates the memory of a worker that subsamples a column of superblocks.
+void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample);
+
+// Allocates the planes of layers 1 and 2 around a stripe, and the marks of their columns.
+void TakeLayers(const starfocus_config& config, Arena* arena, StripeLayers* layers);
+
+// Allocates the coverage map for stripes that read `border` rows above and below.
+void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
+                  CoverageState* state);
+
+// Allocates the cells and blocks of a stripe, and the map of their layers.
+void TakePlan(const starfocus_config& config, Arena* arena, StripeState* stripe);
+
+// Makes an engine for a valid configuration at `base`, aligned to STARFOCUS_ALIGNMENT. If `base` is
+// null, only counts the bytes and sets *engine to null. Returns the number of bytes, or kTooLarge.
+// `pieces` receives each piece and may be null.
+size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
+              const PieceVisitor* pieces = nullptr);
+
+// Returns an engine for pictures of `config`, which may differ from the configuration of *engine
+// only in a smaller or equal picture and range of disparities, and must not enable streaming. Both
+// engines share all memory, so *engine must not be used while the result is; afterwards *engine
+// keeps its tables, but no state of a stream.
+EngineState PreviewEngine(const starfocus_config& config, EngineState* engine);
+
+// Poisons the red zones of an engine's memory during the lifetime of this object; no-op in builds
+// without red zones. After the lifetime of this object, the caller, which owns the memory, may use
+// the memory for another purpose.
+class RedZones {
+ public:
+  explicit RedZones(const EngineState& engine);
+  ~RedZones();
+  RedZones(const RedZones&) = delete;
+  RedZones& operator=(const RedZones&) = delete;
+
+ private:
+  [[maybe_unused]] const EngineState& engine_;
+};
+
+// Returns the address range of the memory that an engine occupies.
+Extent Workspace(const EngineState& engine);
+
+// Returns the largest number of jobs in any set of an engine.
+int32_t MaxJobs(const starfocus_config& config);
 
 }  // namespace starfocus
 

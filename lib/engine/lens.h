@@ -5,16 +5,107 @@
 
 #include <cstdint>
 
+#include "lib/base/arena.h"
+#include "lib/base/features.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
-#include "lib/engine/borders.h"
 #include "lib/engine/deblock.h"
-#include "lib/engine/tables.h"
+#include "lib/optics/psf.h"
+#include "lib/optics/rules.h"
 #include "lib/optics/view_weights.h"
 #include "lib/plan/cells.h"
+#include "lib/plan/renderer.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+// Renderers of an engine, and the tables that the engine makes when a lens first uses them.
+
+// All renderers, indexed by Renderer::index. An engine uses the first RendererCount renderers.
+inline constexpr int32_t kMaxRenderers = 2;
+inline constexpr const Renderer* kRenderers[kMaxRenderers] = {&kSliceRenderer, &kLineScanRenderer};
+inline int32_t RendererCount(const starfocus_config& config) {
+  return Has(config, STARFOCUS_FEATURE_LINE_SCAN) ? 2 : 1;
+}
+
+// Returns the largest N that the block and frame modes use for blur radii up to r_max pixels. The
+// modes round radii up before they choose N. Of all shapes of the opening, rings (Demand::kRing)
+// require the largest N.
+int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Demand demand,
+                 double r_max);
+
+// Apertures of one renderer, indexed by N.
+struct ApertureTable {
+  ViewWeights* apertures;  // one aperture per N, up to the largest N that max_blur requires
+  uint16_t* weights;
+  int32_t count = 0;  // Number of apertures in the table.
+  size_t used = 0;    // Number of weights in use.
+};
+
+struct Tables {
+  // Opening for which the tables were made. A change of the cat's eye alone does not invalidate the
+  // tables.
+  ApertureShape opening;
+  ApertureTable apertures[kMaxRenderers];
+  uint16_t* benchmark_weights;  // weights of the single aperture of benchmark mode
+  Psf* psfs;
+  uint16_t* blur_weights;
+  int32_t blur_steps = 0;   // Number of PSFs that have been made.
+  int32_t mean_square = 0;  // MeanSquare of the opening; 0: no opening is set.
+};
+
+// Allocates the tables of an engine.
+void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables);
+
+// Sets the opening. Discards all tables that were made for another opening.
+void SetOpening(const ApertureShape& opening, Tables* tables);
+
+// Makes the missing apertures of the renderer up to N = `last`. Returns STARFOCUS_OK or
+// STARFOCUS_ERROR_CANCELLED; finished apertures are kept.
+starfocus_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
+                               Tables* tables);
+
+// Makes the missing PSFs of all steps (BlurStep) below `steps`. Returns STARFOCUS_OK or
+// STARFOCUS_ERROR_CANCELLED; finished PSFs are kept.
+starfocus_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables);
+
+// Number of pixels that the engine reads around the pixels it produces, accumulated over the
+// processing steps. Each step declares its own border next to its code. borders.cc lists the steps
+// and is the only place that adds borders.
+
+// Borders in pixels on each side of a superblock, or of its stripe. The border of a processing
+// step's input includes the borders of all later steps.
+struct Borders {
+  int32_t joined = 0;                    // Finished pixels around a region, for deblocking.
+  int32_t whole_block = 0;               // Pixels around a block that is planned without cells.
+  int32_t layer[STARFOCUS_LAYERS] = {};  // Pixels of each layer around any possible block.
+  int32_t cells = 0;                     // Number of cells (not pixels) around a superblock.
+  int32_t parted = 0;                    // Pixels of the coverage map.
+  int32_t centre = 0;                    // Pixels of the centre view and the disparity map.
+  // Distance of the farthest highlights that affect a superblock; 0: no highlights.
+  int32_t highlights = 0;
+  int32_t views = 0;     // Pixels of any view.
+  int32_t streamed = 0;  // Rows around a stripe of a stream, rounded up to even for images.
+};
+
+// Adds the borders of all processing steps for blur radii up to `max_blur`. `joins` is true if
+// blocks are deblocked.
+Borders AddBorders(const starfocus_config& config, double max_blur, bool joins);
+
+// Returns the borders for the largest configured blur radius.
+inline Borders LargestBorders(const starfocus_config& config) {
+  return AddBorders(config, config.max_blur, true);
+}
+
+// Number of columns of superblocks.
+inline int32_t Columns(const starfocus_config& config) {
+  return (config.width + config.superblock - 1) / config.superblock;
+}
+
+// Largest number of rows of a layer that a stripe reads.
+inline int32_t LayerRows(const starfocus_config& config, int layer) {
+  return (config.superblock >> layer) + 2 * LargestBorders(config).layer[layer];
+}
 
 struct Lens {
   starfocus_params params;

@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "lib/engine/layout.h"
-#include "lib/engine/stripe_coverage.h"
-#include "lib/engine/stripe_layers.h"
-#include "lib/engine/stripe_plan.h"
+#include "lib/engine/engine.h"
 
 namespace starfocus {
 namespace {

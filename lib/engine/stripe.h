@@ -1,15 +1,85 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses one stripe: plans its blocks, renders them and deblocks their boundaries.
+// Refocuses one stripe: finds its coverage, plans its blocks (stripe_plan.cc), subsamples the
+// centre view, renders the blocks (block.cc) and deblocks their boundaries.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_H_
 
 #include <cstdint>
 
+#include "lib/base/arena.h"
+#include "lib/base/geometry.h"
 #include "lib/engine/engine.h"
-#include "lib/engine/refocus_block.h"
+#include "lib/engine/lens.h"
+#include "lib/io/input.h"
+#include "lib/optics/view_grid.h"
+#include "lib/plan/cells.h"
+#include "lib/plan/partition.h"
+#include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+// Inputs that the blocks of a stripe share.
+struct BlockInputs {
+  const starfocus_config* config;
+  const simd::Kernels* kernels;
+  const Tables* tables;
+  const Lens* lens;
+  const Input* input;
+  const CellGrid* cells;
+  const GatherMap* gathered;
+  starfocus_clock clock;  // a null clock disables measuring the time of blocks
+};
+
+// Returns the grid of the views that the block is rendered from. `weights` is memory for the
+// weights of an aperture with a cat's eye: FullApertureSize(N) elements.
+ViewGrid ViewGridOf(const BlockInputs& in, const Block& block, uint16_t* weights);
+
+// Writes the rectangle of the block to `out` and adds the block to scratch->counts.
+void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
+                  Scratch* scratch);
+
+// Subsamples the centre view around a stripe to layers 1 and 2.
+
+// Clears the marks of the columns to subsample, for a new stripe. Keeps the old marks as the marks
+// of the previous stripe.
+void ClearLayerColumns(const starfocus_config& config, StripeLayers* layers);
+
+// Marks all columns of all layers that the engine may use.
+void MarkLayerColumns(const starfocus_config& config, StripeLayers* layers);
+
+// Marks the columns of superblocks that `block` reads.
+void MarkLayerColumns(const starfocus_config& config, const Block& block, StripeLayers* layers);
+
+// Moves the layers, also of the engine's input, to the rows `of_picture` of the picture, extended
+// by `borders`. Rows of the layers that were computed for the previous stripe are kept.
+void PlaceLayers(const Range& of_picture, const Borders& borders, EngineState* engine);
+
+// All layers that FillLayers computes.
+inline constexpr Range kAllLayers = {1, STARFOCUS_LAYERS};
+
+// Computes the marked columns of the layers [layers.first, layers.last), from the picture or, for
+// layer 2 and if it is not null, from `layer_one`, whose samples contain all rows that the filter
+// reads. PlaceLayers must be called first. Returns STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or
+// STARFOCUS_ERROR_CANCELLED.
+starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, EngineState* engine);
+
+// Computes the coverage map (lib/matting) for the rows that a stripe reads.
+
+// Computes the coverage of the rows that the blocks of the stripe read.
+starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine);
+
+// Plans a stripe: selects the superblocks to refocus, measures their cells, and splits each
+// superblock into blocks.
+
+// Marks the columns of superblocks to refocus, and the columns whose cells must be measured to plan
+// these superblocks. Returns false if no column has to be refocused.
+bool ChooseColumns(const Stripe& rows, EngineState* engine);
+
+// Measures cells, splits superblocks, and drops blocks that do not affect the requested pixels.
+// Reports the remaining blocks to the caller's visitor. Returns STARFOCUS_OK,
+// STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
+starfocus_status PlanStripe(const Stripe& rows, EngineState* engine);
 
 // Returns the inputs of the blocks of a stripe.
 BlockInputs InputsOf(const EngineState& engine);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/stripe_coverage.h"
-
 #include <initializer_list>
 
 #include "lib/base/features.h"
+#include "lib/engine/stripe.h"
 
 namespace starfocus {
 namespace {

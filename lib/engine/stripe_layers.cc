@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/stripe_layers.h"
-
+#include "lib/engine/stripe.h"
 #include "lib/optics/rules.h"
 
 namespace starfocus {

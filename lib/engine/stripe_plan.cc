@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/stripe_plan.h"
-
 #include <cstring>
 
-#include "lib/engine/stripe_layers.h"
+#include "lib/engine/stripe.h"
 #include "lib/io/highlights.h"
 
 namespace starfocus {

@@ -10,7 +10,6 @@
 
 #include "lib/engine/deblock.h"
 #include "lib/engine/engine.h"
-#include "lib/engine/layout.h"
 #include "lib/engine/prepared.h"
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <vector>
 
-#include "lib/engine/refocus_block.h"
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/refocus_block.h"
-
 #include <cstring>
 
+#include "lib/engine/stripe.h"
 #include "lib/gather/gather.h"
 #include "lib/io/highlights.h"
 
