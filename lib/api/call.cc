@@ -9,15 +9,16 @@ namespace starfocus {
 namespace {
 
 // Prepares the engine for comparing the current light field with the previous light field.
-void CompareWith(const Call& call, EngineState* engine) {
+void CompareWith(const starfocus_previous& previous, const starfocus_light_field* now, int32_t mode,
+                 EngineState* engine) {
   const starfocus_config& config = engine->config;
   FrameDiff& changes = engine->stripe.changes;
   changes.active = true;
-  changes.before = &call.previous->light_field;
-  changes.picture = &call.previous->out;
-  changes.now = call.now;
+  changes.before = &previous.light_field;
+  changes.picture = &previous.out;
+  changes.now = now;
   // STARFOCUS_MODE_BLUR reads only the centre view.
-  changes.views = call.params.mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
+  changes.views = mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
   changes.fills = Has(config, STARFOCUS_FEATURE_FILL_UNKNOWN);
   changes.width = config.width;
   changes.height = config.height;
@@ -48,16 +49,17 @@ Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
   return memory;
 }
 
-starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report* report) {
-  const starfocus_params& params = call.params;
+starfocus_status RunCall(const starfocus_params& params, const Output& out,
+                         const starfocus_previous* previous, const starfocus_light_field* now,
+                         EngineState* engine, starfocus_report* report) {
   engine->stream.active = false;
   engine->jobs->call_progress.Begin(0, RegionOf(engine->config, params).height);
-  starfocus_status status = SetLens(params, engine);
-  if (status != STARFOCUS_OK) return Checker(engine->config.problem).Add(status);
-  if (call.previous != nullptr) CompareWith(call, engine);
-  status = RefocusRows(call.out, engine);
-  if (status == STARFOCUS_OK && report != nullptr) *report = engine->report;
-  return Checker(engine->config.problem).Add(status);
+  Checker check(engine->config.problem);
+  if (check.Add(SetLens(params, engine)) != STARFOCUS_OK) return check.status();
+  if (previous != nullptr) CompareWith(*previous, now, params.mode, engine);
+  check.Add(RefocusRows(out, engine));
+  if (check.passed() && report != nullptr) *report = engine->report;
+  return check.status();
 }
 
 }  // namespace starfocus

@@ -11,14 +11,6 @@
 
 namespace starfocus {
 
-struct Call {
-  const starfocus_params& params;
-  Output out;
-  // Previous frame and current light field of a video; null if frames are not compared.
-  const starfocus_previous* previous = nullptr;
-  const starfocus_light_field* now = nullptr;
-};
-
 // Checks `params` and the prepared light field, which may be null, against the configuration of
 // the engine.
 void CheckCall(const starfocus_config& config, const starfocus_params& params,
@@ -29,8 +21,11 @@ void CheckCall(const starfocus_config& config, const starfocus_params& params,
 Extents MemoryOf(const EngineState& engine, const Prepared* prepared);
 
 // Runs a refocusing. Before this call, the caller must set the engine's input and check
-// all arguments except the values of the map.
-starfocus_status RunCall(const Call& call, EngineState* engine, starfocus_report* report);
+// all arguments except the values of the map. `previous` and `now` are the previous frame and the
+// current light field of a video; `previous` is null if frames are not compared.
+starfocus_status RunCall(const starfocus_params& params, const Output& out,
+                         const starfocus_previous* previous, const starfocus_light_field* now,
+                         EngineState* engine, starfocus_report* report);
 
 }  // namespace starfocus
 

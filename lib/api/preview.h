@@ -9,15 +9,11 @@
 
 namespace starfocus {
 
-struct PreviewRequest {
-  const starfocus_params& params;  // lens and region, in pixels of the full size
-  const Prepared& prepared;
-  int32_t shift;
-};
-
-// Checks a request, refocuses the reduced light field, and writes the picture to `out`.
-starfocus_status RefocusPreview(const PreviewRequest& request, const starfocus_image& out,
-                                EngineState* engine, starfocus_report* report);
+// Checks the arguments, refocuses the light field that is reduced by params.preview_shift, and
+// writes the picture to `out`. The lens and region of `params` are in pixels of the full size.
+starfocus_status RefocusPreview(const starfocus_params& params, const Prepared& prepared,
+                                const starfocus_image& out, EngineState* engine,
+                                starfocus_report* report);
 
 }  // namespace starfocus
 

@@ -10,14 +10,6 @@
 namespace starfocus {
 namespace {
 
-// Arguments of an API call that refocuses. `prepared` may be null.
-struct Request {
-  const starfocus_params& params;
-  const starfocus_light_field& light_field;
-  const Prepared* prepared;
-  const starfocus_image& out;
-};
-
 // Fields of params.previous that checks of light fields and pictures may reject.
 constexpr const char* kPreviousFields[] = {
     "previous.light_field.views[].format",
@@ -68,17 +60,15 @@ void CheckFieldInPlace(const starfocus_config& config, const starfocus_light_fie
   CheckInPlace(field.depth, config.width, config.height, check);
 }
 
-// Checks the previous frame unless params.previous is null. Frames can be compared only if both
-// frames are read in place.
-void CheckPrevious(const starfocus_config& config, const Request& request, const Rect& rect,
-                   Checker* check) {
-  const starfocus_previous* const previous = request.params.previous;
-  if (previous == nullptr) return;
-  CheckFieldInPlace(config, request.light_field, check);
+// Checks the previous frame. Frames can be compared only if both frames are read in place.
+void CheckPrevious(const starfocus_config& config, const starfocus_previous& previous,
+                   const starfocus_light_field& light_field, const starfocus_image& out,
+                   const Rect& rect, Checker* check) {
+  CheckFieldInPlace(config, light_field, check);
   if (!check->passed()) return;
-  CheckLightField(config, previous->light_field, check);
-  CheckFieldInPlace(config, previous->light_field, check);
-  CheckOutput(config, previous->out, rect.width, rect.height, check);
+  CheckLightField(config, previous.light_field, check);
+  CheckFieldInPlace(config, previous.light_field, check);
+  CheckOutput(config, previous.out, rect.width, rect.height, check);
   if (!check->passed()) {
     NamePrevious(config.problem);
     return;
@@ -87,56 +77,51 @@ void CheckPrevious(const starfocus_config& config, const Request& request, const
     check->Need(IsInPlace(image), STARFOCUS_ERROR_FEATURE, {name, double(image.format)},
                 {"STARFOCUS_FORMAT_RGB without gaps, for out and previous.out"});
   };
-  need(request.out, "out.format");
-  need(previous->out, "previous.out.format");
+  need(out, "out.format");
+  need(previous.out, "previous.out.format");
 }
 
-// Returns the memory that `out` must not overlap: the inputs and the engine.
-Extents ReadBy(const Request& request, const Rect& rect, const EngineState& engine) {
-  Extents read = MemoryOf(engine, request.prepared);
-  AddLightField(engine.config, request.light_field, &read);
-  if (const starfocus_previous* const previous = request.params.previous) {
-    AddLightField(engine.config, previous->light_field, &read);
+// Checks the arguments of an API call that refocuses. `prepared` may be null.
+void CheckRefocus(const starfocus_params& params, const starfocus_light_field& light_field,
+                  const Prepared* prepared, const starfocus_image& out, const EngineState& engine,
+                  Checker* check) {
+  const starfocus_config& config = engine.config;
+  const starfocus_previous* const previous = params.previous;
+  CheckCall(config, params, prepared, check);
+  CheckLightField(config, light_field, check);
+  if (!check->passed()) return;
+  const Rect rect = RegionOf(config, params);
+  CheckOutput(config, out, rect.width, rect.height, check);
+  if (previous != nullptr) CheckPrevious(config, *previous, light_field, out, rect, check);
+  if (!check->passed()) return;
+  Extents read = MemoryOf(engine, prepared);
+  AddLightField(config, light_field, &read);
+  if (previous != nullptr) {
+    AddLightField(config, previous->light_field, &read);
     AddImage(previous->out, rect.width, rect.height, &read);
   }
-  return read;
+  CheckOutputApart(out, rect.width, rect.height, read, check);
 }
 
-// Returns the previous frame if it can be compared with the current frame, otherwise null. Two
-// frames can be compared if both light fields have coverage, or if both lack coverage.
-const starfocus_previous* ComparableOf(const Request& request) {
-  const starfocus_previous* const previous = request.params.previous;
-  if (previous == nullptr) return nullptr;
-  const bool same =
-      (previous->light_field.coverage == nullptr) == (request.light_field.coverage == nullptr);
-  return same ? previous : nullptr;
-}
-
-starfocus_status CheckRequest(const Request& request, const EngineState& engine) {
-  const starfocus_config& config = engine.config;
+starfocus_status Refocus(const starfocus_params& params, const starfocus_light_field& light_field,
+                         const Prepared* prepared, const starfocus_image& to, EngineState* engine,
+                         starfocus_report* report) {
+  const starfocus_config& config = engine->config;
   Checker check(config.problem);
-  CheckCall(config, request.params, request.prepared, &check);
-  CheckLightField(config, request.light_field, &check);
+  CheckRefocus(params, light_field, prepared, to, *engine, &check);
   if (!check.passed()) return check.status();
-  const Rect rect = RegionOf(config, request.params);
-  CheckOutput(config, request.out, rect.width, rect.height, &check);
-  CheckPrevious(config, request, rect, &check);
-  if (!check.passed()) return check.status();
-  CheckOutputApart(request.out, rect.width, rect.height, ReadBy(request, rect, engine), &check);
-  return check.status();
-}
-
-starfocus_status Refocus(const Request& request, EngineState* engine, starfocus_report* report) {
-  const starfocus_status status = CheckRequest(request, *engine);
-  if (status != STARFOCUS_OK) return status;
-  Input in = InputOf(engine->config, *engine->kernels, request.light_field, 0, &engine->rings);
-  engine->input = request.prepared == nullptr ? in : InputOf(*request.prepared, in);
-  Output out = OutputOf(request.out, RegionOf(engine->config, request.params), engine->odd_row);
+  Input in = InputOf(config, *engine->kernels, light_field, 0, &engine->rings);
+  engine->input = prepared == nullptr ? in : InputOf(*prepared, in);
+  Output out = OutputOf(to, RegionOf(config, params), engine->odd_row);
   out.alpha = AlphaOf(in.images[0]);
   out.alpha_step = in.images[0].step;
-  const Call call = {request.params, out, ComparableOf(request), &request.light_field};
-  return TellPlace(RunCall(call, engine, report), request.light_field.depth, 0,
-                   engine->config.problem);
+  // Two frames can be compared if both light fields have coverage, or if both lack coverage.
+  const starfocus_previous* const previous = params.previous;
+  const bool comparable = previous != nullptr && (previous->light_field.coverage == nullptr) ==
+                                                     (light_field.coverage == nullptr);
+  const starfocus_status status =
+      RunCall(params, out, comparable ? previous : nullptr, &light_field, engine, report);
+  return TellPlace(status, light_field.depth, 0, config.problem);
 }
 
 }  // namespace
@@ -158,7 +143,7 @@ starfocus_status starfocus_refocus(starfocus_engine* engine, const starfocus_par
            {"0 unless the light field is prepared", 0, 0});
   if (!check.passed()) return check.status();
   auto& e = *reinterpret_cast<EngineState*>(engine);
-  return Refocus({full, *light_field, nullptr, *out}, &e, report);
+  return Refocus(full, *light_field, nullptr, *out, &e, report);
 }
 
 starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
@@ -174,8 +159,6 @@ starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
   if (!check.passed()) return check.status();
   auto& e = *reinterpret_cast<EngineState*>(engine);
   const auto& p = *reinterpret_cast<const Prepared*>(prepared);
-  if (full.preview_shift != 0) {
-    return RefocusPreview({full, p, full.preview_shift}, *out, &e, report);
-  }
-  return Refocus({full, p.light_field, &p, *out}, &e, report);
+  if (full.preview_shift != 0) return RefocusPreview(full, p, *out, &e, report);
+  return Refocus(full, p.light_field, &p, *out, &e, report);
 }
