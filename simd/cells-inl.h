@@ -198,36 +198,25 @@ using reference::SurroundCells;
 
 #else
 
-// Widths, in pixels, of the gaps between a block and the columns of cells around the block. Lane k
+// Finds how far the blur of cells extends towards a block, for a vector of columns of cells. Lane k
 // stands for column first + k; column 0 is `around` cells before the block. Lanes after the last
 // column do not reach the block.
-struct ColumnGaps {
-  ColumnGaps(int32_t around, int32_t first) {
+class ColumnReach {
+ public:
+  ColumnReach(const CellPlanes& planes, int32_t around, const int16_t* margins, int32_t first)
+      : planes_(planes), around_(around), margins_(margins), first_(first) {
     const LanesTag d16;
     const auto column = CountFrom(d16, static_cast<int16_t>(first));
     const auto before = hn::Sub(hn::Set(d16, static_cast<int16_t>(around - 1)), column);
     const auto behind = hn::Sub(column, hn::Set(d16, static_cast<int16_t>(around + 2)));
     const auto away = hn::Max(before, behind), none = hn::Set(d16, int16_t{-1});
     const auto beyond = hn::Gt(behind, hn::Set(d16, static_cast<int16_t>(around - 1)));
-    left = hn::VecFromMask(d16, hn::Gt(before, none));
-    right = hn::VecFromMask(d16, hn::Gt(behind, none));
-    gap = hn::ShiftLeft<3>(away);
-    needed = hn::IfThenElse(hn::Lt(away, hn::Zero(d16)), hn::Set(d16, int16_t{INT16_MIN}), gap);
-    needed = hn::IfThenElse(beyond, hn::Set(d16, int16_t{INT16_MAX}), needed);
+    left_ = hn::VecFromMask(d16, hn::Gt(before, none));
+    right_ = hn::VecFromMask(d16, hn::Gt(behind, none));
+    gap_ = hn::ShiftLeft<3>(away);
+    needed_ = hn::IfThenElse(hn::Lt(away, hn::Zero(d16)), hn::Set(d16, int16_t{INT16_MIN}), gap_);
+    needed_ = hn::IfThenElse(beyond, hn::Set(d16, int16_t{INT16_MAX}), needed_);
   }
-
-  LanesVec left, right;  // masks of the columns to the left and to the right of the block
-  LanesVec gap;
-  // Gap that the reach of a cell must exceed to reach the block; INT16_MIN in the columns of the
-  // block.
-  LanesVec needed;
-};
-
-// Finds how far the blur of cells extends towards a block, for a vector of columns of cells.
-class ColumnReach {
- public:
-  ColumnReach(const CellPlanes& planes, int32_t around, const int16_t* margins, int32_t first)
-      : planes_(planes), around_(around), margins_(margins), first_(first), gaps_(around, first) {}
 
   // Adds rows [row, end) of cells, which are all above, all below or all level with the block.
   // `from` is the plane of the cells' reach towards the block. If `border` is not null, its side
@@ -238,9 +227,9 @@ class ColumnReach {
     auto y0 = hn::Zero(d16), y1 = y0, y2 = y0;
     const auto whole = hn::Set(d16, kCellPixels);
     const auto least = [&](int layer) HWY_ATTR {
-      return hn::SaturatedSub(gaps_.needed, hn::Set(d16, margins_[layer]));
+      return hn::SaturatedSub(needed_, hn::Set(d16, margins_[layer]));
     };
-    const auto left = hn::MaskFromVec(gaps_.left);
+    const auto left = hn::MaskFromVec(left_);
     for (; row < end; ++row) {
       const int16_t* at = planes_.cells + (row - around_) * static_cast<ptrdiff_t>(planes_.stride) +
                           first_ - around_;
@@ -257,17 +246,17 @@ class ColumnReach {
       };
       const auto reaches2 = reaches(2);
       if (hn::AllFalse(d16, reaches2)) continue;
-      x2_ = hn::Max(x2_, hn::IfThenElseZero(reaches2, hn::Add(gaps_.gap, whole)));
+      x2_ = hn::Max(x2_, hn::IfThenElseZero(reaches2, hn::Add(gap_, whole)));
       y2 = hn::Max(y2, hn::IfThenElseZero(reaches2, hn::Add(gap_y, whole)));
       const auto reaches1 = reaches(1);
       if (hn::AllFalse(d16, reaches1)) continue;
-      x1_ = hn::Max(x1_, hn::IfThenElseZero(reaches1, hn::Add(gaps_.gap, whole)));
+      x1_ = hn::Max(x1_, hn::IfThenElseZero(reaches1, hn::Add(gap_, whole)));
       y1 = hn::Max(y1, hn::IfThenElseZero(reaches1, hn::Add(gap_y, whole)));
       const auto reaches0 = reaches(0);
       if (hn::AllFalse(d16, reaches0)) continue;
       const auto inside_x = hn::IfThenElse(left, load(kInsideRight), load(kInsideLeft));
       const auto inside_y = load(from + kInsideLeft);
-      x0_ = hn::Max(x0_, hn::IfThenElseZero(reaches0, hn::Add(gaps_.gap, inside_x)));
+      x0_ = hn::Max(x0_, hn::IfThenElseZero(reaches0, hn::Add(gap_, inside_x)));
       y0 = hn::Max(y0, hn::IfThenElseZero(reaches0, hn::Add(gap_y, inside_y)));
       radius_ = hn::Max(radius_, hn::IfThenElseZero(reaches0, load(kRadiusPlane)));
       edge_ = hn::Max(edge_, hn::IfThenElseZero(reaches0, load(kEdgePlane)));
@@ -299,15 +288,19 @@ class ColumnReach {
   }
 
   HWY_INLINE void StoreSides(LanesVec values, int16_t (&border)[4]) const {
-    Store(hn::And(values, gaps_.left), &border[kReachLeft]);
-    Store(hn::And(values, gaps_.right), &border[kReachRight]);
+    Store(hn::And(values, left_), &border[kReachLeft]);
+    Store(hn::And(values, right_), &border[kReachRight]);
   }
 
   const CellPlanes& planes_;
   const int32_t around_;
   const int16_t* const margins_;
   const int32_t first_;
-  const ColumnGaps gaps_;
+  LanesVec left_, right_;  // Masks of the columns to the left and to the right of the block.
+  LanesVec gap_;           // Widths, in pixels, of the gaps between the block and the columns.
+  // Gap that the reach of a cell must exceed to reach the block; INT16_MIN in the columns of the
+  // block.
+  LanesVec needed_;
   // Largest horizontal distance from the block to pixels that reach the block or the margin of
   // layer 0, 1 or 2.
   LanesVec x0_ = hn::Zero(LanesTag()), x1_ = x0_, x2_ = x0_;
@@ -345,7 +338,8 @@ HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t aroun
 }
 
 inline void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
-                          const CellRanges& ranges) {
+                          int16_t* HWY_RESTRICT lows, int16_t* HWY_RESTRICT highs,
+                          uint16_t* HWY_RESTRICT ranges, int16_t* HWY_RESTRICT edges) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   const auto load = [&](const int16_t* at, int plane)
@@ -372,10 +366,10 @@ inline void SurroundCells(const CellPlanes& planes, int32_t around, size_t count
         edge = hn::Max(edge, hn::IfThenElseZero(reached, load(at, kEdgePlane)));
       }
     }
-    hn::StoreU(low, d16, ranges.low + n);
-    hn::StoreU(high, d16, ranges.high + n);
-    hn::StoreU(widest, du16, ranges.widest + n);
-    hn::StoreU(edge, d16, ranges.edge + n);
+    hn::StoreU(low, d16, lows + n);
+    hn::StoreU(high, d16, highs + n);
+    hn::StoreU(widest, du16, ranges + n);
+    hn::StoreU(edge, d16, edges + n);
   }
 }
 

@@ -79,13 +79,6 @@ struct BlockReach {
   int16_t border[3][4];
 };
 
-// Properties of the surroundings of each cell of a row.
-struct CellRanges {
-  int16_t *low, *high;  // Lowest and highest disparity of the surroundings.
-  uint16_t* widest;     // Largest range of disparities within any single surrounding cell.
-  int16_t* edge;        // Largest blur radius at depth edges in the surroundings.
-};
-
 namespace reference {
 
 inline void AddDisparity(int16_t disparity, int16_t* low, int16_t* high) {
@@ -204,8 +197,13 @@ STARFOCUS_REFERENCE void ReachBlock(const CellPlanes& planes, int32_t around,
 // belongs to the surroundings as well if its own kNearPlane exceeds (d - 1) kCellPixels. Farther
 // surfaces stay hidden, regardless of their reach. Values of kNearPlane are at most the values of
 // kReachPlane. Whole groups of kSliceLanes are read and written.
+//
+// For cell n, the kernel writes the lowest and highest disparity of the surroundings, the largest
+// range of disparities within any single surrounding cell, and the largest blur radius at depth
+// edges in the surroundings.
 STARFOCUS_REFERENCE void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
-                                       const CellRanges& ranges) {
+                                       int16_t* lows, int16_t* highs, uint16_t* ranges,
+                                       int16_t* edges) {
   for (size_t n = 0; n < SliceSamples(count); ++n) {
     const int16_t* cell = planes.cells + n;
     int16_t low = INT16_MAX, high = INT16_MIN, edge = 0;
@@ -225,10 +223,10 @@ STARFOCUS_REFERENCE void SurroundCells(const CellPlanes& planes, int32_t around,
         AddReach(at[kEdgePlane * planes.plane], &edge);
       }
     }
-    ranges.low[n] = low;
-    ranges.high[n] = high;
-    ranges.widest[n] = static_cast<uint16_t>(widest);
-    ranges.edge[n] = edge;
+    lows[n] = low;
+    highs[n] = high;
+    ranges[n] = static_cast<uint16_t>(widest);
+    edges[n] = edge;
   }
 }
 

@@ -155,7 +155,7 @@ void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
   uint16_t widest[kMaxRowCells];
   static_assert(kMaxRowCells % simd::kSliceLanes == 0, "kernels write whole lanes");
   kernels.SurroundCells(surroundings.At(surroundings.column, row), surroundings.around,
-                        static_cast<size_t>(surroundings.columns), {low, high, widest, edge});
+                        static_cast<size_t>(surroundings.columns), low, high, widest, edge);
   for (int32_t k = 0; k < surroundings.columns; ++k) {
     smooth[k] = edge[k] > 0 ? CellKind::kMixed : KindOf(scale, low[k], high[k], widest[k]);
   }

@@ -54,11 +54,13 @@ void SurroundCells(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 33, 48), whole = SliceSamples(count);
   const auto around = int32_t(draw->Size(1, 8, 2));
   const CellPlanes cells = MakeCells(count, 1, size_t(around), draw, call);
-  const CellRanges ranges = {call->Results<int16_t>("low", count, whole - count),
-                             call->Results<int16_t>("high", count, whole - count),
-                             call->Results<uint16_t>("widest", count, whole - count),
-                             call->Results<int16_t>("edge", count, whole - count)};
-  call->Runs([=](const Kernels& kernels) { kernels.SurroundCells(cells, around, count, ranges); });
+  auto* low = call->Results<int16_t>("low", count, whole - count);
+  auto* high = call->Results<int16_t>("high", count, whole - count);
+  auto* widest = call->Results<uint16_t>("widest", count, whole - count);
+  auto* edge = call->Results<int16_t>("edge", count, whole - count);
+  call->Runs([=](const Kernels& kernels) {
+    kernels.SurroundCells(cells, around, count, low, high, widest, edge);
+  });
 }
 
 }  // namespace test::kernel_cases
