@@ -65,7 +65,8 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
     max_n[k] = Max(LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur),
                    ViewsOfBenchmark(config.max_blur));
     most = Max(most, max_n[k]);
-    scratch.renderers[k] = arena->Take<uint8_t>(kRenderers[k]->scratch_bytes);
+    scratch.renderers[k] =
+        reinterpret_cast<RendererScratch*>(arena->Take<uint8_t>(kRenderers[k]->scratch_bytes));
   }
   scratch.sums = arena->Take<uint32_t>(3 * side * side);
   if (Has(config, STARFOCUS_FEATURE_SHAPES))

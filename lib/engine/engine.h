@@ -39,8 +39,8 @@ struct Counts {
 // pointers except `sums` and the weights share memory, because a worker runs one step at a time
 // (engine.cc). R is the largest side of a rectangle to refocus, in pixels.
 struct Scratch {
-  void* renderers[kMaxRenderers];  // Scratch memory of each renderer.
-  uint32_t* sums;                  // 3 R^2 samples.
+  RendererScratch* renderers[kMaxRenderers];  // Scratch memory of each renderer.
+  uint32_t* sums;                             // 3 R^2 samples.
   uint16_t* aperture_weights;  // With cat's eyes: view weights of a block, for up to the largest N.
   LampRuns* lamp_runs;         // Cache of runs of highlights, if highlights are enabled.
   BlockPixels field;           // Memory for the pixels of a block that is blurred without views.

@@ -361,7 +361,7 @@ class Star {
 
 }  // namespace
 
-uint64_t RefocusRectangle(const RenderJob& job, void* scratch, uint32_t* sums) {
+uint64_t RefocusRectangle(const RenderJob& job, RendererScratch* scratch, uint32_t* sums) {
   Star(job, static_cast<LineScanScratch*>(scratch), sums).Refocus();
   return 3 * static_cast<uint64_t>(job.rect.width) * static_cast<uint64_t>(job.rect.height);
 }
@@ -395,7 +395,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
 
 // In the comments of LineScanScratch, E is `extended`, and R is the side of a superblock.
 void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
-                 void* memory) {
+                 RendererScratch* memory) {
   LineScanScratch counted;
   LineScanScratch& scratch = memory == nullptr ? counted : *static_cast<LineScanScratch*>(memory);
   const auto rectangle = static_cast<size_t>(config.superblock);

@@ -20,7 +20,7 @@ inline constexpr int32_t kStripRows = 16;
 // Scratch memory of one worker. E is the largest side of an extended rectangle, and R the largest
 // side of a rectangle without border. The comments of the members state the number of elements of
 // each buffer. Each buffer is followed by simd::kPadding bytes.
-struct LineScanScratch {
+struct LineScanScratch : RendererScratch {
   // Light of the field and of the transposed field: E rows of RgbStride(E) each.
   int16_t* field_rgb[2];
   int16_t* field_disparity[2];  // Disparities of both fields: E^2 each.
@@ -48,7 +48,7 @@ constexpr int32_t LastOnDiagonal(int32_t n) {
 }
 
 // Implements Renderer::render for line scans. `scratch` is a LineScanScratch. N > 0.
-uint64_t RefocusRectangle(const RenderJob& job, void* scratch, uint32_t* sums);
+uint64_t RefocusRectangle(const RenderJob& job, RendererScratch* scratch, uint32_t* sums);
 
 }  // namespace starfocus
 

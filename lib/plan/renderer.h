@@ -59,6 +59,9 @@ struct RenderJob {
   bool is_benchmark;           // True: benchmark mode, which renders finer slices.
 };
 
+// Scratch memory of a renderer for one worker. Each renderer derives its own structure.
+struct RendererScratch {};
+
 struct Renderer {
   int32_t index;           // Index of the renderer's tables and scratch memory in an engine.
   bool gathers;            // True: block mode blurs smooth cells without views.
@@ -82,7 +85,7 @@ struct Renderer {
   // is null, the function only counts the bytes. `extended` is the largest side of a rectangle with
   // its border, max_n the largest N.
   void (*take_scratch)(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
-                       void* scratch);
+                       RendererScratch* scratch);
 
   // Returns true if no view moves any pixel of the rectangle. The refocused rectangle is then an
   // exact copy of the centre view.
@@ -90,7 +93,7 @@ struct Renderer {
   // Writes the weighted sums of the views over job.rect to `sums`: rows of 3 * width values with
   // sum_bits(aperture) fractional bits. Returns the number of samples rendered in each view. After
   // cancellation `sums` is unspecified.
-  uint64_t (*render)(const RenderJob& job, void* scratch, uint32_t* sums);
+  uint64_t (*render)(const RenderJob& job, RendererScratch* scratch, uint32_t* sums);
   int (*sum_bits)(const ViewWeights& aperture);
 };
 

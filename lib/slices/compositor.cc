@@ -251,7 +251,8 @@ SliceRule SliceRuleOf(const RenderJob& job) {
   return rule;
 }
 
-uint64_t CompositeRectangle(const RenderJob& given, void* scratch, uint32_t* accumulators) {
+uint64_t CompositeRectangle(const RenderJob& given, RendererScratch* scratch,
+                            uint32_t* accumulators) {
   CompositorScratch& memory = *static_cast<CompositorScratch*>(scratch);
   SliceStack stack;
   stack.inner = LoadSurfaces(given, &memory, accumulators);
@@ -336,7 +337,7 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
 
 // Allocates the scratch memory of one worker; see Renderer::take_scratch.
 void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
-                 void* memory) {
+                 RendererScratch* memory) {
   CompositorScratch counted;
   CompositorScratch& scratch =
       memory == nullptr ? counted : *static_cast<CompositorScratch*>(memory);

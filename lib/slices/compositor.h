@@ -23,7 +23,7 @@ namespace starfocus {
 // Members with disjoint lifetimes share memory. `fill` reuses the memory of the field. `pool` may
 // reuse the memory of the field, `fill` and the scratch memory of FindSlices in `surfaces`, which
 // each tile writes before its slices are made.
-struct CompositorScratch {
+struct CompositorScratch : RendererScratch {
   BlockPixels field;           // E rows of RgbStride(E) samples of light, and E^2 disparities.
   LayeredDepth surfaces;       // E^2 pixels per surface.
   FillScratch fill;            // Used only after all reads of the field.
@@ -66,7 +66,7 @@ SliceRule SliceRuleOf(const RenderJob& job);
 // Implements Renderer::render for slices. Each tile of the rectangle has its own slices. Returns
 // the number of samples rendered in each view (three per pixel), summed over all slices. `scratch`
 // is a CompositorScratch.
-uint64_t CompositeRectangle(const RenderJob& job, void* scratch, uint32_t* accumulators);
+uint64_t CompositeRectangle(const RenderJob& job, RendererScratch* scratch, uint32_t* accumulators);
 
 }  // namespace starfocus
 

@@ -95,7 +95,8 @@ inline int LayerColumns(starfocus_engine* engine) {
 // Returns a reference to the size in bytes of the first worker's pool of slices. Tests may reduce
 // the size of the pool.
 inline size_t& PoolBytes(starfocus_engine* engine) {
-  void* scratch = StateOf(engine).scratch[0].renderers[starfocus::kSliceRenderer.index];
+  starfocus::RendererScratch* const scratch =
+      StateOf(engine).scratch[0].renderers[starfocus::kSliceRenderer.index];
   return static_cast<starfocus::CompositorScratch*>(scratch)->pool_bytes;
 }
 
