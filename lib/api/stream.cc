@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: streams. The caller pushes input rows, which are stored in ring buffers, and pulls
 // finished rows.
-#include "lib/api/call.h"
 #include "lib/api/validate.h"
 #include "lib/base/features.h"
 #include "lib/engine/driver.h"
@@ -58,7 +57,9 @@ void CheckPull(const EngineState& engine, const starfocus_image& out, int32_t ro
   CheckOutput(config, out, config.width, config.height, check);
   CheckPairs(config, IsYuv(out.format), engine.stream.written, rows, check);
   if (!check->passed() || rows == 0) return;
-  CheckOutputApart(out, config.width, rows, MemoryOf(engine, nullptr), check);
+  Extents memory;
+  memory.Add(Workspace(engine));
+  CheckOutputApart(out, config.width, rows, memory, check);
 }
 
 // Copies `rows` of a light field to the rings, unless a value of the map is invalid.
