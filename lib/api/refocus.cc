@@ -1,14 +1,112 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: refocuses whole pictures, regions and previews.
-
-#include "lib/api/call.h"
-#include "lib/api/preview.h"
 #include "lib/api/validate.h"
+#include "lib/base/features.h"
+#include "lib/base/geometry.h"
+#include "lib/base/problem.h"
+#include "lib/engine/driver.h"
+#include "lib/engine/engine.h"
+#include "lib/engine/prepared.h"
 #include "lib/io/image.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
+
+// Prepares the engine for comparing the current light field with the previous light field.
+void CompareWith(const starfocus_previous& previous, const starfocus_light_field* now, int32_t mode,
+                 EngineState* engine) {
+  const starfocus_config& config = engine->config;
+  FrameDiff& changes = engine->stripe.changes;
+  changes.active = true;
+  changes.before = &previous.light_field;
+  changes.picture = &previous.out;
+  changes.now = now;
+  // STARFOCUS_MODE_BLUR reads only the centre view.
+  changes.views = mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
+  changes.fills = Has(config, STARFOCUS_FEATURE_FILL_UNKNOWN);
+  changes.width = config.width;
+  changes.height = config.height;
+  changes.side = config.superblock;
+  const Borders& borders = engine->lens.borders;
+  changes.side_reach = borders.views;
+  changes.centre_reach = borders.highlights > 0 ? borders.views : borders.centre;
+  StartFrameDiff(StripeRows(*engine).first, &changes);
+}
+
+// Checks `params` and the prepared light field, which may be null, against the configuration of
+// the engine.
+void CheckCall(const starfocus_config& config, const starfocus_params& params,
+               const Prepared* prepared, Checker* check) {
+  CheckParams(config, params, check);
+  CheckRegion(params.region, config.width, config.height, check);
+  if (prepared == nullptr) return;
+  check->Need(Fits(*prepared, config), STARFOCUS_ERROR_PREPARED, {"prepared"},
+              {"prepared with the engine's size, views, disparity range, max_layer and transfer"});
+  check->Need(params.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"},
+              {"null if the light field is prepared"});
+}
+
+// Returns the address ranges of the engine and of a prepared light field. Outputs must not overlap
+// these address ranges.
+Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
+  Extents memory;
+  memory.Add(Workspace(engine));
+  if (prepared != nullptr) memory.Add(PreparedMemory(*prepared));
+  return memory;
+}
+
+// Runs a refocusing. Before this call, the caller must set the engine's input and check
+// all arguments except the values of the map. `previous` and `now` are the previous frame and the
+// current light field of a video; `previous` is null if frames are not compared.
+starfocus_status RunCall(const starfocus_params& params, const Output& out,
+                         const starfocus_previous* previous, const starfocus_light_field* now,
+                         EngineState* engine, starfocus_report* report) {
+  engine->stream.active = false;
+  engine->jobs->call_progress.Begin(0, RegionOf(engine->config, params).height);
+  Checker check(engine->config.problem);
+  if (check.Add(SetLens(params, engine)) != STARFOCUS_OK) return check.status();
+  if (previous != nullptr) CompareWith(*previous, now, params.mode, engine);
+  check.Add(RefocusRows(out, engine));
+  if (check.passed() && report != nullptr) *report = engine->report;
+  return check.status();
+}
+
+// Returns the parameters in pixels of the preview, whose region is `rect`.
+starfocus_params ReducedParams(const starfocus_params& full, const Rect& rect) {
+  starfocus_params params = full;
+  const double scale = 1.0 / (1 << full.preview_shift);
+  params.lens.focus *= scale;
+  params.lens.focus_nearer *= scale;
+  params.lens.focus_farther *= scale;
+  if (!IsWhole(params.region)) params.region = {rect.x, rect.y, rect.width, rect.height};
+  return params;
+}
+
+// Checks the arguments, refocuses the light field that is reduced by params.preview_shift, and
+// writes the picture to `out`. The lens and region of `params` are in pixels of the full size.
+starfocus_status RefocusPreview(const starfocus_params& params, const Prepared& prepared,
+                                const starfocus_image& out, EngineState* engine,
+                                starfocus_report* report) {
+  const starfocus_config& config = engine->config;
+  const int32_t shift = params.preview_shift, most = prepared.config.previews;
+  Checker check(config.problem);
+  CheckCall(config, params, &prepared, &check);
+  check.Need(shift >= 1 && shift <= most, STARFOCUS_ERROR_PREPARED,
+             {"preview_shift", double(shift)}, {"1 to previews", 1, double(most)});
+  if (!check.passed()) return check.status();
+  check.Add(CheckBlur(config, params));
+  const Rect rect = ReducedRect(RegionOf(config, params), shift);
+  CheckOutput(config, out, rect.width, rect.height, &check);
+  CheckOutputApart(out, rect.width, rect.height, MemoryOf(*engine, &prepared), &check);
+  if (!check.passed()) return check.status();
+  EngineState reduced = PreviewEngine(ReducedConfig(config, shift), engine);
+  const ReducedField& field = prepared.reduced[shift];
+  reduced.input = InputOf(reduced.config, *reduced.kernels, field.views, field.disparity,
+                          prepared.covers ? field.coverage : Plane<uint8_t>());
+  return RunCall(ReducedParams(params, rect), OutputOf(out, rect, reduced.odd_row), nullptr,
+                 nullptr, &reduced, report);
+}
 
 // Fields of params.previous that checks of light fields and pictures may reject.
 constexpr const char* kPreviousFields[] = {
