@@ -37,15 +37,10 @@ void MeanOfPart(const uint32_t* sums, int32_t columns, int32_t rows, int16_t* li
   }
 }
 
-}  // namespace
-
-Rect ReducedRect(const Rect& rect, int shift) {
-  const int32_t x = rect.x >> shift, y = rect.y >> shift;
-  return {x, y, ReducedSize(rect.x + rect.width, shift) - x,
-          ReducedSize(rect.y + rect.height, shift) - y};
-}
-
+// Computes the mean light of blocks of pixels, rounded half up. `sums` contains the sums of `rows`
+// rows of light: one RGB sum for each of `columns` columns.
 void MeanOfBlocks(const uint32_t* sums, int32_t columns, int32_t rows, int shift, int16_t* light) {
+  static_assert(STARFOCUS_MAX_PREVIEW == 3, "MeanOfWhole is instantiated for each shift");
   const int32_t side = 1 << shift;
   int32_t whole = 0;
   if (rows == side) {
@@ -59,6 +54,9 @@ void MeanOfBlocks(const uint32_t* sums, int32_t columns, int32_t rows, int shift
   }
 }
 
+// Returns the median of `count` values; `count` is at most 4^STARFOCUS_MAX_PREVIEW. For an even
+// count, the median is the larger of the two middle values. The median of disparities therefore
+// always lies on a surface, not between two surfaces.
 int16_t MedianOf(const int16_t* values, int32_t count) {
   int16_t low = values[0], high = values[0];
   for (int32_t n = 1; n < count; ++n) {
@@ -79,8 +77,6 @@ int16_t MedianOf(const int16_t* values, int32_t count) {
   }
   return low;
 }
-
-namespace {
 
 void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sums) {
   if (is_first) {
@@ -138,14 +134,15 @@ bool ReduceMap(const Prepared& prepared, const EngineState& engine, int shift, c
     if (!scratch->cancel.Spend(int64_t{4} * side * part.width)) return false;
     int16_t* const out = prepared.reduced[shift].disparity.Row(y >> shift);
     for (int32_t x = part.x; x < right; x += side) {
-      int16_t values[1 << (2 * kMaxReduction)] = {};
+      int16_t values[1 << (2 * STARFOCUS_MAX_PREVIEW)] = {};
       int32_t count = 0;
       for (int32_t row = y; row < Min(y + side, bottom); ++row) {
         const int16_t* from = prepared.disparity.Row(row);
         for (int32_t k = x; k < Min(x + side, right); ++k) values[count++] = from[k];
       }
-      const int16_t median = ReducedDisparity(MedianOf(values, count), shift);
-      out[x >> shift] = median < low ? low : median > high ? high : median;
+      // Converted to pixels of the reduced picture, rounded half up.
+      const int32_t median = (MedianOf(values, count) + (side >> 1)) >> shift;
+      out[x >> shift] = static_cast<int16_t>(Clamp(median, low, high));
     }
   }
   return true;
@@ -193,6 +190,12 @@ starfocus_status ReduceRows(const Prepared& prepared, const Range& rows,
 }
 
 }  // namespace
+
+Rect ReducedRect(const Rect& rect, int shift) {
+  const int32_t x = rect.x >> shift, y = rect.y >> shift;
+  return {x, y, ReducedSize(rect.x + rect.width, shift) - x,
+          ReducedSize(rect.y + rect.height, shift) - y};
+}
 
 starfocus_config ReducedConfig(const starfocus_config& config, int shift) {
   starfocus_config reduced = config;

@@ -15,8 +15,6 @@
 
 namespace starfocus {
 
-inline constexpr int kMaxReduction = 3;  // largest shift
-
 // Returns the width or height of a reduced picture.
 constexpr int32_t ReducedSize(int32_t size, int shift) {
   return (size + (1 << shift) - 1) >> shift;
@@ -25,23 +23,8 @@ constexpr int32_t ReducedSize(int32_t size, int shift) {
 // Returns the rectangle of reduced pixels that overlap `rect`.
 Rect ReducedRect(const Rect& rect, int shift);
 
-// Computes the mean light of blocks of pixels, rounded half up. `sums` contains the sums of `rows`
-// rows of light: one RGB sum for each of `columns` columns.
-void MeanOfBlocks(const uint32_t* sums, int32_t columns, int32_t rows, int shift, int16_t* light);
-
-// Returns the median of `count` values; `count` is at most 4^kMaxReduction. For an even count, the
-// median is the larger of the two middle values. The median of disparities therefore always lies on
-// a surface, not between two surfaces.
-int16_t MedianOf(const int16_t* values, int32_t count);
-
-// Converts a disparity to pixels of the reduced picture, rounded half up.
-constexpr int16_t ReducedDisparity(int16_t disparity, int shift) {
-  return static_cast<int16_t>((disparity + (1 << shift >> 1)) >> shift);
-}
-
-static_assert(STARFOCUS_MAX_PREVIEW == kMaxReduction,
-              "each preview size must be a supported size of reduced light fields");
-
+// Copy of a prepared light field at 1/2^shift of its size. Each pixel represents a block of 2^shift
+// by 2^shift pixels, or the part of the block inside the picture.
 struct ReducedField {
   Plane<uint8_t> views[STARFOCUS_MAX_VIEWS];  // 8-bit samples (codes) of all rows.
   Plane<int16_t> disparity;  // In fixed point (kDisparityBits), in pixels of the reduced picture.
