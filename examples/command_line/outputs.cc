@@ -83,7 +83,7 @@ std::string Describe(OutputKind written) {
 
 }  // namespace
 
-Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
+Error CheckApart(const std::vector<OutputPath>& outputs, const Inputs& inputs) {
   std::set<fs::path> folders, files, grids, names;
   // `ids` are those of inputs. Two names of one file are written one after the other by renaming,
   // but a file that is standard output would be lost if one of its names were written as well.
@@ -98,7 +98,7 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
     files.insert(NameOf(path));
     ids.insert(IdOf(path, STDIN_FILENO));
   }
-  for (const Output& output : outputs) {
+  for (const OutputPath& output : outputs) {
     // All names of standard output refer to the same stream. Standard input is a different stream.
     const bool stream = IsStandardStream(output.path);
     const fs::path name = stream ? "-" : NameOf(output.path);
@@ -128,7 +128,7 @@ Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs) {
   return {};
 }
 
-Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders) {
+Error CheckFolderApart(const OutputPath& output, const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     if (NameOf(folder) != NameOf(output.path)) continue;
     return Error::Usage(output.option, "a separate folder",
@@ -137,7 +137,7 @@ Error CheckFolderApart(const Output& output, const std::vector<std::string>& fol
   return {};
 }
 
-Error CheckKind(const Output& output, OutputKind written) {
+Error CheckKind(const OutputPath& output, OutputKind written) {
   const std::string& path = output.path;
   if (written == OutputKind::kFolder && IsStandardStream(path)) {
     return Error::Usage(output.option, Describe(written), path + " (standard output)");
@@ -165,12 +165,12 @@ Error CheckKind(const Output& output, OutputKind written) {
   return Error::Usage(output.option, expected, path);
 }
 
-Error CheckTextOutput(const Output& output, OutputKind written) {
+Error CheckTextOutput(const OutputPath& output, OutputKind written) {
   const Error error = CheckKind(output, written);
   return error ? error : CheckOutputPath(output.path);
 }
 
-Error CheckFolderOutput(const Output& output) {
+Error CheckFolderOutput(const OutputPath& output) {
   const std::string& folder = output.path;
   std::error_code ignored;
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {

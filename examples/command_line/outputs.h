@@ -10,7 +10,7 @@
 
 namespace starfocus {
 
-struct Output {
+struct OutputPath {
   std::string option, path;
 };
 
@@ -23,25 +23,25 @@ struct Inputs {
 
 // Returns an error if two outputs are the same file, or if an output is the same file as an input.
 // Different names of one file, including links, are recognized.
-Error CheckApart(const std::vector<Output>& outputs, const Inputs& inputs);
+Error CheckApart(const std::vector<OutputPath>& outputs, const Inputs& inputs);
 
 // Returns an error if the output folder is one of the input folders, under any name or link. In an
 // input folder, output files would mix with the views.
-Error CheckFolderApart(const Output& output, const std::vector<std::string>& folders);
+Error CheckFolderApart(const OutputPath& output, const std::vector<std::string>& folders);
 
 enum class OutputKind { kPage, kJson, kFolder, kVideo, kOther };
 
 // Returns an error if the extension of a page, a JSON file or a folder states another kind. Other
 // extensions, and names without extension, fit every kind. The error for a video contains the
 // command of ffmpeg that makes the video. A folder may have any name that ends with "/".
-Error CheckKind(const Output& output, OutputKind written);
+Error CheckKind(const OutputPath& output, OutputKind written);
 
 // Calls CheckKind and CheckOutputPath.
-Error CheckTextOutput(const Output& output, OutputKind written);
+Error CheckTextOutput(const OutputPath& output, OutputKind written);
 
 // Returns an error unless the folder can be created, or exists and is writable, and CheckKind
 // accepts its name.
-Error CheckFolderOutput(const Output& output);
+Error CheckFolderOutput(const OutputPath& output);
 
 }  // namespace starfocus
 

@@ -56,8 +56,8 @@ std::string PictureOf(const std::string& map) {
   return std::filesystem::path(map).replace_extension(".png").string();
 }
 
-std::vector<Output> PicturesOf(const DisparityOptions& options, const Plan& plan) {
-  std::vector<Output> pictures;
+std::vector<OutputPath> PicturesOf(const DisparityOptions& options, const Plan& plan) {
+  std::vector<OutputPath> pictures;
   if (!plan.picture.empty()) pictures.push_back({"--output", plan.picture});
   if (!options.confidence.empty()) pictures.push_back({"--confidence", options.confidence});
   if (!options.coverage.empty()) pictures.push_back({"--coverage", options.coverage});
@@ -65,8 +65,8 @@ std::vector<Output> PicturesOf(const DisparityOptions& options, const Plan& plan
 }
 
 // Returns all outputs, except the map if the command writes the map of its input folder.
-std::vector<Output> OutputsOf(const DisparityOptions& options, const Plan& plan) {
-  std::vector<Output> outputs = PicturesOf(options, plan);
+std::vector<OutputPath> OutputsOf(const DisparityOptions& options, const Plan& plan) {
+  std::vector<OutputPath> outputs = PicturesOf(options, plan);
   if (!options.out.empty()) outputs.insert(outputs.begin(), {"--output", plan.map});
   return outputs;
 }
@@ -105,7 +105,7 @@ Result<Plan> MakePlan(const DisparityOptions& options) {
     plan.picture.clear();
   }
   Error error = CheckOutputPath(plan.map);
-  for (const Output& picture : PicturesOf(options, plan)) {
+  for (const OutputPath& picture : PicturesOf(options, plan)) {
     if (!error) error = CheckImageOutput(picture.path);
   }
   if (!error)

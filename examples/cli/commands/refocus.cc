@@ -59,15 +59,15 @@ struct Loaded {
   double max_blur = 0;
 };
 
-std::vector<Output> ListOutputs(const RefocusOptions& options) {
-  std::vector<Output> outputs = ListPictures(options.output, options.sweep.size());
+std::vector<OutputPath> ListOutputs(const RefocusOptions& options) {
+  std::vector<OutputPath> outputs = ListPictures(options.output, options.sweep.size());
   if (!options.map.empty()) outputs.push_back({"--map", options.map});
   if (!options.report.empty()) outputs.push_back({"--report", options.report});
   return outputs;
 }
 
 Error CheckOutputs(const RefocusOptions& options) {
-  const std::vector<Output> outputs = ListOutputs(options);
+  const std::vector<OutputPath> outputs = ListOutputs(options);
   Error error = options.output.out.empty() ? Error() : CheckImageOutput(options.output.out);
   for (size_t i = 0; i < outputs.size() && !error; ++i) {
     const std::string& option = outputs[i].option;
@@ -188,13 +188,13 @@ Result<Loaded> Load(const RefocusOptions& options, LensPlan* plan) {
 // Prints one line for each output picture or page, and for a sweep one line.
 void TellOutputs(const RefocusOptions& options, const LensPlan& plan) {
   const std::string lens = ": " + LensText(plan);
-  const std::vector<Output> outputs = ListPictures(options.output, options.sweep.size());
+  const std::vector<OutputPath> outputs = ListPictures(options.output, options.sweep.size());
   if (!options.sweep.empty()) {
     const bool one = outputs[0].path == options.output.out;  // an animation
     const std::string last = one ? "" : " to " + outputs[options.sweep.size() - 1].path;
     return TellLine(OutputName(outputs[0].path) + last + lens);
   }
-  for (const Output& output : outputs) TellLine(OutputName(output.path) + lens);
+  for (const OutputPath& output : outputs) TellLine(OutputName(output.path) + lens);
   if (outputs.empty()) TellLine(InputName(options.input.path) + lens);
 }
 

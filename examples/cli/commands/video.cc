@@ -82,7 +82,7 @@ Error CheckOutputs(const VideoOptions& options, const Video& video) {
   for (const FrameSource& frame : video.sources) paths.push_back(frame.path);
   if (!error) error = CheckFolderApart({"--output", options.out}, paths);
   if (error) return error;
-  std::vector<Output> outputs = {{"--output", options.out}};
+  std::vector<OutputPath> outputs = {{"--output", options.out}};
   for (const FrameSource& frame : video.sources) {
     outputs.push_back({"--output", PicturePath(options.out, frame)});
   }

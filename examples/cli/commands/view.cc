@@ -152,7 +152,7 @@ struct Opened {
 };
 
 Result<Opened> Open(const ViewOptions& options) {
-  const std::vector<Output> outputs = {{"--output", options.out}};
+  const std::vector<OutputPath> outputs = {{"--output", options.out}};
   std::vector<std::string> files = {options.input.path, options.input.depth, options.input.matte};
   for (const TruthFile& truth : FindTruths(options.input.path)) files.push_back(truth.path);
   Opened opened;

@@ -120,7 +120,7 @@ Result<std::optional<Batch>> PlanBatch(const std::vector<std::string>& inputs,
 }
 
 Error MakeBatchFolder(const Batch& batch, OutputFolder* folder) {
-  std::vector<Output> outputs;
+  std::vector<OutputPath> outputs;
   Inputs read;
   for (const BatchItem& item : batch.items) {
     std::error_code ignored;

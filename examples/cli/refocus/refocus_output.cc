@@ -112,8 +112,8 @@ void AddOutputOptions(Command* command, OutputOptions* options) {
       command);
 }
 
-std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures) {
-  std::vector<Output> outputs;
+std::vector<OutputPath> ListPictures(const OutputOptions& options, size_t pictures) {
+  std::vector<OutputPath> outputs;
   if (pictures == 0 || FormatExtension(options.out) == kAnimation) {
     if (!options.out.empty()) outputs.push_back({"--output", options.out});
   } else {

@@ -32,7 +32,7 @@ struct OutputOptions {
 void AddOutputOptions(Command* command, OutputOptions* options);
 
 // Lists the output files of a refocusing, or of a sweep of `pictures` pictures (0: no sweep).
-std::vector<Output> ListPictures(const OutputOptions& options, size_t pictures);
+std::vector<OutputPath> ListPictures(const OutputOptions& options, size_t pictures);
 
 // Checks the options before any file is read. Does not check the output files or the terminal.
 // `region` is true if only part of the picture is computed.
