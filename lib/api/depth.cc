@@ -87,12 +87,12 @@ starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size
   check.NotNull(bytes, "bytes");
   CheckDepthConfig(full, repairs, &check);
   if (!check.passed()) return check.status();
-  const EstimatePlan plan = MakePlan(full, repairs);
+  const SweepSetup setup = MakeSetup(full, repairs);
   Arena arena(nullptr);
   if (full.views == 1) {
-    TakeColourRepair(plan, full.max_workers, &arena);
+    TakeColourRepair(setup, full.max_workers, &arena);
   } else {
-    TakeEstimate(plan, full.max_workers, &arena);
+    TakeEstimate(setup, full.max_workers, &arena);
   }
   if (Converts(full)) TakeConverted(full, repairs, &arena);
   if (arena.Bytes() == kTooLarge) return check.Add(STARFOCUS_ERROR_TOO_LARGE);
@@ -143,7 +143,7 @@ void CheckCall(const DepthCall& call, bool repairs, const starfocus_disparity_ou
 // Converts the light field if necessary, and calls make(light_field) with the caller's runner and
 // progress function. Takes the memory of the converted light field.
 template <class Make>
-starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, Arena* arena, Jobs* jobs,
+starfocus_status Watched(const DepthCall& call, const SweepSetup& setup, Arena* arena, Jobs* jobs,
                          const Make& make) {
   const starfocus_depth_config& config = *call.config;
   jobs->runner = config.runner;
@@ -154,8 +154,8 @@ starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, Arena*
   starfocus_light_field field = *call.light_field;
   starfocus_status status = STARFOCUS_OK;
   if (Converts(config)) {
-    const ConvertedMemory memory = TakeConverted(config, plan.repairs, arena);
-    status = ConvertField(config, memory, plan.columns * plan.rows, jobs, &field);
+    const ConvertedMemory memory = TakeConverted(config, setup.repairs, arena);
+    status = ConvertField(config, memory, setup.columns * setup.rows, jobs, &field);
   }
   if (status == STARFOCUS_OK) status = make(field);
   if (status != STARFOCUS_OK) return status;
@@ -167,13 +167,13 @@ starfocus_status Watched(const DepthCall& call, const EstimatePlan& plan, Arena*
 // of hair was found, otherwise to 0.
 starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
                                int32_t* has_coverage) {
-  const EstimatePlan plan = MakePlan(*call.config, true);
+  const SweepSetup setup = MakeSetup(*call.config, true);
   Arena arena(call.workspace);
-  const ColourMemory memory = TakeColourRepair(plan, call.config->max_workers, &arena);
+  const ColourMemory memory = TakeColourRepair(setup, call.config->max_workers, &arena);
   bool found = false;
   const starfocus_status status =
-      Watched(call, plan, &arena, memory.jobs, [&](const starfocus_light_field& field) {
-        return RepairByColour(plan, field, simd::BestDepthKernels(), output, memory, &found);
+      Watched(call, setup, &arena, memory.jobs, [&](const starfocus_light_field& field) {
+        return RepairByColour(setup, field, simd::BestDepthKernels(), output, memory, &found);
       });
   *has_coverage = status == STARFOCUS_OK && found ? 1 : 0;
   return status;
@@ -181,20 +181,20 @@ starfocus_status RepairOneView(const DepthCall& call, const MapOutput& output,
 
 // Estimates a map from all views, or repairs a given map with all views.
 starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput& output) {
-  const EstimatePlan plan = MakePlan(*call.config, repairs);
+  const SweepSetup setup = MakeSetup(*call.config, repairs);
   const simd::DepthKernels& kernels = simd::BestDepthKernels();
   Arena arena(call.workspace);
-  const EstimateMemory memory = TakeEstimate(plan, call.config->max_workers, &arena);
+  const EstimateMemory memory = TakeEstimate(setup, call.config->max_workers, &arena);
   // Calls visit(workspace, begin, end) for each piece of the memory.
   const auto visit_pieces = [&](void (*visit)(void*, size_t, size_t)) {
     const PieceVisitor visitor = {visit, call.workspace};
     Arena counted(nullptr, PTRDIFF_MAX, &visitor);
-    if (kRedZone > 0) TakeEstimate(plan, call.config->max_workers, &counted);
+    if (kRedZone > 0) TakeEstimate(setup, call.config->max_workers, &counted);
   };
   visit_pieces(PoisonZone);
   const starfocus_status status =
-      Watched(call, plan, &arena, memory.jobs, [&](const starfocus_light_field& field) {
-        return (repairs ? Repair : Estimate)(plan, field, kernels, output, memory);
+      Watched(call, setup, &arena, memory.jobs, [&](const starfocus_light_field& field) {
+        return (repairs ? Repair : Estimate)(setup, field, kernels, output, memory);
       });
   visit_pieces(UnpoisonZone);
   return status;

@@ -80,7 +80,7 @@ void PlaceGroups(const ColourMap& map, const uint8_t* doubt, const Rect& around,
   std::memset(cell->place, 0, sizeof cell->place);
   int32_t first = kGroups, last = 0;
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const size_t row = map.plan.At(around.x, y);
+    const size_t row = map.setup.At(around.x, y);
     for (int32_t x = 0; x < around.width; ++x) {
       if (doubt[row + static_cast<size_t>(x)] == 0) continue;
       const int32_t group = GroupOf(map.disparity[row + static_cast<size_t>(x)]);
@@ -105,11 +105,11 @@ void PlaceGroups(const ColourMap& map, const uint8_t* doubt, const Rect& around,
 void FillEverySecond(const ColourMap& map, const uint8_t* doubt, const Rect& row,
                      const ColourCell& cell, simd::ColourSample* sample) {
   const uint8_t* colours = map.Pixel(0, row.y);
-  const uint8_t* doubts = doubt + map.plan.At(0, row.y);
-  const int16_t* disparities = map.disparity + map.plan.At(0, row.y);
+  const uint8_t* doubts = doubt + map.setup.At(0, row.y);
+  const int16_t* disparities = map.disparity + map.setup.At(0, row.y);
   for (int32_t x = row.x; x < row.x + row.width; x += 2, ++sample) {
     *sample = kOutside;
-    if (x < 0 || x >= map.plan.width) continue;
+    if (x < 0 || x >= map.setup.width) continue;
     const uint8_t* colour = colours + 3 * x;
     sample->sum = static_cast<int16_t>(colour[0] + colour[1] + colour[2]);
     sample->red_green = static_cast<int16_t>(colour[0] - colour[1]);
@@ -124,14 +124,14 @@ void FillEverySecond(const ColourMap& map, const uint8_t* doubt, const Rect& row
 
 // Fills `cell` with the samples and slots for the rectangle `area` of the picture.
 void FillCell(const ColourMap& map, const uint8_t* doubt, const Rect& area, ColourCell* cell) {
-  PlaceGroups(map, doubt, Widened(map.plan, area, kReach), cell);
+  PlaceGroups(map, doubt, Widened(map.setup, area, kReach), cell);
   const int32_t width = WholeBlocks(area.width) + 2 * kReach;
   const int32_t height = WholeBlocks(area.height) + 2 * kReach;
   for (int32_t k = 0; k < height; ++k) {
     const int32_t y = area.y - kReach + k;
     for (int32_t odd = 0; odd < 2; ++odd) {
       simd::ColourSample* row = cell->samples[k & 1][odd] + k / 2 * ColourCell::kHalf;
-      if (y < 0 || y >= map.plan.height) {
+      if (y < 0 || y >= map.setup.height) {
         for (int32_t n = 0; n < width / 2; ++n) row[n] = kOutside;
       } else {
         FillEverySecond(map, doubt, {area.x - kReach + odd, y, width - odd, 1}, *cell, row);
@@ -202,7 +202,7 @@ void KeepOwn(int32_t own, int32_t cost, Choices* choices) {
 
 bool IsDoubtful(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y) {
   return x < area.width && y < area.height &&
-         job.doubt[job.map.plan.At(area.x + x, area.y + y)] <= kDoubtReach;
+         job.doubt[job.map.setup.At(area.x + x, area.y + y)] <= kDoubtReach;
 }
 
 // Fills the choices of the doubtful pixels of a block. The block consists of every second pixel in
@@ -219,7 +219,7 @@ void ChooseInBlock(const ChoiceJob& job, const Rect& area, int32_t x, int32_t y)
     Choices* choices = job.memory.choices + (area.y + row - job.region.y) * job.region.width +
                        area.x + column - job.region.x;
     TakeBest(*cell, n, choices);
-    const size_t own = job.map.plan.At(area.x + column, area.y + row);
+    const size_t own = job.map.setup.At(area.x + column, area.y + row);
     KeepOwn(job.map.disparity[own], kDoubtCosts[job.doubt[own]], choices);
     for (int32_t k = 0; k < choices->count; ++k) choices->sum[k] = 0;
   }
@@ -232,7 +232,7 @@ void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t 
   uint8_t least[kColourCell];  // smallest doubt in each column of the row of blocks
   std::memset(least, kDoubtReach + 1, sizeof least);
   for (int32_t row = y; row < Min(y + kCellBlock, area.height); row += 2) {
-    const uint8_t* doubt = job.doubt + job.map.plan.At(area.x, area.y + row);
+    const uint8_t* doubt = job.doubt + job.map.setup.At(area.x, area.y + row);
     for (int32_t x = 0; x < area.width; ++x) least[x] = std::min(least[x], doubt[x]);
   }
   for (int32_t x = first; x < area.width;) {
@@ -248,7 +248,7 @@ void ChooseInRow(const ChoiceJob& job, const Rect& area, int32_t first, int32_t 
 bool HasDoubt(const ChoiceJob& job, const Rect& area) {
   bool doubtful = false;
   for (int32_t y = area.y; y < area.y + area.height && !doubtful; ++y) {
-    ForDoubtful(job.doubt + job.map.plan.At(area.x, y), area.width,
+    ForDoubtful(job.doubt + job.map.setup.At(area.x, y), area.width,
                 [&](int32_t) { doubtful = true; });
   }
   return doubtful;
@@ -295,8 +295,8 @@ struct PathLine {
 
   PathLine(const ChoiceJob& job, int32_t x, int32_t y, int32_t dx, int32_t dy) {
     const Rect& region = job.region;
-    pixel = static_cast<ptrdiff_t>(job.map.plan.At(region.x + x, region.y + y));
-    pixel_step = dx + ptrdiff_t{dy} * job.map.plan.width;
+    pixel = static_cast<ptrdiff_t>(job.map.setup.At(region.x + x, region.y + y));
+    pixel_step = dx + ptrdiff_t{dy} * job.map.setup.width;
     choice = x + ptrdiff_t{y} * region.width;
     choice_step = dx + ptrdiff_t{dy} * region.width;
     colour = job.map.Pixel(region.x + x, region.y + y);
@@ -363,7 +363,7 @@ void AddPathsAcross(const ChoiceJob& job, int32_t direction) {
   const Rect& region = job.region;
   const int32_t last = region.width - 1;
   for (int32_t y = 0; y < region.height; ++y) {
-    const uint8_t* doubt = job.doubt + job.map.plan.At(region.x, region.y + y);
+    const uint8_t* doubt = job.doubt + job.map.setup.At(region.x, region.y + y);
     const PathLine line(job, direction > 0 ? 0 : last, y, direction, 0);
     ChoicePath path;
     path.at = kNotBegun;
@@ -386,7 +386,7 @@ void AddPathsDown(const ChoiceJob& job, int32_t direction) {
   const int32_t top = direction > 0 ? 0 : region.height - 1;
   const PathLine first(job, 0, top, 0, direction);
   for (int32_t at = 0; at < region.height; ++at) {
-    const uint8_t* doubt = job.doubt + job.map.plan.At(region.x, region.y + top + at * direction);
+    const uint8_t* doubt = job.doubt + job.map.setup.At(region.x, region.y + top + at * direction);
     ForDoubtful(doubt, region.width, [&](int32_t x) {
       PathLine line = first;
       line.Move(x);

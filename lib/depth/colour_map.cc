@@ -42,15 +42,15 @@ void FillRow(int32_t width, int16_t* row) {
 
 // Fills the unknown rows [first, end), which lie between two known rows, or between a known row and
 // the top or bottom of the map.
-void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map) {
-  const auto width = static_cast<size_t>(plan.width);
+void FillRows(const SweepSetup& setup, int32_t first, int32_t end, int16_t* map) {
+  const auto width = static_cast<size_t>(setup.width);
   // If the unknown rows touch the top or bottom of the map, the pointer on that side is invalid and
   // is not read.
   const int16_t* above = map + static_cast<size_t>(Max(first - 1, 0)) * width;
-  const int16_t* below = map + static_cast<size_t>(Min(end, plan.height - 1)) * width;
+  const int16_t* below = map + static_cast<size_t>(Min(end, setup.height - 1)) * width;
   for (int32_t y = first; y < end; ++y) {
     const int32_t before = first == 0 ? INT32_MAX : y - first + 1;
-    const int32_t after = end == plan.height ? INT32_MAX : end - y;
+    const int32_t after = end == setup.height ? INT32_MAX : end - y;
     int16_t* row = map + static_cast<size_t>(y) * width;
     if (before != after) {
       std::memcpy(row, before < after ? above : below, width * sizeof(int16_t));
@@ -64,14 +64,14 @@ void FillRows(const EstimatePlan& plan, int32_t first, int32_t end, int16_t* map
 // kDoubtReach + 1 for all other pixels.
 uint8_t DoubtAt(const ColourMap& map, int32_t x, int32_t y) {
   if (!std::isfinite(GivenAt(map.light_field, y)[x])) return 0;
-  const int32_t own = map.disparity[map.plan.At(x, y)];
-  const Rect around = Widened(map.plan, {x, y, 1, 1}, kFlatRadius);
+  const int32_t own = map.disparity[map.setup.At(x, y)];
+  const Rect around = Widened(map.setup, {x, y, 1, 1}, kFlatRadius);
   int32_t flat = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const int16_t* disparities = map.disparity + map.plan.At(around.x, row);
+    const int16_t* disparities = map.disparity + map.setup.At(around.x, row);
     for (int32_t k = 0; k < around.width; ++k) flat += Abs(disparities[k] - own) <= kFlat ? 1 : 0;
     if (25 * flat < kLeastFlat * around.width * around.height) continue;
-    return IsBesideStep(map, {0, 0, map.plan.width, map.plan.height}, x, y) ? 1 : kDoubtReach + 1;
+    return IsBesideStep(map, {0, 0, map.setup.width, map.setup.height}, x, y) ? 1 : kDoubtReach + 1;
   }
   return 0;
 }
@@ -86,14 +86,14 @@ struct FlatStrip {
   uint8_t unknown[kMost];
 
   FlatStrip(const ColourMap& map, const Rect& strip) {
-    const Rect around = Widened(map.plan, strip, kFlatRadius);
+    const Rect around = Widened(map.setup, strip, kFlatRadius);
     left = around.x;
     width = around.width;
     std::fill_n(low, width, INT16_MAX);
     std::fill_n(high, width, INT16_MIN);
     std::fill_n(unknown, width, uint8_t{0});
     for (int32_t y = around.y; y < around.y + around.height; ++y) {
-      const int16_t* row = map.disparity + map.plan.At(left, y);
+      const int16_t* row = map.disparity + map.setup.At(left, y);
       for (int32_t k = 0; k < width; ++k) {
         low[k] = std::min(low[k], row[k]);
         high[k] = std::max(high[k], row[k]);
@@ -174,12 +174,12 @@ void LimitToNeighbours(const Rect& region, uint8_t* doubt) {
 // kDisplacement. A core consists of pixels farther than kDisplacement from all steps. A surface
 // that the map has widened on all sides has a core within kDisplacement of each of its pixels.
 bool IsThin(const ColourMap& map, const Rect& region, const uint8_t* doubt, int32_t x, int32_t y) {
-  const int32_t own = map.disparity[map.plan.At(x, y)];
-  const Rect around = Widened(map.plan, {x, y, 1, 1}, kDisplacement);
+  const int32_t own = map.disparity[map.setup.At(x, y)];
+  const Rect around = Widened(map.setup, {x, y, 1, 1}, kDisplacement);
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     const uint8_t* doubts = doubt + (row - region.y) * region.width;
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const int32_t difference = Abs(map.disparity[map.plan.At(column, row)] - own);
+      const int32_t difference = Abs(map.disparity[map.setup.At(column, row)] - own);
       if (doubts[column - region.x] > kDisplacement && difference <= kPixel) return false;
     }
   }
@@ -195,9 +195,9 @@ constexpr uint8_t kBlack[3] = {};
 void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, int32_t* row) {
   for (int32_t k = 0; k < count; ++k) {
     const int32_t x = first + k;
-    const bool inside = x >= 0 && x < map.plan.width;
+    const bool inside = x >= 0 && x < map.setup.width;
     const uint8_t* colour = inside ? map.Pixel(x, y) : kBlack;
-    row[k] = inside ? map.disparity[map.plan.At(x, y)] : kOutside;
+    row[k] = inside ? map.disparity[map.setup.At(x, y)] : kOutside;
     row[k + kSmoothPlane] = colour[0] + colour[1] + colour[2];
     row[k + 2 * kSmoothPlane] = colour[0] - colour[1];
     row[k + 3 * kSmoothPlane] = colour[1] - colour[2];
@@ -206,38 +206,38 @@ void FillPlanes(const ColourMap& map, int32_t first, int32_t count, int32_t y, i
 
 }  // namespace
 
-void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field, const Range& rows,
+void ReadRows(const SweepSetup& setup, const starfocus_light_field& light_field, const Range& rows,
               int16_t* disparity) {
   for (int32_t y = rows.first; y < rows.last; ++y) {
-    int16_t* row = disparity + plan.At(0, y);
+    int16_t* row = disparity + setup.At(0, y);
     const float* given = GivenAt(light_field, y);
     bool unknown = false;
-    for (int32_t x = 0; x < plan.width; ++x) {
+    for (int32_t x = 0; x < setup.width; ++x) {
       const bool known = std::isfinite(given[x]);
       row[x] = known ? ToFixed(given[x]) : kUnknown;
       unknown |= !known;
     }
-    if (unknown) FillRow(plan.width, row);
+    if (unknown) FillRow(setup.width, row);
   }
 }
 
-void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity) {
+void FillUnknownRows(const SweepSetup& setup, int16_t* disparity) {
   int32_t unknown = 0;  // number of unknown rows directly above row y, which remain to be filled
-  for (int32_t y = 0; y < plan.height; ++y) {
-    if (disparity[plan.At(0, y)] == kUnknown) {
+  for (int32_t y = 0; y < setup.height; ++y) {
+    if (disparity[setup.At(0, y)] == kUnknown) {
       ++unknown;
       continue;
     }
-    FillRows(plan, y - unknown, y, disparity);
+    FillRows(setup, y - unknown, y, disparity);
     unknown = 0;
   }
-  FillRows(plan, plan.height - unknown, plan.height, disparity);
+  FillRows(setup, setup.height - unknown, setup.height, disparity);
 }
 
-void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const Range& rows,
+void CountNoise(const SweepSetup& setup, const int16_t* disparity, const Range& rows,
                 uint32_t* counts) {
-  const ptrdiff_t width = plan.width;
-  for (int32_t y = Max(rows.first, 1); y < Min(rows.last, plan.height - 1); ++y) {
+  const ptrdiff_t width = setup.width;
+  for (int32_t y = Max(rows.first, 1); y < Min(rows.last, setup.height - 1); ++y) {
     const int16_t* row = disparity + y * width;
     for (ptrdiff_t x = 1; x + 1 < width; ++x) {
       const int16_t* d = row + x;
@@ -259,10 +259,10 @@ int32_t NoiseOf(const uint32_t* counts) {
 }
 
 bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t step) {
-  const Rect around = Widened(map.plan, rect, margin);
+  const Rect around = Widened(map.setup, rect, margin);
   int16_t low = INT16_MAX, high = INT16_MIN;
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const int16_t* row = map.disparity + map.plan.At(around.x, y);
+    const int16_t* row = map.disparity + map.setup.At(around.x, y);
     for (int32_t x = 0; x < around.width; ++x) {
       low = std::min(low, row[x]);
       high = std::max(high, row[x]);
@@ -273,22 +273,22 @@ bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t ste
 }
 
 bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y) {
-  const int32_t own = map.disparity[map.plan.At(x, y)];
+  const int32_t own = map.disparity[map.setup.At(x, y)];
   const auto differs = [&](int32_t column, int32_t row) {
-    return Abs(map.disparity[map.plan.At(column, row)] - own) > kSurfaceStep;
+    return Abs(map.disparity[map.setup.At(column, row)] - own) > kSurfaceStep;
   };
   return (x > tile.x && differs(x - 1, y)) || (x + 1 < tile.x + tile.width && differs(x + 1, y)) ||
          (y > tile.y && differs(x, y - 1)) || (y + 1 < tile.y + tile.height && differs(x, y + 1));
 }
 
 void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt) {
-  const Rect region = Widened(map.plan, tile, kDoubtMargin);
+  const Rect region = Widened(map.setup, tile, kDoubtMargin);
   if (FillAlone(map, region, scratch)) {
     for (int32_t k = 0; k < kDoubtReach; ++k) LimitToNeighbours(region, scratch);
   }
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const uint8_t* found = scratch + (y - region.y) * region.width + tile.x - region.x;
-    uint8_t* row = doubt + map.plan.At(tile.x, y);
+    uint8_t* row = doubt + map.setup.At(tile.x, y);
     std::copy_n(found, tile.width, row);
     ForDoubtful(found, tile.width, [&](int32_t k) {
       const bool beside = found[k] >= 1 && found[k] <= kDisplacement;
@@ -309,15 +309,16 @@ void SmoothTile(const ColourMap& map, int32_t radius, int32_t step, int32_t tole
   rows.tolerance = tolerance;
   int32_t filled = Max(tile.y - radius, 0);
   for (int32_t y = tile.y; y < bottom; ++y) {
-    for (; filled <= y + radius && filled < map.plan.height; ++filled) {
+    for (; filled <= y + radius && filled < map.setup.height; ++filled) {
       FillPlanes(map, tile.x - radius, tile.width + 2 * radius, filled, row_at(filled));
     }
     rows.own = row_at(y) + radius;
     rows.count = 0;
     for (int32_t row = y - radius; row <= y + radius; row += step) {
-      if (row >= 0 && row < map.plan.height) rows.rows[rows.count++] = row_at(row) + radius;
+      if (row >= 0 && row < map.setup.height) rows.rows[rows.count++] = row_at(row) + radius;
     }
-    kernels.SmoothDisparity(rows, static_cast<size_t>(tile.width), smooth + map.plan.At(tile.x, y));
+    kernels.SmoothDisparity(rows, static_cast<size_t>(tile.width),
+                            smooth + map.setup.At(tile.x, y));
   }
 }
 

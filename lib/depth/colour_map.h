@@ -37,9 +37,9 @@ inline int16_t ToFixed(float disparity) {
 }
 
 // Input of the jobs of a repair: the picture, the given map, and the given map in fixed point. A
-// row of the fixed-point map has plan.width disparities.
+// row of the fixed-point map has setup.width disparities.
 struct ColourMap {
-  const EstimatePlan& plan;
+  const SweepSetup& setup;
   const starfocus_light_field& light_field;
   const int16_t* disparity;
 
@@ -70,13 +70,13 @@ void ForDoubtful(const uint8_t* doubt, int32_t count, const Act& act) {
 // Converts rows of light_field.depth to fixed point. A pixel that is not finite gets the
 // disparity of the nearest finite pixel in its row. If two finite pixels are equally near, the
 // smaller disparity is copied. Rows without a finite pixel remain unknown.
-void ReadRows(const EstimatePlan& plan, const starfocus_light_field& light_field, const Range& rows,
+void ReadRows(const SweepSetup& setup, const starfocus_light_field& light_field, const Range& rows,
               int16_t* disparity);
 
 // Copies rows without a finite pixel from the nearest row with a finite pixel. If two rows are
 // equally near, the smaller disparities are copied. At least one row must have a finite pixel. Call
 // FillUnknownRows after ReadRows has read all rows.
-void FillUnknownRows(const EstimatePlan& plan, int16_t* disparity);
+void FillUnknownRows(const SweepSetup& setup, int16_t* disparity);
 
 // Number of differences that CountNoise counts apart. The last one stands for all larger ones.
 inline constexpr int32_t kNoiseCounts = 1024;
@@ -84,7 +84,7 @@ inline constexpr int32_t kNoiseCounts = 1024;
 // Adds the pixels of `rows`, except the pixels at the edges of the picture, to the numbers of
 // pixels by the absolute difference between four times the pixel's disparity and the sum of the
 // disparities of its neighbours.
-void CountNoise(const EstimatePlan& plan, const int16_t* disparity, const Range& rows,
+void CountNoise(const SweepSetup& setup, const int16_t* disparity, const Range& rows,
                 uint32_t* counts);
 
 // Returns the standard deviation of the map's noise in kDisparityBits from the numbers of

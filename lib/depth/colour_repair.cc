@@ -62,8 +62,8 @@ bool Differs(const ColourMap& map, const ColourMemory& memory, size_t at) {
 TileCount CountTile(const ColourMap& map, const ColourMemory& memory, const Rect& tile) {
   TileCount count = {};
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    ForDoubtful(memory.doubt + map.plan.At(tile.x, y), tile.width, [&](int32_t k) {
-      const size_t at = map.plan.At(tile.x + k, y);
+    ForDoubtful(memory.doubt + map.setup.At(tile.x, y), tile.width, [&](int32_t k) {
+      const size_t at = map.setup.At(tile.x + k, y);
       const int32_t doubt = memory.doubt[at];
       // Pixels on ramps count as edge pixels.
       if (doubt > kThinDoubt || (doubt != 0 && !IsBesideStep(map, tile, tile.x + k, y))) return;
@@ -76,13 +76,13 @@ TileCount CountTile(const ColourMap& map, const ColourMemory& memory, const Rect
 
 void ChooseTile(const ColourMap& map, const MapOutput& output, const simd::DepthKernels& kernels,
                 int32_t index, const ChoiceMemory& choices, const ColourMemory& memory) {
-  const Rect tile = TileOf(map.plan, index);
+  const Rect tile = TileOf(map.setup, index);
   if (tile.width == 0 || tile.height == 0) return;
-  const Rect region = Widened(map.plan, tile, kTileMargin);
+  const Rect region = Widened(map.setup, tile, kTileMargin);
   WeighChoices(map, memory.doubt, region, kernels, choices);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const Choices* row = choices.choices + (y - region.y) * region.width + tile.x - region.x;
-    const size_t at = map.plan.At(tile.x, y);
+    const size_t at = map.setup.At(tile.x, y);
     std::fill_n(memory.gain + at, tile.width, int16_t{0});
     if (output.confidence.data != nullptr) {
       std::fill_n(output.confidence.Row(y) + tile.x, tile.width, uint8_t{UINT8_MAX});
@@ -93,30 +93,30 @@ void ChooseTile(const ColourMap& map, const MapOutput& output, const simd::Depth
     });
   }
   memory.counts[index] = CountTile(map, memory, tile);
-  CountBeside(GridOf(map.plan), map.disparity, tile, index, memory.thin);
+  CountBeside(GridOf(map.setup), map.disparity, tile, index, memory.thin);
 }
 
 // Returns the gain (saved cost) that a change requires, from the counts of all tiles. Marks the
 // cells that must not change, which are the cells with thin structure or hair.
-int32_t JudgeMap(const EstimatePlan& plan, const ColourMemory& memory, bool has_hair) {
-  const ThinGrid grid = GridOf(plan);
+int32_t JudgeMap(const SweepSetup& setup, const ColourMemory& memory, bool has_hair) {
+  const ThinGrid grid = GridOf(setup);
   FindThin(grid, kThinGiven, memory.thin);
   for (int32_t number = 0; has_hair && number < grid.Cells(); ++number) {
     const Rect cell = grid.CellAt(number % grid.columns, number / grid.columns);
     if (HasHair(memory.hair_cells, cell)) memory.thin.thin[number] = 1;
   }
-  return LeastEvidence(memory.counts, plan.columns * plan.rows, kRightGain, kWrongGain);
+  return LeastEvidence(memory.counts, setup.columns * setup.rows, kRightGain, kWrongGain);
 }
 
 // Returns true if the total gain of the changes around a pixel is large enough to contradict the
 // map.
-bool IsGainsaid(const EstimatePlan& plan, const int16_t* gains, int32_t least_gain, int32_t x,
+bool IsGainsaid(const SweepSetup& setup, const int16_t* gains, int32_t least_gain, int32_t x,
                 int32_t y) {
-  const Rect around = Widened(plan, {x, y, 1, 1}, kGainRadius);
+  const Rect around = Widened(setup, {x, y, 1, 1}, kGainRadius);
   int32_t gain = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      gain += gains[plan.At(column, row)];
+      gain += gains[setup.At(column, row)];
     }
   }
   return gain >= least_gain;
@@ -125,12 +125,12 @@ bool IsGainsaid(const EstimatePlan& plan, const int16_t* gains, int32_t least_ga
 // Returns the weighted mean of the map's disparities around pixel (x, y) that belong to the surface
 // chosen for this pixel.
 float MeanOfSurface(const ColourMap& map, const ColourMemory& memory, int32_t x, int32_t y) {
-  const int32_t own = memory.chosen[map.plan.At(x, y)];
-  const Rect around = Widened(map.plan, {x, y, 1, 1}, kMeanRadius);
+  const int32_t own = memory.chosen[map.setup.At(x, y)];
+  const Rect around = Widened(map.setup, {x, y, 1, 1}, kMeanRadius);
   int32_t sum = 0, weights = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = map.plan.At(column, row);
+      const size_t at = map.setup.At(column, row);
       const int32_t doubt = memory.doubt[at];
       if (doubt == 0 || Abs(map.disparity[at] - own) > kPixel) continue;
       const int32_t weight = doubt > kDisplacement ? kSureWeight : 1;
@@ -146,12 +146,12 @@ float MeanOfSurface(const ColourMap& map, const ColourMemory& memory, int32_t x,
 // the map `repaired`. If `keeps` is true, known disparities are not changed.
 void WritePixel(const ColourMap& map, const ColourMemory& memory, const MapOutput& output,
                 int32_t least_gain, bool keeps, int32_t x, int32_t y, int16_t* repaired) {
-  const size_t at = map.plan.At(x, y);
+  const size_t at = map.setup.At(x, y);
   const int16_t chosen = memory.chosen[at];
   const bool known = std::isfinite(GivenAt(map.light_field, y)[x]);
   const bool differs = Differs(map, memory, at);
   const bool moves =
-      differs ? IsGainsaid(map.plan, memory.gain, least_gain, x, y) : chosen != map.disparity[at];
+      differs ? IsGainsaid(map.setup, memory.gain, least_gain, x, y) : chosen != map.disparity[at];
   const bool changes = !known || (moves && !keeps);
   if (changes) {
     const float written = output.Clamped(MeanOfSurface(map, memory, x, y));
@@ -164,11 +164,11 @@ void WritePixel(const ColourMap& map, const ColourMemory& memory, const MapOutpu
 // Writes the repaired map of a tile to the output and to `repaired`.
 void WriteTile(const ColourMap& map, const ColourMemory& memory, const MapOutput& output,
                int32_t least_gain, int32_t index, int16_t* repaired) {
-  const Rect tile = TileOf(map.plan, index);
-  const ThinGrid grid = GridOf(map.plan);
+  const Rect tile = TileOf(map.setup, index);
+  const ThinGrid grid = GridOf(map.setup);
   const bool noisy = map.disparity != memory.given;
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t at = map.plan.At(tile.x, y);
+    const size_t at = map.setup.At(tile.x, y);
     float* disparity = output.disparity.Row(y) + tile.x;
     for (int32_t k = 0; noisy && k < tile.width; ++k) {
       disparity[k] = output.Clamped(static_cast<float>(map.disparity[at + k]) / kPixel);
@@ -181,7 +181,7 @@ void WriteTile(const ColourMap& map, const ColourMemory& memory, const MapOutput
   ForCells(grid, index, [&](const Rect& cell, int32_t number) {
     const bool keeps = memory.thin.thin[number] != 0;
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      ForDoubtful(memory.doubt + map.plan.At(cell.x, y), cell.width, [&](int32_t k) {
+      ForDoubtful(memory.doubt + map.setup.At(cell.x, y), cell.width, [&](int32_t k) {
         WritePixel(map, memory, output, least_gain, keeps, cell.x + k, y, repaired);
       });
     }
@@ -194,7 +194,7 @@ void WriteTile(const ColourMap& map, const ColourMemory& memory, const MapOutput
 // support the change.
 void Change(const ColourMap& map, const MapOutput& output, int32_t x, int32_t y,
             int16_t disparity) {
-  if (disparity == map.disparity[map.plan.At(x, y)]) return;
+  if (disparity == map.disparity[map.setup.At(x, y)]) return;
   output.Write(x, y, disparity);
   output.WriteConfidence(x, y, 0);
 }
@@ -207,7 +207,7 @@ template <class Act>
 void ForSteps(const ColourMap& map, const ColourMemory& memory, int32_t index, int32_t margin,
               int32_t step, bool skips_thin, const Act& act) {
   static_assert(kMajorityReach + kMostSoft + 1 <= kLeastCellSide, "MayHaveStep reads enough cells");
-  const ThinGrid grid = GridOf(map.plan);
+  const ThinGrid grid = GridOf(map.setup);
   ForCells(grid, index, [&](const Rect& cell, int32_t number) {
     if (skips_thin && memory.thin.thin[number] != 0) return;
     if (!MayHaveStep(grid, memory.ranges, number, step)) return;
@@ -219,9 +219,9 @@ void ForSteps(const ColourMap& map, const ColourMemory& memory, int32_t index, i
 // soft. Writes the changes to the output, and the widened map to `widened`.
 void WidenTile(const ColourMap& map, const ColourMemory& memory, const MapOutput& output,
                int32_t softness, int32_t index, int16_t* widened) {
-  const Rect tile = TileOf(map.plan, index);
+  const Rect tile = TileOf(map.setup, index);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const size_t at = map.plan.At(tile.x, y);
+    const size_t at = map.setup.At(tile.x, y);
     std::copy_n(map.disparity + at, tile.width, widened + at);
   }
   ForSteps(map, memory, index, softness, kSoftStep, true, [&](const Rect& cell) {
@@ -230,7 +230,7 @@ void WidenTile(const ColourMap& map, const ColourMemory& memory, const MapOutput
       for (int32_t x = cell.x; x < cell.x + cell.width; ++x) {
         const int16_t disparity = WidenedAt(map, softness, x, y);
         Change(map, output, x, y, disparity);
-        widened[map.plan.At(x, y)] = disparity;
+        widened[map.setup.At(x, y)] = disparity;
       }
     }
   });
@@ -245,7 +245,7 @@ void EvenTile(const ColourMap& map, const ColourMemory& memory, const MapOutput&
     int16_t even[kMostMajority];
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       TakeMajority(map, {cell.x, y, cell.width, 1}, even);
-      const size_t at = map.plan.At(cell.x, y);
+      const size_t at = map.setup.At(cell.x, y);
       ForDoubtful(memory.doubt + at, cell.width, [&](int32_t k) {
         if (!is_right && even[k] == map.disparity[at + static_cast<size_t>(k)]) {
           even[k] = MedianOfSurface(map, cell.x + k, y);
@@ -258,19 +258,19 @@ void EvenTile(const ColourMap& map, const ColourMemory& memory, const MapOutput&
 
 // Converts the given map to fixed point (memory.given) and returns its noise.
 int32_t ReadMap(const ColourMap& given, const ColourMemory& memory, Sequence* run) {
-  const EstimatePlan& plan = given.plan;
+  const SweepSetup& setup = given.setup;
   const auto rows = [&](int32_t index) {
-    return PartOf({0, plan.height}, index, plan.columns * plan.rows);
+    return PartOf({0, setup.height}, index, setup.columns * setup.rows);
   };
   run->Run([&](int32_t index, int32_t) {
-    ReadRows(plan, given.light_field, rows(index), memory.given);
+    ReadRows(setup, given.light_field, rows(index), memory.given);
   });
   if (run->status() != STARFOCUS_OK) return 0;
-  FillUnknownRows(plan, memory.given);
+  FillUnknownRows(setup, memory.given);
   const int32_t workers = memory.jobs->max_workers;
   for (int32_t k = 0; k < workers; ++k) std::fill_n(memory.workers[k].noise, kNoiseCounts, 0U);
   run->Run([&](int32_t index, int32_t worker) {
-    CountNoise(plan, given.disparity, rows(index), memory.workers[worker].noise);
+    CountNoise(setup, given.disparity, rows(index), memory.workers[worker].noise);
   });
   uint32_t* all = memory.workers[0].noise;
   for (int32_t k = 1; k < workers; ++k) {
@@ -288,36 +288,36 @@ void SmoothMap(const ColourMap& given, int32_t noise, const simd::DepthKernels& 
     run->Skip();
     return;
   }
-  const EstimatePlan& plan = given.plan;
+  const SweepSetup& setup = given.setup;
   // The first pass averages disparities within three standard deviations, which reduces the noise
   // to a third.
   run->Run([&](int32_t index, int32_t worker) {
-    SmoothTile(given, 3, 1, 3 * noise, TileOf(plan, index), kernels, memory.workers[worker].ring,
+    SmoothTile(given, 3, 1, 3 * noise, TileOf(setup, index), kernels, memory.workers[worker].ring,
                memory.chosen);
   });
-  const ColourMap half = {plan, given.light_field, memory.chosen};
+  const ColourMap half = {setup, given.light_field, memory.chosen};
   run->Run([&](int32_t index, int32_t worker) {
-    SmoothTile(half, 4, 2, 3 * noise / 2, TileOf(plan, index), kernels, memory.workers[worker].ring,
-               memory.smooth);
+    SmoothTile(half, 4, 2, 3 * noise / 2, TileOf(setup, index), kernels,
+               memory.workers[worker].ring, memory.smooth);
   });
 }
 
 // Repairs the map, except where hair was found.
 void ChooseByColour(const ColourMap& map, bool has_hair, const simd::DepthKernels& kernels,
                     const MapOutput& output, const ColourMemory& memory, Sequence* run) {
-  const EstimatePlan& plan = map.plan;
+  const SweepSetup& setup = map.setup;
   run->Run([&](int32_t index, int32_t worker) {
-    MeasureDoubt(map, TileOf(plan, index), memory.workers[worker].doubt, memory.doubt);
+    MeasureDoubt(map, TileOf(setup, index), memory.workers[worker].doubt, memory.doubt);
   });
   run->Run([&](int32_t index, int32_t worker) {
     ChooseTile(map, output, kernels, index, memory.workers[worker].choices, memory);
   });
   if (run->status() != STARFOCUS_OK) return;
-  const int32_t least_gain = JudgeMap(plan, memory, has_hair);
+  const int32_t least_gain = JudgeMap(setup, memory, has_hair);
   int16_t* const written = map.disparity == memory.given ? memory.smooth : memory.given;
   run->Run(
       [&](int32_t index, int32_t) { WriteTile(map, memory, output, least_gain, index, written); });
-  const ColourMap repaired = {plan, map.light_field, written};
+  const ColourMap repaired = {setup, map.light_field, written};
   run->Run([&](int32_t index, int32_t) {
     SoftCount count = {};
     ForSteps(repaired, memory, index, 1, kSoftStep, false,
@@ -325,8 +325,8 @@ void ChooseByColour(const ColourMap& map, bool has_hair, const simd::DepthKernel
     memory.soft[index] = count;
   });
   if (run->status() != STARFOCUS_OK) return;
-  const int32_t softness = SoftnessOf(memory.soft, plan.columns * plan.rows);
-  const ColourMap wide = {plan, map.light_field, softness > 0 ? memory.chosen : written};
+  const int32_t softness = SoftnessOf(memory.soft, setup.columns * setup.rows);
+  const ColourMap wide = {setup, map.light_field, softness > 0 ? memory.chosen : written};
   if (softness > 0) {
     run->Run([&](int32_t index, int32_t) {
       WidenTile(repaired, memory, output, softness, index, memory.chosen);
@@ -338,10 +338,10 @@ void ChooseByColour(const ColourMap& map, bool has_hair, const simd::DepthKernel
   run->Run([&](int32_t index, int32_t) { EvenTile(wide, memory, output, is_right, index); });
 }
 
-ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
+ColourTileMemory TakeTile(const SweepSetup& setup, Arena* arena) {
   size_t width = 0, area = 0;
-  for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
-    const Rect region = Widened(plan, TileOf(plan, tile), kTileMargin);
+  for (int32_t tile = 0; tile < setup.columns * setup.rows; ++tile) {
+    const Rect region = Widened(setup, TileOf(setup, tile), kTileMargin);
     const auto columns = static_cast<size_t>(region.width);
     width = columns > width ? columns : width;
     const size_t pixels = columns * static_cast<size_t>(region.height);
@@ -357,15 +357,15 @@ ColourTileMemory TakeTile(const EstimatePlan& plan, Arena* arena) {
 
 }  // namespace
 
-ColourMemory TakeColourRepair(const EstimatePlan& plan, int32_t max_workers, Arena* arena) {
-  const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
-  const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+ColourMemory TakeColourRepair(const SweepSetup& setup, int32_t max_workers, Arena* arena) {
+  const auto width = static_cast<size_t>(setup.width), height = static_cast<size_t>(setup.height);
+  const auto tiles = static_cast<size_t>(setup.columns) * static_cast<size_t>(setup.rows);
   ColourMemory memory = {};
-  memory.jobs = TakeJobs(plan, max_workers, arena);
+  memory.jobs = TakeJobs(setup, max_workers, arena);
   memory.given = arena->Take<int16_t>(width, height);
-  memory.hair_cells = TakeHairCells(plan.width, plan.height, arena);
+  memory.hair_cells = TakeHairCells(setup.width, setup.height, arena);
   // The search for coverage has ended before the first of the other phases begins.
-  arena->Overlap([&] { memory.hair = TakeHairMemory(plan, arena); },
+  arena->Overlap([&] { memory.hair = TakeHairMemory(setup, arena); },
                  [&] {
                    memory.chosen = arena->Take<int16_t>(width, height);
                    memory.smooth = arena->Take<int16_t>(width, height);
@@ -373,31 +373,31 @@ ColourMemory TakeColourRepair(const EstimatePlan& plan, int32_t max_workers, Are
                    memory.doubt = arena->Take<uint8_t>(width, height);
                    memory.counts = arena->Take<TileCount>(tiles);
                    memory.soft = arena->Take<SoftCount>(tiles);
-                   memory.thin = TakeThinCells(GridOf(plan), arena);
-                   memory.ranges = TakeCellRanges(GridOf(plan), arena);
+                   memory.thin = TakeThinCells(GridOf(setup), arena);
+                   memory.ranges = TakeCellRanges(GridOf(setup), arena);
                  });
   memory.workers = arena->Take<ColourTileMemory>(static_cast<size_t>(max_workers));
   for (int32_t worker = 0; worker < max_workers; ++worker) {
-    const ColourTileMemory tile = TakeTile(plan, arena);
+    const ColourTileMemory tile = TakeTile(setup, arena);
     if (memory.workers != nullptr) memory.workers[worker] = tile;
   }
   return memory;
 }
 
-starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
+starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
                                 const ColourMemory& memory, bool* has_coverage) {
-  const ColourMap given = {plan, light_field, memory.given};
+  const ColourMap given = {setup, light_field, memory.given};
   const bool covers = output.coverage.data != nullptr;
-  Sequence run(memory.jobs, kPhases + (covers ? kHairPhases : 0), plan.columns * plan.rows);
+  Sequence run(memory.jobs, kPhases + (covers ? kHairPhases : 0), setup.columns * setup.rows);
   const int32_t noise = ReadMap(given, memory, &run);
   *has_coverage = covers && FindHairCoverage(given, output, memory.hair_cells, memory.hair, &run);
   SmoothMap(given, noise, kernels, memory, &run);
-  const ColourMap map = {plan, light_field, noise > 0 ? memory.smooth : memory.given};
+  const ColourMap map = {setup, light_field, noise > 0 ? memory.smooth : memory.given};
   ChooseByColour(map, *has_coverage, kernels, output, memory, &run);
   if (*has_coverage) {
     run.Run([&](int32_t index, int32_t) {
-      CompleteCoverage(map, output, memory.hair_cells, TileOf(plan, index));
+      CompleteCoverage(map, output, memory.hair_cells, TileOf(setup, index));
     });
   } else {
     run.Skip();

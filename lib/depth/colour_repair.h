@@ -47,8 +47,8 @@ struct ColourMemory {
 };
 
 // Takes the memory of a repair by colour. TakeColourRepair and RepairByColour read only the size
-// and the tiles of `plan`.
-ColourMemory TakeColourRepair(const EstimatePlan& plan, int32_t max_workers, Arena* arena);
+// and the tiles of `setup`.
+ColourMemory TakeColourRepair(const SweepSetup& setup, int32_t max_workers, Arena* arena);
 
 // Repairs light_field.depth using the colours of the centre view, and writes the result to
 // `output`. At least one pixel of light_field.depth must be finite.
@@ -65,7 +65,7 @@ ColourMemory TakeColourRepair(const EstimatePlan& plan, int32_t max_workers, Are
 // coverage of the hair and sets *has_coverage to true, otherwise to false. Disparities of hair are
 // not changed (hair_coverage.h). Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or
 // STARFOCUS_ERROR_RUNNER.
-starfocus_status RepairByColour(const EstimatePlan& plan, const starfocus_light_field& light_field,
+starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
                                 const ColourMemory& memory, bool* has_coverage);
 

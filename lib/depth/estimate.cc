@@ -60,11 +60,11 @@ int32_t Apart(const uint8_t* a, const uint8_t* b) {
 }
 
 // Finds the range of the disparities in the rectangle `around`.
-void FindRange(const EstimatePlan& plan, const int16_t* map, const Rect& around, int32_t* low,
+void FindRange(const SweepSetup& setup, const int16_t* map, const Rect& around, int32_t* low,
                int32_t* high) {
   int32_t least = INT16_MAX, most = INT16_MIN;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const int16_t* disparity = map + plan.At(0, row);
+    const int16_t* disparity = map + setup.At(0, row);
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
       least = Min(least, disparity[column]);
       most = Max(most, disparity[column]);
@@ -80,13 +80,13 @@ void FindRange(const EstimatePlan& plan, const int16_t* map, const Rect& around,
 constexpr int32_t kMoreReach = 16, kMostReach = 128;
 
 // Returns true if a side view shows pixel (x, y) at disparity d.
-bool IsSeen(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
+bool IsSeen(const SweepSetup& setup, const EstimateMemory& memory, int32_t x, int32_t y,
             int32_t d) {
-  for (int32_t k = 0; k < plan.side_views; ++k) {
-    const int32_t column = x + WholeMoveBy(plan.side[k].at.u, d);
-    const int32_t row = y + WholeMoveBy(plan.side[k].at.v, d);
-    if (column < 0 || column >= plan.width || row < 0 || row >= plan.height) continue;
-    const int16_t* line = SideMap(plan, memory, k) + ptrdiff_t{row} * plan.width;
+  for (int32_t k = 0; k < setup.side_views; ++k) {
+    const int32_t column = x + WholeMoveBy(setup.side[k].at.u, d);
+    const int32_t row = y + WholeMoveBy(setup.side[k].at.v, d);
+    if (column < 0 || column >= setup.width || row < 0 || row >= setup.height) continue;
+    const int16_t* line = SideMap(setup, memory, k) + ptrdiff_t{row} * setup.width;
     if (Abs(line[column] - d) <= kSurfaceDepth) return true;
   }
   return false;
@@ -94,13 +94,13 @@ bool IsSeen(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, i
 
 // Returns the disparity of the nearest pixel in a direction from pixel (x, y) that a side view
 // shows, or kNoSurface if no side view shows a pixel within `reach` pixels.
-int16_t SeenBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int32_t y,
+int16_t SeenBeside(const SweepSetup& setup, const int16_t* seen, int32_t x, int32_t y,
                    const int8_t* direction) {
-  const int32_t reach = Min(plan.reach + kMoreReach, kMostReach);
+  const int32_t reach = Min(setup.reach + kMoreReach, kMostReach);
   for (int32_t k = 1; k <= reach; ++k) {
     const int32_t column = x + k * direction[0], row = y + k * direction[1];
-    if (column < 0 || column >= plan.width || row < 0 || row >= plan.height) break;
-    const int16_t d = seen[ptrdiff_t{row} * plan.width + column];
+    if (column < 0 || column >= setup.width || row < 0 || row >= setup.height) break;
+    const int16_t d = seen[ptrdiff_t{row} * setup.width + column];
     if (d != simd::kNoSurface) return d;
   }
   return simd::kNoSurface;
@@ -109,10 +109,10 @@ int16_t SeenBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int
 // Returns the second smallest disparity of the nearest seen pixels in eight directions. If only one
 // pixel is found, returns the disparity of this pixel. If no pixel is found, returns kNoSurface.
 // The second smallest disparity is robust to a single disparity that is too small.
-int16_t FarBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int32_t y) {
+int16_t FarBeside(const SweepSetup& setup, const int16_t* seen, int32_t x, int32_t y) {
   int32_t least = INT32_MAX, second = INT32_MAX;
   for (const auto& direction : kEightDirections) {
-    const int16_t d = SeenBeside(plan, seen, x, y, direction);
+    const int16_t d = SeenBeside(setup, seen, x, y, direction);
     if (d == simd::kNoSurface) continue;
     second = Min(second, Max(least, d));
     least = Min(least, d);
@@ -121,28 +121,28 @@ int16_t FarBeside(const EstimatePlan& plan, const int16_t* seen, int32_t x, int3
   return static_cast<int16_t>(second == INT32_MAX ? least : second);
 }
 
-// Makes side view k of the plan the reference of an estimate, whose only side view is the centre
+// Makes side view k of the setup the reference of an estimate, whose only side view is the centre
 // view.
-void MakeSideReference(const EstimatePlan& plan, const starfocus_light_field& light_field,
-                       int32_t k, EstimatePlan* side_plan, starfocus_light_field* side_field) {
-  const SideView& view = plan.side[k];
+void MakeSideReference(const SweepSetup& setup, const starfocus_light_field& light_field, int32_t k,
+                       SweepSetup* side_setup, starfocus_light_field* side_field) {
+  const SideView& view = setup.side[k];
   *side_field = light_field;
   side_field->views[0] = light_field.views[view.index];
   side_field->views[1] = light_field.views[0];
-  *side_plan = plan;
-  side_plan->side_views = 1;
-  side_plan->side[0] = {1, {static_cast<int16_t>(-view.at.u), static_cast<int16_t>(-view.at.v)}};
-  side_plan->sides[0] = 1;
+  *side_setup = setup;
+  side_setup->side_views = 1;
+  side_setup->side[0] = {1, {static_cast<int16_t>(-view.at.u), static_cast<int16_t>(-view.at.v)}};
+  side_setup->sides[0] = 1;
 }
 
 // Copies memory.second to memory.first for the pixels of `tile`. Pixels that no side view shows
 // are set to kNoSurface.
-void FindUnseen(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
+void FindUnseen(const SweepSetup& setup, const Rect& tile, const EstimateMemory& memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = plan.At(x, y);
+      const size_t at = setup.At(x, y);
       const int16_t d = memory.second[at];
-      memory.first[at] = IsSeen(plan, memory, x, y, d) ? d : simd::kNoSurface;
+      memory.first[at] = IsSeen(setup, memory, x, y, d) ? d : simd::kNoSurface;
     }
   }
 }
@@ -151,25 +151,25 @@ void FindUnseen(const EstimatePlan& plan, const Rect& tile, const EstimateMemory
 // background, which is the second smallest disparity of the nearest known pixels in eight
 // directions. Writes the disparities to memory.second and sets the certainty to 0. Pixels without
 // known pixels nearby keep their disparity.
-void FillUnseen(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
+void FillUnseen(const SweepSetup& setup, const Rect& tile, const EstimateMemory& memory) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = plan.At(x, y);
+      const size_t at = setup.At(x, y);
       if (memory.first[at] != simd::kNoSurface) continue;
       memory.certainty[at] = 0;
-      const int16_t far = FarBeside(plan, memory.first, x, y);
+      const int16_t far = FarBeside(setup, memory.first, x, y);
       if (far != simd::kNoSurface) memory.second[at] = far;
     }
   }
 }
 
 // Writes a tile of the result. Pixels that WithoutStray changes get confidence 0.
-void WriteTile(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
+void WriteTile(const SweepSetup& setup, const Plane<const uint8_t>& centre, const Rect& tile,
                const EstimateMemory& memory, const MapOutput& output) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = plan.At(x, y);
-      const int32_t d = WithoutStray(plan, centre, memory.second, x, y);
+      const size_t at = setup.At(x, y);
+      const int32_t d = WithoutStray(setup, centre, memory.second, x, y);
       output.Write(x, y, d);
       const bool overruled = std::abs(d - memory.second[at]) > 1 << kDisparityBits;
       output.WriteConfidence(x, y, overruled ? uint8_t{0} : memory.certainty[at]);
@@ -179,12 +179,12 @@ void WriteTile(const EstimatePlan& plan, const Plane<const uint8_t>& centre, con
 
 }  // namespace
 
-int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
+int16_t WithoutStray(const SweepSetup& setup, const Plane<const uint8_t>& centre,
                      const int16_t* map, int32_t x, int32_t y) {
-  const Rect around = Widened(plan, {x, y, 1, 1}, kRadius);
-  const int16_t own = map[plan.At(x, y)];
+  const Rect around = Widened(setup, {x, y, 1, 1}, kRadius);
+  const int16_t own = map[setup.At(x, y)];
   int32_t low, high;
-  FindRange(plan, map, around, &low, &high);
+  FindRange(setup, map, around, &low, &high);
   // If all disparities in the neighbourhood are within kStray of the pixel's disparity, their
   // median is within kStray.
   if (low >= own - kStray && high <= own + kStray) return own;
@@ -192,7 +192,7 @@ int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centr
   Votes votes;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     const uint8_t* rgb = centre.Row(row);
-    const int16_t* disparity = map + plan.At(0, row);
+    const int16_t* disparity = map + setup.At(0, row);
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
       const int32_t halvings = Apart(here, rgb + 3 * column) / kHalving;
       const int32_t vote = halvings < 7 ? kVote >> halvings : 0;
@@ -203,9 +203,9 @@ int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centr
   return std::abs(own - median) > kStray ? median : own;
 }
 
-Jobs* TakeJobs(const EstimatePlan& plan, int32_t max_workers, Arena* arena) {
+Jobs* TakeJobs(const SweepSetup& setup, int32_t max_workers, Arena* arena) {
   auto* jobs = arena->Take<Jobs>(1);
-  const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+  const auto tiles = static_cast<size_t>(setup.columns) * static_cast<size_t>(setup.rows);
   auto* progress = arena->Take<std::atomic<uint32_t>>(ProgressWords(tiles));
   if (jobs == nullptr) return nullptr;
   new (jobs) Jobs();
@@ -214,55 +214,55 @@ Jobs* TakeJobs(const EstimatePlan& plan, int32_t max_workers, Arena* arena) {
   return jobs;
 }
 
-EstimateMemory TakeEstimate(const EstimatePlan& plan, int32_t max_workers, Arena* arena) {
-  const auto width = static_cast<size_t>(plan.width), height = static_cast<size_t>(plan.height);
-  const auto tiles = static_cast<size_t>(plan.columns) * static_cast<size_t>(plan.rows);
+EstimateMemory TakeEstimate(const SweepSetup& setup, int32_t max_workers, Arena* arena) {
+  const auto width = static_cast<size_t>(setup.width), height = static_cast<size_t>(setup.height);
+  const auto tiles = static_cast<size_t>(setup.columns) * static_cast<size_t>(setup.rows);
   EstimateMemory memory = {};
-  memory.jobs = TakeJobs(plan, max_workers, arena);
+  memory.jobs = TakeJobs(setup, max_workers, arena);
   memory.first = arena->Take<int16_t>(width, height);
   memory.second = arena->Take<int16_t>(width, height);
   arena->Overlap([&] { memory.certainty = arena->Take<uint8_t>(width, height); },
                  [&] { memory.doubt = arena->Take<uint8_t>(width, height); });
-  if (plan.one_sided()) {
-    memory.side_maps = arena->Take<int16_t>(width * height, static_cast<size_t>(plan.side_views));
+  if (setup.one_sided()) {
+    memory.side_maps = arena->Take<int16_t>(width * height, static_cast<size_t>(setup.side_views));
   }
-  if (plan.repairs) {
+  if (setup.repairs) {
     memory.given = arena->Take<int16_t>(width, height);
     memory.trusted = arena->Take<int16_t>(width, height);
     memory.given_cost = arena->Take<uint8_t>(width, height);
     memory.found_cost = arena->Take<uint8_t>(width, height);
     memory.swept = arena->Take<uint8_t>(width, height);
-    memory.given_cells = TakeThinCells(GridOf(plan), arena);
-    memory.found_cells = TakeThinCells(GridOf(plan), arena);
+    memory.given_cells = TakeThinCells(GridOf(setup), arena);
+    memory.found_cells = TakeThinCells(GridOf(setup), arena);
     memory.counts = arena->Take<TileCount>(tiles);
   }
   memory.workers = arena->Take<TileMemory>(static_cast<size_t>(max_workers));
   Rect largest = {0, 0, 0, 0};  // largest width and height of all tiles with their margins
-  for (int32_t tile = 0; tile < plan.columns * plan.rows; ++tile) {
-    const Rect region = RegionOf(plan, tile);
+  for (int32_t tile = 0; tile < setup.columns * setup.rows; ++tile) {
+    const Rect region = RegionOf(setup, tile);
     largest.width = Max(largest.width, region.width);
     largest.height = Max(largest.height, region.height);
   }
   for (int32_t worker = 0; worker < max_workers; ++worker) {
-    const TileMemory tile = TakeTileMemory(plan, largest, arena);
+    const TileMemory tile = TakeTileMemory(setup, largest, arena);
     if (memory.workers != nullptr) memory.workers[worker] = tile;
   }
   return memory;
 }
 
-starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
+starfocus_status Estimate(const SweepSetup& setup, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,
                           const EstimateMemory& memory) {
-  const Sweep sweep = {plan, light_field, kernels, memory};
-  const bool one_sided = plan.one_sided();
-  Sequence run(memory.jobs, one_sided ? plan.side_views + 4 : 3, plan.columns * plan.rows);
-  for (int32_t k = 0; one_sided && k < plan.side_views; ++k) {
-    EstimatePlan side_plan;
+  const Sweep sweep = {setup, light_field, kernels, memory};
+  const bool one_sided = setup.one_sided();
+  Sequence run(memory.jobs, one_sided ? setup.side_views + 4 : 3, setup.columns * setup.rows);
+  for (int32_t k = 0; one_sided && k < setup.side_views; ++k) {
+    SweepSetup side_setup;
     starfocus_light_field side_field;
-    MakeSideReference(plan, light_field, k, &side_plan, &side_field);
-    const Sweep of_side = {side_plan, side_field, kernels, memory};
+    MakeSideReference(setup, light_field, k, &side_setup, &side_field);
+    const Sweep of_side = {side_setup, side_field, kernels, memory};
     run.Run([&](int32_t index, int32_t worker) {
-      SweepOneSide(of_side, index, worker, SideMap(plan, memory, k));
+      SweepOneSide(of_side, index, worker, SideMap(setup, memory, k));
     });
   }
   if (!one_sided) {
@@ -274,11 +274,11 @@ starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field&
                   output.confidence.data == nullptr ? nullptr : memory.certainty);
   });
   if (one_sided) {
-    run.Run([&](int32_t index, int32_t) { FindUnseen(plan, TileOf(plan, index), memory); });
-    run.Run([&](int32_t index, int32_t) { FillUnseen(plan, TileOf(plan, index), memory); });
+    run.Run([&](int32_t index, int32_t) { FindUnseen(setup, TileOf(setup, index), memory); });
+    run.Run([&](int32_t index, int32_t) { FillUnseen(setup, TileOf(setup, index), memory); });
   }
   run.Run([&](int32_t index, int32_t) {
-    WriteTile(plan, RowsOf(light_field.views[0]), TileOf(plan, index), memory, output);
+    WriteTile(setup, RowsOf(light_field.views[0]), TileOf(setup, index), memory, output);
   });
   return run.status();
 }

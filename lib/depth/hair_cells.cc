@@ -209,10 +209,10 @@ HairCells TakeHairCells(int32_t width, int32_t height, Arena* arena) {
 }
 
 void MeasureHairCell(const ColourMap& map, int32_t column, int32_t row, const HairCells& cells) {
-  const Rect cell = HairCellAt(map.plan, column, row);
+  const Rect cell = HairCellAt(map.setup, column, row);
   int16_t low = INT16_MAX, high = INT16_MIN;
   for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-    const int16_t* disparities = map.disparity + map.plan.At(cell.x, y);
+    const int16_t* disparities = map.disparity + map.setup.At(cell.x, y);
     for (int32_t x = 0; x < cell.width; ++x) {
       low = std::min(low, disparities[x]);
       high = std::max(high, disparities[x]);

@@ -134,9 +134,9 @@ void ForHairCells(const Rect& tile, const Act& act) {
 }
 
 // Returns the rectangle of a cell in pixels of the picture.
-inline Rect HairCellAt(const EstimatePlan& plan, int32_t column, int32_t row) {
+inline Rect HairCellAt(const SweepSetup& setup, int32_t column, int32_t row) {
   const int32_t x = column * kHairCell, y = row * kHairCell;
-  return {x, y, Min(kHairCell, plan.width - x), Min(kHairCell, plan.height - y)};
+  return {x, y, Min(kHairCell, setup.width - x), Min(kHairCell, setup.height - y)};
 }
 
 }  // namespace starfocus

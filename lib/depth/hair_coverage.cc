@@ -23,7 +23,7 @@ struct HairSearch {
   const HairCells& cells;
   const HairMemory& memory;
 
-  Rect Tile(int32_t index) const { return TileOf(map.plan, index); }
+  Rect Tile(int32_t index) const { return TileOf(map.setup, index); }
   uint8_t& CoverageAt(int32_t x, int32_t y) const { return output.coverage.Row(y)[x]; }
 };
 
@@ -46,13 +46,13 @@ struct CellPixel {
 // Calls act(pixel) for all pixels of a cell.
 template <class Act>
 void ForPixels(const HairSearch& search, int32_t column, int32_t row, const Act& act) {
-  const Rect cell = HairCellAt(search.map.plan, column, row);
+  const Rect cell = HairCellAt(search.map.setup, column, row);
   const size_t at = search.cells.At(column, row);
   for (int32_t y = 0; y < cell.height; ++y) {
     for (int32_t x = 0; x < cell.width; ++x) {
       CellPixel pixel = {cell.x + x, cell.y + y, x, y, false, {}};
       pixel.is_near =
-          search.cells.IsNear(at, search.map.disparity[search.map.plan.At(pixel.x, pixel.y)]);
+          search.cells.IsNear(at, search.map.disparity[search.map.setup.At(pixel.x, pixel.y)]);
       const uint8_t* rgb = search.map.Pixel(pixel.x, pixel.y);
       for (int c = 0; c < 3; ++c) pixel.rgb[c] = static_cast<uint16_t>(rgb[c] << kMeanBits);
       act(pixel);
@@ -310,7 +310,7 @@ void MeasureTile(const HairSearch& search, int32_t index) {
 // Returns true if the map has hair with closed outlines.
 bool HasClosedHair(const HairSearch& search) {
   int64_t inside = 0, far = 0;
-  for (int32_t k = 0; k < search.map.plan.columns * search.map.plan.rows; ++k) {
+  for (int32_t k = 0; k < search.map.setup.columns * search.map.setup.rows; ++k) {
     inside += search.memory.counts[k].inside;
     far += search.memory.counts[k].far;
   }
@@ -319,17 +319,17 @@ bool HasClosedHair(const HairSearch& search) {
 
 }  // namespace
 
-HairMemory TakeHairMemory(const EstimatePlan& plan, Arena* arena) {
+HairMemory TakeHairMemory(const SweepSetup& setup, Arena* arena) {
   HairMemory memory;
-  memory.far = TakeColourPyramid(plan.width, plan.height, arena);
-  memory.near = TakeColourPyramid(plan.width, plan.height, arena);
+  memory.far = TakeColourPyramid(setup.width, setup.height, arena);
+  memory.near = TakeColourPyramid(setup.width, setup.height, arena);
   const ColourLevel& cells = memory.far.levels[0];
   for (int32_t** plane : {&memory.contrast, &memory.near_pixels}) {
     *plane =
         arena->Take<int32_t>(static_cast<size_t>(cells.columns), static_cast<size_t>(cells.rows));
   }
   memory.counts =
-      arena->Take<InsideCount>(static_cast<size_t>(plan.columns), static_cast<size_t>(plan.rows));
+      arena->Take<InsideCount>(static_cast<size_t>(setup.columns), static_cast<size_t>(setup.rows));
   return memory;
 }
 
@@ -361,7 +361,7 @@ void CompleteCoverage(const ColourMap& map, const MapOutput& output, const HairC
                       const Rect& tile) {
   ForHairCells(tile, [&](int32_t column, int32_t row) {
     const size_t at = cells.At(column, row);
-    const Rect cell = HairCellAt(map.plan, column, row);
+    const Rect cell = HairCellAt(map.setup, column, row);
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       const float* disparities = output.disparity.Row(y);
       uint8_t* coverage = output.coverage.Row(y);

@@ -26,7 +26,7 @@ struct HairMemory {
   InsideCount* counts;  // one element for each tile
 };
 
-HairMemory TakeHairMemory(const EstimatePlan& plan, Arena* arena);
+HairMemory TakeHairMemory(const SweepSetup& setup, Arena* arena);
 
 // Number of phases that FindHairCoverage runs or skips.
 inline constexpr int32_t kHairPhases = 9;

@@ -60,8 +60,8 @@ struct TileCount {
 // map.
 int32_t LeastEvidence(const TileCount* counts, int32_t tiles, int32_t right, int32_t wrong);
 
-// Takes the state of the jobs of a call that processes the tiles of `plan` one by one.
-Jobs* TakeJobs(const EstimatePlan& plan, int32_t max_workers, Arena* arena);
+// Takes the state of the jobs of a call that processes the tiles of `setup` one by one.
+Jobs* TakeJobs(const SweepSetup& setup, int32_t max_workers, Arena* arena);
 
 struct TileMemory;
 
@@ -74,7 +74,7 @@ struct EstimateMemory {
   int16_t* first;
   int16_t* second;     // Disparities after the second sweep, which omits hidden views.
   uint8_t* certainty;  // Certainty of the second sweep.
-  // If the views lie on one side: the disparity maps of the side views, in the order of the plan.
+  // If the views lie on one side: the disparity maps of the side views, in the order of the setup.
   // Each map has the size of the picture. Otherwise null.
   int16_t* side_maps;
   // `given` and all later arrays of this structure are for repairs, and null for estimates. Unknown
@@ -96,12 +96,12 @@ struct EstimateMemory {
 };
 
 // Returns the map of side view k in memory.side_maps.
-inline int16_t* SideMap(const EstimatePlan& plan, const EstimateMemory& memory, int32_t k) {
-  return memory.side_maps + ptrdiff_t{k} * plan.width * plan.height;
+inline int16_t* SideMap(const SweepSetup& setup, const EstimateMemory& memory, int32_t k) {
+  return memory.side_maps + ptrdiff_t{k} * setup.width * setup.height;
 }
 
 // Takes the memory of an estimate or repair.
-EstimateMemory TakeEstimate(const EstimatePlan& plan, int32_t max_workers, Arena* arena);
+EstimateMemory TakeEstimate(const SweepSetup& setup, int32_t max_workers, Arena* arena);
 
 // Memory of a converted light field.
 struct ConvertedMemory {
@@ -120,22 +120,22 @@ starfocus_status ConvertField(const starfocus_depth_config& config, const Conver
 
 // Estimates the disparity map of the centre view and writes the map to `output`. Returns
 // STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
-starfocus_status Estimate(const EstimatePlan& plan, const starfocus_light_field& light_field,
+starfocus_status Estimate(const SweepSetup& setup, const starfocus_light_field& light_field,
                           const simd::DepthKernels& kernels, const MapOutput& output,
                           const EstimateMemory& memory);
 
-// Repairs light_field.depth and writes the result to `output`. plan.repairs must be true. Pixels
+// Repairs light_field.depth and writes the result to `output`. setup.repairs must be true. Pixels
 // whose disparity the views do not contradict keep this disparity exactly. Unknown pixels (NaN or
 // infinite) get a disparity. Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or
 // STARFOCUS_ERROR_RUNNER.
-starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
+starfocus_status Repair(const SweepSetup& setup, const starfocus_light_field& light_field,
                         const simd::DepthKernels& kernels, const MapOutput& output,
                         const EstimateMemory& memory);
 
 // Returns the disparity of pixel (x, y), or the weighted median of its neighbourhood if the pixel's
 // disparity differs too much from the median. Neighbours of similar colour have larger weights.
 // `map` has the size of the picture, and disparities are in fixed point (kDisparityBits).
-int16_t WithoutStray(const EstimatePlan& plan, const Plane<const uint8_t>& centre,
+int16_t WithoutStray(const SweepSetup& setup, const Plane<const uint8_t>& centre,
                      const int16_t* map, int32_t x, int32_t y);
 
 }  // namespace starfocus

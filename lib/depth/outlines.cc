@@ -27,7 +27,7 @@ constexpr int32_t kLeastShare = 14, kLeastPixelShare = 8;
 // farther surface, in the direction `side`, which leads away from the nearer surface.
 bool IsProfile(const ColourMap& map, int32_t x, int32_t y, const int8_t* side) {
   const auto at = [&](int32_t k) {
-    return map.disparity[map.plan.At(x + k * side[0], y + k * side[1])];
+    return map.disparity[map.setup.At(x + k * side[0], y + k * side[1])];
   };
   const int32_t near = at(-1), far = at(0);
   if (near - far <= kSoftStep || Abs(at(-kInside) - near) >= kSame) return false;
@@ -51,8 +51,8 @@ int32_t PlaceAt(const ColourMap& map, int32_t x, int32_t y, const int8_t* side, 
 
 // Returns true if profiles in all four directions at pixel (x, y) lie in the picture.
 bool IsInside(const ColourMap& map, int32_t x, int32_t y) {
-  return x >= kOutside && x < map.plan.width - kOutside && y >= kOutside &&
-         y < map.plan.height - kOutside;
+  return x >= kOutside && x < map.setup.width - kOutside && y >= kOutside &&
+         y < map.setup.height - kOutside;
 }
 
 // Radius in pixels of the disc that TakeMajority reads around each pixel.
@@ -74,10 +74,10 @@ struct SurfaceAround {
   int32_t count = 0;
 
   SurfaceAround(const ColourMap& map, int32_t x, int32_t y) {
-    const int32_t own = map.disparity[map.plan.At(x, y)];
-    const Rect around = Widened(map.plan, {x, y, 1, 1}, 1);
+    const int32_t own = map.disparity[map.setup.At(x, y)];
+    const Rect around = Widened(map.setup, {x, y, 1, 1}, 1);
     for (int32_t row = around.y; row < around.y + around.height; ++row) {
-      const int16_t* disparities = map.disparity + map.plan.At(around.x, row);
+      const int16_t* disparities = map.disparity + map.setup.At(around.x, row);
       for (int32_t k = 0; k < around.width; ++k) {
         if (Abs(disparities[k] - own) <= kMajorityStep) Insert(disparities[k]);
       }
@@ -93,14 +93,14 @@ struct SurfaceAround {
 // Returns the disparity of pixel (x, y) after the vote of the surrounding pixels. Disparities up to
 // `middle` belong to one side, and larger disparities to the other side.
 int16_t MajorityAt(const ColourMap& map, int32_t x, int32_t y, int32_t middle) {
-  const int32_t own = map.disparity[map.plan.At(x, y)];
+  const int32_t own = map.disparity[map.setup.At(x, y)];
   const uint8_t* colour = map.Pixel(x, y);
   int64_t sums[2] = {};
   int32_t votes[2] = {};
-  for (int32_t dy = -Min(y, kRadius); dy <= Min(map.plan.height - 1 - y, kRadius); ++dy) {
-    const int32_t width = kWidths[Abs(dy)], last = Min(map.plan.width - 1 - x, width);
+  for (int32_t dy = -Min(y, kRadius); dy <= Min(map.setup.height - 1 - y, kRadius); ++dy) {
+    const int32_t width = kWidths[Abs(dy)], last = Min(map.setup.width - 1 - x, width);
     const uint8_t* colours = map.Pixel(x, y + dy);
-    const int16_t* disparities = map.disparity + map.plan.At(x, y + dy);
+    const int16_t* disparities = map.disparity + map.setup.At(x, y + dy);
     for (int32_t dx = -Min(x, width); dx <= last; ++dx) {
       const int32_t difference = ColourDifference(colour, colours + 3 * dx);
       const int32_t weight = (kNearWeight - dx * dx - dy * dy) * Max(1, kColourWeight - difference);
@@ -185,13 +185,13 @@ int32_t SoftnessOf(const SoftCount* counts, int32_t tiles) {
 }
 
 int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) {
-  const int16_t own = map.disparity[map.plan.At(x, y)];
+  const int16_t own = map.disparity[map.setup.At(x, y)];
   int16_t nearest = own;
   for (const auto& side : kSides) {
     for (int32_t k = 0; k < softness; ++k) {
       const int32_t column = x - k * side[0], row = y - k * side[1];
       if (!IsInside(map, column, row)) break;
-      const int16_t near = map.disparity[map.plan.At(column - side[0], row - side[1])];
+      const int16_t near = map.disparity[map.setup.At(column - side[0], row - side[1])];
       if (near - own <= kSoftStep) continue;
       if (near <= nearest) break;
       const int32_t contrast = PlaceAt(map, column, row, side, -kInside);
@@ -204,14 +204,14 @@ int16_t WidenedAt(const ColourMap& map, int32_t softness, int32_t x, int32_t y) 
 }
 
 void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
-  std::copy_n(map.disparity + map.plan.At(row.x, row.y), row.width, disparity);
-  const Rect around = Widened(map.plan, row, kMajorityReach);
+  std::copy_n(map.disparity + map.setup.At(row.x, row.y), row.width, disparity);
+  const Rect around = Widened(map.setup, row, kMajorityReach);
   // Range of the disparities in each column of `around`.
   int16_t low[kMostMajority + 2 * kMajorityReach], high[kMostMajority + 2 * kMajorityReach];
   std::fill_n(low, around.width, INT16_MAX);
   std::fill_n(high, around.width, INT16_MIN);
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const int16_t* disparities = map.disparity + map.plan.At(around.x, y);
+    const int16_t* disparities = map.disparity + map.setup.At(around.x, y);
     for (int32_t k = 0; k < around.width; ++k) {
       low[k] = std::min(low[k], disparities[k]);
       high[k] = std::max(high[k], disparities[k]);
@@ -230,7 +230,7 @@ void TakeMajority(const ColourMap& map, const Rect& row, int16_t* disparity) {
 }
 
 int16_t MedianOfSurface(const ColourMap& map, int32_t x, int32_t y) {
-  const int16_t own = map.disparity[map.plan.At(x, y)];
+  const int16_t own = map.disparity[map.setup.At(x, y)];
   const SurfaceAround around(map, x, y);
   const int16_t median = around.sorted[around.count / 2];
   return Abs(median - own) > kRough ? median : own;

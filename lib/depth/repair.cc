@@ -42,13 +42,13 @@ int32_t MeanOf(int32_t sum, int32_t count) {
 
 // Returns the mean disparity, around pixel (x, y), of the surface at disparity `own`. If trusted
 // disparities of this surface exist, only trusted disparities are averaged.
-int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y,
+int32_t MeanOfSurface(const SweepSetup& setup, const EstimateMemory& memory, int32_t x, int32_t y,
                       int32_t own) {
-  const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
+  const Rect around = Widened(setup, {x, y, 1, 1}, kMeanRadius);
   int32_t trusted_sum = 0, trusted = 0, sum = 0, count = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = plan.At(column, row);
+      const size_t at = setup.At(column, row);
       if (std::abs(memory.second[at] - own) > kSameSurface) continue;
       sum += memory.second[at];
       ++count;
@@ -63,12 +63,12 @@ int32_t MeanOfSurface(const EstimatePlan& plan, const EstimateMemory& memory, in
 
 // Returns true if less than a quarter of the pixels around pixel (x, y) are trusted. A rough part
 // of the map is noise, or a wide slope in place of an edge, and is not worth keeping.
-bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, int32_t y) {
-  const Rect around = Widened(plan, {x, y, 1, 1}, kMeanRadius);
+bool IsRough(const SweepSetup& setup, const EstimateMemory& memory, int32_t x, int32_t y) {
+  const Rect around = Widened(setup, {x, y, 1, 1}, kMeanRadius);
   int32_t smooth = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      smooth += memory.trusted[plan.At(column, row)] != simd::kNoSurface;
+      smooth += memory.trusted[setup.At(column, row)] != simd::kNoSurface;
     }
   }
   return 4 * smooth < around.width * around.height;
@@ -79,15 +79,15 @@ bool IsRough(const EstimatePlan& plan, const EstimateMemory& memory, int32_t x, 
 // the surface of memory.second is written. If no trusted pixel is on this surface, the mean of
 // memory.second over the surface is written. Stray pixels are removed with the help of the colours
 // of the centre view.
-void EvenOut(const EstimatePlan& plan, const Plane<const uint8_t>& centre, const Rect& tile,
+void EvenOut(const SweepSetup& setup, const Plane<const uint8_t>& centre, const Rect& tile,
              const EstimateMemory& memory, int16_t* evened) {
-  ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
-    const size_t at = plan.At(x, y);
+  ForSwept(setup, memory.swept, tile, [&](int32_t x, int32_t y) {
+    const size_t at = setup.At(x, y);
     const int32_t given = memory.given[at], trusted = memory.trusted[at];
     evened[at] = static_cast<int16_t>(given);
     if (trusted != simd::kNoSurface && std::abs(trusted - memory.second[at]) <= kSame) return;
-    const int32_t own = WithoutStray(plan, centre, memory.second, x, y);
-    const int32_t mean = MeanOfSurface(plan, memory, x, y, own);
+    const int32_t own = WithoutStray(setup, centre, memory.second, x, y);
+    const int32_t mean = MeanOfSurface(setup, memory, x, y, own);
     if (given != simd::kNoSurface && std::abs(given - mean) <= kSame) return;
     evened[at] = static_cast<int16_t>(mean);
   });
@@ -102,10 +102,10 @@ bool Differs(const EstimateMemory& memory, size_t at) {
 
 // Counts the edge pixels of a tile, and the pixels whose given disparity the repair contradicts.
 // Requires the result of EvenOut for the tile.
-TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMemory& memory) {
+TileCount CountTile(const SweepSetup& setup, const Rect& tile, const EstimateMemory& memory) {
   TileCount count = {};
-  ForSwept(plan, memory.swept, tile, [&](int32_t x, int32_t y) {
-    const size_t at = plan.At(x, y);
+  ForSwept(setup, memory.swept, tile, [&](int32_t x, int32_t y) {
+    const size_t at = setup.At(x, y);
     count.rough += memory.trusted[at] == simd::kNoSurface;
     count.differs += Differs(memory, at);
   });
@@ -117,20 +117,20 @@ TileCount CountTile(const EstimatePlan& plan, const Rect& tile, const EstimateMe
 // pixels around the pixel is large enough. Single contradicted pixels are more often right in the
 // given map than in memory.first. In rough parts of the map, contradicted pixels always change to
 // memory.first.
-int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32_t least_evidence,
+int16_t RepairedAt(const SweepSetup& setup, const EstimateMemory& memory, int32_t least_evidence,
                    int32_t x, int32_t y) {
-  const size_t own = plan.At(x, y);
+  const size_t own = setup.At(x, y);
   const int16_t given = memory.given[own], found = memory.first[own];
   if (given == simd::kNoSurface) return found;
   if (!Differs(memory, own)) {
     return least_evidence < kRightEvidence ? found : given;
   }
-  if (IsRough(plan, memory, x, y)) return found;
-  const Rect around = Widened(plan, {x, y, 1, 1}, kEvidenceRadius);
+  if (IsRough(setup, memory, x, y)) return found;
+  const Rect around = Widened(setup, {x, y, 1, 1}, kEvidenceRadius);
   int32_t evidence = 0;
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = plan.At(column, row);
+      const size_t at = setup.At(column, row);
       if (Differs(memory, at)) evidence += memory.given_cost[at] - memory.found_cost[at];
     }
   }
@@ -140,15 +140,15 @@ int16_t RepairedAt(const EstimatePlan& plan, const EstimateMemory& memory, int32
 // Fills `nearest` with the largest trusted disparity near each pixel of row y of a cell. The
 // largest trusted disparity belongs to the surface from which hair stands out. If no trusted pixel
 // is near, the value is kNoSurface.
-void FindNearest(const EstimatePlan& plan, const int16_t* trusted, const Rect& cell, int32_t y,
+void FindNearest(const SweepSetup& setup, const int16_t* trusted, const Rect& cell, int32_t y,
                  int16_t* nearest) {
-  const Rect around = Widened(plan, {cell.x, y, cell.width, 1}, kNearReach);
+  const Rect around = Widened(setup, {cell.x, y, cell.width, 1}, kNearReach);
   // Largest disparity in each column; columns[0] is kNearReach columns to the left of the cell.
   int16_t columns[kMostCellSide + 2 * kNearReach];
   std::fill_n(columns, cell.width + 2 * kNearReach, simd::kNoSurface);
   int16_t* to = columns + kNearReach - (cell.x - around.x);
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const int16_t* from = trusted + plan.At(around.x, row);
+    const int16_t* from = trusted + setup.At(around.x, row);
     for (int32_t x = 0; x < around.width; ++x) to[x] = std::max(to[x], from[x]);
   }
   std::fill_n(nearest, cell.width, simd::kNoSurface);
@@ -173,27 +173,27 @@ int16_t PartedAt(const EstimateMemory& memory, size_t at, int16_t nearest) {
 
 // Writes the result of EvenOut to memory.first, whose previous content is no longer used, and
 // counts the edge pixels of the tile.
-void ValueTile(const EstimatePlan& plan, const Plane<const uint8_t>& centre, int32_t index,
+void ValueTile(const SweepSetup& setup, const Plane<const uint8_t>& centre, int32_t index,
                const EstimateMemory& memory) {
-  const Rect tile = TileOf(plan, index);
-  EvenOut(plan, centre, tile, memory, memory.first);
-  memory.counts[index] = CountTile(plan, tile, memory);
-  const ThinGrid grid = GridOf(plan);
+  const Rect tile = TileOf(setup, index);
+  EvenOut(setup, centre, tile, memory, memory.first);
+  memory.counts[index] = CountTile(setup, tile, memory);
+  const ThinGrid grid = GridOf(setup);
   CountBeside(grid, memory.given, tile, index, memory.given_cells);
   CountBeside(grid, memory.first, tile, index, memory.found_cells);
 }
 
 // Returns how much evidence a change of the map requires according to the counts of all tiles, and
 // finds the cells that contain thin structures such as hair.
-int32_t JudgeMaps(const EstimatePlan& plan, const EstimateMemory& memory) {
-  FindThin(GridOf(plan), kThinGiven, memory.given_cells);
-  FindThin(GridOf(plan), kThinFound, memory.found_cells);
-  return LeastEvidence(memory.counts, plan.columns * plan.rows, kRightEvidence, kWrongEvidence);
+int32_t JudgeMaps(const SweepSetup& setup, const EstimateMemory& memory) {
+  FindThin(GridOf(setup), kThinGiven, memory.given_cells);
+  FindThin(GridOf(setup), kThinFound, memory.found_cells);
+  return LeastEvidence(memory.counts, setup.columns * setup.rows, kRightEvidence, kWrongEvidence);
 }
 
-void WritePixel(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
+void WritePixel(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
                 int32_t x, int32_t y, int16_t disparity) {
-  const size_t at = plan.At(x, y);
+  const size_t at = setup.At(x, y);
   if (disparity != memory.given[at]) output.Write(x, y, disparity);
   // The confidence of a pixel is 0 if the estimate from the views contradicts the map, but the
   // estimate is not used.
@@ -201,44 +201,44 @@ void WritePixel(const EstimatePlan& plan, const EstimateMemory& memory, const Ma
 }
 
 // Writes the disparities of a cell with thin structure that the given map lacks.
-void WriteParted(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
+void WriteParted(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
                  const Rect& cell) {
   for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
     int16_t nearest[kMostCellSide];
-    FindNearest(plan, memory.trusted, cell, y, nearest);
-    ForSwept(plan, memory.swept, {cell.x, y, cell.width, 1}, [&](int32_t x, int32_t) {
-      const int16_t disparity = PartedAt(memory, plan.At(x, y), nearest[x - cell.x]);
-      WritePixel(plan, memory, output, x, y, disparity);
+    FindNearest(setup, memory.trusted, cell, y, nearest);
+    ForSwept(setup, memory.swept, {cell.x, y, cell.width, 1}, [&](int32_t x, int32_t) {
+      const int16_t disparity = PartedAt(memory, setup.At(x, y), nearest[x - cell.x]);
+      WritePixel(setup, memory, output, x, y, disparity);
     });
   }
 }
 
-void WriteCell(const EstimatePlan& plan, const EstimateMemory& memory, const MapOutput& output,
+void WriteCell(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
                int32_t least_evidence, const Rect& cell, int32_t number) {
   const bool keeps = memory.given_cells.thin[number] != 0;
   if (!keeps && memory.found_cells.thin[number] != 0) {
-    return WriteParted(plan, memory, output, cell);
+    return WriteParted(setup, memory, output, cell);
   }
-  ForSwept(plan, memory.swept, cell, [&](int32_t x, int32_t y) {
-    const int16_t given = memory.given[plan.At(x, y)];
+  ForSwept(setup, memory.swept, cell, [&](int32_t x, int32_t y) {
+    const int16_t given = memory.given[setup.At(x, y)];
     const bool kept = keeps && given != simd::kNoSurface;
-    WritePixel(plan, memory, output, x, y,
-               kept ? given : RepairedAt(plan, memory, least_evidence, x, y));
+    WritePixel(setup, memory, output, x, y,
+               kept ? given : RepairedAt(setup, memory, least_evidence, x, y));
   });
 }
 
 // Writes the given disparities of a tile, and then the disparities that the repair changes.
-void WriteTile(const EstimatePlan& plan, const starfocus_light_field& light_field, int32_t index,
+void WriteTile(const SweepSetup& setup, const starfocus_light_field& light_field, int32_t index,
                const EstimateMemory& memory, int32_t least_evidence, const MapOutput& output) {
-  const Rect tile = TileOf(plan, index);
+  const Rect tile = TileOf(setup, index);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     std::copy_n(GivenAt(light_field, y) + tile.x, tile.width, output.disparity.Row(y) + tile.x);
     if (output.confidence.data == nullptr) continue;
-    std::copy_n(memory.certainty + plan.At(tile.x, y), tile.width,
+    std::copy_n(memory.certainty + setup.At(tile.x, y), tile.width,
                 output.confidence.Row(y) + tile.x);
   }
-  ForCells(GridOf(plan), index, [&](const Rect& cell, int32_t number) {
-    WriteCell(plan, memory, output, least_evidence, cell, number);
+  ForCells(GridOf(setup), index, [&](const Rect& cell, int32_t number) {
+    WriteCell(setup, memory, output, least_evidence, cell, number);
   });
 }
 
@@ -259,34 +259,34 @@ int32_t LeastEvidence(const TileCount* counts, int32_t tiles, int32_t right, int
   return wrong + (right - wrong) * beyond / (kWrongPercent - kRightPercent);
 }
 
-starfocus_status Repair(const EstimatePlan& plan, const starfocus_light_field& light_field,
+starfocus_status Repair(const SweepSetup& setup, const starfocus_light_field& light_field,
                         const simd::DepthKernels& kernels, const MapOutput& output,
                         const EstimateMemory& memory) {
-  const Sweep sweep = {plan, light_field, kernels, memory};
+  const Sweep sweep = {setup, light_field, kernels, memory};
   const Plane<const uint8_t> centre = RowsOf(light_field.views[0]);
   const bool rates = output.confidence.data != nullptr;
-  Sequence run(memory.jobs, 7, plan.columns * plan.rows);
+  Sequence run(memory.jobs, 7, setup.columns * setup.rows);
   run.Run(
-      [&](int32_t index, int32_t) { ReadGiven(plan, light_field, TileOf(plan, index), memory); });
+      [&](int32_t index, int32_t) { ReadGiven(setup, light_field, TileOf(setup, index), memory); });
   run.Run([&](int32_t index, int32_t) {
-    FindTrusted(plan, TileOf(plan, index), memory.given, memory.trusted);
-    FindDoubts(plan, light_field, TileOf(plan, index), memory);
+    FindTrusted(setup, TileOf(setup, index), memory.given, memory.trusted);
+    FindDoubts(setup, light_field, TileOf(setup, index), memory);
   });
   run.Run([&](int32_t index, int32_t worker) {
-    FindSwept(plan, TileOf(plan, index), memory.workers[worker].cost, memory);
+    FindSwept(setup, TileOf(setup, index), memory.workers[worker].cost, memory);
   });
   run.Run([&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory.first); });
   run.Run([&](int32_t index, int32_t worker) {
     SweepAllViews(sweep, index, worker, rates ? memory.certainty : nullptr);
   });
   run.Run([&](int32_t index, int32_t) {
-    ValueTile(plan, centre, index, memory);
-    if (rates) RateUnswept(plan, centre, TileOf(plan, index), memory);
+    ValueTile(setup, centre, index, memory);
+    if (rates) RateUnswept(setup, centre, TileOf(setup, index), memory);
   });
   if (run.status() != STARFOCUS_OK) return run.status();
-  const int32_t least_evidence = JudgeMaps(plan, memory);
+  const int32_t least_evidence = JudgeMaps(setup, memory);
   run.Run([&](int32_t index, int32_t) {
-    WriteTile(plan, light_field, index, memory, least_evidence, output);
+    WriteTile(setup, light_field, index, memory, least_evidence, output);
   });
   return run.status();
 }

@@ -8,47 +8,47 @@
 namespace starfocus {
 namespace {
 
-void OrderStar(int32_t views, EstimatePlan* plan) {
-  plan->arms = views == 5 ? 4 : 8;
-  plan->rings = views == 17 ? 2 : 1;
-  for (int32_t k = 0; k < plan->side_views; ++k) {
-    const bool half = k >= plan->arms;
-    const int8_t* direction = kEightDirections[(k % plan->arms) * (8 / plan->arms)];
+void OrderStar(int32_t views, SweepSetup* setup) {
+  setup->arms = views == 5 ? 4 : 8;
+  setup->rings = views == 17 ? 2 : 1;
+  for (int32_t k = 0; k < setup->side_views; ++k) {
+    const bool half = k >= setup->arms;
+    const int8_t* direction = kEightDirections[(k % setup->arms) * (8 / setup->arms)];
     const int index = CapturedView(direction[0], direction[1], half);
-    plan->side[k] = {index, StarPosition(index)};
+    setup->side[k] = {index, StarPosition(index)};
   }
 }
 
 // Returns the mask of the side views whose directions differ by less than a right angle from
 // `direction`.
-uint16_t SideTowards(const EstimatePlan& plan, const int8_t* direction) {
+uint16_t SideTowards(const SweepSetup& setup, const int8_t* direction) {
   uint32_t mask = 0;
-  for (int32_t k = 0; k < plan.side_views; ++k) {
-    const ViewPosition& at = plan.side[k].at;
+  for (int32_t k = 0; k < setup.side_views; ++k) {
+    const ViewPosition& at = setup.side[k].at;
     if (at.u * direction[0] + at.v * direction[1] > 0) mask |= 1U << k;
   }
   return static_cast<uint16_t>(mask);
 }
 
 // Adds the sides of the views. A side whose views all belong to another side is left out.
-void FindSides(EstimatePlan* plan) {
+void FindSides(SweepSetup* setup) {
   uint16_t masks[kMostSides];
-  for (int32_t k = 0; k < kMostSides; ++k) masks[k] = SideTowards(*plan, kEightDirections[k]);
+  for (int32_t k = 0; k < kMostSides; ++k) masks[k] = SideTowards(*setup, kEightDirections[k]);
   for (int32_t k = 0; k < kMostSides; ++k) {
     bool needed = masks[k] != 0;
     for (int32_t other = 0; other < kMostSides; ++other) {
       const bool within = (masks[k] & ~masks[other]) == 0;
       if (within && (masks[k] != masks[other] || other < k)) needed = false;
     }
-    if (needed) plan->sides[plan->side_count++] = masks[k];
+    if (needed) setup->sides[setup->side_count++] = masks[k];
   }
 }
 
-void TakeViews(const ViewSet& views, EstimatePlan* plan) {
-  plan->side_views = views.count - 1;
-  if (views.star) return OrderStar(views.count, plan);
-  for (int32_t k = 0; k < plan->side_views; ++k) plan->side[k] = {k + 1, views.at[k + 1]};
-  FindSides(plan);
+void TakeViews(const ViewSet& views, SweepSetup* setup) {
+  setup->side_views = views.count - 1;
+  if (views.star) return OrderStar(views.count, setup);
+  for (int32_t k = 0; k < setup->side_views; ++k) setup->side[k] = {k + 1, views.at[k + 1]};
+  FindSides(setup);
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ int32_t TileBegin(int32_t length, int32_t count, int32_t k) {
   return k <= count / 2 ? at(k) : length - at(count - k);
 }
 
-LabelMove EstimatePlan::MoveOf(const SideView& view, int32_t l) const {
+LabelMove SweepSetup::MoveOf(const SideView& view, int32_t l) const {
   constexpr int32_t kQuarterBits = 2, kQuarter = 128 >> kQuarterBits;
   const int32_t across = MoveBy(view.at.u, l * step, kQuarterBits);
   const int32_t down = MoveBy(view.at.v, l * step, kQuarterBits);
@@ -72,7 +72,7 @@ LabelMove EstimatePlan::MoveOf(const SideView& view, int32_t l) const {
           (across & 3) + 4 * (down & 3)};
 }
 
-ViewPhases EstimatePlan::PhasesOf(const SideView& view) const {
+ViewPhases SweepSetup::PhasesOf(const SideView& view) const {
   ViewPhases phases;
   std::fill_n(phases.slot, kMostPhases, int8_t{-1});
   for (int32_t l = 0; l < labels; ++l) {
@@ -85,62 +85,62 @@ ViewPhases EstimatePlan::PhasesOf(const SideView& view) const {
   return phases;
 }
 
-int32_t EstimatePlan::AllPhases() const {
+int32_t SweepSetup::AllPhases() const {
   int32_t phases = 0;
   for (int32_t view = 0; view < side_views; ++view) phases += PhasesOf(side[view]).count;
   return phases;
 }
 
-EstimatePlan MakePlan(const starfocus_depth_config& config, bool repairs) {
-  EstimatePlan plan = {};
-  plan.width = config.width;
-  plan.height = config.height;
-  plan.repairs = repairs;
+SweepSetup MakeSetup(const starfocus_depth_config& config, bool repairs) {
+  SweepSetup setup = {};
+  setup.width = config.width;
+  setup.height = config.height;
+  setup.repairs = repairs;
   constexpr float kScale = 1 << kDisparityBits;
-  plan.low = static_cast<int32_t>(std::floor(MinDisparity(config) * kScale));
+  setup.low = static_cast<int32_t>(std::floor(MinDisparity(config) * kScale));
   const auto high = static_cast<int32_t>(std::ceil(MaxDisparity(config) * kScale));
-  const int32_t range = high - plan.low;
+  const int32_t range = high - setup.low;
   const int32_t least = (range + kMostLabels - 2) / (kMostLabels - 1);
-  plan.step = Max(1, (least + kLabelStep - 1) / kLabelStep) * kLabelStep;
-  plan.labels = (range + plan.step - 1) / plan.step + 1;
-  const int32_t last = plan.Disparity(plan.labels - 1);
-  const int32_t farthest = -plan.low > last ? -plan.low : last;
-  plan.reach = (farthest >> kDisparityBits) + 2;
-  plan.directions = 8;
+  setup.step = Max(1, (least + kLabelStep - 1) / kLabelStep) * kLabelStep;
+  setup.labels = (range + setup.step - 1) / setup.step + 1;
+  const int32_t last = setup.Disparity(setup.labels - 1);
+  const int32_t farthest = -setup.low > last ? -setup.low : last;
+  setup.reach = (farthest >> kDisparityBits) + 2;
+  setup.directions = 8;
   ViewSet views;
   FindViews(config.views, config.positions, config.problem, &views);
-  TakeViews(views, &plan);
-  plan.columns = TilesAlong(config.width, kTileSide);
-  plan.rows = TilesAlong(config.height, kTileSide);
-  return plan;
+  TakeViews(views, &setup);
+  setup.columns = TilesAlong(config.width, kTileSide);
+  setup.rows = TilesAlong(config.height, kTileSide);
+  return setup;
 }
 
-EstimatePlan CoarsePlan(const EstimatePlan& plan) {
-  EstimatePlan coarse = plan;
-  coarse.step = 2 * plan.step;
-  coarse.labels = (plan.labels + 1) / 2;
+SweepSetup CoarseSetup(const SweepSetup& setup) {
+  SweepSetup coarse = setup;
+  coarse.step = 2 * setup.step;
+  coarse.labels = (setup.labels + 1) / 2;
   coarse.directions = 4;
   return coarse;
 }
 
-Rect TileOf(const EstimatePlan& plan, int32_t index) {
-  const int32_t column = index % plan.columns, row = index / plan.columns;
-  const int32_t x = TileBegin(plan.width, plan.columns, column);
-  const int32_t y = TileBegin(plan.height, plan.rows, row);
-  return {x, y, TileBegin(plan.width, plan.columns, column + 1) - x,
-          TileBegin(plan.height, plan.rows, row + 1) - y};
+Rect TileOf(const SweepSetup& setup, int32_t index) {
+  const int32_t column = index % setup.columns, row = index / setup.columns;
+  const int32_t x = TileBegin(setup.width, setup.columns, column);
+  const int32_t y = TileBegin(setup.height, setup.rows, row);
+  return {x, y, TileBegin(setup.width, setup.columns, column + 1) - x,
+          TileBegin(setup.height, setup.rows, row + 1) - y};
 }
 
-Rect RegionOf(const EstimatePlan& plan, int32_t index) {
-  return Widened(plan, TileOf(plan, index), plan.repairs ? kRepairMargin : kTileMargin);
+Rect RegionOf(const SweepSetup& setup, int32_t index) {
+  return Widened(setup, TileOf(setup, index), setup.repairs ? kRepairMargin : kTileMargin);
 }
 
-Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin) {
+Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin) {
   const int32_t left = rect.x > margin ? rect.x - margin : 0;
   const int32_t top = rect.y > margin ? rect.y - margin : 0;
   const int32_t right = rect.x + rect.width + margin, bottom = rect.y + rect.height + margin;
-  return {left, top, (right < plan.width ? right : plan.width) - left,
-          (bottom < plan.height ? bottom : plan.height) - top};
+  return {left, top, (right < setup.width ? right : setup.width) - left,
+          (bottom < setup.height ? bottom : setup.height) - top};
 }
 
 }  // namespace starfocus

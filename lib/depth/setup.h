@@ -56,10 +56,10 @@ struct ViewPhases {
 inline constexpr int8_t kEightDirections[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
                                                   {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
 
-// Largest number of sides (EstimatePlan::sides).
+// Largest number of sides (SweepSetup::sides).
 inline constexpr int32_t kMostSides = 8;
 
-struct EstimatePlan {
+struct SweepSetup {
   int32_t width, height;
   // Disparity of label 0, and difference between the disparities of adjacent labels, in fixed point
   // (kDisparityBits). The difference is a multiple of half a pixel.
@@ -97,13 +97,13 @@ struct EstimatePlan {
   int32_t AllPhases() const;
 };
 
-// Returns the plan for a valid configuration of an estimate or, if `repairs` is true, of a repair.
-EstimatePlan MakePlan(const starfocus_depth_config& config, bool repairs);
+// Returns the setup for a valid configuration of an estimate or, if `repairs` is true, of a repair.
+SweepSetup MakeSetup(const starfocus_depth_config& config, bool repairs);
 
-// Returns a plan with every second label of `plan` and with half of the paths. The last label of
-// the coarse plan does not exceed the last label of `plan`. The first sweep of a repair uses the
-// coarse plan, because the first sweep only determines which surfaces hide other surfaces.
-EstimatePlan CoarsePlan(const EstimatePlan& plan);
+// Returns a setup with every second label of `setup` and with half of the paths. The last label of
+// the coarse setup does not exceed the last label of `setup`. The first sweep of a repair uses the
+// coarse setup, because the first sweep only determines which surfaces hide other surfaces.
+SweepSetup CoarseSetup(const SweepSetup& setup);
 
 // Returns the number of tiles into which `length` pixels are divided. The number is odd, and each
 // tile is between 0.5 and 1.5 times `side` long.
@@ -113,12 +113,12 @@ int32_t TilesAlong(int32_t length, int32_t side);
 int32_t TileBegin(int32_t length, int32_t count, int32_t k);
 
 // Returns the rectangle of tile `index`; `index` is in [0, columns * rows).
-Rect TileOf(const EstimatePlan& plan, int32_t index);
+Rect TileOf(const SweepSetup& setup, int32_t index);
 // Returns the region that is swept for tile `index`, which is the tile extended by the margin of
-// the plan.
-Rect RegionOf(const EstimatePlan& plan, int32_t index);
+// the setup.
+Rect RegionOf(const SweepSetup& setup, int32_t index);
 // Returns the rectangle enlarged by `margin` on all sides and clipped to the picture.
-Rect Widened(const EstimatePlan& plan, const Rect& rect, int32_t margin);
+Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin);
 
 // Returns -position * d in pixels with `fraction_bits` fractional bits, by default in 1/128 pixel.
 // Halves are rounded away from zero.

@@ -17,7 +17,7 @@ constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
 // A tile of a sweep: the region that consists of the tile and its margin, and the tile's memory.
 struct SweptTile {
-  const EstimatePlan& plan;
+  const SweepSetup& setup;
   const Rect& region;
   const simd::DepthKernels& kernels;
   const TileMemory& memory;
@@ -27,7 +27,7 @@ struct SweptTile {
   // Calls act(begin, end) for each run of swept pixels of row y of the region (ForRuns).
   template <class Act>
   void ForRow(int32_t y, const Act& act) const {
-    ForRuns(plan, swept, y, region.x, region.x + region.width, act);
+    ForRuns(setup, swept, y, region.x, region.x + region.width, act);
   }
   // Returns the index of the first element of pixel (x, y) in the arrays of costs.
   size_t At(int32_t x, int32_t y) const {
@@ -42,27 +42,27 @@ struct SweptTile {
 // around the region, and marked the labels (disparities) that nearer surfaces hide in each view
 // (tile_views.h).
 void MeasureCosts(const SweptTile& tile, bool one_side) {
-  const EstimatePlan& plan = tile.plan;
+  const SweepSetup& setup = tile.setup;
   const TileViews& views = tile.memory.views;
   simd::LabelRow row = {};
   row.plane = views.plane;
   row.moves = tile.memory.moves;
-  row.labels = static_cast<size_t>(plan.labels);
-  row.views = static_cast<size_t>(plan.side_views);
-  const auto all_views = static_cast<uint16_t>((1U << plan.side_views) - 1);
-  if (plan.arms == 0) {
-    row.sides = {one_side ? plan.sides : &all_views,
-                 one_side ? static_cast<size_t>(plan.side_count) : 1};
+  row.labels = static_cast<size_t>(setup.labels);
+  row.views = static_cast<size_t>(setup.side_views);
+  const auto all_views = static_cast<uint16_t>((1U << setup.side_views) - 1);
+  if (setup.arms == 0) {
+    row.sides = {one_side ? setup.sides : &all_views,
+                 one_side ? static_cast<size_t>(setup.side_count) : 1};
   }
-  row.arms = static_cast<size_t>(plan.arms);
-  row.rings = static_cast<size_t>(plan.rings);
+  row.arms = static_cast<size_t>(setup.arms);
+  row.rings = static_cast<size_t>(setup.rings);
   row.one_side = one_side;
   row.ends = views.ends;
   // If the views form a star and a pixel moves beyond the edge of a view, the opposite view
   // replaces this view. In an estimate from a star, the opposite view also replaces each view in
   // which a nearer surface hides the pixel. In a repair, such a hidden view remains in use with a
   // limited cost, because the map of a repair may be wrong.
-  row.limits = plan.repairs && !one_side;
+  row.limits = setup.repairs && !one_side;
   for (int32_t y = tile.region.y; y < tile.region.y + tile.region.height; ++y) {
     tile.ForRow(y, [&](int32_t begin, int32_t end) {
       const size_t at = views.At(begin, y);
@@ -76,7 +76,7 @@ void MeasureCosts(const SweptTile& tile, bool one_side) {
 
 // Starts a path at pixel k of a row of paths, with a cost of 0 for all labels.
 void BeginAt(const SweptTile& tile, int32_t k, int16_t* path, int16_t* least) {
-  const auto labels = static_cast<size_t>(tile.plan.labels), places = tile.places;
+  const auto labels = static_cast<size_t>(tile.setup.labels), places = tile.places;
   path += k * static_cast<ptrdiff_t>(places);
   std::fill_n(path, labels, int16_t{0});
   std::fill(path + labels, path + places, simd::kNoLabel);
@@ -89,7 +89,7 @@ void BeginBeside(const SweptTile& tile, int32_t y, int32_t first, int32_t last, 
   const Rect& region = tile.region;
   const bool inside = y >= region.y && y < region.y + region.height;
   const uint8_t* swept =
-      tile.swept == nullptr || !inside ? nullptr : tile.swept + ptrdiff_t{y} * tile.plan.width;
+      tile.swept == nullptr || !inside ? nullptr : tile.swept + ptrdiff_t{y} * tile.setup.width;
   for (int32_t x = first; x < last; ++x) {
     const bool goes_on = inside && x >= region.x && x < region.x + region.width &&
                          (swept == nullptr || swept[x] != 0);
@@ -103,7 +103,7 @@ void BeginBeside(const SweptTile& tile, int32_t y, int32_t first, int32_t last, 
 // are overwritten.
 void AddRow(const SweptTile& tile, int32_t y, int32_t dx, int32_t dy, bool adds, int own) {
   const TileMemory& memory = tile.memory;
-  const auto labels = static_cast<size_t>(tile.plan.labels);
+  const auto labels = static_cast<size_t>(tile.setup.labels);
   const auto places = static_cast<ptrdiff_t>(tile.places);
   const int from = dy == 0 ? own : 1 - own;
   tile.ForRow(y, [&](int32_t begin, int32_t end) {
@@ -131,14 +131,14 @@ void AddRow(const SweptTile& tile, int32_t y, int32_t dx, int32_t dy, bool adds,
   });
 }
 
-int16_t ToDisparity(const EstimatePlan& plan, int32_t choice) {
-  const int32_t moved = (choice * plan.step + (1 << (simd::kChoiceBits - 1))) >> simd::kChoiceBits;
-  return static_cast<int16_t>(plan.low + moved);
+int16_t ToDisparity(const SweepSetup& setup, int32_t choice) {
+  const int32_t moved = (choice * setup.step + (1 << (simd::kChoiceBits - 1))) >> simd::kChoiceBits;
+  return static_cast<int16_t>(setup.low + moved);
 }
 
 // Computes the sums of path costs from the costs of the pixels of the region.
 void AddAllPaths(const SweptTile& tile) {
-  const EstimatePlan& plan = tile.plan;
+  const SweepSetup& setup = tile.setup;
   const Rect& region = tile.region;
   // Set the element before each pixel's first label to kNoLabel, because this element belongs to no
   // label.
@@ -146,8 +146,8 @@ void AddAllPaths(const SweptTile& tile) {
   for (int16_t* path : tile.memory.path) {
     for (ptrdiff_t k = -1; k <= region.width; ++k) path[k * places - 1] = simd::kNoLabel;
   }
-  for (int32_t n = 0; n < plan.directions; ++n) {
-    const int8_t* direction = kEightDirections[n * (8 / plan.directions)];
+  for (int32_t n = 0; n < setup.directions; ++n) {
+    const int8_t* direction = kEightDirections[n * (8 / setup.directions)];
     for (int32_t k = 0; k < region.height; ++k) {
       const int32_t y = region.y + (direction[1] < 0 ? region.height - 1 - k : k);
       AddRow(tile, y, direction[0], direction[1], n > 0, k & 1);
@@ -159,19 +159,19 @@ void AddAllPaths(const SweptTile& tile) {
 // of these disparities, to maps of the whole picture. `certainty` may be null.
 void ChooseDisparities(const SweptTile& tile, const Rect& tile_rect, int16_t* disparity,
                        uint8_t* certainty) {
-  const EstimatePlan& plan = tile.plan;
+  const SweepSetup& setup = tile.setup;
   const TileMemory& memory = tile.memory;
-  const auto labels = static_cast<size_t>(plan.labels);
+  const auto labels = static_cast<size_t>(setup.labels);
   for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
-    ForRuns(plan, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
+    ForRuns(setup, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
             [&](int32_t begin, int32_t end) {
               const auto count = static_cast<size_t>(end - begin);
-              const size_t to = plan.At(begin, y);
+              const size_t to = setup.At(begin, y);
               tile.kernels.ChooseLabels(memory.sum + tile.At(begin, y), labels, count,
                                         memory.choice,
                                         certainty == nullptr ? nullptr : certainty + to);
               for (size_t k = 0; k < count; ++k) {
-                disparity[to + k] = ToDisparity(plan, memory.choice[k]);
+                disparity[to + k] = ToDisparity(setup, memory.choice[k]);
               }
             });
   }
@@ -179,26 +179,26 @@ void ChooseDisparities(const SweptTile& tile, const Rect& tile_rect, int16_t* di
 
 // Writes the initial prior of one pixel: 0 for the labels near the pixel's disparity, and the
 // largest cost for all other labels.
-void SeedPrior(const EstimatePlan& plan, int32_t d, size_t places, uint8_t* prior) {
+void SeedPrior(const SweepSetup& setup, int32_t d, size_t places, uint8_t* prior) {
   std::fill_n(prior, places, simd::kMostPrior);
   if (d == simd::kNoSurface) return;
-  const int32_t below = d - kOwnLabels - plan.low;
-  const int32_t first = below > 0 ? (below + plan.step - 1) / plan.step : 0;
-  const int32_t last = Min((d + kOwnLabels - plan.low) / plan.step, plan.labels - 1);
+  const int32_t below = d - kOwnLabels - setup.low;
+  const int32_t first = below > 0 ? (below + setup.step - 1) / setup.step : 0;
+  const int32_t last = Min((d + kOwnLabels - setup.low) / setup.step, setup.labels - 1);
   for (int32_t l = first; l <= last; ++l) prior[l] = 0;
 }
 
 // Returns the label nearest to a disparity.
-int32_t LabelOf(const EstimatePlan& plan, int32_t d) {
-  const int32_t label = (d - plan.low + plan.step / 2) / plan.step;
-  return Max(0, Min(label, plan.labels - 1));
+int32_t LabelOf(const SweepSetup& setup, int32_t d) {
+  const int32_t label = (d - setup.low + setup.step / 2) / setup.step;
+  return Max(0, Min(label, setup.labels - 1));
 }
 
 // Adds a prior cost to the cost of each label at the pixels of the region. The prior cost of a
 // label increases with the distance to the nearest trusted pixel with the label's disparity.
 // `trusted` has the size of the picture.
 void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
-  const EstimatePlan& plan = tile.plan;
+  const SweepSetup& setup = tile.setup;
   const Rect& region = tile.region;
   const TileMemory& memory = tile.memory;
   const size_t places = tile.places;
@@ -206,7 +206,7 @@ void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
   // Propagates the prior costs of row y along the row in direction `step`. If `from` is not 0,
   // prior costs are also propagated from row y + from to row y.
   const auto spread = [&](int32_t y, ptrdiff_t step, int32_t from) {
-    const uint8_t* swept = tile.swept + plan.At(0, y + from);
+    const uint8_t* swept = tile.swept + setup.At(0, y + from);
     tile.ForRow(y, [&](int32_t begin, int32_t end) {
       // Pixels for which no disparity is searched (swept[x] == 0) contribute no prior costs.
       for (int32_t x = begin; from != 0 && x < end; ++x) {
@@ -220,10 +220,10 @@ void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
   };
   const int32_t bottom = region.y + region.height - 1;
   for (int32_t y = region.y; y <= bottom; ++y) {
-    const int16_t* disparity = trusted + plan.At(0, y);
+    const int16_t* disparity = trusted + setup.At(0, y);
     tile.ForRow(y, [&](int32_t begin, int32_t end) {
       for (int32_t x = begin; x < end; ++x) {
-        SeedPrior(plan, disparity[x], places, memory.prior + tile.At(x, y));
+        SeedPrior(setup, disparity[x], places, memory.prior + tile.At(x, y));
       }
     });
     // First spread the prior forwards along row y and from the row above, then backwards along row
@@ -246,14 +246,14 @@ void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
 // cost of memory.second, for the pixels of `tile_rect`. The written costs exclude the prior costs
 // of AddMapPrior.
 void WeighEvidence(const SweptTile& tile, const Rect& tile_rect, const EstimateMemory& memory) {
-  const EstimatePlan& plan = tile.plan;
-  ForSwept(plan, tile.swept, tile_rect, [&](int32_t x, int32_t y) {
-    const size_t at = plan.At(x, y);
+  const SweepSetup& setup = tile.setup;
+  ForSwept(setup, tile.swept, tile_rect, [&](int32_t x, int32_t y) {
+    const size_t at = setup.At(x, y);
     const int32_t given = memory.given[at];
     const uint8_t* cost = tile.memory.cost + tile.At(x, y);
     const uint8_t* prior = tile.memory.prior + tile.At(x, y);
-    const int32_t is = LabelOf(plan, memory.second[at]);
-    const int32_t was = given == simd::kNoSurface ? is : LabelOf(plan, given);
+    const int32_t is = LabelOf(setup, memory.second[at]);
+    const int32_t was = given == simd::kNoSurface ? is : LabelOf(setup, given);
     memory.given_cost[at] = static_cast<uint8_t>(cost[was] - prior[was]);
     memory.found_cost[at] = static_cast<uint8_t>(cost[is] - prior[is]);
   });
@@ -263,41 +263,41 @@ void WeighEvidence(const SweptTile& tile, const Rect& tile_rect, const EstimateM
 // the views that see the pixel.
 void SweepTile(const Sweep& sweep, bool one_side, int32_t index, int32_t worker, int16_t* disparity,
                uint8_t* certainty) {
-  const EstimatePlan plan = one_side && sweep.plan.repairs ? CoarsePlan(sweep.plan) : sweep.plan;
+  const SweepSetup setup = one_side && sweep.setup.repairs ? CoarseSetup(sweep.setup) : sweep.setup;
   const EstimateMemory& memory = sweep.memory;
   TileViews* views = &memory.workers[worker].views;
-  const Rect tile_rect = TileOf(plan, index);
+  const Rect tile_rect = TileOf(setup, index);
   if (tile_rect.width == 0 || tile_rect.height == 0) return;
-  const Rect region = RegionOf(plan, index);
-  LoadTileViews(plan, sweep.light_field, region, sweep.kernels, views);
-  FindMoves(plan, *views, memory.workers[worker].moves);
+  const Rect region = RegionOf(setup, index);
+  LoadTileViews(setup, sweep.light_field, region, sweep.kernels, views);
+  FindMoves(setup, *views, memory.workers[worker].moves);
   if (one_side) {
-    MarkOutside(plan, views);
-  } else if (plan.one_sided()) {
-    MarkHiddenInMaps(plan, memory.side_maps, views);
+    MarkOutside(setup, views);
+  } else if (setup.one_sided()) {
+    MarkHiddenInMaps(setup, memory.side_maps, views);
   } else {
-    MarkHidden(plan, memory.first, region, views);
+    MarkHidden(setup, memory.first, region, views);
   }
-  const SweptTile tile = {plan,          region,
+  const SweptTile tile = {setup,         region,
                           sweep.kernels, memory.workers[worker],
-                          memory.swept,  simd::PathLabels(static_cast<size_t>(plan.labels))};
+                          memory.swept,  simd::PathLabels(static_cast<size_t>(setup.labels))};
   MeasureCosts(tile, one_side);
-  if (plan.repairs) AddMapPrior(tile, memory.trusted);
+  if (setup.repairs) AddMapPrior(tile, memory.trusted);
   AddAllPaths(tile);
   ChooseDisparities(tile, tile_rect, disparity, certainty);
-  if (plan.repairs && !one_side) WeighEvidence(tile, tile_rect, memory);
+  if (setup.repairs && !one_side) WeighEvidence(tile, tile_rect, memory);
 }
 
 }  // namespace
 
-TileMemory TakeTileMemory(const EstimatePlan& plan, const Rect& region, Arena* arena) {
+TileMemory TakeTileMemory(const SweepSetup& setup, const Rect& region, Arena* arena) {
   const auto width = static_cast<size_t>(region.width);
   const size_t area = width * static_cast<size_t>(region.height);
-  const auto labels = static_cast<size_t>(plan.labels), places = simd::PathLabels(labels);
+  const auto labels = static_cast<size_t>(setup.labels), places = simd::PathLabels(labels);
   TileMemory tile = {};
-  tile.views = TakeTileViews(plan, region, arena);
+  tile.views = TakeTileViews(setup, region, arena);
   tile.cost = arena->Take<uint8_t>(area, places);
-  tile.prior = plan.repairs ? arena->Take<uint8_t>(area, places) : nullptr;
+  tile.prior = setup.repairs ? arena->Take<uint8_t>(area, places) : nullptr;
   tile.sum = arena->Take<int16_t>(area, places);
   for (int k = 0; k < 2; ++k) {
     int16_t* path = arena->Take<int16_t>((width + 2) * places + 1);
@@ -306,7 +306,7 @@ TileMemory TakeTileMemory(const EstimatePlan& plan, const Rect& region, Arena* a
     tile.least[k] = least == nullptr ? nullptr : least + 1;
   }
   tile.jump = arena->Take<int16_t>(width);
-  tile.moves = arena->Take<simd::ViewMove>(labels, static_cast<size_t>(plan.side_views));
+  tile.moves = arena->Take<simd::ViewMove>(labels, static_cast<size_t>(setup.side_views));
   tile.choice = arena->Take<int16_t>(width);
   return tile;
 }

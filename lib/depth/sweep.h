@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps over all labels at the pixels of a tile. A sweep measures how well each label fits the
-// views, adds the prior of a given map, sums costs along paths from all directions of the plan, and
-// chooses the disparity with the smallest sum for each pixel (semi-global matching).
+// views, adds the prior of a given map, sums costs along paths from all directions of the setup,
+// and chooses the disparity with the smallest sum for each pixel (semi-global matching).
 #ifndef STARFOCUS_LIB_DEPTH_SWEEP_H_
 #define STARFOCUS_LIB_DEPTH_SWEEP_H_
 
@@ -24,11 +24,11 @@ struct TileMemory {
   int16_t* choice;        // Chosen label of each pixel of a row.
 };
 // Takes the memory of a worker for regions of at most the size of `region`.
-TileMemory TakeTileMemory(const EstimatePlan& plan, const Rect& region, Arena* arena);
+TileMemory TakeTileMemory(const SweepSetup& setup, const Rect& region, Arena* arena);
 
 // Light field, labels and memory of a sweep.
 struct Sweep {
-  const EstimatePlan& plan;
+  const SweepSetup& setup;
   const starfocus_light_field& light_field;
   const simd::DepthKernels& kernels;
   const EstimateMemory& memory;

@@ -44,15 +44,15 @@ Rect ThinGrid::CellAt(int32_t column, int32_t row) const {
   return {x, y, TileBegin(width, columns, column + 1) - x, TileBegin(height, rows, row + 1) - y};
 }
 
-ThinGrid GridOf(const EstimatePlan& plan) {
+ThinGrid GridOf(const SweepSetup& setup) {
   ThinGrid grid;
-  grid.width = plan.width;
-  grid.height = plan.height;
-  grid.tile_columns = plan.columns;
-  grid.tile_width = TilesAlong(plan.width / plan.columns, kCellSide);
-  grid.tile_rows = TilesAlong(plan.height / plan.rows, kCellSide);
-  grid.columns = plan.columns * grid.tile_width;
-  grid.rows = plan.rows * grid.tile_rows;
+  grid.width = setup.width;
+  grid.height = setup.height;
+  grid.tile_columns = setup.columns;
+  grid.tile_width = TilesAlong(setup.width / setup.columns, kCellSide);
+  grid.tile_rows = TilesAlong(setup.height / setup.rows, kCellSide);
+  grid.columns = setup.columns * grid.tile_width;
+  grid.rows = setup.rows * grid.tile_rows;
   return grid;
 }
 

@@ -29,7 +29,7 @@ struct ThinGrid {
   int32_t Cells() const { return columns * rows; }
   Rect CellAt(int32_t column, int32_t row) const;
 };
-ThinGrid GridOf(const EstimatePlan& plan);
+ThinGrid GridOf(const SweepSetup& setup);
 
 // Properties of the cells of a map, row by row.
 struct ThinCells {

@@ -29,15 +29,15 @@ void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews&
 // Makes the planes of a view for the fractions of a pixel in all its phases. The planes are stored
 // consecutively from `out` on.
 void MakePlanes(const Plane<const uint8_t>& picture, const ViewPhases& phases,
-                const EstimatePlan& plan, const simd::DepthKernels& kernels, const TileViews& views,
+                const SweepSetup& setup, const simd::DepthKernels& kernels, const TileViews& views,
                 uint8_t* out) {
   // `stride` is larger than `count`, because interpolation reads samples after the end of a row. No
   // label moves a pixel to a sample after the first `count` samples.
   const size_t stride = views.stride, count = stride - simd::kSliceLanes;
   for (int32_t row = 0; row <= views.rows; ++row) {
     uint8_t* next = views.split + static_cast<size_t>(row % 2) * 3 * stride;
-    const int32_t y = Inside(views.top + row, plan.height);
-    SplitPictureRow(picture.Row(y), plan.width, views, kernels, next);
+    const int32_t y = Inside(views.top + row, setup.height);
+    SplitPictureRow(picture.Row(y), setup.width, views, kernels, next);
     if (row == 0) continue;
     const uint8_t* here = views.split + static_cast<size_t>((row - 1) % 2) * 3 * stride;
     for (int32_t k = 0; k < phases.count; ++k) {
@@ -52,18 +52,18 @@ void MakePlanes(const Plane<const uint8_t>& picture, const ViewPhases& phases,
 }
 
 // Returns the part of the planes' rectangle that lies in the picture.
-Rect PartInside(const EstimatePlan& plan, const TileViews& views) {
+Rect PartInside(const SweepSetup& setup, const TileViews& views) {
   const int32_t x = Max(views.left, 0), y = Max(views.top, 0);
-  const int32_t right = Min(views.left + static_cast<int32_t>(views.stride), plan.width);
-  return {x, y, right - x, Min(views.top + views.rows, plan.height) - y};
+  const int32_t right = Min(views.left + static_cast<int32_t>(views.stride), setup.width);
+  return {x, y, right - x, Min(views.top + views.rows, setup.height) - y};
 }
 
 // Returns the number of labels that a pixel at disparity d hides. The hidden labels are always the
 // lowest labels.
-uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
-  const int32_t beyond = Max(d - kSurfaceDepth - plan.low, 0) + plan.step - 1;
-  const int32_t labels = plan.step == kLabelStep ? beyond / kLabelStep : beyond / plan.step;
-  return static_cast<uint8_t>(Min(labels, plan.labels));
+uint8_t HiddenBehind(const SweepSetup& setup, int32_t d) {
+  const int32_t beyond = Max(d - kSurfaceDepth - setup.low, 0) + setup.step - 1;
+  const int32_t labels = setup.step == kLabelStep ? beyond / kLabelStep : beyond / setup.step;
+  return static_cast<uint8_t>(Min(labels, setup.labels));
 }
 
 // Marks the labels that the pixels of a map in row y of `from` hide in the part `inside` of a view.
@@ -72,13 +72,13 @@ uint8_t HiddenBehind(const EstimatePlan& plan, int32_t d) {
 // move vertically. If kAcross or kDown is false, the compiler removes the computation of this
 // movement.
 template <bool kAcross, bool kDown>
-void HideBehindRow(const EstimatePlan& plan, const SideView& view, const int16_t* map, int32_t y,
+void HideBehindRow(const SweepSetup& setup, const SideView& view, const int16_t* map, int32_t y,
                    const Rect& from, const Rect& inside, size_t stride, uint8_t* hidden) {
   const auto columns = static_cast<uint32_t>(inside.width);
   const auto rows = static_cast<uint32_t>(inside.height);
-  const int16_t* disparity = map + plan.At(0, y);
-  int32_t last = plan.low;
-  uint8_t behind = HiddenBehind(plan, last);
+  const int16_t* disparity = map + setup.At(0, y);
+  int32_t last = setup.low;
+  uint8_t behind = HiddenBehind(setup, last);
   for (int32_t x = from.x; x < from.x + from.width; ++x) {
     const int32_t d = disparity[x];
     const int32_t across = kAcross ? WholeMoveBy(view.at.u, d) : 0;
@@ -86,62 +86,62 @@ void HideBehindRow(const EstimatePlan& plan, const SideView& view, const int16_t
     const auto column = static_cast<uint32_t>(x + across - inside.x);
     const auto row = static_cast<uint32_t>(y + down - inside.y);
     if ((kAcross && column >= columns) || (kDown && row >= rows)) continue;
-    if (d != last) behind = HiddenBehind(plan, last = d);
+    if (d != last) behind = HiddenBehind(setup, last = d);
     uint8_t& here = hidden[row * stride + column];
     here = std::max(here, behind);
   }
 }
 
-// Returns `rect` extended by the reach of the plan, along each axis on which the view moves. Pixels
-// of `rect` can only move to pixels of the result, and only pixels of the result can hide pixels of
-// `rect`.
-Rect WithReach(const EstimatePlan& plan, const SideView& view, const Rect& rect) {
-  const Rect across = Widened(plan, rect, view.at.u != 0 ? plan.reach : 0);
-  const Rect down = Widened(plan, rect, view.at.v != 0 ? plan.reach : 0);
+// Returns `rect` extended by the reach of the setup, along each axis on which the view moves.
+// Pixels of `rect` can only move to pixels of the result, and only pixels of the result can hide
+// pixels of `rect`.
+Rect WithReach(const SweepSetup& setup, const SideView& view, const Rect& rect) {
+  const Rect across = Widened(setup, rect, view.at.u != 0 ? setup.reach : 0);
+  const Rect down = Widened(setup, rect, view.at.v != 0 ? setup.reach : 0);
   return {across.x, down.y, across.width, down.height};
 }
 
 }  // namespace
 
-TileViews TakeTileViews(const EstimatePlan& plan, const Rect& region, Arena* arena) {
+TileViews TakeTileViews(const SweepSetup& setup, const Rect& region, Arena* arena) {
   const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
-  const auto beyond = 2 * static_cast<size_t>(plan.reach) + 1;
+  const auto beyond = 2 * static_cast<size_t>(setup.reach) + 1;
   TileViews views = {};
   views.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
   views.plane = views.stride * (height + beyond);
-  views.rgb = arena->Take<uint8_t>(views.plane, 3 * (static_cast<size_t>(plan.AllPhases()) + 1));
+  views.rgb = arena->Take<uint8_t>(views.plane, 3 * (static_cast<size_t>(setup.AllPhases()) + 1));
   views.split = arena->Take<uint8_t>(views.stride, 2 * 3);
-  views.hidden = arena->Take<uint8_t>(views.plane, static_cast<size_t>(plan.side_views));
+  views.hidden = arena->Take<uint8_t>(views.plane, static_cast<size_t>(setup.side_views));
   return views;
 }
 
-void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_field,
+void LoadTileViews(const SweepSetup& setup, const starfocus_light_field& light_field,
                    const Rect& region, const simd::DepthKernels& kernels, TileViews* views) {
-  views->left = region.x - plan.reach;
-  views->top = region.y - plan.reach;
-  views->rows = region.height + 2 * plan.reach + 1;
+  views->left = region.x - setup.reach;
+  views->top = region.y - setup.reach;
+  views->rows = region.height + 2 * setup.reach + 1;
   ViewPhases whole;  // The centre view does not move.
   whole.count = 1;
-  MakePlanes(RowsOf(light_field.views[0]), whole, plan, kernels, *views, views->rgb);
+  MakePlanes(RowsOf(light_field.views[0]), whole, setup, kernels, *views, views->rgb);
   uint8_t* planes = views->rgb + 3 * views->plane;
-  for (int32_t k = 0; k < plan.side_views; ++k) {
-    const SideView& side = plan.side[k];
-    const ViewPhases phases = plan.PhasesOf(side);
-    MakePlanes(RowsOf(light_field.views[side.index]), phases, plan, kernels, *views, planes);
+  for (int32_t k = 0; k < setup.side_views; ++k) {
+    const SideView& side = setup.side[k];
+    const ViewPhases phases = setup.PhasesOf(side);
+    MakePlanes(RowsOf(light_field.views[side.index]), phases, setup, kernels, *views, planes);
     planes += 3 * static_cast<size_t>(phases.count) * views->plane;
   }
 }
 
-void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove* moves) {
+void FindMoves(const SweepSetup& setup, const TileViews& views, simd::ViewMove* moves) {
   const auto stride = static_cast<int32_t>(views.stride);
   const auto plane = static_cast<int32_t>(views.plane);
   int32_t first = 1;  // index of the view's first set of planes
-  for (int32_t k = 0; k < plan.side_views; ++k) {
-    const ViewPhases phases = plan.PhasesOf(plan.side[k]);
-    for (int32_t l = 0; l < plan.labels; ++l) {
-      const LabelMove move = plan.MoveOf(plan.side[k], l);
+  for (int32_t k = 0; k < setup.side_views; ++k) {
+    const ViewPhases phases = setup.PhasesOf(setup.side[k]);
+    for (int32_t l = 0; l < setup.labels; ++l) {
+      const LabelMove move = setup.MoveOf(setup.side[k], l);
       const int32_t planes = 3 * (first + phases.slot[move.phase]);
-      moves[l * plan.side_views + k] = {
+      moves[l * setup.side_views + k] = {
           planes * plane + (move.down >> 7) * stride + (move.across >> 7),
           k * plane + WholeMove(move.down) * stride + WholeMove(move.across)};
     }
@@ -149,12 +149,12 @@ void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove*
   }
 }
 
-void MarkOutside(const EstimatePlan& plan, TileViews* views) {
-  const Rect inside = PartInside(plan, *views);
+void MarkOutside(const SweepSetup& setup, TileViews* views) {
+  const Rect inside = PartInside(setup, *views);
   views->ends = inside.height < views->rows || static_cast<size_t>(inside.width) < views->stride;
   views->all_seen = !views->ends;
   const auto rows = static_cast<size_t>(views->rows);
-  for (int32_t view = 0; view < plan.side_views; ++view) {
+  for (int32_t view = 0; view < setup.side_views; ++view) {
     uint8_t* hidden = views->hidden + static_cast<size_t>(view) * views->plane;
     std::fill_n(hidden, rows * views->stride, simd::kViewEnds);
     for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
@@ -163,35 +163,34 @@ void MarkOutside(const EstimatePlan& plan, TileViews* views) {
   }
 }
 
-void MarkHiddenInMaps(const EstimatePlan& plan, const int16_t* side_maps, TileViews* views) {
-  MarkOutside(plan, views);
+void MarkHiddenInMaps(const SweepSetup& setup, const int16_t* side_maps, TileViews* views) {
+  MarkOutside(setup, views);
   views->all_seen = false;
-  const Rect inside = PartInside(plan, *views);
-  for (int32_t k = 0; k < plan.side_views; ++k) {
-    const int16_t* map = side_maps + ptrdiff_t{k} * plan.width * plan.height;
+  const Rect inside = PartInside(setup, *views);
+  for (int32_t k = 0; k < setup.side_views; ++k) {
+    const int16_t* map = side_maps + ptrdiff_t{k} * setup.width * setup.height;
     uint8_t* hidden = views->hidden + static_cast<size_t>(k) * views->plane;
     for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
-      const int16_t* disparity = map + plan.At(inside.x, y);
+      const int16_t* disparity = map + setup.At(inside.x, y);
       uint8_t* to = hidden + views->At(inside.x, y);
-      for (int32_t x = 0; x < inside.width; ++x) to[x] = HiddenBehind(plan, disparity[x]);
+      for (int32_t x = 0; x < inside.width; ++x) to[x] = HiddenBehind(setup, disparity[x]);
     }
   }
 }
 
-void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region,
-                TileViews* views) {
-  MarkOutside(plan, views);
+void MarkHidden(const SweepSetup& setup, const int16_t* map, const Rect& region, TileViews* views) {
+  MarkOutside(setup, views);
   views->all_seen = false;
-  for (int32_t k = 0; k < plan.side_views; ++k) {
-    const SideView& view = plan.side[k];
-    const Rect inside = WithReach(plan, view, region), from = WithReach(plan, view, inside);
+  for (int32_t k = 0; k < setup.side_views; ++k) {
+    const SideView& view = setup.side[k];
+    const Rect inside = WithReach(setup, view, region), from = WithReach(setup, view, inside);
     uint8_t* hidden =
         views->hidden + static_cast<size_t>(k) * views->plane + views->At(inside.x, inside.y);
     const auto hide = view.at.v == 0   ? HideBehindRow<true, false>
                       : view.at.u == 0 ? HideBehindRow<false, true>
                                        : HideBehindRow<true, true>;
     for (int32_t y = from.y; y < from.y + from.height; ++y) {
-      hide(plan, view, map, y, from, inside, views->stride, hidden);
+      hide(setup, view, map, y, from, inside, views->stride, hidden);
     }
   }
 }

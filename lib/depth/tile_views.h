@@ -23,8 +23,8 @@ struct TileViews {
   int32_t left, top, rows;
   size_t stride, plane;  // distance in samples between rows, and between planes
   // Planes R, G and B of the centre view, followed by the planes of each side view in the order of
-  // the plan. Labels shift side views by fractions of a pixel. Each side view has one set of planes
-  // per fraction (EstimatePlan::Phases).
+  // the setup. Labels shift side views by fractions of a pixel. Each side view has one set of
+  // planes per fraction (SweepSetup::PhasesOf).
   uint8_t* rgb;
   uint8_t* split;  // scratch memory for making planes: two rows of R, G and B
   // Number of labels that a nearer surface hides, for each pixel of each side view. The hidden
@@ -41,27 +41,27 @@ struct TileViews {
   const uint8_t* Centre(int32_t colour) const { return rgb + static_cast<size_t>(colour) * plane; }
 };
 // Takes the memory of the views around regions of at most the size of `region`.
-TileViews TakeTileViews(const EstimatePlan& plan, const Rect& region, Arena* arena);
+TileViews TakeTileViews(const SweepSetup& setup, const Rect& region, Arena* arena);
 
 // Makes the planes of all views. The planes cover `region` and the pixels around it to which labels
 // can move pixels of the region.
-void LoadTileViews(const EstimatePlan& plan, const starfocus_light_field& light_field,
+void LoadTileViews(const SweepSetup& setup, const starfocus_light_field& light_field,
                    const Rect& region, const simd::DepthKernels& kernels, TileViews* views);
 
 // Computes, for each label and each side view, the movement of a pixel as an offset in the planes.
-void FindMoves(const EstimatePlan& plan, const TileViews& views, simd::ViewMove* moves);
+void FindMoves(const SweepSetup& setup, const TileViews& views, simd::ViewMove* moves);
 
 // Sets views->hidden to simd::kViewEnds outside the picture, and to 0 (no hidden labels) inside.
 // The first sweep uses MarkOutside.
-void MarkOutside(const EstimatePlan& plan, TileViews* views);
+void MarkOutside(const SweepSetup& setup, TileViews* views);
 
 // Marks the labels that the surfaces in the maps of the side views hide. `side_maps` contains the
-// maps in the order of the plan.
-void MarkHiddenInMaps(const EstimatePlan& plan, const int16_t* side_maps, TileViews* views);
+// maps in the order of the setup.
+void MarkHiddenInMaps(const SweepSetup& setup, const int16_t* side_maps, TileViews* views);
 
 // Marks the labels that the pixels of a map hide in the views, at all positions to which pixels of
 // the region can move. `map` has width * height disparities.
-void MarkHidden(const EstimatePlan& plan, const int16_t* map, const Rect& region, TileViews* views);
+void MarkHidden(const SweepSetup& setup, const int16_t* map, const Rect& region, TileViews* views);
 
 }  // namespace starfocus
 

@@ -34,14 +34,14 @@ struct Repaired {
   std::vector<uint8_t> confidence;
 };
 
-starfocus::EstimatePlan PlanOf(const Photo& photo) {
+starfocus::SweepSetup SetupOf(const Photo& photo) {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   config.width = photo.width;
   config.height = photo.height;
   config.disparity_min = -500;
   config.disparity_max = 500;
-  return starfocus::MakePlan(config, true);
+  return starfocus::MakeSetup(config, true);
 }
 
 starfocus_light_field FieldOf(const Photo& photo) {
@@ -54,18 +54,18 @@ starfocus_light_field FieldOf(const Photo& photo) {
 }
 
 Repaired Repair(const Photo& photo) {
-  const starfocus::EstimatePlan plan = PlanOf(photo);
+  const starfocus::SweepSetup setup = SetupOf(photo);
   starfocus::Arena counted(nullptr);
-  TakeColourRepair(plan, 1, &counted);
+  TakeColourRepair(setup, 1, &counted);
   const test::Memory base(counted.Bytes());
   starfocus::Arena arena(base.data);
-  const starfocus::ColourMemory memory = TakeColourRepair(plan, 1, &arena);
+  const starfocus::ColourMemory memory = TakeColourRepair(setup, 1, &arena);
   const auto width = size_t(photo.width);
   Repaired result = {std::vector<float>(photo.map.size()), std::vector<uint8_t>(photo.map.size())};
   const starfocus::MapOutput output = {
       {result.map.data(), width}, -500, 500, {result.confidence.data(), width}, {}};
   bool has_coverage = false;
-  CHECK(RepairByColour(plan, FieldOf(photo), starfocus::simd::BestDepthKernels(), output, memory,
+  CHECK(RepairByColour(setup, FieldOf(photo), starfocus::simd::BestDepthKernels(), output, memory,
                        &has_coverage) == STARFOCUS_OK);
   return result;
 }
@@ -257,9 +257,9 @@ TEST_CASE("colour repair: a row without known values is a copy of the nearest kn
   photo.Map(0, 2) = 1, photo.Map(1, 2) = 4;
   photo.Map(0, 6) = 3, photo.Map(1, 6) = 2;
   std::vector<int16_t> filled(photo.map.size());
-  const starfocus::EstimatePlan plan = PlanOf(photo);
-  starfocus::ReadRows(plan, FieldOf(photo), {0, photo.height}, filled.data());
-  starfocus::FillUnknownRows(plan, filled.data());
+  const starfocus::SweepSetup setup = SetupOf(photo);
+  starfocus::ReadRows(setup, FieldOf(photo), {0, photo.height}, filled.data());
+  starfocus::FillUnknownRows(setup, filled.data());
   // A row that is equally near to two known rows gets the farther surface.
   const int expected[] = {1, 4, 1, 4, 1, 4, 1, 4, 1, 2, 3, 2, 3, 2, 3, 2};
   for (size_t k = 0; k < filled.size(); ++k) CHECK(filled[k] == expected[k] << kDisparityBits);
@@ -272,10 +272,10 @@ TEST_CASE("MeasureDoubt: values grow with the distance from a step, except on th
   }
   std::vector<int16_t> fixed(photo.map.size());
   for (size_t k = 0; k < fixed.size(); ++k) fixed[k] = int16_t(64 * photo.map[k]);
-  const starfocus::EstimatePlan plan = PlanOf(photo);
+  const starfocus::SweepSetup setup = SetupOf(photo);
   const starfocus_light_field field = FieldOf(photo);
   std::vector<uint8_t> scratch(fixed.size()), doubt(fixed.size());
-  starfocus::MeasureDoubt({plan, field, fixed.data()}, {0, 0, 60, 40}, scratch.data(),
+  starfocus::MeasureDoubt({setup, field, fixed.data()}, {0, 0, 60, 40}, scratch.data(),
                           doubt.data());
   const int expected[] = {1, 2, 3, 4, 5, 6, 6};
   for (int k = 0; k < 7; ++k) {

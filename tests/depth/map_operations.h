@@ -153,16 +153,16 @@ struct Maps {
   // Makes the map by functions inside the library, with the given SIMD kernels.
   starfocus_status MakeBy(const starfocus::simd::DepthKernels& kernels,
                           const starfocus_light_field& field, const starfocus::MapOutput& output) {
-    const starfocus::EstimatePlan plan = starfocus::MakePlan(config, !input.given.empty());
+    const starfocus::SweepSetup sweep = starfocus::MakeSetup(config, !input.given.empty());
     starfocus::Arena arena(memory->data);
     if (config.views == 1) {
-      const starfocus::ColourMemory of_colour = TakeColourRepair(plan, 1, &arena);
+      const starfocus::ColourMemory of_colour = TakeColourRepair(sweep, 1, &arena);
       bool has_coverage = false;
-      return starfocus::RepairByColour(plan, field, kernels, output, of_colour, &has_coverage);
+      return starfocus::RepairByColour(sweep, field, kernels, output, of_colour, &has_coverage);
     }
-    const starfocus::EstimateMemory taken = TakeEstimate(plan, 1, &arena);
-    return (plan.repairs ? starfocus::Repair : starfocus::Estimate)(plan, field, kernels, output,
-                                                                    taken);
+    const starfocus::EstimateMemory taken = TakeEstimate(sweep, 1, &arena);
+    return (sweep.repairs ? starfocus::Repair : starfocus::Estimate)(sweep, field, kernels, output,
+                                                                     taken);
   }
 
   MapInput input;

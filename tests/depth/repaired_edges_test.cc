@@ -22,15 +22,15 @@ constexpr int16_t kNear = 12 << starfocus::kDisparityBits, kFar = 0;
 struct Scene {
   std::vector<uint8_t> rgb = std::vector<uint8_t>(3 * kWidth * kHeight);
   std::vector<int16_t> map = std::vector<int16_t>(kWidth * kHeight);
-  starfocus::EstimatePlan plan = {};
+  starfocus::SweepSetup setup = {};
   starfocus_light_field field = {};
 
   Scene() {
-    plan.width = kWidth;
-    plan.height = kHeight;
+    setup.width = kWidth;
+    setup.height = kHeight;
     field.views[0] = starfocus_image_rgb(rgb.data(), 3 * kWidth);
   }
-  starfocus::ColourMap Map() const { return {plan, field, map.data()}; }
+  starfocus::ColourMap Map() const { return {setup, field, map.data()}; }
   // Fills the picture and the map with a near half and a far half. The edge in the picture is a
   // ramp of `ramp` pixels that begins at the given column.
   template <class Column>

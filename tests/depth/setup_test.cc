@@ -14,10 +14,10 @@
 namespace setup_test {
 namespace {
 
-using starfocus::EstimatePlan;
-using starfocus::MakePlan;
+using starfocus::MakeSetup;
+using starfocus::SweepSetup;
 
-EstimatePlan PlanOf(int width, int height, int views, float low, float high) {
+SweepSetup SetupOf(int width, int height, int views, float low, float high) {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   config.width = width;
@@ -25,22 +25,22 @@ EstimatePlan PlanOf(int width, int height, int views, float low, float high) {
   config.views = views;
   config.disparity_min = low;
   config.disparity_max = high;
-  return MakePlan(config, false);
+  return MakeSetup(config, false);
 }
 
 TEST_CASE("setup: tiles cover the picture, are symmetric, and are neither small nor large") {
   for (int length = 1; length < 3000; length += length < 40 ? 1 : 37) {
-    const EstimatePlan plan = PlanOf(length, 7, 5, 0, 1);
+    const SweepSetup setup = SetupOf(length, 7, 5, 0, 1);
     CAPTURE(length);
     int32_t end = 0;
-    for (int32_t k = 0; k < plan.columns; ++k) {
-      const starfocus::Rect tile = TileOf(plan, k), other = TileOf(plan, plan.columns - 1 - k);
+    for (int32_t k = 0; k < setup.columns; ++k) {
+      const starfocus::Rect tile = TileOf(setup, k), other = TileOf(setup, setup.columns - 1 - k);
       CHECK(tile.x == end);
       end = tile.x + tile.width;
       CHECK(other.x == length - end);
       CHECK(tile.height == 7);
       CHECK(tile.width < 384);
-      CHECK((plan.columns == 1 || tile.width >= 128));
+      CHECK((setup.columns == 1 || tile.width >= 128));
     }
     CHECK(end == length);
   }
@@ -48,23 +48,23 @@ TEST_CASE("setup: tiles cover the picture, are symmetric, and are neither small 
 
 TEST_CASE("setup: views of a ring lie opposite each other, at the positions of the star set") {
   for (const int views : {5, 9, 17}) {
-    const EstimatePlan plan = PlanOf(10, 10, views, 0, 1);
-    CHECK(plan.side_views == views - 1);
-    CHECK(!plan.one_sided());
-    for (int32_t k = 0; k < plan.side_views; ++k) {
+    const SweepSetup setup = SetupOf(10, 10, views, 0, 1);
+    CHECK(setup.side_views == views - 1);
+    CHECK(!setup.one_sided());
+    for (int32_t k = 0; k < setup.side_views; ++k) {
       double u = 0, v = 0;
-      REQUIRE(starfocus_view_position(plan.side[k].index, &u, &v) == 1);
-      CHECK(plan.side[k].at.u == starfocus::kViewOne * u);
-      CHECK(plan.side[k].at.v == starfocus::kViewOne * v);
-      const int32_t ring = k / plan.arms * plan.arms;
-      const starfocus::SideView& other = plan.side[ring + (k + plan.arms / 2) % plan.arms];
-      CHECK(other.at.u == -plan.side[k].at.u);
-      CHECK(other.at.v == -plan.side[k].at.v);
+      REQUIRE(starfocus_view_position(setup.side[k].index, &u, &v) == 1);
+      CHECK(setup.side[k].at.u == starfocus::kViewOne * u);
+      CHECK(setup.side[k].at.v == starfocus::kViewOne * v);
+      const int32_t ring = k / setup.arms * setup.arms;
+      const starfocus::SideView& other = setup.side[ring + (k + setup.arms / 2) % setup.arms];
+      CHECK(other.at.u == -setup.side[k].at.u);
+      CHECK(other.at.v == -setup.side[k].at.v);
     }
   }
 }
 
-EstimatePlan PlanAt(const std::vector<starfocus_position>& positions, float low, float high) {
+SweepSetup PlanAt(const std::vector<starfocus_position>& positions, float low, float high) {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   config.width = config.height = 10;
@@ -72,15 +72,15 @@ EstimatePlan PlanAt(const std::vector<starfocus_position>& positions, float low,
   std::copy(positions.begin(), positions.end(), config.positions);
   config.disparity_min = low;
   config.disparity_max = high;
-  return MakePlan(config, false);
+  return MakeSetup(config, false);
 }
 
 TEST_CASE(
     "setup: sides are the largest sets of views within a half plane around one of eight "
     "directions") {
   const auto sides = [](const std::vector<starfocus_position>& positions) {
-    const EstimatePlan plan = PlanAt(positions, 0, 1);
-    return std::vector<uint16_t>(plan.sides, plan.sides + plan.side_count);
+    const SweepSetup setup = PlanAt(positions, 0, 1);
+    return std::vector<uint16_t>(setup.sides, setup.sides + setup.side_count);
   };
   using Masks = std::vector<uint16_t>;
   CHECK(sides({{0, 0}, {1, 0}}) == Masks{1});
@@ -92,31 +92,31 @@ TEST_CASE(
 }
 
 TEST_CASE("setup: shifts of views at any position differ by quarter pixels") {
-  const EstimatePlan plan = PlanAt({{0, 0}, {0.3, -0.7}}, -3.1F, 9);
-  const starfocus::SideView& view = plan.side[0];
-  const starfocus::ViewPhases phases = plan.PhasesOf(view);
-  for (int32_t l = 0; l < plan.labels; ++l) {
-    const starfocus::LabelMove move = plan.MoveOf(view, l);
+  const SweepSetup setup = PlanAt({{0, 0}, {0.3, -0.7}}, -3.1F, 9);
+  const starfocus::SideView& view = setup.side[0];
+  const starfocus::ViewPhases phases = setup.PhasesOf(view);
+  for (int32_t l = 0; l < setup.labels; ++l) {
+    const starfocus::LabelMove move = setup.MoveOf(view, l);
     CAPTURE(l);
-    CHECK(std::abs(move.across - MoveAcross(view, plan.Disparity(l))) <= 17);
-    CHECK(std::abs(move.down - MoveDown(view, plan.Disparity(l))) <= 17);
+    CHECK(std::abs(move.across - MoveAcross(view, setup.Disparity(l))) <= 17);
+    CHECK(std::abs(move.down - MoveDown(view, setup.Disparity(l))) <= 17);
     REQUIRE(phases.slot[move.phase] >= 0);
     const starfocus::LabelMove& same = phases.move[phases.slot[move.phase]];
     CHECK((same.across & 127) == (move.across & 127));
     CHECK((same.down & 127) == (move.down & 127));
   }
-  CHECK(PlanOf(10, 10, 17, 0, 20).AllPhases() == 8 * 2 + 8 * 4);
+  CHECK(SetupOf(10, 10, 17, 0, 20).AllPhases() == 8 * 2 + 8 * 4);
 }
 
 TEST_CASE("setup: labels are half a pixel apart, or farther apart in a wide range") {
-  const EstimatePlan fine = PlanOf(10, 10, 5, -3, 4.25F);
+  const SweepSetup fine = SetupOf(10, 10, 5, -3, 4.25F);
   CHECK(fine.low == -3 * 64);
   CHECK(fine.step == 32);
   CHECK(fine.labels == 16);
   CHECK(fine.reach == 6);
-  const EstimatePlan single = PlanOf(10, 10, 5, 2, 2);
+  const SweepSetup single = SetupOf(10, 10, 5, 2, 2);
   CHECK(single.labels == 1);
-  const EstimatePlan wide = PlanOf(10, 10, 5, -500, 500);
+  const SweepSetup wide = SetupOf(10, 10, 5, -500, 500);
   CHECK(wide.labels <= starfocus::kMostLabels);
   CHECK(wide.Disparity(wide.labels - 1) >= 500 * 64);
   CHECK(wide.Disparity(wide.labels - 1) + 64 <= INT16_MAX);
@@ -136,18 +136,18 @@ TEST_CASE("setup: WholeMove rounds shifts to whole pixels, and halves towards 0"
   CHECK(WholeMoveBy(-starfocus::kViewOne / 2, 66) == 1);
 }
 
-TEST_CASE("setup: CoarsePlan keeps every other label and the range of the labels") {
+TEST_CASE("setup: CoarseSetup keeps every other label and the range of the labels") {
   starfocus_depth_config config;
   starfocus_depth_config_init(&config);
   config.width = config.height = 10;
   for (int range = 0; range <= 1000; range = range < 70 ? range + 1 : range + 93) {
     config.disparity_min = -float(range) / 2;
     config.disparity_max = float(range) / 2;
-    const EstimatePlan plan = MakePlan(config, false), coarse = CoarsePlan(plan);
+    const SweepSetup setup = MakeSetup(config, false), coarse = CoarseSetup(setup);
     CAPTURE(range);
     CHECK(coarse.labels >= 1);
-    CHECK(coarse.Disparity(coarse.labels - 1) <= plan.Disparity(plan.labels - 1));
-    CHECK(coarse.Disparity(coarse.labels) > plan.Disparity(plan.labels - 1) - plan.step);
+    CHECK(coarse.Disparity(coarse.labels - 1) <= setup.Disparity(setup.labels - 1));
+    CHECK(coarse.Disparity(coarse.labels) > setup.Disparity(setup.labels - 1) - setup.step);
   }
 }
 

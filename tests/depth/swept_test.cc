@@ -19,22 +19,23 @@ using test::PlaneScene;
 // Returns a mask of the pixels at which a repair of the map `given` tries all disparities.
 std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& given) {
   const test::PlaneField field = RenderPlanes(scene);
-  const EstimatePlan plan = starfocus::MakePlan(ConfigOf(field, -6, 8), true);
+  const SweepSetup setup = starfocus::MakeSetup(ConfigOf(field, -6, 8), true);
   starfocus::Arena counted(nullptr);
-  TakeEstimate(plan, 1, &counted);
+  TakeEstimate(setup, 1, &counted);
   const test::Memory bytes(counted.Bytes());
   starfocus::Arena arena(bytes.data);
-  const EstimateMemory memory = TakeEstimate(plan, 1, &arena);
+  const EstimateMemory memory = TakeEstimate(setup, 1, &arena);
   starfocus_light_field light_field = field.Get();
   light_field.depth = starfocus_depth_float(given.data(), sizeof(float) * size_t(scene.width),
                                             scene.width, scene.height);
-  const int tiles = plan.columns * plan.rows;
-  for (int k = 0; k < tiles; ++k) ReadGiven(plan, light_field, TileOf(plan, k), memory);
+  const int tiles = setup.columns * setup.rows;
+  for (int k = 0; k < tiles; ++k) ReadGiven(setup, light_field, TileOf(setup, k), memory);
   for (int k = 0; k < tiles; ++k) {
-    FindTrusted(plan, TileOf(plan, k), memory.given, memory.trusted);
-    FindDoubts(plan, light_field, TileOf(plan, k), memory);
+    FindTrusted(setup, TileOf(setup, k), memory.given, memory.trusted);
+    FindDoubts(setup, light_field, TileOf(setup, k), memory);
   }
-  for (int k = 0; k < tiles; ++k) FindSwept(plan, TileOf(plan, k), memory.workers[0].cost, memory);
+  for (int k = 0; k < tiles; ++k)
+    FindSwept(setup, TileOf(setup, k), memory.workers[0].cost, memory);
   return {memory.swept, memory.swept + given.size()};
 }
 
@@ -79,17 +80,17 @@ TEST_CASE("swept: all disparities are tried where a smooth map contradicts the v
 }
 
 TEST_CASE("swept: ForRuns lists the runs of swept pixels within the given part of a row") {
-  EstimatePlan plan = {};
-  plan.width = 8;
+  SweepSetup setup = {};
+  setup.width = 8;
   const uint8_t swept[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0, 1, 1};
   std::vector<std::pair<int, int>> runs;
   const auto add = [&](int begin, int end) { runs.emplace_back(begin, end); };
-  starfocus::ForRuns(plan, swept, 1, 1, 7, add);
+  starfocus::ForRuns(setup, swept, 1, 1, 7, add);
   CHECK(runs == std::vector<std::pair<int, int>>{{1, 2}, {4, 5}, {6, 7}});
   runs.clear();
-  starfocus::ForRuns(plan, swept, 1, 2, 4, add);
+  starfocus::ForRuns(setup, swept, 1, 2, 4, add);
   CHECK(runs.empty());
-  starfocus::ForRuns(plan, nullptr, 1, 2, 4, add);
+  starfocus::ForRuns(setup, nullptr, 1, 2, 4, add);
   CHECK(runs == std::vector<std::pair<int, int>>{{2, 4}});
 }
 
