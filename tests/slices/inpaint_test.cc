@@ -9,7 +9,7 @@
 #include "lib/slices/inpaint.h"
 #include "tests/slices/layered_scene.h"
 
-namespace hidden_fill_test {
+namespace inpaint_test {
 namespace {
 
 using test::kSize;
@@ -154,4 +154,4 @@ TEST_CASE("hidden fill: the fill of a mirrored scene is mirrored") {
 }
 
 }  // namespace
-}  // namespace hidden_fill_test
+}  // namespace inpaint_test

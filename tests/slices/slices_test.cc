@@ -10,7 +10,7 @@
 #include "lib/slices/slices.h"
 #include "tests/support/test_scene.h"
 
-namespace depth_slices_test {
+namespace slices_test {
 namespace {
 
 using namespace starfocus;
@@ -184,4 +184,4 @@ TEST_CASE("slices: the ranges of slices become wider if slices are too many or t
 }
 
 }  // namespace
-}  // namespace depth_slices_test
+}  // namespace slices_test

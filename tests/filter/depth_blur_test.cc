@@ -17,7 +17,7 @@
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
 
-namespace blur_test {
+namespace depth_blur_test {
 namespace {
 
 using reference::kOne;
@@ -231,4 +231,4 @@ TEST_CASE("blur: BlurStep rounds each radius to the nearest radius that has a PS
 }
 
 }  // namespace
-}  // namespace blur_test
+}  // namespace depth_blur_test

@@ -15,7 +15,7 @@
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
-namespace block_stats_test {
+namespace cells_test {
 namespace {
 
 using namespace starfocus;
@@ -487,4 +487,4 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace block_stats_test
+}  // namespace cells_test
