@@ -8,7 +8,8 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
+using simd::kStripColumns;
+
 static_assert(kOcclusionViews == simd::kViewLooks, "number of views per side");
 
 // Sets kStripColumns pixels to kNoSurface. The pixels after the end of a row must be cleared,

@@ -6,10 +6,10 @@
 namespace starfocus {
 namespace {
 
+using simd::kStripColumns;
 using simd::SliceOffset;
 
 constexpr int32_t kFractionOne = 1 << 15;
-constexpr auto kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
 
 // Returns the filter taps of a box that is `subaperture` pixels wide (kShiftBits; more than
 // kBoxSubaperture).

@@ -187,9 +187,8 @@ struct ShiftedSlice {
 // Returns the strips of a slice's row that some view shows in the strip at column `x` of the
 // rectangle. Bit k of the result stands for strip k of the row, as in SliceCover.
 constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
-  constexpr auto kStripColumns = static_cast<int32_t>(simd::kSliceLanes);
-  const int32_t first = x / kStripColumns,
-                last = (x + kStripColumns - 1 + 2 * placed.reach) / kStripColumns;
+  const int32_t first = x / simd::kStripColumns,
+                last = (x + simd::kStripColumns - 1 + 2 * placed.reach) / simd::kStripColumns;
   return (uint64_t{2} << last) - (uint64_t{1} << first);
 }
 
