@@ -33,23 +33,23 @@ class SpanList {
  public:
   // Creates a list that adds spans to accumulators.
   SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators)
-      : SpanList(kernels, memory, accumulators, nullptr) {}
+      : kernels_(kernels), memory_(memory), accumulators_(accumulators), line_(nullptr) {}
   // Creates a list that blends spans into a line.
   SpanList(const simd::Kernels& kernels, const SpanMemory& memory, int16_t* line)
-      : SpanList(kernels, memory, nullptr, line) {}
+      : kernels_(kernels), memory_(memory), accumulators_(nullptr), line_(line) {}
 
   // Returns the next span, which the caller must fill in.
   simd::Span* Next() {
-    if (count_ == capacity_) Flush();
-    return spans_ + count_++;
+    if (count_ == memory_.span_capacity) Flush();
+    return memory_.spans + count_++;
   }
   void Add(const simd::Span& span) { *Next() = span; }
 
   // Returns memory for the colours of one span of a hole. The next span that the caller adds must
   // be the span of the hole. `samples` is at most pixel_capacity.
   int16_t* Pixels(size_t samples) {
-    if (used_ + samples > pixel_capacity_ || count_ == capacity_) Flush();
-    int16_t* pixels = pixels_ + used_;
+    if (used_ + samples > memory_.pixel_capacity || count_ == memory_.span_capacity) Flush();
+    int16_t* pixels = memory_.pixels + used_;
     used_ += samples;
     return pixels;
   }
@@ -57,9 +57,9 @@ class SpanList {
   void Flush() {
     if (count_ != 0) {
       if (accumulators_ != nullptr) {
-        kernels_.Accumulate(spans_, count_, accumulators_);
+        kernels_.Accumulate(memory_.spans, count_, accumulators_);
       } else {
-        kernels_.Blend(spans_, count_, line_);
+        kernels_.Blend(memory_.spans, count_, line_);
       }
     }
     count_ = 0;
@@ -67,21 +67,8 @@ class SpanList {
   }
 
  private:
-  SpanList(const simd::Kernels& kernels, const SpanMemory& memory, uint32_t* accumulators,
-           int16_t* line)
-      : kernels_(kernels),
-        spans_(memory.spans),
-        capacity_(memory.span_capacity),
-        pixels_(memory.pixels),
-        pixel_capacity_(memory.pixel_capacity),
-        accumulators_(accumulators),
-        line_(line) {}
-
   const simd::Kernels& kernels_;
-  simd::Span* const spans_;
-  const size_t capacity_;
-  int16_t* const pixels_;
-  const size_t pixel_capacity_;
+  const SpanMemory memory_;
   uint32_t* const accumulators_;
   int16_t* const line_;
   size_t count_ = 0;
