@@ -125,6 +125,8 @@ starfocus_status PullRows(const Output& out, int32_t rows, EngineState* engine, 
   const starfocus_config& config = engine->config;
   Stream& stream = engine->stream;
   CallProgress& call_progress = engine->jobs->call_progress;
+  // Ends the cancellation of an earlier pull, also for rows that this pull only stores.
+  call_progress.Begin(stream.finished, config.height);
   const int32_t end = stream.written + rows;
   const starfocus_status status = StoreFinished(out, end, engine, written);
   if (status != STARFOCUS_OK) return status;
@@ -133,7 +135,6 @@ starfocus_status PullRows(const Output& out, int32_t rows, EngineState* engine, 
       stream.next, stream.finished < end ? Min(config.height, end + kDeblockRows) : stream.next};
   const int32_t reach = LargestBorders(config).streamed;
   return ForStripes(stripes, reach, stream.pushed, config, [&](int32_t y, const Range&) {
-    call_progress.Begin(stream.finished, config.height);
     const starfocus_status refocused = RefocusStripe(engine, y);
     if (refocused != STARFOCUS_OK) return refocused;
     stream.finished = FinishedRows(config, y);

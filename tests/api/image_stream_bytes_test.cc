@@ -10,6 +10,7 @@
 #include "tests/support/inside.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
+#include "tests/support/watch.h"
 
 namespace image_stream_bytes_test {
 namespace {
@@ -89,6 +90,49 @@ TEST_CASE("image streams: alpha is copied to the output even if the rows are pul
   ImageMemory streamed(20, 900, kind);
   REQUIRE(test::Stream(&engine, field, params, 900, 2, &streamed, nullptr) == STARFOCUS_OK);
   CHECK((streamed == expected));
+}
+
+TEST_CASE("image streams: after a cancelled pull, a repeated pull returns the remaining rows") {
+  test::Random random(51);
+  const ImageField field =
+      FieldOf(test::LayeredScene(70, 100, 1, 7, 50), STARFOCUS_FORMAT_RGBX, false, &random);
+  starfocus_config config = test::ImageConfig(field, 20);
+  config.features |= STARFOCUS_FEATURE_STREAMING;
+  config.superblock = 32;
+  test::Engine engine(config);
+  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+  const ImageKind kind = test::AnyKind(STARFOCUS_FORMAT_NV12, &random);
+  const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
+  bool ended = false;
+  for (int stop = 0; !ended; ++stop) {
+    CAPTURE(stop);
+    test::Watch watch(stop);
+    starfocus_callbacks callbacks = {};
+    callbacks.progress = test::Watch::Progress;
+    callbacks.progress_data = &watch;
+    REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+    REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+    ImageMemory image(70, 100, kind);
+    int cancelled = 0;
+    for (int32_t pushed = 0, pulled = 0; pulled < 100;) {
+      int32_t consumed = 0, written = 0;
+      const starfocus_light_field rows = field.Field(pushed);
+      if (pushed < 100) {
+        REQUIRE(starfocus_stream_push(engine.get(), &rows, 100 - pushed, &consumed) ==
+                STARFOCUS_OK);
+      }
+      const starfocus_image out = image.Out(pulled);
+      const starfocus_status status =
+          starfocus_stream_pull(engine.get(), &out, 100 - pulled, &written, nullptr);
+      cancelled += status == STARFOCUS_ERROR_CANCELLED ? 1 : 0;
+      REQUIRE(cancelled <= 1);
+      REQUIRE((status == STARFOCUS_OK || status == STARFOCUS_ERROR_CANCELLED));
+      pushed += consumed;
+      pulled += written;
+    }
+    CHECK((image == expected));
+    ended = cancelled == 0;
+  }
 }
 
 TEST_CASE("image streams: ring buffers hold an even number of rows for every disparity range") {
