@@ -3,6 +3,7 @@
 // field. ways_test.cc tests the bytes refocused from prepared light fields.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -43,6 +44,33 @@ TEST_CASE(
   check(8);
   REQUIRE(test::Stream(&user, params(-3), scene, &streamed, 9, 9) == STARFOCUS_OK);
   CHECK((streamed.bytes == whole.bytes));
+}
+
+TEST_CASE("prepared: refocusing does not read the map again, and previews read no plane again") {
+  test::Scene scene = test::LayeredScene(90, 70, 5, 7, 13);
+  scene.coverage.assign(size_t{90} * 70, 255);
+  starfocus_config config = test::ConfigFor(scene, 20);
+  config.previews = 1;
+  test::Engine engine(config);
+  test::PreparedMemory memory(config);
+  const starfocus_params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
+  const test::Output expected = test::OutputOf(&engine, params, scene);
+  const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
+  const auto preview = [&] {
+    test::Output out(45, 35);
+    const starfocus_image image = starfocus_image_rgb(out.bytes.data(), out.stride);
+    REQUIRE(test::Preview(engine.get(), &params, prepared, 1, &image, nullptr) == STARFOCUS_OK);
+    return out.bytes;
+  };
+  const std::vector<uint8_t> small = preview();
+  for (float& disparity : scene.disparity) disparity = std::numeric_limits<float>::quiet_NaN();
+  test::Output got(90, 70);
+  REQUIRE(test::RefocusPreparedRgb(engine.get(), &params, prepared, got.bytes.data(), got.stride,
+                                   nullptr) == STARFOCUS_OK);
+  CHECK((got.bytes == expected.bytes));
+  for (auto& picture : scene.pictures) std::fill(picture.begin(), picture.end(), uint8_t{0});
+  std::fill(scene.coverage.begin(), scene.coverage.end(), uint8_t{0});
+  CHECK((preview() == small));
 }
 
 TEST_CASE("prepared: the memory has the documented size") {
