@@ -93,6 +93,14 @@ TEST_CASE(
   CHECK((Picture(red, 10, 8) == Picture(red, 10, 1)));
 }
 
+TEST_CASE("highlights: a factor that rounds to 1 changes no byte") {
+  const test::Scene lamp = WhiteRect(58, 59, 3, 3);
+  for (const starfocus_mode mode : test::kModes) {
+    CAPTURE(mode);
+    CHECK((Picture(lamp, 11, 1.001, mode) == Picture(lamp, 11, 1, mode)));
+  }
+}
+
 TEST_CASE("highlights: white areas larger than lamps are not brightened") {
   struct Wall {
     int x, y, width, height;
