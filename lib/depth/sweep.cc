@@ -40,7 +40,7 @@ struct SweptTile {
 // views fit a pixel best are assumed to see the pixel. Otherwise, all views are assumed to see it,
 // except views in which the pixel is known to be hidden. The caller must have loaded the views
 // around the region, and marked the labels (disparities) that nearer surfaces hide in each view
-// (tile_views.h).
+// (LoadTileViews, MarkHidden).
 void MeasureCosts(const SweptTile& tile, bool one_side) {
   const SweepSetup& setup = tile.setup;
   const TileViews& views = tile.memory.views;

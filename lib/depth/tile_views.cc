@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/tile_views.h"
-
+// Loads the views around a tile, and marks the labels that are hidden in each view.
 #include <algorithm>
 
 #include "lib/base/fixed.h"
+#include "lib/depth/sweep.h"
 #include "lib/io/image.h"
 
 namespace starfocus {
