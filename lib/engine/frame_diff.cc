@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/frame_diff.h"
-
+// Finds the superblocks that depend on pixels that differ between two light fields, for videos.
 #include <cstring>
 
 #include "lib/base/fixed.h"
+#include "lib/engine/engine.h"
 #include "lib/io/depth_map.h"
 #include "lib/io/image.h"
 
