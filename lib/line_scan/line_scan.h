@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Center-based line scan (paper, IV-A). A scan finds the surfaces and holes of a rendered view
-// along a line in a single pass without z-buffer, and passes them to a sink.
+// along a line in a single pass without z-buffer, and passes them to a sink. Also defines the
+// memory of the renderer that scans lines (triangles.cc).
 #ifndef STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
 #define STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
 
@@ -9,7 +10,9 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
+#include "lib/gather/span_list.h"
 #include "lib/optics/view_grid.h"
+#include "lib/plan/renderer.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -359,6 +362,29 @@ void ScanLine(const Line& line, Direction direction, const Range& part, const Ra
     for (int32_t k = views.first; k < views.last; ++k) scan.Scan(next(k));
   }
 }
+
+// Scratch memory of the renderer for one worker. E is the largest side of an extended rectangle,
+// and R the largest side of a rectangle without border. The comments of the members state the
+// number of elements of each buffer. Each buffer is followed by simd::kPadding bytes.
+struct LineScanScratch : RendererScratch {
+  // Light of the field and of the transposed field: E rows of RgbStride(E) each.
+  int16_t* field_rgb[2];
+  int16_t* field_disparity[2];  // Disparities of both fields: E^2 each.
+  int16_t* diagonal_rgb;        // Light of all diagonal lines: 3 E^2.
+  int16_t* diagonal_disparity;  // Disparities of all diagonal lines: E^2.
+  uint32_t* diagonal_offsets;   // Number of pixels before each diagonal line: 2 E.
+  int64_t* moves;               // ViewGrid::Move of views 0 to N along an axis: N + 1.
+  simd::RunMarks marks;         // Marks of the runs of E lines with E positions each.
+  Run* runs;                    // Runs of all lines of a field: E^2.
+  int32_t* run_counts;          // Number of runs of each line: E.
+  Run* line_runs;               // Runs of one line: E.
+  int16_t* strip_rgb;           // Type A lines before they are transposed: 3 R kStripRows.
+  int16_t* view_disparity;      // Disparities of the type A view, one line per row: R E.
+  int16_t* columns_rgb;   // Light of the type A view, one line per column: R rows of RgbStride(E).
+  uint32_t* column_sums;  // Sums of the pass over rows, in column order: 3 R^2.
+  uint32_t* line_accumulators;  // Accumulators of one line: 3 E.
+  SpanMemory spans;
+};
 
 }  // namespace starfocus
 

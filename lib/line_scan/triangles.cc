@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/line_scan/triangles.h"
-
+// The paper's primitive: refocuses one rectangle of the picture with a given N at one layer. The
+// views of the aperture form eight triangles and are rendered as types A, B and C (section IV-B).
 #include <cstring>
 #include <initializer_list>
 
@@ -12,6 +12,16 @@
 
 namespace starfocus {
 namespace {
+
+// Number of type A lines that are rendered before they are transposed together.
+constexpr int32_t kStripRows = 16;
+
+// Returns the largest i of the type B views (i, i) for N views along the radius.
+constexpr int32_t LastOnDiagonal(int32_t n) {
+  int32_t last = 0;
+  while (2 * (last + 1) * (last + 1) <= n * n) ++last;
+  return last;
+}
 
 constexpr uint32_t kBlendOne = 1 << simd::kBlendBits;
 
@@ -359,14 +369,11 @@ class Star {
   uint32_t* sums_;
 };
 
-}  // namespace
-
+// Implements Renderer::render for line scans. `scratch` is a LineScanScratch. N > 0.
 uint64_t RefocusRectangle(const RenderJob& job, RendererScratch* scratch, uint32_t* sums) {
   Star(job, static_cast<LineScanScratch*>(scratch), sums).Refocus();
   return 3 * static_cast<uint64_t>(job.rect.width) * static_cast<uint64_t>(job.rect.height);
 }
-
-namespace {
 
 int32_t LayerOf(const BlockStats& stats, Demand demand) {
   return LayerByPaper(static_cast<double>(stats.r_min) / (1 << kDisparityBits), demand);

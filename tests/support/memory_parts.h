@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "lib/line_scan/triangles.h"
+#include "lib/line_scan/line_scan.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
