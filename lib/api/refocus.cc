@@ -7,7 +7,7 @@
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/prepared.h"
-#include "lib/io/image.h"
+#include "lib/io/output.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

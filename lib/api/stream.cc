@@ -6,6 +6,7 @@
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/stripe.h"
+#include "lib/io/output.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -8,7 +8,7 @@
 #include "lib/base/problem.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/stripe.h"
-#include "lib/io/image.h"
+#include "lib/io/output.h"
 #include "simd/depth_values.h"
 
 namespace starfocus {

@@ -8,10 +8,11 @@
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/engine/engine.h"
-#include "lib/io/output.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
+
+struct Output;
 
 // Returns the status of simd::DepthFlags: STARFOCUS_OK, STARFOCUS_ERROR_NOT_FINITE or
 // STARFOCUS_ERROR_DISPARITY. If both kinds of errors occur, returns STARFOCUS_ERROR_NOT_FINITE.
