@@ -23,8 +23,8 @@ void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Pla
   const size_t samples = 3 * static_cast<size_t>(rect.width);
   CheckSums(scratch.sums, Samples(rect), shift);
   for (int32_t row = 0; row < rect.height; ++row) {
-    in.kernels->Finish(scratch.sums + static_cast<size_t>(row) * samples, samples, shift,
-                       EncodingOf(in), At(out, rect, row));
+    in.input->kernels->Finish(scratch.sums + static_cast<size_t>(row) * samples, samples, shift,
+                              EncodingOf(in), At(out, rect, row));
   }
 }
 
@@ -38,8 +38,8 @@ void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Scrat
     const size_t pixel =
         static_cast<size_t>(rendered.y - frame.y + row) * static_cast<size_t>(frame.width) +
         static_cast<size_t>(rendered.x - frame.x);
-    in.kernels->FinishLayer(scratch.sums + static_cast<size_t>(row) * samples, samples, shift,
-                            scratch.layer_samples + 3 * pixel);
+    in.input->kernels->FinishLayer(scratch.sums + static_cast<size_t>(row) * samples, samples,
+                                   shift, scratch.layer_samples + 3 * pixel);
   }
 }
 
@@ -47,7 +47,7 @@ void KeepLayer(const BlockInputs& in, const Block& block, int shift, const Scrat
 // the margin that the second upsampling step reads.
 void FinishLayer(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  const Scratch& scratch) {
-  const simd::Kernels& kernels = *in.kernels;
+  const simd::Kernels& kernels = *in.input->kernels;
   const Rect frame = LayerFrame(block.rect, block.layer);
   CheckAll(ranges::kLayerSample, scratch.layer_samples, Samples(frame));
   LayerRect layer = {scratch.layer_samples, frame.width, frame.height};
@@ -131,9 +131,9 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
                  Scratch* scratch) {
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
-  const GatherJob job = {in.input,           in.cells,    cells,
-                         in.lens->scale,     tables.psfs, LastGatherStep(*in.lens),
-                         tables.mean_square, in.kernels,  &scratch->cancel};
+  const GatherJob job = {in.input,           in.cells,        cells,
+                         in.lens->scale,     tables.psfs,     LastGatherStep(*in.lens),
+                         tables.mean_square, &scratch->cancel};
   const Rect frame = LayerFrame(block.rect, block.layer);
   const size_t stride = block.layer == 0 ? out.stride : 3 * static_cast<size_t>(frame.width);
   scratch->counts.gathered_pixels +=
@@ -160,8 +160,8 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
   const ViewGrid grid = ViewGridOf(in, block, scratch->aperture_weights);
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const BlockCells* const gathered = block.gathers ? &cells : nullptr;
-  const RenderJob job = {in.input,     block.layer,      &grid,    in.kernels, block.rendered,
-                         block.border, &scratch->cancel, gathered, lens.r_max, IsBenchmark(lens)};
+  const RenderJob job = {in.input,         block.layer, &grid,      block.rendered,   block.border,
+                         &scratch->cancel, gathered,    lens.r_max, IsBenchmark(lens)};
   // If some cells of a block at layer 1 or 2 are blurred without views, GatherBlock upsamples the
   // whole block later.
   const bool in_part = block.layer > 0 && block.gathers;
@@ -174,7 +174,7 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
 void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                Scratch* scratch) {
   const auto blur = [&](const Input& input) {
-    const BlurJob job = {&input,     in.lens->scale,    in.tables->psfs, in.kernels,
+    const BlurJob job = {&input,     in.lens->scale,    in.tables->psfs,
                          block.rect, block.border.left, &scratch->cancel};
     BlurRectangle(job, scratch->field.rgb, scratch->sums, scratch->spans, At(out, block.rect, 0),
                   out.stride);

@@ -83,13 +83,8 @@ void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
 }  // namespace
 
 BlockInputs InputsOf(const EngineState& engine) {
-  return {&engine.config,
-          engine.kernels,
-          engine.tables,
-          &engine.lens,
-          &engine.input,
-          &engine.stripe.cells,
-          &engine.stripe.plan.gathered,
+  return {&engine.config, engine.tables,        &engine.lens,
+          &engine.input,  &engine.stripe.cells, &engine.stripe.plan.gathered,
           engine.clock};
 }
 

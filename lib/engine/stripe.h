@@ -22,7 +22,6 @@ namespace starfocus {
 // Inputs that the blocks of a stripe share.
 struct BlockInputs {
   const starfocus_config* config;
-  const simd::Kernels* kernels;
   const Tables* tables;
   const Lens* lens;
   const Input* input;

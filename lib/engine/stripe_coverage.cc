@@ -40,7 +40,7 @@ bool FindsCoverage(const EngineState& engine) {
 // job of a pass processes one column of superblocks.
 starfocus_status RunPasses(int32_t top, int32_t end, EngineState* engine) {
   CoverageState& state = engine->stripe.coverage;
-  const CoverageInput in = {engine->kernels, &engine->input, &state.map};
+  const CoverageInput in = {&engine->input, &state.map};
   const int32_t side = TilesOfSuperblock(engine->config);
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
     const int32_t ahead = TilesAhead(engine->config, pass);

@@ -63,7 +63,7 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
   LoadPixels(job, rgb);
   const Rect& rect = job.rect;
   const size_t stride = 3 * static_cast<size_t>(rect.width + 2 * job.border);
-  SpanList list(*job.kernels, spans, accumulators);
+  SpanList list(*job.input->kernels, spans, accumulators);
   const bool turns = job.psfs_of_radius[0].full;
   for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
     const int16_t* disparity = job.input->disparity.Row(rect.y + y) + rect.x;
@@ -92,8 +92,8 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
         AddExcess(*job.input, accumulators, samples, bits, out + 3 * begin);
         continue;
       }
-      job.kernels->Finish(accumulators, samples, bits, job.input->transfer->encoding,
-                          out + 3 * begin);
+      job.input->kernels->Finish(accumulators, samples, bits, job.input->transfer->encoding,
+                                 out + 3 * begin);
     }
   }
 }

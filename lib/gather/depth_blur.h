@@ -21,7 +21,6 @@ struct BlurJob {
   const Input* input;  // If it reads excess, BlurRectangle adds the blurred excess to `out`.
   BlurScale scale;
   const Psf* psfs_of_radius;
-  const simd::Kernels* kernels;
   Rect rect;
   int32_t border;       // Largest Psf::size in the picture, in pixels.
   CancelToken* cancel;  // Cancels the call; `out` is incomplete after cancellation.

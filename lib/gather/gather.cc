@@ -211,10 +211,10 @@ class Gather {
     const simd::SampleRows in = RowsOf(part);
     const simd::Disc disc = DiscOf(psf);
     if (job_.cells.layer == 0) {
-      job_.kernels->FilterDisc(in, disc, job_.input->transfer->encoding, codes_ + FirstOut(part),
-                               stride_);
+      job_.input->kernels->FilterDisc(in, disc, job_.input->transfer->encoding,
+                                      codes_ + FirstOut(part), stride_);
     } else {
-      job_.kernels->FilterDiscLayer(in, disc, samples_ + FirstOut(part), stride_);
+      job_.input->kernels->FilterDiscLayer(in, disc, samples_ + FirstOut(part), stride_);
     }
     return end;
   }
@@ -231,7 +231,8 @@ class Gather {
     const Rect part = PixelsOf(x, end, y);
     const Psf &less = PsfOf(steps.less), &more = PsfOf(steps.more);
     if (!Spend(more, part)) return x;
-    job_.kernels->FilterTwoDiscs(RowsOf(part), DiscOf(less), DiscOf(more), less_, more_, kStride);
+    job_.input->kernels->FilterTwoDiscs(RowsOf(part), DiscOf(less), DiscOf(more), less_, more_,
+                                        kStride);
     for (; x < end; x += kCellSize) {
       const Rect pixels = job_.cells.PixelsOf(x, y);
       const Slope slope = SlopeOf(x, y);
@@ -250,8 +251,9 @@ class Gather {
     slope.FindShares(between, pixels, kCell, share_);
     for (int32_t row = 0; row < pixels.height; ++row) {
       const size_t at = first + static_cast<size_t>(row) * kStride;
-      job_.kernels->MixSamples(less_ + at, more_ + at, share_ + static_cast<size_t>(row) * kCell,
-                               3 * static_cast<size_t>(pixels.width), Mixed(row));
+      job_.input->kernels->MixSamples(less_ + at, more_ + at,
+                                      share_ + static_cast<size_t>(row) * kCell,
+                                      3 * static_cast<size_t>(pixels.width), Mixed(row));
     }
   }
 
@@ -282,14 +284,14 @@ class Gather {
   void Move(const simd::HalfMove& move, const Rect& pixels) {
     const size_t count = 3 * static_cast<size_t>(pixels.width);
     const auto rows = static_cast<size_t>(pixels.height);
-    job_.kernels->MoveSamples({Mixed(0), kCell, rows, count}, move, moved_, kCell);
+    job_.input->kernels->MoveSamples({Mixed(0), kCell, rows, count}, move, moved_, kCell);
     size_t at = FirstOut(pixels);
     const int16_t* moved = moved_;
     for (int32_t row = 0; row < pixels.height; ++row) {
       if (job_.cells.layer > 0) {
         std::memcpy(samples_ + at, moved, count * sizeof(*moved));
       } else {
-        job_.kernels->Narrow(moved, count, job_.input->transfer->encoding, codes_ + at);
+        job_.input->kernels->Narrow(moved, count, job_.input->transfer->encoding, codes_ + at);
       }
       at += stride_;
       moved += kCell;

@@ -73,7 +73,6 @@ struct GatherJob {
   const Psf* psfs;  // PSFs of the lens for the steps (BlurStep) up to last_step
   int32_t last_step;
   int32_t mean_square;  // MeanSquare of the opening
-  const simd::Kernels* kernels;
   CancelToken* cancel;  // cancels the call; the output is incomplete after cancellation
 };
 

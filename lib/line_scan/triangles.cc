@@ -97,7 +97,7 @@ class Star {
   void Refocus() {
     BlockPixels rows = MakeField(0);
     LoadBlock(*job_.input, job_.layer, job_.rect, job_.border, &rows);
-    UnmixEdges(*job_.kernels, *job_.input, grid_, &rows);
+    UnmixEdges(*job_.input->kernels, *job_.input, grid_, &rows);
     for (int32_t i = 0; i <= grid_.n(); ++i) scratch_->moves[i] = grid_.Move(i);
     Clear(scratch_->column_sums);
     BlockPixels columns = MakeField(1);
@@ -126,9 +126,11 @@ class Star {
   }
 
   SpanList Accumulating(uint32_t* accumulators) const {
-    return SpanList(*job_.kernels, scratch_->spans, accumulators);
+    return SpanList(*job_.input->kernels, scratch_->spans, accumulators);
   }
-  SpanList Blending(int16_t* line) const { return SpanList(*job_.kernels, scratch_->spans, line); }
+  SpanList Blending(int16_t* line) const {
+    return SpanList(*job_.input->kernels, scratch_->spans, line);
+  }
 
   // Returns the filler of holes of a line of view (u * i, v * j). Pixel 0 of the line is pixel (x,
   // y) of the picture in the orientation of the field.
@@ -177,7 +179,7 @@ class Star {
   }
 
   void FindAllRuns(const BlockPixels& field, const BlockPixels& other, Direction direction) {
-    MarkRuns(*job_.kernels, grid_, other.disparity, other.width, field.width, field.height,
+    MarkRuns(*job_.input->kernels, grid_, other.disparity, other.width, field.width, field.height,
              direction, &scratch_->marks);
     for (int32_t row = 0; row < field.height; ++row) {
       scratch_->run_counts[row] = ReadRuns(scratch_->marks, row, field.width, grid_,
@@ -246,7 +248,7 @@ class Star {
     for (const int across : {1, -1}) {
       if (across < 0 && last == 0) continue;
       if (last > 0) {
-        MarkRuns(*job_.kernels, grid_, scratch_->view_disparity, width, height, width,
+        MarkRuns(*job_.input->kernels, grid_, scratch_->view_disparity, width, height, width,
                  DirectionOf(across), &scratch_->marks);
       }
       HoleFiller holes =
@@ -324,7 +326,7 @@ class Star {
     std::memset(sums, 0, 3 * static_cast<size_t>(part.last - part.first) * sizeof(uint32_t));
     SpanList list = Accumulating(sums);
     for (const int sign : {1, -1}) {
-      MarkRuns(*job_.kernels, grid_, disparity, 1, at.length, 1, DirectionOf(sign),
+      MarkRuns(*job_.input->kernels, grid_, disparity, 1, at.length, 1, DirectionOf(sign),
                &scratch_->marks);
       const int32_t count =
           ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1], scratch_->line_runs);

@@ -139,9 +139,9 @@ void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t ro
       CoverageTile& tile = map.Tile(from + k, row);
       int32_t low, high;
       tiles.FindRange(k * kCoverageTile, &low, &high);
-      const bool ragged =
-          high - low > kThinStep &&
-          (HasGiven(in) || tiles.CountRagged(*in.kernels, k * kCoverageTile) >= kLeastRagged);
+      const bool ragged = high - low > kThinStep &&
+                          (HasGiven(in) || tiles.CountRagged(*in.input->kernels,
+                                                             k * kCoverageTile) >= kLeastRagged);
       tile = {BinsOf(map, low, high), INT16_MAX, INT16_MIN, ragged ? uint8_t{1} : uint8_t{0}, 0, 0};
     }
   }

@@ -11,7 +11,6 @@ namespace starfocus {
 
 // The data that all passes read, and the coverage map that all passes write.
 struct CoverageInput {
-  const simd::Kernels* kernels;
   const Input* input;
   const CoverageMap* map;
 };

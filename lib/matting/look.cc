@@ -33,7 +33,7 @@ struct SideLook {
 class TileLooker {
  public:
   TileLooker(const CoverageInput& in, int32_t column, int32_t row)
-      : kernels_(*in.kernels),
+      : kernels_(*in.input->kernels),
         input_(*in.input),
         map_(*in.map),
         left_(column * kCoverageTile),

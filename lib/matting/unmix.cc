@@ -66,7 +66,8 @@ void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const We
     int16_t light[3 * kSide + simd::kPadding / sizeof(int16_t)];
     const auto at = static_cast<size_t>(y * kSide + first);
     in.input->Light(0, left + first, top + y, last - first, light);
-    in.kernels->Split(light, static_cast<size_t>(last - first), NearTile::kPlane, tile->light + at);
+    in.input->kernels->Split(light, static_cast<size_t>(last - first), NearTile::kPlane,
+                             tile->light + at);
     std::memcpy(tile->near + at, map.near + map.At(left + first, top + y),
                 static_cast<size_t>(last - first) * sizeof(*tile->near));
     for (int32_t x = first; x < last; ++x) {
@@ -126,7 +127,7 @@ void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column
   PushTile(column, row, map, &far);
   for (int32_t y = 0; y < Min(kCoverageTile, map.height - top); ++y) {
     simd::NearSums sums;
-    tile.SumRow(*in.kernels, y, &sums);
+    tile.SumRow(*in.input->kernels, y, &sums);
     for (int32_t x = 0; x < Min(kCoverageTile, map.width - left); ++x) {
       const size_t to = map.At(left + x, top + y);
       const FarCell& cell = far.cells[y * kCoverageTile + x];

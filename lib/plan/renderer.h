@@ -50,7 +50,6 @@ struct RenderJob {
   const Input* input;
   int layer;
   const ViewGrid* grid;
-  const simd::Kernels* kernels;
   Rect rect;
   Border border;
   CancelToken* cancel;         // Null: the job is never cancelled.

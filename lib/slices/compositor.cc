@@ -35,8 +35,8 @@ class TilePart {
       const CellPair* end = first;
       while (end < last && end->x == x) ++end;
       if (first < end) {
-        CompositeStrip(*job_.kernels, stack_, planes_, first, end, strip_memory, scratch_.sums,
-                       job_.cancel);
+        CompositeStrip(*job_.input->kernels, stack_, planes_, first, end, strip_memory,
+                       scratch_.sums, job_.cancel);
       }
       FinishStrip(x, first, end);
       first = end;
@@ -62,8 +62,8 @@ class TilePart {
     }
     int16_t* const behind = reinterpret_cast<int16_t*>(next);
     for (int32_t k = 0; k < stack_.count; ++k) {
-      FillSlice(*job_.kernels, scratch_.surfaces, stack_.bands, stack_.slices[k], rect, behind,
-                planes_[k]);
+      FillSlice(*job_.input->kernels, scratch_.surfaces, stack_.bands, stack_.slices[k], rect,
+                behind, planes_[k]);
     }
     return behind;
   }
@@ -133,9 +133,9 @@ class TilePart {
       const size_t at = FirstSample(x, row);
       std::memcpy(centre, CentreRow(accumulators_ + at - left, job_.rect.width) + left,
                   3 * columns * sizeof(*centre));
-      job_.kernels->FinishComposite(SumsOfRow(scratch_.sums, row), simd::kSliceLanes, centre,
-                                    stack_.weights.least_covered, kCompositeBits, columns,
-                                    accumulators_ + at);
+      job_.input->kernels->FinishComposite(SumsOfRow(scratch_.sums, row), simd::kSliceLanes, centre,
+                                           stack_.weights.least_covered, kCompositeBits, columns,
+                                           accumulators_ + at);
     }
   }
 
@@ -170,8 +170,8 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   BlockPixels& field = scratch->field;
   LoadBlock(*job.input, job.layer, job.rect, job.border, &field);
   TakeThinDisparities(*job.input, &field);
-  FindLayeredDepth(*job.kernels, *job.input, field, &scratch->surfaces);
-  FindMatte(*job.kernels, *job.input, *job.grid, field, &scratch->surfaces);
+  FindLayeredDepth(*job.input->kernels, *job.input, field, &scratch->surfaces);
+  FindMatte(*job.input->kernels, *job.input, *job.grid, field, &scratch->surfaces);
   const Rect& inner = field.inner;
   const size_t row = 3 * static_cast<size_t>(inner.width);
   for (int32_t y = 0; y < inner.height; ++y) {
@@ -179,7 +179,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
                 field.Rgb(inner.x, inner.y + y), row * sizeof(*field.rgb));
   }
   PartThin(*job.input, field, &scratch->surfaces);
-  InpaintHidden(*job.kernels, job.layer, scratch->fill, &scratch->surfaces);
+  InpaintHidden(*job.input->kernels, job.layer, scratch->fill, &scratch->surfaces);
   RemoveFocusRange(job.grid->focus, &scratch->surfaces);
   return inner;
 }
@@ -189,7 +189,7 @@ void FindStack(const RenderJob& job, const Rect& tile, const CompositorScratch& 
                SliceStack* stack) {
   const Rect in_surfaces = {stack->inner.x + tile.x, stack->inner.y + tile.y, tile.width,
                             tile.height};
-  stack->count = FindSlices(*job.kernels, scratch.surfaces, *job.grid, SliceRuleOf(job),
+  stack->count = FindSlices(*job.input->kernels, scratch.surfaces, *job.grid, SliceRuleOf(job),
                             in_surfaces, stack->slices, &stack->bands);
   for (int32_t k = 0; k < stack->count; ++k) {
     FindOffsets(*job.grid, stack->slices[k].disparity, static_cast<size_t>(stack->count),

@@ -71,15 +71,7 @@ class BlockArtist {
         memory_(
             static_cast<CompositorScratch*>(engine_.scratch[0].renderers[kSliceRenderer.index])),
         grid_(ViewGridOf(InputsOf(engine_), planned_.block, engine_.scratch[0].aperture_weights)),
-        job_{&input_,
-             0,
-             &grid_,
-             engine_.kernels,
-             rect_,
-             planned_.block.border,
-             nullptr,
-             nullptr,
-             engine_.lens.r_max,
+        job_{&input_, 0, &grid_, rect_, planned_.block.border, nullptr, nullptr, engine_.lens.r_max,
              false},
         pictures_(*pictures) {}
 
@@ -195,8 +187,8 @@ class BlockArtist {
     const Rect in_surfaces = {border.left + tile.x, border.top + tile.y, tile.width, tile.height};
     Slice slices[kMaxSlices];
     SurfaceBands bands;
-    const int32_t count = FindSlices(*job_.kernels, memory_->surfaces, grid_, SliceRuleOf(job_),
-                                     in_surfaces, slices, &bands);
+    const int32_t count = FindSlices(*job_.input->kernels, memory_->surfaces, grid_,
+                                     SliceRuleOf(job_), in_surfaces, slices, &bands);
     for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
       for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
         const int16_t disparity = memory_->surfaces.disparity[0][At(x, y)];
