@@ -7,7 +7,6 @@
 #define STARFOCUS_SIMD_COMPOSITE_INL_H_
 #endif
 
-#include <cstring>
 #include <type_traits>
 
 #include "simd/composite.h"

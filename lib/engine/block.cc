@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "lib/engine/stripe.h"
+#include "lib/gather/depth_blur.h"
 #include "lib/gather/gather.h"
 #include "lib/io/highlights.h"
 

@@ -13,7 +13,7 @@
 #include "lib/base/jobs.h"
 #include "lib/engine/deblock.h"
 #include "lib/engine/lens.h"
-#include "lib/gather/depth_blur.h"
+#include "lib/gather/span_list.h"
 #include "lib/io/block_pixels.h"
 #include "lib/io/highlights.h"
 #include "lib/io/input.h"

@@ -9,7 +9,6 @@
 #include "lib/base/features.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
-#include "lib/engine/deblock.h"
 #include "lib/optics/psf.h"
 #include "lib/optics/rules.h"
 #include "lib/optics/view_weights.h"

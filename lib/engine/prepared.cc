@@ -5,9 +5,8 @@
 
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
-#include "lib/engine/engine.h"
+#include "lib/engine/driver.h"
 #include "lib/engine/stripe.h"
-#include "lib/matting/passes.h"
 #include "lib/optics/view_set.h"
 
 namespace starfocus {

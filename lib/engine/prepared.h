@@ -8,9 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/base/arena.h"
 #include "lib/base/geometry.h"
-#include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 
 namespace starfocus {

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 
-#include "lib/base/arena.h"
 #include "lib/base/geometry.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/lens.h"
@@ -14,7 +13,6 @@
 #include "lib/optics/view_grid.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
-#include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

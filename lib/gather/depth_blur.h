@@ -13,7 +13,6 @@
 #include "lib/io/input.h"
 #include "lib/optics/psf.h"
 #include "lib/plan/cells.h"
-#include "simd/kernels.h"
 
 namespace starfocus {
 

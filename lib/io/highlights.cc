@@ -3,8 +3,6 @@
 
 #include <cstddef>
 
-#include "lib/base/transfer.h"
-
 namespace starfocus {
 namespace {
 

@@ -5,7 +5,6 @@
 
 #include "lib/io/input.h"
 #include "lib/matting/coverage_map.h"
-#include "simd/kernels.h"
 
 namespace starfocus {
 

@@ -10,7 +10,6 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
-#include "lib/base/geometry.h"
 
 namespace starfocus {
 

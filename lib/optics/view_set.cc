@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/optics/view_set.h"
 
-#include <initializer_list>
-
 #include "lib/base/problem.h"
 
 namespace starfocus {

@@ -17,7 +17,6 @@
 #include "lib/optics/view_weights.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/smooth_cells.h"
-#include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -6,6 +6,7 @@
 #include "lib/io/block_pixels.h"
 #include "lib/plan/renderer.h"
 #include "lib/slices/matte.h"
+#include "lib/slices/slices.h"
 
 namespace starfocus {
 namespace {

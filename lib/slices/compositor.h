@@ -16,7 +16,6 @@
 #include "lib/slices/inpaint.h"
 #include "lib/slices/layered_depth.h"
 #include "lib/slices/slice_plane.h"
-#include "lib/slices/slices.h"
 #include "simd/kernels.h"
 
 namespace starfocus {

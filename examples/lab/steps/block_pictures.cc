@@ -7,6 +7,7 @@
 
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
+#include "lib/slices/slices.h"
 
 namespace starfocus {
 namespace {
