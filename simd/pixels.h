@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIMD kernels that convert pixels. One pair of kernels converts between pixels of the three bytes
 // R, G, B and pixels with other orders and sizes. The other kernels convert between R, G, B and
-// luma with chroma of half the resolution (4:2:0). All samples are bytes. In formulas, P(a, c) is
-// (a * c + 2^14)
-// >> 15, which is the product of two numbers with 15 fractional bits, rounded half up. The function
-// clamp() clamps a number to [0, 255].
+// luma with chroma of half the resolution (4:2:0). All samples are bytes. In formulas, P(a, c) =
+// (a * c + 2^14) >> 15 is the product of two numbers with 15 fractional bits, rounded half up. The
+// function clamp() clamps a number to [0, 255].
 #ifndef STARFOCUS_SIMD_PIXELS_H_
 #define STARFOCUS_SIMD_PIXELS_H_
 
@@ -22,7 +21,7 @@ struct PixelOrder {
   bool blue_first;
 };
 
-// Coefficients of a YUV format, as computed by lib/io/yuv_matrix.h.
+// Coefficients of a YUV format, as computed by MakeYuvMatrix (lib/io/image.h).
 struct YuvMatrix {
   int16_t black;           // Luma of black: 16 or 0.
   int16_t y;               // Coefficient from luma to R, G and B, 14 fractional bits.

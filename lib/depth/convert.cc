@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Converts a light field of any format to packed RGB codes and disparities, before an estimate or a
+// repair.
 #include <limits>
 
 #include "lib/base/features.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Estimates a disparity map by two sweeps, and replaces stray disparities of the result. Also takes
+// the memory of estimates and repairs.
 #include <cstdlib>
 #include <new>
 

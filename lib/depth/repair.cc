@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Repairs a given disparity map by two sweeps over its doubtful pixels, and changes only pixels for
+// which the views are sufficient evidence.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Refocuses one block: renders its views, or blurs it without views, and upsamples the result from
+// its layer to the picture.
 #include <cstring>
 
 #include "lib/engine/stripe.h"

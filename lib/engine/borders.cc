@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Adds up the borders of all processing steps. Each step declares its own border next to its code.
+// Only this file adds borders.
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/engine/deblock.h"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lens of a refocusing: the checked parameters and the values derived from them.
+// Lens of a refocusing: the checked parameters and the values derived from them. Also defines the
+// renderers of an engine, the tables that the engine makes when a lens first uses them, and the
+// borders of a lens.
 #ifndef STARFOCUS_LIB_ENGINE_LENS_H_
 #define STARFOCUS_LIB_ENGINE_LENS_H_
 
@@ -17,8 +19,6 @@
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
-
-// Renderers of an engine, and the tables that the engine makes when a lens first uses them.
 
 // All renderers, indexed by Renderer::index. An engine uses the first RendererCount renderers.
 inline constexpr int32_t kMaxRenderers = 2;
@@ -68,12 +68,8 @@ starfocus_status MakeApertures(const Renderer& renderer, int32_t last, CallProgr
 // STARFOCUS_ERROR_CANCELLED; finished PSFs are kept.
 starfocus_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables);
 
-// Number of pixels that the engine reads around the pixels it produces, accumulated over the
-// processing steps. Each step declares its own border next to its code. borders.cc lists the steps
-// and is the only place that adds borders.
-
-// Borders in pixels on each side of a superblock, or of its stripe. The border of a processing
-// step's input includes the borders of all later steps.
+// Borders: numbers of pixels that the engine reads on each side of a superblock, or of its stripe.
+// The border of a processing step's input includes the borders of all later steps (borders.cc).
 struct Borders {
   int32_t joined = 0;                    // Finished pixels around a region, for deblocking.
   int32_t whole_block = 0;               // Pixels around a block that is planned without cells.

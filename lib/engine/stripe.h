@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses one stripe: finds its coverage, plans its blocks (stripe_plan.cc), subsamples the
-// centre view, renders the blocks (block.cc) and deblocks their boundaries.
+// Refocuses one stripe: finds its coverage (stripe_coverage.cc), plans its blocks (stripe_plan.cc),
+// subsamples the centre view (stripe_layers.cc), renders the blocks (block.cc) and deblocks their
+// boundaries.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_H_
 #define STARFOCUS_LIB_ENGINE_STRIPE_H_
 
@@ -36,8 +37,6 @@ ViewGrid ViewGridOf(const BlockInputs& in, const Block& block, uint16_t* weights
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                   Scratch* scratch);
 
-// Subsamples the centre view around a stripe to layers 1 and 2.
-
 // Clears the marks of the columns to subsample, for a new stripe. Keeps the old marks as the marks
 // of the previous stripe.
 void ClearLayerColumns(const starfocus_config& config, StripeLayers* layers);
@@ -61,13 +60,8 @@ inline constexpr Range kAllLayers = {1, STARFOCUS_LAYERS};
 // STARFOCUS_ERROR_CANCELLED.
 starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, EngineState* engine);
 
-// Computes the coverage map (lib/matting) for the rows that a stripe reads.
-
 // Computes the coverage of the rows that the blocks of the stripe read.
 starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine);
-
-// Plans a stripe: selects the superblocks to refocus, measures their cells, and splits each
-// superblock into blocks.
 
 // Marks the columns of superblocks to refocus, and the columns whose cells must be measured to plan
 // these superblocks. Returns false if no column has to be refocused.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Computes the coverage map (lib/matting) for the rows that a stripe reads.
 #include <initializer_list>
 
 #include "lib/base/features.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Subsamples the centre view around a stripe to layers 1 and 2.
 #include "lib/engine/stripe.h"
 #include "lib/optics/rules.h"
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Plans a stripe: selects the superblocks to refocus, measures their cells, and splits each
+// superblock into blocks.
 #include <cstring>
 
 #include "lib/engine/stripe.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Finds the runs of a line, and the colours of holes in captured views.
 #include <cstring>
 
 #include "lib/base/fixed.h"
