@@ -212,12 +212,12 @@ size_t BlurWeightCount(bool full, double max_blur) {
 }
 
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
-                 uint16_t* weights, Psf* kernels) {
+                 uint16_t* weights, Psf* psfs) {
   for (int32_t step = 0; step < last; ++step) {
-    if (step >= first && !MakePsf(RadiusOfStep(step), opening, cancel, weights, &kernels[step])) {
+    if (step >= first && !MakePsf(RadiusOfStep(step), opening, cancel, weights, &psfs[step])) {
       return step;
     }
-    weights += WeightsOf(kernels[step].full, kernels[step].size);
+    weights += WeightsOf(psfs[step].full, psfs[step].size);
   }
   return last;
 }

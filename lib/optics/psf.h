@@ -48,11 +48,11 @@ struct Psf {
 size_t BlurWeightCount(bool full, double max_blur);
 
 // Computes the PSFs of steps [first, last), first <= last. The PSFs of all steps before `first`
-// must exist. The arrays must have room for kernels[BlurStepCount] and weights[BlurWeightCount].
+// must exist. The arrays must have room for psfs[BlurStepCount] and weights[BlurWeightCount].
 // The PSFs ignore cat's eyes. Returns `last`, or the step at which the call was cancelled. `cancel`
 // may be null.
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
-                 uint16_t* weights, Psf* kernels);
+                 uint16_t* weights, Psf* psfs);
 
 }  // namespace starfocus
 

@@ -101,8 +101,7 @@ void AddCell(const Cell& cell, Content (*sum)[2]);
 // Width in pixels of the border around a cell that the measurement of the cell reads.
 inline constexpr int32_t kCellBorder = 1;
 
-// Measures the cells of some columns of one row of the grid, and writes them to `cells`. The window
-// must be at layer 0.
+// Measures the cells of some columns of one row of the grid, and writes them to `cells`.
 void MeasureCells(const simd::Kernels& kernels, const Input& input, const BlurScale& scale,
                   int32_t row, const Range& columns, Cell* cells);
 
