@@ -132,6 +132,9 @@ Rendered Render(const BlockInputs& in, const Block& block, const RenderJob& job,
 // picture.
 void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                  Scratch* scratch) {
+  BlockPixels field;
+  field.rgb = scratch->field_rgb;
+  field.disparity = scratch->field_disparity;
   const BlockCells cells = {in.gathered, block.rect, block.layer};
   const Tables& tables = *in.tables;
   const GatherJob job = {in.input,           in.cells,        cells,
@@ -140,7 +143,7 @@ void GatherBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>
   const Rect frame = LayerFrame(block.rect, block.layer);
   const size_t stride = block.layer == 0 ? out.stride : 3 * static_cast<size_t>(frame.width);
   scratch->counts.gathered_pixels +=
-      GatherCells(job, &scratch->field, At(out, block.rect, 0), scratch->layer_samples, stride);
+      GatherCells(job, &field, At(out, block.rect, 0), scratch->layer_samples, stride);
   if (block.layer > 0 && scratch->cancel.Spend(0)) FinishLayer(in, block, out, *scratch);
 }
 
@@ -179,7 +182,7 @@ void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& 
   const auto blur = [&](const Input& input) {
     const BlurJob job = {&input,     in.lens->scale,    in.tables->psfs,
                          block.rect, block.border.left, &scratch->cancel};
-    BlurRectangle(job, scratch->field.rgb, scratch->sums, scratch->spans, At(out, block.rect, 0),
+    BlurRectangle(job, scratch->field_rgb, scratch->sums, scratch->spans, At(out, block.rect, 0),
                   out.stride);
   };
   blur(*in.input);

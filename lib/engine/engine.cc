@@ -38,8 +38,8 @@ void TakeUpsampling(const starfocus_config& config, size_t extended, Arena* aren
   scratch->layer_samples = arena->Take<int16_t>(3 * half * half);
   const auto gather = [&] {
     const size_t stride = RgbStride(static_cast<int32_t>(extended));
-    scratch->field.rgb = arena->Take<int16_t>(extended * stride);
-    scratch->field.disparity = arena->Take<int16_t>(extended * extended);
+    scratch->field_rgb = arena->Take<int16_t>(extended * stride);
+    scratch->field_disparity = arena->Take<int16_t>(extended * extended);
     scratch->spans = TakeSpans(extended, arena);
   };
   const auto upsample = [&] {

@@ -84,8 +84,8 @@ struct Scratch {
   uint32_t* sums;                             // 3 R^2 samples.
   uint16_t* aperture_weights;  // With cat's eyes: view weights of a block, for up to the largest N.
   LampRuns* lamp_runs;         // Cache of runs of highlights, if highlights are enabled.
-  BlockPixels field;           // Memory for the pixels of a block that is blurred without views.
-  SpanMemory spans;            // Spans of a block that is blurred by depth.
+  int16_t *field_rgb, *field_disparity;  // Pixels of a block that is blurred without views.
+  SpanMemory spans;                      // Spans of a block that is blurred by depth.
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;          // Samples of the rendered rectangle.

@@ -168,7 +168,9 @@ class TilePart {
 // Finds the surfaces of the rectangle and copies the rectangle's centre view to the rows of
 // CentreRow. Returns the position of the rectangle in `scratch->surfaces`, in pixels.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
-  BlockPixels& field = scratch->field;
+  BlockPixels field;
+  field.rgb = scratch->field_rgb;
+  field.disparity = scratch->field_disparity;
   LoadBlock(*job.input, job.layer, job.rect, job.border, &field);
   TakeThinDisparities(*job.input, &field);
   FindLayeredDepth(*job.input->kernels, *job.input, field, &scratch->surfaces);
@@ -314,8 +316,8 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   const size_t row = simd::SliceSamples(extended);
   for (uint16_t*& sources : surfaces.sources) sources = arena->Take<uint16_t>(extended * row);
   const auto take_field = [&] {
-    scratch.field.rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-    scratch.field.disparity = arena->Take<int16_t>(extended * extended);
+    scratch.field_rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+    scratch.field_disparity = arena->Take<int16_t>(extended * extended);
     for (uint8_t*& edges : surfaces.edges) {
       edges = arena->Take<uint8_t>(extended * row + simd::kSliceLanes);
     }

@@ -119,7 +119,8 @@ inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
 // reuse the memory of the field, `fill` and the scratch memory of FindSlices in `surfaces`, which
 // each tile writes before its slices are made.
 struct CompositorScratch : RendererScratch {
-  BlockPixels field;           // E rows of RgbStride(E) samples of light, and E^2 disparities.
+  // Pixels of the block: E rows of RgbStride(E) samples of light, and E^2 disparities.
+  int16_t *field_rgb, *field_disparity;
   LayeredDepth surfaces;       // E^2 pixels per surface.
   FillScratch fill;            // Used only after all reads of the field.
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1) elements.
