@@ -208,8 +208,9 @@ starfocus_status Refocus(const starfocus_params& params, const starfocus_light_f
   Checker check(config.problem);
   CheckRefocus(params, light_field, prepared, to, *engine, &check);
   if (!check.passed()) return check.status();
-  Input in = InputOf(config, *engine->kernels, light_field, 0, &engine->rings);
-  engine->input = prepared == nullptr ? in : InputOf(*prepared, in);
+  Input& in = engine->input;
+  in = InputOf(config, *engine->kernels, light_field, 0, &engine->rings);
+  if (prepared != nullptr) UsePrepared(*prepared, &in);
   Output out = OutputOf(to, RegionOf(config, params), engine->odd_row);
   out.alpha = AlphaOf(in.images[0]);
   out.alpha_step = in.images[0].step;

@@ -98,9 +98,10 @@ int SumBits(const BlockInputs& in, const RenderJob& job) {
 }
 
 // Renders the light of highlights beyond white and adds this light to the block. Returns the number
-// of samples of a view.
-uint64_t RenderExcess(const BlockInputs& in, RenderJob job, const Plane<uint8_t>& out,
-                      Scratch* scratch) {
+// of samples of a view. Not inlined, because its Input of more than 1 KiB would lie on the stack
+// under every block.
+[[gnu::noinline]] uint64_t RenderExcess(const BlockInputs& in, RenderJob job,
+                                        const Plane<uint8_t>& out, Scratch* scratch) {
   const Input excess = ExcessOf(*in.input, in.config->highlights, scratch->lamp_runs);
   job.input = &excess;
   const uint64_t samples = RenderSums(in, job, scratch);
@@ -177,8 +178,9 @@ Rendered RefocusViews(const BlockInputs& in, const Block& block, const Plane<uin
                 : Render(in, block, job, out, scratch);
 }
 
-void BlurBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
-               Scratch* scratch) {
+// Not inlined, for the same reason as RenderExcess.
+[[gnu::noinline]] void BlurBlock(const BlockInputs& in, const Block& block,
+                                 const Plane<uint8_t>& out, Scratch* scratch) {
   const auto blur = [&](const Input& input) {
     const BlurJob job = {&input,     in.lens->scale,    in.tables->psfs,
                          block.rect, block.border.left, &scratch->cancel};

@@ -317,15 +317,13 @@ Extent PreparedMemory(const Prepared& prepared) {
   return ExtentOf(&prepared, 0, 1, LayOutPrepared(prepared.config, nullptr, &counted));
 }
 
-Input InputOf(const Prepared& prepared, const Input& views) {
-  Input in = views;
-  in.map = {};
-  in.disparity = {prepared.disparity.data, prepared.disparity.stride, 0, 0};
+void UsePrepared(const Prepared& prepared, Input* in) {
+  in->map = {};
+  in->disparity = {prepared.disparity.data, prepared.disparity.stride, 0, 0};
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
-    in.layers[layer] = {prepared.layers[layer].data, prepared.layers[layer].stride, 0, 0};
+    in->layers[layer] = {prepared.layers[layer].data, prepared.layers[layer].stride, 0, 0};
   }
-  in.has_layers = true;
-  return in;
+  in->has_layers = true;
 }
 
 }  // namespace starfocus

@@ -61,9 +61,9 @@ bool Fits(const Prepared& prepared, const starfocus_config& config);
 // Returns the address range of the prepared light field.
 Extent PreparedMemory(const Prepared& prepared);
 
-// Returns `views`, the pictures of a prepared light field, with its disparities and layers. The map
-// is not read again.
-Input InputOf(const Prepared& prepared, const Input& views);
+// Makes `in`, whose pictures are those of the prepared light field, read its disparities and
+// layers. The map is not read again.
+void UsePrepared(const Prepared& prepared, Input* in);
 
 }  // namespace starfocus
 
