@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the blur mode with an adaptive convolution by the ideal PSF (4) in double precision.
+#include "lib/gather/depth_blur.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "lib/gather/depth_blur.h"
 #include "lib/optics/view_weights.h"
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference_blur.h"

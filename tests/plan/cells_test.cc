@@ -2,6 +2,8 @@
 // Compares the block analysis with a brute-force search on random disparity maps. No pixel beyond a
 // block's border may have a blur that reaches the block or the margin that its layer renders.
 // Outside the picture, the edge pixels are repeated.
+#include "lib/plan/cells.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <iterator>
 #include <vector>
 
-#include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
 #include "tests/plan/measured_cells.h"
 #include "tests/support/inside.h"

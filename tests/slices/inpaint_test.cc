@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the fill of hidden surfaces that no captured view shows.
+#include "lib/slices/inpaint.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
 
-#include "lib/slices/inpaint.h"
 #include "tests/slices/layered_scene.h"
 
 namespace inpaint_test {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the division of the surfaces of a rectangle into slices.
+#include "lib/slices/slices.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "lib/slices/compositor.h"
-#include "lib/slices/slices.h"
 #include "tests/support/test_scene.h"
 
 namespace slices_test {
