@@ -179,10 +179,12 @@ void CheckPrevious(const starfocus_config& config, const starfocus_previous& pre
   need(previous.out, "previous.out.format");
 }
 
-// Checks the arguments of an API call that refocuses. `prepared` may be null.
-void CheckRefocus(const starfocus_params& params, const starfocus_light_field& light_field,
-                  const Prepared* prepared, const starfocus_image& out, const EngineState& engine,
-                  Checker* check) {
+// Checks the arguments of an API call that refocuses. `prepared` may be null. Not inlined, so that
+// address ranges and inputs, which are large, are not on the stack while the picture is refocused.
+[[gnu::noinline]] void CheckRefocus(const starfocus_params& params,
+                                    const starfocus_light_field& light_field,
+                                    const Prepared* prepared, const starfocus_image& out,
+                                    const EngineState& engine, Checker* check) {
   const starfocus_config& config = engine.config;
   const starfocus_previous* const previous = params.previous;
   CheckCall(config, params, prepared, check);
@@ -201,6 +203,14 @@ void CheckRefocus(const starfocus_params& params, const starfocus_light_field& l
   CheckOutputApart(out, rect.width, rect.height, read, check);
 }
 
+// Makes the engine read a light field, whose disparities and layers may be prepared. Not inlined,
+// for the same reason as CheckRefocus.
+[[gnu::noinline]] void SetInput(const starfocus_light_field& light_field, const Prepared* prepared,
+                                EngineState* engine) {
+  engine->input = InputOf(engine->config, *engine->kernels, light_field, 0, &engine->rings);
+  if (prepared != nullptr) UsePrepared(*prepared, &engine->input);
+}
+
 starfocus_status Refocus(const starfocus_params& params, const starfocus_light_field& light_field,
                          const Prepared* prepared, const starfocus_image& to, EngineState* engine,
                          starfocus_report* report) {
@@ -208,9 +218,8 @@ starfocus_status Refocus(const starfocus_params& params, const starfocus_light_f
   Checker check(config.problem);
   CheckRefocus(params, light_field, prepared, to, *engine, &check);
   if (!check.passed()) return check.status();
-  Input& in = engine->input;
-  in = InputOf(config, *engine->kernels, light_field, 0, &engine->rings);
-  if (prepared != nullptr) UsePrepared(*prepared, &in);
+  SetInput(light_field, prepared, engine);
+  const Input& in = engine->input;
   Output out = OutputOf(to, RegionOf(config, params), engine->odd_row);
   out.alpha = AlphaOf(in.images[0]);
   out.alpha_step = in.images[0].step;
