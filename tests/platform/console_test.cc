@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -44,11 +45,22 @@ class StderrTerminal {
     REQUIRE(ioctl(controller_, TIOCSWINSZ, &size) == 0);
   }
 
-  // Returns the text that has been written to the terminal since the last call.
+  // Returns the text that has been written to the terminal since the last call. Terminals pass text
+  // on some time after it is written, so Read writes a character and waits for it.
   std::string Read() const {
-    char buffer[4096];
-    const ssize_t got = read(controller_, buffer, sizeof(buffer));
-    return std::string(buffer, got > 0 ? size_t(got) : 0);
+    constexpr char kEnd = '\x01';
+    REQUIRE(write(STDERR_FILENO, &kEnd, 1) == 1);
+    std::string text;
+    while (text.empty() || text.back() != kEnd) {
+      pollfd ready = {controller_, POLLIN, 0};
+      REQUIRE(poll(&ready, 1, 10000) == 1);
+      char buffer[4096];
+      const ssize_t got = read(controller_, buffer, sizeof(buffer));
+      REQUIRE(got > 0);
+      text.append(buffer, size_t(got));
+    }
+    text.pop_back();
+    return text;
   }
 
  private:
