@@ -79,7 +79,7 @@ struct SliceStack {
   int32_t count;
   Slice slices[kMaxSlices];
   SurfaceBands bands;  // Disparity range of all surfaces in each band of kBandRows rows.
-  const simd::SliceOffset* offsets;  // Offsets of `count` slices for each column -N to N of views.
+  const simd::SliceOffset* offsets;  // One offset per slice, for each column -N to N of views.
 
   // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in
   // all views (j, i).
