@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "lib/base/fixed.h"
+#include "lib/io/input.h"
 
 namespace starfocus {
 
@@ -129,6 +130,16 @@ struct CoverageMap {
   // Returns the light of the far surface at pixel (x, y).
   FarCell& FarAt(int32_t x, int32_t y) const { return far[0][CellAt(x, y, 0)]; }
 };
+
+// The data that all passes read, and the coverage map that all passes write.
+struct CoverageInput {
+  const Input* input;
+  const CoverageMap* map;
+};
+
+// Returns true if the light field contains coverage. If the light field contains no coverage, the
+// passes estimate the coverage.
+inline bool HasGiven(const CoverageInput& in) { return in.input->given_coverage.data != nullptr; }
 
 }  // namespace starfocus
 

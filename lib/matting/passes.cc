@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/matting/passes.h"
 
-#include "lib/matting/band.h"
-#include "lib/matting/far_detail.h"
-#include "lib/matting/given.h"
-#include "lib/matting/look.h"
-#include "lib/matting/unmix.h"
+#include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "lib/base/features.h"
 #include "lib/base/fixed.h"
-#include "lib/matting/coverage_input.h"
+#include "lib/matting/coverage_map.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

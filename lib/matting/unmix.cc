@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/matting/unmix.h"
-
 #include <cstring>
 
-#include "lib/matting/far_light.h"
+#include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
 namespace {
@@ -189,6 +187,23 @@ void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row) {
                   map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
                   std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
                 });
+}
+
+void TakeGiven(const CoverageInput& in, int32_t column, int32_t row) {
+  const CoverageMap& map = *in.map;
+  FarTile far;
+  PushTile(column, row, map, &far);
+  for (int32_t y = 0; y < Min(kCoverageTile, map.height - row * kCoverageTile); ++y) {
+    for (int32_t k = 0; k < Min(kCoverageTile, map.width - column * kCoverageTile); ++k) {
+      const int32_t x = column * kCoverageTile + k;
+      const size_t to = map.At(x, row * kCoverageTile + y);
+      const FarCell& cell = far.cells[y * kCoverageTile + k];
+      if (map.alpha[to] == kUnparted) continue;
+      // A pixel cannot be split if the light of the far surface is not known nearby.
+      map.alpha[to] = cell.weight == 0 ? kUnparted : map.first[to];
+      std::memcpy(map.FarAt(x, row * kCoverageTile + y).rgb, cell.rgb, sizeof(cell.rgb));
+    }
+  }
 }
 
 }  // namespace starfocus
