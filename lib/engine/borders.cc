@@ -9,7 +9,7 @@
 #include "lib/io/highlights.h"
 #include "lib/io/layers.h"
 #include "lib/matting/boundary_pixel.h"
-#include "lib/matting/passes.h"
+#include "lib/matting/coverage.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/cells.h"
 

@@ -7,6 +7,7 @@
 #include "lib/base/features.h"
 #include "lib/engine/lens.h"
 #include "lib/io/block_pixels.h"
+#include "lib/matting/coverage.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/partition.h"
 
@@ -238,7 +239,7 @@ void DropCounts(EngineState* engine) {
 void ForgetStripe(StripeState* stripe) {
   std::memset(stripe->map.layers, kNoLayer, static_cast<size_t>(stripe->map.columns));
   stripe->plan.all_measured = false;
-  for (int32_t& done : stripe->coverage.done) done = -1;
+  ForgetCoverage(&stripe->coverage);
 }
 
 void ForgetLayers(const starfocus_config& config, StripeLayers* layers) {

@@ -18,7 +18,7 @@
 #include "lib/io/highlights.h"
 #include "lib/io/input.h"
 #include "lib/io/layers.h"
-#include "lib/matting/passes.h"
+#include "lib/matting/coverage_map.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
 #include "simd/kernels.h"
@@ -120,16 +120,9 @@ struct StripePlan {
   }
 };
 
-// Coverage map, and the first row of tiles that each pass has not processed yet. The entry in
-// `done` is negative if the pass has not processed any row.
-struct CoverageState {
-  CoverageMap map;
-  int32_t done[kCoveragePasses];
-};
-
 struct StripeState {
-  CellGrid cells;  // Cells of the stripe and of the surroundings that splat into the stripe.
-  CoverageState coverage;  // Coverage of the stripe and of the rows around the stripe.
+  CellGrid cells;        // Cells of the stripe and of the surroundings that splat into the stripe.
+  CoverageMap coverage;  // Coverage of the stripe and of the rows around the stripe.
   StripePlan plan;
   LayerMap map;       // Layer of each smallest block, for deblocking.
   FrameDiff changes;  // Superblocks that differ from the previous light field.
@@ -209,10 +202,6 @@ void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch*
 
 // Allocates the planes of layers 1 and 2 around a stripe, and the marks of their columns.
 void TakeLayers(const starfocus_config& config, Arena* arena, StripeLayers* layers);
-
-// Allocates the coverage map for stripes that read `border` rows above and below.
-void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena,
-                  CoverageState* state);
 
 // Allocates the cells and blocks of a stripe, and the map of their layers.
 void TakePlan(const starfocus_config& config, Arena* arena, StripeState* stripe);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "lib/base/features.h"
 #include "lib/engine/engine.h"
+#include "lib/matting/coverage.h"
 
 namespace starfocus {
 namespace {
@@ -31,6 +33,20 @@ starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, Engine
     const int32_t first = finished.first + index * kSmallestBlock;
     DeblockColumns(job, first, Min(first + kSmallestBlock, finished.last));
   });
+}
+
+// Computes the coverage of the rows that the blocks of the stripe read. Only the slice renderer
+// uses coverage.
+starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
+  const Lens& lens = engine->lens;
+  CoverageMap* const map = &engine->stripe.coverage;
+  const bool finds = Has(engine->config, STARFOCUS_FEATURE_COVERAGE) && lens.renderer->gathers &&
+                     lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
+  engine->input.coverage = finds ? map : nullptr;
+  if (!finds) return STARFOCUS_OK;
+  const int32_t border = lens.borders.parted;
+  const Range rows = {stripe.y - border, stripe.y + stripe.height + border};
+  return FindCoverage(engine->config, engine->input, rows, engine->jobs, map);
 }
 
 starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,

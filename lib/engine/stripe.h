@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refocuses one stripe: finds its coverage (stripe_coverage.cc), plans its blocks (stripe_plan.cc),
+// Refocuses one stripe: finds its coverage (lib/matting), plans its blocks (stripe_plan.cc),
 // subsamples the centre view (stripe_layers.cc), renders the blocks (block.cc) and deblocks their
 // boundaries.
 #ifndef STARFOCUS_LIB_ENGINE_STRIPE_H_
@@ -59,9 +59,6 @@ inline constexpr Range kAllLayers = {1, STARFOCUS_LAYERS};
 // reads. PlaceLayers must be called first. Returns STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or
 // STARFOCUS_ERROR_CANCELLED.
 starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, EngineState* engine);
-
-// Computes the coverage of the rows that the blocks of the stripe read.
-starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine);
 
 // Marks the columns of superblocks to refocus, and the columns whose cells must be measured to plan
 // these superblocks. Returns false if no column has to be refocused.

@@ -132,9 +132,9 @@ constexpr int32_t kLeastMixed = kWhole / 16;
 
 class GivenStarter {
  public:
-  GivenStarter(const CoverageInput& in, int32_t column, int32_t row)
-      : input_(*in.input),
-        map_(*in.map),
+  GivenStarter(const Input& input, int32_t column, int32_t row)
+      : input_(input),
+        map_(*input.coverage),
         left_(column * kCoverageTile),
         top_(row * kCoverageTile),
         around_(input_, column, row),
@@ -204,26 +204,25 @@ class GivenStarter {
 
 }  // namespace
 
-void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t row) {
-  const CoverageMap& map = *in.map;
+void FindRagged(const Input& input, int32_t first, int32_t last, int32_t row) {
+  const CoverageMap& map = *input.coverage;
   for (int32_t from = first; from < last; from += TileRow::kMostTiles) {
     const int32_t count = Min(TileRow::kMostTiles, last - from);
-    TileRow tiles(*in.input, from * kCoverageTile, row * kCoverageTile, count * kCoverageTile);
+    TileRow tiles(input, from * kCoverageTile, row * kCoverageTile, count * kCoverageTile);
     for (int32_t k = 0; k < count; ++k) {
       CoverageTile& tile = map.Tile(from + k, row);
       int32_t low, high;
       tiles.FindRange(k * kCoverageTile, &low, &high);
-      const bool ragged = high - low > kThinStep &&
-                          (HasGiven(in) || tiles.CountRagged(*in.input->kernels,
-                                                             k * kCoverageTile) >= kLeastRagged);
+      const bool ragged =
+          high - low > kThinStep &&
+          (HasGiven(input) || tiles.CountRagged(*input.kernels, k * kCoverageTile) >= kLeastRagged);
       tile = {BinsOf(map, low, high), INT16_MAX, INT16_MIN, ragged ? uint8_t{1} : uint8_t{0}, 0, 0};
     }
   }
 }
 
-void ClearTile(const CoverageInput& in, int32_t column, int32_t row) {
-  const Input& input = *in.input;
-  const CoverageMap& map = *in.map;
+void ClearTile(const Input& input, int32_t column, int32_t row) {
+  const CoverageMap& map = *input.coverage;
   const int32_t left = column * kCoverageTile, count = Min(kCoverageTile, map.width - left);
   for (int32_t y = row * kCoverageTile; y < Min((row + 1) * kCoverageTile, map.height); ++y) {
     const size_t to = map.At(left, y);
@@ -235,9 +234,8 @@ void ClearTile(const CoverageInput& in, int32_t column, int32_t row) {
   }
 }
 
-void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
-  const Input& input = *in.input;
-  const CoverageMap& map = *in.map;
+void StartTile(const Input& input, int32_t column, int32_t row) {
+  const CoverageMap& map = *input.coverage;
   const BandDisparities around(input, column, row);
   CoverageTile& tile = map.Tile(column, row);
   tile.near_bins = 0;
@@ -273,9 +271,9 @@ void StartTile(const CoverageInput& in, int32_t column, int32_t row) {
   PullTile(column, row, map);
 }
 
-void StartGiven(const CoverageInput& in, int32_t column, int32_t row) {
-  GivenStarter(in, column, row).Start();
-  PullTile(column, row, *in.map);
+void StartGiven(const Input& input, int32_t column, int32_t row) {
+  GivenStarter(input, column, row).Start();
+  PullTile(column, row, *input.coverage);
 }
 
 }  // namespace starfocus

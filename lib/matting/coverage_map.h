@@ -71,6 +71,9 @@ struct CoverageTile {
   uint8_t thin;
 };
 
+// Passes that compute the coverage map, in this order.
+enum CoveragePass { kFindRagged, kStart, kUnmixFirst, kLook, kUnmixAgain, kCoveragePasses };
+
 // The coverage map: a ring buffer of rows of tiles. Row t is stored at ring row t % tile_rows.
 // If a tile extends beyond the picture, its pixels outside the picture are unused.
 struct CoverageMap {
@@ -88,6 +91,8 @@ struct CoverageMap {
   uint8_t* alpha = nullptr;  // Coverage after the second pass, or kUnparted.
   int16_t* near = nullptr;   // Disparity of the near surface; kNowhere beyond the picture.
   FarCell* far[kFarLevels] = {};
+  // First row of tiles that each pass has not processed yet; negative before the first row.
+  int32_t done[kCoveragePasses] = {};
 
   int32_t Rows() const { return (height + kCoverageTile - 1) / kCoverageTile; }
   CoverageTile& Tile(int32_t column, int32_t row) const {
@@ -131,15 +136,9 @@ struct CoverageMap {
   FarCell& FarAt(int32_t x, int32_t y) const { return far[0][CellAt(x, y, 0)]; }
 };
 
-// The data that all passes read, and the coverage map that all passes write.
-struct CoverageInput {
-  const Input* input;
-  const CoverageMap* map;
-};
-
 // Returns true if the light field contains coverage. If the light field contains no coverage, the
 // passes estimate the coverage.
-inline bool HasGiven(const CoverageInput& in) { return in.input->given_coverage.data != nullptr; }
+inline bool HasGiven(const Input& input) { return input.given_coverage.data != nullptr; }
 
 }  // namespace starfocus
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of the coverage passes (passes.h), which process one tile each: finding the pixels near
-// depth edges and their two surfaces, unmixing, and estimating the light of the far surface. Means
-// over cells of increasing size collect the known light of the far surface, and extend it smoothly
-// to pixels without known light (the pull-push algorithm).
+// The steps of the coverage passes (coverage.cc), which process one tile each: finding the pixels
+// near depth edges and their two surfaces, unmixing, and estimating the light of the far surface.
+// Means over cells of increasing size collect the known light of the far surface, and extend it
+// smoothly to pixels without known light (the pull-push algorithm).
 #ifndef STARFOCUS_LIB_MATTING_COVERAGE_TILE_H_
 #define STARFOCUS_LIB_MATTING_COVERAGE_TILE_H_
 
@@ -15,35 +15,35 @@ namespace starfocus {
 // Sets CoverageTile::ragged of the tiles [first, last) of a row: true if enough pixels of the tile
 // lie next to depth edges. If the light field provides coverage, a single pixel next to an edge
 // makes a tile ragged.
-void FindRagged(const CoverageInput& in, int32_t first, int32_t last, int32_t row);
+void FindRagged(const Input& input, int32_t first, int32_t last, int32_t row);
 
 // Initialises a tile as a single surface with the disparities of the disparity map.
-void ClearTile(const CoverageInput& in, int32_t column, int32_t row);
+void ClearTile(const Input& input, int32_t column, int32_t row);
 
 // Writes the initial alpha (0, kWhole or kUnparted) and the near disparities of a tile, both from
 // the disparity map alone. Reads the light of the far surface from the centre view, and writes this
 // light to the cells of the tile at all levels.
-void StartTile(const CoverageInput& in, int32_t column, int32_t row);
+void StartTile(const Input& input, int32_t column, int32_t row);
 
 // For each pixel of the tile near an edge, writes the disparities of both surfaces, the given
 // coverage, and the light of the centre view as light of the far surface. Sets `mixed` if the given
 // coverage of any pixel differs from the coverage that the disparity map implies.
-void StartGiven(const CoverageInput& in, int32_t column, int32_t row);
+void StartGiven(const Input& input, int32_t column, int32_t row);
 
 // Coverage (unmix.cc).
 
 // Writes the coverage of a tile after the first pass, starting from the tile's initial alpha. Sets
 // CoverageTile::mixed if the pixels of the tile are, on average, mixed enough for a thin structure.
-void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row);
+void UnmixFirst(const Input& input, int32_t column, int32_t row);
 
 // Writes the coverage of a tile after the second pass, and the light of the far surface in the
 // tile. The inputs are the coverage of the first pass and the light of the far surface that
 // LookBehindTile has read.
-void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row);
+void UnmixAgain(const Input& input, int32_t column, int32_t row);
 
 // Writes the final coverage of a tile, and the light of the far surface in the tile. LookBehindTile
 // must have read the light of the far surface, unless the light field has only one view.
-void TakeGiven(const CoverageInput& in, int32_t column, int32_t row);
+void TakeGiven(const Input& input, int32_t column, int32_t row);
 
 // Light of the far surface (far_light.cc).
 
@@ -76,13 +76,13 @@ constexpr int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha);
 // OcclusionViews, and recomputes the cells of all levels. Light from a view gets a smaller weight
 // if nearer surfaces cover more of the pixel in that view (FarWeight). CoverageMap::first contains
 // the coverage by nearer surfaces.
-void LookBehindTile(const CoverageInput& in, int32_t column, int32_t row);
+void LookBehindTile(const Input& input, int32_t column, int32_t row);
 
 // Adds detail to the light of the far surface in the mixed pixels of a tile. The light of a mixed
 // pixel that the means of both surfaces do not explain is detail of one of the surfaces. The far
 // surface gets a part of this light, which decreases with the coverage. Without this part, faint
 // coverage would give all detail of the background to the near surface.
-void AddFarDetail(const CoverageInput& in, int32_t column, int32_t row);
+void AddFarDetail(const Input& input, int32_t column, int32_t row);
 
 }  // namespace starfocus
 

@@ -122,10 +122,10 @@ struct SideLook {
 
 class TileLooker {
  public:
-  TileLooker(const CoverageInput& in, int32_t column, int32_t row)
-      : kernels_(*in.input->kernels),
-        input_(*in.input),
-        map_(*in.map),
+  TileLooker(const Input& input, int32_t column, int32_t row)
+      : kernels_(*input.kernels),
+        input_(input),
+        map_(*input.coverage),
         left_(column * kCoverageTile),
         columns_(Min(kCoverageTile, map_.width - left_)) {
     for (int side = 0; side < kSideCount; ++side) {
@@ -294,9 +294,8 @@ struct NearMean {
 
 class DetailAdder {
  public:
-  DetailAdder(const CoverageInput& in, int32_t column, int32_t row)
-      : map_(*in.map), left_(column * kCoverageTile), top_(row * kCoverageTile) {
-    const Input& input = *in.input;
+  DetailAdder(const Input& input, int32_t column, int32_t row)
+      : map_(*input.coverage), left_(column * kCoverageTile), top_(row * kCoverageTile) {
     const int32_t left = left_ - kNearReach, first = Max(0, left);
     const int32_t end = Min(left + kSide, map_.width);
     for (int32_t k = 0; k < kSide; ++k) {
@@ -408,15 +407,15 @@ void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far)
   }
 }
 
-void LookBehindTile(const CoverageInput& in, int32_t column, int32_t row) {
-  TileLooker looker(in, column, row);
-  const int32_t end = Min((row + 1) * kCoverageTile, in.map->height);
+void LookBehindTile(const Input& input, int32_t column, int32_t row) {
+  TileLooker looker(input, column, row);
+  const int32_t end = Min((row + 1) * kCoverageTile, input.coverage->height);
   for (int32_t y = row * kCoverageTile; y < end; ++y) looker.LookRow(y);
-  PullTile(column, row, *in.map);
+  PullTile(column, row, *input.coverage);
 }
 
-void AddFarDetail(const CoverageInput& in, int32_t column, int32_t row) {
-  DetailAdder(in, column, row).Add();
+void AddFarDetail(const Input& input, int32_t column, int32_t row) {
+  DetailAdder(input, column, row).Add();
 }
 
 }  // namespace starfocus

@@ -52,9 +52,9 @@ struct NearTile {
 // Loads a tile and its surroundings. The function weight_of(x, y) returns the weight of pixel (x,
 // y) in a mean of the near light.
 template <class Weight>
-void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const Weight& weight_of,
+void LoadNearTile(const Input& input, int32_t column, int32_t row, const Weight& weight_of,
                   NearTile* tile) {
-  const CoverageMap& map = *in.map;
+  const CoverageMap& map = *input.coverage;
   const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
   const int32_t first = Max(0, -left), last = Min(kSide, map.width - left);
   std::memset(tile->weight, 0, sizeof(tile->weight));
@@ -63,9 +63,9 @@ void LoadNearTile(const CoverageInput& in, int32_t column, int32_t row, const We
   for (int32_t y = Max(0, -top); y < Min(kSide, map.height - top); ++y) {
     int16_t light[3 * kSide + simd::kPadding / sizeof(int16_t)];
     const auto at = static_cast<size_t>(y * kSide + first);
-    in.input->Light(0, left + first, top + y, last - first, light);
-    in.input->kernels->Split(light, static_cast<size_t>(last - first), NearTile::kPlane,
-                             tile->light + at);
+    input.Light(0, left + first, top + y, last - first, light);
+    input.kernels->Split(light, static_cast<size_t>(last - first), NearTile::kPlane,
+                         tile->light + at);
     std::memcpy(tile->near + at, map.near + map.At(left + first, top + y),
                 static_cast<size_t>(last - first) * sizeof(*tile->near));
     for (int32_t x = first; x < last; ++x) {
@@ -117,15 +117,15 @@ int32_t AlphaOf(const PartedColours& colours, int32_t guess) {
 // Calls visit(x, y, alpha, cell) for each pixel of the tile that is near an edge, if the light of
 // the far surface (`cell`) is known. Coordinates x and y are in pixels of the picture.
 template <class Visit>
-void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column, int32_t row,
+void ForEachParted(const Input& input, const NearTile& tile, int32_t column, int32_t row,
                    const Visit& visit) {
-  const CoverageMap& map = *in.map;
+  const CoverageMap& map = *input.coverage;
   const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
   FarTile far;
   PushTile(column, row, map, &far);
   for (int32_t y = 0; y < Min(kCoverageTile, map.height - top); ++y) {
     simd::NearSums sums;
-    tile.SumRow(*in.input->kernels, y, &sums);
+    tile.SumRow(*input.kernels, y, &sums);
     for (int32_t x = 0; x < Min(kCoverageTile, map.width - left); ++x) {
       const size_t to = map.At(left + x, top + y);
       const FarCell& cell = far.cells[y * kCoverageTile + x];
@@ -151,8 +151,8 @@ void ForEachParted(const CoverageInput& in, const NearTile& tile, int32_t column
 
 }  // namespace
 
-void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
-  const CoverageMap& map = *in.map;
+void UnmixFirst(const Input& input, int32_t column, int32_t row) {
+  const CoverageMap& map = *input.coverage;
   // Returns a weight of 0 for pixels on the far side of an edge. For other pixels, the weight
   // increases with the number of surrounding 3x3 pixels that are not on the far side.
   const auto weight_of = [&](int32_t x, int32_t y) {
@@ -167,30 +167,30 @@ void UnmixFirst(const CoverageInput& in, int32_t column, int32_t row) {
     return 3 * count * count;
   };
   NearTile tile;
-  LoadNearTile(in, column, row, weight_of, &tile);
+  LoadNearTile(input, column, row, weight_of, &tile);
   int32_t mixture = 0;
-  ForEachParted(in, tile, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
+  ForEachParted(input, tile, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
     map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
     mixture += alpha * (kWhole - alpha);
   });
   map.Tile(column, row).mixed = mixture > kMixedShare ? 1 : 0;
 }
 
-void UnmixAgain(const CoverageInput& in, int32_t column, int32_t row) {
-  const CoverageMap& map = *in.map;
+void UnmixAgain(const Input& input, int32_t column, int32_t row) {
+  const CoverageMap& map = *input.coverage;
   NearTile tile;
   LoadNearTile(
-      in, column, row, [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); },
-      &tile);
-  ForEachParted(in, tile, column, row,
+      input, column, row,
+      [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); }, &tile);
+  ForEachParted(input, tile, column, row,
                 [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
                   map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
                   std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
                 });
 }
 
-void TakeGiven(const CoverageInput& in, int32_t column, int32_t row) {
-  const CoverageMap& map = *in.map;
+void TakeGiven(const Input& input, int32_t column, int32_t row) {
+  const CoverageMap& map = *input.coverage;
   FarTile far;
   PushTile(column, row, map, &far);
   for (int32_t y = 0; y < Min(kCoverageTile, map.height - row * kCoverageTile); ++y) {

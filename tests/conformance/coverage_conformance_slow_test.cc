@@ -109,7 +109,7 @@ std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
   test::Output out(scene.width, scene.height);
   REQUIRE(test::Refocus(&engine, test::Params(scene.disparity_min, 1, STARFOCUS_MODE_BLOCK), scene,
                         &out) == STARFOCUS_OK);
-  const starfocus::CoverageMap& map = test::StateOf(engine.get()).stripe.coverage.map;
+  const starfocus::CoverageMap& map = test::StateOf(engine.get()).stripe.coverage;
   REQUIRE(map.tile_rows >= map.Rows());
   std::vector<reference::PartedPixel> pixels;
   for (int y = 0; y < scene.height; ++y) {
