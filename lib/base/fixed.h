@@ -78,6 +78,10 @@ inline constexpr int32_t kMaxWeight = 32767;
 // kDisparityBits.
 inline constexpr int32_t kSurfaceStep = (3 << kDisparityBits) / 2;
 
+// Largest step of disparity between neighbouring pixels of layer 0 that is not a depth edge of the
+// slice renderer, kDisparityBits.
+inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
+
 // Permitted range of a fixed-point value that several functions compute.
 struct FixedRange {
   const char* name;

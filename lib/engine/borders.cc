@@ -8,8 +8,8 @@
 #include "lib/io/block_pixels.h"
 #include "lib/io/highlights.h"
 #include "lib/io/layers.h"
-#include "lib/matting/boundary_pixel.h"
 #include "lib/matting/coverage.h"
+#include "lib/matting/mixed_pixels.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/cells.h"
 
@@ -65,8 +65,8 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
     if (!one_view) borders.views = Max(borders.views, moved);
   }
   borders.centre = Max(borders.centre, borders.layer[0] + kMixedPixelBorder);
-  borders.parted = borders.centre;
-  borders.centre = borders.parted + CoverageBorder(config);
+  borders.matting = borders.centre;
+  borders.centre = borders.matting + CoverageBorder(config);
   const int32_t read = one_view || !Has(config, STARFOCUS_FEATURE_COVERAGE)
                            ? 0
                            : LargestMove(config) + CapturedBorder(0);

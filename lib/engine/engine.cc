@@ -127,7 +127,7 @@ void TakePicture(const starfocus_config& config, Arena* arena, EngineState* engi
   TakeRows(config, arena, engine);
   TakeLayers(config, arena, &engine->layers);
   const Borders borders = LargestBorders(config);
-  TakeCoverage(config, borders.parted, arena, &engine->stripe.coverage);
+  TakeCoverage(config, borders.matting, arena, &engine->stripe.coverage);
   TakePlan(config, arena, &engine->stripe);
   TakeFrameDiff(Columns(config), config.superblock, borders.views, arena, &engine->stripe.changes);
 }

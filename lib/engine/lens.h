@@ -75,7 +75,7 @@ struct Borders {
   int32_t whole_block = 0;               // Pixels around a block that is planned without cells.
   int32_t layer[STARFOCUS_LAYERS] = {};  // Pixels of each layer around any possible block.
   int32_t cells = 0;                     // Number of cells (not pixels) around a superblock.
-  int32_t parted = 0;                    // Pixels of the coverage map.
+  int32_t matting = 0;                   // Pixels of the coverage map.
   int32_t centre = 0;                    // Pixels of the centre view and the disparity map.
   // Distance of the farthest highlights that affect a superblock; 0: no highlights.
   int32_t highlights = 0;

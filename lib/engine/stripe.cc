@@ -44,7 +44,7 @@ starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
                      lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
   engine->input.coverage = finds ? map : nullptr;
   if (!finds) return STARFOCUS_OK;
-  const int32_t border = lens.borders.parted;
+  const int32_t border = lens.borders.matting;
   const Range rows = {stripe.y - border, stripe.y + stripe.height + border};
   return FindCoverage(engine->config, engine->input, rows, engine->jobs, map);
 }

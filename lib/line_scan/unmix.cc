@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/line_scan/unmix.h"
 
-#include "lib/matting/boundary_pixel.h"
+#include "lib/matting/mixed_pixels.h"
 
 namespace starfocus {
 namespace {

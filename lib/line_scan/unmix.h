@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Separates boundary pixels (lib/matting/boundary_pixel.h) for line scans.
+// Separates boundary pixels (lib/matting/mixed_pixels.h) for line scans.
 #ifndef STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 #define STARFOCUS_LIB_LINE_SCAN_UNMIX_H_
 

@@ -174,7 +174,7 @@ class GivenStarter {
     } else {
       map_.near[to] = here;
       far.disparity = here;
-      map_.alpha[to] = kUnparted;
+      map_.alpha[to] = kUnsplit;
       map_.first[to] = kWhole;
       far.weight = kKnown;
     }
@@ -253,7 +253,7 @@ void StartTile(const Input& input, int32_t column, int32_t row) {
       map.near[to] = pixel.side == 0 ? here : SmoothNear(around, at, Max(here, pixel.other));
       FarCell& far = map.FarAt(left + x, top + y);
       far.disparity = static_cast<int16_t>(Min(here, pixel.other));
-      map.alpha[to] = pixel.side == 0 ? kUnparted : pixel.side > 0 ? kWhole : 0;
+      map.alpha[to] = pixel.side == 0 ? kUnsplit : pixel.side > 0 ? kWhole : 0;
       map.first[to] = pixel.side < 0 ? 0 : kWhole;
       tile.near_bins |= map.BinOf(map.near[to]);
       if (y >= rows || x >= columns) {

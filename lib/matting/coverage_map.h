@@ -18,11 +18,11 @@ namespace starfocus {
 // (CoverageTile::thin).
 inline constexpr int32_t kCoverageTile = 16;
 
-// Coverage has 7 fractional bits and ranges from 0 to kWhole. The value kUnparted marks pixels that
+// Coverage has 7 fractional bits and ranges from 0 to kWhole. The value kUnsplit marks pixels that
 // are not near a depth edge.
 inline constexpr int kAlphaBits = 7;
 inline constexpr int32_t kWhole = 1 << kAlphaBits;
-inline constexpr uint8_t kUnparted = 255;
+inline constexpr uint8_t kUnsplit = 255;
 
 // Largest step of disparity within one surface, in kDisparityBits. A larger step of disparity
 // counts as an edge of a thin structure.
@@ -88,7 +88,7 @@ struct CoverageMap {
   CoverageTile* tiles = nullptr;
   // Planes of pixels, with kAside unused pixels before and after each row.
   uint8_t* first = nullptr;  // Coverage after the first pass.
-  uint8_t* alpha = nullptr;  // Coverage after the second pass, or kUnparted.
+  uint8_t* alpha = nullptr;  // Coverage after the second pass, or kUnsplit.
   int16_t* near = nullptr;   // Disparity of the near surface; kNowhere beyond the picture.
   FarCell* far[kFarLevels] = {};
   // First row of tiles that each pass has not processed yet; negative before the first row.

@@ -20,7 +20,7 @@ void FindRagged(const Input& input, int32_t first, int32_t last, int32_t row);
 // Initialises a tile as a single surface with the disparities of the disparity map.
 void ClearTile(const Input& input, int32_t column, int32_t row);
 
-// Writes the initial alpha (0, kWhole or kUnparted) and the near disparities of a tile, both from
+// Writes the initial alpha (0, kWhole or kUnsplit) and the near disparities of a tile, both from
 // the disparity map alone. Reads the light of the far surface from the centre view, and writes this
 // light to the cells of the tile at all levels.
 void StartTile(const Input& input, int32_t column, int32_t row);

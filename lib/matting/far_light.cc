@@ -139,8 +139,8 @@ class TileLooker {
     for (int32_t k = 0; k < kCoverageTile; ++k) {
       sums_[k] = {};
       far_[k] = map_.FarAt(left_ + k, y).disparity;
-      parted_[k] = k < columns_ && map_.alpha[map_.At(left_ + k, y)] != kUnparted;
-      any = any || parted_[k];
+      split_[k] = k < columns_ && map_.alpha[map_.At(left_ + k, y)] != kUnsplit;
+      any = any || split_[k];
     }
     if (!any) return;
     int16_t light[3 * kCoverageTile];
@@ -150,7 +150,7 @@ class TileLooker {
     }
     for (int view = 0; view < count_; ++view) LookInto(views_[view], y);
     for (int32_t k = 0; k < columns_; ++k) {
-      if (parted_[k]) Store(sums_[k], &map_.FarAt(left_ + k, y));
+      if (split_[k]) Store(sums_[k], &map_.FarAt(left_ + k, y));
     }
   }
 
@@ -198,8 +198,8 @@ class TileLooker {
     if (!FindCovered(view, y, covered)) return;
     for (int32_t k = 0, end; k < columns_; k = end) {
       end = k + 1;
-      if (!parted_[k]) continue;
-      while (end < columns_ && parted_[end] && far_[end] == far_[k]) ++end;
+      if (!split_[k]) continue;
+      while (end < columns_ && split_[end] && far_[end] == far_[k]) ++end;
       int32_t all = 0, weights[kCoverageTile];
       for (int32_t n = k; n < end; ++n) all |= weights[n] = FarWeight(covered[n]);
       if (all == 0) continue;
@@ -230,7 +230,7 @@ class TileLooker {
     const int32_t size = Abs(view.along);
     int32_t nearest_far = INT16_MAX, farthest_far = INT16_MIN;
     for (int32_t k = 0; k < columns_; ++k) {
-      if (!parted_[k]) continue;
+      if (!split_[k]) continue;
       nearest_far = Min(nearest_far, far_[k]);
       farthest_far = Max(farthest_far, far_[k]);
     }
@@ -274,7 +274,7 @@ class TileLooker {
   uint64_t bins_ = 0;
   // State of one row of the tile.
   int16_t far_[kCoverageTile];  // disparity of the far surface at each pixel of the row
-  bool parted_[kCoverageTile];
+  bool split_[kCoverageTile];
   Sum sums_[kCoverageTile];
 };
 

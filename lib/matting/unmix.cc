@@ -84,14 +84,14 @@ int32_t Difference(int32_t a, int32_t b) {
 }
 
 // Colours of a pixel and of its two surfaces.
-struct PartedColours {
+struct SplitColours {
   Rgb near, far, mixed;
   int32_t near_weight;  // sum of the weights of the samples of `near`
 };
 
 // Returns the part of a pixel that the near surface covers, as far as its colours can be trusted;
 // `guess` replaces the rest.
-int32_t AlphaOf(const PartedColours& colours, int32_t guess) {
+int32_t AlphaOf(const SplitColours& colours, int32_t guess) {
   int32_t contrast = 0, along = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
     const int32_t whole = Difference(colours.near[c], colours.far[c]);
@@ -117,8 +117,8 @@ int32_t AlphaOf(const PartedColours& colours, int32_t guess) {
 // Calls visit(x, y, alpha, cell) for each pixel of the tile that is near an edge, if the light of
 // the far surface (`cell`) is known. Coordinates x and y are in pixels of the picture.
 template <class Visit>
-void ForEachParted(const Input& input, const NearTile& tile, int32_t column, int32_t row,
-                   const Visit& visit) {
+void ForEachSplit(const Input& input, const NearTile& tile, int32_t column, int32_t row,
+                  const Visit& visit) {
   const CoverageMap& map = *input.coverage;
   const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
   FarTile far;
@@ -129,11 +129,11 @@ void ForEachParted(const Input& input, const NearTile& tile, int32_t column, int
     for (int32_t x = 0; x < Min(kCoverageTile, map.width - left); ++x) {
       const size_t to = map.At(left + x, top + y);
       const FarCell& cell = far.cells[y * kCoverageTile + x];
-      if (map.alpha[to] == kUnparted || cell.weight == 0) continue;
+      if (map.alpha[to] == kUnsplit || cell.weight == 0) continue;
       int32_t alpha = map.first[to];
       const int32_t weight = sums.weight[x];
       if (weight > 0) {
-        PartedColours colours;
+        SplitColours colours;
         colours.near_weight = weight;
         for (int c = 0; c < 3; ++c) {
           const size_t at = static_cast<size_t>(c) * NearTile::kPlane;
@@ -169,7 +169,7 @@ void UnmixFirst(const Input& input, int32_t column, int32_t row) {
   NearTile tile;
   LoadNearTile(input, column, row, weight_of, &tile);
   int32_t mixture = 0;
-  ForEachParted(input, tile, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
+  ForEachSplit(input, tile, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
     map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
     mixture += alpha * (kWhole - alpha);
   });
@@ -182,11 +182,11 @@ void UnmixAgain(const Input& input, int32_t column, int32_t row) {
   LoadNearTile(
       input, column, row,
       [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); }, &tile);
-  ForEachParted(input, tile, column, row,
-                [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
-                  map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
-                  std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
-                });
+  ForEachSplit(input, tile, column, row,
+               [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
+                 map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
+                 std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
+               });
 }
 
 void TakeGiven(const Input& input, int32_t column, int32_t row) {
@@ -198,9 +198,9 @@ void TakeGiven(const Input& input, int32_t column, int32_t row) {
       const int32_t x = column * kCoverageTile + k;
       const size_t to = map.At(x, row * kCoverageTile + y);
       const FarCell& cell = far.cells[y * kCoverageTile + k];
-      if (map.alpha[to] == kUnparted) continue;
+      if (map.alpha[to] == kUnsplit) continue;
       // A pixel cannot be split if the light of the far surface is not known nearby.
-      map.alpha[to] = cell.weight == 0 ? kUnparted : map.first[to];
+      map.alpha[to] = cell.weight == 0 ? kUnsplit : map.first[to];
       std::memcpy(map.FarAt(x, row * kCoverageTile + y).rgb, cell.rgb, sizeof(cell.rgb));
     }
   }

@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "lib/io/block_pixels.h"
+#include "lib/matting/mixed_pixels.h"
 #include "lib/plan/renderer.h"
-#include "lib/slices/matte.h"
 #include "lib/slices/slices.h"
 
 namespace starfocus {
@@ -172,16 +172,15 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   field.rgb = scratch->field_rgb;
   field.disparity = scratch->field_disparity;
   LoadBlock(*job.input, job.layer, job.rect, job.border, &field);
-  TakeThinDisparities(*job.input, &field);
+  TakeDisparities(*job.input, &field);
   FindLayeredDepth(*job.input->kernels, *job.input, field, &scratch->surfaces);
-  FindMatte(*job.input->kernels, *job.input, *job.grid, field, &scratch->surfaces);
+  SplitMixedPixels(*job.input, *job.grid, field, &scratch->surfaces);
   const Rect& inner = field.inner;
   const size_t row = 3 * static_cast<size_t>(inner.width);
   for (int32_t y = 0; y < inner.height; ++y) {
     std::memcpy(CentreRow(accumulators + static_cast<size_t>(y) * row, inner.width),
                 field.Rgb(inner.x, inner.y + y), row * sizeof(*field.rgb));
   }
-  PartThin(*job.input, field, &scratch->surfaces);
   InpaintHidden(*job.input->kernels, job.layer, scratch->fill, &scratch->surfaces);
   RemoveFocusRange(job.grid->focus, &scratch->surfaces);
   return inner;

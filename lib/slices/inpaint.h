@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inpaints hidden surfaces that no captured view shows: the farthest surface is continued smoothly
-// behind a depth edge. The inpainting runs after FindLayeredDepth and FindMatte.
+// behind a depth edge. The inpainting runs after FindLayeredDepth and SplitMixedPixels.
 #ifndef STARFOCUS_LIB_SLICES_INPAINT_H_
 #define STARFOCUS_LIB_SLICES_INPAINT_H_
 
@@ -36,7 +36,7 @@ constexpr size_t FillStride(size_t width) {
 }
 
 // Replaces the colours that FindLayeredDepth repeated on the farthest surfaces. First, each
-// repeated pixel takes the far colour of its source pixel. FindMatte may have separated the
+// repeated pixel takes the far colour of its source pixel. SplitMixedPixels may have separated the
 // source's colour into a near and a far colour.
 //
 // The colours are then smoothed in five passes, with steps of 16, 8, 4, 2 and 1 pixels. A pass

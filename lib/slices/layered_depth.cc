@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
+#include "lib/matting/mixed_pixels.h"
 
 namespace starfocus {
 namespace {
@@ -337,6 +338,50 @@ class SurfaceFinder {
   simd::ViewLook looks_[kSideCount][kOcclusionViews];
 };
 
+// Smallest difference of disparity (kDisparityBits) between the near surface and a hidden surface
+// of a thin structure. Hidden surfaces with a smaller difference are dropped, because they are not
+// opaque but other strands of the thin structure.
+constexpr int32_t kSameStructure = 4 << kDisparityBits;
+
+void DropStrands(const SplitPixel& pixel, LayeredDepth* surfaces) {
+  const size_t at = surfaces->At(pixel.column, pixel.row);
+  const int32_t near = surfaces->disparity[0][at];
+  for (int behind = simd::kSurfaces - 1; behind > 0; --behind) {
+    int16_t& disparity = surfaces->disparity[behind][at];
+    if (disparity != kNoSurface && near - disparity < kSameStructure) disparity = kNoSurface;
+  }
+}
+
+// Gives a pixel the two surfaces that it mixes. A hidden surface at most `copy_step` behind the far
+// surface is a copy of the pixel (kLeastCopy) with the colour of the mixture, so the far surface
+// replaces the copy.
+void Split(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
+  LayeredDepth& to = *surfaces;
+  const size_t at = to.At(pixel.column, pixel.row);
+  to.hiding[pixel.row] |= uint64_t{1} << (pixel.column / static_cast<int32_t>(simd::kSliceLanes));
+  to.share[at] = pixel.share;
+  const bool replaces_all = pixel.kind == SplitPixel::kThin;
+  const bool moves = !replaces_all && pixel.far_disparity - to.disparity[1][at] > copy_step;
+  if (replaces_all) {
+    to.sources[0][at] = to.sources[1][at] = 0;
+    to.disparity[2][at] = kNoSurface;
+  } else if (moves) {
+    to.disparity[2][at] = to.disparity[1][at];
+  } else {
+    to.sources[0][at] = to.sources[1][at];  // source of the surface behind the far surface
+  }
+  to.disparity[1][at] = pixel.far_disparity;
+  to.disparity[0][at] = pixel.near_disparity;
+  to.low = pixel.far_disparity < to.low ? pixel.far_disparity : to.low;
+  to.high = pixel.near_disparity > to.high ? pixel.near_disparity : to.high;
+  for (size_t c = 0; c < 3; ++c) {
+    const size_t sample = c * to.plane + at;
+    if (moves) to.rgb[2][sample] = to.rgb[1][sample];
+    to.rgb[1][sample] = pixel.far.rgb[c];
+    to.rgb[0][sample] = pixel.near.rgb[c];
+  }
+}
+
 }  // namespace
 
 void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
@@ -357,6 +402,18 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const Bl
   for (int16_t* disparity : surfaces->disparity) ClearStrip(disparity + surfaces->plane);
   std::memset(surfaces->share + surfaces->plane, simd::kSliceWhole, simd::kSliceLanes);
   SurfaceFinder(kernels, input, field, surfaces).Find();
+}
+
+void SplitMixedPixels(const Input& input, const ViewGrid& grid, const BlockPixels& field,
+                      LayeredDepth* surfaces) {
+  const auto copy_step = static_cast<int16_t>(kDepthEdge << field.layer);
+  ForEachSplitPixel(input, grid, field, [&](const SplitPixel& pixel) {
+    if (pixel.kind == SplitPixel::kWhole) {
+      DropStrands(pixel, surfaces);
+    } else {
+      Split(pixel, copy_step, surfaces);
+    }
+  });
 }
 
 void RemoveFocusRange(const FocusRange& focus, LayeredDepth* surfaces) {

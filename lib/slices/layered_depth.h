@@ -17,10 +17,6 @@ namespace starfocus {
 
 using simd::kNoSurface;
 
-// Largest step of disparity between neighbouring pixels of layer 0 that is not a depth edge, in
-// kDisparityBits.
-inline constexpr int16_t kDepthEdge = (3 << kDisparityBits) / 4;
-
 // Smallest and largest step of disparity between neighbouring pixels of layer 0 at which a surface
 // is closed. The slices on both sides of a step in this range move apart, so the farther slice is
 // continued behind the nearer slice. Without the continuation, background would show in the gap
@@ -87,6 +83,13 @@ struct SurfaceBands {
 // disparity at the same distance, their colours are averaged. At steps within a surface, each pixel
 // on the near side hides a copy of itself (kLeastCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
+                      LayeredDepth* surfaces);
+
+// Splits the mixed pixels of a field (SplitPixel) into both surfaces: the nearer surface covers its
+// share of the pixel, and the far surface lies behind the nearer surface with its own colour. The
+// caller must call this function after FindLayeredDepth and before InpaintHidden. If a split
+// pixel would have four surfaces, the farthest surface is dropped.
+void SplitMixedPixels(const Input& input, const ViewGrid& grid, const BlockPixels& field,
                       LayeredDepth* surfaces);
 
 // Replaces the disparities of all surfaces by disparities without the range

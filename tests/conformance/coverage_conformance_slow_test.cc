@@ -118,7 +118,7 @@ std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
       const starfocus::CoverageTile& tile =
           map.Tile(x / starfocus::kCoverageTile, y / starfocus::kCoverageTile);
       reference::PartedPixel pixel;
-      pixel.parted = tile.thin != 0 && map.alpha[at] != starfocus::kUnparted;
+      pixel.parted = tile.thin != 0 && map.alpha[at] != starfocus::kUnsplit;
       if (pixel.parted) {
         const starfocus::FarCell& far = map.FarAt(x, y);
         pixel.alpha = double(map.alpha[at]) / starfocus::kWhole;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that the separation of boundary pixels is continuous: the last bit of a colour never
 // decides whether a pixel is split. Also tests that inverted colours are split into equal shares.
-#include "lib/matting/boundary_pixel.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "lib/matting/mixed_pixels.h"
 #include "tests/support/test_scene.h"
 
 namespace boundary_pixel_test {

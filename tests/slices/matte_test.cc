@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the boundary pixels of slices in a picture with one depth edge.
-#include "lib/slices/matte.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>

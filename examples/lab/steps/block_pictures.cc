@@ -225,7 +225,7 @@ class BlockArtist {
     uint8_t* const pixel = PixelOf(&pictures_.coverage, x, y);
     const CoverageMap& map = *input_.coverage;
     const int alpha = map.alpha[map.At(x, y)];
-    if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 && alpha != kUnparted) {
+    if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 && alpha != kUnsplit) {
       std::fill_n(pixel, 3, static_cast<uint8_t>(alpha * 255 / kWhole));
     } else {
       Tint(kFarther, 40, pixel);

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Splits the mixed pixels of a field into the two surfaces that each pixel mixes: boundary pixels
+// at depth edges, from their colours, and pixels of thin structures, from the coverage map.
+// Renderers apply the split.
+#ifndef STARFOCUS_LIB_MATTING_MIXED_PIXELS_H_
+#define STARFOCUS_LIB_MATTING_MIXED_PIXELS_H_
+
+#include <cstdint>
+
+#include "lib/base/fixed.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/input.h"
+#include "lib/matting/coverage_map.h"
+#include "lib/optics/view_grid.h"
+#include "simd/kernels.h"
+
+namespace starfocus {
+
+// Width in pixels of the border around a field that is read to separate the field's boundary
+// pixels.
+inline constexpr int32_t kMixedPixelBorder = 1;
+
+// Linear light of the samples R, G and B of a pixel.
+struct Colour {
+  int16_t rgb[3];
+
+  int32_t operator[](int c) const { return rgb[c]; }
+};
+
+// Reads the centre view at layer 0. Coordinates outside the picture read the nearest pixel inside.
+struct CentreView {
+  const Input& input;
+
+  int32_t Disparity(int32_t x, int32_t y) const {
+    return input.disparity.Row(Clamp(y, 0, input.height - 1))[Clamp(x, 0, input.width - 1)];
+  }
+  // Returns the light of a pixel, or the light beyond white (excess) if `input` reads excess.
+  Colour ColourAt(int32_t x, int32_t y) const;
+};
+
+// A pixel next to a depth edge; the disparity beyond the edge, `near`, is larger by more than
+// `step`. Disparities have kDisparityBits.
+struct BoundaryPixel {
+  int32_t x, y;
+  int side;  // index into kSides: direction of the nearer surface
+  int32_t disparity, near, step;
+};
+
+// Colour of a boundary pixel, and the colours of the two surfaces that it may mix.
+struct BoundaryColours {
+  Colour near, far, mixed;
+};
+
+// Result of the separation: the share of the nearer surface (kShareBits) and the colours of both
+// surfaces. A share of 0 means that the pixel is not a mixture.
+struct Mixture {
+  int32_t share;
+  Colour near, far;
+};
+
+// Separates a boundary pixel. The near colour is read at the second pixel beyond the edge, or at
+// the first pixel if the two pixels are on different surfaces. The far colour comes from a captured
+// side view in which the nearer surface does not cover the far surface. Without such a view, the
+// far colour is the colour of the next pixel away from the edge. If the input reads excess,
+// both colours are excess, but the share is computed from light.
+Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
+
+// Separates a pixel by its colour and by the colours of both surfaces. Small changes of a colour
+// change the result little: as the share falls to 0, the far colour becomes the colour of the
+// pixel.
+Mixture Unmix(const BoundaryColours& colours);
+
+// Calls visit(column, row) for each pixel of a field if the disparity of one of its four neighbours
+// is larger by more than `step`. Pixels outside the picture and the outermost pixels of the field
+// are skipped.
+template <class Visit>
+void ForEachBesideEdge(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
+                       int16_t step, const Visit& visit) {
+  constexpr int32_t kStripColumns = static_cast<int32_t>(simd::kSliceLanes),
+                    kAtOnce = 16 * kStripColumns;
+  const int32_t left = Max(1, -field.x),
+                right = Min(field.width - 1, input.Width(field.layer) - field.x);
+  const int32_t top = Max(1, -field.y),
+                bottom = Min(field.height - 1, input.Height(field.layer) - field.y);
+  uint16_t beside[kAtOnce / kStripColumns];
+  for (int32_t row = top; row < bottom; ++row) {
+    for (int32_t from = left; from < right; from += kAtOnce) {
+      const int32_t count = Min(kAtOnce, right - from);
+      kernels.BesideSteps(field.Disparity(from, row), field.width, static_cast<size_t>(count), step,
+                          beside);
+      for (int32_t k = 0; k < count; k += kStripColumns) {
+        ForEachBit(beside[k / kStripColumns], [&](int32_t bit) { visit(from + k + bit, row); });
+      }
+    }
+  }
+}
+
+// A pixel of a field that the slice renderer splits.
+struct SplitPixel {
+  enum Kind {
+    kBoundary,  // A mixed pixel at a depth edge. Surfaces behind its far surface are kept.
+    kThin,      // A mixed pixel of a thin structure. Its two surfaces replace all others.
+    kWhole  // A pixel of a thin structure that shows one surface. Only `column` and `row` count.
+  } kind;
+  int32_t column, row;
+  // Part of the pixel that the near surface covers, in kSliceBits, or kSliceEnd if the near surface
+  // covers the pixel and ends there.
+  uint8_t share;
+  int16_t near_disparity, far_disparity;
+  Colour near, far;
+};
+
+// Splits the pixels of a field for a lens.
+//
+// Pixels outside the picture are not split. A boundary pixel is split only if its two surfaces move
+// by more than a pixel relative to each other in some view, and only on the far side of the depth
+// edge. The outermost boundary pixels of the field are not split, because these pixels do not splat
+// into any rectangle.
+class PixelSplitter {
+ public:
+  PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field);
+
+  // Splits the boundary pixel (column, row). Returns false if it is not a mixture, or if the
+  // coverage map splits it.
+  bool SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const;
+  // Splits pixel (x, y) of the picture, which lies in a thin tile, as the coverage map says.
+  void SplitThin(int32_t x, int32_t y, SplitPixel* pixel) const;
+
+  int16_t step() const { return step_; }
+
+ private:
+  Mixture MixtureAt(const BoundaryPixel& pixel) const;
+  Mixture MixtureOfLayer(const BoundaryPixel& pixel) const;
+  Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const;
+  Colour ColourAt(int32_t column, int32_t row) const;
+  int32_t DisparityAt(int32_t column, int32_t row) const;
+  bool Moves(int32_t near, int32_t far) const;
+  bool IsInside(int32_t x, int32_t y) const;
+  bool IsPartial(int32_t x, int32_t y) const;
+
+  const CentreView centre_;
+  const ViewGrid& grid_;
+  const BlockPixels& field_;
+  const CoverageMap* const map_;  // Null if the coverage map splits no pixel of the field.
+  const int16_t step_;            // Largest step between pixels that is not a depth edge.
+  const int64_t rim_;
+};
+
+// Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
+// these disparities, hidden surfaces end at the boundary of the thin structure.
+void TakeDisparities(const Input& input, BlockPixels* field);
+
+// Calls act(x, y) for each pixel of the picture in the field that lies in a thin tile.
+template <class Act>
+void ForEachThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
+  const int32_t left = Max(0, field.x), right = Min(field.x + field.width, map.width);
+  const int32_t top = Max(0, field.y), bottom = Min(field.y + field.height, map.height);
+  for (int32_t y = top; y < bottom; ++y) {
+    for (int32_t x = left, end; x < right; x = end) {
+      end = Min(right, (x / kCoverageTile + 1) * kCoverageTile);
+      if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) continue;
+      for (int32_t k = x; k < end; ++k) act(k, y);
+    }
+  }
+}
+
+// Calls visit(SplitPixel) for each split pixel of a field, and for each pixel of thin tiles. The
+// disparities of the field must come from TakeDisparities.
+template <class Visit>
+void ForEachSplitPixel(const Input& input, const ViewGrid& grid, const BlockPixels& field,
+                       const Visit& visit) {
+  const PixelSplitter splitter(input, grid, field);
+  SplitPixel pixel;
+  ForEachBesideEdge(*input.kernels, input, field, splitter.step(),
+                    [&](int32_t column, int32_t row) {
+                      if (splitter.SplitBoundary(column, row, &pixel)) visit(pixel);
+                    });
+  if (input.coverage == nullptr || field.layer > 0) return;
+  ForEachThin(*input.coverage, field, [&](int32_t x, int32_t y) {
+    splitter.SplitThin(x, y, &pixel);
+    visit(pixel);
+  });
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_MATTING_MIXED_PIXELS_H_
