@@ -285,9 +285,4 @@ void ReadCaptured(const Input& in, int layer, int view, const CapturedLine& line
   }
 }
 
-void InterpolateCaptured(const Input& in, int view, int32_t x, int32_t y, int32_t* rgb) {
-  InterpolateRow(in, view, Checked(ranges::kHolePosition, x), Checked(ranges::kHolePosition, y), 1,
-                 [&](int32_t n, int32_t sum) { rgb[n] = sum; });
-}
-
 }  // namespace starfocus

@@ -151,10 +151,6 @@ void ReadCaptured(const Input& in, int layer, int view, const CapturedLine& line
 // Returns the number of pixels of the picture that ReadCaptured reads around a position.
 constexpr int32_t CapturedBorder(int layer) { return layer == 0 ? 1 : (1 << layer) - 1; }
 
-// Reads the light at one position of a view at layer 0 without rounding. The result has 2 *
-// kShiftBits more fractional bits than light.
-void InterpolateCaptured(const Input& in, int view, int32_t x, int32_t y, int32_t* rgb);
-
 }  // namespace starfocus
 
 #endif  // STARFOCUS_LIB_IO_INPUT_H_

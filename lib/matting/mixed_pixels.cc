@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/matting/mixed_pixels.h"
 
+#include <cstring>
+
 namespace starfocus {
 namespace {
 
@@ -22,13 +24,6 @@ constexpr int kPureParts = 16;
 
 int64_t Limited(int64_t fade) { return fade < 0 ? 0 : fade > kShareOne ? kShareOne : fade; }
 
-// Returns a - b with kColourBits. Halves are rounded away from 0, so that inverted colours have the
-// same differences with opposite signs, and therefore the same shares.
-int64_t Difference(int32_t a, int32_t b) {
-  const int64_t size = RoundShift(Abs(a - b), kLightBits - kColourBits);
-  return a < b ? -size : size;
-}
-
 // How a pixel is divided: the share of the nearer surface, and the weight with which the far colour
 // that was read replaces the colour of the pixel. Both have kShareBits.
 struct Division {
@@ -46,8 +41,8 @@ struct Division {
 Division DivisionOf(const BoundaryColours& colours) {
   int64_t along = 0, contrast = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
-    const int64_t whole = Difference(colours.near[c], colours.far[c]);
-    const int64_t part = Difference(colours.mixed[c], colours.far[c]);
+    const int64_t whole = ColourDifference<kColourBits>(colours.near[c], colours.far[c]);
+    const int64_t part = ColourDifference<kColourBits>(colours.mixed[c], colours.far[c]);
     along += part * whole;
     contrast += whole * whole;
     distance += part * part;
@@ -66,47 +61,25 @@ Division DivisionOf(const BoundaryColours& colours) {
           static_cast<int32_t>(Limited(kPureParts * share) * fade >> kShareBits)};
 }
 
-// Returns the colour of the next pixel away from the nearer surface. If that pixel is on another
-// surface than `pixel`, returns `mixed`, which gives a share of 0.
-Colour ReadBeside(const CentreView& centre, const BoundaryPixel& pixel, const Colour& mixed) {
-  const int8_t* const side = kSides[pixel.side];
-  const int32_t x = pixel.x - side[0], y = pixel.y - side[1];
-  const bool same = Abs(centre.Disparity(x, y) - pixel.disparity) <= pixel.step;
-  return same ? centre.ColourAt(x, y) : mixed;
-}
-
-// Returns the captured view on the side away from the nearer surface. In the returned view, the
-// nearer surface is shifted away from the pixel.
-const OcclusionView& OcclusionViewAway(const Input& input, const BoundaryPixel& pixel) {
-  return input.occlusion_views.Last(pixel.side ^ 1);
-}
-
-// Reads the colour of the far surface from the captured view that OcclusionViewAway returns.
-Colour ReadFar(const Input& input, const BoundaryPixel& pixel) {
-  const OcclusionView& look = OcclusionViewAway(input, pixel);
-  constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
-  const int32_t x = pixel.x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, kBits);
-  const int32_t y = pixel.y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, kBits);
-  int32_t sums[3];
-  InterpolateCaptured(input, look.view, x, y, sums);
-  Colour far;
-  for (int c = 0; c < 3; ++c)
-    far.rgb[c] = static_cast<int16_t>(RoundShift(sums[c], 2 * kShiftBits));
-  return far;
-}
-
-// Reads the colours of a boundary pixel and of the two surfaces beside the edge.
+// Reads the colours of a boundary pixel and of the two surfaces beside the edge. The captured view
+// on the side away from the nearer surface shows the far surface, because the nearer surface is
+// shifted away from the pixel. Without such a view, the far colour is the colour of the next pixel
+// away from the nearer surface, or, if that pixel is on another surface, the mixed colour, which
+// gives a share of 0.
 BoundaryColours ReadColours(const CentreView& centre, const BoundaryPixel& pixel) {
   const int32_t x = pixel.x, y = pixel.y;
   const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
   const int32_t beyond = centre.Disparity(x + 2 * dx, y + 2 * dy);
   const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
   BoundaryColours colours;
-  colours.mixed = centre.ColourAt(x, y);
+  colours.mixed = colours.far = centre.ColourAt(x, y);
   colours.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  colours.far = OcclusionViewAway(centre.input, pixel).view != 0
-                    ? ReadFar(centre.input, pixel)
-                    : ReadBeside(centre, pixel, colours.mixed);
+  const OcclusionView& look = centre.input.occlusion_views.Last(pixel.side ^ 1);
+  if (look.view != 0) {
+    colours.far = centre.Captured(look, x, y, pixel.disparity);
+  } else if (Abs(centre.Disparity(x - dx, y - dy) - pixel.disparity) <= pixel.step) {
+    colours.far = centre.ColourAt(x - dx, y - dy);
+  }
   return colours;
 }
 
@@ -166,24 +139,49 @@ int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
 
 }  // namespace
 
+int32_t CentreView::Disparity(int32_t x, int32_t y) const {
+  if (field != nullptr) {
+    return *field->Disparity(Clamp(x, 0, field->width - 1), Clamp(y, 0, field->height - 1));
+  }
+  return input.disparity.Row(Clamp(y, 0, input.height - 1))[Clamp(x, 0, input.width - 1)];
+}
+
 Colour CentreView::ColourAt(int32_t x, int32_t y) const {
-  const int32_t column = Clamp(x, 0, input.width - 1), row = Clamp(y, 0, input.height - 1);
   Colour colour;
-  input.Light(0, column, row, 1, colour.rgb);
+  if (field != nullptr) {
+    const int16_t* const rgb =
+        field->Rgb(Clamp(x, 0, field->width - 1), Clamp(y, 0, field->height - 1));
+    std::memcpy(colour.rgb, rgb, sizeof(colour.rgb));
+  } else {
+    input.Light(0, Clamp(x, 0, input.width - 1), Clamp(y, 0, input.height - 1), 1, colour.rgb);
+  }
+  return colour;
+}
+
+Colour CentreView::Captured(const OcclusionView& look, int32_t x, int32_t y,
+                            int32_t disparity) const {
+  const int layer = field != nullptr ? field->layer : 0;
+  const int bits = kViewBits + kDisparityBits - kShiftBits + layer;
+  const int32_t left = field != nullptr ? field->x : 0, top = field != nullptr ? field->y : 0;
+  const CapturedLine line = {(left + x) * kShiftOne - ScaledByView(look.at.u, disparity, bits),
+                             (top + y) * kShiftOne - ScaledByView(look.at.v, disparity, bits), 1,
+                             0};
+  Colour colour;
+  ReadCaptured(input, layer, look.view, line, 1, colour.rgb);
   return colour;
 }
 
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const BoundaryColours colours = ReadColours(centre, pixel);
   const Input* const captured = centre.input.captured;
-  if (captured == nullptr) return Unmix(colours);
+  if (captured == nullptr || centre.field != nullptr) return Unmix(colours);
   return MixtureOf(DivisionOf(ReadColours({*captured}, pixel)), colours);
 }
 
 Mixture Unmix(const BoundaryColours& colours) { return MixtureOf(DivisionOf(colours), colours); }
 
 PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field)
-    : centre_{input},
+    : centre_{input, field.layer > 0 ? &field : nullptr},
       grid_(grid),
       field_(field),
       map_(field.layer == 0 ? input.coverage : nullptr),
@@ -199,7 +197,9 @@ bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel
     const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
     if (near - disparity <= step_ || !Moves(near, disparity)) continue;
     sum.nearest = Max(sum.nearest, near);
-    sum.Add(MixtureAt({column, row, side, disparity, near, step_}));
+    const BoundaryPixel here = {
+        field_.layer > 0 ? column : x, field_.layer > 0 ? row : y, side, disparity, near, step_};
+    sum.Add(FindMixture(centre_, here));
   }
   const int32_t share = RoundShift(sum.most * simd::kSliceWhole, kShareBits);
   if (share == 0) return false;
@@ -243,56 +243,6 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, SplitPixel* pixel) const {
     // clipping, so that the mixture of both surfaces still equals the light of the pixel.
     far = RestOf(mixed, near, alpha);
   }
-}
-
-// Returns the mixture at a boundary pixel. The coordinates in `pixel` are relative to the field.
-Mixture PixelSplitter::MixtureAt(const BoundaryPixel& pixel) const {
-  if (field_.layer > 0) return MixtureOfLayer(pixel);
-  BoundaryPixel of_picture = pixel;
-  of_picture.x += field_.x;
-  of_picture.y += field_.y;
-  return FindMixture(centre_, of_picture);
-}
-
-// Returns the mixture at a pixel of a subsampled layer.
-Mixture PixelSplitter::MixtureOfLayer(const BoundaryPixel& pixel) const {
-  const int32_t x = pixel.x, y = pixel.y;
-  const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
-  const Colour mixed = ColourAt(x, y);
-  const bool wide = Abs(DisparityAt(x + 2 * dx, y + 2 * dy) - pixel.near) <= pixel.step;
-  const Colour near = ColourAt(x + (wide ? 2 : 1) * dx, y + (wide ? 2 : 1) * dy);
-  return Unmix({near, FarAt(pixel, mixed), mixed});
-}
-
-// Estimates the colour of the far surface of a subsampled pixel. The colour is read from the
-// captured view on the far side of the edge. If no captured view looks behind the edge, returns the
-// colour of the next pixel away from the edge.
-Colour PixelSplitter::FarAt(const BoundaryPixel& pixel, const Colour& mixed) const {
-  const Input& input = centre_.input;
-  const OcclusionView& look = OcclusionViewAway(input, pixel);
-  if (look.view == 0) {
-    const int32_t x = pixel.x - kSides[pixel.side][0], y = pixel.y - kSides[pixel.side][1];
-    return Abs(DisparityAt(x, y) - pixel.disparity) <= pixel.step ? ColourAt(x, y) : mixed;
-  }
-  const int bits = kViewBits + kDisparityBits - kShiftBits + field_.layer;
-  const CapturedLine line = {
-      (field_.x + pixel.x) * kShiftOne - ScaledByView(look.at.u, pixel.disparity, bits),
-      (field_.y + pixel.y) * kShiftOne - ScaledByView(look.at.v, pixel.disparity, bits), 1, 0};
-  Colour far;
-  ReadCaptured(input, field_.layer, look.view, line, 1, far.rgb);
-  return far;
-}
-
-// Returns the colour of a pixel of the field. Pixels outside the field have the colour of the
-// nearest pixel inside.
-Colour PixelSplitter::ColourAt(int32_t column, int32_t row) const {
-  const int16_t* rgb =
-      field_.Rgb(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
-  return {{rgb[0], rgb[1], rgb[2]}};
-}
-
-int32_t PixelSplitter::DisparityAt(int32_t column, int32_t row) const {
-  return *field_.Disparity(Clamp(column, 0, field_.width - 1), Clamp(row, 0, field_.height - 1));
 }
 
 bool PixelSplitter::Moves(int32_t near, int32_t far) const {

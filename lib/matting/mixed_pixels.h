@@ -27,15 +27,26 @@ struct Colour {
   int32_t operator[](int c) const { return rgb[c]; }
 };
 
-// Reads the centre view at layer 0. Coordinates outside the picture read the nearest pixel inside.
+// Returns a - b for two samples of light, with kBits fractional bits, in units of white / 255.
+// Halves are rounded away from 0, so that inverted colours have the same differences with opposite
+// signs, and therefore the same shares.
+template <int kBits>
+int32_t ColourDifference(int32_t a, int32_t b) {
+  const auto size = static_cast<int32_t>(RoundShift(Abs(a - b), kLightBits - kBits));
+  return a < b ? -size : size;
+}
+
+// Reads the centre view: the pixels of `field`, or, if `field` is null, the picture at layer 0.
+// Coordinates outside read the nearest pixel inside.
 struct CentreView {
   const Input& input;
+  const BlockPixels* field = nullptr;
 
-  int32_t Disparity(int32_t x, int32_t y) const {
-    return input.disparity.Row(Clamp(y, 0, input.height - 1))[Clamp(x, 0, input.width - 1)];
-  }
+  int32_t Disparity(int32_t x, int32_t y) const;
   // Returns the light of a pixel, or the light beyond white (excess) if `input` reads excess.
   Colour ColourAt(int32_t x, int32_t y) const;
+  // Returns the light of a surface at pixel (x, y) in a captured view.
+  Colour Captured(const OcclusionView& look, int32_t x, int32_t y, int32_t disparity) const;
 };
 
 // A pixel next to a depth edge; the disparity beyond the edge, `near`, is larger by more than
@@ -58,11 +69,12 @@ struct Mixture {
   Colour near, far;
 };
 
-// Separates a boundary pixel. The near colour is read at the second pixel beyond the edge, or at
-// the first pixel if the two pixels are on different surfaces. The far colour comes from a captured
-// side view in which the nearer surface does not cover the far surface. Without such a view, the
-// far colour is the colour of the next pixel away from the edge. If the input reads excess,
-// both colours are excess, but the share is computed from light.
+// Separates a boundary pixel, whose coordinates are those of `centre`. The near colour is read at
+// the second pixel beyond the edge, or at the first pixel if the two pixels are on different
+// surfaces. The far colour comes from a captured side view in which the nearer surface does not
+// cover the far surface. Without such a view, the far colour is the colour of the next pixel away
+// from the edge. If the input reads excess, both colours are excess, but the share is computed from
+// light.
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
 
 // Separates a pixel by its colour and by the colours of both surfaces. Small changes of a colour
@@ -129,11 +141,6 @@ class PixelSplitter {
   int16_t step() const { return step_; }
 
  private:
-  Mixture MixtureAt(const BoundaryPixel& pixel) const;
-  Mixture MixtureOfLayer(const BoundaryPixel& pixel) const;
-  Colour FarAt(const BoundaryPixel& pixel, const Colour& mixed) const;
-  Colour ColourAt(int32_t column, int32_t row) const;
-  int32_t DisparityAt(int32_t column, int32_t row) const;
   bool Moves(int32_t near, int32_t far) const;
   bool IsInside(int32_t x, int32_t y) const;
   bool IsPartial(int32_t x, int32_t y) const;

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "lib/matting/coverage_tile.h"
+#include "lib/matting/mixed_pixels.h"
 
 namespace starfocus {
 namespace {
@@ -76,13 +77,6 @@ void LoadNearTile(const Input& input, int32_t column, int32_t row, const Weight&
 
 using Rgb = int32_t[3];
 
-// Returns a - b with kColourBits. Halves are rounded away from 0, so that inverted colours have the
-// same differences with opposite signs, and therefore the same coverage.
-int32_t Difference(int32_t a, int32_t b) {
-  const auto size = static_cast<int32_t>(RoundShift(Abs(a - b), kLightBits - kColourBits));
-  return a < b ? -size : size;
-}
-
 // Colours of a pixel and of its two surfaces.
 struct SplitColours {
   Rgb near, far, mixed;
@@ -94,8 +88,8 @@ struct SplitColours {
 int32_t AlphaOf(const SplitColours& colours, int32_t guess) {
   int32_t contrast = 0, along = 0, distance = 0;
   for (int c = 0; c < 3; ++c) {
-    const int32_t whole = Difference(colours.near[c], colours.far[c]);
-    const int32_t part = Difference(colours.mixed[c], colours.far[c]);
+    const int32_t whole = ColourDifference<kColourBits>(colours.near[c], colours.far[c]);
+    const int32_t part = ColourDifference<kColourBits>(colours.mixed[c], colours.far[c]);
     contrast += whole * whole;
     along += whole * part;
     distance += part * part;
