@@ -41,28 +41,32 @@ struct Offsets {
 };
 constexpr Offsets kNearestFirst;
 
-// Position of a pixel relative to the nearest edge.
+// The two surfaces of a pixel, and what is known of its coverage before unmixing.
 struct BandPixel {
-  int32_t side;      // 1: on the near side, -1: on the far side, 0: no edge within kBandReach.
-  int32_t other;     // Disparity of the nearest pixel beyond the edge.
-  int32_t distance;  // Squared distance in pixels to the nearest pixel beyond the edge.
+  bool is_split;    // False: no edge is near, and the pixel has one surface.
+  int32_t implied;  // Coverage that the disparity map implies: 0 or kWhole.
+  int32_t coverage;
+  int32_t low, high;   // Disparities of both surfaces.
+  int32_t far_weight;  // Confidence of the pixel's light as light of the far surface.
 };
-
-BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
-  const int32_t here = around.disparity[at];
-  for (const BandOffset& offset : kNearestFirst.by_distance) {
-    const int32_t other = around.disparity[at + offset.at];
-    if (Abs(other - here) <= kThinStep) continue;
-    return {other < here ? 1 : -1, other, offset.x * offset.x + offset.y * offset.y};
-  }
-  return {0, here, 0};
-}
 
 // Returns the weight of a far pixel's light, given its squared distance to the edge. Pixels near an
 // edge have a small weight, because the disparity map may miss a strand that lies next to another
 // strand.
 int16_t WeightByDistance(int32_t square) {
   return static_cast<int16_t>(square <= 2 ? kKnown / 16 : square <= 5 ? kKnown / 4 : kKnown);
+}
+
+// Finds the surfaces of a pixel from the nearest pixel beyond an edge.
+BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
+  const int32_t here = around.disparity[at];
+  for (const BandOffset& offset : kNearestFirst.by_distance) {
+    const int32_t other = around.disparity[at + offset.at];
+    if (Abs(other - here) <= kThinStep) continue;
+    if (other < here) return {true, kWhole, kWhole, other, here, 0};
+    return {true, 0, 0, here, other, WeightByDistance(offset.x * offset.x + offset.y * offset.y)};
+  }
+  return {false, kWhole, kWhole, here, here, kKnown};
 }
 
 uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {
@@ -130,77 +134,42 @@ class TileRow {
 // by more than kLeastMixed (kAlphaBits).
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-class GivenStarter {
- public:
-  GivenStarter(const Input& input, int32_t column, int32_t row)
-      : input_(input),
-        map_(*input.coverage),
-        left_(column * kCoverageTile),
-        top_(row * kCoverageTile),
-        around_(input_, column, row),
-        search_(around_),
-        tile_(map_.Tile(column, row)) {}
-
-  void Start() {
-    tile_.near_bins = 0;
-    const int32_t columns = Min(kCoverageTile, map_.width - left_);
-    for (int32_t y = top_; y < top_ + kCoverageTile; ++y) {
-      int16_t light[3 * kCoverageTile] = {};
-      const bool inside = y < map_.height;
-      if (inside) input_.Light(0, left_, y, columns, light);
-      for (int32_t k = 0; k < kCoverageTile; ++k) {
-        StartPixel(left_ + k, y);
-        FarCell& far = map_.FarAt(left_ + k, y);
-        std::memcpy(far.rgb, light + 3 * k, sizeof(far.rgb));
-        if (inside && k < columns) continue;
+// Writes the surfaces, the coverage and the light of the pixels of a tile. find(x, y, at) returns
+// the BandPixel of pixel (x, y) of the picture, at index `at` of `around`.
+template <class Disparities, class Find>
+void StartPixels(const Input& input, int32_t column, int32_t row, const Disparities& around,
+                 const Find& find) {
+  const CoverageMap& map = *input.coverage;
+  CoverageTile& tile = map.Tile(column, row);
+  tile.near_bins = 0;
+  const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
+  const int32_t columns = Min(kCoverageTile, map.width - left);
+  for (int32_t y = top; y < top + kCoverageTile; ++y) {
+    int16_t light[3 * kCoverageTile] = {};
+    if (y < map.height) input.Light(0, left, y, columns, light);
+    for (int32_t k = 0; k < kCoverageTile; ++k) {
+      const size_t to = map.At(left + k, y);
+      const int32_t at = Disparities::At(k, y - top);
+      const BandPixel pixel = find(left + k, y, at);
+      FarCell& far = map.FarAt(left + k, y);
+      map.near[to] = pixel.is_split ? SmoothNear(around, at, pixel.high) : around.disparity[at];
+      far.disparity = static_cast<int16_t>(pixel.low);
+      map.alpha[to] = pixel.is_split ? static_cast<uint8_t>(pixel.implied) : kUnsplit;
+      map.first[to] = static_cast<uint8_t>(pixel.coverage);
+      far.weight = static_cast<int16_t>(pixel.far_weight);
+      std::memcpy(far.rgb, light + 3 * k, sizeof(far.rgb));
+      tile.near_bins |= map.BinOf(map.near[to]);
+      if (y >= map.height || k >= columns) {
         far.weight = 0;
-        map_.near[map_.At(left_ + k, y)] = kNowhere;
+        map.near[to] = kNowhere;
+      } else if (pixel.is_split) {
+        tile.low = static_cast<int16_t>(Min(tile.low, far.disparity));
+        tile.high = static_cast<int16_t>(Max(tile.high, map.near[to]));
       }
     }
   }
-
- private:
-  void StartPixel(int32_t x, int32_t y) {
-    const size_t to = map_.At(x, y);
-    const int32_t at = GivenDisparities::At(x - left_, y - top_);
-    const int16_t here = around_.disparity[at];
-    FarCell& far = map_.FarAt(x, y);
-    Surfaces surfaces;
-    if (search_.FindSurfaces(at, &surfaces)) {
-      map_.near[to] = SmoothNear(around_, at, surfaces.high);
-      far.disparity = static_cast<int16_t>(surfaces.low);
-      map_.alpha[to] = surfaces.IsNear(here) ? uint8_t{kWhole} : uint8_t{0};
-      TakePixel(x, y);
-    } else {
-      map_.near[to] = here;
-      far.disparity = here;
-      map_.alpha[to] = kUnsplit;
-      map_.first[to] = kWhole;
-      far.weight = kKnown;
-    }
-    tile_.near_bins |= map_.BinOf(map_.near[to]);
-  }
-
-  // Stores the given coverage of a pixel that has two surfaces.
-  void TakePixel(int32_t x, int32_t y) {
-    if (x >= map_.width || y >= map_.height) return;
-    const size_t to = map_.At(x, y);
-    FarCell& far = map_.FarAt(x, y);
-    const int32_t alpha = (input_.given_coverage.Row(y)[x] * kWhole + 127) / 255;
-    if (Abs(alpha - map_.alpha[to]) > kLeastMixed) tile_.mixed = 1;
-    map_.first[to] = static_cast<uint8_t>(alpha);
-    far.weight = static_cast<int16_t>(FarWeight(alpha));
-    tile_.low = static_cast<int16_t>(Min(tile_.low, far.disparity));
-    tile_.high = static_cast<int16_t>(Max(tile_.high, map_.near[to]));
-  }
-
-  const Input& input_;
-  const CoverageMap& map_;
-  const int32_t left_, top_;
-  const GivenDisparities around_;
-  const SurfaceSearch search_;
-  CoverageTile& tile_;
-};
+  PullTile(column, row, map);
+}
 
 }  // namespace
 
@@ -235,45 +204,27 @@ void ClearTile(const Input& input, int32_t column, int32_t row) {
 }
 
 void StartTile(const Input& input, int32_t column, int32_t row) {
-  const CoverageMap& map = *input.coverage;
   const BandDisparities around(input, column, row);
-  CoverageTile& tile = map.Tile(column, row);
-  tile.near_bins = 0;
-  const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
-  const int32_t columns = Min(kCoverageTile, input.width - left);
-  const int32_t rows = Min(kCoverageTile, input.height - top);
-  for (int32_t y = 0; y < kCoverageTile; ++y) {
-    int16_t light[3 * kCoverageTile];
-    if (y < rows) input.Light(0, left, top + y, columns, light);
-    for (int32_t x = 0; x < kCoverageTile; ++x) {
-      const size_t to = map.At(left + x, top + y);
-      const int32_t at = BandDisparities::At(x, y);
-      const int16_t here = around.disparity[at];
-      const BandPixel pixel = FindBandPixel(around, at);
-      map.near[to] = pixel.side == 0 ? here : SmoothNear(around, at, Max(here, pixel.other));
-      FarCell& far = map.FarAt(left + x, top + y);
-      far.disparity = static_cast<int16_t>(Min(here, pixel.other));
-      map.alpha[to] = pixel.side == 0 ? kUnsplit : pixel.side > 0 ? kWhole : 0;
-      map.first[to] = pixel.side < 0 ? 0 : kWhole;
-      tile.near_bins |= map.BinOf(map.near[to]);
-      if (y >= rows || x >= columns) {
-        far.weight = 0;
-        map.near[to] = kNowhere;
-        continue;
-      }
-      far.weight = pixel.side == 0 ? kKnown : pixel.side > 0 ? 0 : WeightByDistance(pixel.distance);
-      std::memcpy(far.rgb, light + 3 * x, sizeof(far.rgb));
-      if (pixel.side == 0) continue;
-      tile.low = static_cast<int16_t>(Min(tile.low, far.disparity));
-      tile.high = static_cast<int16_t>(Max(tile.high, map.near[to]));
-    }
-  }
-  PullTile(column, row, map);
+  StartPixels(input, column, row, around,
+              [&](int32_t, int32_t, int32_t at) { return FindBandPixel(around, at); });
 }
 
 void StartGiven(const Input& input, int32_t column, int32_t row) {
-  GivenStarter(input, column, row).Start();
-  PullTile(column, row, *input.coverage);
+  const GivenDisparities around(input, column, row);
+  const SurfaceSearch search(around);
+  CoverageTile& tile = input.coverage->Tile(column, row);
+  StartPixels(input, column, row, around, [&](int32_t x, int32_t y, int32_t at) -> BandPixel {
+    const int32_t here = around.disparity[at];
+    Surfaces surfaces;
+    if (!search.FindSurfaces(at, &surfaces)) return {false, kWhole, kWhole, here, here, kKnown};
+    const int32_t implied = surfaces.IsNear(here) ? kWhole : 0;
+    int32_t alpha = implied;
+    if (x < input.width && y < input.height) {
+      alpha = (input.given_coverage.Row(y)[x] * kWhole + 127) / 255;
+    }
+    if (Abs(alpha - implied) > kLeastMixed) tile.mixed = 1;
+    return {true, implied, alpha, surfaces.low, surfaces.high, FarWeight(alpha)};
+  });
 }
 
 }  // namespace starfocus
