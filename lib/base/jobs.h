@@ -149,6 +149,7 @@ class Sequence {
   // Counts the next phase as done without running it.
   void Skip() { ++done_; }
 
+  int32_t count() const { return count_; }
   starfocus_status status() const { return status_; }
 
  private:

@@ -103,7 +103,7 @@ int32_t JudgeMap(const SweepSetup& setup, const ColourMemory& memory, bool has_h
   FindThin(grid, kThinGiven, memory.thin);
   for (int32_t number = 0; has_hair && number < grid.Cells(); ++number) {
     const Rect cell = grid.CellAt(number % grid.columns, number / grid.columns);
-    if (HasHair(memory.hair_cells, cell)) memory.thin.thin[number] = 1;
+    if (HasHair(memory.hair, cell)) memory.thin.thin[number] = 1;
   }
   return LeastEvidence(memory.counts, setup.columns * setup.rows, kRightGain, kWrongGain);
 }
@@ -338,6 +338,20 @@ void ChooseByColour(const ColourMap& map, bool has_hair, const simd::DepthKernel
   run->Run([&](int32_t index, int32_t) { EvenTile(wide, memory, output, is_right, index); });
 }
 
+// Completes the coverage of a tile, whose disparities have been written to the output.
+void CompleteTile(const MapOutput& output, const HairMemory& hair, const Rect& tile) {
+  int16_t disparity[kMostTileSide];
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (int32_t k = 0; k < tile.width; ++k) {
+      disparity[k] = ToFixed(output.disparity.Row(y)[tile.x + k]);
+    }
+    uint8_t* const confidence =
+        output.confidence.data == nullptr ? nullptr : output.confidence.Row(y) + tile.x;
+    CompleteCoverage(hair, {tile.x, tile.x + tile.width}, y, disparity,
+                     output.coverage.Row(y) + tile.x, confidence);
+  }
+}
+
 ColourTileMemory TakeTile(const SweepSetup& setup, Arena* arena) {
   size_t width = 0, area = 0;
   for (int32_t tile = 0; tile < setup.columns * setup.rows; ++tile) {
@@ -363,9 +377,9 @@ ColourMemory TakeColourRepair(const SweepSetup& setup, int32_t max_workers, Aren
   ColourMemory memory = {};
   memory.jobs = TakeJobs(setup, max_workers, arena);
   memory.given = arena->Take<int16_t>(width, height);
-  memory.hair_cells = TakeHairCells(setup.width, setup.height, arena);
+  memory.hair = TakeHairMemory(setup.width, setup.height, arena);
   // The search for coverage has ended before the first of the other phases begins.
-  arena->Overlap([&] { memory.hair = TakeHairMemory(setup, arena); },
+  arena->Overlap([&] { TakeHairColours(setup.width, setup.height, arena, &memory.hair); },
                  [&] {
                    memory.chosen = arena->Take<int16_t>(width, height);
                    memory.smooth = arena->Take<int16_t>(width, height);
@@ -391,14 +405,18 @@ starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_f
   const bool covers = output.coverage.data != nullptr;
   Sequence run(memory.jobs, kPhases + (covers ? kHairPhases : 0), setup.columns * setup.rows);
   const int32_t noise = ReadMap(given, memory, &run);
-  *has_coverage = covers && FindHairCoverage(given, output, memory.hair_cells, memory.hair, &run);
+  const HairPicture picture = {setup.width,
+                               setup.height,
+                               RowsOf(light_field.views[0]),
+                               {memory.given, static_cast<size_t>(setup.width), 0, 0},
+                               output.coverage};
+  *has_coverage = covers && FindHairCoverage(picture, memory.hair, &run);
   SmoothMap(given, noise, kernels, memory, &run);
   const ColourMap map = {setup, light_field, noise > 0 ? memory.smooth : memory.given};
   ChooseByColour(map, *has_coverage, kernels, output, memory, &run);
   if (*has_coverage) {
-    run.Run([&](int32_t index, int32_t) {
-      CompleteCoverage(map, output, memory.hair_cells, TileOf(setup, index));
-    });
+    run.Run(
+        [&](int32_t index, int32_t) { CompleteTile(output, memory.hair, TileOf(setup, index)); });
   } else {
     run.Skip();
   }

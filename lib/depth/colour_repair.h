@@ -10,9 +10,9 @@
 #include <cstdint>
 
 #include "lib/depth/colour_choices.h"
-#include "lib/depth/hair_coverage.h"
 #include "lib/depth/maps.h"
 #include "lib/depth/outlines.h"
+#include "lib/matting/hair_coverage.h"
 
 namespace starfocus {
 
@@ -41,8 +41,7 @@ struct ColourMemory {
   SoftCount* soft;    // One element for each tile of the repaired map.
   ThinCells thin;     // Thin structure of the map.
   CellRanges ranges;  // Disparities of the repaired map.
-  HairCells hair_cells;
-  HairMemory hair;  // Shares memory with `chosen` and all other arrays of later phases.
+  HairMemory hair;
   ColourTileMemory* workers;
 };
 

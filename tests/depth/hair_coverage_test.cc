@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the coverage that a repair of one view finds if the map has closed the outline of hair.
-#include "lib/depth/hair_coverage.h"
+#include "lib/matting/hair_coverage.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,6 @@
 #include <cstring>
 #include <vector>
 
-#include "lib/depth/hair_cells.h"
 #include "starfocus/depth.h"
 #include "tests/depth/depth_scene.h"
 #include "tests/support/closed_hair.h"
@@ -121,12 +120,16 @@ TEST_CASE(
   for (const uint8_t value : unasked.coverage) REQUIRE(value == 77);
 }
 
-TEST_CASE("hair coverage: hair is not found if it covers only a small part of the outlines") {
+TEST_CASE("hair coverage: hair is found in its place, and outlines elsewhere stay opaque") {
   Portrait portrait = MakeClosedHair();
-  portrait.hair = {40, 60, 60, 110};
+  portrait.hair = {0, 60, 70, 110};
   portrait.body = {0, 110, 240, 181};
+  portrait.post = {170, 10, 220, 110};
   portrait.Draw();
-  CHECK(Repair(portrait).has_coverage == 0);
+  const Found found = Repair(portrait);
+  REQUIRE(found.has_coverage == 1);
+  CHECK(Difference({4, 64, 66, 106}, found.coverage, portrait.coverage) < 24);
+  CHECK(Difference({140, 14, 240, 181}, found.coverage, portrait.coverage) == 0);
 }
 
 TEST_CASE("hair coverage: the texture of the wall does not get coverage") {

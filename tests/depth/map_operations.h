@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "lib/depth/colour_repair.h"
-#include "lib/depth/hair_coverage.h"
 #include "lib/depth/maps.h"
+#include "lib/matting/hair_coverage.h"
 #include "starfocus/depth.h"
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"

@@ -23,6 +23,7 @@ struct ClosedHair {
   static constexpr float kNear = 9, kFar = -4;
   static constexpr int kWidth = 240, kHeight = 181;
   Area body = {40, 110, 240, 181}, hair = {40, 60, 180, 110};
+  Area post = {};      // An opaque object at the disparity of the body.
   Strands strands;     // Strands of the hair; without strands, the hair is opaque.
   bool spots = false;  // True if the wall has spots, which contain a quarter of the near colour.
   std::vector<uint8_t> rgb, coverage;
@@ -41,14 +42,14 @@ struct ClosedHair {
     const int speckle = (x * 7 + y * 13 + x * y % 11) % 17;
     const int near[3] = {90 + speckle, 50 + speckle / 2, 30};
     const int far[3] = {150 + y / 4, 170 + speckle, 200 - x / 8};
-    const bool in_hair = hair.Has(x, y);
-    int covers = in_hair || body.Has(x, y) ? 255 : 0;
+    const bool in_hair = hair.Has(x, y), solid = body.Has(x, y) || post.Has(x, y);
+    int covers = in_hair || solid ? 255 : 0;
     if (in_hair && strands.any()) covers = strands.CoverageAt(x, y);
     const bool in_spot = spots && x % 9 < 2 && y % 9 < 2;
     const int mixed = in_spot && covers == 0 ? 64 : covers;
     for (int c = 0; c < 3; ++c) rgb.push_back(Mixture(mixed, near[c], far[c]));
     coverage.push_back(uint8_t(covers));
-    map.push_back(in_hair || body.Has(x, y) ? kNear : kFar);
+    map.push_back(in_hair || solid ? kNear : kFar);
   }
 };
 
