@@ -60,13 +60,16 @@ int16_t WeightByDistance(int32_t square) {
 // Finds the surfaces of a pixel from the nearest pixel beyond an edge.
 BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
   const int32_t here = around.disparity[at];
+  int32_t other = here, square = 0;  // Disparity beyond the edge, and squared distance in pixels.
   for (const BandOffset& offset : kNearestFirst.by_distance) {
-    const int32_t other = around.disparity[at + offset.at];
-    if (Abs(other - here) <= kThinStep) continue;
-    if (other < here) return {true, kWhole, kWhole, other, here, 0};
-    return {true, 0, 0, here, other, WeightByDistance(offset.x * offset.x + offset.y * offset.y)};
+    if (Abs(around.disparity[at + offset.at] - here) <= kThinStep) continue;
+    other = around.disparity[at + offset.at];
+    square = offset.x * offset.x + offset.y * offset.y;
+    break;
   }
-  return {false, kWhole, kWhole, here, here, kKnown};
+  const int32_t implied = other > here ? 0 : kWhole;
+  const int32_t far_weight = other == here ? kKnown : other < here ? 0 : WeightByDistance(square);
+  return {other != here, implied, implied, Min(here, other), Max(here, other), far_weight};
 }
 
 uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {

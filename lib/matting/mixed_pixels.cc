@@ -137,6 +137,24 @@ int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
   return static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
 }
 
+// Returns true if a pixel of the field has a far surface that is not hidden.
+bool IsPartial(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y) {
+  const bool in_field = x >= Max(0, field.x) && x < Min(field.x + field.width, map.width) &&
+                        y >= Max(0, field.y) && y < Min(field.y + field.height, map.height);
+  return in_field && map.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
+         map.alpha[map.At(x, y)] < kLeastWhole;
+}
+
+// Returns true if the near surface also covers the four neighbours of a pixel, so that slices on
+// both sides of a step within the surface overlap. Otherwise, the far surface would show between
+// the slices.
+bool IsInside(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y) {
+  for (const auto& side : kSides) {
+    if (IsPartial(map, field, x + side[0], y + side[1])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int32_t CentreView::Disparity(int32_t x, int32_t y) const {
@@ -192,10 +210,13 @@ bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel
   const int32_t x = field_.x + column, y = field_.y + row;
   if (map_ != nullptr && map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0) return false;
   const int16_t disparity = *field_.Disparity(column, row);
+  const auto moves = [&](int32_t near, int32_t far) {
+    return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;
+  };
   MixtureSum sum;
   for (int side = 0; side < kSideCount; ++side) {
     const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
-    if (near - disparity <= step_ || !Moves(near, disparity)) continue;
+    if (near - disparity <= step_ || !moves(near, disparity)) continue;
     sum.nearest = Max(sum.nearest, near);
     const BoundaryPixel here = {
         field_.layer > 0 ? column : x, field_.layer > 0 ? row : y, side, disparity, near, step_};
@@ -229,43 +250,25 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, SplitPixel* pixel) const {
   // all surfaces, and therefore the slices, do not depend on colours.
   pixel->near_disparity = map.near[from];
   pixel->far_disparity = cell.disparity;
-  pixel->share = !whole           ? static_cast<uint8_t>(alpha)
-                 : IsInside(x, y) ? uint8_t{simd::kSliceWhole}
-                                  : simd::kSliceEnd;
-  for (int c = 0; c < 3; ++c) {
-    const int16_t mixed = field_.Rgb(pixel->column, pixel->row)[c];
-    int16_t& near = pixel->near.rgb[c] = mixed;
-    // The far surface has the excess of the whole pixel, unless the near surface covers the pixel.
-    int16_t& far = pixel->far.rgb[c] = !is_excess ? cell.rgb[c] : whole ? int16_t{0} : mixed;
-    if (whole || is_excess) continue;
-    if (alpha > 0) near = RestOf(mixed, far, kWhole - alpha);
-    // RestOf may have clipped the near surface's light. The far surface's light compensates for the
-    // clipping, so that the mixture of both surfaces still equals the light of the pixel.
-    far = RestOf(mixed, near, alpha);
+  pixel->share = !whole                        ? static_cast<uint8_t>(alpha)
+                 : IsInside(map, field_, x, y) ? uint8_t{simd::kSliceWhole}
+                                               : simd::kSliceEnd;
+  Colour &near = pixel->near, &far = pixel->far;
+  std::memcpy(near.rgb, field_.Rgb(pixel->column, pixel->row), sizeof(near.rgb));
+  far = near;
+  if (whole) {
+    // Excess is not divided: the near surface has all the excess of a pixel that it covers.
+    if (is_excess) far = {};
+    if (!is_excess) std::memcpy(far.rgb, cell.rgb, sizeof(far.rgb));
+  } else if (alpha > 0 && !is_excess) {
+    for (int c = 0; c < 3; ++c) {
+      const int16_t mixed = near.rgb[c];
+      near.rgb[c] = RestOf(mixed, cell.rgb[c], kWhole - alpha);
+      // RestOf may have clipped the near surface's light. The far surface's light compensates for
+      // the clipping, so that the mixture of both surfaces still equals the light of the pixel.
+      far.rgb[c] = RestOf(mixed, near.rgb[c], alpha);
+    }
   }
-}
-
-bool PixelSplitter::Moves(int32_t near, int32_t far) const {
-  return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;
-}
-
-// Returns true if the near surface also covers the four neighbours of a pixel, so that slices on
-// both sides of a step within the surface overlap. Otherwise, the far surface would show between
-// the slices.
-bool PixelSplitter::IsInside(int32_t x, int32_t y) const {
-  for (const auto& side : kSides) {
-    if (IsPartial(x + side[0], y + side[1])) return false;
-  }
-  return true;
-}
-
-// Returns true if a pixel of the field has a far surface that is not hidden.
-bool PixelSplitter::IsPartial(int32_t x, int32_t y) const {
-  const CoverageMap& map = *map_;
-  const bool in_field = x >= Max(0, field_.x) && x < Min(field_.x + field_.width, map.width) &&
-                        y >= Max(0, field_.y) && y < Min(field_.y + field_.height, map.height);
-  return in_field && map.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
-         map.alpha[map.At(x, y)] < kLeastWhole;
 }
 
 void TakeDisparities(const Input& input, BlockPixels* field) {

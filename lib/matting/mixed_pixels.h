@@ -141,10 +141,6 @@ class PixelSplitter {
   int16_t step() const { return step_; }
 
  private:
-  bool Moves(int32_t near, int32_t far) const;
-  bool IsInside(int32_t x, int32_t y) const;
-  bool IsPartial(int32_t x, int32_t y) const;
-
   const CentreView centre_;
   const ViewGrid& grid_;
   const BlockPixels& field_;
