@@ -76,7 +76,11 @@ BoundaryColours ReadColours(const CentreView& centre, const BoundaryPixel& pixel
   colours.near = centre.ColourAt(x + pure * dx, y + pure * dy);
   const OcclusionView& look = centre.input.occlusion_views.Last(pixel.side ^ 1);
   if (look.view != 0) {
-    colours.far = centre.Captured(look, x, y, pixel.disparity);
+    const int bits = kViewBits + kDisparityBits - kShiftBits + centre.Layer();
+    const CapturedLine line = {x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, bits),
+                               y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, bits), 1,
+                               0};
+    ReadCaptured(centre.input, centre.Layer(), look.view, line, 1, colours.far.rgb);
   } else if (Abs(centre.Disparity(x - dx, y - dy) - pixel.disparity) <= pixel.step) {
     colours.far = centre.ColourAt(x - dx, y - dy);
   }
@@ -158,48 +162,41 @@ bool IsInside(const CoverageMap& map, const BlockPixels& field, int32_t x, int32
 }  // namespace
 
 int32_t CentreView::Disparity(int32_t x, int32_t y) const {
-  if (field != nullptr) {
-    return *field->Disparity(Clamp(x, 0, field->width - 1), Clamp(y, 0, field->height - 1));
+  if (Layer() == 0) {
+    return input.disparity.Row(Clamp(y, 0, input.height - 1))[Clamp(x, 0, input.width - 1)];
   }
-  return input.disparity.Row(Clamp(y, 0, input.height - 1))[Clamp(x, 0, input.width - 1)];
+  return *field->Disparity(Clamp(x - field->x, 0, field->width - 1),
+                           Clamp(y - field->y, 0, field->height - 1));
 }
 
 Colour CentreView::ColourAt(int32_t x, int32_t y) const {
   Colour colour;
-  if (field != nullptr) {
-    const int16_t* const rgb =
-        field->Rgb(Clamp(x, 0, field->width - 1), Clamp(y, 0, field->height - 1));
-    std::memcpy(colour.rgb, rgb, sizeof(colour.rgb));
-  } else {
-    input.Light(0, Clamp(x, 0, input.width - 1), Clamp(y, 0, input.height - 1), 1, colour.rgb);
+  if (Layer() == 0) {
+    x = Clamp(x, 0, input.width - 1);
+    y = Clamp(y, 0, input.height - 1);
+    if (field == nullptr || x < field->x || x >= field->x + field->width || y < field->y ||
+        y >= field->y + field->height) {
+      input.Light(0, x, y, 1, colour.rgb);
+      return colour;
+    }
   }
-  return colour;
-}
-
-Colour CentreView::Captured(const OcclusionView& look, int32_t x, int32_t y,
-                            int32_t disparity) const {
-  const int layer = field != nullptr ? field->layer : 0;
-  const int bits = kViewBits + kDisparityBits - kShiftBits + layer;
-  const int32_t left = field != nullptr ? field->x : 0, top = field != nullptr ? field->y : 0;
-  const CapturedLine line = {(left + x) * kShiftOne - ScaledByView(look.at.u, disparity, bits),
-                             (top + y) * kShiftOne - ScaledByView(look.at.v, disparity, bits), 1,
-                             0};
-  Colour colour;
-  ReadCaptured(input, layer, look.view, line, 1, colour.rgb);
+  const int16_t* const rgb = field->Rgb(Clamp(x - field->x, 0, field->width - 1),
+                                        Clamp(y - field->y, 0, field->height - 1));
+  for (int c = 0; c < 3; ++c) colour.rgb[c] = rgb[c];
   return colour;
 }
 
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const BoundaryColours colours = ReadColours(centre, pixel);
   const Input* const captured = centre.input.captured;
-  if (captured == nullptr || centre.field != nullptr) return Unmix(colours);
+  if (captured == nullptr || centre.Layer() > 0) return Unmix(colours);
   return MixtureOf(DivisionOf(ReadColours({*captured}, pixel)), colours);
 }
 
 Mixture Unmix(const BoundaryColours& colours) { return MixtureOf(DivisionOf(colours), colours); }
 
 PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field)
-    : centre_{input, field.layer > 0 ? &field : nullptr},
+    : centre_{input, &field},
       grid_(grid),
       field_(field),
       map_(field.layer == 0 ? input.coverage : nullptr),
@@ -218,9 +215,7 @@ bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel
     const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
     if (near - disparity <= step_ || !moves(near, disparity)) continue;
     sum.nearest = Max(sum.nearest, near);
-    const BoundaryPixel here = {
-        field_.layer > 0 ? column : x, field_.layer > 0 ? row : y, side, disparity, near, step_};
-    sum.Add(FindMixture(centre_, here));
+    sum.Add(FindMixture(centre_, {x, y, side, disparity, near, step_}));
   }
   const int32_t share = RoundShift(sum.most * simd::kSliceWhole, kShareBits);
   if (share == 0) return false;

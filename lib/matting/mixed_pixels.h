@@ -36,24 +36,25 @@ int32_t ColourDifference(int32_t a, int32_t b) {
   return a < b ? -size : size;
 }
 
-// Reads the centre view: the pixels of `field`, or, if `field` is null, the picture at layer 0.
-// Coordinates outside read the nearest pixel inside.
+// Reads the centre view of a picture, or, with a field, of the field's layer. At layer 0, light is
+// copied from the field if possible, because reading the picture is slower. At other layers, pixels
+// outside the field have the light and the disparity of the nearest pixel inside. At layer 0, this
+// holds for pixels outside the picture, because the field shows side views there.
 struct CentreView {
   const Input& input;
   const BlockPixels* field = nullptr;
 
+  int Layer() const { return field != nullptr ? field->layer : 0; }
   int32_t Disparity(int32_t x, int32_t y) const;
   // Returns the light of a pixel, or the light beyond white (excess) if `input` reads excess.
   Colour ColourAt(int32_t x, int32_t y) const;
-  // Returns the light of a surface at pixel (x, y) in a captured view.
-  Colour Captured(const OcclusionView& look, int32_t x, int32_t y, int32_t disparity) const;
 };
 
 // A pixel next to a depth edge; the disparity beyond the edge, `near`, is larger by more than
 // `step`. Disparities have kDisparityBits.
 struct BoundaryPixel {
-  int32_t x, y;
-  int side;  // index into kSides: direction of the nearer surface
+  int32_t x, y;  // position in the layer
+  int side;      // index into kSides: direction of the nearer surface
   int32_t disparity, near, step;
 };
 
@@ -69,7 +70,7 @@ struct Mixture {
   Colour near, far;
 };
 
-// Separates a boundary pixel, whose coordinates are those of `centre`. The near colour is read at
+// Separates a boundary pixel. The near colour is read at
 // the second pixel beyond the edge, or at the first pixel if the two pixels are on different
 // surfaces. The far colour comes from a captured side view in which the nearer surface does not
 // cover the far surface. Without such a view, the far colour is the colour of the next pixel away
