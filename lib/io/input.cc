@@ -276,6 +276,10 @@ void ReadCaptured(const Input& in, int layer, int view, const CapturedLine& line
     Checked(ranges::kHolePosition, line.x + line.dx * last * kShiftOne);
     Checked(ranges::kHolePosition, line.y + line.dy * last * kShiftOne);
   }
+  if (count == 1) {
+    ReadPlaces(in, layer, view, line.x, line.y, 1, rgb);
+    return;
+  }
   constexpr int32_t kPlaces = 16;
   const bool is_row = line.dx == 1 && line.dy == 0;
   for (int32_t p = 0, some = 0; p < count; p += some) {

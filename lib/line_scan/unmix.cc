@@ -22,7 +22,7 @@ int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
 class Unmixer {
  public:
   Unmixer(const Input& input, const ViewGrid& grid)
-      : centre_{input}, grid_(grid), rim_(grid.Move(grid.n())) {}
+      : centre_(input), grid_(grid), rim_(grid.Move(grid.n())) {}
 
   // Writes the colour of the far surface at pixel (x, y): the mean over the adjacent depth edges,
   // weighted by the share of the nearer surface.

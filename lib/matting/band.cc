@@ -143,34 +143,40 @@ template <class Disparities, class Find>
 void StartPixels(const Input& input, int32_t column, int32_t row, const Disparities& around,
                  const Find& find) {
   const CoverageMap& map = *input.coverage;
-  CoverageTile& tile = map.Tile(column, row);
-  tile.near_bins = 0;
   const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
   const int32_t columns = Min(kCoverageTile, map.width - left);
+  uint64_t bins = 0;
+  int32_t low = INT16_MAX, high = INT16_MIN;
   for (int32_t y = top; y < top + kCoverageTile; ++y) {
     int16_t light[3 * kCoverageTile] = {};
     if (y < map.height) input.Light(0, left, y, columns, light);
+    const size_t first = map.At(left, y);
+    FarCell* const cells = &map.FarAt(left, y);
     for (int32_t k = 0; k < kCoverageTile; ++k) {
-      const size_t to = map.At(left + k, y);
+      const size_t to = first + static_cast<size_t>(k);
       const int32_t at = Disparities::At(k, y - top);
       const BandPixel pixel = find(left + k, y, at);
-      FarCell& far = map.FarAt(left + k, y);
-      map.near[to] = pixel.is_split ? SmoothNear(around, at, pixel.high) : around.disparity[at];
+      const bool inside = y < map.height && k < columns;
+      const int16_t near =
+          pixel.is_split ? SmoothNear(around, at, pixel.high) : around.disparity[at];
+      bins |= map.BinOf(near);
+      if (inside && pixel.is_split) {
+        low = Min(low, pixel.low);
+        high = Max(high, near);
+      }
+      FarCell& far = cells[k];
       far.disparity = static_cast<int16_t>(pixel.low);
+      far.weight = static_cast<int16_t>(inside ? pixel.far_weight : 0);
+      std::memcpy(far.rgb, light + 3 * k, sizeof(far.rgb));
+      map.near[to] = inside ? near : kNowhere;
       map.alpha[to] = pixel.is_split ? static_cast<uint8_t>(pixel.implied) : kUnsplit;
       map.first[to] = static_cast<uint8_t>(pixel.coverage);
-      far.weight = static_cast<int16_t>(pixel.far_weight);
-      std::memcpy(far.rgb, light + 3 * k, sizeof(far.rgb));
-      tile.near_bins |= map.BinOf(map.near[to]);
-      if (y >= map.height || k >= columns) {
-        far.weight = 0;
-        map.near[to] = kNowhere;
-      } else if (pixel.is_split) {
-        tile.low = static_cast<int16_t>(Min(tile.low, far.disparity));
-        tile.high = static_cast<int16_t>(Max(tile.high, map.near[to]));
-      }
     }
   }
+  CoverageTile& tile = map.Tile(column, row);
+  tile.near_bins = bins;
+  tile.low = static_cast<int16_t>(low);
+  tile.high = static_cast<int16_t>(high);
   PullTile(column, row, map);
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/matting/mixed_pixels.h"
 
-#include <cstring>
-
 namespace starfocus {
 namespace {
 
@@ -74,13 +72,13 @@ BoundaryColours ReadColours(const CentreView& centre, const BoundaryPixel& pixel
   BoundaryColours colours;
   colours.mixed = colours.far = centre.ColourAt(x, y);
   colours.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  const OcclusionView& look = centre.input.occlusion_views.Last(pixel.side ^ 1);
+  const OcclusionView& look = centre.input().occlusion_views.Last(pixel.side ^ 1);
   if (look.view != 0) {
-    const int bits = kViewBits + kDisparityBits - kShiftBits + centre.Layer();
+    const int bits = kViewBits + kDisparityBits - kShiftBits + centre.layer();
     const CapturedLine line = {x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, bits),
                                y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, bits), 1,
                                0};
-    ReadCaptured(centre.input, centre.Layer(), look.view, line, 1, colours.far.rgb);
+    ReadCaptured(centre.input(), centre.layer(), look.view, line, 1, colours.far.rgb);
   } else if (Abs(centre.Disparity(x - dx, y - dy) - pixel.disparity) <= pixel.step) {
     colours.far = centre.ColourAt(x - dx, y - dy);
   }
@@ -161,42 +159,25 @@ bool IsInside(const CoverageMap& map, const BlockPixels& field, int32_t x, int32
 
 }  // namespace
 
-int32_t CentreView::Disparity(int32_t x, int32_t y) const {
-  if (Layer() == 0) {
-    return input.disparity.Row(Clamp(y, 0, input.height - 1))[Clamp(x, 0, input.width - 1)];
-  }
-  return *field->Disparity(Clamp(x - field->x, 0, field->width - 1),
-                           Clamp(y - field->y, 0, field->height - 1));
-}
-
-Colour CentreView::ColourAt(int32_t x, int32_t y) const {
-  Colour colour;
-  if (Layer() == 0) {
-    x = Clamp(x, 0, input.width - 1);
-    y = Clamp(y, 0, input.height - 1);
-    if (field == nullptr || x < field->x || x >= field->x + field->width || y < field->y ||
-        y >= field->y + field->height) {
-      input.Light(0, x, y, 1, colour.rgb);
-      return colour;
-    }
-  }
-  const int16_t* const rgb = field->Rgb(Clamp(x - field->x, 0, field->width - 1),
-                                        Clamp(y - field->y, 0, field->height - 1));
-  for (int c = 0; c < 3; ++c) colour.rgb[c] = rgb[c];
-  return colour;
+CentreView::CentreView(const Input& input, const BlockPixels* field)
+    : input_(input), field_(field), layer_(field != nullptr ? field->layer : 0) {
+  if (field == nullptr) return;
+  const int32_t left = Max(field->x, 0), top = Max(field->y, 0);
+  copied_ = {left, top, Min(field->x + field->width, input.width) - left,
+             Min(field->y + field->height, input.height) - top};
 }
 
 Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
   const BoundaryColours colours = ReadColours(centre, pixel);
-  const Input* const captured = centre.input.captured;
-  if (captured == nullptr || centre.Layer() > 0) return Unmix(colours);
-  return MixtureOf(DivisionOf(ReadColours({*captured}, pixel)), colours);
+  const Input* const captured = centre.input().captured;
+  if (captured == nullptr || centre.layer() > 0) return Unmix(colours);
+  return MixtureOf(DivisionOf(ReadColours(CentreView(*captured), pixel)), colours);
 }
 
 Mixture Unmix(const BoundaryColours& colours) { return MixtureOf(DivisionOf(colours), colours); }
 
 PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field)
-    : centre_{input, &field},
+    : centre_(input, &field),
       grid_(grid),
       field_(field),
       map_(field.layer == 0 ? input.coverage : nullptr),
@@ -230,9 +211,8 @@ bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel
   return true;
 }
 
-void PixelSplitter::SplitThin(int32_t x, int32_t y, SplitPixel* pixel) const {
+void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pixel) const {
   const CoverageMap& map = *map_;
-  const size_t from = map.At(x, y);
   pixel->column = x - field_.x;
   pixel->row = y - field_.y;
   pixel->kind = map.alpha[from] == kUnsplit ? SplitPixel::kWhole : SplitPixel::kThin;
@@ -240,7 +220,7 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, SplitPixel* pixel) const {
   const int32_t found = map.alpha[from];
   const int32_t alpha = Min(found + Max(found - kMostExact, 0), kWhole);
   const FarCell& cell = map.FarAt(x, y);
-  const bool whole = alpha == kWhole, is_excess = centre_.input.captured != nullptr;
+  const bool whole = alpha == kWhole, is_excess = centre_.input().captured != nullptr;
   // Pixels without coverage have a near surface too, with a share of 0, so that the disparities of
   // all surfaces, and therefore the slices, do not depend on colours.
   pixel->near_disparity = map.near[from];
@@ -269,8 +249,7 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, SplitPixel* pixel) const {
 void TakeDisparities(const Input& input, BlockPixels* field) {
   if (input.coverage == nullptr || field->layer > 0) return;
   const CoverageMap& map = *input.coverage;
-  ForEachThin(map, *field, [&](int32_t x, int32_t y) {
-    const size_t from = map.At(x, y);
+  ForEachThin(map, *field, [&](int32_t x, int32_t y, size_t from) {
     const int32_t alpha = map.alpha[from];
     if (alpha == kUnsplit) return;
     const bool is_near = 2 * alpha >= kWhole;

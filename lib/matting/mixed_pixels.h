@@ -6,6 +6,7 @@
 #define STARFOCUS_LIB_MATTING_MIXED_PIXELS_H_
 
 #include <cstdint>
+#include <cstring>
 
 #include "lib/base/fixed.h"
 #include "lib/io/block_pixels.h"
@@ -37,17 +38,40 @@ int32_t ColourDifference(int32_t a, int32_t b) {
 }
 
 // Reads the centre view of a picture, or, with a field, of the field's layer. At layer 0, light is
-// copied from the field if possible, because reading the picture is slower. At other layers, pixels
-// outside the field have the light and the disparity of the nearest pixel inside. At layer 0, this
-// holds for pixels outside the picture, because the field shows side views there.
-struct CentreView {
-  const Input& input;
-  const BlockPixels* field = nullptr;
+// copied from the field if possible, because reading the picture is slower. Pixels outside the
+// picture, whose light in the field is that of side views, have the light and the disparity of the
+// nearest pixel inside. At other layers, this holds for pixels outside the field.
+class CentreView {
+ public:
+  explicit CentreView(const Input& input, const BlockPixels* field = nullptr);
 
-  int Layer() const { return field != nullptr ? field->layer : 0; }
-  int32_t Disparity(int32_t x, int32_t y) const;
-  // Returns the light of a pixel, or the light beyond white (excess) if `input` reads excess.
-  Colour ColourAt(int32_t x, int32_t y) const;
+  const Input& input() const { return input_; }
+  int layer() const { return layer_; }
+  int32_t Disparity(int32_t x, int32_t y) const {
+    return layer_ == 0
+               ? input_.disparity.Row(Clamp(y, 0, input_.height - 1))[Clamp(x, 0, input_.width - 1)]
+               : *field_->Disparity(Column(x), Row(y));
+  }
+  // Returns the light of a pixel, or the light beyond white (excess) if the input reads excess.
+  Colour ColourAt(int32_t x, int32_t y) const {
+    Colour colour;
+    if (layer_ == 0 && (x < copied_.x || x - copied_.x >= copied_.width || y < copied_.y ||
+                        y - copied_.y >= copied_.height)) {
+      input_.Light(0, Clamp(x, 0, input_.width - 1), Clamp(y, 0, input_.height - 1), 1, colour.rgb);
+    } else {
+      std::memcpy(colour.rgb, field_->Rgb(Column(x), Row(y)), sizeof(colour.rgb));
+    }
+    return colour;
+  }
+
+ private:
+  int32_t Column(int32_t x) const { return Clamp(x - field_->x, 0, field_->width - 1); }
+  int32_t Row(int32_t y) const { return Clamp(y - field_->y, 0, field_->height - 1); }
+
+  const Input& input_;
+  const BlockPixels* const field_;
+  const int layer_;
+  Rect copied_ = {0, 0, 0, 0};  // At layer 0, the pixels of the picture in the field.
 };
 
 // A pixel next to a depth edge; the disparity beyond the edge, `near`, is larger by more than
@@ -136,8 +160,9 @@ class PixelSplitter {
   // Splits the boundary pixel (column, row). Returns false if it is not a mixture, or if the
   // coverage map splits it.
   bool SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const;
-  // Splits pixel (x, y) of the picture, which lies in a thin tile, as the coverage map says.
-  void SplitThin(int32_t x, int32_t y, SplitPixel* pixel) const;
+  // Splits pixel (x, y) of the picture, which lies in a thin tile, as the coverage map says at
+  // index `from` (CoverageMap::At).
+  void SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pixel) const;
 
   int16_t step() const { return step_; }
 
@@ -154,7 +179,8 @@ class PixelSplitter {
 // these disparities, hidden surfaces end at the boundary of the thin structure.
 void TakeDisparities(const Input& input, BlockPixels* field);
 
-// Calls act(x, y) for each pixel of the picture in the field that lies in a thin tile.
+// Calls act(x, y, at) for each pixel of the picture in the field that lies in a thin tile; `at` is
+// its index, CoverageMap::At(x, y).
 template <class Act>
 void ForEachThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
   const int32_t left = Max(0, field.x), right = Min(field.x + field.width, map.width);
@@ -163,7 +189,8 @@ void ForEachThin(const CoverageMap& map, const BlockPixels& field, const Act& ac
     for (int32_t x = left, end; x < right; x = end) {
       end = Min(right, (x / kCoverageTile + 1) * kCoverageTile);
       if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) continue;
-      for (int32_t k = x; k < end; ++k) act(k, y);
+      size_t at = map.At(x, y);
+      for (int32_t k = x; k < end; ++k) act(k, y, at++);
     }
   }
 }
@@ -180,8 +207,8 @@ void ForEachSplitPixel(const Input& input, const ViewGrid& grid, const BlockPixe
                       if (splitter.SplitBoundary(column, row, &pixel)) visit(pixel);
                     });
   if (input.coverage == nullptr || field.layer > 0) return;
-  ForEachThin(*input.coverage, field, [&](int32_t x, int32_t y) {
-    splitter.SplitThin(x, y, &pixel);
+  ForEachThin(*input.coverage, field, [&](int32_t x, int32_t y, size_t at) {
+    splitter.SplitThin(x, y, at, &pixel);
     visit(pixel);
   });
 }
