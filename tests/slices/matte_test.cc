@@ -95,8 +95,8 @@ TEST_CASE("matte: a pixel is split only if its surfaces move apart by more than 
   constexpr double kAperture = 94.0 / 96, kLeast = 1.0 / 64;
   const std::vector<int> whole = MiddleRow(Mixed(0, -1, 5), 0, false, kAperture);
   CHECK(whole[kEdge - 2] > kFar);
-  const std::vector<int> parted = MiddleRow(Mixed(0, -1 - kLeast, 5), 0, false, kAperture);
-  CHECK(parted[kEdge - 2] == kFar);
+  const std::vector<int> split = MiddleRow(Mixed(0, -1 - kLeast, 5), 0, false, kAperture);
+  CHECK(split[kEdge - 2] == kFar);
 }
 
 TEST_CASE("matte: a pixel that is not a mixture of both surfaces is not split before the blur") {
