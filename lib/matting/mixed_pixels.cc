@@ -37,17 +37,11 @@ struct Division {
 // below 1 / kPureParts, the weight also falls to 0, because the far colour differs from the colour
 // of the pixel by the distance from the line.
 Division DivisionOf(const BoundaryColours& colours) {
-  int64_t along = 0, contrast = 0, distance = 0;
-  for (int c = 0; c < 3; ++c) {
-    const int64_t whole = ColourDifference<kColourBits>(colours.near[c], colours.far[c]);
-    const int64_t part = ColourDifference<kColourBits>(colours.mixed[c], colours.far[c]);
-    along += part * whole;
-    contrast += whole * whole;
-    distance += part * part;
-  }
+  const ColourLine line = ColourLineOf<kColourBits>(colours.near, colours.far, colours.mixed);
+  const int64_t along = line.along, contrast = line.contrast;
   if (contrast <= kLeastContrast || along <= 0 || 20 * along >= 19 * contrast) return {};
   // The distance from the line and its limit are multiplied by `contrast`.
-  const int64_t beside = kContrastParts * (distance * contrast - along * along);
+  const int64_t beside = kContrastParts * (line.distance * contrast - along * along);
   const int64_t limit = contrast * (kContrastParts * kNoise + contrast);
   if (2 * (beside >> kShareBits) >= 3 * (limit >> kShareBits)) return {};
   const int64_t share = along * kShareOne / contrast;

@@ -28,13 +28,29 @@ struct Colour {
   int32_t operator[](int c) const { return rgb[c]; }
 };
 
-// Returns a - b for two samples of light, with kBits fractional bits, in units of white / 255.
-// Halves are rounded away from 0, so that inverted colours have the same differences with opposite
-// signs, and therefore the same shares.
-template <int kBits>
-int32_t ColourDifference(int32_t a, int32_t b) {
-  const auto size = static_cast<int32_t>(RoundShift(Abs(a - b), kLightBits - kBits));
-  return a < b ? -size : size;
+// Position of a mixed colour relative to the line from the far to the near colour: the product of
+// near - far and mixed - far, and the squares of near - far (contrast) and of mixed - far. Colours
+// are in units of white / 255.
+struct ColourLine {
+  int64_t along = 0, contrast = 0, distance = 0;
+};
+
+// Compares colours with kBits fractional bits. Halves are rounded away from 0, so that inverted
+// colours have the same result.
+template <int kBits, class Rgb>
+ColourLine ColourLineOf(const Rgb& near, const Rgb& far, const Rgb& mixed) {
+  const auto difference = [](int32_t a, int32_t b) {
+    const int64_t size = RoundShift(Abs(a - b), kLightBits - kBits);
+    return a < b ? -size : size;
+  };
+  ColourLine line;
+  for (int c = 0; c < 3; ++c) {
+    const int64_t whole = difference(near[c], far[c]), part = difference(mixed[c], far[c]);
+    line.along += part * whole;
+    line.contrast += whole * whole;
+    line.distance += part * part;
+  }
+  return line;
 }
 
 // Reads the centre view of a picture, or, with a field, of the field's layer. At layer 0, light is

@@ -86,16 +86,11 @@ struct SplitColours {
 // Returns the part of a pixel that the near surface covers, as far as its colours can be trusted;
 // `guess` replaces the rest.
 int32_t AlphaOf(const SplitColours& colours, int32_t guess) {
-  int32_t contrast = 0, along = 0, distance = 0;
-  for (int c = 0; c < 3; ++c) {
-    const int32_t whole = ColourDifference<kColourBits>(colours.near[c], colours.far[c]);
-    const int32_t part = ColourDifference<kColourBits>(colours.mixed[c], colours.far[c]);
-    contrast += whole * whole;
-    along += whole * part;
-    distance += part * part;
-  }
+  const ColourLine line = ColourLineOf<kColourBits>(colours.near, colours.far, colours.mixed);
+  const auto along = static_cast<int32_t>(line.along),
+             contrast = static_cast<int32_t>(line.contrast);
   if (contrast <= kLeastContrast) return guess;
-  const int64_t beside = distance - int64_t{along} * along / contrast;
+  const int64_t beside = line.distance - int64_t{along} * along / contrast;
   const int64_t square = kNoise + contrast / 16;
   const int64_t doubt = (4 * beside - square) * kWhole / (16 * square);
   const int32_t on_line = kWhole - Clamp(static_cast<int32_t>(doubt), 0, kWhole);
