@@ -209,8 +209,8 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pix
   const CoverageMap& map = *map_;
   pixel->column = x - field_.x;
   pixel->row = y - field_.y;
-  pixel->kind = map.alpha[from] == kUnsplit ? SplitPixel::kWhole : SplitPixel::kThin;
-  if (pixel->kind == SplitPixel::kWhole) return;
+  pixel->kind = map.alpha[from] == kUnsplit ? SplitPixel::kOneSurface : SplitPixel::kThin;
+  if (pixel->kind == SplitPixel::kOneSurface) return;
   const int32_t found = map.alpha[from];
   const int32_t alpha = Min(found + Max(found - kMostExact, 0), kWhole);
   const FarCell& cell = map.FarAt(x, y);

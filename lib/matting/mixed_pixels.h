@@ -151,9 +151,10 @@ void ForEachBesideEdge(const simd::Kernels& kernels, const Input& input, const B
 // A pixel of a field that the slice renderer splits.
 struct SplitPixel {
   enum Kind {
-    kBoundary,  // A mixed pixel at a depth edge. Surfaces behind its far surface are kept.
-    kThin,      // A mixed pixel of a thin structure. Its two surfaces replace all others.
-    kWhole  // A pixel of a thin structure that shows one surface. Only `column` and `row` count.
+    kBoundary,   // A mixed pixel at a depth edge. Surfaces behind its far surface are kept.
+    kThin,       // A mixed pixel of a thin structure. Its two surfaces replace all others.
+    kOneSurface  // A pixel of a thin structure that shows one surface. Only `column` and `row`
+                 // count.
   } kind;
   int32_t column, row;
   // Part of the pixel that the near surface covers, in kSliceBits, or kSliceEnd if the near surface

@@ -408,7 +408,7 @@ void SplitMixedPixels(const Input& input, const ViewGrid& grid, const BlockPixel
                       LayeredDepth* surfaces) {
   const auto copy_step = static_cast<int16_t>(kDepthEdge << field.layer);
   ForEachSplitPixel(input, grid, field, [&](const SplitPixel& pixel) {
-    if (pixel.kind == SplitPixel::kWhole) {
+    if (pixel.kind == SplitPixel::kOneSurface) {
       DropStrands(pixel, surfaces);
     } else {
       Split(pixel, copy_step, surfaces);
