@@ -16,6 +16,9 @@ struct HairVotes {
   // neither surface nor a mixture of both, times 256; of pixels whose colours are within kTight of
   // the background.
   int32_t inside, far, other, tight;
+  // Sum of coverage, sum of squares, and sum of squared differences from the mean of the pixel's
+  // cell; the coverage is in units of 1/256.
+  int32_t sum, squares, fine;
   // For comparison, a quarter of the pixels of the background, and how many of them have colours
   // within kTight of the mean background.
   int32_t own, own_tight;
@@ -318,18 +321,26 @@ constexpr int32_t kTight = 100;
 // quarter.
 void CountNear(const Search& search, int32_t column, int32_t row, bool inside, HairVotes* votes) {
   const CellMixer mixer(search.memory, column, row);
+  int32_t count = 0, sum = 0, squares = 0;
   ForPixels(search, column, row, [&](const CellPixel& pixel) {
     if (!pixel.is_near) return;
     const Unmixed unmixed = mixer.Part(pixel, 0);
+    ++count;
+    sum += unmixed.share;
+    squares += unmixed.share * unmixed.share;
     const int32_t far = unmixed.share < kWhole / 4 ? unmixed.trust : 0;
-    ++votes->near;
     votes->near_far += far;
     if (!inside) return;
-    ++votes->inside;
     votes->far += far;
     votes->other += kWhole - unmixed.trust;
     votes->tight += DistanceTo(mixer.far, pixel) < kTight ? 1 : 0;
   });
+  votes->near += count;
+  if (!inside || count == 0) return;
+  votes->inside += count;
+  votes->sum += sum;
+  votes->squares += squares;
+  votes->fine += squares - sum * sum / count;
 }
 
 // Counts the pixels of a far cell.
@@ -373,19 +384,30 @@ void ForBlocksAround(const Search& search, int32_t column, int32_t row, int32_t 
   }
 }
 
+// Returns 0 up to `low`, 256 from `high` on, and values between.
+int32_t Fade(int64_t value, int32_t low, int32_t high) {
+  return Clamp(256 * (static_cast<int32_t>(value) - low) / (high - low), 0, 256);
+}
+
 // Decides to what degree the colours in and around a block are those of hair, 0 to 256. They are if
-// three quantities are large. The first is the share of pixels that look like background. The
-// second decreases with the number of pixels that neither surface nor mixtures explain. The third
-// tells how many of the pixels that look like background have nearly its colour, compared to the
-// background itself. Surfaces that happen to resemble the background rarely have nearly its colour.
+// four quantities are large. The first is the share of pixels that look like background. The second
+// decreases with the number of pixels that neither surface nor mixtures explain. The third tells
+// how many of the pixels that look like background have nearly its colour, compared to the
+// background itself: surfaces that happen to resemble the background rarely have nearly its colour.
+// The fourth is the part of the variance of the coverage that lies within cells: shading varies
+// slowly.
 int32_t FindHair(const Search& search, int32_t column, int32_t row) {
   // The sums begin with votes against hair, which decide where there are few pixels.
   int64_t inside = 4096, far = 0, other = 340 * kWhole, tight = 0, own_tight = 400, own = 400;
+  int64_t coarse = 1, fine = 0;
   ForBlocksAround(search, column, row, 3, [&](const HairVotes& votes, int32_t weight) {
     inside += weight * votes.inside;
     far += weight * votes.far;
     other += weight * votes.other;
     tight += weight * votes.tight;
+    const int64_t sum = votes.sum;
+    if (votes.inside > 0) coarse += weight * (votes.squares - sum * sum / votes.inside);
+    fine += weight * votes.fine;
     own_tight += weight * votes.own_tight;
     own += weight * votes.own;
   });
@@ -397,8 +419,7 @@ int32_t FindHair(const Search& search, int32_t column, int32_t row) {
   const int64_t among = 4 * kOne * kWhole * tight / (far + 200 * kWhole);
   const int64_t gathers = std::min(among * own / own_tight, kOne);
   const int64_t hair = share * share / kOne * explained / kOne * gathers / (kOne / 4);
-  constexpr int32_t kLeast = 40, kSure = 60;  // 0.010 and 0.015
-  return Clamp(256 * (static_cast<int32_t>(hair) - kLeast) / (kSure - kLeast), 0, 256);
+  return Fade(hair, 55, 75) * Fade(kOne * fine / coarse, 520, 600) / 256;
 }
 
 // Decides to what degree a block shows hair, 0 to 256. Hair extends to the blocks around those with
@@ -412,8 +433,7 @@ int32_t ExtendHair(const Search& search, int32_t column, int32_t row) {
     near += votes.near;
     far += votes.near_far;
   });
-  constexpr int32_t kLeast = 26, kSure = 41;  // shares of 0.10 and 0.16
-  return found * Clamp(256 * (far / near - kLeast) / (kSure - kLeast), 0, 256) / 256;
+  return found * Fade(far / near, 26, 41) / 256;  // shares of 0.10 to 0.16
 }
 
 // Returns the degree to which a cell shows hair, 0 to 255, interpolated bilinearly between the
