@@ -7,21 +7,17 @@
 
 namespace starfocus {
 
-// Votes of the near pixels of a block on whether the block shows hair. The second group of members
-// counts pixels 2 to 4 cells inside outlines, where it does not matter if outlines are off by a few
-// pixels.
+// Votes of the near pixels of a block on whether the block shows hair. All but the first two
+// members count pixels 2 to 4 cells inside outlines, where it does not matter if outlines are off
+// by a few pixels.
 struct HairVotes {
   int32_t near, near_far;  // Number of pixels; of pixels that look like background, times 256.
-  // Number of pixels; of pixels that look like background, times 256; of pixels that look like
-  // neither surface nor a mixture of both, times 256; of pixels whose colours are within kTight of
-  // the background.
-  int32_t inside, far, other, tight;
+  // Number of pixels; of pixels that look like background, times 256; of pixels whose colours are
+  // nearly the background's.
+  int32_t inside, far, same;
   // Sum of coverage, sum of squares, and sum of squared differences from the mean of the pixel's
   // cell; the coverage is in units of 1/256.
   int32_t sum, squares, fine;
-  // For comparison, a quarter of the pixels of the background, and how many of them have colours
-  // within kTight of the mean background.
-  int32_t own, own_tight;
   // To what degree the colours in and around the block are those of hair, 0 to 256.
   int32_t found;
   int32_t hair;  // To what degree the block shows hair, 0 to 256.
@@ -37,6 +33,8 @@ constexpr int32_t kSurfaceReach = 10;
 // Radii in cells. A far cell has no near pixels within kBeside. An inside cell has far pixels
 // within kMostInside but not within kBeside.
 constexpr int32_t kBeside = 1, kMostInside = 4;
+// Hair from which on a cell keeps its disparities.
+constexpr uint8_t kHairy = 128;
 // log2 of the side of a block, in cells.
 constexpr int kBlockBits = 3;
 constexpr int32_t kBlock = 1 << kBlockBits;
@@ -315,7 +313,7 @@ int32_t Faded(int32_t from, int32_t to, uint8_t hair) {
 }
 
 // Squared difference of colours that are nearly equal, in squared codes.
-constexpr int32_t kTight = 100;
+constexpr int32_t kSame = 100;
 
 // Counts the near pixels of a cell. A pixel looks like background if its coverage is less than a
 // quarter.
@@ -332,8 +330,7 @@ void CountNear(const Search& search, int32_t column, int32_t row, bool inside, H
     votes->near_far += far;
     if (!inside) return;
     votes->far += far;
-    votes->other += kWhole - unmixed.trust;
-    votes->tight += DistanceTo(mixer.far, pixel) < kTight ? 1 : 0;
+    votes->same += DistanceTo(mixer.far, pixel) < kSame ? 1 : 0;
   });
   votes->near += count;
   if (!inside || count == 0) return;
@@ -343,31 +340,17 @@ void CountNear(const Search& search, int32_t column, int32_t row, bool inside, H
   votes->fine += squares - sum * sum / count;
 }
 
-// Counts the pixels of a far cell.
-void CountFar(const Search& search, int32_t column, int32_t row, HairVotes* votes) {
-  CellColours far;
-  InterpolateCell(search.memory.far, column, row, &far);
-  ForPixels(search, column, row, [&](const CellPixel& pixel) {
-    ++votes->own;
-    votes->own_tight += DistanceTo(far, pixel) < kTight ? 1 : 0;
-  });
-}
-
 void CountVotes(const Search& search, const Range& blocks) {
   for (int32_t row = blocks.first; row < blocks.last; ++row) {
     std::fill_n(&search.VotesAt(0, row), search.block_columns, HairVotes{});
   }
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
     search.memory.hair[at] = 0;
-    const uint8_t marks = search.memory.marks[at];
-    HairVotes* const votes = &search.VotesAt(column >> kBlockBits, row >> kBlockBits);
-    if ((marks & HairMemory::kHasNear) != 0) {
-      const bool inside = !HasWithin(search, column, row, kBeside, HairMemory::kHasFar) &&
-                          HasWithin(search, column, row, kMostInside, HairMemory::kHasFar);
-      CountNear(search, column, row, inside, votes);
-    } else if (marks != 0 && (column & row & 1) != 0 && IsFar(search, column, row)) {
-      CountFar(search, column, row, votes);
-    }
+    if ((search.memory.marks[at] & HairMemory::kHasNear) == 0) return;
+    const bool inside = !HasWithin(search, column, row, kBeside, HairMemory::kHasFar) &&
+                        HasWithin(search, column, row, kMostInside, HairMemory::kHasFar);
+    CountNear(search, column, row, inside,
+              &search.VotesAt(column >> kBlockBits, row >> kBlockBits));
   });
 }
 
@@ -390,36 +373,23 @@ int32_t Fade(int64_t value, int32_t low, int32_t high) {
 }
 
 // Decides to what degree the colours in and around a block are those of hair, 0 to 256. They are if
-// four quantities are large. The first is the share of pixels that look like background. The second
-// decreases with the number of pixels that neither surface nor mixtures explain. The third tells
-// how many of the pixels that look like background have nearly its colour, compared to the
-// background itself: surfaces that happen to resemble the background rarely have nearly its colour.
-// The fourth is the part of the variance of the coverage that lies within cells: shading varies
-// slowly.
+// three shares are large: the share of pixels that look like background; the share of pixels that
+// have nearly its colour, which surfaces that happen to resemble the background rarely have; and
+// the part of the variance of the coverage that lies within cells, because shading varies slowly.
 int32_t FindHair(const Search& search, int32_t column, int32_t row) {
-  // The sums begin with votes against hair, which decide where there are few pixels.
-  int64_t inside = 4096, far = 0, other = 340 * kWhole, tight = 0, own_tight = 400, own = 400;
-  int64_t coarse = 1, fine = 0;
+  // 4096 votes against hair decide where there are few pixels.
+  int64_t inside = 4096, far = 0, same = 0, coarse = 1, fine = 0;
   ForBlocksAround(search, column, row, 3, [&](const HairVotes& votes, int32_t weight) {
+    const int64_t sum = votes.sum;
     inside += weight * votes.inside;
     far += weight * votes.far;
-    other += weight * votes.other;
-    tight += weight * votes.tight;
-    const int64_t sum = votes.sum;
+    same += weight * votes.same;
     if (votes.inside > 0) coarse += weight * (votes.squares - sum * sum / votes.inside);
     fine += weight * votes.fine;
-    own_tight += weight * votes.own_tight;
-    own += weight * votes.own;
   });
-  // Fractions of kOne. Within `share` of the pixels, `gathers` is four times the part with nearly
-  // the colour of the background, relative to the background's own.
-  constexpr int64_t kOne = 1 << 10;
-  const int64_t share = kOne * far / (kWhole * inside);
-  const int64_t explained = kOne * far / (far + 2 * other);
-  const int64_t among = 4 * kOne * kWhole * tight / (far + 200 * kWhole);
-  const int64_t gathers = std::min(among * own / own_tight, kOne);
-  const int64_t hair = share * share / kOne * explained / kOne * gathers / (kOne / 4);
-  return Fade(hair, 55, 75) * Fade(kOne * fine / coarse, 520, 600) / 256;
+  const int64_t share = 1024 * far / (kWhole * inside);
+  const int64_t colours = share * 16 * same / inside;
+  return Fade(colours, 90, 120) * Fade(1024 * fine / coarse, 520, 600) / 256;
 }
 
 // Decides to what degree a block shows hair, 0 to 256. Hair extends to the blocks around those with
@@ -468,7 +438,7 @@ bool FillHair(const Search& search) {
   ForCells(search, {0, search.block_rows}, [&](int32_t column, int32_t row, size_t at) {
     if (search.memory.marks[at] == 0) return;
     search.memory.hair[at] = HairOf(search, column, row);
-    any = any || search.memory.hair[at] != 0;
+    any = any || search.memory.hair[at] >= kHairy;
   });
   return any;
 }
@@ -580,7 +550,7 @@ bool FindHairCoverage(const HairPicture& picture, const HairMemory& memory, Sequ
 bool HasHair(const HairMemory& memory, const Rect& rect) {
   for (int32_t y = rect.y / kCell; y <= (rect.y + rect.height - 1) / kCell; ++y) {
     for (int32_t x = rect.x / kCell; x <= (rect.x + rect.width - 1) / kCell; ++x) {
-      if (memory.hair[memory.At(x, y)] >= 128) return true;
+      if (memory.hair[memory.At(x, y)] >= kHairy) return true;
     }
   }
   return false;
