@@ -7,9 +7,9 @@
 
 namespace starfocus {
 
-// Votes of the near pixels of a block on whether the block shows hair. All but the first two
-// members count pixels 2 to 4 cells inside outlines, where it does not matter if outlines are off
-// by a few pixels.
+// Votes of half of the near pixels of a block on whether the block shows hair. All but the first
+// two members count pixels 2 to 4 cells inside outlines, where it does not matter if outlines are
+// off by a few pixels.
 struct HairVotes {
   int32_t near, near_far;  // Number of pixels; of pixels that look like background, times 256.
   // Number of pixels; of pixels that look like background, times 256; of pixels whose colours are
@@ -119,37 +119,31 @@ void MeasureCells(const Search& search, const Range& blocks) {
   });
 }
 
-// Replaces each value with the reduction by `join` over the values at most kSurfaceReach cells away
-// along one axis. Along the axis, there are `count` values with a distance of `next`. Sweeping
-// forwards with growing distances joins each value with the kSurfaceReach values after it; sweeping
-// backwards, with those before it.
+// Joins each row with the row `shift` rows after it, from the first row on, or with the row before
+// it, from the last row on. A row has `width` values.
 template <class Join>
-void JoinLines(int32_t count, ptrdiff_t next, int32_t lines, ptrdiff_t beside, const Join& join,
-               int16_t* values) {
-  for (const int32_t shift : {1, 2, 4, kSurfaceReach - 7}) {
-    for (int32_t k = 0; k + shift < count; ++k) {
-      int16_t *to = values + k * next, *from = to + shift * next;
-      for (int32_t line = 0; line < lines; ++line) {
-        to[line * beside] = join(to[line * beside], from[line * beside]);
-      }
-    }
-  }
-  for (const int32_t shift : {1, 2, 4, kSurfaceReach - 7}) {
-    for (int32_t k = count - 1; k >= shift; --k) {
-      int16_t *to = values + k * next, *from = to - shift * next;
-      for (int32_t line = 0; line < lines; ++line) {
-        to[line * beside] = join(to[line * beside], from[line * beside]);
-      }
-    }
+void JoinRows(int32_t rows, int32_t width, int32_t shift, bool after, const Join& join,
+              int16_t* values) {
+  for (int32_t k = 0; k + shift < rows; ++k) {
+    int16_t* const to = values + ptrdiff_t{after ? k : rows - 1 - k} * width;
+    const int16_t* const from = to + ptrdiff_t{after ? shift : -shift} * width;
+    for (int32_t x = 0; x < width; ++x) to[x] = join(to[x], from[x]);
   }
 }
 
+// Replaces each value with the reduction by `join` over a square with the radius kSurfaceReach.
+// With growing shifts, each value is joined with the kSurfaceReach values after it, and then with
+// those before it, first along rows and then along columns.
 template <class Join>
 void JoinAround(const Search& search, const Join& join, int16_t* values) {
-  for (int32_t y = 0; y < search.rows; ++y) {
-    JoinLines(search.columns, 1, 1, 1, join, values + search.memory.At(0, y));
+  for (const bool after : {true, false}) {
+    for (const int32_t shift : {1, 2, 4, kSurfaceReach - 7}) {
+      for (int32_t y = 0; y < search.rows; ++y) {
+        JoinRows(search.columns, 1, shift, after, join, values + search.memory.At(0, y));
+      }
+      JoinRows(search.rows, search.columns, shift, after, join, values);
+    }
   }
-  JoinLines(search.rows, search.columns, search.columns, 1, join, values);
 }
 
 // Marks the cells.
@@ -346,7 +340,8 @@ void CountVotes(const Search& search, const Range& blocks) {
   }
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
     search.memory.hair[at] = 0;
-    if ((search.memory.marks[at] & HairMemory::kHasNear) == 0) return;
+    // Every second cell votes.
+    if ((search.memory.marks[at] & HairMemory::kHasNear) == 0 || ((column + row) & 1) != 0) return;
     const bool inside = !HasWithin(search, column, row, kBeside, HairMemory::kHasFar) &&
                         HasWithin(search, column, row, kMostInside, HairMemory::kHasFar);
     CountNear(search, column, row, inside,
@@ -377,8 +372,8 @@ int32_t Fade(int64_t value, int32_t low, int32_t high) {
 // have nearly its colour, which surfaces that happen to resemble the background rarely have; and
 // the part of the variance of the coverage that lies within cells, because shading varies slowly.
 int32_t FindHair(const Search& search, int32_t column, int32_t row) {
-  // 4096 votes against hair decide where there are few pixels.
-  int64_t inside = 4096, far = 0, same = 0, coarse = 1, fine = 0;
+  // 2048 votes against hair decide where there are few pixels.
+  int64_t inside = 2048, far = 0, same = 0, coarse = 1, fine = 0;
   ForBlocksAround(search, column, row, 3, [&](const HairVotes& votes, int32_t weight) {
     const int64_t sum = votes.sum;
     inside += weight * votes.inside;
@@ -396,7 +391,7 @@ int32_t FindHair(const Search& search, int32_t column, int32_t row) {
 // the colours of hair, because its tips have few pixels inside outlines, but not to outlines at
 // which few pixels look like background.
 int32_t ExtendHair(const Search& search, int32_t column, int32_t row) {
-  int32_t found = 0, near = 64, far = 0;
+  int32_t found = 0, near = 32, far = 0;
   ForBlocksAround(search, column, row, 2,
                   [&](const HairVotes& votes, int32_t) { found = Max(found, votes.found); });
   ForBlocksAround(search, column, row, 1, [&](const HairVotes& votes, int32_t) {
