@@ -469,19 +469,19 @@ void UnmixCells(const Search& search, const Range& blocks) {
 void PullBoth(const Search& search, const Range& blocks) {
   const HairMemory& memory = search.memory;
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
-    memory.far.levels[0].At(column, row) = memory.near.levels[0].At(column, row) = {};
-    if (memory.marks[at] == 0) return;
-    const auto share = [&](const CellPixel& pixel) {
-      const int32_t given = pixel.is_near ? kWhole : 0;
-      if (memory.hair[at] == 0) return static_cast<uint32_t>(given);
-      return static_cast<uint32_t>(Faded(given, ShareOf(*pixel.coverage), memory.hair[at]));
-    };
-    const auto near = [&](const CellPixel& pixel) { return FourthPower(share(pixel)); };
-    const auto far = [&](const CellPixel& pixel) {
-      return FourthPower(kFullyKnown - share(pixel));
-    };
-    Pull(search, column, row, near, memory.near);
-    Pull(search, column, row, far, memory.far);
+    ColourSum near, far;
+    if (memory.marks[at] != 0) {
+      ForPixels(search, column, row, [&](const CellPixel& pixel) {
+        const int32_t given = pixel.is_near ? kWhole : 0;
+        // The coverage of cells without hair has not been written.
+        const int32_t found = memory.hair[at] == 0 ? given : ShareOf(*pixel.coverage);
+        const auto share = static_cast<uint32_t>(Faded(given, found, memory.hair[at]));
+        near.Add(pixel.rgb, FourthPower(share));
+        far.Add(pixel.rgb, FourthPower(kWhole - share));
+      });
+    }
+    memory.near.levels[0].At(column, row) = near.Mean();
+    memory.far.levels[0].At(column, row) = far.Mean();
   });
 }
 
