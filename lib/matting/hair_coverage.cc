@@ -384,7 +384,7 @@ int32_t FindHair(const Search& search, int32_t column, int32_t row) {
   });
   const int64_t share = 1024 * far / (kWhole * inside);
   const int64_t colours = share * 16 * same / inside;
-  return Fade(colours, 90, 120) * Fade(1024 * fine / coarse, 560, 590) / 256;
+  return Fade(colours, 100, 130) * Fade(1024 * fine / coarse, 560, 590) / 256;
 }
 
 // Decides to what degree a block shows hair, 0 to 256. Hair extends to the blocks around those with
