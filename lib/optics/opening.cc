@@ -76,6 +76,19 @@ bool AreAlike(ApertureShape a, const ApertureShape& b) {
 }
 
 int32_t MeanSquare(const ApertureShape& opening) {
+  if (opening.shape == STARFOCUS_SHAPE_POLYGON) {
+    // The mean square of a regular polygon is equal along all axes.
+    constexpr int64_t kHalf = 128;
+    int64_t points = 0, sum = 0;
+    for (int64_t y = 1 - kHalf; y < kHalf; ++y) {
+      for (int64_t x = 1 - kHalf; x < kHalf; ++x) {
+        if (!LetsThrough(opening, x, y, kHalf)) continue;
+        ++points;
+        sum += x * x + y * y;
+      }
+    }
+    return Round(static_cast<double>(sum) / static_cast<double>(2 * kHalf * kHalf * points));
+  }
   if (opening.shape != STARFOCUS_SHAPE_FALL_OFF) {
     const double inner = static_cast<double>(opening.inner) / kOpeningOne;
     return Round((1 + inner * inner) / 4);

@@ -52,7 +52,7 @@ ApertureShape ShapeOf(const starfocus_lens& lens);
 bool AreAlike(ApertureShape a, const ApertureShape& b);
 
 // Returns the mean square of one coordinate of the transmitted light, in radii of the lens
-// (kOpeningBits). The opening must not be a polygon.
+// (kOpeningBits).
 int32_t MeanSquare(const ApertureShape& opening);
 
 // Returns true if light passes at (x, y) through a lens of the given radius. All arguments are at

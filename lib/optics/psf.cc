@@ -15,14 +15,43 @@ double Larger(double a, double b) { return a > b ? a : b; }
 
 // Number of lines per pixel, and of points per line, for the integral of (4). Small PSFs use more
 // lines.
-constexpr int32_t LinesOf(int32_t radius) { return radius <= kFineEnd * kOne ? 16 : 8; }
+constexpr int32_t LinesOf(double r) { return r <= kFineEnd ? 16 : 8; }
 constexpr int32_t kPoints = 8;
 // Cost of the integral over one pixel, in samples of CancelToken::Spend.
 constexpr int32_t kIntegralSamples = 256;
 
+// The pixels of a picture are integrals over pixels. Integrals of (4) over pixels would blur them a
+// second time, by a variance of 1/12 along each axis, and would not blur at all below a radius of
+// 1/2. The variance of a PSF therefore exceeds the variance of (4) by the share kMore of the
+// latter, and by at most kMostMore. An exact variance would sharpen fine detail too much
+// (docs/constants.md).
+constexpr double kMore = 1.0 / 4, kMostMore = 1.0 / 24;
+// Below this variance of (4), a share of the light remains in its pixel (MakePsf). From this
+// variance on, the integrals have a variance of almost exactly 1/12 too much, so the PSF is made
+// from a smaller disc.
+constexpr double kSmallVariance = 1.0 / 2;
+// Radius of the smallest disc. The integrals of smaller discs have hardly any light outside the
+// middle pixel.
+constexpr double kSmallestDisc = 0.8;
+
 // Returns the distance, in pixels along an axis, of the last pixel that a disc covers at least in
 // part.
-int32_t SizeOf(int32_t radius) { return radius == 0 ? 0 : (radius + kOne / 2 - 1) / kOne; }
+int32_t SizeOf(double r) {
+  const auto pixels = static_cast<int32_t>(r + 0.5);
+  return pixels > 0 && pixels - 0.5 >= r ? pixels - 1 : pixels;
+}
+
+// Returns the radius of the disc from which the PSF of radius r is made. `variance` is the variance
+// of (4) along an axis at this radius.
+double DiscOf(double r, double variance) {
+  if (variance < kSmallVariance) return Larger(r, kSmallestDisc);
+  return r * std::sqrt(1 - kMostMore / variance);
+}
+
+// Returns the largest size of a PSF of a radius (kDisparityBits).
+int32_t LargestSizeOf(int32_t radius) {
+  return radius == 0 ? 0 : SizeOf(Larger(static_cast<double>(radius) / kOne, kSmallestDisc));
+}
 
 size_t WeightsOf(bool full, int32_t size) {
   const auto n = static_cast<size_t>(size);
@@ -89,12 +118,10 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Apertur
   return sum * (high - low) / lines;
 }
 
-// Returns DiscIntegral for a radius in 1 / kOne pixels and the shape of the opening. The edges of a
-// polygon may be parallel to the lines and lie between two lines, so polygons use four times as
-// many lines.
-double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& opening) {
-  const double r = static_cast<double>(radius) / kOne;
-  const int32_t lines = LinesOf(radius);
+// Returns DiscIntegral for the shape of the opening. The edges of a polygon may be parallel to the
+// lines and lie between two lines, so polygons use four times as many lines.
+double PixelIntegral(int32_t n, int32_t m, double r, const ApertureShape& opening) {
+  const int32_t lines = LinesOf(r);
   if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) {
     return DiscIntegral<STARFOCUS_SHAPE_FALL_OFF>(n, m, r, lines, opening);
   }
@@ -107,32 +134,33 @@ double PixelIntegral(int32_t n, int32_t m, int32_t radius, const ApertureShape& 
   return Larger(0, whole - DiscIntegral<STARFOCUS_SHAPE_DISC>(n, m, hole, lines, opening));
 }
 
-// Calls visit(n, m, points, integral) for the stored weights of a PSF. `points` is the number of
-// pixels that share the weight, and `integral` is the integral of (4) over one pixel. Returns false
-// after cancellation.
+// Calls visit(n, m, points, integral) for the stored weights of a disc of radius r. `points` is the
+// number of pixels that share the weight, and `integral` is the integral of (4) over one pixel.
+// Returns false after cancellation.
 template <class Visit>
-bool ForEachWeight(int32_t radius, const ApertureShape& opening, CancelToken* cancel,
+bool ForEachWeight(double r, const ApertureShape& opening, CancelToken* cancel,
                    const Visit& visit) {
-  const int32_t size = SizeOf(radius);
+  const int32_t size = SizeOf(r);
   if (opening.IsSymmetric()) {
     ForEachOfOctant(size, opening.IsRing(), [&](int32_t n, int32_t m) {
-      visit(n, m, PointsOfOctant(n, m), PixelIntegral(n, m, radius, opening));
+      visit(n, m, PointsOfOctant(n, m), PixelIntegral(n, m, r, opening));
     });
     return GoesOn(cancel, int64_t{kIntegralSamples} * size * size / 2);
   }
   for (int32_t m = -size; m <= size; ++m) {
     if (!GoesOn(cancel, int64_t{kIntegralSamples} * (2 * size + 1))) return false;
-    for (int32_t n = -size; n <= size; ++n) visit(n, m, 1, PixelIntegral(n, m, radius, opening));
+    for (int32_t n = -size; n <= size; ++n) visit(n, m, 1, PixelIntegral(n, m, r, opening));
   }
   return true;
 }
 
-// Computes the PSF of a radius (kDisparityBits). Returns false after cancellation. Pixels that
-// share a weight form an orbit. Each orbit absorbs the rounding error of all earlier orbits, and
-// the last orbit absorbs the remainder, as in MakeViewWeights.
-bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, uint16_t* weights,
-             Psf* psf) {
-  psf->size = SizeOf(radius);
+// Computes the PSF of a radius (kDisparityBits). `mean_square` is the MeanSquare of the opening.
+// Returns false after cancellation. Pixels that share a weight form an orbit. Each orbit absorbs
+// the rounding error of all earlier orbits, and the last orbit absorbs the remainder, as in
+// MakeViewWeights.
+bool MakePsf(int32_t radius, double mean_square, const ApertureShape& opening, CancelToken* cancel,
+             uint16_t* weights, Psf* psf) {
+  psf->size = 0;
   psf->weights = weights;
   psf->sum_bits = 14;
   psf->full = !opening.IsSymmetric();
@@ -140,33 +168,44 @@ bool MakePsf(int32_t radius, const ApertureShape& opening, CancelToken* cancel, 
     weights[0] = 1 << 14;
     return true;
   }
+  const double blur = static_cast<double>(radius) / kOne, variance = blur * blur * mean_square;
+  const double r = DiscOf(blur, variance);
+  const int32_t size = psf->size = SizeOf(r);
   // `largest` is the largest integral over a set of pixels that simd::Disc multiplies by one
   // weight.
-  double total = 0, largest = 0;
+  double total = 0, squares = 0, largest = 0, middle = 0;
   const auto add = [&](int32_t n, int32_t m, int32_t points, double integral) {
     total += points * integral;
+    squares += points * integral * (n * n + m * m) / 2;
     const int32_t together = psf->full ? 1 : (n > 0 ? 2 : 1) * (m > 0 ? 2 : 1);
     largest = Larger(largest, together * integral);
+    if (n == 0 && m == 0) middle = integral;
   };
-  if (!ForEachWeight(radius, opening, cancel, add)) return false;
+  if (!ForEachWeight(r, opening, cancel, add)) return false;
+  // Light that remains in its pixel, relative to the integrals. It reduces the variance
+  // squares / total to the wanted variance.
+  const double wanted = variance + Smaller(variance * kMore, kMostMore);
+  const double stays = variance < kSmallVariance ? Larger(squares / wanted - total, 0) : 0;
+  total += stays;
+  largest = Larger(largest, middle + stays);
   while (psf->sum_bits < kMaxLightBits && largest / total * (2 << psf->sum_bits) < kMaxWeight - 8) {
     ++psf->sum_bits;
   }
-  const int32_t one = 1 << psf->sum_bits, size = psf->size;
-  double wanted = 0;
+  const int32_t one = 1 << psf->sum_bits;
+  double sum = 0;
   int32_t given = 0;
   const auto give = [&](int32_t n, int32_t m, int32_t points, double integral) {
-    wanted += points * integral;
-    // The last value of `wanted` equals `total` exactly, because both are sums of the same numbers
-    // in the same order.
-    const auto target = wanted == total ? one : static_cast<int32_t>(wanted / total * one + 0.5);
+    sum += points * integral + (n == 0 && m == 0 ? stays : 0);
+    // The last value of `sum` differs from `total` only by rounding errors, so the last target is
+    // `one`.
+    const auto target = static_cast<int32_t>(sum / total * one + 0.5);
     const auto weight =
         static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));
     weights[psf->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
         static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
     given += weight * points;
   };
-  if (!ForEachWeight(radius, opening, cancel, give)) return false;
+  if (!ForEachWeight(r, opening, cancel, give)) return false;
   Checked(ranges::kRemainder, given - one);
   return true;
 }
@@ -206,15 +245,17 @@ int32_t BlurStepCount(double max_blur) {
 size_t BlurWeightCount(bool full, double max_blur) {
   size_t count = 0;
   for (int32_t step = 0; step < BlurStepCount(max_blur); ++step) {
-    count += WeightsOf(full, SizeOf(RadiusOfStep(step)));
+    count += WeightsOf(full, LargestSizeOf(RadiusOfStep(step)));
   }
   return count;
 }
 
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
                  uint16_t* weights, Psf* psfs) {
+  const double mean_square = static_cast<double>(MeanSquare(opening)) / kOpeningOne;
   for (int32_t step = 0; step < last; ++step) {
-    if (step >= first && !MakePsf(RadiusOfStep(step), opening, cancel, weights, &psfs[step])) {
+    if (step >= first &&
+        !MakePsf(RadiusOfStep(step), mean_square, opening, cancel, weights, &psfs[step])) {
       return step;
     }
     weights += WeightsOf(psfs[step].full, psfs[step].size);

@@ -193,10 +193,7 @@ void FindStack(const RenderJob& job, const Rect& tile, const CompositorScratch& 
                             tile.height};
   stack->count = FindSlices(*job.input->kernels, scratch.surfaces, *job.grid, SliceRuleOf(job),
                             in_surfaces, stack->slices, &stack->bands);
-  for (int32_t k = 0; k < stack->count; ++k) {
-    FindOffsets(*job.grid, stack->slices[k].disparity, static_cast<size_t>(stack->count),
-                scratch.offsets + k);
-  }
+  FindOffsets(*job.grid, stack->slices, stack->count, scratch.offsets);
   stack->offsets = scratch.offsets;
 }
 

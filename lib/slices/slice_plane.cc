@@ -10,6 +10,11 @@ using simd::kStripColumns;
 using simd::SliceOffset;
 
 constexpr int32_t kFractionOne = 1 << 15;
+constexpr int kScaleBits = 12;
+constexpr int32_t kScaleOne = 1 << kScaleBits;
+// Fractional bits of scaled shifts. Subapertures may be as narrow as 1/256 of a pixel, so scaled
+// shifts need more bits than kShiftBits.
+constexpr int kScaledBits = kShiftBits + kScaleBits;
 
 // Returns the filter taps of a box that is `subaperture` pixels wide (kShiftBits; more than
 // kBoxSubaperture).
@@ -54,10 +59,19 @@ SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
   return SliceOffset::Of(whole, {part(left), part(left), share(right - left), part(right)});
 }
 
-// Splits `shift` (kShiftBits) into whole pixels and a fraction. A subaperture narrower than a pixel
-// spreads each pixel inside a slice less than linear interpolation does. Pixels at the boundary of
-// a slice are interpolated linearly.
-SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
+// Returns the share, with 15 fractional bits, of the second of two pixels inside a slice, if a
+// subaperture narrower than a pixel moves `rest` from the first to the second pixel (both
+// kScaledBits). Each part of the subaperture shows the nearer pixel.
+int32_t ShareInside(int64_t rest, int32_t subaperture) {
+  const int64_t from_middle = (rest - (1 << (kScaledBits - 1))) * kFractionOne;
+  const int64_t share = from_middle / Max(subaperture, 1) + kFractionOne / 2;
+  return static_cast<int32_t>(share < 0 ? 0 : share > kFractionOne ? kFractionOne : share);
+}
+
+// Splits `shift` (kShiftBits) into whole pixels and a fraction. Pixels at the boundary of a slice
+// are interpolated linearly. A subaperture narrower than a pixel spreads each pixel inside a slice
+// less than linear interpolation does, and moves the pixel by `scale` times the shift.
+SliceOffset OffsetOf(int32_t shift, int32_t subaperture, int32_t scale) {
   if (subaperture > kShiftOne && subaperture <= kBoxSubaperture)
     return BoxOffset(shift, subaperture);
   const int32_t whole = shift >> kShiftBits, rest = shift & (kShiftOne - 1);
@@ -65,11 +79,79 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture) {
     return static_cast<int16_t>(fraction - kFractionOne);
   };
   const int16_t edge = before(rest * (kFractionOne / kShiftOne));
-  if (rest == 0 || subaperture >= kShiftOne) return SliceOffset::Of(whole, {edge, edge, 0, 0});
-  const int32_t from_middle = (rest - kShiftOne / 2) * kFractionOne;
-  const int32_t inside = from_middle / Max(subaperture, 1) + kFractionOne / 2;
-  return SliceOffset::Of(whole, {before(Clamp(inside, 0, kFractionOne)), edge, 0, 0});
+  if (subaperture >= kShiftOne) return SliceOffset::Of(whole, {edge, edge, 0, 0});
+  const int64_t moved = int64_t{shift} * scale - (int64_t{whole} << kScaledBits);
+  const int32_t inside = ShareInside(moved, subaperture * scale);
+  return SliceOffset::Of(whole, {before(inside), edge, 0, 0});
 }
+
+// Weights of the views at a distance of 0 to N columns or rows from the middle view.
+struct ViewsAcross {
+  uint32_t weights[kMaxViewsAlongRadius + 1] = {};
+  uint64_t total = 0;
+
+  explicit ViewsAcross(const ViewGrid& grid) {
+    for (int32_t i = -grid.n(); i <= grid.n(); ++i) {
+      for (int32_t j = -grid.n(); j <= grid.n(); ++j) {
+        weights[Abs(i)] += grid.aperture.Weight(i, j);
+      }
+    }
+    for (int32_t i = 0; i <= grid.n(); ++i) total += weights[i];
+  }
+};
+
+// Scale of the shifts inside a slice whose subapertures are narrower than a pixel. Pixels are
+// integrals over pixels, and the nearer pixel of ShareInside is another integral. As for the PSFs
+// of lib/optics/psf.cc, the variance of the shown pixels along an axis exceeds the variance of the
+// subapertures by a quarter of the latter, and by at most 1/24 of a pixel. Shifts beyond one pixel
+// are not enlarged.
+class InnerScale {
+ public:
+  // `shifts` has the absolute shifts of the views 0 to N (kShiftBits).
+  InnerScale(const ViewsAcross& views, const int32_t* shifts, int32_t n)
+      : views_(views), shifts_(shifts), n_(n) {}
+
+  int32_t Find() const {
+    int32_t low = 0, high = kScaleOne * Max(shifts_[n_], kShiftOne) / Max(shifts_[n_], 1);
+    const uint64_t wanted = Wanted();
+    if (Squares(high) <= wanted) return high;
+    constexpr int kBisections = 12;
+    for (int k = 0; k < kBisections; ++k) {
+      const int32_t middle = (low + high) / 2;
+      (Squares(middle) < wanted ? low : high) = middle;
+    }
+    return high;
+  }
+
+ private:
+  // Returns the wanted variance times the weight of all views, with 16 fractional bits.
+  uint64_t Wanted() const {
+    const auto square = [](int32_t shift) {
+      return static_cast<uint64_t>(shift) * static_cast<uint64_t>(shift);
+    };
+    uint64_t exact = views_.total * square(shifts_[1]) / 12;
+    for (int32_t i = 1; i <= n_; ++i) exact += views_.weights[i] * square(shifts_[i]);
+    const uint64_t most = views_.total * square(kShiftOne) / 24;
+    return exact + (exact / 4 < most ? exact / 4 : most);
+  }
+
+  // Returns the sum of the weighted squares of the distances from which views show pixels, with 16
+  // fractional bits.
+  uint64_t Squares(int32_t scale) const {
+    uint64_t sum = 0;
+    for (int32_t i = 1; i <= n_; ++i) {
+      const int32_t moved = shifts_[i] * scale, whole = moved >> kScaledBits;
+      const int32_t share = ShareInside(moved & ((1 << kScaledBits) - 1), shifts_[1] * scale);
+      sum += uint64_t{views_.weights[i]} *
+             static_cast<uint64_t>(whole * whole * kFractionOne + (2 * whole + 1) * share);
+    }
+    return sum << 1;
+  }
+
+  const ViewsAcross& views_;
+  const int32_t* const shifts_;
+  const int32_t n_;
+};
 
 // Clears the samples after the first `width` samples of each plane of a row; at least kStripColumns
 // samples follow. The last two groups overlap, so that every call of memset has one constant length
@@ -156,11 +238,20 @@ void Spread(const simd::Kernels& kernels, int16_t* filtered, const SlicePlane& p
 
 }  // namespace
 
-void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride, SliceOffset* offsets) {
-  const int32_t subaperture = Abs(grid.Shift(grid.Move(1), disparity));
-  for (int32_t i = -grid.n(); i <= grid.n(); ++i, offsets += stride) {
-    const int32_t shift = grid.Shift(grid.Move(Abs(i)), disparity);
-    *offsets = OffsetOf(i < 0 ? -shift : shift, subaperture);
+void FindOffsets(const ViewGrid& grid, const Slice* slices, int32_t count, SliceOffset* offsets) {
+  const int32_t n = grid.n();
+  const ViewsAcross views(grid);
+  int32_t shifts[kMaxViewsAlongRadius + 1];
+  for (int32_t k = 0; k < count; ++k) {
+    const int16_t disparity = slices[k].disparity;
+    for (int32_t i = 0; i <= n; ++i) shifts[i] = Abs(grid.Shift(grid.Move(i), disparity));
+    const int32_t subaperture = shifts[1];
+    const int32_t scale = subaperture < kShiftOne ? InnerScale(views, shifts, n).Find() : kScaleOne;
+    const bool is_near = grid.focus.Distance(disparity) > 0;
+    for (int32_t i = -n; i <= n; ++i) {
+      const int32_t shift = (i > 0) == is_near ? shifts[Abs(i)] : -shifts[Abs(i)];
+      offsets[(i + n) * count + k] = OffsetOf(shift, subaperture, scale);
+    }
   }
 }
 

@@ -157,9 +157,9 @@ constexpr size_t StripBytes(size_t height, size_t reach) {
   return ShiftedRows(height, reach) * (4 * simd::kSliceLanes * sizeof(int16_t) + 1);
 }
 
-// Finds the position in each view, from -N to N, of a slice that moves like `disparity`. The
-// results are `stride` elements apart.
-void FindOffsets(const ViewGrid& grid, int16_t disparity, size_t stride,
+// Finds the position of each slice in each view. `offsets` has `count` elements, one per slice, for
+// each view from -N to N along an axis.
+void FindOffsets(const ViewGrid& grid, const Slice* slices, int32_t count,
                  simd::SliceOffset* offsets);
 
 // Computes the size and the reach of the slice around `rect`.

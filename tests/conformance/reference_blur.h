@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ideal PSF (4) of the reference, integrated over pixels. The reference uses this PSF for the blur
+// PSF (4) of the reference, integrated over pixels. The reference uses this PSF for the blur
 // mode, and for cells that block mode blurs without rendering views.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_BLUR_H_
@@ -90,24 +90,47 @@ inline double LightOf(const ApertureShape& opening, double x0, double x1, double
   return light;
 }
 
-inline Psf MakePsf(double r, const ApertureShape& opening) {
-  Psf kernel;
-  if (r == 0) {
-    kernel.weights = {1};
-    return kernel;
-  }
-  kernel.size = int(std::ceil(r + 0.5));
+// Returns the integrals over pixels of a disc of radius r, scaled to a sum of 1.
+inline Psf Integrals(double r, const ApertureShape& opening) {
+  Psf psf;
+  psf.size = int(std::ceil(r + 0.5));
   double sum = 0;
-  for (int m = -kernel.size; m <= kernel.size; ++m) {
-    for (int n = -kernel.size; n <= kernel.size; ++n) {
-      const double weight =
-          LightOf(opening, (n - 0.5) / r, (n + 0.5) / r, (m - 0.5) / r, (m + 0.5) / r);
-      kernel.weights.push_back(weight);
-      sum += weight;
+  for (int m = -psf.size; m <= psf.size; ++m) {
+    for (int n = -psf.size; n <= psf.size; ++n) {
+      psf.weights.push_back(
+          LightOf(opening, (n - 0.5) / r, (n + 0.5) / r, (m - 0.5) / r, (m + 0.5) / r));
+      sum += psf.weights.back();
     }
   }
-  for (double& weight : kernel.weights) weight /= sum;
-  return kernel;
+  for (double& weight : psf.weights) weight /= sum;
+  return psf;
+}
+
+// Returns the mean of the variances of a PSF along both axes.
+inline double Variance(const Psf& psf) {
+  double squares = 0;
+  for (int m = -psf.size; m <= psf.size; ++m) {
+    for (int n = -psf.size; n <= psf.size; ++n) squares += psf.At(n, m) * (n * n + m * m);
+  }
+  return squares / 2;
+}
+
+// Returns the PSF of radius r. Pixels of a picture are integrals over pixels already, so the
+// variance of the PSF exceeds the variance of the blur only by a quarter, or by 1/24 of a pixel. To
+// this end, small PSFs are a mixture of integrals with an unblurred pixel, and large PSFs are
+// integrals of a smaller disc.
+inline Psf MakePsf(double r, const ApertureShape& opening) {
+  if (r == 0) return {0, {1}};
+  // In the integrals of a large disc, the pixels add 1/12 to the variance.
+  constexpr double kLarge = 16;
+  const double mean = (Variance(Integrals(kLarge, opening)) - 1.0 / 12) / (kLarge * kLarge);
+  const double variance = r * r * mean;
+  if (variance >= 0.5) return Integrals(std::sqrt(r * r - 1 / (24 * mean)), opening);
+  Psf psf = Integrals(std::max(r, 0.8), opening);
+  const double share = std::min(1.0, (variance + std::min(variance / 4, 1.0 / 24)) / Variance(psf));
+  for (double& weight : psf.weights) weight *= share;
+  psf.weights[psf.weights.size() / 2] += 1 - share;
+  return psf;
 }
 
 // Returns the PSF of MakePsf from a cache. The returned reference is valid until the next call.

@@ -202,6 +202,56 @@ struct Offset {
   }
 };
 
+// Returns the share of the second pixel of two, where each part of a subaperture shows the nearer
+// pixel.
+double NearerShare(double rest, double width) {
+  return std::clamp((rest - 0.5) / width + 0.5, 0.0, 1.0);
+}
+
+// Returns the factor by which pixels inside a slice move more or less than the slice. With this
+// factor, the variance of the shown pixels exceeds the variance of the subapertures, which are
+// `width` wide, by a quarter, or by 1/24 of a pixel.
+double InnerScale(const Lens& lens, int disparity, double width) {
+  std::vector<double> shifts, weights;
+  double total = 0, exact = 0;
+  for (int i = 0; i <= lens.n; ++i) {
+    shifts.push_back(i == 0 ? 0 : std::abs(lens.Shift(i, disparity)) / 256.0);
+    double weight = 0;
+    for (int j = -lens.n; j <= lens.n; ++j) {
+      for (const int side : {-i, i}) {
+        if (lens.Contains(side, j)) weight += lens.Density(side, j);
+      }
+    }
+    weights.push_back(i == 0 ? weight / 2 : weight);
+    total += weights.back();
+    exact += weights.back() * shifts.back() * shifts.back();
+  }
+  const double own = std::abs(lens.Shift(1, disparity)) / 256.0;
+  exact = exact / total + own * own / 12;
+  const double wanted = exact + std::min(exact / 4, 1.0 / 24);
+  const double outermost = std::max(shifts.back(), 1.0 / 256);
+  const auto is_narrow = [&](double scale) {
+    double variance = 0;
+    for (size_t i = 1; i < shifts.size(); ++i) {
+      const double moved = scale * shifts[i], whole = std::floor(moved);
+      const double share = NearerShare(moved - whole, scale * width);
+      variance += weights[i] * (whole * whole + (2 * whole + 1) * share) / total;
+    }
+    return variance < wanted;
+  };
+  double low = 0, high = std::max(outermost, 1.0) / outermost;
+  if (is_narrow(high)) return high;
+  for (int k = 0; k < 12; ++k) {
+    const double middle = (low + high) / 2;
+    if (is_narrow(middle)) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return high;
+}
+
 // Returns the filter of view k along an axis. A subaperture of one to three pixels weights pixels
 // by their overlap with the subaperture. A narrower subaperture uses linear interpolation between
 // pixels with different coverage, and a steeper transition between pixels with equal coverage.
@@ -219,8 +269,8 @@ Offset OffsetOf(const Lens& lens, int k, int disparity) {
     return box;
   }
   const double whole = std::floor(moved), edge = moved - whole;
-  if (edge == 0) return {int(whole), {1}, 0};
-  const double inside = width >= 1 ? edge : std::clamp((edge - 0.5) / width + 0.5, 0.0, 1.0);
+  const double scale = width < 1 ? InnerScale(lens, disparity, width) : 1;
+  const double inside = width >= 1 ? edge : NearerShare(moved * scale - whole, width * scale);
   return {int(whole), {1 - edge, edge}, inside};
 }
 

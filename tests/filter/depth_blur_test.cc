@@ -213,6 +213,35 @@ TEST_CASE("blur: PSFs sum to exactly one, fit their types and decrease from the 
   }
 }
 
+TEST_CASE("blur: PSFs are as wide as (4), without a second integral over pixels") {
+  // The variance exceeds the variance of (4) by a quarter, or by 1/24. The variance of integrals
+  // over pixels would be 0 up to a radius of 1/2, and exceed (4) by up to 0.14 above. From a
+  // variance of 1/2 on, the variance oscillates around the wanted value.
+  const double most = 4;
+  for (const test::NamedShape& shape : test::kShapes) {
+    CAPTURE(shape.name);
+    starfocus_lens lens = test::Params(0, 1, STARFOCUS_MODE_BLUR).lens;
+    shape.Set(&lens);
+    const starfocus::ApertureShape opening = starfocus::ShapeOf(lens);
+    const int steps = starfocus::BlurStepCount(most);
+    std::vector<uint16_t> weights(starfocus::BlurWeightCount(!opening.IsSymmetric(), most));
+    std::vector<starfocus::Psf> psfs(static_cast<size_t>(steps));
+    starfocus::MakePsfs(0, steps, opening, nullptr, weights.data(), psfs.data());
+    const double mean_square = double(starfocus::MeanSquare(opening)) / starfocus::kOpeningOne;
+    for (int step = 1; step < steps; ++step) {
+      const starfocus::Psf& psf = psfs[size_t(step)];
+      double squares = 0;
+      for (int m = -psf.size; m <= psf.size; ++m) {
+        for (int n = -psf.size; n <= psf.size; ++n) squares += psf.Weight(n, m) * (n * n + m * m);
+      }
+      const double r = double(starfocus::RadiusOfStep(step)) / kOne, exact = r * r * mean_square;
+      const double more = std::ldexp(squares / 2, -psf.sum_bits) - exact;
+      CAPTURE(r);
+      CHECK(std::fabs(more - std::min(exact / 4, 1.0 / 24)) < (exact < 0.5 ? 0.003 : 0.09));
+    }
+  }
+}
+
 TEST_CASE("blur: BlurStep rounds each radius to the nearest radius that has a PSF") {
   int last = -1;
   for (int radius = 0; radius <= int(STARFOCUS_MAX_BLUR) * kOne; ++radius) {

@@ -129,6 +129,14 @@ TEST_CASE("slope: MeanSquare has the expected value for each opening") {
   opening.shape = STARFOCUS_SHAPE_RING;
   opening.inner = 1 << 13;
   CHECK(mean_square() == doctest::Approx(0.3125));
+  starfocus_lens lens = test::Params(0, 1, STARFOCUS_MODE_BLUR).lens;
+  lens.shape = STARFOCUS_SHAPE_POLYGON;
+  lens.blades = 3;
+  opening = starfocus::ShapeOf(lens);
+  CHECK(mean_square() == doctest::Approx(0.125).epsilon(0.02));
+  lens.blades = 6;
+  opening = starfocus::ShapeOf(lens);
+  CHECK(mean_square() == doctest::Approx(5.0 / 24).epsilon(0.02));
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ enum class Subapertures { kNarrow, kWide };
 // Returns the PSF of N views at blur radius r, with positions and subapertures rounded to the
 // engine's 1/256 pixel. A subaperture that is up to 3 pixels wide is a box. A wider subaperture, of
 // at most 7 pixels, is a box on whole pixels followed by linear interpolation. If `subapertures` is
-// kWide, views have the positions that MakeSubapertures computes.
+// kWide, views have the positions that MakeSubapertures computes, and subapertures narrower than a
+// pixel move pixels like the inside of a slice (lib/slices/slice_plane.cc).
 SampledPsf StarPsf(double r, int n, double theta, Subapertures subapertures);
 
 }  // namespace starfocus::analysis
