@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/plan/partition.h"
 
+#include "lib/optics/psf.h"
+
 namespace starfocus {
 namespace {
 
@@ -180,7 +182,7 @@ class Partition {
     Block& block = candidate.block;
     block.rect = RectOf(level, column, row);
     ChooseParameters(candidate.stats, SideOf(level), &block);
-    if (block.n > 0) PlanGathering(candidate, &block);
+    if (BlurStep(candidate.stats.r_max) > 0) PlanGathering(candidate, &block);
     if (SideOf(level) > rules_.largest_side) block.cost = UINT64_MAX;
     uint64_t best = block.cost;
     if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));

@@ -160,8 +160,8 @@ TEST_CASE("gather: for a flat surface, block mode gives the same picture as blur
 }
 
 TEST_CASE(
-    "gather: only block mode with slices blurs cells without views, for blurs above 0.5 and up to "
-    "48 pixels") {
+    "gather: only block mode with slices blurs cells without views, for blurs from 1/16 to 48 "
+    "pixels") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
   const starfocus_config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {
@@ -170,7 +170,8 @@ TEST_CASE(
   };
   CHECK(gathered(48.1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);
   CHECK(gathered(48, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO) == 70 * 45);
-  CHECK(gathered(0.5, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);
+  CHECK(gathered(1.0 / 16, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 70 * 45);
+  CHECK(gathered(3.0 / 64, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);
   CHECK(gathered(3, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN) == 0);
   CHECK(gathered(3, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES) == 0);
   CHECK(gathered(3, STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_SLICES) == 0);

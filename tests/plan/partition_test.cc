@@ -197,7 +197,7 @@ TEST_CASE(
         for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
           const int layer =
               std::min(LayerOf(subapertures, exact, false, plan.rules.demand), max_layer);
-          const bool gathered = subapertures && exact > 0.5 && exact <= 12 << layer;
+          const bool gathered = subapertures && exact >= 1.0 / 16 && exact <= 12 << layer;
           CHECK(block.gathers == gathered);
           if (gathered) {
             CHECK(block.layer == (exact <= 12 ? 0 : layer));

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <vector>
 
+#include "lib/optics/psf.h"
 #include "lib/plan/partition.h"
 #include "tests/plan/measured_cells.h"
 #include "tests/support/inside.h"
@@ -313,7 +314,8 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
       block.rendered, block.border, plan.rules.apertures[block.n], stats.content, block.layer);
   work.upsample = upsampled;
   block.cost = starfocus::PredictTime(plan.config.tuning.timing, work);
-  if (block.n > 0) PlanGathering(plan, plan.config.tuning.timing.upsample * upsampled, &block);
+  if (starfocus::BlurStep(stats.r_max) > 0)
+    PlanGathering(plan, plan.config.tuning.timing.upsample * upsampled, &block);
   return block;
 }
 
