@@ -43,6 +43,7 @@
   KERNEL(FindSteps)               \
   KERNEL(BesideSteps)             \
   KERNEL(FindCopies)              \
+  KERNEL(ColourCopies)            \
   KERNEL(LookBehind)              \
   KERNEL(CoverPlaces)             \
   KERNEL(SumNear)                 \

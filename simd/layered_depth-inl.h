@@ -439,6 +439,35 @@ inline uint64_t FindCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, si
   return strips;
 }
 
+inline void ColourCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride,
+                         const int16_t* HWY_RESTRICT copies, const int16_t* HWY_RESTRICT rgb,
+                         size_t plane, size_t out_plane, int16_t* HWY_RESTRICT out) {
+  const LanesTag d16;
+  const hn::RebindToUnsigned<decltype(d16)> du16;
+  const auto mean_of_found = [=](auto has_a, LanesVec a, auto has_b, LanesVec b) HWY_ATTR {
+    const auto mean =
+        hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
+    return hn::IfThenElse(has_a, hn::IfThenElse(has_b, mean, a), b);
+  };
+  for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
+    const auto copy = hn::LoadU(d16, copies + n);
+    const int16_t* const at = row + n;
+    const auto right = hn::Eq(hn::LoadU(d16, at + 1), copy);
+    const auto left = hn::Eq(hn::LoadU(d16, at - 1), copy);
+    const auto below = hn::Eq(hn::LoadU(d16, at + stride), copy);
+    const auto above = hn::Eq(hn::LoadU(d16, at - stride), copy);
+    const auto in_row = hn::Or(right, left), in_column = hn::Or(below, above);
+    for (size_t c = 0; c < 3; ++c) {
+      const int16_t* const from = rgb + c * plane + n;
+      const auto along =
+          mean_of_found(right, hn::LoadU(d16, from + 1), left, hn::LoadU(d16, from - 1));
+      const auto across =
+          mean_of_found(below, hn::LoadU(d16, from + stride), above, hn::LoadU(d16, from - stride));
+      hn::StoreU(mean_of_found(in_row, along, in_column, across), d16, out + c * out_plane + n);
+    }
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();

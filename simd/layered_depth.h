@@ -272,6 +272,33 @@ STARFOCUS_REFERENCE uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, si
   return strips;
 }
 
+// Returns the mean of two colours, rounded half up, or only one of them if `has_a` or `has_b` is
+// false. Colours are light, >= 0.
+inline int16_t MeanOfFound(bool has_a, int16_t a, bool has_b, int16_t b) {
+  return has_a && has_b ? static_cast<int16_t>((a + b + 1) >> 1) : has_a ? a : b;
+}
+
+// Writes the colours of the copies (FindCopies) of a group of kSliceLanes pixels. A copy has the
+// mean colour of the neighbours whose disparity is that of the copy: the mean of the means along
+// the row and along the column. Colours of pixels without a copy are unspecified. The three planes
+// of `rgb` are `plane` samples apart, and those of `out` are `out_plane` samples apart. Rows are
+// `stride` samples apart.
+STARFOCUS_REFERENCE void ColourCopies(const int16_t* row, ptrdiff_t stride, const int16_t* copies,
+                                      const int16_t* rgb, size_t plane, size_t out_plane,
+                                      int16_t* out) {
+  for (size_t n = 0; n < kSliceLanes; ++n) {
+    const int16_t* const at = row + n;
+    const bool right = at[1] == copies[n], left = at[-1] == copies[n];
+    const bool below = at[stride] == copies[n], above = at[-stride] == copies[n];
+    for (size_t c = 0; c < 3; ++c) {
+      const int16_t* const colour = rgb + c * plane + n;
+      const int16_t along = MeanOfFound(right, colour[1], left, colour[-1]);
+      const int16_t across = MeanOfFound(below, colour[stride], above, colour[-stride]);
+      out[c * out_plane + n] = MeanOfFound(right || left, along, below || above, across);
+    }
+  }
+}
+
 // Finds up to two surfaces behind each pixel of a row. On each side, the first candidate is the
 // surface beyond the next edge. The second candidate is the surface that the far side of this edge
 // hides beyond another edge. The second candidate must be at most kMostDistance pixels away. A view

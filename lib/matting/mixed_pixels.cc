@@ -141,12 +141,14 @@ bool IsPartial(const CoverageMap& map, const BlockPixels& field, int32_t x, int3
          map.alpha[map.At(x, y)] < kLeastWhole;
 }
 
-// Returns true if the near surface also covers the four neighbours of a pixel, so that slices on
+// Returns true if the near surface also covers the eight neighbours of a pixel, so that slices on
 // both sides of a step within the surface overlap. Otherwise, the far surface would show between
 // the slices.
 bool IsInside(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y) {
-  for (const auto& side : kSides) {
-    if (IsPartial(map, field, x + side[0], y + side[1])) return false;
+  for (int32_t row = y - 1; row <= y + 1; ++row) {
+    for (int32_t column = x - 1; column <= x + 1; ++column) {
+      if (IsPartial(map, field, column, row)) return false;
+    }
   }
   return true;
 }

@@ -266,11 +266,10 @@ class SurfaceFinder {
     if (y > 0 && y < surfaces_.height - 1) CloseRow(y);
   }
 
-  // Closes surfaces at steps where two slices may move apart. Behind each pixel on the near side of
-  // a disparity step, the function inserts a copy of the pixel with the far side's disparity. With
+  // Closes surfaces at steps where two slices may move apart. The far side of each small step is
+  // continued behind the pixel on the near side, with the colour of the far side (kMostCopy). With
   // these copies, the surface stays closed, however its slices move.
   void CloseRow(int32_t y) {
-    const size_t at = surfaces_.At(0, y);
     // The array `moved` can be reused, because FindEdges no longer needs its content.
     int16_t* const copies = surfaces_.moved;
     uint64_t strips =
@@ -278,36 +277,36 @@ class SurfaceFinder {
                             static_cast<int16_t>(kLeastCopy << layer_),
                             static_cast<int16_t>(kMostCopy << layer_), copies);
     copies[0] = copies[surfaces_.width - 1] = kNoSurface;
-    for (int32_t x = 0; strips != 0; strips >>= 1, x += kStripColumns) {
-      if ((strips & 1) == 0) continue;
-      const uint64_t bit = uint64_t{1} << (x / kStripColumns);
-      if ((surfaces_.hiding[y] & bit) == 0) {
-        surfaces_.hiding[y] |= bit;
-        CopyStrip(at + static_cast<size_t>(x), copies + x);
-      } else {
-        for (int32_t k = x; k < x + kStripColumns; ++k)
-          CopyPixel(at + static_cast<size_t>(k), copies[k]);
+    for (size_t x = 0; strips != 0; strips >>= 1, x += kStripColumns) {
+      if ((strips & 1) != 0) CloseStrip(y, x, copies + x);
+    }
+  }
+
+  void CloseStrip(int32_t y, size_t x, const int16_t* copies) {
+    const size_t at = surfaces_.At(0, y) + x;
+    const uint64_t bit = uint64_t{1} << (x / kStripColumns);
+    const auto colour = [&](size_t plane, int16_t* rgb) {
+      kernels_.ColourCopies(Row(y) + x, surfaces_.stride, copies, surfaces_.rgb[0] + at,
+                            surfaces_.plane, plane, rgb);
+    };
+    if ((surfaces_.hiding[y] & bit) == 0) {
+      surfaces_.hiding[y] |= bit;
+      for (uint16_t* sources : surfaces_.sources) {
+        std::memset(sources + at, 0, kStripColumns * sizeof(*sources));
       }
+      std::memcpy(surfaces_.disparity[1] + at, copies, kStripColumns * sizeof(*copies));
+      ClearStrip(surfaces_.disparity[2] + at);
+      colour(surfaces_.plane, surfaces_.rgb[1] + at);
+      return;
     }
+    int16_t rgb[3 * kStripColumns];
+    colour(kStripColumns, rgb);
+    for (size_t k = 0; k < kStripColumns; ++k) InsertCopy(at + k, copies[k], rgb + k);
   }
 
-  // Inserts copies of pixels in a strip whose pixels do not hide any other surface.
-  void CopyStrip(size_t at, const int16_t* copies) {
-    for (uint16_t* sources : surfaces_.sources) {
-      std::memset(sources + at, 0, kStripColumns * sizeof(*sources));
-    }
-    std::memcpy(surfaces_.disparity[1] + at, copies, kStripColumns * sizeof(*copies));
-    ClearStrip(surfaces_.disparity[2] + at);
-    for (size_t c = 0; c < 3; ++c) {
-      const size_t sample = c * surfaces_.plane + at;
-      std::memcpy(surfaces_.rgb[1] + sample, surfaces_.rgb[0] + sample,
-                  kStripColumns * sizeof(*surfaces_.rgb[0]));
-    }
-  }
-
-  // Inserts a copy of the pixel in front of the other hidden surfaces, unless one of these surfaces
-  // is nearer. Pixels at which a surface ends get no copy, because they belong to one slice only.
-  void CopyPixel(size_t at, int16_t copy) {
+  // Inserts a copy in front of the other hidden surfaces, unless one of these surfaces is nearer.
+  // Pixels at which a surface ends get no copy, because they belong to one slice only.
+  void InsertCopy(size_t at, int16_t copy, const int16_t* rgb) {
     if (copy <= surfaces_.disparity[1][at] || surfaces_.share[at] != simd::kSliceWhole) return;
     surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
     surfaces_.disparity[1][at] = copy;
@@ -316,7 +315,7 @@ class SurfaceFinder {
     for (size_t c = 0; c < 3; ++c) {
       const size_t sample = c * surfaces_.plane + at;
       surfaces_.rgb[2][sample] = surfaces_.rgb[1][sample];
-      surfaces_.rgb[1][sample] = surfaces_.rgb[0][sample];
+      surfaces_.rgb[1][sample] = rgb[c * kStripColumns];
     }
   }
 
@@ -340,29 +339,38 @@ class SurfaceFinder {
 
 // Smallest difference of disparity (kDisparityBits) between the near surface and a hidden surface
 // of a thin structure. Hidden surfaces with a smaller difference are dropped, because they are not
-// opaque but other strands of the thin structure.
+// opaque but other strands of the thin structure. Copies close a surface, and stay.
 constexpr int32_t kSameStructure = 4 << kDisparityBits;
+
+// Returns true if a pixel has a copy (kMostCopy), which is always its first hidden surface.
+bool HasCopy(const LayeredDepth& surfaces, size_t at) {
+  return surfaces.disparity[1][at] != kNoSurface && surfaces.sources[0][at] == 0;
+}
 
 void DropStrands(const SplitPixel& pixel, LayeredDepth* surfaces) {
   const size_t at = surfaces->At(pixel.column, pixel.row);
   const int32_t near = surfaces->disparity[0][at];
   for (int behind = simd::kSurfaces - 1; behind > 0; --behind) {
     int16_t& disparity = surfaces->disparity[behind][at];
-    if (disparity != kNoSurface && near - disparity < kSameStructure) disparity = kNoSurface;
+    if (near - disparity >= kSameStructure || (behind == 1 && HasCopy(*surfaces, at))) continue;
+    disparity = kNoSurface;
   }
 }
 
 // Gives a pixel the two surfaces that it mixes. A hidden surface at most `copy_step` behind the far
-// surface is a copy of the pixel (kLeastCopy) with the colour of the mixture, so the far surface
-// replaces the copy.
+// surface is a copy (kMostCopy), which the far surface replaces. The copy of a pixel inside a thin
+// structure stays in front of the far surface.
 void Split(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
   LayeredDepth& to = *surfaces;
   const size_t at = to.At(pixel.column, pixel.row);
+  const bool is_thin = pixel.kind == SplitPixel::kThin;
+  const bool is_closed = is_thin && pixel.share == simd::kSliceWhole && HasCopy(to, at) &&
+                         to.disparity[1][at] > pixel.far_disparity;
+  const int far = is_closed ? 2 : 1;
   to.hiding[pixel.row] |= uint64_t{1} << (pixel.column / static_cast<int32_t>(simd::kSliceLanes));
   to.share[at] = pixel.share;
-  const bool replaces_all = pixel.kind == SplitPixel::kThin;
-  const bool moves = !replaces_all && pixel.far_disparity - to.disparity[1][at] > copy_step;
-  if (replaces_all) {
+  const bool moves = !is_thin && pixel.far_disparity - to.disparity[1][at] > copy_step;
+  if (is_thin) {
     to.sources[0][at] = to.sources[1][at] = 0;
     to.disparity[2][at] = kNoSurface;
   } else if (moves) {
@@ -370,14 +378,14 @@ void Split(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
   } else {
     to.sources[0][at] = to.sources[1][at];  // source of the surface behind the far surface
   }
-  to.disparity[1][at] = pixel.far_disparity;
+  to.disparity[far][at] = pixel.far_disparity;
   to.disparity[0][at] = pixel.near_disparity;
   to.low = pixel.far_disparity < to.low ? pixel.far_disparity : to.low;
   to.high = pixel.near_disparity > to.high ? pixel.near_disparity : to.high;
   for (size_t c = 0; c < 3; ++c) {
     const size_t sample = c * to.plane + at;
     if (moves) to.rgb[2][sample] = to.rgb[1][sample];
-    to.rgb[1][sample] = pixel.far.rgb[c];
+    to.rgb[far][sample] = pixel.far.rgb[c];
     to.rgb[0][sample] = pixel.near.rgb[c];
   }
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/fixed.h"
 #include "lib/io/block_pixels.h"
 #include "lib/io/input.h"
 #include "lib/optics/view_grid.h"
@@ -18,10 +19,10 @@ namespace starfocus {
 using simd::kNoSurface;
 
 // Smallest and largest step of disparity between neighbouring pixels of layer 0 at which a surface
-// is closed. The slices on both sides of a step in this range move apart, so the farther slice is
-// continued behind the nearer slice. Without the continuation, background would show in the gap
-// (docs/constants.md).
-inline constexpr int16_t kLeastCopy = 2, kMostCopy = 1 << (kDisparityBits - 1);
+// is closed. The slices on both sides of a step in this range move apart, so the pixel on the far
+// side is continued behind the pixel on the near side by a copy of itself. Without the copy,
+// background would show in the gap (docs/constants.md). Larger steps are depth edges.
+inline constexpr int16_t kLeastCopy = 2, kMostCopy = kDepthEdge;
 
 // Largest width of surfaces, in strips of kSliceLanes columns.
 inline constexpr int32_t kMaxStrips = 64;
@@ -81,7 +82,7 @@ struct SurfaceBands {
 // (OcclusionViews) and in which nothing covers the surface. If no view sees the surface, the colour
 // of the background beyond the edge is repeated. If several sides provide a surface of the same
 // disparity at the same distance, their colours are averaged. At steps within a surface, each pixel
-// on the near side hides a copy of itself (kLeastCopy).
+// on the near side hides a copy of the farthest neighbour of the surface (kMostCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
                       LayeredDepth* surfaces);
 

@@ -172,21 +172,47 @@ class SurfaceFinder {
     }
   }
 
-  // Adds a copy of a pixel behind the pixel, because slices that move apart would otherwise open a
-  // gap in the surface. The copy has the disparity of the farthest neighbour on the same surface,
-  // which is 2/64 to half a pixel farther.
+  // Continues the farthest neighbour of a pixel on the same surface, which is 2/64 to 3/4 of a
+  // pixel farther, behind the pixel, because slices that move apart would otherwise open a gap in
+  // the surface.
   void AddCopy(int x, int y, std::vector<Surface>* surfaces) const {
     if (x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1) return;
     const int here = Disparity(x, y);
     int farthest = here;
     for (const Direction& side : kDirections) {
-      const int step = here - Disparity(x + side.x, y + side.y);
-      if (step >= unit_ * 2 / 64 && step <= unit_ / 2) farthest = std::min(farthest, here - step);
+      const int there = Disparity(x + side.x, y + side.y);
+      if (here - there >= unit_ * 2 / 64 && !IsEdge(here, there)) {
+        farthest = std::min(farthest, there);
+      }
     }
     if (farthest == here || surfaces->front().ends) return;
     if (surfaces->size() > 1 && (*surfaces)[1].disparity >= farthest) return;
-    surfaces->insert(surfaces->begin() + 1, {farthest, surfaces->front().colour});
+    surfaces->insert(surfaces->begin() + 1, {farthest, ColourBeside(x, y, farthest)});
     if (surfaces->size() > starfocus::simd::kSurfaces) surfaces->pop_back();
+  }
+
+  // Returns the mean of the mean colours of the neighbours of `disparity` in the row and in the
+  // column.
+  Colour ColourBeside(int x, int y, int disparity) const {
+    std::vector<Colour> means;
+    for (const Direction& axis : {kDirections[0], kDirections[2]}) {
+      std::vector<Colour> colours;
+      for (const int way : {1, -1}) {
+        const int column = x + way * axis.x, row = y + way * axis.y;
+        if (Disparity(column, row) != disparity) continue;
+        colours.push_back(extended_.colours[extended_.At(column, row)]);
+      }
+      if (!colours.empty()) means.push_back(MeanOf(colours));
+    }
+    return MeanOf(means);
+  }
+
+  static Colour MeanOf(const std::vector<Colour>& colours) {
+    Colour mean = {0, 0, 0};
+    for (const Colour& colour : colours) {
+      for (size_t c = 0; c < 3; ++c) mean[c] += colour[c] / double(colours.size());
+    }
+    return mean;
   }
 
   // Returns true if a pixel hides the point `distance` pixels away beyond an edge. The centre view

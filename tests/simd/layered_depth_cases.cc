@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test and benchmark calls of the kernels in simd/layered_depth.h.
 #include <algorithm>
+#include <cmath>
 
 #include "tests/simd/kernel_cases.h"
 
@@ -109,6 +110,48 @@ void FindCopies(Draw* draw, KernelCall* call) {
       (*met)["copies"] += expected != kNoSurface;
       return copies[i] == expected &&
              (expected == kNoSurface || (strips[y] >> (n / kSliceLanes) & 1) != 0);
+    });
+  };
+}
+
+void ColourCopies(Draw* draw, KernelCall* call) {
+  const size_t groups = draw->Size(1, 4, kTimedSamples / kSliceLanes);
+  const size_t stride = groups * kSliceLanes + 2, plane = 3 * stride + draw->Size(0, 7, 0);
+  std::vector<int16_t> disparities(3 * stride), colours(3 * plane);
+  for (int16_t& d : disparities) d = int16_t(draw->Int(-2, 2));
+  for (int16_t& c : colours) c = int16_t(draw->Int(0, INT16_MAX));
+  std::vector<int16_t> lower(groups * kSliceLanes);
+  for (int16_t& copy : lower) copy = draw->Int(0, 3) == 0 ? kNoSurface : int16_t(draw->Int(-2, 2));
+  const int16_t* row = call->Input("field", disparities, kPadding) + stride + 1;
+  const int16_t* rgb = call->Input("rgb", colours, kPadding) + stride + 1;
+  const int16_t* copies = call->Input("copies", lower, kPadding);
+  auto* out = call->Results<int16_t>("out", 3 * groups * kSliceLanes);
+  call->Runs([=](const Kernels& kernels) {
+    for (size_t n = 0; n < groups * kSliceLanes; n += kSliceLanes) {
+      kernels.ColourCopies(row + n, ptrdiff_t(stride), copies + n, rgb + n, plane,
+                           groups * kSliceLanes, out + n);
+    }
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    return AllRight(3 * groups * kSliceLanes, [&](size_t i) {
+      const size_t c = i / (groups * kSliceLanes), n = i % (groups * kSliceLanes);
+      const int16_t *at = row + n, *colour = rgb + c * plane + n;
+      double means = 0;
+      int axes = 0;
+      for (const ptrdiff_t step : {ptrdiff_t{1}, ptrdiff_t(stride)}) {
+        double sum = 0;
+        int found = 0;
+        for (const ptrdiff_t next : {step, -step}) {
+          if (at[next] != copies[n]) continue;
+          sum += colour[next];
+          ++found;
+        }
+        if (found == 0) continue;
+        means += sum / found;
+        ++axes;
+      }
+      (*met)["colours of neighbours"] += axes > 0;
+      return axes == 0 || std::abs(out[i] - means / axes) <= 1;
     });
   };
 }

@@ -175,21 +175,23 @@ TEST_CASE("surfaces: a hidden surface may itself have an edge") {
 }
 
 TEST_CASE(
-    "surfaces: at disparity steps of 2/64 to 1/2 pixel, a pixel hides a farther copy of itself") {
-  Scene scene(5);
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) scene.Set(x, y, 0.25 * (x % 8), x);
-  }
-  scene.Find();
-  for (const int x : {9, 12, 14}) {
-    CAPTURE(x);
-    CHECK(scene.Behind(x, 20) == doctest::Approx(0.25 * (x % 8) - 0.25));
-    CHECK(scene.Colour(x, 20, 2) == scene.Colour(x, 20, 2, 0));
+    "surfaces: at disparity steps of 2/64 to 3/4 pixel, a pixel hides a copy of its neighbour") {
+  for (const double step : {0.25, 0.75}) {
+    Scene scene(5);
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) scene.Set(x, y, step * (x % 4), x);
+    }
+    scene.Find();
+    for (const int x : {9, 10}) {
+      CAPTURES(step, x);
+      CHECK(scene.Behind(x, 20) == doctest::Approx(step * (x % 4) - step));
+      CHECK(scene.Colour(x, 20, 2) == scene.Colour(x - 1, 20, 2, 0));
+    }
   }
 }
 
-TEST_CASE("surfaces: disparity steps below 2/64 pixel, or from 1/2 to 3/4 pixel, hide nothing") {
-  for (const double slope : {0.0, 0.016, 0.6, 0.75, -0.75}) {
+TEST_CASE("surfaces: disparity steps below 2/64 pixel hide nothing") {
+  for (const double slope : {0.0, 0.016, -0.016}) {
     Scene scene(5);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) scene.Set(x, y, slope * x, x);
