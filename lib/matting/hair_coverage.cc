@@ -334,14 +334,20 @@ void CountNear(const Search& search, int32_t column, int32_t row, bool inside, H
   votes->fine += squares - sum * sum / count;
 }
 
+// Returns true if a cell votes, which half of the cells of each block do. The pattern is the same
+// in a mirrored block.
+bool Votes(int32_t column, int32_t row) {
+  const auto half = [](int32_t k) { return k ^ (k >> 2); };
+  return ((half(column) ^ half(row)) & 1) == 0;
+}
+
 void CountVotes(const Search& search, const Range& blocks) {
   for (int32_t row = blocks.first; row < blocks.last; ++row) {
     std::fill_n(&search.VotesAt(0, row), search.block_columns, HairVotes{});
   }
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
     search.memory.hair[at] = 0;
-    // Every second cell votes.
-    if ((search.memory.marks[at] & HairMemory::kHasNear) == 0 || ((column + row) & 1) != 0) return;
+    if ((search.memory.marks[at] & HairMemory::kHasNear) == 0 || !Votes(column, row)) return;
     const bool inside = !HasWithin(search, column, row, kBeside, HairMemory::kHasFar) &&
                         HasWithin(search, column, row, kMostInside, HairMemory::kHasFar);
     CountNear(search, column, row, inside,

@@ -103,7 +103,7 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
 // flat cells, a variation of which more than half lies within one cell is a step.
 inline constexpr int32_t kSmoothRange = (5 << kDisparityBits) / 4;
 inline constexpr int32_t kSlopeRange = 2 << kDisparityBits;
-inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 2;
+inline constexpr int32_t kSharpSmoothRange = (1 << kDisparityBits) / 8;
 enum class CellKind : uint8_t { kMixed, kSloped, kFlat };
 
 // Returns the statistics of the 2x2 cells at (column, row) of the grid.

@@ -68,15 +68,22 @@ inline MapInput Disc(bool noisy) {
 }
 
 // Returns a portrait with a map in which the outline of the hair is closed, so that a repair finds
-// coverage. The height is a multiple of the cells' height, so that the mirrored picture has the
-// same cells.
+// coverage. The size is a multiple of the blocks that vote on hair, so that the mirrored picture
+// has the same blocks.
 inline MapInput Hair() {
-  constexpr int kWidth = test::ClosedHair::kWidth, kHeight = test::ClosedHair::kHeight / 4 * 4;
-  test::ClosedHair portrait = test::MakeClosedHair();
-  portrait.rgb.resize(3 * size_t(kWidth * kHeight));
-  portrait.map.resize(size_t(kWidth * kHeight));
-  portrait.map[portrait.At(100, 80)] = std::numeric_limits<float>::quiet_NaN();
-  return {{kWidth, kHeight, {portrait.rgb}}, portrait.map, -12, 12, true};
+  constexpr int kBlock = 32, kWidth = test::ClosedHair::kWidth / kBlock * kBlock,
+                kHeight = test::ClosedHair::kHeight / kBlock * kBlock;
+  const test::ClosedHair portrait = test::MakeClosedHair();
+  std::vector<uint8_t> rgb;
+  std::vector<float> map;
+  for (int y = 0; y < kHeight; ++y) {
+    const auto row = ptrdiff_t(portrait.At(0, y));
+    rgb.insert(rgb.end(), portrait.rgb.begin() + 3 * row,
+               portrait.rgb.begin() + 3 * (row + kWidth));
+    map.insert(map.end(), portrait.map.begin() + row, portrait.map.begin() + row + kWidth);
+  }
+  map[80 * kWidth + 100] = std::numeric_limits<float>::quiet_NaN();
+  return {{kWidth, kHeight, {rgb}}, map, -12, 12, true};
 }
 
 // Estimates or repairs the map of an input, with the kernels, memory and symmetry of a Setup.

@@ -84,7 +84,7 @@ struct Cells {
     const double radius = double(scale.step) / (1 << starfocus::kStepBits);
     const double blur =
         radius * std::max(std::abs(low - scale.focus.far), std::abs(high - scale.focus.far));
-    const double of_step = std::max(std::floor(std::floor(blur) / 2) / kOne, 0.5);
+    const double of_step = std::max(std::floor(std::floor(blur) / 2) / kOne, 0.125);
     const auto within = [&](int disparities, double most) {
       return double(disparities) / kOne * radius <= most;
     };
