@@ -97,8 +97,9 @@ TEST_CASE("closed: a surface with noisy or sloping disparities lets no light thr
               starfocus_params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
               const test::Output out = test::OutputOf(&engine, params, scene);
               const int blur = int(std::max(std::abs(focus - 2), std::abs(focus - 4))) + 9;
-              // Three codes of the surface's dark green are 1/500 of the wall's light.
-              CHECK(MostLeaked(out, blur) <= 3);
+              // Close to the focus, single pixels may show 1/500 of the wall's light, which is
+              // three codes of the surface's dark green.
+              CHECK(MostLeaked(out, blur) <= (focus == 2.5 ? 3 : 1));
             }
           }
         }
