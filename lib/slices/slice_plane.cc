@@ -80,7 +80,7 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture, int32_t scale) {
   };
   const int16_t edge = before(rest * (kFractionOne / kShiftOne));
   if (subaperture >= kShiftOne) return SliceOffset::Of(whole, {edge, edge, 0, 0});
-  const int64_t moved = int64_t{shift} * scale - (int64_t{whole} << kScaledBits);
+  const int64_t moved = int64_t{shift} * scale - int64_t{whole} * (1 << kScaledBits);
   const int32_t inside = ShareInside(moved, subaperture * scale);
   return SliceOffset::Of(whole, {before(inside), edge, 0, 0});
 }
