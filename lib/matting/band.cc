@@ -11,10 +11,12 @@ namespace {
 // disparities.
 using BandDisparities = DisparitiesAround<kBandReach + 2>;
 
-// A tile counts as thin structure if at least kLeastRagged of its pixels have a nearer neighbour.
-// In tiles of hair, 38 or more pixels have a nearer neighbour. Tiles with a straight edge have 16
-// to 23 pixels with a nearer neighbour, and tiles with a wire two pixels wide have up to 40.
-constexpr int32_t kLeastRagged = 36;
+// A tile counts as thin structure if at least kLeastRagged of its pixels have a nearer neighbour,
+// and if at least kLeastStrands of its pixels belong to strands one pixel wide. In tiles of hair,
+// 38 or more pixels have a nearer neighbour. Tiles with a straight edge have 16 to 23 pixels with a
+// nearer neighbour. Where wires two pixels wide cross, a tile has up to 54, but no such strand.
+// Both counts depend on the disparity map alone, so that noise in the views cannot change them.
+constexpr int32_t kLeastRagged = 36, kLeastStrands = 2;
 
 // Offset to a neighbour at most kBandReach pixels away in x and y: as (x, y), and as a difference
 // of array indices.
@@ -126,6 +128,22 @@ class TileRow {
     return count;
   }
 
+  // Returns the number of pixels of a tile that belong to a strand one pixel wide, because two
+  // opposite neighbours are farther.
+  int32_t CountStrands(int32_t x) {
+    int32_t count = 0;
+    for (int32_t y = 0; y < kCoverageTile; ++y) {
+      const int16_t* const row = At(x, y);
+      for (int32_t k = 0; k < kCoverageTile; ++k) {
+        const int32_t beyond = row[k] - kThinStep;
+        const bool across = row[k - 1] < beyond && row[k + 1] < beyond;
+        const bool down = row[k - kStride] < beyond && row[k + kStride] < beyond;
+        count += across || down ? 1 : 0;
+      }
+    }
+    return count;
+  }
+
   static constexpr int32_t kMostTiles = 16;
 
  private:
@@ -191,9 +209,10 @@ void FindRagged(const Input& input, int32_t first, int32_t last, int32_t row) {
       CoverageTile& tile = map.Tile(from + k, row);
       int32_t low, high;
       tiles.FindRange(k * kCoverageTile, &low, &high);
-      const bool ragged =
-          high - low > kThinStep &&
-          (HasGiven(input) || tiles.CountRagged(*input.kernels, k * kCoverageTile) >= kLeastRagged);
+      const bool ragged = high - low > kThinStep &&
+                          (HasGiven(input) ||
+                           (tiles.CountRagged(*input.kernels, k * kCoverageTile) >= kLeastRagged &&
+                            tiles.CountStrands(k * kCoverageTile) >= kLeastStrands));
       tile = {BinsOf(map, low, high), INT16_MAX, INT16_MIN, ragged ? uint8_t{1} : uint8_t{0}, 0, 0};
     }
   }

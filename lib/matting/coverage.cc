@@ -77,7 +77,8 @@ void Start(const Input& input, int32_t column, int32_t row) {
 
 void Look(const Input& input, int32_t column, int32_t row) {
   CoverageTile& tile = input.coverage->Tile(column, row);
-  const bool thin = input.coverage->AnyAround(column, row, 1, &CoverageTile::mixed);
+  const bool thin =
+      !HasGiven(input) || input.coverage->AnyAround(column, row, 1, &CoverageTile::mixed);
   tile.thin = thin && input.coverage->IsStarted(column, row) ? 1 : 0;
   if (tile.thin != 0 && !IsGivenAlone(input)) LookBehindTile(input, column, row);
 }

@@ -60,14 +60,15 @@ struct CoverageTile {
   // disparities.
   uint64_t near_bins;
   int16_t low, high;  // smallest and largest disparity of both surfaces of all split pixels
-  // True if many pixels of the tile are next to depth edges. If the light field provides coverage,
-  // one pixel next to an edge makes the tile ragged.
+  // True if many pixels of the tile are next to depth edges, and some pixels belong to strands one
+  // pixel wide. If the light field provides coverage, one pixel next to an edge makes the tile
+  // ragged.
   uint8_t ragged;
-  // True if many pixels of the tile are mixtures of two surfaces, and if `ragged` is true. If the
-  // light field provides coverage, one mixed pixel makes the tile mixed.
+  // True if the light field provides coverage, and a pixel of the tile is a mixture of two
+  // surfaces.
   uint8_t mixed;
   // True if pixels near edges are split in this tile, because this tile or a neighbouring tile is
-  // mixed.
+  // ragged. If the light field provides coverage, one of these tiles must also be mixed.
   uint8_t thin;
 };
 

@@ -12,9 +12,7 @@ namespace starfocus {
 
 // Band (band.cc).
 
-// Sets CoverageTile::ragged of the tiles [first, last) of a row: true if enough pixels of the tile
-// lie next to depth edges. If the light field provides coverage, a single pixel next to an edge
-// makes a tile ragged.
+// Sets CoverageTile::ragged of the tiles [first, last) of a row.
 void FindRagged(const Input& input, int32_t first, int32_t last, int32_t row);
 
 // Initialises a tile as a single surface with the disparities of the disparity map.
@@ -32,8 +30,7 @@ void StartGiven(const Input& input, int32_t column, int32_t row);
 
 // Coverage (unmix.cc).
 
-// Writes the coverage of a tile after the first pass, starting from the tile's initial alpha. Sets
-// CoverageTile::mixed if the pixels of the tile are, on average, mixed enough for a thin structure.
+// Writes the coverage of a tile after the first pass, starting from the tile's initial alpha.
 void UnmixFirst(const Input& input, int32_t column, int32_t row);
 
 // Writes the coverage of a tile after the second pass, and the light of the far surface in the

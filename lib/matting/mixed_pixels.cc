@@ -31,12 +31,12 @@ struct Division {
 // Divides a pixel by the position of its colour relative to the line from `far` to `near`.
 //
 // Noise must not decide whether a pixel is split. At each limit, the share and the weight therefore
-// fade to 0 instead of stopping abruptly: at contrasts below twice kLeastContrast, for shares from
-// 13/20 to 19/20, and from 1/4 to 3/2 of the tolerated squared distance from the line. The far
-// surface covers the centre of the pixel, so a larger share means that `far` is wrong. For shares
-// below 1 / kPureParts, the weight also falls to 0, because the far colour differs from the colour
-// of the pixel by the distance from the line.
-Division DivisionOf(const BoundaryColours& colours) {
+// fade to 0 instead of stopping abruptly: from a contrast of kLeastContrast plus `contrast_fade`
+// down to kLeastContrast, for shares from 13/20 to 19/20, and from 1/4 to 3/2 of the tolerated
+// squared distance from the line. The far surface covers the centre of the pixel, so a larger share
+// means that `far` is wrong. For shares below 1 / kPureParts, the weight also falls to 0, because
+// the far colour differs from the colour of the pixel by the distance from the line.
+Division DivisionOf(const BoundaryColours& colours, int32_t contrast_fade) {
   const ColourLine line = ColourLineOf<kColourBits>(colours.near, colours.far, colours.mixed);
   const int64_t along = line.along, contrast = line.contrast;
   if (contrast <= kLeastContrast || along <= 0 || 20 * along >= 19 * contrast) return {};
@@ -45,7 +45,8 @@ Division DivisionOf(const BoundaryColours& colours) {
   const int64_t limit = contrast * (kContrastParts * kNoise + contrast);
   if (2 * (beside >> kShareBits) >= 3 * (limit >> kShareBits)) return {};
   const int64_t share = along * kShareOne / contrast;
-  const int64_t clear = Limited((contrast - kLeastContrast) * kShareOne / kLeastContrast);
+  const int64_t clear =
+      Limited((contrast - kLeastContrast) * kShareOne / (contrast_fade * kSquareOne));
   const int64_t inside = Limited((6 * kShareOne - 4 * (beside / (limit >> kShareBits))) / 5);
   const int64_t most = Limited((19 * kShareOne - 20 * share) / 6);
   const int64_t fade = (clear * inside >> kShareBits) * most >> kShareBits;
@@ -141,9 +142,9 @@ bool IsPartial(const CoverageMap& map, const BlockPixels& field, int32_t x, int3
          map.alpha[map.At(x, y)] < kLeastWhole;
 }
 
-// Returns true if the near surface also covers the eight neighbours of a pixel, so that slices on
-// both sides of a step within the surface overlap. Otherwise, the far surface would show between
-// the slices.
+// Returns true if a pixel lies inside its near surface, so that slices on both sides of a step
+// within the surface must overlap. Otherwise, the far surface would show between the slices. With
+// given coverage, the near surface must cover the pixel and its eight neighbours.
 bool IsInside(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y) {
   for (int32_t row = y - 1; row <= y + 1; ++row) {
     for (int32_t column = x - 1; column <= x + 1; ++column) {
@@ -151,6 +152,23 @@ bool IsInside(const CoverageMap& map, const BlockPixels& field, int32_t x, int32
     }
   }
   return true;
+}
+
+// Returns true if a pixel and its eight neighbours belong to one surface of the disparity map.
+bool IsOneSurface(const CentreView& centre, int32_t x, int32_t y) {
+  const int32_t here = centre.Disparity(x, y);
+  for (int32_t dy = -1; dy <= 1; ++dy) {
+    for (int32_t dx = -1; dx <= 1; ++dx) {
+      const int32_t most = (Abs(dx) + Abs(dy)) * kDepthEdge;
+      if (Abs(centre.Disparity(x + dx, y + dy) - here) > most) return false;
+    }
+  }
+  return true;
+}
+
+// Returns true if the disparity map shows the near surface at a split pixel.
+bool ShowsNear(const Input& input, const FarCell& far, int32_t x, int32_t y) {
+  return input.disparity.Row(y)[x] > far.disparity;
 }
 
 }  // namespace
@@ -163,14 +181,16 @@ CentreView::CentreView(const Input& input, const BlockPixels* field)
              Min(field->y + field->height, input.height) - top};
 }
 
-Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel) {
+Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel, int32_t contrast_fade) {
   const BoundaryColours colours = ReadColours(centre, pixel);
   const Input* const captured = centre.input().captured;
-  if (captured == nullptr || centre.layer() > 0) return Unmix(colours);
-  return MixtureOf(DivisionOf(ReadColours(CentreView(*captured), pixel)), colours);
+  if (captured == nullptr || centre.layer() > 0) return Unmix(colours, contrast_fade);
+  return MixtureOf(DivisionOf(ReadColours(CentreView(*captured), pixel), contrast_fade), colours);
 }
 
-Mixture Unmix(const BoundaryColours& colours) { return MixtureOf(DivisionOf(colours), colours); }
+Mixture Unmix(const BoundaryColours& colours, int32_t contrast_fade) {
+  return MixtureOf(DivisionOf(colours, contrast_fade), colours);
+}
 
 PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field)
     : centre_(input, &field),
@@ -192,7 +212,7 @@ bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel
     const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
     if (near - disparity <= step_ || !moves(near, disparity)) continue;
     sum.nearest = Max(sum.nearest, near);
-    sum.Add(FindMixture(centre_, {x, y, side, disparity, near, step_}));
+    sum.Add(FindMixture(centre_, {x, y, side, disparity, near, step_}, kContrastFade));
   }
   const int32_t share = RoundShift(sum.most * simd::kSliceWhole, kShareBits);
   if (share == 0) return false;
@@ -214,16 +234,22 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pix
   pixel->kind = map.alpha[from] == kUnsplit ? SplitPixel::kOneSurface : SplitPixel::kThin;
   if (pixel->kind == SplitPixel::kOneSurface) return;
   const int32_t found = map.alpha[from];
-  const int32_t alpha = Min(found + Max(found - kMostExact, 0), kWhole);
   const FarCell& cell = map.FarAt(x, y);
-  const bool whole = alpha == kWhole, is_excess = centre_.input().captured != nullptr;
+  const Input& input = centre_.input();
+  const bool is_excess = input.captured != nullptr;
+  // Noise must not change the number of surfaces, so found coverage does not decide whether a pixel
+  // lies inside.
+  const bool inside = HasGiven(input) ? found >= kLeastWhole && IsInside(map, field_, x, y)
+                                      : ShowsNear(input, cell, x, y) && IsOneSurface(centre_, x, y);
+  const int32_t alpha = inside ? kWhole : Min(found + Max(found - kMostExact, 0), kWhole);
+  const bool whole = alpha == kWhole;
   // Pixels without coverage have a near surface too, with a share of 0, so that the disparities of
   // all surfaces, and therefore the slices, do not depend on colours.
   pixel->near_disparity = map.near[from];
   pixel->far_disparity = cell.disparity;
-  pixel->share = !whole                        ? static_cast<uint8_t>(alpha)
-                 : IsInside(map, field_, x, y) ? uint8_t{simd::kSliceWhole}
-                                               : simd::kSliceEnd;
+  pixel->share = !whole   ? static_cast<uint8_t>(alpha)
+                 : inside ? uint8_t{simd::kSliceWhole}
+                          : simd::kSliceEnd;
   Colour &near = pixel->near, &far = pixel->far;
   std::memcpy(near.rgb, field_.Rgb(pixel->column, pixel->row), sizeof(near.rgb));
   far = near;
@@ -236,8 +262,12 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pix
       const int16_t mixed = near.rgb[c];
       near.rgb[c] = RestOf(mixed, cell.rgb[c], kWhole - alpha);
       // RestOf may have clipped the near surface's light. The far surface's light compensates for
-      // the clipping, so that the mixture of both surfaces still equals the light of the pixel.
-      far.rgb[c] = RestOf(mixed, near.rgb[c], alpha);
+      // the clipping, so that the mixture of both surfaces still equals the light of the pixel. If
+      // the far surface covers less than half of the pixel, it compensates only in part, because
+      // it would multiply noise.
+      const int32_t more = RestOf(mixed, near.rgb[c], alpha) - cell.rgb[c];
+      const int32_t part = Min(2 * (kWhole - alpha), kWhole);
+      far.rgb[c] = static_cast<int16_t>(cell.rgb[c] + RoundShift(more * part, kAlphaBits));
     }
   }
 }
@@ -248,9 +278,9 @@ void TakeDisparities(const Input& input, BlockPixels* field) {
   ForEachThin(map, *field, [&](int32_t x, int32_t y, size_t from) {
     const int32_t alpha = map.alpha[from];
     if (alpha == kUnsplit) return;
-    const bool is_near = 2 * alpha >= kWhole;
-    *field->Disparity(x - field->x, y - field->y) =
-        is_near ? map.near[from] : map.FarAt(x, y).disparity;
+    const FarCell& far = map.FarAt(x, y);
+    const bool is_near = HasGiven(input) ? 2 * alpha >= kWhole : ShowsNear(input, far, x, y);
+    *field->Disparity(x - field->x, y - field->y) = is_near ? map.near[from] : far.disparity;
   });
 }
 

@@ -110,18 +110,23 @@ struct Mixture {
   Colour near, far;
 };
 
+// Range of the squared distances between the near and the far colour over which the share of a
+// mixture rises from 0, in squares of white / 255. The paper's renderer has a smaller range: noise
+// of one code then changes shares at low contrast by up to a third.
+inline constexpr int32_t kContrastFade = 1024, kPaperContrastFade = 64;
+
 // Separates a boundary pixel. The near colour is read at
 // the second pixel beyond the edge, or at the first pixel if the two pixels are on different
 // surfaces. The far colour comes from a captured side view in which the nearer surface does not
 // cover the far surface. Without such a view, the far colour is the colour of the next pixel away
 // from the edge. If the input reads excess, both colours are excess, but the share is computed from
 // light.
-Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel);
+Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel, int32_t contrast_fade);
 
 // Separates a pixel by its colour and by the colours of both surfaces. Small changes of a colour
 // change the result little: as the share falls to 0, the far colour becomes the colour of the
 // pixel.
-Mixture Unmix(const BoundaryColours& colours);
+Mixture Unmix(const BoundaryColours& colours, int32_t contrast_fade);
 
 // Calls visit(column, row) for each pixel of a field if the disparity of one of its four neighbours
 // is larger by more than `step`. Pixels outside the picture and the outermost pixels of the field

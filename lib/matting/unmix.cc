@@ -10,25 +10,22 @@ namespace {
 constexpr int32_t kAround = simd::kNearReach;
 constexpr int32_t kSide = kCoverageTile + 2 * kAround;
 
-// A tile is mixed if its mean of 4 alpha (1 - alpha) is above 3/16.
-constexpr int32_t kMixedShare = kCoverageTile * kCoverageTile * kWhole * kWhole / 64 * 3;
-
 // Colours are compared in 255ths of white with 3 fractional bits.
 constexpr int kColourBits = 3;
 constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
-// Alpha is computed from colours to the degree that the colours can be trusted. Noise must not
-// decide whether they are trusted, so the trust increases gradually with three quantities. The
-// squared distance between near and far colours: the trust is 0 at kLeastContrast and 1 at twice
-// kLeastContrast.
-constexpr int32_t kLeastContrast = 200 * kSquareOne;
-// Squared noise that is tolerated in mixed colours. The trust decreases with the distance of the
-// mixed colour from the line through the near and far colours. Let s^2 be kNoise plus a sixteenth
-// of the squared contrast. The trust is 1 at squared distances of at most s^2 / 4 from the line,
-// and 0 at squared distances of at least 17 s^2 / 4.
+// Alpha is computed from colours to the degree that the colours can be trusted; the disparity map
+// decides the rest. Noise of one code must change alpha little, so the trust is a product of smooth
+// functions without limits. With the squared distance c between near and far colours, the first is
+// c / (c + kContrastNoise), the factor of a least-squares fit that weighs alpha's distance from the
+// guess with kContrastNoise.
+constexpr int32_t kContrastNoise = 1000 * kSquareOne;
+// With the squared distance b of the mixed colour from the line through the near and far colours,
+// the second is s / (s + b). The scale s is kNoise, the tolerated squared noise of mixed colours,
+// plus c / 16.
 constexpr int32_t kNoise = 81 * kSquareOne;
-// The sum of the weights of the near samples around a pixel, in units of 2^-15: the trust is 1 if
-// the sum is at least 2^kNearBits.
-constexpr int kNearBits = 6;
+// The third is the sum of the weights of the near samples around a pixel, in units of 2^-15. The
+// trust is 1 if the sum is at least 2^kNearBits.
+constexpr int kNearBits = 10;
 
 // The pixels in and around a tile: light, near disparities, and the weight of each pixel in a mean
 // of the near light.
@@ -87,20 +84,17 @@ struct SplitColours {
 // `guess` replaces the rest.
 int32_t AlphaOf(const SplitColours& colours, int32_t guess) {
   const ColourLine line = ColourLineOf<kColourBits>(colours.near, colours.far, colours.mixed);
-  const auto along = static_cast<int32_t>(line.along),
-             contrast = static_cast<int32_t>(line.contrast);
-  if (contrast <= kLeastContrast) return guess;
-  const int64_t beside = line.distance - int64_t{along} * along / contrast;
+  const int64_t contrast = line.contrast;
+  if (contrast == 0) return guess;
+  const int64_t beside = line.distance - line.along * line.along / contrast;
   const int64_t square = kNoise + contrast / 16;
-  const int64_t doubt = (4 * beside - square) * kWhole / (16 * square);
-  const int32_t on_line = kWhole - Clamp(static_cast<int32_t>(doubt), 0, kWhole);
-  const int32_t clear = Min(contrast / (kLeastContrast / kWhole) - kWhole, kWhole);
+  const int64_t part = line.along < 0 ? 0 : line.along > contrast ? contrast : line.along;
+  // The difference of alpha and guess, multiplied by the trust in the contrast: at most kWhole,
+  // with 8 more fractional bits.
+  const int64_t change = (part * kWhole - guess * contrast) * 256 / (contrast + kContrastNoise);
   const int32_t known = Min(colours.near_weight, 1 << kNearBits);
-  const int64_t trust = int64_t{on_line} * clear * known;
-  const int32_t part = Clamp(along, 0, contrast);
-  const auto alpha = static_cast<int32_t>((int64_t{part} * kWhole + contrast / 2) / contrast);
-  return guess +
-         static_cast<int32_t>(RoundShift((alpha - guess) * trust, 2 * kAlphaBits + kNearBits));
+  return guess + static_cast<int32_t>(
+                     RoundShift(change * known * square / (square + beside), 8 + kNearBits));
 }
 
 // Calls visit(x, y, alpha, cell) for each pixel of the tile that is near an edge, if the light of
@@ -157,12 +151,9 @@ void UnmixFirst(const Input& input, int32_t column, int32_t row) {
   };
   NearTile tile;
   LoadNearTile(input, column, row, weight_of, &tile);
-  int32_t mixture = 0;
   ForEachSplit(input, tile, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
     map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
-    mixture += alpha * (kWhole - alpha);
   });
-  map.Tile(column, row).mixed = mixture > kMixedShare ? 1 : 0;
 }
 
 void UnmixAgain(const Input& input, int32_t column, int32_t row) {

@@ -143,4 +143,42 @@ TEST_CASE("thin: all ways to refocus return the same bytes") {
   }
 }
 
+TEST_CASE("thin: noise of one code changes no pixel by more than 8 codes") {
+  for (const int views : {1, 5}) {
+    // From right to left, the wall gets the colour of the strands. With the grain of the pixels,
+    // colours lie on both sides of every limit.
+    test::Scene scene = Strands(views), noisy = scene;
+    test::Random random(18);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        if (scene.Disparity(x, y) > 0) scene.Disparity(x, y) += float(random.Real(-0.5, 0));
+        noisy.Disparity(x, y) = scene.Disparity(x, y);
+        for (int view = 0; view < views; ++view) {
+          const double grain = random.Real(-25, 25);
+          for (int c = 0; c < 3; ++c) {
+            uint8_t& code = scene.Pixel(view, x, y)[c];
+            code = uint8_t(std::lround(StrandAt(c) + (code - StrandAt(c)) * x / kWidth + grain));
+            noisy.Pixel(view, x, y)[c] = uint8_t(code + std::lround(random.Real(-1.5, 1.5)));
+          }
+        }
+      }
+    }
+    for (const double focus : {kFar, 0.0, kNear}) {
+      const starfocus_params params = ThroughDisc(focus);
+      const test::Output before = test::OutputOf(ConfigFor(scene, true), params, scene);
+      const test::Output after = test::OutputOf(ConfigFor(scene, true), params, noisy);
+      int most = 0;
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          for (int c = 0; c < 3; ++c) {
+            most = std::max(most, std::abs(before.Pixel(x, y)[c] - after.Pixel(x, y)[c]));
+          }
+        }
+      }
+      MESSAGE("views ", views, ", focus ", focus, ": largest change ", most);
+      CHECK(most <= 8);
+    }
+  }
+}
+
 }  // namespace thin_test
