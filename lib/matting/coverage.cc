@@ -104,7 +104,7 @@ void RunPass(const Input& input, int pass, int32_t first, int32_t last, int32_t 
     if (pass != kUnmixAgain || tile.thin == 0) continue;
     if (given) {
       TakeGiven(input, column, row);
-      if (IsGivenAlone(input)) AddFarDetail(input, column, row);
+      AddFarDetail(input, column, row);
     } else {
       UnmixAgain(input, column, row);
     }

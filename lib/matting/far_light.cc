@@ -295,7 +295,10 @@ struct NearMean {
 class DetailAdder {
  public:
   DetailAdder(const Input& input, int32_t column, int32_t row)
-      : map_(*input.coverage), left_(column * kCoverageTile), top_(row * kCoverageTile) {
+      : map_(*input.coverage),
+        left_(column * kCoverageTile),
+        top_(row * kCoverageTile),
+        detail_bits_(2 * kAlphaBits + (input.views > 1 ? 1 : 0)) {
     const int32_t left = left_ - kNearReach, first = Max(0, left);
     const int32_t end = Min(left + kSide, map_.width);
     for (int32_t k = 0; k < kSide; ++k) {
@@ -336,12 +339,13 @@ class DetailAdder {
   }
 
   // Adds detail at pixel (x, y) of the tile. The far surface gets (1 - coverage)^3 of the light
-  // that both means do not explain, per part of the pixel that it covers.
+  // that both means do not explain, per part of the pixel that it covers. If side views show the
+  // far surface, its light already has detail, and it gets half as much.
   void AddAt(int32_t x, int32_t y, int32_t alpha) const {
     const int16_t* const mixed = light_[y + kNearReach] + 3 * (x + kNearReach);
     int16_t* const far = map_.FarAt(left_ + x, top_ + y).rgb;
     const NearMean near = MeanAround(x, y);
-    const int32_t rest = kWhole - alpha, cube = rest * rest * rest >> (2 * kAlphaBits);
+    const int32_t rest = kWhole - alpha, cube = rest * rest * rest >> detail_bits_;
     // If the light of the near surface is not known, it is assumed to equal the light of the far
     // surface.
     const int32_t known = Min(near.weight, 1 << kNearKnownBits);
@@ -355,6 +359,7 @@ class DetailAdder {
 
   const CoverageMap& map_;
   const int32_t left_, top_;
+  const int detail_bits_;  // fractional bits of the cube of the rest, plus 1 if it is halved
   // Light and weights (EighthPower of the given coverage) of the tile and of kNearReach pixels on
   // each side. Pixels beyond the picture have weight 0.
   int16_t light_[kSide][3 * kSide] = {};
