@@ -59,15 +59,18 @@ int16_t WeightByDistance(int32_t square) {
   return static_cast<int16_t>(square <= 2 ? kKnown / 16 : square <= 5 ? kKnown / 4 : kKnown);
 }
 
-// Finds the surfaces of a pixel from the nearest pixel beyond an edge.
+// Finds the surfaces of a pixel from the nearest pixel beyond an edge. Among equally distant pixels,
+// the one with the largest disparity counts, so that mirrored maps have mirrored surfaces.
 BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
   const int32_t here = around.disparity[at];
   int32_t other = here, square = 0;  // Disparity beyond the edge, and squared distance in pixels.
   for (const BandOffset& offset : kNearestFirst.by_distance) {
-    if (Abs(around.disparity[at + offset.at] - here) <= kThinStep) continue;
-    other = around.disparity[at + offset.at];
-    square = offset.x * offset.x + offset.y * offset.y;
-    break;
+    const int32_t distance = offset.x * offset.x + offset.y * offset.y;
+    if (square != 0 && distance > square) break;
+    const int32_t there = around.disparity[at + offset.at];
+    if (Abs(there - here) <= kThinStep || (square != 0 && there <= other)) continue;
+    other = there;
+    square = distance;
   }
   const int32_t implied = other > here ? 0 : kWhole;
   const int32_t far_weight = other == here ? kKnown : other < here ? 0 : WeightByDistance(square);
