@@ -426,7 +426,8 @@ inline uint64_t FindCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, si
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const auto here = hn::LoadU(d16, row + n);
     auto farthest = hn::Zero(d16);
-    for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride, -stride}) {
+    for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride - 1, stride, stride + 1,
+                                 -stride - 1, -stride, -stride + 1}) {
       const auto step =
           hn::SaturatedSub(here, hn::LoadU(d16, row + static_cast<ptrdiff_t>(n) + next));
       farthest = hn::Max(farthest, hn::IfThenZeroElse(hn::Gt(step, most), step));
@@ -452,18 +453,27 @@ inline void ColourCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride,
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto copy = hn::LoadU(d16, copies + n);
     const int16_t* const at = row + n;
-    const auto right = hn::Eq(hn::LoadU(d16, at + 1), copy);
-    const auto left = hn::Eq(hn::LoadU(d16, at - 1), copy);
-    const auto below = hn::Eq(hn::LoadU(d16, at + stride), copy);
-    const auto above = hn::Eq(hn::LoadU(d16, at - stride), copy);
+    const auto copied = [=](ptrdiff_t next)
+                            HWY_ATTR { return hn::Eq(hn::LoadU(d16, at + next), copy); };
+    const auto right = copied(1), left = copied(-1), below = copied(stride),
+               above = copied(-stride);
     const auto in_row = hn::Or(right, left), in_column = hn::Or(below, above);
+    const auto fall_below = copied(stride + 1), fall_above = copied(-stride - 1);
+    const auto rise_below = copied(stride - 1), rise_above = copied(-stride + 1);
+    const auto falls = hn::Or(fall_below, fall_above), rises = hn::Or(rise_below, rise_above);
     for (size_t c = 0; c < 3; ++c) {
       const int16_t* const from = rgb + c * plane + n;
-      const auto along =
-          mean_of_found(right, hn::LoadU(d16, from + 1), left, hn::LoadU(d16, from - 1));
-      const auto across =
-          mean_of_found(below, hn::LoadU(d16, from + stride), above, hn::LoadU(d16, from - stride));
-      hn::StoreU(mean_of_found(in_row, along, in_column, across), d16, out + c * out_plane + n);
+      const auto mean_of = [=](auto has_a, ptrdiff_t a, auto has_b, ptrdiff_t b) HWY_ATTR {
+        return mean_of_found(has_a, hn::LoadU(d16, from + a), has_b, hn::LoadU(d16, from + b));
+      };
+      const auto along = mean_of(right, 1, left, -1);
+      const auto across = mean_of(below, stride, above, -stride);
+      const auto fall = mean_of(fall_below, stride + 1, fall_above, -stride - 1);
+      const auto rise = mean_of(rise_below, stride - 1, rise_above, -stride + 1);
+      const auto beside = mean_of_found(in_row, along, in_column, across);
+      const auto diagonal = mean_of_found(falls, fall, rises, rise);
+      hn::StoreU(hn::IfThenElse(hn::Or(in_row, in_column), beside, diagonal), d16,
+                 out + c * out_plane + n);
     }
   }
 }

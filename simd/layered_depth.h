@@ -248,12 +248,13 @@ STARFOCUS_REFERENCE void BesideSteps(const int16_t* row, ptrdiff_t stride, size_
 }
 
 // For each pixel, finds the disparity of a copy that continues the pixel's surface behind the
-// pixel. The candidates for pixel n < count are the disparities of its four neighbours that are
+// pixel. The candidates for pixel n < count are the disparities of its eight neighbours that are
 // lower than the pixel's disparity by `least` to `most`, both > 0. In this range, the difference
-// may open a gap in a surface, because adjacent slices move by different distances. Element
-// copies[n] is the lowest candidate, or kNoSurface if there is no candidate. Rows are `stride`
-// samples apart. Whole groups of kSliceLanes are written. In the result, bit c is set if group c
-// has copies. A row has at most 64 groups.
+// may open a gap in a surface, because adjacent slices move by different distances; between
+// diagonal neighbours, in views that move along both axes. Element copies[n] is the lowest
+// candidate, or kNoSurface if there is no candidate. Rows are `stride` samples apart. Whole groups
+// of kSliceLanes are written. In the result, bit c is set if group c has copies. A row has at most
+// 64 groups.
 STARFOCUS_REFERENCE uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, size_t count,
                                         int16_t least, int16_t most, int16_t* copies) {
   uint64_t strips = 0;
@@ -261,7 +262,8 @@ STARFOCUS_REFERENCE uint64_t FindCopies(const int16_t* row, ptrdiff_t stride, si
     copies[n] = kNoSurface;
     if (n >= count) continue;
     int16_t farthest = 0;
-    for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride, -stride}) {
+    for (const ptrdiff_t next : {ptrdiff_t{1}, ptrdiff_t{-1}, stride - 1, stride, stride + 1,
+                                 -stride - 1, -stride, -stride + 1}) {
       const int16_t step = Saturated(row[n] - row[static_cast<ptrdiff_t>(n) + next]);
       if (step >= least && step <= most && step > farthest) farthest = step;
     }
@@ -280,7 +282,8 @@ inline int16_t MeanOfFound(bool has_a, int16_t a, bool has_b, int16_t b) {
 
 // Writes the colours of the copies (FindCopies) of a group of kSliceLanes pixels. A copy has the
 // mean colour of the neighbours whose disparity is that of the copy: the mean of the means along
-// the row and along the column. Colours of pixels without a copy are unspecified. The three planes
+// the row and along the column, or, without such a neighbour there, of the means along both
+// diagonals. Colours of pixels without a copy are unspecified. The three planes
 // of `rgb` are `plane` samples apart, and those of `out` are `out_plane` samples apart. Rows are
 // `stride` samples apart.
 STARFOCUS_REFERENCE void ColourCopies(const int16_t* row, ptrdiff_t stride, const int16_t* copies,
@@ -290,11 +293,18 @@ STARFOCUS_REFERENCE void ColourCopies(const int16_t* row, ptrdiff_t stride, cons
     const int16_t* const at = row + n;
     const bool right = at[1] == copies[n], left = at[-1] == copies[n];
     const bool below = at[stride] == copies[n], above = at[-stride] == copies[n];
+    const bool beside = right || left || below || above;
+    const bool falls[] = {at[stride + 1] == copies[n], at[-stride - 1] == copies[n]};
+    const bool rises[] = {at[stride - 1] == copies[n], at[-stride + 1] == copies[n]};
     for (size_t c = 0; c < 3; ++c) {
       const int16_t* const colour = rgb + c * plane + n;
       const int16_t along = MeanOfFound(right, colour[1], left, colour[-1]);
       const int16_t across = MeanOfFound(below, colour[stride], above, colour[-stride]);
-      out[c * out_plane + n] = MeanOfFound(right || left, along, below || above, across);
+      const int16_t fall = MeanOfFound(falls[0], colour[stride + 1], falls[1], colour[-stride - 1]);
+      const int16_t rise = MeanOfFound(rises[0], colour[stride - 1], rises[1], colour[-stride + 1]);
+      out[c * out_plane + n] =
+          beside ? MeanOfFound(right || left, along, below || above, across)
+                 : MeanOfFound(falls[0] || falls[1], fall, rises[0] || rises[1], rise);
     }
   }
 }

@@ -347,6 +347,8 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
     // values.
     int16_t* before = arena->Take<int16_t>(simd::kSliceLanes + area);
     surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
+    // ColourCopies reads one sample before the colours, which lies in the memory of the
+    // disparities, and ignores its value.
     surfaces.rgb[k] = arena->Take<int16_t>(3 * area);
   }
   surfaces.share = arena->Take<uint8_t>(area);

@@ -82,7 +82,7 @@ struct SurfaceBands {
 // (OcclusionViews) and in which nothing covers the surface. If no view sees the surface, the colour
 // of the background beyond the edge is repeated. If several sides provide a surface of the same
 // disparity at the same distance, their colours are averaged. At steps within a surface, each pixel
-// on the near side hides a copy of the farthest neighbour of the surface (kMostCopy).
+// on the near side hides a copy of the farthest of its eight neighbours (kMostCopy).
 void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
                       LayeredDepth* surfaces);
 

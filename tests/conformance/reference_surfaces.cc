@@ -172,16 +172,17 @@ class SurfaceFinder {
     }
   }
 
-  // Continues the farthest neighbour of a pixel on the same surface, which is 2/64 to 3/4 of a
-  // pixel farther, behind the pixel, because slices that move apart would otherwise open a gap in
-  // the surface.
+  // Continues the farthest of the eight neighbours of a pixel on the same surface, which is 2/64 to
+  // 3/4 of a pixel farther, behind the pixel, because slices that move apart would otherwise open a
+  // gap in the surface.
   void AddCopy(int x, int y, std::vector<Surface>* surfaces) const {
     if (x == 0 || y == 0 || x == extended_.width - 1 || y == extended_.height - 1) return;
     const int here = Disparity(x, y);
     int farthest = here;
-    for (const Direction& side : kDirections) {
-      const int there = Disparity(x + side.x, y + side.y);
-      if (here - there >= unit_ * 2 / 64 && !IsEdge(here, there)) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int there = Disparity(x + dx, y + dy);
+        if (here - there < unit_ * 2 / 64 || IsEdge(here, there)) continue;
         farthest = std::min(farthest, there);
       }
     }
@@ -192,10 +193,12 @@ class SurfaceFinder {
   }
 
   // Returns the mean of the mean colours of the neighbours of `disparity` in the row and in the
-  // column.
+  // column, or, if there are none, of those on both diagonals.
   Colour ColourBeside(int x, int y, int disparity) const {
     std::vector<Colour> means;
-    for (const Direction& axis : {kDirections[0], kDirections[2]}) {
+    for (const Direction& axis :
+         {Direction{1, 0}, Direction{0, 1}, Direction{1, 1}, Direction{-1, 1}}) {
+      if (axis.x * axis.y == 1 && !means.empty()) break;
       std::vector<Colour> colours;
       for (const int way : {1, -1}) {
         const int column = x + way * axis.x, row = y + way * axis.y;

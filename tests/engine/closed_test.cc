@@ -83,23 +83,22 @@ int MostLeaked(const test::Output& out, int blur) {
 
 TEST_CASE("closed: a surface with noisy or sloping disparities lets no light through") {
   // Steps between neighbours are up to twice the jitter plus the slope: at most 3/4 pixel.
+  int seed = 0;
   for (const double jitter : {0.05, 0.12, 0.24, 0.34}) {
     for (const double slope : {0.0, 0.02}) {
       for (const Outline outline : {Outline::kSharp, Outline::kHairy, Outline::kGiven}) {
         for (const int views : {1, 5}) {
-          const test::Scene scene = Before({jitter, slope, outline}, views, 3);
+          const test::Scene scene = Before({jitter, slope, outline}, views, uint64_t(++seed));
           starfocus_config config = test::ConfigFor(scene, 16);
           config.features |= STARFOCUS_FEATURE_COVERAGE;
           test::Engine engine(config);
           for (const double focus : {-6.0, -2.0, 2.5, 5.0, 9.0}) {
             for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
-              CAPTURES(jitter, slope, int(outline), views, focus, mode);
+              CAPTURES(jitter, slope, int(outline), views, seed, focus, mode);
               starfocus_params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
               const test::Output out = test::OutputOf(&engine, params, scene);
               const int blur = int(std::max(std::abs(focus - 2), std::abs(focus - 4))) + 9;
-              // Close to the focus, single pixels may show 1/500 of the wall's light, which is
-              // three codes of the surface's dark green.
-              CHECK(MostLeaked(out, blur) <= (focus == 2.5 ? 3 : 1));
+              CHECK(MostLeaked(out, blur) <= 1);
             }
           }
         }

@@ -102,10 +102,12 @@ void FindCopies(Draw* draw, KernelCall* call) {
       const size_t n = i % samples, y = i / samples;
       const int16_t* at = first + y * stride + n;
       int expected = kNoSurface;
-      for (const int16_t next : {at[-1], at[1], *(at - stride), at[stride]}) {
-        const int step = *at - next;
-        if (n >= count || step < least || step > most) continue;
-        expected = expected == kNoSurface ? next : std::min<int>(expected, next);
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int next = at[dy * ptrdiff_t(stride) + dx], step = *at - next;
+          if (n >= count || step < least || step > most) continue;
+          expected = expected == kNoSurface ? next : std::min(expected, next);
+        }
       }
       (*met)["copies"] += expected != kNoSurface;
       return copies[i] == expected &&
@@ -138,7 +140,11 @@ void ColourCopies(Draw* draw, KernelCall* call) {
       const int16_t *at = row + n, *colour = rgb + c * plane + n;
       double means = 0;
       int axes = 0;
-      for (const ptrdiff_t step : {ptrdiff_t{1}, ptrdiff_t(stride)}) {
+      // The diagonals count only if no neighbour in the row or column has the disparity of the
+      // copy.
+      for (const ptrdiff_t step :
+           {ptrdiff_t{1}, ptrdiff_t(stride), ptrdiff_t(stride) + 1, ptrdiff_t(stride) - 1}) {
+        if (step == ptrdiff_t(stride) + 1 && axes > 0) break;
         double sum = 0;
         int found = 0;
         for (const ptrdiff_t next : {step, -step}) {
