@@ -45,6 +45,7 @@
   KERNEL(FindCopies)              \
   KERNEL(ColourCopies)            \
   KERNEL(LookBehind)              \
+  KERNEL(FindBeyond)              \
   KERNEL(CoverPlaces)             \
   KERNEL(SumNear)                 \
   KERNEL(TakeFarthest)            \

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels for pixels that mix two surfaces (lib/matting). CoverPlaces and SumNear process a
-// row of kSliceLanes pixels. CompareColours compares the colours of pixels with the colours of the
-// surrounding pixels, and finds the surrounding pixel with the lowest cost for each group of
-// disparities. SmoothDisparity averages a noisy disparity map over neighbouring pixels on one
-// surface.
+// SIMD kernels for pixels that mix two surfaces (lib/matting). FindBeyond, CoverPlaces and SumNear
+// process a row of kSliceLanes pixels. CompareColours compares the colours of pixels with the
+// colours of the surrounding pixels, and finds the surrounding pixel with the lowest cost for each
+// group of disparities. SmoothDisparity averages a noisy disparity map over neighbouring pixels on
+// one surface.
 #ifndef STARFOCUS_SIMD_MATTING_H_
 #define STARFOCUS_SIMD_MATTING_H_
 
@@ -14,6 +14,30 @@
 #include "simd/samples.h"
 
 namespace starfocus::simd {
+
+// Largest distance, in columns and rows, of the pixels that FindBeyond compares.
+inline constexpr int32_t kBeyondReach = 3;
+
+// Columns, rows and squared distances of these pixels, the nearest first.
+struct BeyondOffsets {
+  static constexpr int32_t kCount = (2 * kBeyondReach + 1) * (2 * kBeyondReach + 1) - 1;
+  int8_t x[kCount] = {}, y[kCount] = {}, square[kCount] = {};
+
+  constexpr BeyondOffsets() {
+    int32_t count = 0;
+    for (int32_t distance = 1; distance <= 2 * kBeyondReach * kBeyondReach; ++distance) {
+      for (int32_t row = -kBeyondReach; row <= kBeyondReach; ++row) {
+        for (int32_t column = -kBeyondReach; column <= kBeyondReach; ++column) {
+          if (column * column + row * row != distance) continue;
+          x[count] = static_cast<int8_t>(column);
+          y[count] = static_cast<int8_t>(row);
+          square[count++] = static_cast<int8_t>(distance);
+        }
+      }
+    }
+  }
+};
+inline constexpr BeyondOffsets kBeyondOffsets;
 
 // Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude far pixels in the
 // view. All disparities must have the same scale; any scale is permitted.
@@ -109,6 +133,30 @@ inline int16_t SmoothMean(int32_t disparity, int32_t weights) {
 }
 
 namespace reference {
+
+// For each pixel n < kSliceLanes of a row, finds the nearest pixel within kBeyondReach columns and
+// rows whose disparity differs by more than `step`. Among equally distant pixels, the one with the
+// largest disparity is found, so that mirrored maps give mirrored results. Writes its disparity and
+// its squared distance; without such a pixel, the disparity of pixel n and 0. Rows are `stride`
+// samples apart.
+STARFOCUS_REFERENCE void FindBeyond(const int16_t* row, ptrdiff_t stride, int16_t step,
+                                    int16_t* beyond, int16_t* square) {
+  for (ptrdiff_t n = 0; n < static_cast<ptrdiff_t>(kSliceLanes); ++n) {
+    beyond[n] = row[n];
+    square[n] = 0;
+    for (int32_t y = -kBeyondReach; y <= kBeyondReach; ++y) {
+      for (int32_t x = -kBeyondReach; x <= kBeyondReach; ++x) {
+        const int16_t there = row[n + y * stride + x];
+        const int32_t apart = there < row[n] ? row[n] - there : there - row[n];
+        const int32_t distance = x * x + y * y;
+        if (apart <= step || (square[n] != 0 && distance > square[n])) continue;
+        if (distance == square[n] && there <= beyond[n]) continue;
+        beyond[n] = there;
+        square[n] = static_cast<int16_t>(distance);
+      }
+    }
+  }
+}
 
 // For each n < kSliceLanes, raises covered[n] to coverage[n] if near pixel n (disparity near[n])
 // occludes far pixel n (disparity far[n]) in the view. CoverPlaces never lowers covered[n].

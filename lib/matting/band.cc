@@ -18,31 +18,6 @@ using BandDisparities = DisparitiesAround<kBandReach + 2>;
 // Both counts depend on the disparity map alone, so that noise in the views cannot change them.
 constexpr int32_t kLeastRagged = 36, kLeastStrands = 2;
 
-// Offset to a neighbour at most kBandReach pixels away in x and y: as (x, y), and as a difference
-// of array indices.
-struct BandOffset {
-  int8_t x, y;
-  int16_t at;
-};
-constexpr int32_t kOffsets = (2 * kBandReach + 1) * (2 * kBandReach + 1) - 1;
-struct Offsets {
-  BandOffset by_distance[kOffsets] = {};
-  constexpr Offsets() {
-    int32_t count = 0;
-    for (int32_t square = 1; square <= 2 * kBandReach * kBandReach; ++square) {
-      for (int32_t y = -kBandReach; y <= kBandReach; ++y) {
-        for (int32_t x = -kBandReach; x <= kBandReach; ++x) {
-          if (x * x + y * y != square) continue;
-          by_distance[count++] = {
-              static_cast<int8_t>(x), static_cast<int8_t>(y),
-              static_cast<int16_t>(BandDisparities::At(x, y) - BandDisparities::At(0, 0))};
-        }
-      }
-    }
-  }
-};
-constexpr Offsets kNearestFirst;
-
 // The two surfaces of a pixel, and what is known of its coverage before unmixing.
 struct BandPixel {
   bool is_split;    // False: no edge is near, and the pixel has one surface.
@@ -59,22 +34,11 @@ int16_t WeightByDistance(int32_t square) {
   return static_cast<int16_t>(square <= 2 ? kKnown / 16 : square <= 5 ? kKnown / 4 : kKnown);
 }
 
-// Finds the surfaces of a pixel from the nearest pixel beyond an edge. Among equally distant pixels,
-// the one with the largest disparity counts, so that mirrored maps have mirrored surfaces.
-BandPixel FindBandPixel(const BandDisparities& around, int32_t at) {
-  const int32_t here = around.disparity[at];
-  int32_t other = here, square = 0;  // Disparity beyond the edge, and squared distance in pixels.
-  for (const BandOffset& offset : kNearestFirst.by_distance) {
-    const int32_t distance = offset.x * offset.x + offset.y * offset.y;
-    if (square != 0 && distance > square) break;
-    const int32_t there = around.disparity[at + offset.at];
-    if (Abs(there - here) <= kThinStep || (square != 0 && there <= other)) continue;
-    other = there;
-    square = distance;
-  }
-  const int32_t implied = other > here ? 0 : kWhole;
-  const int32_t far_weight = other == here ? kKnown : other < here ? 0 : WeightByDistance(square);
-  return {other != here, implied, implied, Min(here, other), Max(here, other), far_weight};
+// Returns the surfaces of a pixel from the disparity and the squared distance beyond an edge.
+BandPixel BandPixelOf(int32_t here, int32_t beyond, int32_t square) {
+  const int32_t implied = beyond > here ? 0 : kWhole;
+  const int32_t far_weight = square == 0 ? kKnown : beyond < here ? 0 : WeightByDistance(square);
+  return {square != 0, implied, implied, Min(here, beyond), Max(here, beyond), far_weight};
 }
 
 uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {
@@ -154,12 +118,45 @@ class TileRow {
   int16_t samples_[(kCoverageTile + 3) * kStride];
 };
 
+// Replaces the near disparity of each pixel of a row of a tile by a weighted mean of the
+// disparities in the 5x5 pixels around it that differ from it by at most 2 pixels, if there are
+// any. `here` points to the disparity of the first pixel; rows are `stride` samples apart.
+void SmoothNear(const int16_t* here, int32_t stride, int16_t* near) {
+  constexpr int32_t kWithin = 2 << kDisparityBits;
+  constexpr int16_t kWeights[5] = {1, 4, 6, 4, 1};
+  int32_t sum[kCoverageTile] = {};
+  int16_t weights[kCoverageTile] = {}, low[kCoverageTile], high[kCoverageTile];
+  for (int32_t k = 0; k < kCoverageTile; ++k) {
+    low[k] = static_cast<int16_t>(Max(near[k] - kWithin, INT16_MIN));
+    high[k] = static_cast<int16_t>(Min(near[k] + kWithin, INT16_MAX));
+  }
+  for (int32_t y = 0; y < 5; ++y) {
+    int16_t part[kCoverageTile] = {};  // At most 6 * 16 * kWithin.
+    for (int32_t x = 0; x < 5; ++x) {
+      const int16_t* const there = here + (y - 2) * stride + x - 2;
+      const auto weight = static_cast<int16_t>(kWeights[x] * kWeights[y]);
+      for (int32_t k = 0; k < kCoverageTile; ++k) {
+        const bool within = there[k] >= low[k] && there[k] <= high[k];
+        const int16_t counted = within ? weight : int16_t{0};
+        part[k] = static_cast<int16_t>(part[k] + counted * (there[k] - near[k]));
+        weights[k] = static_cast<int16_t>(weights[k] + counted);
+      }
+    }
+    for (int32_t k = 0; k < kCoverageTile; ++k) sum[k] += part[k];
+  }
+  for (int32_t k = 0; k < kCoverageTile; ++k) {
+    if (weights[k] == 0) continue;
+    const int32_t half = sum[k] < 0 ? -(weights[k] / 2) : weights[k] / 2;
+    near[k] = static_cast<int16_t>(near[k] + (sum[k] + half) / weights[k]);
+  }
+}
+
 // A pixel is a mixture if its given coverage differs from the coverage implied by the disparity map
 // by more than kLeastMixed (kAlphaBits).
 constexpr int32_t kLeastMixed = kWhole / 16;
 
-// Writes the surfaces, the coverage and the light of the pixels of a tile. find(x, y, at) returns
-// the BandPixel of pixel (x, y) of the picture, at index `at` of `around`.
+// Writes the surfaces, the coverage and the light of the pixels of a tile. find(y, at, pixels)
+// writes the BandPixels of row y of the tile, whose first pixel has the index `at` in `around`.
 template <class Disparities, class Find>
 void StartPixels(const Input& input, int32_t column, int32_t row, const Disparities& around,
                  const Find& find) {
@@ -173,13 +170,17 @@ void StartPixels(const Input& input, int32_t column, int32_t row, const Disparit
     if (y < map.height) input.Light(0, left, y, columns, light);
     const size_t first = map.At(left, y);
     FarCell* const cells = &map.FarAt(left, y);
+    BandPixel pixels[kCoverageTile];
+    const int32_t at = Disparities::At(0, y - top);
+    find(y, at, pixels);
+    int16_t smooth[kCoverageTile];
+    for (int32_t k = 0; k < kCoverageTile; ++k) smooth[k] = static_cast<int16_t>(pixels[k].high);
+    SmoothNear(around.disparity + at, Disparities::kSide, smooth);
     for (int32_t k = 0; k < kCoverageTile; ++k) {
       const size_t to = first + static_cast<size_t>(k);
-      const int32_t at = Disparities::At(k, y - top);
-      const BandPixel pixel = find(left + k, y, at);
+      const BandPixel& pixel = pixels[k];
       const bool inside = y < map.height && k < columns;
-      const int16_t near =
-          pixel.is_split ? SmoothNear(around, at, pixel.high) : around.disparity[at];
+      const int16_t near = pixel.is_split ? smooth[k] : around.disparity[at + k];
       bins |= map.BinOf(near);
       if (inside && pixel.is_split) {
         low = Min(low, pixel.low);
@@ -236,15 +237,22 @@ void ClearTile(const Input& input, int32_t column, int32_t row) {
 
 void StartTile(const Input& input, int32_t column, int32_t row) {
   const BandDisparities around(input, column, row);
-  StartPixels(input, column, row, around,
-              [&](int32_t, int32_t, int32_t at) { return FindBandPixel(around, at); });
+  StartPixels(input, column, row, around, [&](int32_t, int32_t at, BandPixel* pixels) {
+    const int16_t* const here = around.disparity + at;
+    int16_t beyond[kCoverageTile], square[kCoverageTile];
+    input.kernels->FindBeyond(here, BandDisparities::kSide, static_cast<int16_t>(kThinStep), beyond,
+                              square);
+    for (int32_t k = 0; k < kCoverageTile; ++k) {
+      pixels[k] = BandPixelOf(here[k], beyond[k], square[k]);
+    }
+  });
 }
 
 void StartGiven(const Input& input, int32_t column, int32_t row) {
   const GivenDisparities around(input, column, row);
   const SurfaceSearch search(around);
   CoverageTile& tile = input.coverage->Tile(column, row);
-  StartPixels(input, column, row, around, [&](int32_t x, int32_t y, int32_t at) -> BandPixel {
+  const auto find = [&](int32_t x, int32_t y, int32_t at) -> BandPixel {
     const int32_t here = around.disparity[at];
     Surfaces surfaces;
     if (!search.FindSurfaces(at, &surfaces)) return {false, kWhole, kWhole, here, here, kKnown};
@@ -255,6 +263,11 @@ void StartGiven(const Input& input, int32_t column, int32_t row) {
     }
     if (Abs(alpha - implied) > kLeastMixed) tile.mixed = 1;
     return {true, implied, alpha, surfaces.low, surfaces.high, FarWeight(alpha)};
+  };
+  StartPixels(input, column, row, around, [&](int32_t y, int32_t at, BandPixel* pixels) {
+    for (int32_t k = 0; k < kCoverageTile; ++k) {
+      pixels[k] = find(column * kCoverageTile + k, y, at + k);
+    }
   });
 }
 

@@ -29,7 +29,7 @@ inline constexpr uint8_t kUnsplit = 255;
 inline constexpr int32_t kThinStep = 5 << kDisparityBits;
 
 // Largest distance in pixels from an edge to a pixel that is split.
-inline constexpr int32_t kBandReach = 3;
+inline constexpr int32_t kBandReach = simd::kBeyondReach;
 
 // Light of the far surface in a cell with a side of 2^level pixels, and the confidence of the
 // light.

@@ -32,27 +32,6 @@ struct DisparitiesAround {
   static constexpr int32_t At(int32_t x, int32_t y) { return (y + kAround) * kSide + x + kAround; }
 };
 
-// Returns a weighted mean of the disparities in the 5x5 pixels around `at`. Only disparities that
-// differ from `near` by at most 2 pixels are included. Returns `near` if no disparity is included.
-template <class Disparities>
-int16_t SmoothNear(const Disparities& around, int32_t at, int32_t near) {
-  constexpr int32_t kWithin = 2 << kDisparityBits;
-  constexpr int32_t kWeights[3] = {6, 4, 1};
-  int32_t sum = 0, weights = 0;
-  for (int32_t y = -2; y <= 2; ++y) {
-    for (int32_t x = -2; x <= 2; ++x) {
-      const int32_t disparity = around.disparity[at + y * Disparities::kSide + x];
-      if (Abs(disparity - near) > kWithin) continue;
-      const int32_t weight = kWeights[Abs(x)] * kWeights[Abs(y)];
-      sum += weight * (disparity - near);
-      weights += weight;
-    }
-  }
-  if (weights == 0) return static_cast<int16_t>(near);
-  const int32_t half = sum < 0 ? -(weights / 2) : weights / 2;
-  return static_cast<int16_t>(near + (sum + half) / weights);
-}
-
 // Radius in pixels of the search for the far and the near surface of a pixel. In disparity maps
 // computed by neural networks, outlines are misplaced by up to kGivenReach pixels.
 inline constexpr int32_t kGivenReach = 32;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
 #include "tests/simd/kernel_cases.h"
 
@@ -36,6 +38,42 @@ std::vector<int16_t> TwoSurfaces(size_t count, Draw* draw) {
 }
 
 }  // namespace
+
+void FindBeyond(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Size(1, 3, 64), height = rows + 2 * kBeyondReach;
+  const size_t width = kSliceLanes + 2 * kBeyondReach, stride = width + draw->Size(0, 5, 0);
+  // Half of the fields have one surface, so that some pixels have no edge within reach.
+  std::vector<int16_t> disparities = TwoSurfaces(height * stride, draw);
+  for (int16_t& d : disparities) d = int16_t(draw->Rarely(30) ? d : std::abs(d % 100));
+  const int16_t* field = call->Input("field", disparities) + kBeyondReach * stride + kBeyondReach;
+  call->IgnoreRows(field - kBeyondReach * stride - kBeyondReach + width, height, stride,
+                   stride - width);
+  const auto step = int16_t(draw->Int(0, 400));
+  auto* beyond = call->Results<int16_t>("beyond", rows * kSliceLanes);
+  auto* square = call->Results<int16_t>("square", rows * kSliceLanes);
+  call->Runs([=](const Kernels& kernels) {
+    for (size_t y = 0; y < rows; ++y) {
+      const size_t at = y * kSliceLanes;
+      kernels.FindBeyond(field + y * stride, ptrdiff_t(stride), step, beyond + at, square + at);
+    }
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    return AllRight(rows * kSliceLanes, [&](size_t i) {
+      const int16_t* here = field + i / kSliceLanes * stride + i % kSliceLanes;
+      // Compares a squared distance and the negative disparity, so that the least pair is right.
+      std::pair<int, int> least = {1000, -*here};
+      for (int y = -kBeyondReach; y <= kBeyondReach; ++y) {
+        for (int x = -kBeyondReach; x <= kBeyondReach; ++x) {
+          const int there = here[y * ptrdiff_t(stride) + x];
+          if (std::abs(there - *here) > step) least = std::min(least, {x * x + y * y, -there});
+        }
+      }
+      (*met)["edges"] += least.first < 1000;
+      (*met)["no edge"] += least.first == 1000;
+      return square[i] == least.first % 1000 && beyond[i] == -least.second;
+    });
+  };
+}
 
 void CoverPlaces(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Size(1, 4, 64);
