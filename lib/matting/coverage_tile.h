@@ -61,8 +61,8 @@ void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far)
 // Returns the eighth power of `a`. The argument has kAlphaBits fractional bits, and the result has
 // kFarKnownBits fractional bits.
 constexpr int32_t EighthPower(int32_t a) {
-  const int32_t square = a * a >> kAlphaBits, fourth = square * square >> kAlphaBits;
-  return fourth * fourth >> (2 * kAlphaBits - kFarKnownBits);
+  const int32_t square = a * a, fourth = square * square >> (2 * kAlphaBits);
+  return fourth * fourth >> (4 * kAlphaBits - kFarKnownBits);
 }
 
 // Returns the weight of a pixel in a mean of the far surface's light. `alpha` is the coverage of

@@ -11,8 +11,9 @@
 namespace reference {
 namespace {
 
-// Smallest number of pixels with a nearer neighbour in a tile of thin structure.
-constexpr int kLeastRagged = 36;
+// Smallest numbers of pixels with a nearer neighbour, and of pixels of strands one pixel wide, in a
+// tile of thin structure.
+constexpr int kLeastRagged = 36, kLeastStrands = 2;
 
 // Rounds coverage, and the certainty of the farther surface's light, as the engine rounds these
 // values between passes.
@@ -88,12 +89,15 @@ class Parter {
     return false;
   }
   bool IsStarted(int x, int y) const { return Any(ragged_, x, y, given_.empty() ? 1 : 2); }
-  bool IsThin(int x, int y) const { return IsStarted(x, y) && Any(mixed_, x, y, 1); }
+  bool IsThin(int x, int y) const {
+    return IsStarted(x, y) && (given_.empty() || Any(mixed_, x, y, 1));
+  }
 
   void MarkRagged() {
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        int low = map_.Disparity(column * kTile, row * kTile), high = low, beside = 0;
+        int low = map_.Disparity(column * kTile, row * kTile), high = low;
+        int beside = 0, strands = 0;
         for (int y = -1; y <= kTile; ++y) {
           for (int x = -1; x <= kTile; ++x) {
             const bool inside = x >= 0 && x < kTile && y >= 0 && y < kTile;
@@ -101,32 +105,23 @@ class Parter {
             low = std::min(low, map_.Disparity(left, top));
             high = std::max(high, map_.Disparity(left, top));
             beside += inside && map_.IsBesideNearer(left, top) ? 1 : 0;
+            strands += inside && map_.IsStrand(left, top) ? 1 : 0;
           }
         }
-        const bool ragged = high - low > kThinEdge && (!given_.empty() || beside >= kLeastRagged);
-        if (ragged) ragged_.insert({column, row});
+        const bool thin = beside >= kLeastRagged && strands >= kLeastStrands;
+        if (high - low > kThinEdge && (!given_.empty() || thin)) ragged_.insert({column, row});
       }
     }
   }
 
-  // Marks tiles that contain mixed pixels. With given coverage, a tile is marked if the coverage of
-  // any pixel with two surfaces differs by more than 1/16 from the coverage according to the map.
-  // Without given coverage, a tile is marked if the mean of 4 * coverage * (1 - coverage) is above
-  // 3/16.
+  // Marks the tiles in which the given coverage of any pixel with two surfaces differs by more than
+  // 1/16 from the coverage according to the map.
   void MarkMixed() {
-    std::map<std::pair<int, int>, double> mixture;
     ForEach([&](int x, int y) {
       const Pixel& pixel = At(x, y);
-      const std::pair<int, int> tile = {x / kTile, y / kTile};
-      if (given_.empty()) {
-        mixture[tile] += 4 * pixel.first * (1 - pixel.first) / (kTile * kTile);
-      } else if (pixel.two && std::fabs(pixel.first - pixel.guess) > 1 / 16.0) {
-        mixture[tile] = 1;
-      }
+      if (given_.empty() || !pixel.two) return;
+      if (std::fabs(pixel.first - pixel.guess) > 1 / 16.0) mixed_.insert({x / kTile, y / kTile});
     });
-    for (const auto& [tile, mean] : mixture) {
-      if (mean > 3 / 16.0) mixed_.insert(tile);
-    }
   }
 
   void StartPixel(int x, int y) {
@@ -170,11 +165,14 @@ class Parter {
         if (std::fabs(At(x + dx, y + dy).near - At(x, y).near) > kThinEdge) continue;
         const double weight = kTaps[std::abs(dy)][std::abs(dx)] * shown(x + dx, y + dy);
         weights += weight;
-        for (size_t c = 0; c < 3; ++c) (*light)[c] += weight * Light(x + dx, y + dy)[c];
+        // The engine rounds each product, which matters where all weights are small.
+        for (size_t c = 0; c < 3; ++c) {
+          (*light)[c] += std::floor(weight * Light(x + dx, y + dy)[c] + 0.5);
+        }
       }
     }
     for (double& value : *light) value /= weights > 0 ? weights : 1;
-    return std::min(1.0, 4 * weights);
+    return std::min(1.0, weights / 4);
   }
 
   // Returns the coverage of a mixed pixel. The less the colours determine the coverage, the more
@@ -183,11 +181,10 @@ class Parter {
                         double trust) {
     const Colour whole = Less(near, far), part = Less(mixed, far);
     const double contrast = Dot(whole, whole), along = Dot(whole, part);
-    if (contrast <= 200) return guess;
+    if (contrast == 0) return guess;
     const double beside = Dot(part, part) - along * along / contrast;
     const double square = 81 + contrast / 16;
-    trust *= 1 - std::clamp((4 * beside - square) / (16 * square), 0.0, 1.0);
-    trust *= std::min(contrast / 200 - 1, 1.0);
+    trust *= contrast / (contrast + 1000) * square / (square + beside);
     return guess + (std::clamp(along / contrast, 0.0, 1.0) - guess) * trust;
   }
 
@@ -232,8 +229,8 @@ class Parter {
         const Pixel& pixel = At(column, row);
         const double nearer = pixel.near - At(x, y).far;
         // The engine rounds movements to 1/32 pixel.
-        const double moved = 2 * std::floor(nearer * along / kViewUnit / 2 + 0.5);
-        if (nearer <= 64 || std::fabs(moved - sign * 64 * m) > 96) continue;
+        const double moved = 2 * std::floor(nearer * std::abs(along) / kViewUnit / 2 + 0.5);
+        if (nearer <= 64 || std::fabs(moved - 64 * m) > 96) continue;
         covered = std::max(covered, pixel.first);
       }
     }
@@ -264,8 +261,9 @@ class Parter {
     for (size_t c = 0; c < 3 && known > 0; ++c) far.light[c] = sum[c] / known;
   }
 
-  // Returns the light of the far surface of a pixel that no side view shows. The far surface gets
-  // (1 - coverage)^3 of the light that `far` and the mean light of the near surface do not explain.
+  // Returns the light of the far surface of a pixel with detail. The far surface gets
+  // (1 - coverage)^3 of the light that `far` and the mean light of the near surface do not explain,
+  // and half as much with side views.
   Colour WithDetail(int x, int y, const Colour& far) const {
     constexpr int kReach = 3;
     Colour near = {0, 0, 0};
@@ -279,11 +277,12 @@ class Parter {
       }
     }
     const double alpha = At(x, y).first, known = std::min(64 * weights, 1.0);
+    const double part = std::pow(1 - alpha, 3) / (field_.size() > 1 ? 2 : 1);
     Colour light = far;
     for (size_t c = 0; c < 3; ++c) {
       const double mean = weights > 0 ? near[c] / weights : 0;
       const double detail = Light(x, y)[c] - far[c] - alpha * known * (mean - far[c]);
-      light[c] = std::clamp(far[c] + std::pow(1 - alpha, 3) * detail, 0.0, 255.0);
+      light[c] = std::clamp(far[c] + part * detail, 0.0, 255.0);
     }
     return light;
   }
@@ -296,7 +295,7 @@ class Parter {
     if (!given_.empty()) {
       parted.parted = known;
       const bool is_mixed = pixel.first > 0 && pixel.first < 1;
-      if (IsGivenAlone() && is_mixed) parted.light = WithDetail(x, y, far.light);
+      if (is_mixed) parted.light = WithDetail(x, y, far.light);
       return parted;
     }
     if (!known) {

@@ -2,7 +2,8 @@
 // Reference of the coverage of thin structures: splits pixels near large depth edges into a near
 // and a far surface. Disparities are multiples of 1/64 pixel, as in the engine. Between passes,
 // coverage is rounded to 1/128, and the certainty of the farther surface's light is rounded down to
-// 1/256, as in the engine. All other values are unrounded doubles.
+// 1/256, as in the engine; weighted light of near surfaces is rounded, too. All other values are
+// unrounded doubles.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_COVERAGE_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_COVERAGE_H_
 

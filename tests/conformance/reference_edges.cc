@@ -80,14 +80,28 @@ bool ThinMap::FindGiven(int x, int y, int* low, int* high) const {
 
 bool ThinMap::FindEdge(int x, int y, int* low, int* high, int* square) const {
   const int here = Disparity(x, y);
-  const auto [dx, dy] = Nearest(x, y, 3, [&](int column, int row) {
-    return std::abs(Disparity(column, row) - here) > kThinEdge;
-  });
-  const int other = Disparity(x + dx, y + dy);
+  int other = here;
+  *square = 0;
+  for (int dy = -3; dy <= 3; ++dy) {
+    for (int dx = -3; dx <= 3; ++dx) {
+      const int there = Disparity(x + dx, y + dy), distance = dx * dx + dy * dy;
+      if (std::abs(there - here) <= kThinEdge || (*square != 0 && distance > *square)) continue;
+      // Among equally near pixels, the one with the largest disparity counts.
+      other = distance == *square ? std::max(other, there) : there;
+      *square = distance;
+    }
+  }
   *low = std::min(here, other);
   *high = std::max(here, other);
-  *square = dx * dx + dy * dy;
   return *square != 0;
+}
+
+bool ThinMap::IsStrand(int x, int y) const {
+  for (const Direction& to : {kDirections[0], kDirections[2]}) {
+    const int beside = std::max(Disparity(x - to.x, y - to.y), Disparity(x + to.x, y + to.y));
+    if (Disparity(x, y) - beside > kThinEdge) return true;
+  }
+  return false;
 }
 
 double ThinMap::SmoothNear(int x, int y, int near) const {

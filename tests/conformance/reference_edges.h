@@ -20,6 +20,8 @@ class ThinMap {
   // Returns the disparity of a pixel. Beyond the picture, the outermost pixels are repeated.
   int Disparity(int x, int y) const;
   bool IsBesideNearer(int x, int y) const;
+  // Returns true if two opposite neighbours of a pixel are farther.
+  bool IsStrand(int x, int y) const;
   // FindGiven and FindEdge find the disparities of the two surfaces of a pixel, and return false if
   // the pixel has only one surface. FindGiven, for given coverage, uses the nearest surfaces within
   // 32 pixels, without ramps. FindEdge uses the surfaces at the nearest edge within 3 pixels.

@@ -42,7 +42,7 @@ static double Difference(double a, double b) {
   return std::copysign(std::floor(16 * std::fabs(a - b) + 0.5) / 16, a - b);
 }
 
-Division Divide(const Colour& near, const Colour& far, const Colour& mixed) {
+Division Divide(const Colour& near, const Colour& far, const Colour& mixed, double contrast_fade) {
   double along = 0, contrast = 0, distance = 0;
   for (size_t c = 0; c < 3; ++c) {
     const double whole = Difference(near[c], far[c]), part = Difference(mixed[c], far[c]);
@@ -54,8 +54,8 @@ Division Divide(const Colour& near, const Colour& far, const Colour& mixed) {
   const double share = along / contrast;
   const double outside = 16 * (distance - along * share) / (432 + contrast);
   const auto fade = [](double value) { return std::clamp(value, 0.0, 1.0); };
-  const double trust =
-      fade(contrast / 64 - 1) * fade(1.2 - 0.8 * outside) * fade((19 - 20 * share) / 6);
+  const double trust = fade((contrast - 64) / contrast_fade) * fade(1.2 - 0.8 * outside) *
+                       fade((19 - 20 * share) / 6);
   return {share * trust, fade(16 * share) * trust};
 }
 
@@ -91,7 +91,8 @@ double Moved(int position, int disparity, int layer) {
   return position < 0 ? -moved : moved;
 }
 
-Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step) {
+Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step,
+                double contrast_fade) {
   const Picture& picture = field.at({0, 0});
   const auto at = [&](int k) {
     return picture.At(std::clamp(x + k * side.x, 0, picture.width - 1),
@@ -119,7 +120,8 @@ Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, in
   };
   const Colours of = read(&Picture::colours);
   const Colours light = picture.light.empty() ? of : read(&Picture::light);
-  return MixtureOf(Divide(light.near, light.far, light.mixed), of.near, of.far, of.mixed);
+  return MixtureOf(Divide(light.near, light.far, light.mixed, contrast_fade), of.near, of.far,
+                   of.mixed);
 }
 
 void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Picture* centre) {
@@ -138,7 +140,7 @@ void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Pic
         const double strength = Strength(lens, near, disparity);
         if (strength <= 0) continue;
         const Mixed mixture =
-            MixtureAt(field, rect.x - rect.left + x, rect.y - rect.top + y, side, kSurfaceStep);
+            MixtureAt(field, rect.x - rect.left + x, rect.y - rect.top + y, side, kSurfaceStep, 64);
         const double weight = mixture.share * std::min(1.0, 2 * mixture.share) * strength;
         for (size_t c = 0; c < 3; ++c) sum[c] += weight * (mixture.far[c] - mixed[c]);
         shares += mixture.share;

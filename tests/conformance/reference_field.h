@@ -42,14 +42,19 @@ struct Mixed {
   double share;
   Colour near, far;
 };
-Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step);
+Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step,
+                double contrast_fade);
+
+// Range of the squared contrast over which the share of a mixture rises from 0 in slices. The
+// paper's renderer has a range of 64.
+constexpr double kContrastFade = 1024;
 
 // Share of the near colour in a pixel, and weight with which the far colour that was read replaces
 // the colour of the pixel. Both fade to 0 where the pixel is hardly a mixture of the two colours.
 struct Division {
   double share, weight;
 };
-Division Divide(const Colour& near, const Colour& far, const Colour& mixed);
+Division Divide(const Colour& near, const Colour& far, const Colour& mixed, double contrast_fade);
 Mixed MixtureOf(const Division& division, const Colour& near, const Colour& far,
                 const Colour& mixed);
 

@@ -83,9 +83,9 @@ class SurfaceFinder {
       if (!IsEdge(disparity, far.disparity)) continue;
       const int moved = lens_.Shift(lens_.n, disparity) - lens_.Shift(lens_.n, far.disparity);
       if (std::abs(moved) <= 256) continue;
-      const Mixed mixed = lens_.layer == 0
-                              ? MixtureAt(field_, x0_ + x, y0_ + y, side, unit_ * 3 / 4)
-                              : MixtureOfLevel(x, y, side);
+      const Mixed mixed =
+          lens_.layer == 0 ? MixtureAt(field_, x0_ + x, y0_ + y, side, unit_ * 3 / 4, kContrastFade)
+                           : MixtureOfLevel(x, y, side);
       near.disparity = std::max(near.disparity, disparity);
       if (mixed.share == 0) continue;
       for (size_t c = 0; c < 3; ++c) {
@@ -143,7 +143,7 @@ class SurfaceFinder {
                  y0_ + y - Moved(v, disparity, lens_.layer));
     }
     const Colour& near = extended_.colours[at(same(2, 1) ? 2 : 1)];
-    return MixtureOf(Divide(near, far, mixed), near, far, mixed);
+    return MixtureOf(Divide(near, far, mixed, kContrastFade), near, far, mixed);
   }
 
   // Adds the hidden surfaces behind the visible surface of a pixel.
