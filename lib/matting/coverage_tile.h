@@ -59,10 +59,10 @@ struct FarTile {
 void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far);
 
 // Returns the eighth power of `a`. The argument has kAlphaBits fractional bits, and the result has
-// kFarKnownBits fractional bits.
+// kFarKnownBits fractional bits and is truncated.
 constexpr int32_t EighthPower(int32_t a) {
-  const int32_t square = a * a, fourth = square * square >> (2 * kAlphaBits);
-  return fourth * fourth >> (4 * kAlphaBits - kFarKnownBits);
+  const int64_t square = a * a, fourth = square * square;
+  return static_cast<int32_t>(fourth * fourth >> (8 * kAlphaBits - kFarKnownBits));
 }
 
 // Returns the weight of a pixel in a mean of the far surface's light. `alpha` is the coverage of

@@ -108,8 +108,9 @@ constexpr int32_t kWithin = 3 << (kDisparityBits - 1);
 // the centre view are mixtures.
 constexpr int kCentreBits = 3;
 // At a pixel, the light of the far surface is fully known if the weights of its samples sum to at
-// least 2^kSeenBits * kKnown.
-constexpr int kSeenBits = 1;
+// least 4 kKnown / kSeenFound, or 4 kKnown / kSeenGiven with given coverage. Found coverage may
+// lack strands that cover a sample, so two samples are needed. Given coverage lacks none.
+constexpr int32_t kSeenFound = 2, kSeenGiven = 16;
 
 // A side view from which the light of the far surface is read.
 struct SideLook {
@@ -127,7 +128,8 @@ class TileLooker {
         input_(input),
         map_(*input.coverage),
         left_(column * kCoverageTile),
-        columns_(Min(kCoverageTile, map_.width - left_)) {
+        columns_(Min(kCoverageTile, map_.width - left_)),
+        seen_(HasGiven(input) ? kSeenGiven : kSeenFound) {
     for (int side = 0; side < kSideCount; ++side) {
       for (const OcclusionView& look : input_.occlusion_views.on[side]) AddView(look);
     }
@@ -184,8 +186,8 @@ class TileLooker {
     sum->weight += weight;
   }
 
-  static void Store(const Sum& sum, FarCell* cell) {
-    cell->weight = static_cast<int16_t>(Min(sum.weight >> kSeenBits, kKnown));
+  void Store(const Sum& sum, FarCell* cell) const {
+    cell->weight = static_cast<int16_t>(Min(sum.weight * seen_ / 4, kKnown));
     for (int c = 0; c < 3 && sum.weight > 0; ++c) {
       cell->rgb[c] = static_cast<int16_t>((sum.rgb[c] + sum.weight / 2) / sum.weight);
     }
@@ -271,6 +273,7 @@ class TileLooker {
   const Input& input_;
   const CoverageMap& map_;
   const int32_t left_, columns_;
+  const int32_t seen_;  // kSeenFound or kSeenGiven
   SideLook views_[kSideCount * kOcclusionViews];
   int count_ = 0;
   uint64_t bins_ = 0;
@@ -300,7 +303,7 @@ class DetailAdder {
       : map_(*input.coverage),
         left_(column * kCoverageTile),
         top_(row * kCoverageTile),
-        detail_bits_(2 * kAlphaBits + (input.views > 1 ? 1 : 0)) {
+        detail_bits_(4 * kAlphaBits + (input.views > 1 ? 1 : 0)) {
     const int32_t left = left_ - kNearReach, first = Max(0, left);
     const int32_t end = Min(left + kSide, map_.width);
     for (int32_t k = 0; k < kSide; ++k) {
@@ -347,21 +350,21 @@ class DetailAdder {
     const int16_t* const mixed = light_[y + kNearReach] + 3 * (x + kNearReach);
     int16_t* const far = map_.FarAt(left_ + x, top_ + y).rgb;
     const NearMean near = MeanAround(x, y);
-    const int32_t rest = kWhole - alpha, cube = rest * rest * rest >> detail_bits_;
+    const int32_t rest = kWhole - alpha, cube = rest * rest * rest;
     // If the light of the near surface is not known, it is assumed to equal the light of the far
     // surface.
     const int32_t known = Min(near.weight, 1 << kNearKnownBits);
     for (int c = 0; c < 3; ++c) {
       const int32_t contrast = known * (near.rgb[c] - far[c]) >> kNearKnownBits;
       const int64_t detail = (mixed[c] - far[c]) * kWhole - alpha * contrast;
-      const auto light = far[c] + static_cast<int32_t>(RoundShift(detail * cube, 2 * kAlphaBits));
+      const auto light = far[c] + static_cast<int32_t>(RoundShift(detail * cube, detail_bits_));
       far[c] = static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
     }
   }
 
   const CoverageMap& map_;
   const int32_t left_, top_;
-  const int detail_bits_;  // fractional bits of the cube of the rest, plus 1 if it is halved
+  const int detail_bits_;  // fractional bits of products of detail and cube, plus 1 to halve them
   // Light and weights (EighthPower of the given coverage) of the tile and of kNearReach pixels on
   // each side. Pixels beyond the picture have weight 0.
   int16_t light_[kSide][3 * kSide] = {};

@@ -257,7 +257,7 @@ class Parter {
       known += weight;
     }
     FarLight& far = far_.Pixel(x, y);
-    far.known = Kept(std::min(known / 2, 1.0));
+    far.known = Kept(std::min(known * (given_.empty() ? 0.5 : 4), 1.0));
     for (size_t c = 0; c < 3 && known > 0; ++c) far.light[c] = sum[c] / known;
   }
 

@@ -105,6 +105,61 @@ TEST_CASE("given coverage: coverage shows gaps of a comb that the disparity map 
   CHECK(with > without + 6);
 }
 
+// Pixels in columns left of kOutline show the near surface, and half of the pixels of column
+// kOutline. The wall has fine detail.
+constexpr int kOutline = 96;
+double OutlineAt(int x) { return x < kOutline ? 1 : x == kOutline ? 0.5 : 0; }
+double FineWallAt(int x, int y, int c) {
+  return WallAt(x, y, c) + 20 * std::sin(2.1 * x + 1.3 * y);
+}
+
+// Returns the error in dB of a picture that is focused on the wall, next to the outline.
+double FinePsnrOf(const test::Output& out) {
+  constexpr int kBlur = int(kNear - kFar);
+  double sum = 0, count = 0;
+  for (int y = 16; y < kHeight - 16; ++y) {
+    for (int x = kOutline - kBlur; x < kOutline + kBlur; ++x) {
+      double coverage = 0, points = 0;
+      for (int dx = -kBlur; dx <= kBlur; ++dx) {
+        const double chord = std::sqrt(double(kBlur * kBlur - dx * dx));
+        coverage += chord * OutlineAt(x + dx);
+        points += chord;
+      }
+      coverage /= points;
+      for (int c = 0; c < 3; ++c, ++count) {
+        const double truth = coverage * BarAt(c) + (1 - coverage) * FineWallAt(x, y, c);
+        sum += (out.Pixel(x, y)[c] - truth) * (out.Pixel(x, y)[c] - truth);
+      }
+    }
+  }
+  return 10 * std::log10(255 * 255 * count / sum);
+}
+
+TEST_CASE("given coverage: with side views, detail behind an outline stays as sharp as without") {
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, 5, float(kFar), float(kNear));
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      for (int view = 0; view < 5; ++view) {
+        const starfocus_position at = scene.PositionOf(view);
+        const int u = int(at.u), v = int(at.v);
+        const double coverage = OutlineAt(x + u * int(kNear));
+        for (int c = 0; c < 3; ++c) {
+          const double wall = FineWallAt(x + u * int(kFar), y + v * int(kFar), c);
+          const double light = coverage * BarAt(c) + (1 - coverage) * wall;
+          scene.Pixel(view, x, y)[c] = uint8_t(std::lround(light));
+        }
+      }
+      scene.coverage.push_back(uint8_t(std::lround(255 * OutlineAt(x))));
+      scene.Disparity(x, y) = float(x < kOutline ? kNear : kFar);
+    }
+  }
+  const starfocus_params params = ThroughDisc(kFar);
+  const double with = FinePsnrOf(test::OutputOf(CombConfig(scene), params, scene));
+  const double without = FinePsnrOf(test::OutputOf(CombConfig(scene), params, Without(scene)));
+  MESSAGE("PSNR without and with coverage: ", without, " and ", with, " dB");
+  CHECK(with > without - 0.05);
+}
+
 TEST_CASE("given coverage: a slanted surface that covers its pixels stays closed") {
   constexpr int kEdge = 60, kDark = 20, kBright = 240, kBlur = 20;
   test::Scene scene = test::EmptyScene(128, 96, 1, 0, 40);
