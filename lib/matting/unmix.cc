@@ -18,7 +18,7 @@ constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
 // functions without limits. With the squared distance c between near and far colours, the first is
 // c / (c + kContrastNoise), the factor of a least-squares fit that weighs alpha's distance from the
 // guess with kContrastNoise.
-constexpr int32_t kContrastNoise = 1000 * kSquareOne;
+constexpr int32_t kContrastNoise = 1500 * kSquareOne;
 // With the squared distance b of the mixed colour from the line through the near and far colours,
 // the second is s / (s + b). The scale s is kNoise, the tolerated squared noise of mixed colours,
 // plus c / 16.

@@ -184,7 +184,7 @@ class Parter {
     if (contrast == 0) return guess;
     const double beside = Dot(part, part) - along * along / contrast;
     const double square = 81 + contrast / 16;
-    trust *= contrast / (contrast + 1000) * square / (square + beside);
+    trust *= contrast / (contrast + 1500) * square / (square + beside);
     return guess + (std::clamp(along / contrast, 0.0, 1.0) - guess) * trust;
   }
 
