@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prepares a given disparity map for a repair by colour. The functions convert the map to fixed
 // point, fill unknown pixels, measure the noise, and reduce the noise by averaging disparities
-// within surfaces. Other functions measure the doubt of each pixel, which is the distance from the
-// pixel to the nearest pixel at which the map may be wrong.
+// within surfaces.
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_MAP_H_
 
@@ -15,20 +14,6 @@
 #include "simd/matting.h"
 
 namespace starfocus {
-
-// Largest doubt, in pixels, of a doubtful pixel. Pixels farther from all steps and ramps are
-// assumed to be correct.
-inline constexpr int32_t kDoubtReach = 5;
-// Largest distance in pixels by which a map may displace a step.
-inline constexpr int32_t kDisplacement = 3;
-inline constexpr int32_t kThinDoubt = kDisplacement + 1;
-inline constexpr int32_t kDoubtMargin = kDoubtReach + 1 + kDisplacement;
-
-// Returns the difference between the colours of two pixels.
-inline int32_t ColourDifference(const uint8_t* a, const uint8_t* b) {
-  const int32_t red = a[0] - b[0], green = a[1] - b[1], blue = a[2] - b[2];
-  return simd::ColourDifference(red + green + blue, red - green, green - blue);
-}
 
 // Converts a disparity to fixed point (kDisparityBits). Halves are rounded away from zero.
 inline int16_t ToFixed(float disparity) {
@@ -48,24 +33,7 @@ struct ColourMap {
     return static_cast<const uint8_t*>(view.data) + static_cast<size_t>(y) * view.stride +
            3 * static_cast<size_t>(x);
   }
-  // Returns the distance in bytes between rows of the picture.
-  size_t ColourStride() const { return RowsOf(light_field.views[0]).stride; }
 };
-
-// Calls act(k) for each doubtful pixel k of a row of `count` pixels.
-template <class Act>
-void ForDoubtful(const uint8_t* doubt, int32_t count, const Act& act) {
-  constexpr uint64_t kNoDoubt = uint64_t{0x0101010101010101} * (kDoubtReach + 1);
-  for (int32_t k = 0; k < count; ++k) {
-    uint64_t eight = 0;
-    if (k + 8 <= count) std::memcpy(&eight, doubt + k, sizeof eight);
-    if (eight == kNoDoubt) {
-      k += 7;
-    } else if (doubt[k] <= kDoubtReach) {
-      act(k);
-    }
-  }
-}
 
 // Converts rows of light_field.depth to fixed point. A pixel that is not finite gets the
 // disparity of the nearest finite pixel in its row. If two finite pixels are equally near, the
@@ -91,20 +59,6 @@ void CountNoise(const SweepSetup& setup, const int16_t* disparity, const Range& 
 // CountNoise, or 0 if the noise is invisible. The deviation is computed from the median difference
 // between a pixel and the mean of its neighbours. Edges do not affect the median.
 int32_t NoiseOf(const uint32_t* counts);
-
-// Returns true if any two disparities in `rect`, extended by `margin` pixels, differ by more than
-// `step`.
-bool HasStep(const ColourMap& map, const Rect& rect, int32_t margin, int32_t step);
-
-// Returns true if pixel (x, y) has a neighbour in the tile that belongs to another surface.
-bool IsBesideStep(const ColourMap& map, const Rect& tile, int32_t x, int32_t y);
-
-// Computes the doubt of the pixels of `tile`. The doubt is 0 on ramps and at unknown pixels, and 1
-// at steps. The doubt increases by 1 per pixel of distance from ramps, unknown pixels and steps, up
-// to kDoubtReach + 1, which all pixels without doubt have. A map may have widened surfaces by
-// displacing their steps. Surfaces that are too thin to have been widened have doubt kThinDoubt.
-// `scratch` has one byte per pixel of the tile, extended by kDoubtMargin pixels on each side.
-void MeasureDoubt(const ColourMap& map, const Rect& tile, uint8_t* scratch, uint8_t* doubt);
 
 inline constexpr int32_t kMostSmoothRadius = 4;
 

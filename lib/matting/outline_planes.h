@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The planes and the picture from which the outlines of a map are found (outlines.h), and the
+// widths of one pass of the search.
+#ifndef STARFOCUS_LIB_MATTING_OUTLINE_PLANES_H_
+#define STARFOCUS_LIB_MATTING_OUTLINE_PLANES_H_
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/base/fixed.h"
+#include "lib/base/geometry.h"
+
+namespace starfocus {
+
+// Units of distances to an outline per pixel. Distances are even; a set lowest bit marks a ridge,
+// which is a pixel without same-sided neighbours that are farther from the outline. The middle of a
+// thin structure is a ridge, and is trusted more than other pixels at its distance.
+inline constexpr int32_t kDistance = 4;
+// Largest width of the band on each side, and largest radius of the windows in which outlines are
+// found, in pixels.
+inline constexpr int32_t kMostBand = 10, kMostOutlineRadius = 12;
+
+struct OutlineCounts;
+struct OutlineScratch;
+
+// Planes of the size of the picture, with contiguous rows, and memory of the workers.
+struct OutlineMemory {
+  int32_t width, height;
+  int16_t* given;     // the map (kDisparityBits)
+  int16_t* repaired;  // the map after the first pass
+  int16_t* middle;    // in the band: mean of the two surfaces (kDisparityBits)
+  int8_t* distance;   // signed distance to the outline, in 1/kDistance pixel; 0 outside the band
+  int8_t* vote;       // -127 (surely farther) to 127 (surely nearer)
+  int8_t* shift;      // by how much the outline approaches this pixel, in 1/kDistance pixel
+  uint8_t* gain;      // agreement of the votes that the shift gains, in 1/255
+  int8_t* side;       // -127 (surely farther) to 127 (surely nearer), never 0
+  OutlineCounts* counts;    // one for each worker
+  OutlineScratch* scratch;  // one for each worker
+
+  size_t At(int32_t x, int32_t y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+  }
+  // Returns `rect` extended by `margin` pixels and clipped to the picture.
+  Rect Widened(const Rect& rect, int32_t margin) const {
+    const int32_t left = Max(rect.x - margin, 0), top = Max(rect.y - margin, 0);
+    return {left, top, Min(rect.x + rect.width + margin, width) - left,
+            Min(rect.y + rect.height + margin, height) - top};
+  }
+};
+
+// The picture, and its tiles, which are the jobs of each phase. Results do not depend on the tiles.
+struct OutlinePicture {
+  Plane<const uint8_t> rgb;
+  int32_t tiles, max_workers;
+  Rect (*tile)(const void* data, int32_t index);  // tiles have at most kMostOutlineTile^2 pixels
+  const void* data;
+
+  const uint8_t* Pixel(int32_t x, int32_t y) const { return rgb.Row(y) + 3 * ptrdiff_t{x}; }
+  Rect Tile(int32_t index) const { return tile(data, index); }
+};
+inline constexpr int32_t kMostOutlineTile = 384;
+
+// How one pass searches for outlines.
+struct OutlinePass {
+  int32_t ramp;     // width of the map's edges, in 1/kDistance pixel
+  int32_t radius;   // radius of the windows in which outlines are found
+  int32_t band;     // width of the band on each side, in pixels
+  int32_t trusted;  // trust grows from 0 at trusted/10 of the width of the band to 1 at its end
+  int32_t clear;    // displacements need a gain of more than clear/256
+
+  // Returns true if the map's edges are steps between neighbours.
+  bool IsHard() const { return ramp < 2 * kDistance; }
+};
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_MATTING_OUTLINE_PLANES_H_
