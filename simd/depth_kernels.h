@@ -20,7 +20,7 @@
   KERNEL(ChooseLabels)                  \
   KERNEL(SpreadPrior)                   \
   KERNEL(AddPrior)                      \
-  KERNEL(CompareColours)                \
+  KERNEL(SumVotes)                      \
   KERNEL(SmoothDisparity)
 
 namespace starfocus::simd {

@@ -85,59 +85,49 @@ inline void SumNear(const NearRows& rows, NearSums* sums) {
   }
 }
 
-// Masks of the columns and rows of the window for each pixel of the block. A mask is all ones if
-// the column or row is out of reach of the pixel, and 0 otherwise.
-struct OutOfReach {
-  uint16_t column[kColourWindow][kSliceLanes], row[kColourWindow][kSliceLanes];
-
-  constexpr OutOfReach() : column(), row() {
-    for (int k = 0; k < kColourWindow; ++k) {
-      for (int n = 0; n < static_cast<int>(kSliceLanes); ++n) {
-        const int across = k - n % kColourBlock, down = k - n / kColourBlock;
-        column[k][n] = across < 0 || across > 2 * kColourReach ? UINT16_MAX : 0;
-        row[k][n] = down < 0 || down > 2 * kColourReach ? UINT16_MAX : 0;
-      }
-    }
-  }
-};
-
-inline void CompareColours(const ColourSample* HWY_RESTRICT window, size_t stride,
-                           uint16_t* HWY_RESTRICT least) {
-  static constexpr OutOfReach kOut;
+inline void SumVotes(const VoteRows& rows, VoteSums* HWY_RESTRICT sums) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
-  // Colours of the 16 pixels of the block, one array for each member of ColourSample.
-  int16_t sums[kSliceLanes], red_greens[kSliceLanes], green_blues[kSliceLanes];
-  const ColourSample* block = window + kColourReach * (stride + 1);
-  for (size_t n = 0; n < kSliceLanes; ++n) {
-    const ColourSample& sample = block[n / kColourBlock * stride + n % kColourBlock];
-    sums[n] = sample.sum;
-    red_greens[n] = sample.red_green;
-    green_blues[n] = sample.green_blue;
-  }
+  const auto zero = hn::Zero(d16);
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
-    const auto sum = hn::LoadU(d16, sums + n);
-    const auto red_green = hn::LoadU(d16, red_greens + n);
-    const auto green_blue = hn::LoadU(d16, green_blues + n);
-    const ColourSample* row = window;
-    for (int32_t y = 0; y < kColourWindow; ++y, row += stride) {
-      const auto row_out = hn::LoadU(du16, kOut.row[y] + n);
-      for (int32_t x = 0; x < kColourWindow; ++x) {
-        const ColourSample& other = row[x];
-        if (other.key == kNoColourKey) continue;
-        const auto brightness = hn::Abs(hn::Sub(sum, hn::Set(d16, other.sum)));
-        const auto a = hn::Sub(red_green, hn::Set(d16, other.red_green));
-        const auto b = hn::Sub(green_blue, hn::Set(d16, other.green_blue));
-        const auto hue = hn::Add(hn::Add(hn::Abs(a), hn::Abs(b)), hn::Abs(hn::Add(a, b)));
-        const auto difference = hn::Min(hn::Add(hn::ShiftRight<2>(brightness), hue),
-                                        hn::Set(d16, kMostColourDifference));
-        const auto key = hn::Add(hn::BitCast(du16, hn::ShiftLeft<kColourKeyBits>(difference)),
-                                 hn::Set(du16, other.key));
-        const auto out = hn::Or(row_out, hn::LoadU(du16, kOut.column[x] + n));
-        uint16_t* of_group = least + other.place + n;
-        hn::StoreU(hn::Min(hn::LoadU(du16, of_group), hn::Or(key, out)), du16, of_group);
+    const auto red = hn::LoadU(d16, rows.colour[0] + n);
+    const auto green = hn::LoadU(d16, rows.colour[1] + n);
+    const auto blue = hn::LoadU(d16, rows.colour[2] + n);
+    const auto middle = hn::LoadU(d16, rows.middle + n);
+    auto similar_far = hn::Zero(du16), similar_near = similar_far;
+    auto weight_far = zero, weight_near = zero;
+    const int16_t* HWY_RESTRICT closeness = rows.closeness;
+    for (int32_t y = -rows.reach; y <= rows.reach; y += rows.step) {
+      const ptrdiff_t row = static_cast<ptrdiff_t>(n) + y * rows.stride;
+      auto far = zero, near = zero;
+      for (int32_t x = -rows.reach; x <= rows.reach; x += rows.step, ++closeness) {
+        const ptrdiff_t at = row + x;
+        const auto trust = hn::LoadU(d16, rows.trust + at);
+        if (hn::AllTrue(d16, hn::Eq(trust, zero))) continue;
+        const auto r = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[0] + at), red));
+        const auto g = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[1] + at), green));
+        const auto b = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[2] + at), blue));
+        const auto difference = hn::Add(hn::Add(r, g), b);
+        const auto wide = hn::Max(hn::Sub(hn::Set(d16, kWide), difference), zero);
+        const auto tight = hn::Max(hn::Sub(hn::Set(d16, kTight), difference), zero);
+        const auto similar = hn::Add(hn::ShiftRight<9>(hn::Mul(wide, wide)),
+                                     hn::ShiftRight<2>(hn::Mul(tight, tight)));
+        const auto product = hn::Mul(trust, hn::Set(d16, *closeness));
+        const auto weight = hn::ShiftRight<6>(hn::Add(product, hn::Set(d16, kMostTrust / 2)));
+        const auto weighted = hn::Mul(weight, similar);
+        const auto nearer = hn::Gt(hn::LoadU(d16, rows.surface + at), middle);
+        near = hn::Add(near, hn::IfThenElseZero(nearer, weighted));
+        far = hn::Add(far, hn::IfThenZeroElse(nearer, weighted));
+        weight_near = hn::Add(weight_near, hn::IfThenElseZero(nearer, weight));
+        weight_far = hn::Add(weight_far, hn::IfThenZeroElse(nearer, weight));
       }
+      similar_near = hn::Add(similar_near, hn::ShiftRight<4>(hn::BitCast(du16, near)));
+      similar_far = hn::Add(similar_far, hn::ShiftRight<4>(hn::BitCast(du16, far)));
     }
+    hn::StoreU(similar_far, du16, sums->similar[0] + n);
+    hn::StoreU(similar_near, du16, sums->similar[1] + n);
+    hn::StoreU(hn::BitCast(du16, weight_far), du16, sums->weight[0] + n);
+    hn::StoreU(hn::BitCast(du16, weight_near), du16, sums->weight[1] + n);
   }
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SIMD kernels for pixels that mix two surfaces (lib/matting). FindBeyond, CoverPlaces and SumNear
-// process a row of kSliceLanes pixels. CompareColours compares the colours of pixels with the
-// colours of the surrounding pixels, and finds the surrounding pixel with the lowest cost for each
-// group of disparities. SmoothDisparity averages a noisy disparity map over neighbouring pixels on
-// one surface.
+// process a row of kSliceLanes pixels. SumVotes compares the colours of a row of kSliceLanes pixels
+// with the colours of the surrounding pixels, and sums the similarities for nearer and farther
+// surfaces. SmoothDisparity averages a noisy disparity map over neighbouring pixels on one surface.
 #ifndef STARFOCUS_SIMD_MATTING_H_
 #define STARFOCUS_SIMD_MATTING_H_
 
@@ -75,29 +74,39 @@ struct NearSums {
 inline constexpr int16_t kNearTaps[kNearReach + 1][kNearReach + 1] = {
     {10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
 
-// Geometry of the comparison. Each pixel of a block of 4x4 pixels is compared with all pixels up to
-// kColourReach columns and rows away.
-inline constexpr int32_t kColourBlock = 4, kColourReach = 8;
-inline constexpr int32_t kColourWindow = kColourBlock + 2 * kColourReach;
-static_assert(kColourBlock * kColourBlock == kSliceLanes, "a block is a group");
+// Largest number of samples in a row and in a column around a pixel, for SumVotes.
+inline constexpr int32_t kMostVoteSide = 18;
+// Largest trust of a sample and largest closeness.
+inline constexpr int32_t kMostTrust = 64, kMostCloseness = 16;
 
-// Upper limit of a colour difference. Larger differences are clamped.
-inline constexpr int16_t kMostColourDifference = 100;
-// Number of low bits of a key that decide between pixels of equal cost. The high bits of a key are
-// the cost. Keys of samples are small enough that a key plus the largest colour difference fits in
-// 16 bits.
-inline constexpr int kColourKeyBits = 6;
-inline constexpr uint16_t kNoColourKey = UINT16_MAX;
-
-struct ColourSample {
-  int16_t sum;                    // Red + green + blue, [0, 765].
-  int16_t red_green, green_blue;  // Red - green, green - blue, [-255, 255].
-  // Key of the sample before the colour difference is added; samples with kNoColourKey are skipped.
-  uint16_t key;
-  uint16_t place;  // index in the array `least` of the results for the sample's group
+// The pixels around a row of kSliceLanes pixels. All pointers, except `closeness`, point to the
+// first pixel of the row. Rows are `stride` samples apart.
+struct VoteRows {
+  const int16_t* colour[3];  // red, green and blue, [0, 255]
+  const int16_t* surface;    // disparity
+  const int16_t* trust;      // [0, kMostTrust]
+  const int16_t* middle;     // disparity above which a surface counts as nearer, for each pixel
+  ptrdiff_t stride;
+  int32_t reach, step;       // every step-th column and row from -reach to reach is a sample
+  const int16_t* closeness;  // [0, kMostCloseness], one for each sample, in contiguous rows
 };
 
-// Returns the difference of two colours from the differences of the members of ColourSample. Hue
+// Sums over the samples that are farther and nearer than the middle.
+struct VoteSums {
+  uint16_t similar[2][kSliceLanes];  // similarity * weight / 16, sums of rows rounded down
+  uint16_t weight[2][kSliceLanes];
+};
+
+// Similarity of colours by the sum of the absolute differences of red, green and blue: large up to
+// a few codes (kTight), and small up to kWide.
+inline constexpr int32_t kWide = 96, kTight = 24;
+inline constexpr int32_t kMostSimilar = (kWide * kWide >> 9) + (kTight * kTight >> 2);
+static_assert(kMostSimilar * kMostCloseness * kMostVoteSide <= UINT16_MAX, "sum of a row");
+static_assert((kMostSimilar * kMostCloseness * kMostVoteSide >> 4) * kMostVoteSide <= UINT16_MAX,
+              "sum of all rows");
+
+// Returns the difference of two colours from the differences of their sums of red, green
+// and blue, of red - green, and of green - blue. Hue
 // and saturation have four times the weight of brightness, because shading changes the brightness
 // of a surface.
 inline int32_t ColourDifference(int32_t sum, int32_t red_green, int32_t green_blue) {
@@ -114,7 +123,7 @@ inline constexpr int32_t kMostSmoothWeight = 64;
 // A row of pixels (`own`) and the rows over which its pixels are averaged. Each pointer points to
 // the first pixel of a row. `radius` more pixels at both ends of a row must be readable. A row has
 // four planes, which are `plane` elements apart: disparity, and the members sum, red_green and
-// green_blue of ColourSample.
+// green - blue.
 struct SmoothRows {
   const int32_t* own;
   const int32_t* rows[kMostSmoothRows];
@@ -193,26 +202,30 @@ STARFOCUS_REFERENCE void SumNear(const NearRows& rows, NearSums* sums) {
   }
 }
 
-// Compares the block in the middle of a window with the samples of the window. Pixel n of the block
-// is in column n % kColourBlock and row n / kColourBlock. For each sample within reach of pixel n,
-// least[place + n] is lowered to the sample's key plus the colour difference (in units of cost), if
-// this sum is smaller. `stride` is the distance in samples between rows of the window.
-STARFOCUS_REFERENCE void CompareColours(const ColourSample* window, size_t stride,
-                                        uint16_t* least) {
-  constexpr size_t kBlock = kColourBlock, kReach = kColourReach;
+// Compares kSliceLanes pixels with the samples around them. The weight of a sample is the product
+// of its trust and its closeness, in 1/64, rounded.
+STARFOCUS_REFERENCE void SumVotes(const VoteRows& rows, VoteSums* sums) {
+  *sums = {};
   for (size_t n = 0; n < kSliceLanes; ++n) {
-    const size_t left = n % kBlock, top = n / kBlock;
-    const ColourSample& own = window[(top + kReach) * stride + left + kReach];
-    for (size_t row = top; row <= top + 2 * kReach; ++row) {
-      for (size_t column = left; column <= left + 2 * kReach; ++column) {
-        const ColourSample& other = window[row * stride + column];
-        if (other.key == kNoColourKey) continue;
-        int32_t key = ColourDifference(own.sum - other.sum, own.red_green - other.red_green,
-                                       own.green_blue - other.green_blue);
-        if (key > kMostColourDifference) key = kMostColourDifference;
-        key = (key << kColourKeyBits) + other.key;
-        uint16_t* of_group = least + other.place + n;
-        if (key < *of_group) *of_group = static_cast<uint16_t>(key);
+    const ptrdiff_t here = static_cast<ptrdiff_t>(n);
+    const int16_t* closeness = rows.closeness;
+    for (int32_t y = -rows.reach; y <= rows.reach; y += rows.step) {
+      int32_t similar[2] = {0, 0};
+      for (int32_t x = -rows.reach; x <= rows.reach; x += rows.step) {
+        const ptrdiff_t there = here + y * rows.stride + x;
+        int32_t difference = 0;
+        for (const int16_t* colour : rows.colour)
+          difference += std::abs(colour[there] - colour[here]);
+        const int32_t wide = difference < kWide ? kWide - difference : 0;
+        const int32_t tight = difference < kTight ? kTight - difference : 0;
+        const int32_t weight = (rows.trust[there] * *closeness++ + kMostTrust / 2) / kMostTrust;
+        const int side = rows.surface[there] > rows.middle[here] ? 1 : 0;
+        similar[side] += weight * ((wide * wide >> 9) + (tight * tight >> 2));
+        sums->weight[side][n] = static_cast<uint16_t>(sums->weight[side][n] + weight);
+      }
+      for (int side = 0; side < 2; ++side) {
+        sums->similar[side][n] =
+            static_cast<uint16_t>(sums->similar[side][n] + (similar[side] >> 4));
       }
     }
   }

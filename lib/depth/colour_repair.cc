@@ -58,26 +58,27 @@ void SmoothMap(const ColourMap& given, int32_t noise, const simd::DepthKernels& 
   });
 }
 
-// Writes the repaired map of a cell. A disparity that is as in the given map is copied exactly.
-// Known pixels keep their disparity if `keeps` is true. If `repaired` is null, the map is right,
-// and only unknown pixels take the disparities that follow outlines.
-void WriteCell(const ColourMap& map, const MapOutput& output, const OutlineMemory& outlines,
-               bool keeps, const int16_t* repaired, const Rect& cell) {
-  for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+// Writes the repaired map of a tile. A disparity that is as in the given map is copied exactly. If
+// `repaired` is null, the map is right, and only unknown pixels take the disparities that follow
+// outlines.
+void WriteTile(const ColourMap& map, const MapOutput& output, const OutlineMemory& outlines,
+               const int16_t* repaired, const Rect& tile) {
+  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     const float* given = GivenAt(map.light_field, y);
-    for (int32_t x = cell.x; x < cell.x + cell.width; ++x) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       const size_t at = map.setup.At(x, y);
       const bool known = std::isfinite(given[x]);
       const int32_t distance = outlines.distance[at];
       int32_t confidence = UINT8_MAX;
       if (distance != 0) {
-        const bool contradicted = (outlines.side[at] > 0) != (distance > 0);
+        const bool contradicted =
+            outlines.side[at] != 0 && (outlines.side[at] > 0) != (distance > 0);
         confidence = repaired == nullptr && contradicted ? 0 : 2 * Abs(outlines.vote[at]);
       }
       output.WriteConfidence(x, y, static_cast<uint8_t>(confidence));
       const int16_t* right = known ? outlines.given : outlines.repaired;
       const int16_t disparity = (repaired != nullptr ? repaired : right)[at];
-      if (known && (keeps || disparity == ToFixed(given[x]))) {
+      if (known && disparity == ToFixed(given[x])) {
         output.disparity.Row(y)[x] = given[x];
       } else {
         output.Write(x, y, disparity);
@@ -85,6 +86,27 @@ void WriteCell(const ColourMap& map, const MapOutput& output, const OutlineMemor
     }
   }
 }
+
+// The parts of a map that are kept: thin structure and hair.
+struct Kept {
+  const SweepSetup* setup;
+  const ColourMemory* memory;
+  bool has_hair;
+
+  static Rect Tile(const void* data, int32_t index) {
+    return TileOf(*static_cast<const Kept*>(data)->setup, index);
+  }
+  static void Keep(const void* data, int32_t index, int8_t* side) {
+    const Kept& kept = *static_cast<const Kept*>(data);
+    const ColourMemory& memory = *kept.memory;
+    ForCells(GridOf(*kept.setup), index, [&](const Rect& cell, int32_t number) {
+      if (memory.thin.thin[number] == 0 && !(kept.has_hair && HasHair(memory.hair, cell))) return;
+      for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+        std::fill_n(side + kept.setup->At(cell.x, y), cell.width, int8_t{0});
+      }
+    });
+  }
+};
 
 // Completes the coverage of a tile, whose disparities have been written to the output.
 void CompleteTile(const MapOutput& output, const HairMemory& hair, const Rect& tile) {
@@ -127,11 +149,6 @@ starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_f
   const int32_t tiles = setup.columns * setup.rows;
   Sequence run(memory.jobs, kPhases + (covers ? kHairPhases : 0), tiles);
   const int32_t noise = ReadMap(map, memory, &run);
-  run.Run([&](int32_t index, int32_t) {
-    CountBeside(GridOf(setup), map.disparity, TileOf(setup, index), index, memory.thin);
-  });
-  if (run.status() != STARFOCUS_OK) return run.status();
-  FindThin(GridOf(setup), kThinGiven, memory.thin);
   const Plane<const uint8_t> rgb = RowsOf(light_field.views[0]);
   const HairPicture hair = {setup.width,
                             setup.height,
@@ -140,18 +157,17 @@ starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_f
                             output.coverage};
   *has_coverage = covers && FindHairCoverage(hair, memory.hair, &run);
   SmoothMap(map, noise, kernels, memory, &run);
-  const OutlinePicture picture = {rgb, tiles, memory.jobs->max_workers,
-                                  [](const void* data, int32_t index) {
-                                    return TileOf(*static_cast<const SweepSetup*>(data), index);
-                                  },
-                                  &setup};
-  const int16_t* repaired = FollowOutlines(picture, memory.outlines, &run);
   run.Run([&](int32_t index, int32_t) {
-    ForCells(GridOf(setup), index, [&](const Rect& cell, int32_t number) {
-      const bool has_hair = *has_coverage && HasHair(memory.hair, cell);
-      const bool keeps = has_hair || memory.thin.thin[number] != 0;
-      WriteCell(map, output, memory.outlines, keeps, repaired, cell);
-    });
+    CountBeside(GridOf(setup), map.disparity, TileOf(setup, index), index, memory.thin);
+  });
+  if (run.status() != STARFOCUS_OK) return run.status();
+  FindThin(GridOf(setup), kThinGiven, memory.thin);
+  const Kept kept = {&setup, &memory, *has_coverage};
+  const OutlinePicture picture = {rgb,        tiles,      memory.jobs->max_workers,
+                                  Kept::Tile, Kept::Keep, &kept};
+  const int16_t* repaired = FollowOutlines(picture, memory.outlines, kernels, &run);
+  run.Run([&](int32_t index, int32_t) {
+    WriteTile(map, output, memory.outlines, repaired, TileOf(setup, index));
   });
   if (*has_coverage) {
     run.Run(

@@ -19,6 +19,29 @@ inline constexpr int32_t kDistance = 4;
 // Largest width of the band on each side, and largest radius of the windows in which outlines are
 // found, in pixels.
 inline constexpr int32_t kMostBand = 10, kMostOutlineRadius = 12;
+// Votes compare pixels up to kVoteReach pixels beyond the width of the band. Up to kFineReach,
+// every second column and row is compared, otherwise every third.
+inline constexpr int32_t kVoteReach = 7, kMostReach = kMostBand + kVoteReach, kFineReach = 13;
+// The cells along a row or column in which displacements are measured. Cells of kSide pixels begin
+// at both borders, and a cell of 1 to 2 kSide pixels is left in the middle, so that mirrored
+// pictures have mirrored cells.
+struct ShiftCells {
+  static constexpr int32_t kSide = 4;
+  int32_t length;  // in pixels
+
+  int32_t Half() const { return (length - 1) / (2 * kSide); }
+  int32_t Count() const { return 2 * Half() + 1; }
+  // Returns the cell of a pixel.
+  int32_t Of(int32_t pixel) const {
+    const int32_t after = length - 1 - pixel;
+    if (pixel < kSide * Half()) return pixel / kSide;
+    return after < kSide * Half() ? Count() - 1 - after / kSide : Half();
+  }
+  // Returns the first pixel of a cell, or `length` for cell Count().
+  int32_t Begin(int32_t cell) const {
+    return cell <= Half() ? kSide * cell : length - kSide * (Count() - cell);
+  }
+};
 
 struct OutlineCounts;
 struct OutlineScratch;
@@ -30,13 +53,15 @@ struct OutlineMemory {
   int16_t* repaired;  // the map after the first pass
   int16_t* middle;    // in the band: mean of the two surfaces (kDisparityBits)
   int8_t* distance;   // signed distance to the outline, in 1/kDistance pixel; 0 outside the band
-  int8_t* vote;       // -127 (surely farther) to 127 (surely nearer)
-  int8_t* shift;      // by how much the outline approaches this pixel, in 1/kDistance pixel
+  int8_t* vote;       // -127 (surely farther) to 127 (surely nearer); 0 without samples
+  int8_t* side;       // the same, by the second vote; 0 where the map is kept
+  int8_t* shift;      // by how much the outline approaches this cell, in 1/kDistance pixel
   uint8_t* gain;      // agreement of the votes that the shift gains, in 1/255
-  int8_t* side;       // -127 (surely farther) to 127 (surely nearer), never 0
   OutlineCounts* counts;    // one for each worker
   OutlineScratch* scratch;  // one for each worker
 
+  ShiftCells Columns() const { return {width}; }
+  ShiftCells Rows() const { return {height}; }
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
   }
@@ -53,6 +78,8 @@ struct OutlinePicture {
   Plane<const uint8_t> rgb;
   int32_t tiles, max_workers;
   Rect (*tile)(const void* data, int32_t index);  // tiles have at most kMostOutlineTile^2 pixels
+  // Sets side[] to 0 in tile `index` where the map must be kept.
+  void (*keep)(const void* data, int32_t index, int8_t* side);
   const void* data;
 
   const uint8_t* Pixel(int32_t x, int32_t y) const { return rgb.Row(y) + 3 * ptrdiff_t{x}; }

@@ -12,39 +12,27 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 // Largest absolute vote and side.
 constexpr int32_t kSure = 127;
 
-// A vote compares a pixel with every second pixel and row within band + kVoteReach pixels. The
-// weight of a sample is the product of its trust, its closeness and its similarity.
-constexpr int32_t kVoteReach = 7;
-constexpr int32_t kMostReach = kMostBand + kVoteReach;
-constexpr int32_t kFullTrust = 16, kRidgeTrust = 8, kFullCloseness = 16;
+// A vote compares a pixel with every second pixel and row (every third in wide bands) within
+// band + kVoteReach pixels. The weight of a sample is the product of its trust, its closeness and
+// its similarity.
+constexpr int32_t kRidgeTrust = 32;
 // Squared distance in pixels at which the closeness is a half.
-constexpr int32_t kFallOff = 300;
-// Weight of colours of the nearer surface that no sample has. Colours of the farther surface go on
-// outside the band, but a rim or a thin part of the nearer surface may lie in the band alone.
-// The weight is full where farther samples have a weight of at least kFullyFar before similarity.
-constexpr int32_t kUnknownNear = 200, kFullyFar = 4096;
-// Weight of the side that the map gives to the pixel itself.
-constexpr int32_t kGivenSide = 1000;
+constexpr int32_t kFallOff = 100;
+// Colours that no sample has are rather those of the nearer surface: those of the farther surface
+// go on outside the band, but a rim or a thin part of the nearer surface may lie in the band alone.
+// Mean similarities in 1/256.
+constexpr int32_t kUnknownNear = 2, kUnknown = 4;
+// Weight of all samples, in percent of fully trusted samples, below which the outlines are so dense
+// that the map is kept.
+constexpr int32_t kLeastTrusted = 10;
+// The side of the displaced outline is 1 + kPrior * (distance - 1/4)^2 times as probable
+// as the other one, at most kMostPrior times.
+constexpr int32_t kPrior = 16, kMostPrior = 1000;
 
-// Similarity of colours by the sum of absolute differences of red, green and blue, which is large
-// up to a few codes (kTight), and small up to kWide.
-constexpr int32_t kWide = 96, kTight = 24;
-struct Similarity {
-  int32_t of[kWide];
-
-  constexpr Similarity() : of() {
-    for (int32_t k = 0; k < kWide; ++k) {
-      const int32_t wide = kWide - k, tight = k < kTight ? kTight - k : 0;
-      of[k] = wide * wide / 2304 + tight * tight * 5 / 2;
-    }
-  }
-};
-constexpr Similarity kSimilarity;
-
-int32_t SimilarityOf(const uint8_t* a, const uint8_t* b) {
-  const int32_t sum = Abs(a[0] - b[0]) + Abs(a[1] - b[1]) + Abs(a[2] - b[2]);
-  return sum < kWide ? kSimilarity.of[sum] : 0;
-}
+// Radius, around a cell, of the windows whose votes displace an outline.
+constexpr int32_t kShiftRadius = 4;
+// Weight of no displacement against displacements, in units of gains and weights of cells.
+constexpr int32_t kStill = 100;
 
 // Trust of a pixel by the absolute value of its distance.
 struct Trust {
@@ -52,168 +40,204 @@ struct Trust {
 
   explicit Trust(const OutlinePass& pass) {
     const int32_t end = kDistance * pass.band, first = pass.trusted * end;
-    of[0] = kFullTrust;
+    of[0] = simd::kMostTrust;
     for (int32_t k = 1; k < 128; ++k) {
       const int32_t trust =
-          Clamp(kFullTrust * (10 * k - first) / (10 * end - first), 0, kFullTrust);
+          Clamp(simd::kMostTrust * (10 * k - first) / (10 * end - first), 0, simd::kMostTrust);
       of[k] = static_cast<uint8_t>((k & 1) != 0 ? Max(trust, kRidgeTrust) : trust);
     }
   }
 };
 
-// Radius of the windows whose votes displace an outline, and of the windows that smooth shifts.
-constexpr int32_t kShiftRadius = 4;
-// Weight of no displacement against displacements, in units of gains.
-constexpr int32_t kStill = 8;
-// Radius of the windows in which colours explain votes.
-constexpr int32_t kSnapRadius = 3;
-// The displaced outline is sure kSure / kSlope pixels away from it.
-constexpr int32_t kSlope = 100;
-// Variance of noise of the projected colours, in squared quarters of a code: 8 codes.
-constexpr int32_t kColourNoise = 1024;
+// Where the samples around a pixel are, and how much closeness they have.
+struct Samples {
+  int32_t reach, step, sum = 0;
+  int16_t closeness[simd::kMostVoteSide * simd::kMostVoteSide];
+
+  explicit Samples(const OutlinePass& pass) : reach(pass.band + kVoteReach) {
+    step = reach > kFineReach ? 3 : 2;
+    reach -= reach % step;
+    int32_t k = 0;
+    for (int32_t y = -reach; y <= reach; y += step) {
+      for (int32_t x = -reach; x <= reach; x += step, ++k) {
+        closeness[k] =
+            static_cast<int16_t>(simd::kMostCloseness * kFallOff / (kFallOff + x * x + y * y));
+        sum += closeness[k];
+      }
+    }
+  }
+};
+
+// Writes the planes of the pixels around `area`, with the trust and the surface of
+// sample(x, y, at, &trust), which returns the surface. Pixels outside the picture have no trust.
+template <class Sample>
+void FillBlock(const OutlinePicture& picture, const OutlineMemory& memory, const Rect& area,
+               int32_t reach, const Sample& sample, VoteBlock* block) {
+  const Rect around = memory.Widened(area, reach);
+  std::fill_n(block->trust, VoteBlock::kWidth * VoteBlock::kWidth, int16_t{0});
+  for (int32_t y = around.y; y < around.y + around.height; ++y) {
+    const int32_t row = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach - area.x;
+    for (int32_t x = around.x; x < around.x + around.width; ++x) {
+      const uint8_t* rgb = picture.Pixel(x, y);
+      for (int c = 0; c < 3; ++c) block->colour[c][row + x] = rgb[c];
+      block->surface[row + x] = sample(memory.At(x, y), block->trust + row + x);
+    }
+  }
+}
+
+// Calls act(x, y, at, sums, lane) for each pixel of the band of a tile.
+template <class Sample, class Act>
+void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const Rect& tile,
+               const Samples& samples, const simd::DepthKernels& kernels, VoteBlock* block,
+               const Sample& sample, const Act& act) {
+  constexpr auto kLanes = static_cast<int32_t>(simd::kSliceLanes);
+  const auto visit = [&](const Rect& area) {
+    bool any = false;
+    ForBand(memory, area, [&](int32_t, int32_t, size_t) { any = true; });
+    if (!any) return;
+    FillBlock(picture, memory, area, samples.reach, sample, block);
+    for (int32_t y = area.y; y < area.y + area.height; ++y) {
+      for (int32_t x = area.x; x < area.x + area.width; x += kLanes) {
+        const int32_t count = Min(kLanes, area.x + area.width - x);
+        const Rect row = {x, y, count, 1};
+        int16_t middle[kLanes] = {};
+        any = false;
+        ForBand(memory, row, [&](int32_t column, int32_t, size_t at) {
+          middle[column - x] = memory.middle[at];
+          any = true;
+        });
+        if (!any) continue;
+        const int32_t own = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach + x - area.x;
+        const simd::VoteRows rows = {
+            {block->colour[0] + own, block->colour[1] + own, block->colour[2] + own},
+            block->surface + own,
+            block->trust + own,
+            middle,
+            VoteBlock::kWidth,
+            samples.reach,
+            samples.step,
+            samples.closeness};
+        simd::VoteSums sums;
+        kernels.SumVotes(rows, &sums);
+        ForBand(memory, row, [&](int32_t column, int32_t, size_t at) {
+          act(column, y, at, sums, static_cast<size_t>(column - x));
+        });
+      }
+    }
+  };
+  for (int32_t y = tile.y; y < tile.y + tile.height; y += VoteBlock::kSide) {
+    for (int32_t x = tile.x; x < tile.x + tile.width; x += VoteBlock::kSide) {
+      visit({x, y, Min(VoteBlock::kSide, tile.x + tile.width - x),
+             Min(VoteBlock::kSide, tile.y + tile.height - y)});
+    }
+  }
+}
+
+// Returns the vote that follows from the mean similarities of both sides and from how much more
+// probable the nearer and farther side are, in [-kSure, kSure], and never 0.
+int8_t VoteOf(const simd::VoteSums& sums, size_t lane, int32_t prior_far, int32_t prior_near) {
+  // A side with few samples needs more similarity: an eighth of all weight counts for both sides.
+  const int32_t far_weight = sums.weight[0][lane], near_weight = sums.weight[1][lane];
+  const int32_t shared = (far_weight + near_weight) / 8 + 1;
+  // Sums are at most 58320 in 1/16.
+  const int64_t far = sums.similar[0][lane] * 4096LL / (far_weight + shared) + kUnknown;
+  const int64_t near = sums.similar[1][lane] * 4096LL / (near_weight + shared) + kUnknown +
+                       kUnknownNear * Min(far_weight, 64) / 64;
+  const int64_t nearer = near * prior_near, farther = far * prior_far;
+  const auto vote = static_cast<int32_t>(kSure * (nearer - farther) / (nearer + farther));
+  return static_cast<int8_t>(vote == 0 ? 1 : vote);
+}
+
+// Returns how close a pixel is to the middle of a cell, from 12 at its middle to 0 six pixels away.
+int32_t ClosenessTo(const ShiftCells& cells, int32_t cell, int32_t pixel) {
+  return Max(12 - Abs(2 * pixel + 1 - cells.Begin(cell) - cells.Begin(cell + 1)), 0);
+}
 
 // Smoothed displacement of the outline at a pixel, in 1/kDistance pixel.
 int32_t SmoothShift(const OutlineMemory& memory, int32_t x, int32_t y) {
-  int32_t weights = kStill, shifts = 0;
-  ForBand(memory, memory.Widened({x, y, 1, 1}, kShiftRadius), [&](int32_t, int32_t, size_t at) {
-    weights += memory.gain[at];
-    shifts += memory.gain[at] * memory.shift[at];
-  });
-  return shifts / weights;
+  const ShiftCells columns = memory.Columns(), rows = memory.Rows();
+  const int32_t column = columns.Of(x), row = rows.Of(y);
+  int32_t weights = kStill, shifts = 0, across[3] = {};
+  for (int32_t k = -1; k <= 1; ++k) {
+    if (column + k >= 0 && column + k < columns.Count()) {
+      across[k + 1] = ClosenessTo(columns, column + k, x);
+    }
+  }
+  for (int32_t v = Max(row - 1, 0); v <= Min(row + 1, rows.Count() - 1); ++v) {
+    const int32_t down = ClosenessTo(rows, v, y);
+    for (int32_t k = -1; k <= 1; ++k) {
+      if (across[k + 1] == 0) continue;
+      const int32_t cell = v * columns.Count() + column + k;
+      const int32_t weight = memory.gain[cell] * down * across[k + 1];
+      weights += weight;
+      shifts += weight / 16 * memory.shift[cell];
+    }
+  }
+  return 16 * shifts / weights;
 }
-
-// The colours and votes around a pixel. Colours are relative to the colour of the pixel.
-struct SnapWindow {
-  static constexpr int32_t kMost = (2 * kSnapRadius + 1) * (2 * kSnapRadius + 1);
-  int32_t count = 0, weights = 0;
-  int32_t vote[kMost], weight[kMost], colour[kMost][3];
-
-  SnapWindow(const OutlinePicture& picture, const OutlineMemory& memory, const int16_t* map,
-             int32_t x, int32_t y) {
-    const int32_t middle = memory.middle[memory.At(x, y)];
-    const uint8_t* own = picture.Pixel(x, y);
-    const Rect around = memory.Widened({x, y, 1, 1}, kSnapRadius);
-    for (int32_t row = around.y; row < around.y + around.height; ++row) {
-      for (int32_t column = around.x; column < around.x + around.width; ++column, ++count) {
-        const size_t at = memory.At(column, row);
-        const int32_t outside = map[at] > middle ? kSure : -kSure;
-        vote[count] = memory.distance[at] != 0 ? memory.vote[at] : outside;
-        weight[count] = Abs(vote[count]) >> 3;
-        weights += weight[count];
-        const uint8_t* rgb = picture.Pixel(column, row);
-        for (int c = 0; c < 3; ++c) colour[count][c] = rgb[c] - own[c];
-      }
-    }
-  }
-
-  // Sets `direction` to the direction in which the colours vary with the votes, with 64 as the
-  // largest component. Returns false if they do not vary together.
-  bool FindDirection(int32_t* direction) const {
-    int64_t votes = 0, colours[3] = {}, products[3] = {}, most = 0;
-    for (int32_t k = 0; k < count; ++k) {
-      votes += weight[k] * vote[k];
-      for (int c = 0; c < 3; ++c) {
-        colours[c] += weight[k] * colour[k][c];
-        products[c] += weight[k] * vote[k] * colour[k][c];
-      }
-    }
-    for (int c = 0; c < 3; ++c) {
-      products[c] = (weights * products[c] - votes * colours[c]) / weights / weights;
-      most = std::max(most, products[c] < 0 ? -products[c] : products[c]);
-    }
-    if (most == 0) return false;
-    for (int c = 0; c < 3; ++c) direction[c] = static_cast<int32_t>(64 * products[c] / most);
-    return true;
-  }
-
-  // Returns the mixture of `otherwise` and of the pixel's side that a linear regression of the
-  // votes over the colours predicts. The share of the prediction is the coefficient of
-  // determination of the regression: the part of the votes that colours explain.
-  int32_t Predict(int32_t otherwise) const {
-    int32_t direction[3];
-    if (weights == 0 || !FindDirection(direction)) return otherwise;
-    int64_t v = 0, c = 0, vv = 0, cc = 0, vc = 0;
-    for (int32_t k = 0; k < count; ++k) {
-      int32_t along = 0;  // in quarters of a code of the largest component
-      for (int i = 0; i < 3; ++i) along += direction[i] * colour[k][i];
-      along >>= 4;
-      v += weight[k] * vote[k];
-      c += weight[k] * along;
-      vv += weight[k] * vote[k] * vote[k];
-      vc += int64_t{weight[k]} * vote[k] * along;
-      cc += int64_t{weight[k]} * along * along;
-    }
-    const int64_t mean_v = v / weights, mean_c = c / weights;
-    const int64_t covariance = vc / weights - mean_v * mean_c;
-    const int64_t colours = cc / weights - mean_c * mean_c + kColourNoise;
-    const int64_t votes = vv / weights - mean_v * mean_v + 1;
-    const int64_t predicted =
-        std::clamp<int64_t>(mean_v - covariance * mean_c / colours, -kSure, kSure);
-    const int64_t share =
-        std::clamp<int64_t>(256 * covariance * covariance / (colours * votes), 0, 256);
-    return static_cast<int32_t>((share * predicted + (256 - share) * otherwise) / 256);
-  }
-};
 
 // Number of clean pixels that give a pixel its disparity, and the distance in 1/kDistance pixel
 // beyond half of the map's ramp from which pixels of the band are clean.
 constexpr int32_t kCleanPixels = 8, kBesideRamp = 2 * kDistance;
+constexpr int32_t kCrestRadius = 3;
+// Largest difference to a neighbour on a clean pixel of a soft map (kDisparityBits).
+constexpr int32_t kFlat = kPixel / 8;
+
+// Returns the disparity of the crest of a thin structure, or of the ground of a gap: the extreme of
+// the side of pixel (x, y) within kCrestRadius.
+int16_t CrestOf(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y, bool near) {
+  const size_t own = memory.At(x, y);
+  const int32_t middle = memory.middle[own];
+  const Rect around = memory.Widened({x, y, 1, 1}, kCrestRadius);
+  int16_t extreme = map[own];
+  for (int32_t row = around.y; row < around.y + around.height; ++row) {
+    for (int32_t column = around.x; column < around.x + around.width; ++column) {
+      const int16_t other = map[memory.At(column, row)];
+      if ((other > middle) != near) continue;
+      const bool takes = (extreme > middle) != near || (near ? other > extreme : other < extreme);
+      if (takes) extreme = other;
+    }
+  }
+  return extreme;
+}
 
 }  // namespace
 
 void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
-                  const OutlinePass& pass, const int16_t* map, const Rect& tile) {
+                  const OutlinePass& pass, const int16_t* map, const Rect& tile,
+                  const simd::DepthKernels& kernels, VoteBlock* block) {
   const Trust trust(pass);
-  const int32_t reach = pass.band + kVoteReach;
-  uint8_t closeness[kMostReach + 1][kMostReach + 1];
-  for (int32_t y = 0; y <= reach; ++y) {
-    for (int32_t x = 0; x <= reach; ++x) {
-      closeness[y][x] =
-          static_cast<uint8_t>(kFullCloseness * kFallOff / (kFallOff + x * x + y * y));
-    }
-  }
-  ForBand(memory, tile, [&](int32_t x, int32_t y, size_t at) {
-    const int32_t middle = memory.middle[at];
-    const uint8_t* own = picture.Pixel(x, y);
-    // Weights of farther and nearer samples: at most 18^2 samples of 16 * 16 * 1444.
-    int32_t sums[2] = {0, 0}, farther = 0;
-    const int32_t left = Max(x - reach, x & 1), right = Min(x + reach, memory.width - 1);
-    const int32_t first = left + ((left ^ (x - reach)) & 1);
-    for (int32_t row = y - reach; row <= Min(y + reach, memory.height - 1); row += 2) {
-      if (row < 0) continue;
-      const uint8_t* close = closeness[Abs(row - y)];
-      for (int32_t column = first; column <= right; column += 2) {
-        const size_t other = memory.At(column, row);
-        const int32_t trusted = trust.of[Abs(memory.distance[other])];
-        if (trusted == 0) continue;
-        const int32_t weight = trusted * close[Abs(column - x)];
-        const bool near = map[other] > middle;
-        if (!near) farther += weight;
-        sums[near ? 1 : 0] += weight * SimilarityOf(own, picture.Pixel(column, row));
-      }
-    }
-    sums[1] += kUnknownNear * Min(farther, kFullyFar) / kFullyFar;
-    sums[memory.distance[at] > 0 ? 1 : 0] += kGivenSide;
-    memory.vote[at] =
-        static_cast<int8_t>(2 * kSure * int64_t{sums[1]} / (int64_t{sums[0]} + sums[1]) - kSure);
-  });
+  const Samples samples(pass);
+  SumAround(
+      picture, memory, tile, samples, kernels, block,
+      [&](size_t at, int16_t* trusted) {
+        *trusted = trust.of[Abs(memory.distance[at])];
+        return map[at];
+      },
+      [&](int32_t, int32_t, size_t at, const simd::VoteSums& sums, size_t lane) {
+        const int32_t weight = sums.weight[0][lane] + sums.weight[1][lane];
+        const bool dense = 100 * weight < kLeastTrusted * samples.sum;
+        memory.vote[at] = dense ? int8_t{0} : VoteOf(sums, lane, 1, 1);
+      });
 }
 
 void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const Rect& tile) {
   // bins[k] is the sum of the votes k - kZero pixels from the outline, rounded.
   constexpr int32_t kZero = kMostBand + 1, kBins = 2 * kZero + 1;
-  ForBand(memory, tile, [&](int32_t x, int32_t y, size_t own) {
+  const ShiftCells columns = memory.Columns(), rows = memory.Rows();
+  const auto shift = [&](int32_t column, int32_t row) {
     int32_t bins[kBins] = {}, count = 0, farther = 0;
-    ForBand(memory, memory.Widened({x, y, 1, 1}, kShiftRadius), [&](int32_t, int32_t, size_t at) {
+    const int32_t left = columns.Begin(column), top = rows.Begin(row);
+    const Rect cell = {left, top, columns.Begin(column + 1) - left, rows.Begin(row + 1) - top};
+    ForBand(memory, memory.Widened(cell, kShiftRadius), [&](int32_t, int32_t, size_t at) {
       bins[kZero + ((memory.distance[at] + 2) >> 2)] += memory.vote[at];
       farther -= memory.vote[at];
       ++count;
     });
-    // The agreement, halved, of an outline at k - kZero - 1/2: its nearer side begins with bin k.
+    // The agreement of an outline at k - kZero - 1/2: its nearer side begins with bin k.
     int32_t nearer = -farther, best = INT32_MIN, best_at = 0, unmoved = 0;
     for (int32_t k = 0; k < kBins; ++k) {
-      const int32_t to = k - kZero - 1;
-      const int32_t agreement = 2 * nearer;
+      const int32_t to = k - kZero - 1, agreement = 2 * nearer;
       if (to == 0) unmoved = agreement;
       if (Abs(to) <= pass.band &&
           (agreement > best || (agreement == best && Abs(to) < Abs(best_at)))) {
@@ -222,22 +246,44 @@ void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const R
       }
       nearer -= bins[k];
     }
-    const int32_t gain = best - unmoved;
+    const int32_t gain = best - unmoved, at = row * columns.Count() + column;
     const bool clear = 256 * gain > pass.clear * kSure * count;
-    memory.shift[own] = static_cast<int8_t>(clear ? -kDistance * best_at : 0);
-    memory.gain[own] = static_cast<uint8_t>(clear ? Min(255, 255 * gain / (kSure * count)) : 0);
-  });
+    memory.shift[at] = static_cast<int8_t>(clear ? -kDistance * best_at : 0);
+    memory.gain[at] = static_cast<uint8_t>(clear ? Min(255, 255 * gain / (kSure * count)) : 0);
+  };
+  for (int32_t row = rows.Of(tile.y); row <= rows.Of(tile.y + tile.height - 1); ++row) {
+    for (int32_t column = columns.Of(tile.x); column <= columns.Of(tile.x + tile.width - 1);
+         ++column) {
+      if (columns.Begin(column) >= tile.x && rows.Begin(row) >= tile.y) shift(column, row);
+    }
+  }
 }
 
-void SnapToColours(const OutlinePicture& picture, const OutlineMemory& memory, const int16_t* map,
-                   const Rect& tile) {
-  ForBand(memory, tile, [&](int32_t x, int32_t y, size_t at) {
-    const int32_t moved = memory.distance[at] + SmoothShift(memory, x, y);
-    const int32_t smooth = Clamp(moved * kSlope / kDistance, -kSure, kSure);
-    const int32_t side = SnapWindow(picture, memory, map, x, y).Predict(smooth);
-    const int32_t given = memory.distance[at] > 0 ? 1 : -1;
-    memory.side[at] = static_cast<int8_t>(side == 0 ? given : side);
-  });
+void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
+               const int16_t* map, const Rect& tile, const simd::DepthKernels& kernels,
+               VoteBlock* block) {
+  const Samples samples(pass);
+  SumAround(
+      picture, memory, tile, samples, kernels, block,
+      [&](size_t at, int16_t* trusted) {
+        *trusted = simd::kMostTrust;
+        const int32_t distance = memory.distance[at], vote = memory.vote[at];
+        if (distance == 0) return map[at];
+        *trusted = static_cast<int16_t>(vote * vote * simd::kMostTrust / (kSure * kSure));
+        // A pixel on the other side shows a surface as far beyond the middle.
+        if ((vote > 0) == (distance > 0)) return map[at];
+        return static_cast<int16_t>(Clamp(2 * memory.middle[at] - map[at], INT16_MIN, INT16_MAX));
+      },
+      [&](int32_t x, int32_t y, size_t at, const simd::VoteSums& sums, size_t lane) {
+        memory.side[at] = 0;
+        if (memory.vote[at] == 0) return;
+        const int32_t moved = memory.distance[at] + SmoothShift(memory, x, y);
+        const bool near = moved > 0 || (moved == 0 && memory.distance[at] > 0);
+        const int32_t beyond = Max(2 * Abs(moved) - kDistance / 2, 0);  // in 1/(2 kDistance) pixel
+        const int32_t prior =
+            Min(1 + kPrior * beyond * beyond / (4 * kDistance * kDistance), kMostPrior);
+        memory.side[at] = VoteOf(sums, lane, near ? 1 : prior, near ? prior : 1);
+      });
 }
 
 bool IsNearer(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y) {
@@ -259,35 +305,57 @@ bool IsNearer(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_
 int16_t DisparityOfSide(const OutlineMemory& memory, const OutlinePass& pass, const int16_t* map,
                         int32_t x, int32_t y) {
   const size_t own = memory.At(x, y);
+  if (memory.side[own] == 0) return map[own];
   const int32_t middle = memory.middle[own], end = kDistance * pass.band - 2;
   const int32_t clean = pass.IsHard() ? 0 : Min(pass.ramp / 2 + kBesideRamp, end);
   const bool near = IsNearer(memory, map, x, y);
-  const auto is_clean = [&](size_t at) {
+  const auto is_flat = [&](int32_t u, int32_t v, size_t at) {
+    const size_t left = at - (u > 0 ? 1 : 0), right = at + (u + 1 < memory.width ? 1 : 0);
+    const size_t above = memory.At(u, Max(v - 1, 0)),
+                 below = memory.At(u, Min(v + 1, memory.height - 1));
+    for (const size_t beside : {left, right, above, below}) {
+      if (Abs(map[beside] - map[at]) > kFlat) return false;
+    }
+    return true;
+  };
+  const auto is_clean = [&](int32_t u, int32_t v) {
+    const size_t at = memory.At(u, v);
     const int32_t distance = memory.distance[at];
-    if ((map[at] > middle) != near) return false;
+    if ((map[at] > middle) != near || (!pass.IsHard() && !is_flat(u, v, at))) return false;
     return distance == 0 || (Abs(distance) >= clean && (memory.side[at] > 0) == (distance > 0));
   };
-  if (is_clean(own)) return map[own];
+  if (is_clean(x, y)) return map[own];
   int32_t sum = 0, count = 0, first = 0;
-  for (int32_t ring = 1; ring <= 2 * pass.band + 2 && count < kCleanPixels; ++ring) {
-    const auto visit = [&](int32_t column, int32_t row) {
-      if (column < 0 || row < 0 || column >= memory.width || row >= memory.height) return;
-      const size_t at = memory.At(column, row);
-      if (!is_clean(at)) return;
-      if (count == 0) first = map[at];
-      if (Abs(map[at] - first) > kPixel) return;
-      sum += map[at];
-      ++count;
+  // The distance to the outline changes by at most 3/2 kDistance from ring to ring.
+  const int32_t inside = near == (memory.distance[own] > 0) ? Abs(memory.distance[own]) : 0;
+  const int32_t start = Max(1, 2 * (clean - inside) / (3 * kDistance));
+  int32_t last = 2 * pass.band + 2;
+  for (int32_t ring = start; ring <= last && count < kCleanPixels; ++ring) {
+    // Calls act(disparity) for the clean ones of five pixels on each side of the ring.
+    const auto visit = [&](const auto& act) {
+      const int32_t spread = Min(ring, 2);
+      for (int32_t row = -spread; row <= spread; ++row) {
+        for (int32_t column = -spread; column <= spread; ++column) {
+          if (Max(Abs(row), Abs(column)) != spread) continue;
+          const int32_t u = x + column * ring / spread, v = y + row * ring / spread;
+          if (u < 0 || v < 0 || u >= memory.width || v >= memory.height) continue;
+          if (is_clean(u, v)) act(int32_t{map[memory.At(u, v)]});
+        }
+      }
     };
-    for (int32_t k = -ring; k <= ring; ++k) {
-      visit(x + k, y - ring);
-      visit(x + k, y + ring);
-      if (Abs(k) == ring) continue;
-      visit(x - ring, y + k);
-      visit(x + ring, y + k);
+    if (count == 0) {
+      first = near ? INT16_MIN : INT16_MAX;
+      visit([&](int32_t other) { first = near ? Max(first, other) : Min(first, other); });
+    } else {
+      last = Min(last, ring + 2);
     }
+    visit([&](int32_t other) {
+      if (Abs(other - first) > kPixel) return;
+      sum += other;
+      ++count;
+    });
   }
-  if (count == 0) return map[own];
+  if (count == 0) return CrestOf(memory, map, x, y, near);
   return static_cast<int16_t>((2 * sum + (sum < 0 ? -count : count)) / (2 * count));
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lib/matting/outline_planes.h"
+#include "simd/depth_kernels.h"
 
 namespace starfocus {
 
@@ -22,16 +23,26 @@ void ForBand(const OutlineMemory& memory, const Rect& rect, const Act& act) {
   }
 }
 
-// Writes memory.vote.
-void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
-                  const OutlinePass& pass, const int16_t* map, const Rect& tile);
+// Pixels of a block and the pixels around it, in planes, for simd::SumVotes.
+struct VoteBlock {
+  static constexpr int32_t kSide = 64, kWidth = kSide + 2 * kMostReach;
 
-// Writes memory.shift and memory.gain.
+  int16_t colour[3][kWidth * kWidth], surface[kWidth * kWidth], trust[kWidth * kWidth];
+};
+
+// Writes memory.vote, from samples that are trusted by their distance to the outline.
+void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
+                  const OutlinePass& pass, const int16_t* map, const Rect& tile,
+                  const simd::DepthKernels& kernels, VoteBlock* block);
+
+// Writes memory.shift and memory.gain of the cells whose first pixels lie in the tile.
 void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const Rect& tile);
 
-// Writes memory.side.
-void SnapToColours(const OutlinePicture& picture, const OutlineMemory& memory, const int16_t* map,
-                   const Rect& tile);
+// Writes memory.side, from samples that are trusted by their own votes, and from the distance to
+// the displaced outline.
+void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
+               const int16_t* map, const Rect& tile, const simd::DepthKernels& kernels,
+               VoteBlock* block);
 
 // Returns true if pixel (x, y) of the band belongs to the nearer side according to memory.side of
 // the pixel and its neighbours.

@@ -20,15 +20,16 @@ constexpr size_t kMostTall = kMostRegion + 2 * kMostOutlineRadius;
 constexpr uint8_t kFar = UINT8_MAX;
 // Widths of ramps that are counted apart, in 1/kDistance pixel. The last one includes all wider.
 constexpr int32_t kRampCounts = kDistance * 25;
-// Percentage of the pixels of the bands of a hard map that change their side, from which the map is
-// assumed to be wrong. In exact maps of closed objects it is 2 to 5, in wrong maps 7 to 34.
-constexpr uint32_t kWrongPercent = 5;
+// Percentage of the pixels next to the outlines of a hard map that change their side, from which
+// the map is assumed to be wrong. In exact maps it is 3 to 10, and 17 among wires with few colours;
+// in wrong maps 21 to 50.
+constexpr uint32_t kWrongPercent = 18;
 
 }  // namespace
 
 struct OutlineCounts {
   uint32_t ramps[kRampCounts];
-  uint32_t band, changes;  // Pixels of bands, and those of them that change their side.
+  uint32_t beside, changes;  // Pixels next to outlines, and those of them that change their side.
 };
 
 struct OutlineScratch {
@@ -36,6 +37,7 @@ struct OutlineScratch {
   int16_t middle[kMostRegion * kMostRegion];
   int16_t rows[2][kMostTall * kMostRegion];  // extremes of windows of one row
   uint8_t distance[kMostRegion * kMostRegion];
+  VoteBlock block;
 };
 
 namespace {
@@ -147,9 +149,11 @@ void FindCrossings(const OutlineMemory& memory, const OutlinePass& pass, const i
         const int32_t own = map[memory.At(column, row)];
         int32_t step = kSurfaceStep;
         ForBeside(memory, map, column, row, [&](int32_t other, int32_t, int32_t) {
-          if (Abs(other - own) <= step) return;
-          step = Abs(other - own);
-          middle = (own + other) >> 1;
+          const int32_t size = Abs(other - own), between = (own + other) >> 1;
+          if (size < step || size <= kSurfaceStep) return;
+          // Of equal steps, the nearer one counts, so that mirrored maps have mirrored outlines.
+          middle = size > step ? between : Max(middle, between);
+          step = size;
           crosses = true;
         });
       } else {
@@ -169,9 +173,11 @@ void ExtendDistances(const Rect& region, int32_t most, OutlineScratch* scratch) 
   const int32_t width = region.width;
   const auto take = [&](int32_t k, int32_t from, int32_t step) {
     const int32_t sum = scratch->distance[from] + step;
-    if (sum >= scratch->distance[k] || sum > most) return;
+    if (sum > scratch->distance[k] || sum > most) return;
+    const int16_t middle = scratch->middle[from];
+    const bool equal = sum == scratch->distance[k];
+    scratch->middle[k] = equal ? std::max(scratch->middle[k], middle) : middle;
     scratch->distance[k] = static_cast<uint8_t>(sum);
-    scratch->middle[k] = scratch->middle[from];
   };
   // Takes from the previous row and column if `next` is 1, from the following ones if it is -1.
   const auto visit = [&](int32_t x, int32_t y, int32_t next) {
@@ -228,7 +234,7 @@ OutlinePass FirstPass(const OutlineCounts* counts, int32_t workers) {
   };
   uint32_t total = 0, below = 0;
   for (int32_t ramp = 0; ramp < kRampCounts; ++ramp) total += count(ramp);
-  OutlinePass pass = {kDistance, 0, 6, 8, 8};
+  OutlinePass pass = {kDistance, 0, 6, 5, 60};
   for (int32_t ramp = 0; ramp < kRampCounts && 2 * below < total; ++ramp) {
     below += count(ramp);
     pass.ramp = ramp;
@@ -249,16 +255,21 @@ constexpr int32_t kPassPhases = 5;
 
 // Runs a pass that reads `map` and writes `repaired`.
 void RunPass(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
-             const int16_t* map, int16_t* repaired, Sequence* run) {
+             const int16_t* map, int16_t* repaired, const simd::DepthKernels& kernels,
+             Sequence* run) {
   run->Run([&](int32_t index, int32_t worker) {
     MeasureDistances(memory, pass, map, picture.Tile(index), memory.scratch + worker);
   });
-  run->Run([&](int32_t index, int32_t) {
-    VoteByColour(picture, memory, pass, map, picture.Tile(index));
+  run->Run([&](int32_t index, int32_t worker) {
+    VoteByColour(picture, memory, pass, map, picture.Tile(index), kernels,
+                 &memory.scratch[worker].block);
   });
   run->Run([&](int32_t index, int32_t) { ShiftOutlines(memory, pass, picture.Tile(index)); });
-  run->Run(
-      [&](int32_t index, int32_t) { SnapToColours(picture, memory, map, picture.Tile(index)); });
+  run->Run([&](int32_t index, int32_t worker) {
+    VoteAgain(picture, memory, pass, map, picture.Tile(index), kernels,
+              &memory.scratch[worker].block);
+    picture.keep(picture.data, index, memory.side);
+  });
   run->Run([&](int32_t index, int32_t worker) {
     const Rect tile = picture.Tile(index);
     for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
@@ -268,7 +279,8 @@ void RunPass(const OutlinePicture& picture, const OutlineMemory& memory, const O
     OutlineCounts* counts = memory.counts + worker;
     ForBand(memory, tile, [&](int32_t x, int32_t y, size_t at) {
       repaired[at] = DisparityOfSide(memory, pass, map, x, y);
-      ++counts->band;
+      if (memory.side[at] == 0 || Abs(memory.distance[at]) >= kDistance) return;
+      ++counts->beside;
       counts->changes += (memory.side[at] > 0) != (memory.distance[at] > 0) ? 1 : 0;
     });
   });
@@ -284,31 +296,34 @@ OutlineMemory TakeOutlines(int32_t width, int32_t height, int32_t max_workers, A
   for (int16_t** plane : {&memory.given, &memory.repaired, &memory.middle}) {
     *plane = arena->Take<int16_t>(columns, rows);
   }
-  for (int8_t** plane : {&memory.distance, &memory.vote, &memory.shift, &memory.side}) {
+  for (int8_t** plane : {&memory.distance, &memory.vote, &memory.side}) {
     *plane = arena->Take<int8_t>(columns, rows);
   }
-  memory.gain = arena->Take<uint8_t>(columns, rows);
+  const auto across = static_cast<size_t>(memory.Columns().Count());
+  const auto down = static_cast<size_t>(memory.Rows().Count());
+  memory.shift = arena->Take<int8_t>(across, down);
+  memory.gain = arena->Take<uint8_t>(across, down);
   memory.counts = arena->Take<OutlineCounts>(static_cast<size_t>(max_workers));
   memory.scratch = arena->Take<OutlineScratch>(static_cast<size_t>(max_workers));
   return memory;
 }
 
 const int16_t* FollowOutlines(const OutlinePicture& picture, const OutlineMemory& memory,
-                              Sequence* run) {
+                              const simd::DepthKernels& kernels, Sequence* run) {
   std::fill_n(memory.counts, picture.max_workers, OutlineCounts{});
   run->Run([&](int32_t index, int32_t worker) {
     CountRamps(memory, picture.Tile(index), memory.scratch + worker, memory.counts + worker);
   });
   const OutlinePass pass = FirstPass(memory.counts, picture.max_workers);
-  RunPass(picture, memory, pass, memory.given, memory.repaired, run);
+  RunPass(picture, memory, pass, memory.given, memory.repaired, kernels, run);
   if (run->status() != STARFOCUS_OK) return nullptr;
-  uint64_t band = 0, changes = 0;
+  uint64_t beside = 0, changes = 0;
   for (int32_t k = 0; k < picture.max_workers; ++k) {
-    band += memory.counts[k].band;
+    beside += memory.counts[k].beside;
     changes += memory.counts[k].changes;
   }
-  if (pass.IsHard() && 100 * changes >= kWrongPercent * band) {
-    RunPass(picture, memory, kSecondPass, memory.repaired, memory.given, run);
+  if (pass.IsHard() && 100 * changes >= kWrongPercent * beside) {
+    RunPass(picture, memory, kSecondPass, memory.repaired, memory.given, kernels, run);
     return memory.given;
   }
   for (int32_t k = 0; k < kPassPhases; ++k) run->Skip();

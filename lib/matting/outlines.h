@@ -18,6 +18,7 @@
 #include "lib/base/arena.h"
 #include "lib/base/jobs.h"
 #include "lib/matting/outline_planes.h"
+#include "simd/depth_kernels.h"
 
 namespace starfocus {
 
@@ -30,7 +31,7 @@ inline constexpr int32_t kOutlinePhases = 11;
 // and if the map is right: its edges are steps, and few pixels would change their side. Then
 // memory.given is as before, and memory.repaired has the disparities that pixels would take.
 const int16_t* FollowOutlines(const OutlinePicture& picture, const OutlineMemory& memory,
-                              Sequence* run);
+                              const simd::DepthKernels& kernels, Sequence* run);
 
 }  // namespace starfocus
 

@@ -56,12 +56,14 @@ struct Scene {
           const int x = index % across * size, y = index / across * size;
           return starfocus::Rect{x, y, std::min(size, kWidth - x), std::min(size, kHeight - y)};
         },
+        [](const void*, int32_t, int8_t*) {},
         &side};
     std::vector<std::atomic<uint32_t>> progress(starfocus::ProgressWords(size_t(tiles)));
     starfocus::Jobs jobs;
     jobs.progress = progress.data();
     starfocus::Sequence run(&jobs, starfocus::kOutlinePhases, tiles);
-    const int16_t* repaired = starfocus::FollowOutlines(picture, outlines, &run);
+    const int16_t* repaired = starfocus::FollowOutlines(
+        picture, outlines, starfocus::simd::ReferenceDepthKernels(), &run);
     CHECK(run.status() == STARFOCUS_OK);
     changed = repaired != nullptr;
     const int16_t* result = changed ? repaired : outlines.given;
@@ -101,6 +103,25 @@ TEST_CASE("repaired edges: a ramp becomes a step at the edge of the picture") {
   });
   CHECK(Wrong(scene.map) > 5 * kHeight);
   CHECK(Wrong(scene.Repaired(kWidth)) == 0);
+}
+
+TEST_CASE("repaired edges: a thin structure of a soft map has one disparity") {
+  // A bar of three pixels, whose map has no flat pixel; no pixel keeps a rest of the ramp.
+  constexpr int kMiddle = kWidth / 4;
+  Scene scene([](int x, int) { return std::max(0, kNear - std::abs(x - kMiddle) * kNear / 4); });
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const uint8_t code = std::abs(x - kMiddle) <= 1 ? 40 : 200;
+      std::fill_n(&scene.rgb[3 * size_t(y * kWidth + x)], 3, code);
+    }
+  }
+  const std::vector<int16_t> repaired = scene.Repaired(kWidth);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int16_t right = std::abs(x - kMiddle) <= 1 ? kNear : kFar;
+      CHECK(repaired[size_t(y * kWidth + x)] == right);
+    }
+  }
 }
 
 TEST_CASE("repaired edges: a right map is left alone") {

@@ -134,27 +134,34 @@ TEST_CASE("depth kernels: LeastSide and MeanCost return values computed by hand"
   CHECK(int(cost[0]) == 72);
 }
 
-TEST_CASE("depth kernels: CompareColours finds the best sample of each group around a pixel") {
-  std::vector<ColourSample> samples(kColourWindow * kColourWindow, {90, 0, 0, kNoColourKey, 0});
-  const auto set = [&](int row, int column, const ColourSample& sample) {
-    samples[size_t(row * kColourWindow + column)] = sample;
-  };
-  // The first group has two samples within reach of the first pixel. One sample is a grey that is
-  // brighter by 31, and the other sample differs by more than the limit. A third sample has the
-  // colour of the pixel, but is too far away.
-  set(0, 16, {121, 0, 0, 5 * 64 + 3, 0});
-  set(16, 0, {90, 60, -30, 1 * 64, 0});
-  set(8, 17, {90, 0, 0, 2, 0});
-  // The second group has one sample, which only the last pixel reaches; the difference is 3 + 10 +
-  // 4 + 14.
-  set(19, 19, {105, 10, 4, 63, kSliceLanes});
-  std::vector<uint16_t> least(2 * kSliceLanes, kNoColourKey);
-  ReferenceDepthKernels().CompareColours(samples.data(), kColourWindow, least.data());
-  CHECK(least[0] == (7 + 5) * 64 + 3);
-  CHECK(least[1] == 2);
-  CHECK(least[4] == (100 + 1) * 64);
-  CHECK(least[kSliceLanes] == kNoColourKey);
-  CHECK(least[2 * kSliceLanes - 1] == 31 * 64 + 63);
+TEST_CASE("depth kernels: SumVotes weighs similar colours of farther and nearer pixels") {
+  constexpr size_t kStride = kSliceLanes + 2, kSamples = 3 * kStride;
+  std::vector<int16_t> colour(kSamples, 100), surface(kSamples, 0), trust(kSamples, 0);
+  const std::vector<int16_t> middle(kSliceLanes, 50), closeness(9, 8);
+  // The first pixel has a nearer sample of its colour above it, and a farther sample whose colour
+  // differs by 3 * 10 beside it. The second pixel has both beside it.
+  const size_t own = kStride + 1;
+  surface[1] = 51;
+  trust[1] = kMostTrust;
+  surface[own - 1] = 50;
+  trust[own - 1] = kMostTrust / 2;
+  colour[own - 1] = 110;
+  VoteRows rows = {};
+  for (const int16_t*& plane : rows.colour) plane = colour.data() + own;
+  rows.surface = surface.data() + own;
+  rows.trust = trust.data() + own;
+  rows.middle = middle.data();
+  rows.stride = kStride;
+  rows.reach = rows.step = 1;
+  rows.closeness = closeness.data();
+  VoteSums sums;
+  ReferenceDepthKernels().SumVotes(rows, &sums);
+  CHECK(sums.weight[1][0] == 8);
+  CHECK(sums.similar[1][0] == 8 * kMostSimilar / 16);
+  CHECK(sums.weight[0][0] == 4);
+  CHECK(sums.similar[0][0] == 4 * (66 * 66 >> 9) / 16);
+  CHECK(sums.weight[1][1] == 8);
+  CHECK(sums.weight[0][1] == 0);
 }
 
 TEST_CASE("depth kernels: SmoothDisparity averages noise within a surface") {
