@@ -86,6 +86,9 @@ struct OutlinePicture {
   Rect Tile(int32_t index) const { return tile(data, index); }
 };
 inline constexpr int32_t kMostOutlineTile = 384;
+// Disparities of a tile follow from the pixels up to kSideReach pixels around it.
+inline constexpr int32_t kSideReach = 2 * kMostBand + 4;
+inline constexpr size_t kMostRegion = kMostOutlineTile + 2 * kSideReach;
 
 // How one pass searches for outlines.
 struct OutlinePass {

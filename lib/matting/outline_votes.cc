@@ -176,31 +176,6 @@ int32_t SmoothShift(const OutlineMemory& memory, int32_t x, int32_t y) {
   return 16 * shifts / weights;
 }
 
-// Number of clean pixels that give a pixel its disparity, and the distance in 1/kDistance pixel
-// beyond half of the map's ramp from which pixels of the band are clean.
-constexpr int32_t kCleanPixels = 8, kBesideRamp = 2 * kDistance;
-constexpr int32_t kCrestRadius = 3;
-// Largest difference to a neighbour on a clean pixel of a soft map (kDisparityBits).
-constexpr int32_t kFlat = kPixel / 8;
-
-// Returns the disparity of the crest of a thin structure, or of the ground of a gap: the extreme of
-// the side of pixel (x, y) within kCrestRadius.
-int16_t CrestOf(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y, bool near) {
-  const size_t own = memory.At(x, y);
-  const int32_t middle = memory.middle[own];
-  const Rect around = memory.Widened({x, y, 1, 1}, kCrestRadius);
-  int16_t extreme = map[own];
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const int16_t other = map[memory.At(column, row)];
-      if ((other > middle) != near) continue;
-      const bool takes = (extreme > middle) != near || (near ? other > extreme : other < extreme);
-      if (takes) extreme = other;
-    }
-  }
-  return extreme;
-}
-
 }  // namespace
 
 void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
@@ -284,79 +259,6 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
             Min(1 + kPrior * beyond * beyond / (4 * kDistance * kDistance), kMostPrior);
         memory.side[at] = VoteOf(sums, lane, near ? 1 : prior, near ? prior : 1);
       });
-}
-
-bool IsNearer(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y) {
-  static constexpr int32_t kWeights[3] = {1, 2, 1};
-  const int32_t middle = memory.middle[memory.At(x, y)];
-  int32_t sum = 0;
-  for (int32_t row = -1; row <= 1; ++row) {
-    for (int32_t column = -1; column <= 1; ++column) {
-      const size_t at =
-          memory.At(Clamp(x + column, 0, memory.width - 1), Clamp(y + row, 0, memory.height - 1));
-      const int32_t outside = map[at] > middle ? kSure : -kSure;
-      const int32_t side = memory.distance[at] != 0 ? memory.side[at] : outside;
-      sum += kWeights[column + 1] * kWeights[row + 1] * side;
-    }
-  }
-  return sum > 0;
-}
-
-int16_t DisparityOfSide(const OutlineMemory& memory, const OutlinePass& pass, const int16_t* map,
-                        int32_t x, int32_t y) {
-  const size_t own = memory.At(x, y);
-  if (memory.side[own] == 0) return map[own];
-  const int32_t middle = memory.middle[own], end = kDistance * pass.band - 2;
-  const int32_t clean = pass.IsHard() ? 0 : Min(pass.ramp / 2 + kBesideRamp, end);
-  const bool near = IsNearer(memory, map, x, y);
-  const auto is_flat = [&](int32_t u, int32_t v, size_t at) {
-    const size_t left = at - (u > 0 ? 1 : 0), right = at + (u + 1 < memory.width ? 1 : 0);
-    const size_t above = memory.At(u, Max(v - 1, 0)),
-                 below = memory.At(u, Min(v + 1, memory.height - 1));
-    for (const size_t beside : {left, right, above, below}) {
-      if (Abs(map[beside] - map[at]) > kFlat) return false;
-    }
-    return true;
-  };
-  const auto is_clean = [&](int32_t u, int32_t v) {
-    const size_t at = memory.At(u, v);
-    const int32_t distance = memory.distance[at];
-    if ((map[at] > middle) != near || (!pass.IsHard() && !is_flat(u, v, at))) return false;
-    return distance == 0 || (Abs(distance) >= clean && (memory.side[at] > 0) == (distance > 0));
-  };
-  if (is_clean(x, y)) return map[own];
-  int32_t sum = 0, count = 0, first = 0;
-  // The distance to the outline changes by at most 3/2 kDistance from ring to ring.
-  const int32_t inside = near == (memory.distance[own] > 0) ? Abs(memory.distance[own]) : 0;
-  const int32_t start = Max(1, 2 * (clean - inside) / (3 * kDistance));
-  int32_t last = 2 * pass.band + 2;
-  for (int32_t ring = start; ring <= last && count < kCleanPixels; ++ring) {
-    // Calls act(disparity) for the clean ones of five pixels on each side of the ring.
-    const auto visit = [&](const auto& act) {
-      const int32_t spread = Min(ring, 2);
-      for (int32_t row = -spread; row <= spread; ++row) {
-        for (int32_t column = -spread; column <= spread; ++column) {
-          if (Max(Abs(row), Abs(column)) != spread) continue;
-          const int32_t u = x + column * ring / spread, v = y + row * ring / spread;
-          if (u < 0 || v < 0 || u >= memory.width || v >= memory.height) continue;
-          if (is_clean(u, v)) act(int32_t{map[memory.At(u, v)]});
-        }
-      }
-    };
-    if (count == 0) {
-      first = near ? INT16_MIN : INT16_MAX;
-      visit([&](int32_t other) { first = near ? Max(first, other) : Min(first, other); });
-    } else {
-      last = Min(last, ring + 2);
-    }
-    visit([&](int32_t other) {
-      if (Abs(other - first) > kPixel) return;
-      sum += other;
-      ++count;
-    });
-  }
-  if (count == 0) return CrestOf(memory, map, x, y, near);
-  return static_cast<int16_t>((2 * sum + (sum < 0 ? -count : count)) / (2 * count));
 }
 
 }  // namespace starfocus

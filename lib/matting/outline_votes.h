@@ -44,13 +44,20 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
                const int16_t* map, const Rect& tile, const simd::DepthKernels& kernels,
                VoteBlock* block);
 
-// Returns true if pixel (x, y) of the band belongs to the nearer side according to memory.side of
-// the pixel and its neighbours.
-bool IsNearer(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y);
+// Planes of a region of at most kMostRegion^2 pixels and a margin of one, for TakeDisparities, and
+// the pixels that have no disparity yet.
+struct SidePlanes {
+  static constexpr size_t kSamples = (kMostRegion + 2) * (kMostRegion + 2);
 
-// Returns the disparity of pixel (x, y) of the band (kDisparityBits).
-int16_t DisparityOfSide(const OutlineMemory& memory, const OutlinePass& pass, const int16_t* map,
-                        int32_t x, int32_t y);
+  int16_t disparity[kSamples];
+  uint8_t state[kSamples];
+  int32_t pending[kSamples];
+};
+
+// Copies `map` to `repaired` in the tile, except pixels that change their side or lie on a ramp:
+// these take the disparities of their side around them.
+void TakeDisparities(const OutlineMemory& memory, const OutlinePass& pass, const int16_t* map,
+                     const Rect& tile, SidePlanes* planes, int16_t* repaired);
 
 }  // namespace starfocus
 

@@ -15,7 +15,6 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 constexpr int32_t kLeastStep = 2 * kPixel;
 // The distances of a tile depend on the outlines up to kMargin pixels around it.
 constexpr int32_t kMargin = kMostBand + 2;
-constexpr size_t kMostRegion = kMostOutlineTile + 2 * kMargin;
 constexpr size_t kMostTall = kMostRegion + 2 * kMostOutlineRadius;
 constexpr uint8_t kFar = UINT8_MAX;
 // Widths of ramps that are counted apart, in 1/kDistance pixel. The last one includes all wider.
@@ -38,6 +37,7 @@ struct OutlineScratch {
   int16_t rows[2][kMostTall * kMostRegion];  // extremes of windows of one row
   uint8_t distance[kMostRegion * kMostRegion];
   VoteBlock block;
+  SidePlanes sides;
 };
 
 namespace {
@@ -272,13 +272,9 @@ void RunPass(const OutlinePicture& picture, const OutlineMemory& memory, const O
   });
   run->Run([&](int32_t index, int32_t worker) {
     const Rect tile = picture.Tile(index);
-    for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-      const size_t at = memory.At(tile.x, y);
-      std::copy_n(map + at, tile.width, repaired + at);
-    }
+    TakeDisparities(memory, pass, map, tile, &memory.scratch[worker].sides, repaired);
     OutlineCounts* counts = memory.counts + worker;
-    ForBand(memory, tile, [&](int32_t x, int32_t y, size_t at) {
-      repaired[at] = DisparityOfSide(memory, pass, map, x, y);
+    ForBand(memory, tile, [&](int32_t, int32_t, size_t at) {
       if (memory.side[at] == 0 || Abs(memory.distance[at]) >= kDistance) return;
       ++counts->beside;
       counts->changes += (memory.side[at] > 0) != (memory.distance[at] > 0) ? 1 : 0;
