@@ -58,9 +58,7 @@ void SmoothMap(const ColourMap& given, int32_t noise, const simd::DepthKernels& 
   });
 }
 
-// Writes the repaired map of a tile. A disparity that is as in the given map is copied exactly. If
-// `repaired` is null, the map is right, and only unknown pixels take the disparities that follow
-// outlines.
+// Writes the repaired map of a tile. A disparity that is as in the given map is copied exactly.
 void WriteTile(const ColourMap& map, const MapOutput& output, const OutlineMemory& outlines,
                const int16_t* repaired, const Rect& tile) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
@@ -68,20 +66,13 @@ void WriteTile(const ColourMap& map, const MapOutput& output, const OutlineMemor
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
       const size_t at = map.setup.At(x, y);
       const bool known = std::isfinite(given[x]);
-      const int32_t distance = outlines.distance[at];
-      int32_t confidence = UINT8_MAX;
-      if (distance != 0) {
-        const bool contradicted =
-            outlines.side[at] != 0 && (outlines.side[at] > 0) != (distance > 0);
-        confidence = repaired == nullptr && contradicted ? 0 : 2 * Abs(outlines.vote[at]);
-      }
+      const int32_t vote = Abs(outlines.vote[at]);
+      const int32_t confidence = outlines.distance[at] != 0 ? 2 * vote : UINT8_MAX;
       output.WriteConfidence(x, y, static_cast<uint8_t>(confidence));
-      const int16_t* right = known ? outlines.given : outlines.repaired;
-      const int16_t disparity = (repaired != nullptr ? repaired : right)[at];
-      if (known && disparity == ToFixed(given[x])) {
+      if (known && repaired[at] == ToFixed(given[x])) {
         output.disparity.Row(y)[x] = given[x];
       } else {
-        output.Write(x, y, disparity);
+        output.Write(x, y, repaired[at]);
       }
     }
   }
@@ -90,11 +81,15 @@ void WriteTile(const ColourMap& map, const MapOutput& output, const OutlineMemor
 // The parts of a map that are kept: thin structure and hair.
 struct Kept {
   const SweepSetup* setup;
+  const starfocus_light_field* light_field;
   const ColourMemory* memory;
   bool has_hair;
 
   static Rect Tile(const void* data, int32_t index) {
     return TileOf(*static_cast<const Kept*>(data)->setup, index);
+  }
+  static bool Known(const void* data, int32_t x, int32_t y) {
+    return std::isfinite(GivenAt(*static_cast<const Kept*>(data)->light_field, y)[x]);
   }
   static void Keep(const void* data, int32_t index, int8_t* side) {
     const Kept& kept = *static_cast<const Kept*>(data);
@@ -162,9 +157,9 @@ starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_f
   });
   if (run.status() != STARFOCUS_OK) return run.status();
   FindThin(GridOf(setup), kThinGiven, memory.thin);
-  const Kept kept = {&setup, &memory, *has_coverage};
-  const OutlinePicture picture = {rgb,        tiles,      memory.jobs->max_workers,
-                                  Kept::Tile, Kept::Keep, &kept};
+  const Kept kept = {&setup, &light_field, &memory, *has_coverage};
+  const OutlinePicture picture = {
+      rgb, tiles, memory.jobs->max_workers, Kept::Tile, Kept::Keep, Kept::Known, &kept};
   const int16_t* repaired = FollowOutlines(picture, memory.outlines, kernels, &run);
   run.Run([&](int32_t index, int32_t) {
     WriteTile(map, output, memory.outlines, repaired, TileOf(setup, index));

@@ -49,14 +49,17 @@ struct OutlineScratch;
 // Planes of the size of the picture, with contiguous rows, and memory of the workers.
 struct OutlineMemory {
   int32_t width, height;
-  int16_t* given;     // the map (kDisparityBits)
-  int16_t* repaired;  // the map after the first pass
-  int16_t* middle;    // in the band: mean of the two surfaces (kDisparityBits)
-  int8_t* distance;   // signed distance to the outline, in 1/kDistance pixel; 0 outside the band
-  int8_t* vote;       // -127 (surely farther) to 127 (surely nearer); 0 without samples
-  int8_t* side;       // the same, by the second vote; 0 where the map is kept
-  int8_t* shift;      // by how much the outline approaches this cell, in 1/kDistance pixel
-  uint8_t* gain;      // agreement of the votes that the shift gains, in 1/255
+  int16_t* given;      // the map (kDisparityBits)
+  int16_t* repaired;   // the map after the first pass
+  int16_t* middle;     // in the band: mean of the two surfaces (kDisparityBits)
+  int8_t* distance;    // signed distance to the outline, in 1/kDistance pixel; 0 outside the band
+  int8_t* vote;        // -127 (surely farther) to 127 (surely nearer); 0 without samples
+  int8_t* side;        // the same, by the second vote; 0 where the map is kept
+  int8_t* shift;       // by how much the outline approaches this cell, in 1/kDistance pixel
+  uint8_t* gain;       // agreement of the votes that the shift gains, in 1/255
+  uint8_t* beside;     // pixels of this cell next to an outline
+  uint8_t* displaced;  // those of them that change their side as the shift demands
+  uint8_t* is_right;   // 1 if the map around this cell is right
   OutlineCounts* counts;    // one for each worker
   OutlineScratch* scratch;  // one for each worker
 
@@ -80,6 +83,8 @@ struct OutlinePicture {
   Rect (*tile)(const void* data, int32_t index);  // tiles have at most kMostOutlineTile^2 pixels
   // Sets side[] to 0 in tile `index` where the map must be kept.
   void (*keep)(const void* data, int32_t index, int8_t* side);
+  // Returns true if the map has a disparity at pixel (x, y), which was not filled in.
+  bool (*known)(const void* data, int32_t x, int32_t y);
   const void* data;
 
   const uint8_t* Pixel(int32_t x, int32_t y) const { return rgb.Row(y) + 3 * ptrdiff_t{x}; }

@@ -169,7 +169,7 @@ void TakeDisparities(const OutlineMemory& memory, const OutlinePass& pass, const
       return true;
     });
   }
-  visit([&](int32_t x, int32_t y, size_t from, size_t at) {
+  visit([&](int32_t x, int32_t y, size_t, size_t at) {
     planes->disparity[at] = CrestOf(memory, map, x, y, (planes->state[at] & kNearer) != 0);
     return true;
   });

@@ -199,11 +199,9 @@ void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
 void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const Rect& tile) {
   // bins[k] is the sum of the votes k - kZero pixels from the outline, rounded.
   constexpr int32_t kZero = kMostBand + 1, kBins = 2 * kZero + 1;
-  const ShiftCells columns = memory.Columns(), rows = memory.Rows();
-  const auto shift = [&](int32_t column, int32_t row) {
+  ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
+    if (!begins) return;
     int32_t bins[kBins] = {}, count = 0, farther = 0;
-    const int32_t left = columns.Begin(column), top = rows.Begin(row);
-    const Rect cell = {left, top, columns.Begin(column + 1) - left, rows.Begin(row + 1) - top};
     ForBand(memory, memory.Widened(cell, kShiftRadius), [&](int32_t, int32_t, size_t at) {
       bins[kZero + ((memory.distance[at] + 2) >> 2)] += memory.vote[at];
       farther -= memory.vote[at];
@@ -221,17 +219,11 @@ void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const R
       }
       nearer -= bins[k];
     }
-    const int32_t gain = best - unmoved, at = row * columns.Count() + column;
+    const int32_t gain = best - unmoved;
     const bool clear = 256 * gain > pass.clear * kSure * count;
-    memory.shift[at] = static_cast<int8_t>(clear ? -kDistance * best_at : 0);
-    memory.gain[at] = static_cast<uint8_t>(clear ? Min(255, 255 * gain / (kSure * count)) : 0);
-  };
-  for (int32_t row = rows.Of(tile.y); row <= rows.Of(tile.y + tile.height - 1); ++row) {
-    for (int32_t column = columns.Of(tile.x); column <= columns.Of(tile.x + tile.width - 1);
-         ++column) {
-      if (columns.Begin(column) >= tile.x && rows.Begin(row) >= tile.y) shift(column, row);
-    }
-  }
+    memory.shift[number] = static_cast<int8_t>(clear ? -kDistance * best_at : 0);
+    memory.gain[number] = static_cast<uint8_t>(clear ? Min(255, 255 * gain / (kSure * count)) : 0);
+  });
 }
 
 void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,

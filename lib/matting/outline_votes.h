@@ -23,6 +23,22 @@ void ForBand(const OutlineMemory& memory, const Rect& rect, const Act& act) {
   }
 }
 
+// Calls act(number, cell, begins) for the cells that a tile touches. `begins` is true if the first
+// pixel of the cell lies in the tile.
+template <class Act>
+void ForShiftCells(const OutlineMemory& memory, const Rect& tile, const Act& act) {
+  const ShiftCells columns = memory.Columns(), rows = memory.Rows();
+  for (int32_t row = rows.Of(tile.y); row <= rows.Of(tile.y + tile.height - 1); ++row) {
+    const int32_t top = rows.Begin(row), height = rows.Begin(row + 1) - top;
+    for (int32_t column = columns.Of(tile.x); column <= columns.Of(tile.x + tile.width - 1);
+         ++column) {
+      const int32_t left = columns.Begin(column), width = columns.Begin(column + 1) - left;
+      act(row * columns.Count() + column, Rect{left, top, width, height},
+          left >= tile.x && top >= tile.y);
+    }
+  }
+}
+
 // Pixels of a block and the pixels around it, in planes, for simd::SumVotes.
 struct VoteBlock {
   static constexpr int32_t kSide = 64, kWidth = kSide + 2 * kMostReach;

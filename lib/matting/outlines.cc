@@ -22,13 +22,19 @@ constexpr int32_t kRampCounts = kDistance * 25;
 // Percentage of the pixels next to the outlines of a hard map that change their side, from which
 // the map is assumed to be wrong. In exact maps it is 3 to 10, and 17 among wires with few colours;
 // in wrong maps 21 to 50.
-constexpr uint32_t kWrongPercent = 18;
+constexpr int64_t kWrongPercent = 18;
+// A part of a right map is wrong if the outline is displaced: from kDisplacedPercent of the pixels
+// next to outlines, within kRightReach cells, change their side in the direction of the shift of
+// their cell. In exact maps it is at most 11 of 97 % of all cells; in displaced maps about 45.
+constexpr int64_t kDisplacedPercent = 35;
+constexpr int32_t kRightReach = 8;
 
 }  // namespace
 
 struct OutlineCounts {
   uint32_t ramps[kRampCounts];
   uint32_t beside, changes;  // Pixels next to outlines, and those of them that change their side.
+  bool wrong;                // true if a part of the map is wrong
 };
 
 struct OutlineScratch {
@@ -251,12 +257,77 @@ OutlinePass FirstPass(const OutlineCounts* counts, int32_t workers) {
 // pass hardly improves results, and leaves more single pixels.
 constexpr OutlinePass kSecondPass = {kDistance, 0, 3, 5, 8};
 
-constexpr int32_t kPassPhases = 5;
+constexpr int32_t kPassPhases = 7;
 
-// Runs a pass that reads `map` and writes `repaired`.
+// Counts the pixels next to the outlines in the cells of a tile, and those that change their side.
+void CountChanges(const OutlineMemory& memory, const Rect& tile, OutlineCounts* counts) {
+  ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
+    if (!begins) return;
+    uint8_t beside = 0, changes = 0, displaced = 0;
+    ForBand(memory, cell, [&](int32_t, int32_t, size_t at) {
+      if (memory.side[at] == 0 || Abs(memory.distance[at]) >= kDistance) return;
+      ++beside;
+      if ((memory.side[at] > 0) == (memory.distance[at] > 0)) return;
+      ++changes;
+      if (memory.shift[number] * memory.side[at] > 0) ++displaced;
+    });
+    memory.beside[number] = beside;
+    memory.displaced[number] = displaced;
+    counts->beside += beside;
+    counts->changes += changes;
+  });
+}
+
+// Returns true if few pixels around a cell would change their side. The map has `changes` changes
+// in `beside` pixels.
+bool IsRight(const OutlineMemory& memory, int32_t number, int64_t beside, int64_t changes) {
+  const int32_t columns = memory.Columns().Count(), rows = memory.Rows().Count();
+  const int32_t column = number % columns, row = number / columns;
+  int64_t near_beside = 0, near_displaced = 0;
+  for (int32_t v = row - kRightReach; v <= row + kRightReach; v += 2) {
+    for (int32_t u = column - kRightReach; u <= column + kRightReach; u += 2) {
+      if (u < 0 || v < 0 || u >= columns || v >= rows) continue;
+      near_beside += memory.beside[v * columns + u];
+      near_displaced += memory.displaced[v * columns + u];
+    }
+  }
+  return 100 * changes < kWrongPercent * beside &&
+         100 * near_displaced < kDisplacedPercent * near_beside;
+}
+
+// Keeps the known disparities of a tile where the map is right. If `decides` is true, writes
+// memory.is_right.
+void KeepRight(const OutlinePicture& picture, const OutlineMemory& memory, bool decides,
+               const Rect& tile, OutlineCounts* counts) {
+  int64_t beside = 0, changes = 0;
+  for (int32_t k = 0; k < picture.max_workers; ++k) {
+    beside += memory.counts[k].beside;
+    changes += memory.counts[k].changes;
+  }
+  ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
+    bool any = false;
+    ForBand(memory, cell, [&](int32_t, int32_t, size_t) { any = true; });
+    if (!any) return;
+    const bool right =
+        decides ? IsRight(memory, number, beside, changes) : memory.is_right[number] != 0;
+    if (decides && begins) memory.is_right[number] = right ? 1 : 0;
+    counts->wrong |= !right;
+    if (!right) return;
+    ForBand(memory, cell, [&](int32_t x, int32_t y, size_t at) {
+      const bool inside =
+          x >= tile.x && y >= tile.y && x < tile.x + tile.width && y < tile.y + tile.height;
+      if (!inside || memory.side[at] == 0 || !picture.known(picture.data, x, y)) return;
+      if ((memory.side[at] > 0) != (memory.distance[at] > 0)) memory.vote[at] = 0;
+      memory.side[at] = 0;
+    });
+  });
+}
+
+// Runs a pass that reads `map` and writes `repaired`. If the map was hard, it is kept where it is
+// right, which the first pass decides.
 void RunPass(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
-             const int16_t* map, int16_t* repaired, const simd::DepthKernels& kernels,
-             Sequence* run) {
+             bool was_hard, const int16_t* map, int16_t* repaired,
+             const simd::DepthKernels& kernels, Sequence* run) {
   run->Run([&](int32_t index, int32_t worker) {
     MeasureDistances(memory, pass, map, picture.Tile(index), memory.scratch + worker);
   });
@@ -270,15 +341,21 @@ void RunPass(const OutlinePicture& picture, const OutlineMemory& memory, const O
               &memory.scratch[worker].block);
     picture.keep(picture.data, index, memory.side);
   });
+  if (was_hard) {
+    const bool decides = map == memory.given;
+    run->Run([&](int32_t index, int32_t worker) {
+      CountChanges(memory, picture.Tile(index), memory.counts + worker);
+    });
+    run->Run([&](int32_t index, int32_t worker) {
+      KeepRight(picture, memory, decides, picture.Tile(index), memory.counts + worker);
+    });
+  } else {
+    run->Skip();
+    run->Skip();
+  }
   run->Run([&](int32_t index, int32_t worker) {
     const Rect tile = picture.Tile(index);
     TakeDisparities(memory, pass, map, tile, &memory.scratch[worker].sides, repaired);
-    OutlineCounts* counts = memory.counts + worker;
-    ForBand(memory, tile, [&](int32_t, int32_t, size_t at) {
-      if (memory.side[at] == 0 || Abs(memory.distance[at]) >= kDistance) return;
-      ++counts->beside;
-      counts->changes += (memory.side[at] > 0) != (memory.distance[at] > 0) ? 1 : 0;
-    });
   });
 }
 
@@ -299,6 +376,9 @@ OutlineMemory TakeOutlines(int32_t width, int32_t height, int32_t max_workers, A
   const auto down = static_cast<size_t>(memory.Rows().Count());
   memory.shift = arena->Take<int8_t>(across, down);
   memory.gain = arena->Take<uint8_t>(across, down);
+  for (uint8_t** plane : {&memory.beside, &memory.displaced, &memory.is_right}) {
+    *plane = arena->Take<uint8_t>(across, down);
+  }
   memory.counts = arena->Take<OutlineCounts>(static_cast<size_t>(max_workers));
   memory.scratch = arena->Take<OutlineScratch>(static_cast<size_t>(max_workers));
   return memory;
@@ -311,19 +391,15 @@ const int16_t* FollowOutlines(const OutlinePicture& picture, const OutlineMemory
     CountRamps(memory, picture.Tile(index), memory.scratch + worker, memory.counts + worker);
   });
   const OutlinePass pass = FirstPass(memory.counts, picture.max_workers);
-  RunPass(picture, memory, pass, memory.given, memory.repaired, kernels, run);
-  if (run->status() != STARFOCUS_OK) return nullptr;
-  uint64_t beside = 0, changes = 0;
-  for (int32_t k = 0; k < picture.max_workers; ++k) {
-    beside += memory.counts[k].beside;
-    changes += memory.counts[k].changes;
-  }
-  if (pass.IsHard() && 100 * changes >= kWrongPercent * beside) {
-    RunPass(picture, memory, kSecondPass, memory.repaired, memory.given, kernels, run);
+  RunPass(picture, memory, pass, pass.IsHard(), memory.given, memory.repaired, kernels, run);
+  bool again = false;
+  for (int32_t k = 0; k < picture.max_workers; ++k) again |= memory.counts[k].wrong;
+  if (again) {
+    RunPass(picture, memory, kSecondPass, true, memory.repaired, memory.given, kernels, run);
     return memory.given;
   }
   for (int32_t k = 0; k < kPassPhases; ++k) run->Skip();
-  return pass.IsHard() ? nullptr : memory.repaired;
+  return memory.repaired;
 }
 
 }  // namespace starfocus

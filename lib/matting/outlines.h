@@ -25,11 +25,11 @@ namespace starfocus {
 OutlineMemory TakeOutlines(int32_t width, int32_t height, int32_t max_workers, Arena* arena);
 
 // Number of phases of FollowOutlines.
-inline constexpr int32_t kOutlinePhases = 11;
+inline constexpr int32_t kOutlinePhases = 15;
 
-// Returns the repaired map, which is memory.repaired or memory.given. Returns null after an error,
-// and if the map is right: its edges are steps, and few pixels would change their side. Then
-// memory.given is as before, and memory.repaired has the disparities that pixels would take.
+// Returns the repaired map, which is memory.repaired or memory.given. Where the edges of the map
+// are steps and few pixels would change their side, the map is right: memory.side is 0, memory.vote
+// is 0 at pixels whose colours contradict the map, and disparities are as given.
 const int16_t* FollowOutlines(const OutlinePicture& picture, const OutlineMemory& memory,
                               const simd::DepthKernels& kernels, Sequence* run);
 

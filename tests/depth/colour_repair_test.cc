@@ -164,8 +164,8 @@ TEST_CASE("colour repair: pixels of a soft edge that show mostly the near surfac
   int mixed = 0, taken = 0;
   for (int y = 0; y < photo.height; ++y) {
     for (int x = 0; x < photo.width; ++x) {
-      // Checks only pixels of which the near surface covers 7/12 to 3/4.
-      if (distance(x, y) < 39.5 || distance(x, y) > 40.5) continue;
+      // Checks only pixels of which the near surface covers 5/8 to 19/24.
+      if (distance(x, y) < 39.25 || distance(x, y) > 40.25) continue;
       ++mixed;
       taken += repaired.map[photo.At(x, y)] > 0;
     }
