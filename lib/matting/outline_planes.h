@@ -54,7 +54,7 @@ struct OutlineMemory {
   int16_t* middle;     // in the band: mean of the two surfaces (kDisparityBits)
   int8_t* distance;    // signed distance to the outline, in 1/kDistance pixel; 0 outside the band
   int8_t* vote;        // -127 (surely farther) to 127 (surely nearer); 0 without samples
-  int8_t* side;        // the same, by the second vote; 0 where the map is kept
+  int8_t* side;        // the same, by the second vote; 0 where the map is kept, and outside
   int8_t* shift;       // by how much the outline approaches this cell, in 1/kDistance pixel
   uint8_t* gain;       // agreement of the votes that the shift gains, in 1/255
   uint8_t* beside;     // pixels of this cell next to an outline

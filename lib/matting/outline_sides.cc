@@ -11,8 +11,6 @@ namespace starfocus {
 namespace {
 
 constexpr int32_t kPixel = 1 << kDisparityBits;
-// Largest vote and weight of a pixel outside the band.
-constexpr int32_t kSure = 127;
 // Pixels that are farther than half of the ramp plus kBesideRamp from the outline are clean, in
 // 1/kDistance pixel.
 constexpr int32_t kBesideRamp = 2 * kDistance;
@@ -27,21 +25,13 @@ constexpr uint8_t kNearer = 1, kRound = 2, kNone = 0x7e, kOutside = 0xfe;
 // Returns true if pixel (x, y) of the band belongs to the nearer side according to memory.side of
 // the pixel and its neighbours.
 bool IsNearer(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y) {
-  static constexpr int32_t kWeights[3] = {1, 2, 1};
   const size_t own = memory.At(x, y);
-  const int32_t middle = memory.middle[own];
-  if (memory.side[own] == 0) return map[own] > middle;
-  int32_t sum = 0;
-  for (int32_t row = -1; row <= 1; ++row) {
-    for (int32_t column = -1; column <= 1; ++column) {
-      const size_t at =
-          memory.At(Clamp(x + column, 0, memory.width - 1), Clamp(y + row, 0, memory.height - 1));
-      const int32_t outside = map[at] > middle ? kSure : -kSure;
-      const int32_t side = memory.distance[at] != 0 ? memory.side[at] : outside;
-      sum += kWeights[column + 1] * kWeights[row + 1] * side;
-    }
-  }
-  return sum > 0;
+  const auto row = [&](int32_t by) {
+    const int8_t* side = memory.side + memory.At(x, Clamp(y + by, 0, memory.height - 1));
+    return side[x > 0 ? -1 : 0] + 2 * side[0] + side[x + 1 < memory.width ? 1 : 0];
+  };
+  const int32_t sum = memory.side[own] == 0 ? 0 : row(-1) + 2 * row(0) + row(1);
+  return sum == 0 ? map[own] > memory.middle[own] : sum > 0;
 }
 
 // Returns true if the disparities of the neighbours hardly differ from that of pixel (x, y).
@@ -71,6 +61,10 @@ int16_t CrestOf(const OutlineMemory& memory, const int16_t* map, int32_t x, int3
   return extreme;
 }
 
+bool Contains(const Rect& rect, int32_t x, int32_t y) {
+  return x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height;
+}
+
 // A region with a margin of one pixel, whose pixels get their states and disparities.
 struct Region {
   const OutlineMemory& memory;
@@ -84,7 +78,7 @@ struct Region {
 };
 
 // Writes the states of the region, the disparities of clean pixels, and the list of the others.
-// Returns their number.
+// Returns their number. Clean pixels outside the band are found only beside it.
 size_t FindClean(const Region& region, const OutlinePass& pass, const int16_t* map) {
   const OutlineMemory& memory = region.memory;
   SidePlanes& planes = *region.planes;
@@ -92,23 +86,26 @@ size_t FindClean(const Region& region, const OutlinePass& pass, const int16_t* m
   const int32_t clean = pass.IsHard() ? 0 : Min(pass.ramp / 2 + kBesideRamp, end);
   std::fill_n(planes.state, region.Stride() * (region.rect.height + 2), kOutside);
   size_t count = 0;
-  for (int32_t y = region.rect.y; y < region.rect.y + region.rect.height; ++y) {
-    for (int32_t x = region.rect.x; x < region.rect.x + region.rect.width; ++x) {
-      const size_t from = memory.At(x, y), to = region.At(x, y);
-      const int32_t distance = memory.distance[from];
-      planes.disparity[to] = map[from];
-      planes.state[to] = 0;
-      if (distance == 0) {
-        if (!pass.IsHard() && !IsFlat(memory, map, x, y)) planes.state[to] = kOutside;
-        continue;
+  ForBand(memory, region.rect, [&](int32_t x, int32_t y, size_t from) {
+    const size_t to = region.At(x, y);
+    const int32_t distance = Abs(memory.distance[from]);
+    const bool near = IsNearer(memory, map, x, y), was_near = map[from] > memory.middle[from];
+    const bool keeps =
+        near == was_near && distance >= clean && (pass.IsHard() || IsFlat(memory, map, x, y));
+    planes.disparity[to] = map[from];
+    planes.state[to] = static_cast<uint8_t>((keeps ? 0 : kNone) + (near ? kNearer : 0));
+    if (!keeps && memory.side[from] != 0) planes.pending[count++] = static_cast<int32_t>(from);
+    if (distance < end - kDistance) return;
+    const Rect around = memory.Widened({x, y, 1, 1}, 1);
+    for (int32_t v = around.y; v < around.y + around.height; ++v) {
+      for (int32_t u = around.x; u < around.x + around.width; ++u) {
+        if (memory.distance[memory.At(u, v)] != 0 || !Contains(region.rect, u, v)) continue;
+        if (!pass.IsHard() && !IsFlat(memory, map, u, v)) continue;
+        planes.disparity[region.At(u, v)] = map[memory.At(u, v)];
+        planes.state[region.At(u, v)] = 0;
       }
-      const bool near = IsNearer(memory, map, x, y), was_near = map[from] > memory.middle[from];
-      const bool keeps = near == was_near && Abs(distance) >= clean &&
-                         (pass.IsHard() || IsFlat(memory, map, x, y));
-      planes.state[to] = static_cast<uint8_t>((keeps ? 0 : kNone) + (near ? kNearer : 0));
-      if (!keeps && memory.side[from] != 0) planes.pending[count++] = static_cast<int32_t>(from);
     }
-  }
+  });
   return count;
 }
 
@@ -151,12 +148,18 @@ void TakeDisparities(const OutlineMemory& memory, const OutlinePass& pass, const
   const int32_t rounds = 2 * pass.band + 2;
   const Region region = {memory, memory.Widened(tile, rounds), planes};
   size_t pending = FindClean(region, pass, map);
+  // Calls act(x, y, from, at) for the pending pixels, and removes those for which it returns true.
   const auto visit = [&](const auto& act) {
     size_t left = 0;
     for (size_t k = 0; k < pending; ++k) {
       const int32_t from = planes->pending[k];
       const int32_t x = from % memory.width, y = from / memory.width;
-      if (!act(x, y, static_cast<size_t>(from), region.At(x, y))) planes->pending[left++] = from;
+      const size_t at = region.At(x, y);
+      if (!act(x, y, static_cast<size_t>(from), at)) {
+        planes->pending[left++] = from;
+      } else if (Contains(tile, x, y)) {
+        repaired[from] = planes->disparity[at];
+      }
     }
     pending = left;
   };
@@ -173,13 +176,6 @@ void TakeDisparities(const OutlineMemory& memory, const OutlinePass& pass, const
     planes->disparity[at] = CrestOf(memory, map, x, y, (planes->state[at] & kNearer) != 0);
     return true;
   });
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = memory.At(x, y);
-      if (memory.side[at] != 0 && memory.distance[at] != 0)
-        repaired[at] = planes->disparity[region.At(x, y)];
-    }
-  }
 }
 
 }  // namespace starfocus

@@ -200,7 +200,10 @@ void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const R
   // bins[k] is the sum of the votes k - kZero pixels from the outline, rounded.
   constexpr int32_t kZero = kMostBand + 1, kBins = 2 * kZero + 1;
   ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
-    if (!begins) return;
+    bool any = false;
+    if (begins) ForBand(memory, cell, [&](int32_t, int32_t, size_t) { any = true; });
+    if (begins) memory.gain[number] = 0;
+    if (!any) return;
     int32_t bins[kBins] = {}, count = 0, farther = 0;
     ForBand(memory, memory.Widened(cell, kShiftRadius), [&](int32_t, int32_t, size_t at) {
       bins[kZero + ((memory.distance[at] + 2) >> 2)] += memory.vote[at];
@@ -230,13 +233,17 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
                const int16_t* map, const Rect& tile, const simd::DepthKernels& kernels,
                VoteBlock* block) {
   const Samples samples(pass);
+  uint8_t trust[kSure + 1];
+  for (int32_t k = 0; k <= kSure; ++k) {
+    trust[k] = static_cast<uint8_t>(k * k * simd::kMostTrust / (kSure * kSure));
+  }
   SumAround(
       picture, memory, tile, samples, kernels, block,
       [&](size_t at, int16_t* trusted) {
         *trusted = simd::kMostTrust;
         const int32_t distance = memory.distance[at], vote = memory.vote[at];
         if (distance == 0) return map[at];
-        *trusted = static_cast<int16_t>(vote * vote * simd::kMostTrust / (kSure * kSure));
+        *trusted = trust[Abs(vote)];
         // A pixel on the other side shows a surface as far beyond the middle.
         if ((vote > 0) == (distance > 0)) return map[at];
         return static_cast<int16_t>(Clamp(2 * memory.middle[at] - map[at], INT16_MIN, INT16_MAX));

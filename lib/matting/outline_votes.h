@@ -41,7 +41,7 @@ void ForShiftCells(const OutlineMemory& memory, const Rect& tile, const Act& act
 
 // Pixels of a block and the pixels around it, in planes, for simd::SumVotes.
 struct VoteBlock {
-  static constexpr int32_t kSide = 64, kWidth = kSide + 2 * kMostReach;
+  static constexpr int32_t kSide = 128, kWidth = kSide + 2 * kMostReach;
 
   int16_t colour[3][kWidth * kWidth], surface[kWidth * kWidth], trust[kWidth * kWidth];
 };

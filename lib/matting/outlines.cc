@@ -16,7 +16,6 @@ constexpr int32_t kLeastStep = 2 * kPixel;
 // The distances of a tile depend on the outlines up to kMargin pixels around it.
 constexpr int32_t kMargin = kMostBand + 2;
 constexpr size_t kMostTall = kMostRegion + 2 * kMostOutlineRadius;
-constexpr uint8_t kFar = UINT8_MAX;
 // Widths of ramps that are counted apart, in 1/kDistance pixel. The last one includes all wider.
 constexpr int32_t kRampCounts = kDistance * 25;
 // Percentage of the pixels next to the outlines of a hard map that change their side, from which
@@ -38,52 +37,69 @@ struct OutlineCounts {
 };
 
 struct OutlineScratch {
-  int16_t low[kMostRegion * kMostRegion], high[kMostRegion * kMostRegion];
-  int16_t middle[kMostRegion * kMostRegion];
-  int16_t rows[2][kMostTall * kMostRegion];  // extremes of windows of one row
-  uint8_t distance[kMostRegion * kMostRegion];
+  int32_t outlines[kMostRegion * kMostRegion];
+  int16_t extremes[2][kMostTall * kMostRegion];  // lowest and highest disparities of windows
   VoteBlock block;
   SidePlanes sides;
 };
 
 namespace {
 
-// Takes the lower of `low` and `from`, and the higher of `high` and `upper`.
-void JoinExtremes(const int16_t* lower, const int16_t* upper, int32_t count, int16_t* low,
-                  int16_t* high) {
-  for (int32_t k = 0; k < count; ++k) {
-    low[k] = std::min(low[k], lower[k]);
-    high[k] = std::max(high[k], upper[k]);
+// Lowest and highest disparities of the windows of a row of pixels.
+struct Extremes {
+  int16_t *low, *high;
+
+  // Joins each window with that of the same pixel of `other`, which may begin `shift` later.
+  void Join(const Extremes& one, const Extremes& other, int32_t shift, int32_t count) const {
+    for (int32_t k = 0; k < count; ++k) low[k] = std::min(one.low[k], other.low[k + shift]);
+    for (int32_t k = 0; k < count; ++k) high[k] = std::max(one.high[k], other.high[k + shift]);
+  }
+};
+
+// Calls join(size, shift) so that windows of one pixel become windows of `most` pixels: each window
+// is joined with the one `shift` pixels later, which makes it `size` pixels long.
+template <class Join>
+void GrowWindows(int32_t most, const Join& join) {
+  for (int32_t size = 1; size < most;) {
+    const int32_t shift = Min(size, most - size);
+    size += shift;
+    join(size, shift);
   }
 }
 
-// Fills scratch->low and scratch->high with the lowest and highest disparity in the window of each
+// Fills scratch->extremes with the lowest and highest disparity in the window of each
 // pixel of `rect`.
 void FindExtremes(const OutlineMemory& memory, const int16_t* map, const Rect& rect, int32_t radius,
                   OutlineScratch* scratch) {
-  const Rect tall = memory.Widened(rect, radius);
-  const auto line = [&](int16_t* plane, int32_t y) { return plane + ptrdiff_t{y} * rect.width; };
-  for (int32_t y = 0; y < tall.height; ++y) {
-    int16_t *low = line(scratch->rows[0], y), *high = line(scratch->rows[1], y);
-    std::fill_n(low, rect.width, INT16_MAX);
-    std::fill_n(high, rect.width, INT16_MIN);
-    for (int32_t shift = -radius; shift <= radius; ++shift) {
-      const int32_t first = Max(0, -rect.x - shift);
-      const int32_t end = Min(rect.width, memory.width - rect.x - shift);
-      const int16_t* from = map + memory.At(0, tall.y + y) + rect.x + shift;
-      if (end > first)
-        JoinExtremes(from + first, from + first, end - first, low + first, high + first);
+  const int32_t side = 2 * radius + 1, wide = rect.width + 2 * radius;
+  const int32_t tall = rect.height + 2 * radius;
+  const auto line = [&](int32_t y) {
+    return Extremes{scratch->extremes[0] + ptrdiff_t{y} * rect.width,
+                    scratch->extremes[1] + ptrdiff_t{y} * rect.width};
+  };
+  int16_t buffers[2][2][kMostTall];
+  for (int32_t y = 0; y < tall; ++y) {
+    Extremes from = {buffers[0][0], buffers[0][1]}, to = {buffers[1][0], buffers[1][1]};
+    std::fill_n(from.low, wide, INT16_MAX);
+    std::fill_n(from.high, wide, INT16_MIN);
+    const int32_t row = rect.y - radius + y, left = rect.x - radius;
+    if (row >= 0 && row < memory.height) {
+      const int32_t first = Max(left, 0), end = Min(left + wide, memory.width);
+      for (int16_t* plane : {from.low, from.high}) {
+        std::copy_n(map + memory.At(first, row), end - first, plane + first - left);
+      }
     }
+    GrowWindows(side, [&](int32_t size, int32_t shift) {
+      const Extremes out = size == side ? line(y) : to;
+      out.Join(from, from, shift, wide - size + 1);
+      std::swap(from, to);
+    });
   }
-  for (int32_t y = 0; y < rect.height; ++y) {
-    int16_t *low = line(scratch->low, y), *high = line(scratch->high, y);
-    std::fill_n(low, rect.width, INT16_MAX);
-    std::fill_n(high, rect.width, INT16_MIN);
-    const int32_t top = rect.y - tall.y + y;
-    for (int32_t k = Max(top - radius, 0); k <= Min(top + radius, tall.height - 1); ++k) {
-      JoinExtremes(line(scratch->rows[0], k), line(scratch->rows[1], k), rect.width, low, high);
+  GrowWindows(side, [&](int32_t size, int32_t shift) {
+    for (int32_t y = 0; y + size <= tall; ++y) {
+      line(y).Join(line(y), line(y + shift), 0, rect.width);
     }
-  }
+  });
 }
 
 // Calls act(disparity, dx, dy) for the four neighbours of a pixel.
@@ -131,15 +147,40 @@ void CountRamps(const OutlineMemory& memory, const Rect& tile, OutlineScratch* s
   FindExtremes(memory, map, tile, kMostOutlineRadius, scratch);
   for (int32_t y = 0; y < tile.height; ++y) {
     for (int32_t x = 0; x < tile.width; ++x) {
-      const int32_t k = y * tile.width + x, range = scratch->high[k] - scratch->low[k];
+      const int32_t k = y * tile.width + x,
+                    range = scratch->extremes[1][k] - scratch->extremes[0][k];
       if (range <= kLeastStep) continue;
-      const int32_t middle = (scratch->high[k] + scratch->low[k]) >> 1;
+      const int32_t middle = (scratch->extremes[1][k] + scratch->extremes[0][k]) >> 1;
       const int32_t step = StepAcross(memory, map, tile.x + x, tile.y + y, middle);
       if (step == 0) continue;
       if (IsSlanted(memory, map, tile.x + x, tile.y + y, range, kMostOutlineRadius)) continue;
       ++counts->ramps[Min(kDistance * range / step, kRampCounts - 1)];
     }
   }
+}
+
+// Distances to outlines and the middles of their surfaces, in one number: of equally near outlines,
+// the one with the nearer surfaces is the smaller number, so that mirrored maps have mirrored
+// outlines.
+constexpr int32_t kFar = 1 << 30, kDistanceBits = 16;
+int32_t NumberOf(int32_t distance, int32_t middle) {
+  return (distance << kDistanceBits) + (INT16_MAX - middle);
+}
+int32_t DistanceOf(int32_t number) { return number >> kDistanceBits; }
+int32_t MiddleOf(int32_t number) { return INT16_MAX - (number & UINT16_MAX); }
+
+// Returns the middle of the largest step between a pixel of a hard map and a neighbour, or
+// INT32_MIN if there is no outline.
+int32_t MiddleOfStep(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y) {
+  const int32_t own = map[memory.At(x, y)];
+  int32_t step = kSurfaceStep, middle = INT32_MIN;
+  ForBeside(memory, map, x, y, [&](int32_t other, int32_t, int32_t) {
+    const int32_t size = Abs(other - own), between = (own + other) >> 1;
+    if (size < step || size <= kSurfaceStep) return;
+    middle = size > step ? between : Max(middle, between);
+    step = size;
+  });
+  return middle;
 }
 
 // Finds the pixels beside outlines in a region, and the middles of their two surfaces.
@@ -149,58 +190,41 @@ void FindCrossings(const OutlineMemory& memory, const OutlinePass& pass, const i
   for (int32_t y = 0; y < region.height; ++y) {
     for (int32_t x = 0; x < region.width; ++x) {
       const int32_t k = y * region.width + x, column = region.x + x, row = region.y + y;
-      bool crosses = false;
-      int32_t middle = 0;
+      int32_t middle = INT32_MIN;
       if (pass.IsHard()) {
-        const int32_t own = map[memory.At(column, row)];
-        int32_t step = kSurfaceStep;
-        ForBeside(memory, map, column, row, [&](int32_t other, int32_t, int32_t) {
-          const int32_t size = Abs(other - own), between = (own + other) >> 1;
-          if (size < step || size <= kSurfaceStep) return;
-          // Of equal steps, the nearer one counts, so that mirrored maps have mirrored outlines.
-          middle = size > step ? between : Max(middle, between);
-          step = size;
-          crosses = true;
-        });
+        middle = MiddleOfStep(memory, map, column, row);
       } else {
-        const int32_t range = scratch->high[k] - scratch->low[k];
-        middle = (scratch->high[k] + scratch->low[k]) >> 1;
-        crosses = range > kLeastStep && StepAcross(memory, map, column, row, middle) > 0 &&
-                  !IsSlanted(memory, map, column, row, range, pass.radius);
+        const int32_t low = scratch->extremes[0][k], range = scratch->extremes[1][k] - low;
+        const int32_t between = low + (range >> 1);
+        const bool crosses = range > kLeastStep &&
+                             StepAcross(memory, map, column, row, between) > 0 &&
+                             !IsSlanted(memory, map, column, row, range, pass.radius);
+        if (crosses) middle = between;
       }
-      scratch->middle[k] = static_cast<int16_t>(middle);
-      scratch->distance[k] = crosses ? uint8_t{kDistance / 2} : kFar;
+      scratch->outlines[k] = middle == INT32_MIN ? kFar : NumberOf(kDistance / 2, middle);
     }
   }
 }
 
 // Extends distances and middles by a chamfer transform with steps of 1 and 1.5 pixels.
-void ExtendDistances(const Rect& region, int32_t most, OutlineScratch* scratch) {
+void ExtendDistances(const Rect& region, int32_t* outlines) {
+  constexpr int32_t kStep = kDistance << kDistanceBits, kAcross = kStep * 3 / 2;
   const int32_t width = region.width;
-  const auto take = [&](int32_t k, int32_t from, int32_t step) {
-    const int32_t sum = scratch->distance[from] + step;
-    if (sum > scratch->distance[k] || sum > most) return;
-    const int16_t middle = scratch->middle[from];
-    const bool equal = sum == scratch->distance[k];
-    scratch->middle[k] = equal ? std::max(scratch->middle[k], middle) : middle;
-    scratch->distance[k] = static_cast<uint8_t>(sum);
-  };
-  // Takes from the previous row and column if `next` is 1, from the following ones if it is -1.
-  const auto visit = [&](int32_t x, int32_t y, int32_t next) {
-    const int32_t k = y * width + x, row = next * width;
-    const bool has_row = next > 0 ? y > 0 : y + 1 < region.height;
-    const bool has_column = next > 0 ? x > 0 : x + 1 < width;
-    const bool has_other = next > 0 ? x + 1 < width : x > 0;
-    if (has_row) take(k, k - row, kDistance);
-    if (has_column) take(k, k - next, kDistance);
-    if (has_row && has_column) take(k, k - row - next, 3 * kDistance / 2);
-    if (has_row && has_other) take(k, k - row + next, 3 * kDistance / 2);
+  // Takes from a neighbouring row.
+  const auto take = [&](int32_t* row, const int32_t* from) {
+    for (int32_t x = 0; x < width; ++x) row[x] = std::min(row[x], from[x] + kStep);
+    for (int32_t x = 1; x < width; ++x) row[x] = std::min(row[x], from[x - 1] + kAcross);
+    for (int32_t x = 0; x + 1 < width; ++x) row[x] = std::min(row[x], from[x + 1] + kAcross);
   };
   for (int32_t y = 0; y < region.height; ++y) {
-    for (int32_t x = 0; x < width; ++x) visit(x, y, 1);
+    int32_t* row = outlines + ptrdiff_t{y} * width;
+    if (y > 0) take(row, row - width);
+    for (int32_t x = 1; x < width; ++x) row[x] = std::min(row[x], row[x - 1] + kStep);
   }
   for (int32_t y = region.height - 1; y >= 0; --y) {
-    for (int32_t x = width - 1; x >= 0; --x) visit(x, y, -1);
+    int32_t* row = outlines + ptrdiff_t{y} * width;
+    if (y + 1 < region.height) take(row, row + width);
+    for (int32_t x = width - 2; x >= 0; --x) row[x] = std::min(row[x], row[x + 1] + kStep);
   }
 }
 
@@ -209,21 +233,22 @@ void MeasureDistances(const OutlineMemory& memory, const OutlinePass& pass, cons
                       const Rect& tile, OutlineScratch* scratch) {
   const Rect region = memory.Widened(tile, pass.band + 2);
   FindCrossings(memory, pass, map, region, scratch);
-  ExtendDistances(region, kDistance * pass.band + 2, scratch);
+  ExtendDistances(region, scratch->outlines);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+    std::fill_n(memory.distance + memory.At(tile.x, y), tile.width, int8_t{0});
+    std::fill_n(memory.side + memory.At(tile.x, y), tile.width, int8_t{0});
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const int32_t k = (y - region.y) * region.width + x - region.x;
+      const int32_t* own = scratch->outlines + (y - region.y) * region.width + x - region.x;
+      const int32_t to_outline = DistanceOf(*own), middle = MiddleOf(*own);
+      if (to_outline > kDistance * pass.band + 2) continue;
       const size_t at = memory.At(x, y);
-      memory.distance[at] = 0;
-      if (scratch->distance[k] == kFar) continue;
-      const int32_t middle = scratch->middle[k];
       const bool near = map[at] > middle;
       int32_t ridge = 1;
       ForBeside(memory, map, x, y, [&](int32_t other, int32_t dx, int32_t dy) {
-        const bool farther = scratch->distance[k + dy * region.width + dx] > scratch->distance[k];
+        const bool farther = DistanceOf(own[dy * region.width + dx]) > to_outline;
         if (farther && (other > middle) == near) ridge = 0;
       });
-      const int32_t distance = scratch->distance[k] + ridge;
+      const int32_t distance = to_outline + ridge;
       memory.middle[at] = static_cast<int16_t>(middle);
       memory.distance[at] = static_cast<int8_t>(near ? distance : -distance);
     }
