@@ -20,8 +20,9 @@ inline constexpr int32_t kDistance = 4;
 // found, in pixels.
 inline constexpr int32_t kMostBand = 10, kMostOutlineRadius = 12;
 // Votes compare pixels up to kVoteReach pixels beyond the width of the band. Up to kFineReach,
-// every second column and row is compared, otherwise every third.
+// every second column and row is compared, up to kCoarseReach every third, otherwise every fourth.
 inline constexpr int32_t kVoteReach = 7, kMostReach = kMostBand + kVoteReach, kFineReach = 13;
+inline constexpr int32_t kCoarseReach = 15;
 // The cells along a row or column in which displacements are measured. Cells of kSide pixels begin
 // at both borders, and a cell of 1 to 2 kSide pixels is left in the middle, so that mirrored
 // pictures have mirrored cells.

@@ -75,7 +75,12 @@ struct Region {
   size_t At(int32_t x, int32_t y) const {
     return static_cast<size_t>((y - rect.y + 1) * Stride() + x - rect.x + 1);
   }
+  int32_t XOf(int32_t at) const { return at % Stride() + rect.x - 1; }
+  int32_t YOf(int32_t at) const { return at / Stride() + rect.y - 1; }
 };
+
+// Bit of SidePlanes::ready for a round.
+uint8_t Bit(int32_t round) { return static_cast<uint8_t>(1 << (round & 1)); }
 
 // Writes the states of the region, the disparities of clean pixels, and the list of the others.
 // Returns their number. Clean pixels outside the band are found only beside it.
@@ -94,7 +99,10 @@ size_t FindClean(const Region& region, const OutlinePass& pass, const int16_t* m
         near == was_near && distance >= clean && (pass.IsHard() || IsFlat(memory, map, x, y));
     planes.disparity[to] = map[from];
     planes.state[to] = static_cast<uint8_t>((keeps ? 0 : kNone) + (near ? kNearer : 0));
-    if (!keeps && memory.side[from] != 0) planes.pending[count++] = static_cast<int32_t>(from);
+    if (!keeps && memory.side[from] != 0) {
+      planes.ready[to] = Bit(1);
+      planes.pending[count++] = static_cast<int32_t>(to);
+    }
     if (distance < end - kDistance) return;
     const Rect around = memory.Widened({x, y, 1, 1}, 1);
     for (int32_t v = around.y; v < around.y + around.height; ++v) {
@@ -148,34 +156,33 @@ void TakeDisparities(const OutlineMemory& memory, const OutlinePass& pass, const
   const int32_t rounds = 2 * pass.band + 2;
   const Region region = {memory, memory.Widened(tile, rounds), planes};
   size_t pending = FindClean(region, pass, map);
-  // Calls act(x, y, from, at) for the pending pixels, and removes those for which it returns true.
-  const auto visit = [&](const auto& act) {
+  const auto write = [&](int32_t at, int32_t x, int32_t y) {
+    if (Contains(tile, x, y)) repaired[memory.At(x, y)] = planes->disparity[at];
+  };
+  for (int32_t round = 1; round <= rounds && pending > 0; ++round) {
     size_t left = 0;
     for (size_t k = 0; k < pending; ++k) {
-      const int32_t from = planes->pending[k];
-      const int32_t x = from % memory.width, y = from / memory.width;
-      const size_t at = region.At(x, y);
-      if (!act(x, y, static_cast<size_t>(from), at)) {
-        planes->pending[left++] = from;
-      } else if (Contains(tile, x, y)) {
-        repaired[from] = planes->disparity[at];
+      const int32_t at = planes->pending[k];
+      planes->pending[left++] = at;
+      if ((planes->ready[at] & Bit(round)) == 0) continue;
+      planes->ready[at] &= static_cast<uint8_t>(~Bit(round));
+      const int32_t x = region.XOf(at), y = region.YOf(at);
+      if (!TakeFromNeighbours(region, memory.middle[memory.At(x, y)], at, round)) continue;
+      --left;
+      write(at, x, y);
+      planes->state[at] = static_cast<uint8_t>(round * kRound + (planes->state[at] & kNearer));
+      for (int32_t row = -1; row <= 1; ++row) {
+        uint8_t* ready = planes->ready + at + row * region.Stride();
+        for (int32_t column = -1; column <= 1; ++column) ready[column] |= Bit(round + 1);
       }
     }
     pending = left;
-  };
-  for (int32_t round = 1; round <= rounds && pending > 0; ++round) {
-    visit([&](int32_t, int32_t, size_t from, size_t at) {
-      if (!TakeFromNeighbours(region, memory.middle[from], static_cast<int32_t>(at), round)) {
-        return false;
-      }
-      planes->state[at] = static_cast<uint8_t>(round * kRound + (planes->state[at] & kNearer));
-      return true;
-    });
   }
-  visit([&](int32_t x, int32_t y, size_t, size_t at) {
+  for (size_t k = 0; k < pending; ++k) {
+    const int32_t at = planes->pending[k], x = region.XOf(at), y = region.YOf(at);
     planes->disparity[at] = CrestOf(memory, map, x, y, (planes->state[at] & kNearer) != 0);
-    return true;
-  });
+    write(at, x, y);
+  }
 }
 
 }  // namespace starfocus

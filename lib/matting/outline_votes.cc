@@ -12,7 +12,7 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 // Largest absolute vote and side.
 constexpr int32_t kSure = 127;
 
-// A vote compares a pixel with every second pixel and row (every third in wide bands) within
+// A vote compares a pixel with every second pixel and row (up to every fourth in wide bands) within
 // band + kVoteReach pixels. The weight of a sample is the product of its trust, its closeness and
 // its similarity.
 constexpr int32_t kRidgeTrust = 32;
@@ -32,7 +32,7 @@ constexpr int32_t kPrior = 16, kMostPrior = 1000;
 // Radius, around a cell, of the windows whose votes displace an outline.
 constexpr int32_t kShiftRadius = 4;
 // Weight of no displacement against displacements, in units of gains and weights of cells.
-constexpr int32_t kStill = 100;
+constexpr int32_t kStill = 1;
 
 // Trust of a pixel by the absolute value of its distance.
 struct Trust {
@@ -55,7 +55,7 @@ struct Samples {
   int16_t closeness[simd::kMostVoteSide * simd::kMostVoteSide];
 
   explicit Samples(const OutlinePass& pass) : reach(pass.band + kVoteReach) {
-    step = reach > kFineReach ? 3 : 2;
+    step = reach > kCoarseReach ? 4 : reach > kFineReach ? 3 : 2;
     reach -= reach % step;
     int32_t k = 0;
     for (int32_t y = -reach; y <= reach; y += step) {
@@ -148,32 +148,19 @@ int8_t VoteOf(const simd::VoteSums& sums, size_t lane, int32_t prior_far, int32_
   return static_cast<int8_t>(vote == 0 ? 1 : vote);
 }
 
-// Returns how close a pixel is to the middle of a cell, from 12 at its middle to 0 six pixels away.
-int32_t ClosenessTo(const ShiftCells& cells, int32_t cell, int32_t pixel) {
-  return Max(12 - Abs(2 * pixel + 1 - cells.Begin(cell) - cells.Begin(cell + 1)), 0);
-}
-
-// Smoothed displacement of the outline at a pixel, in 1/kDistance pixel.
-int32_t SmoothShift(const OutlineMemory& memory, int32_t x, int32_t y) {
-  const ShiftCells columns = memory.Columns(), rows = memory.Rows();
-  const int32_t column = columns.Of(x), row = rows.Of(y);
-  int32_t weights = kStill, shifts = 0, across[3] = {};
-  for (int32_t k = -1; k <= 1; ++k) {
-    if (column + k >= 0 && column + k < columns.Count()) {
-      across[k + 1] = ClosenessTo(columns, column + k, x);
-    }
-  }
-  for (int32_t v = Max(row - 1, 0); v <= Min(row + 1, rows.Count() - 1); ++v) {
-    const int32_t down = ClosenessTo(rows, v, y);
-    for (int32_t k = -1; k <= 1; ++k) {
-      if (across[k + 1] == 0) continue;
-      const int32_t cell = v * columns.Count() + column + k;
-      const int32_t weight = memory.gain[cell] * down * across[k + 1];
+// Displacement of the outline in a cell and the cells around it, in 1/kDistance pixel.
+int32_t SmoothShift(const OutlineMemory& memory, int32_t column, int32_t row) {
+  const int32_t columns = memory.Columns().Count(), rows = memory.Rows().Count();
+  int32_t weights = kStill, shifts = 0;
+  for (int32_t v = Max(row - 1, 0); v <= Min(row + 1, rows - 1); ++v) {
+    for (int32_t u = Max(column - 1, 0); u <= Min(column + 1, columns - 1); ++u) {
+      const int32_t cell = v * columns + u;
+      const int32_t weight = memory.gain[cell] << ((u == column ? 1 : 0) + (v == row ? 1 : 0));
       weights += weight;
-      shifts += weight / 16 * memory.shift[cell];
+      shifts += weight * memory.shift[cell];
     }
   }
-  return 16 * shifts / weights;
+  return shifts / weights;
 }
 
 }  // namespace
@@ -233,6 +220,8 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
                const int16_t* map, const Rect& tile, const simd::DepthKernels& kernels,
                VoteBlock* block) {
   const Samples samples(pass);
+  const ShiftCells columns = memory.Columns(), rows = memory.Rows();
+  int32_t last_column = -1, last_row = -1, shift = 0;  // of the cell of the previous pixel
   uint8_t trust[kSure + 1];
   for (int32_t k = 0; k <= kSure; ++k) {
     trust[k] = static_cast<uint8_t>(k * k * simd::kMostTrust / (kSure * kSure));
@@ -251,7 +240,11 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
       [&](int32_t x, int32_t y, size_t at, const simd::VoteSums& sums, size_t lane) {
         memory.side[at] = 0;
         if (memory.vote[at] == 0) return;
-        const int32_t moved = memory.distance[at] + SmoothShift(memory, x, y);
+        const int32_t column = columns.Of(x), row = rows.Of(y);
+        if (column != last_column || row != last_row) shift = SmoothShift(memory, column, row);
+        last_column = column;
+        last_row = row;
+        const int32_t moved = memory.distance[at] + shift;
         const bool near = moved > 0 || (moved == 0 && memory.distance[at] > 0);
         const int32_t beyond = Max(2 * Abs(moved) - kDistance / 2, 0);  // in 1/(2 kDistance) pixel
         const int32_t prior =

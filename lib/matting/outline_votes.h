@@ -67,6 +67,7 @@ struct SidePlanes {
 
   int16_t disparity[kSamples];
   uint8_t state[kSamples];
+  uint8_t ready[kSamples];  // a bit for odd and one for even rounds
   int32_t pending[kSamples];
 };
 
