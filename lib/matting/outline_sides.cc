@@ -14,9 +14,11 @@ constexpr int32_t kPixel = 1 << kDisparityBits;
 // Pixels that are farther than half of the ramp plus kBesideRamp from the outline are clean, in
 // 1/kDistance pixel.
 constexpr int32_t kBesideRamp = 2 * kDistance;
-// Largest difference to a neighbour on a clean pixel of a soft map (kDisparityBits).
-constexpr int32_t kFlat = kPixel / 8;
+// Largest difference to a neighbour on a clean pixel of a soft and of a hard map (kDisparityBits).
+constexpr int32_t kFlat = kPixel / 8, kRampStep = kPixel / 2;
 constexpr int32_t kCrestRadius = 3;
+// Round from which the crests of thin structures and the grounds of gaps are clean.
+constexpr int32_t kFlatRounds = 12;
 
 // States of pixels: the lowest bit is the side, and the others are the round in which the pixel got
 // its disparity, or one of these.
@@ -41,6 +43,19 @@ bool IsFlat(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t 
   const auto differs = [&](ptrdiff_t by) { return Abs(own[by] - *own) > kFlat; };
   return !((x > 0 && differs(-1)) || (x + 1 < width && differs(1)) || (y > 0 && differs(-width)) ||
            (y + 1 < memory.height && differs(width)));
+}
+
+// Returns true if a neighbour on the same side is so much farther from the middle that pixel (x, y)
+// of the band lies on a ramp: by more than `step`.
+bool IsOnRamp(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y, int32_t step) {
+  const size_t at = memory.At(x, y);
+  const int32_t middle = memory.middle[at], own = map[at] - middle;
+  bool found = false;
+  ForBeside(memory, map, x, y, [&](int32_t other, int32_t, int32_t) {
+    const int32_t beyond = own > 0 ? other - middle - own : own - (other - middle);
+    found |= beyond > step;
+  });
+  return found;
 }
 
 // Returns the disparity of the crest of a thin structure, or of the ground of a gap: the extreme of
@@ -96,7 +111,8 @@ size_t FindClean(const Region& region, const OutlinePass& pass, const int16_t* m
     const int32_t distance = Abs(memory.distance[from]);
     const bool near = IsNearer(memory, map, x, y), was_near = map[from] > memory.middle[from];
     const bool keeps =
-        near == was_near && distance >= clean && (pass.IsHard() || IsFlat(memory, map, x, y));
+        near == was_near && distance >= clean &&
+        (pass.IsHard() ? !IsOnRamp(memory, map, x, y, kRampStep) : IsFlat(memory, map, x, y));
     planes.disparity[to] = map[from];
     planes.state[to] = static_cast<uint8_t>((keeps ? 0 : kNone) + (near ? kNearer : 0));
     if (!keeps && memory.side[from] != 0) {
@@ -146,6 +162,26 @@ bool TakeFromNeighbours(const Region& region, int32_t middle, int32_t at, int32_
   return true;
 }
 
+// Lets pending pixels on the crests of thin structures, or on the ground of gaps, keep their
+// disparity, and the others try again. Returns the number of pixels that remain.
+size_t FindCrests(const Region& region, const int16_t* map, size_t pending, int32_t round) {
+  SidePlanes& planes = *region.planes;
+  size_t left = 0;
+  for (size_t k = 0; k < pending; ++k) {
+    const int32_t at = planes.pending[k], x = region.XOf(at), y = region.YOf(at);
+    const size_t from = region.memory.At(x, y);
+    const bool near = (planes.state[at] & kNearer) != 0;
+    planes.ready[at] = Bit(round);
+    if ((map[from] > region.memory.middle[from]) == near &&
+        !IsOnRamp(region.memory, map, x, y, 0)) {
+      planes.state[at] = near ? kNearer : 0;
+    } else {
+      planes.pending[left++] = at;
+    }
+  }
+  return left;
+}
+
 }  // namespace
 
 void TakeDisparities(const OutlineMemory& memory, const OutlinePass& pass, const int16_t* map,
@@ -160,6 +196,7 @@ void TakeDisparities(const OutlineMemory& memory, const OutlinePass& pass, const
     if (Contains(tile, x, y)) repaired[memory.At(x, y)] = planes->disparity[at];
   };
   for (int32_t round = 1; round <= rounds && pending > 0; ++round) {
+    if (round == kFlatRounds) pending = FindCrests(region, map, pending, round);
     size_t left = 0;
     for (size_t k = 0; k < pending; ++k) {
       const int32_t at = planes->pending[k];

@@ -23,6 +23,17 @@ void ForBand(const OutlineMemory& memory, const Rect& rect, const Act& act) {
   }
 }
 
+// Calls act(disparity, dx, dy) for the four neighbours of a pixel.
+template <class Act>
+void ForBeside(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y,
+               const Act& act) {
+  const int16_t* own = map + memory.At(x, y);
+  if (x > 0) act(int32_t{own[-1]}, -1, 0);
+  if (x + 1 < memory.width) act(int32_t{own[1]}, 1, 0);
+  if (y > 0) act(int32_t{own[-memory.width]}, 0, -1);
+  if (y + 1 < memory.height) act(int32_t{own[memory.width]}, 0, 1);
+}
+
 // Calls act(number, cell, begins) for the cells that a tile touches. `begins` is true if the first
 // pixel of the cell lies in the tile.
 template <class Act>
