@@ -82,7 +82,7 @@ inline constexpr int32_t kMostTrust = 64, kMostCloseness = 16;
 // The pixels around a row of kSliceLanes pixels. All pointers, except `closeness`, point to the
 // first pixel of the row. Rows are `stride` samples apart.
 struct VoteRows {
-  const int16_t* colour[3];  // red, green and blue, [0, 255]
+  const int16_t* colour[3];  // brightness and two differences of colour, [-383, 383]
   const int16_t* surface;    // disparity
   const int16_t* trust;      // [0, kMostTrust]
   const int16_t* middle;     // disparity above which a surface counts as nearer, for each pixel
@@ -97,7 +97,7 @@ struct VoteSums {
   uint16_t weight[2][kSliceLanes];
 };
 
-// Similarity of colours by the sum of the absolute differences of red, green and blue: large up to
+// Similarity of colours by the sum of the absolute differences of the planes `colour`: large up to
 // a few codes (kTight), and small up to kWide.
 inline constexpr int32_t kWide = 96, kTight = 24;
 inline constexpr int32_t kMostSimilar = (kWide * kWide >> 9) + (kTight * kTight >> 2);

@@ -79,7 +79,10 @@ void FillBlock(const OutlinePicture& picture, const OutlineMemory& memory, const
     const int32_t row = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach - area.x;
     for (int32_t x = around.x; x < around.x + around.width; ++x) {
       const uint8_t* rgb = picture.Pixel(x, y);
-      for (int c = 0; c < 3; ++c) block->colour[c][row + x] = rgb[c];
+      // Hue distinguishes surfaces that shading makes alike, so its weight is larger.
+      block->colour[0][row + x] = static_cast<int16_t>((rgb[0] + 2 * rgb[1] + rgb[2]) >> 2);
+      block->colour[1][row + x] = static_cast<int16_t>(3 * (rgb[0] - rgb[1]) / 2);
+      block->colour[2][row + x] = static_cast<int16_t>(3 * (rgb[2] - rgb[1]) / 2);
       block->surface[row + x] = sample(memory.At(x, y), block->trust + row + x);
     }
   }

@@ -126,6 +126,29 @@ TEST_CASE("repaired edges: a right map is left alone") {
   CHECK(scene.Repaired(kWidth) == scene.map);
 }
 
+TEST_CASE("repaired edges: a displaced part of a right map moves, and the rest is left alone") {
+  Scene scene([](int x, int y) { return x < kWidth / 2 + (y < 20 ? 3 : 0) ? kNear : kFar; });
+  // A second outline with the same colours on both sides, which colours neither confirm nor deny.
+  for (size_t at = 0; at < scene.map.size(); ++at) {
+    if (at % kWidth < 8) scene.map[at] = 2 * kNear;
+  }
+  const std::vector<int16_t> repaired = scene.Repaired(kWidth);
+  int wrong = 0;
+  for (size_t at = 0; at < repaired.size(); ++at) {
+    const size_t x = at % kWidth;
+    if (x > 16) wrong += std::abs(repaired[at] - (x < kWidth / 2 ? kNear : kFar)) > 16;
+  }
+  CHECK(wrong <= 6);
+}
+
+TEST_CASE("repaired edges: a pixel of a hard map does not keep the rest of a ramp") {
+  // The map is off by three pixels, and its last near pixel is a pixel of disparity farther.
+  Scene scene([](int x, int) {
+    return x < kWidth / 2 - 4 ? kNear : x < kWidth / 2 - 3 ? kNear - kNear / 12 : kFar;
+  });
+  CHECK(Wrong(scene.Repaired(kWidth)) == 0);
+}
+
 TEST_CASE("repaired edges: results do not depend on tiles") {
   Scene scene([](int x, int y) {
     const double middle = kWidth / 2 + 3 * std::sin(y * 0.3);

@@ -13,11 +13,12 @@ void SumVotes(Draw* draw, DepthCall* call) {
   rows.stride = ptrdiff_t(kSliceLanes) + 2 * rows.reach + draw->Int(0, 9);
   const size_t samples = size_t(rows.stride) * size_t(2 * rows.reach + 1);
   const size_t own = size_t(rows.stride) * size_t(rows.reach) + size_t(rows.reach);
-  const int spread = draw->Int(0, 255), rarity = draw->timed() ? 1 : draw->Int(1, 9);
+  const int spread = draw->Int(0, 383), rarity = draw->timed() ? 1 : draw->Int(1, 9);
   for (const int16_t*& colour : rows.colour) {
-    colour = call->Input("colour",
-                         Filled<int16_t>(samples, [&] { return int16_t(draw->Int(0, spread)); })) +
-             own;
+    colour =
+        call->Input("colour",
+                    Filled<int16_t>(samples, [&] { return int16_t(draw->Int(-spread, spread)); })) +
+        own;
   }
   const auto disparity = [&] { return int16_t(draw->Int(-100, 100)); };
   rows.surface = call->Input("surface", Filled<int16_t>(samples, disparity)) + own;
