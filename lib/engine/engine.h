@@ -18,7 +18,7 @@
 #include "lib/io/highlights.h"
 #include "lib/io/input.h"
 #include "lib/io/layers.h"
-#include "lib/matting/coverage_map.h"
+#include "lib/matting/coverage.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
 #include "simd/kernels.h"

@@ -2,7 +2,6 @@
 #include <cstring>
 
 #include "lib/matting/coverage_tile.h"
-#include "lib/matting/surface_search.h"
 
 namespace starfocus {
 namespace {

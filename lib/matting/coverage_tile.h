@@ -6,7 +6,9 @@
 #ifndef STARFOCUS_LIB_MATTING_COVERAGE_TILE_H_
 #define STARFOCUS_LIB_MATTING_COVERAGE_TILE_H_
 
-#include "lib/matting/coverage_map.h"
+#include <cstring>
+
+#include "lib/matting/coverage.h"
 
 namespace starfocus {
 
@@ -80,6 +82,101 @@ void LookBehindTile(const Input& input, int32_t column, int32_t row);
 // surface gets a part of this light, which decreases with the coverage. Without this part, faint
 // coverage would give all detail of the background to the near surface.
 void AddFarDetail(const Input& input, int32_t column, int32_t row);
+
+// Search for the surfaces around a pixel of a tile (surface_search.cc).
+
+// Disparities of a tile and of kAround pixels on each side of the tile. Beyond the picture, the
+// outermost pixels of the picture are repeated.
+template <int32_t kAround>
+struct DisparitiesAround {
+  static constexpr int32_t kSide = kCoverageTile + 2 * kAround;
+  int16_t disparity[kSide * kSide];
+
+  DisparitiesAround() = default;
+  DisparitiesAround(const Input& input, int32_t column, int32_t row) {
+    const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
+    for (int32_t y = 0; y < kSide; ++y) {
+      const int16_t* from = input.disparity.Row(Clamp(top + y, 0, input.height - 1));
+      int16_t* to = disparity + y * kSide;
+      if (left >= 0 && left + kSide <= input.width) {
+        std::memcpy(to, from + left, kSide * sizeof(*to));
+        continue;
+      }
+      for (int32_t x = 0; x < kSide; ++x) to[x] = from[Clamp(left + x, 0, input.width - 1)];
+    }
+  }
+  static constexpr int32_t At(int32_t x, int32_t y) { return (y + kAround) * kSide + x + kAround; }
+};
+
+// Radius in pixels of the search for the far and the near surface of a pixel. In disparity maps
+// computed by neural networks, outlines are misplaced by up to kGivenReach pixels.
+inline constexpr int32_t kGivenReach = 32;
+
+// Distance in pixels from a pixel to the neighbours that decide whether the pixel is on a ramp.
+inline constexpr int32_t kRampReach = 1;
+using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
+
+// Result of a search for the nearest pixel of a surface. Among equally distant pixels, the search
+// prefers the pixel on the smallest square around the start, and then the first in row order.
+struct Found {
+  int32_t disparity;  // Disparity of the pixel found, or of the start if none is found.
+  int32_t distance;   // Squared distance in pixels; INT32_MAX if no pixel is found.
+};
+
+// Disparities of the two surfaces of a pixel near an edge.
+struct Surfaces {
+  int32_t low, high;
+
+  // Returns true if a disparity belongs to the near surface, so that its implied coverage is 1.
+  bool IsNear(int32_t disparity) const { return 2 * disparity >= low + high; }
+};
+
+// Searches a tile and its surroundings. A search reads only the cells of kCellSide x kCellSide
+// pixels that contain the surface. All positions are indices of GivenDisparities::disparity.
+class SurfaceSearch {
+ public:
+  explicit SurfaceSearch(const GivenDisparities& around);
+
+  // A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours.
+  bool IsOnRamp(int32_t at) const { return on_ramp_[at]; }
+
+  // Finds the nearest pixel in the square of radius kGivenReach around a pixel of the tile that is
+  // not on a ramp and has a disparity in [low, high].
+  Found FindNearest(int32_t at, int32_t low, int32_t high) const;
+
+  // Finds the two surfaces of a pixel of the tile. For a pixel on a ramp, the results are the
+  // surfaces at both ends of the ramp. For other pixels, the results are the pixel's own surface
+  // and the nearest other surface. Returns false if the search finds no second surface.
+  bool FindSurfaces(int32_t at, Surfaces* surfaces) const;
+
+ private:
+  static constexpr int32_t kSide = GivenDisparities::kSide;
+  static constexpr int32_t kCellSide = 8;
+  static constexpr int32_t kCells = (kSide + kCellSide - 1) / kCellSide;
+
+  // Range of the disparities of a cell, without pixels on ramps; empty if least > greatest.
+  struct Cell {
+    int16_t least = INT16_MAX, greatest = INT16_MIN;
+    bool has_ramp = false;
+
+    void Add(int16_t disparity) {
+      if (disparity < least) least = disparity;
+      if (disparity > greatest) greatest = disparity;
+    }
+  };
+  struct Target {
+    int32_t x, y;  // column and row of the start
+    int32_t low, high;
+  };
+
+  // Returns the least of `rank` and the ranks of the pixels of a cell that match the target.
+  uint32_t LeastRank(const Target& target, int32_t column, int32_t row, uint32_t rank) const;
+
+  const GivenDisparities& around_;
+  bool on_ramp_[kSide * kSide] = {};  // false for the outermost kRampReach pixels
+  Cell cells_[kCells * kCells];
+  Cell all_;  // range of all cells, at which most searches end
+};
 
 }  // namespace starfocus
 

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "lib/io/matte_rows.h"
-#include "lib/matting/surface_search.h"
+#include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
 namespace {

@@ -11,7 +11,7 @@
 #include "lib/base/fixed.h"
 #include "lib/io/block_pixels.h"
 #include "lib/io/input.h"
-#include "lib/matting/coverage_map.h"
+#include "lib/matting/coverage.h"
 #include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/matting/surface_search.h"
+#include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-#include "lib/matting/coverage_map.h"
+#include "lib/matting/coverage.h"
 
 namespace starfocus {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests that the search for surfaces finds the same pixels as a search of all pixels.
-#include "lib/matting/surface_search.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <random>
 #include <tuple>
 #include <vector>
+
+#include "lib/matting/coverage_tile.h"
 
 namespace surface_search_test {
 namespace {
