@@ -8,14 +8,53 @@
 #ifndef STARFOCUS_LIB_MATTING_HAIR_COVERAGE_H_
 #define STARFOCUS_LIB_MATTING_HAIR_COVERAGE_H_
 
+#include <cstddef>
 #include <cstdint>
 
 #include "lib/base/arena.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
-#include "lib/matting/colour_pyramid.h"
 
 namespace starfocus {
+
+// Side of a cell in pixels. Pyramids and the memory of the search have one element per cell.
+inline constexpr int32_t kHairCell = 4;
+// Fractional bits of mean colours.
+inline constexpr int kMeanBits = 6;
+// Weight of a mean colour that is fully known.
+inline constexpr int kKnownBits = 8;
+inline constexpr int32_t kFullyKnown = 1 << kKnownBits;
+
+struct ColourMean {
+  uint16_t rgb[3];  // Mean colour, in fixed point (kMeanBits).
+  uint16_t weight;  // Weight of the mean, [0, kFullyKnown].
+};
+
+struct ColourLevel {
+  int32_t columns, rows;
+  ColourMean* means;
+
+  ColourMean& At(int32_t x, int32_t y) const {
+    return means[static_cast<size_t>(y) * static_cast<size_t>(columns) + static_cast<size_t>(x)];
+  }
+};
+
+// Extends the colours of a surface from pixels that show the surface to pixels that do not (the
+// pull-push algorithm). levels[0] contains the cells of the picture. Each cell of a higher level
+// contains the weighted mean of 2x2 cells of the level below, and the last level a single cell.
+struct ColourPyramid {
+  static constexpr int kMostLevels = 16;
+  int32_t count;
+  ColourLevel levels[kMostLevels];
+};
+ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena);
+
+// Pulls the means of levels[0] up to the single cell and pushes the means down again, which fills
+// in cells of low weight. Returns false if all weights are 0.
+bool CarryOnColours(const ColourPyramid& pyramid);
+
+// Interpolates the colour of pixel (x, y) bilinearly from levels[0], in fixed point (kMeanBits).
+void ColourAt(const ColourPyramid& pyramid, int32_t x, int32_t y, int32_t* rgb);
 
 // A picture and its map.
 struct HairPicture {
@@ -28,30 +67,24 @@ struct HairPicture {
 // Votes of the pixels of a block on whether the block shows hair.
 struct HairVotes;
 
-// Memory of the search, with one element per cell of the lowest level of a ColourPyramid.
+// Memory of the search, with one element per cell of a picture.
 struct HairMemory {
   int32_t columns, rows;
-  // Lowest and highest disparity of the cell; later, of all cells that are at most 10 cells away.
-  int16_t *low, *high;
-  uint8_t* marks;
-  // To what degree the cell shows hair, 0 to 255.
-  uint8_t* hair;
+  int16_t *least, *greatest;  // Range of the disparities of the cell.
+  int16_t *low, *high;  // Range of the disparities of all cells that are at most 10 cells away.
+  uint8_t* hair;        // To what degree the cell shows hair, 0 to 255.
   // FindHairCoverage alone uses the following.
   ColourPyramid far, near;
-  uint16_t* contrast;  // Largest contrast between a near pixel of the cell and the background.
-  HairVotes* votes;    // One element for each block.
-
-  // Marks. A cell has an edge if there are two surfaces within 10 cells.
-  static constexpr uint8_t kHasEdge = 1;
-  // The cell has an edge, and pixels of the nearer or the farther of its two surfaces.
-  static constexpr uint8_t kHasNear = 2, kHasFar = 4;
+  HairVotes* votes;  // One element for each block.
 
   size_t At(int32_t column, int32_t row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
   }
-  // Returns true if a pixel of the cell belongs to the nearer surface of an edge.
+  // Returns true if there are two surfaces within 10 cells.
+  bool HasEdge(size_t cell) const;
+  // Returns true if the disparity belongs to the nearer of the two surfaces of a cell with an edge.
   bool IsNear(size_t cell, int32_t disparity) const {
-    return (marks[cell] & kHasEdge) != 0 && 2 * disparity > low[cell] + high[cell];
+    return HasEdge(cell) && 2 * disparity > low[cell] + high[cell];
   }
 };
 
@@ -61,7 +94,7 @@ HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena);
 void TakeHairColours(int32_t width, int32_t height, Arena* arena, HairMemory* memory);
 
 // Number of phases that FindHairCoverage runs or skips.
-inline constexpr int32_t kHairPhases = 9;
+inline constexpr int32_t kHairPhases = 7;
 
 // Finds the cells with hair and writes the coverage of their pixels. Returns true if any cell has
 // hair, and false after an error.
