@@ -20,14 +20,15 @@ struct HairVotes {
   int32_t outside, beyond;
   // To what degree the colours in and around the block are those of hair, 0 to 256.
   int32_t found;
-  int32_t hair;  // To what degree the block shows hair, 0 to 256.
 };
+
+HairVotes& HairMemory::VotesAt(int32_t column, int32_t row) const {
+  return votes[BlockAt(column, row)];
+}
 
 namespace {
 
-// An edge is a difference of disparity of more than kEdgeStep between two surfaces
-// (kDisparityBits) that are at most kSurfaceReach cells from the cell.
-constexpr int32_t kEdgeStep = 5 << kDisparityBits;
+// Radius in cells of the range HairMemory::low to HairMemory::high.
 constexpr int32_t kSurfaceReach = 10;
 // Radii in cells. An inside cell has far pixels within kMostInside but not within kBeside. An
 // outside cell has near pixels within kMostInside but not within kBeside.
@@ -36,13 +37,8 @@ constexpr int32_t kBeside = 1, kMostInside = 4;
 constexpr int32_t kClearContrast = 1600;
 // Squared difference of colours that are nearly equal, in squared codes.
 constexpr int32_t kSame = 100;
-// Number of blocks by which hair extends beyond the blocks with the colours of hair.
-constexpr int32_t kExtends = 1;
 // Hair from which on a cell keeps its disparities.
 constexpr uint8_t kHairy = 128;
-// Side of a block, in cells.
-constexpr int32_t kBlock = 8;
-constexpr int32_t BlocksOf(int32_t cells) { return (cells + kBlock - 1) / kBlock; }
 
 // Interpolates bilinearly between values at the centres of columns x rows cells, which have sides
 // of kSide samples. Returns the value at the centre of sample (x, y).
@@ -97,18 +93,14 @@ struct ColourSum {
 struct Search {
   const HairPicture& picture;
   const HairMemory& memory;
-  int32_t block_columns = BlocksOf(memory.columns), block_rows = BlocksOf(memory.rows);
-
-  HairVotes& VotesAt(int32_t column, int32_t row) const {
-    return memory.votes[ptrdiff_t{row} * block_columns + column];
-  }
 };
 
 // Calls act(column, row, at) for all cells of the rows of blocks.
 template <class Act>
 void ForCells(const Search& search, const Range& blocks, const Act& act) {
   const HairMemory& memory = search.memory;
-  for (int32_t row = kBlock * blocks.first; row < Min(kBlock * blocks.last, memory.rows); ++row) {
+  for (int32_t row = kHairBlock * blocks.first; row < Min(kHairBlock * blocks.last, memory.rows);
+       ++row) {
     for (int32_t column = 0; column < memory.columns; ++column) {
       act(column, row, memory.At(column, row));
     }
@@ -141,38 +133,26 @@ void ForPixels(const Search& search, int32_t column, int32_t row, const Act& act
   }
 }
 
-// Calls has(cell) for the cells within `reach` of cell (column, row) until it returns true for one,
-// and returns whether it did.
-template <class Has>
-bool AnyAround(const HairMemory& memory, int32_t column, int32_t row, int32_t reach,
-               const Has& has) {
+// Returns true if a cell within `reach` of cell (column, row) has pixels of the nearer surface of
+// an edge or, if `near` is false, of the farther surface.
+bool HasWithin(const HairMemory& memory, int32_t column, int32_t row, int32_t reach, bool near) {
   const int32_t right = Min(column + reach, memory.columns - 1);
   const int32_t bottom = Min(row + reach, memory.rows - 1);
   for (int32_t y = Max(row - reach, 0); y <= bottom; ++y) {
     for (int32_t x = Max(column - reach, 0); x <= right; ++x) {
-      if (has(memory.At(x, y))) return true;
+      const size_t at = memory.At(x, y);
+      if (!memory.HasEdge(at)) continue;
+      if (near ? memory.IsNear(at, memory.greatest[at]) : !memory.IsNear(at, memory.least[at])) {
+        return true;
+      }
     }
   }
   return false;
 }
 
-// Returns true if a cell within `reach` of cell (column, row) has pixels of the nearer surface of
-// an edge, or, for the second function, of the farther surface.
-bool HasNear(const HairMemory& memory, int32_t column, int32_t row, int32_t reach) {
-  const auto has = [&](size_t at) { return memory.IsNear(at, memory.greatest[at]); };
-  return AnyAround(memory, column, row, reach, has);
-}
-bool HasFar(const HairMemory& memory, int32_t column, int32_t row, int32_t reach) {
-  const auto has = [&](size_t at) {
-    return memory.HasEdge(at) && !memory.IsNear(at, memory.least[at]);
-  };
-  return AnyAround(memory, column, row, reach, has);
-}
-
 // Measures the range of the disparities of each cell.
 void MeasureCells(const Search& search, const Range& blocks) {
   const HairPicture& picture = search.picture;
-  const HairMemory& memory = search.memory;
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
     const int32_t left = column * kHairCell, right = Min(left + kHairCell, picture.width);
     int16_t least = INT16_MAX, greatest = INT16_MIN;
@@ -181,8 +161,8 @@ void MeasureCells(const Search& search, const Range& blocks) {
       least = std::min(least, *std::min_element(disparities + left, disparities + right));
       greatest = std::max(greatest, *std::max_element(disparities + left, disparities + right));
     }
-    memory.low[at] = memory.least[at] = least;
-    memory.high[at] = memory.greatest[at] = greatest;
+    search.memory.low[at] = search.memory.least[at] = least;
+    search.memory.high[at] = search.memory.greatest[at] = greatest;
   });
 }
 
@@ -201,8 +181,8 @@ void JoinAround(int32_t count, int32_t stride, const Join& join, int16_t* values
   }
 }
 
-// Computes `low` and `high` from the ranges of the cells.
-void JoinCells(const HairMemory& memory) {
+// Computes `low` and `high` from the ranges of the cells. Returns true.
+bool JoinCells(const HairMemory& memory) {
   const auto least = [](int16_t a, int16_t b) { return std::min(a, b); };
   const auto most = [](int16_t a, int16_t b) { return std::max(a, b); };
   for (int32_t row = 0; row < memory.rows; ++row) {
@@ -213,13 +193,14 @@ void JoinCells(const HairMemory& memory) {
     JoinAround(memory.rows, memory.columns, least, memory.low + column);
     JoinAround(memory.rows, memory.columns, most, memory.high + column);
   }
+  return true;
 }
 
 // Computes background colours for the first pass, from far cells.
 void PullFar(const Search& search, const Range& blocks) {
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
     ColourSum sum;
-    if (search.memory.HasEdge(at) && !HasNear(search.memory, column, row, kBeside)) {
+    if (search.memory.HasEdge(at) && !HasWithin(search.memory, column, row, kBeside, true)) {
       ForPixels(search, column, row,
                 [&](const CellPixel& pixel) { sum.Add(pixel.rgb, ColourSum::kFull); });
     }
@@ -239,7 +220,7 @@ int32_t SquaredDifference(const int32_t* a, const int32_t* b) {
 void PullNear(const Search& search, const Range& blocks) {
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t) {
     ColourSum sum;
-    if (HasNear(search.memory, column, row, 0)) {
+    if (HasWithin(search.memory, column, row, 0, true)) {
       ForPixels(search, column, row, [&](const CellPixel& pixel) {
         int32_t far[3];
         ColourAt(search.memory.far, pixel.x, pixel.y, far);
@@ -267,38 +248,44 @@ constexpr int32_t kLeastContrast = 300;
 // Largest coverage that is attributed to the texture of the background.
 constexpr int32_t kTexture = kWhole / 8;
 
-// Returns the position of a pixel's colour on the line from the background colour to the foreground
-// colour, as a fraction of kWhole. Without contrast, returns the coverage that the map implies.
-int32_t Unmix(const int32_t* far, const int32_t* near, const CellPixel& pixel) {
-  int64_t along = 0, contrast = 0;  // 30 bits
+// Result of the comparison of a pixel with the foreground and background colours at the pixel.
+struct Unmixed {
+  int32_t share;             // coverage, as a fraction of kWhole
+  int32_t beside, contrast;  // squared differences of pixel and foreground from the background
+};
+
+// Finds the position of a pixel's colour on the line from the background colour to the foreground
+// colour. Without contrast, the share is the one that the map implies. `own` is the share of the
+// pixel's own colour in the background colour, as a fraction of kWhole.
+Unmixed Unmix(const HairMemory& memory, const CellPixel& pixel, int32_t own) {
+  int32_t far[3], near[3];
+  ColourAt(memory.far, pixel.x, pixel.y, far);
+  ColourAt(memory.near, pixel.x, pixel.y, near);
   for (int c = 0; c < 3; ++c) {
-    const int64_t line = near[c] - far[c];
-    along += line * (pixel.rgb[c] - far[c]);
-    contrast += line * line;
+    far[c] = (own * pixel.rgb[c] + (kWhole - own) * far[c] + kWhole / 2) / kWhole;
   }
-  constexpr int64_t kLeast = int64_t{kLeastContrast} << (2 * kMeanBits);
-  const int64_t known = std::min(contrast - kLeast, kLeast);
   const int32_t given = pixel.is_near ? kWhole : 0;
-  if (known <= 0) return given;
-  const auto share =
-      static_cast<int32_t>(kWhole * std::clamp<int64_t>(along, 0, contrast) / contrast);
-  return given + static_cast<int32_t>((share - given) * known / kLeast);
+  const int32_t beside = SquaredDifference(far, pixel.rgb);
+  const int32_t contrast = SquaredDifference(far, near);
+  const int32_t known = Clamp(contrast - kLeastContrast, 0, kLeastContrast);
+  if (known == 0) return {given, beside, contrast};
+  // By the law of cosines, the position is (beside + contrast - distance to `near`) / 2 contrast.
+  const int32_t twice = beside + contrast - SquaredDifference(near, pixel.rgb);
+  const int32_t share = Clamp(twice, 0, 2 * contrast) * (kWhole / 2) / contrast;
+  return {given + (share - given) * known / kLeastContrast, beside, contrast};
 }
 
 // Counts the pixels of an inside cell.
 void CountInside(const Search& search, int32_t column, int32_t row, HairVotes* votes) {
   int32_t count = 0, sum = 0, squares = 0;
   ForPixels(search, column, row, [&](const CellPixel& pixel) {
-    int32_t far[3], near[3];
-    ColourAt(search.memory.far, pixel.x, pixel.y, far);
-    ColourAt(search.memory.near, pixel.x, pixel.y, near);
-    const int32_t share = Unmix(far, near, pixel), beside = SquaredDifference(far, pixel.rgb);
+    const Unmixed unmixed = Unmix(search.memory, pixel, 0);
     ++count;
-    sum += share;
-    squares += share * share;
-    const int32_t contrast = SquaredDifference(far, near);
-    votes->far += contrast > kClearContrast && 9 * beside < contrast ? 1 : 0;
-    votes->same += beside < kSame ? 1 : 0;
+    sum += unmixed.share;
+    squares += unmixed.share * unmixed.share;
+    const bool clear = unmixed.contrast > kClearContrast;
+    votes->far += clear && 9 * unmixed.beside < unmixed.contrast ? 1 : 0;
+    votes->same += unmixed.beside < kSame ? 1 : 0;
   });
   votes->inside += count;
   votes->sum += sum;
@@ -306,45 +293,34 @@ void CountInside(const Search& search, int32_t column, int32_t row, HairVotes* v
   votes->fine += squares - sum * sum / count;
 }
 
-// Counts the pixels of an outside cell.
-void CountOutside(const Search& search, int32_t column, int32_t row, HairVotes* votes) {
-  ForPixels(search, column, row, [&](const CellPixel& pixel) {
-    int32_t far[3], near[3];
-    ColourAt(search.memory.far, pixel.x, pixel.y, far);
-    ColourAt(search.memory.near, pixel.x, pixel.y, near);
-    ++votes->outside;
-    votes->beyond += Unmix(far, near, pixel);
-  });
-}
-
 void CountVotes(const Search& search, const Range& blocks) {
-  for (int32_t row = blocks.first; row < blocks.last; ++row) {
-    std::fill_n(&search.VotesAt(0, row), search.block_columns, HairVotes{});
-  }
   const HairMemory& memory = search.memory;
+  for (int32_t row = blocks.first; row < blocks.last; ++row) {
+    std::fill_n(&memory.VotesAt(0, row), memory.block_columns, HairVotes{});
+  }
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
     memory.hair[at] = 0;
-    if (!memory.HasEdge(at)) return;
-    const bool near = HasNear(memory, column, row, kBeside);
-    const bool far = HasFar(memory, column, row, kBeside);
-    HairVotes* const votes = &search.VotesAt(column / kBlock, row / kBlock);
-    if (near && !far && HasFar(memory, column, row, kMostInside)) {
-      CountInside(search, column, row, votes);
-    } else if (far && !near && HasNear(memory, column, row, kMostInside)) {
-      CountOutside(search, column, row, votes);
-    }
+    const bool near = HasWithin(memory, column, row, kBeside, true);
+    if (near == HasWithin(memory, column, row, kBeside, false)) return;
+    if (!HasWithin(memory, column, row, kMostInside, !near)) return;
+    HairVotes* const votes = &memory.VotesAt(column / kHairBlock, row / kHairBlock);
+    if (near) return CountInside(search, column, row, votes);
+    ForPixels(search, column, row, [&](const CellPixel& pixel) {
+      ++votes->outside;
+      votes->beyond += Unmix(memory, pixel, 0).share;
+    });
   });
 }
 
 // Calls act(votes, weight) for the blocks that are at most `reach` blocks away. The weight
 // decreases with the distance, from (reach + 1)^2 to 1.
 template <class Act>
-void ForBlocksAround(const Search& search, int32_t column, int32_t row, int32_t reach,
+void ForBlocksAround(const HairMemory& memory, int32_t column, int32_t row, int32_t reach,
                      const Act& act) {
-  for (int32_t y = Max(row - reach, 0); y <= Min(row + reach, search.block_rows - 1); ++y) {
-    for (int32_t x = Max(column - reach, 0); x <= Min(column + reach, search.block_columns - 1);
+  for (int32_t y = Max(row - reach, 0); y <= Min(row + reach, memory.block_rows - 1); ++y) {
+    for (int32_t x = Max(column - reach, 0); x <= Min(column + reach, memory.block_columns - 1);
          ++x) {
-      act(search.VotesAt(x, y), (reach + 1 - Abs(x - column)) * (reach + 1 - Abs(y - row)));
+      act(memory.VotesAt(x, y), (reach + 1 - Abs(x - column)) * (reach + 1 - Abs(y - row)));
     }
   }
 }
@@ -360,10 +336,10 @@ int32_t Fade(int64_t value, int32_t low, int32_t high) {
 // the part of the variance of the coverage that lies within cells, because shading varies slowly.
 // They are not if pixels outside look like foreground: the foreground colour is then one of a
 // pattern of the background, which the map covers by mistake.
-int32_t FindHair(const Search& search, int32_t column, int32_t row) {
+int32_t FindHair(const HairMemory& memory, int32_t column, int32_t row) {
   // 2048 votes against hair decide where there are few pixels.
   int64_t inside = 2048, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;
-  ForBlocksAround(search, column, row, 3, [&](const HairVotes& votes, int32_t weight) {
+  ForBlocksAround(memory, column, row, 3, [&](const HairVotes& votes, int32_t weight) {
     const int64_t sum = votes.sum;
     inside += weight * votes.inside;
     far += weight * votes.far;
@@ -380,35 +356,33 @@ int32_t FindHair(const Search& search, int32_t column, int32_t row) {
   return like * (256 - Fade(1024 * beyond / (kWhole * outside), 40, 60)) / 256;
 }
 
-// Decides which cells show hair: hair extends to the blocks around those with the colours of hair,
+// Decides which cells show hair. Hair extends to the blocks around those with the colours of hair,
 // because its tips have few pixels inside outlines. Between the centres of blocks, the degree is
-// interpolated. Returns true if any cell has hair.
+// interpolated. Returns true if any block has hair.
 bool FillHair(const Search& search) {
-  const auto for_blocks = [&](const auto& act) {
-    for (int32_t row = 0; row < search.block_rows; ++row) {
-      for (int32_t column = 0; column < search.block_columns; ++column) {
-        act(column, row, &search.VotesAt(column, row));
-      }
-    }
-  };
-  for_blocks([&](int32_t column, int32_t row, HairVotes* votes) {
-    votes->found = FindHair(search, column, row);
-  });
-  for_blocks([&](int32_t column, int32_t row, HairVotes* votes) {
-    ForBlocksAround(search, column, row, kExtends, [&](const HairVotes& around, int32_t) {
-      votes->hair = Max(votes->hair, around.found);
-    });
-  });
+  const HairMemory& memory = search.memory;
   bool any = false;
-  ForCells(search, {0, search.block_rows}, [&](int32_t column, int32_t row, size_t at) {
-    if (!search.memory.HasEdge(at)) return;
+  for (int32_t row = 0; row < memory.block_rows; ++row) {
+    for (int32_t column = 0; column < memory.block_columns; ++column) {
+      const int32_t found = FindHair(memory, column, row);
+      memory.VotesAt(column, row).found = found;
+      any = any || found >= kHairy;
+    }
+  }
+  if (!any) return false;
+  const auto around = [&](int32_t x, int32_t y) {
+    int32_t most = 0;
+    ForBlocksAround(memory, x, y, 1,
+                    [&](const HairVotes& votes, int32_t) { most = Max(most, votes.found); });
+    return most;
+  };
+  ForCells(search, {0, memory.block_rows}, [&](int32_t column, int32_t row, size_t at) {
+    if (!memory.HasEdge(at)) return;
     const int32_t hair =
-        Interpolated<kBlock>(search.block_columns, search.block_rows, column, row,
-                             [&](int32_t x, int32_t y) { return search.VotesAt(x, y).hair; });
-    search.memory.hair[at] = static_cast<uint8_t>(Min(hair, UINT8_MAX));
-    any = any || hair >= kHairy;
+        Interpolated<kHairBlock>(memory.block_columns, memory.block_rows, column, row, around);
+    memory.hair[at] = static_cast<uint8_t>(Min(hair, UINT8_MAX));
   });
-  return any;
+  return true;
 }
 
 // Returns the share `to` where `hair` is 255, the share `from` where it is 0, and mixtures between.
@@ -425,15 +399,10 @@ void UnmixCells(const Search& search, const Range& blocks) {
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
     if (memory.hair[at] == 0) return;
     ForPixels(search, column, row, [&](const CellPixel& pixel) {
-      int32_t far[3], near[3];
-      ColourAt(memory.far, pixel.x, pixel.y, far);
-      ColourAt(memory.near, pixel.x, pixel.y, near);
       const int32_t own = kAgain ? FourthPower(kWhole - ShareOf(*pixel.coverage)) : 0;
-      for (int c = 0; c < 3; ++c) {
-        far[c] = (own * pixel.rgb[c] + (kWhole - own) * far[c] + kWhole / 2) / kWhole;
-      }
       const int32_t texture = pixel.is_near ? 0 : kTexture;
-      const int32_t share = Max(0, Unmix(far, near, pixel) - texture) * kWhole / (kWhole - texture);
+      const int32_t unmixed = Unmix(memory, pixel, own).share;
+      const int32_t share = Max(0, unmixed - texture) * kWhole / (kWhole - texture);
       *pixel.coverage = static_cast<uint8_t>((share * UINT8_MAX + kWhole / 2) / kWhole);
     });
   });
@@ -460,25 +429,7 @@ void PullBoth(const Search& search, const Range& blocks) {
   });
 }
 
-// Pulls the means of each level up to the level above it.
-void PullLevel(const ColourLevel& from, const ColourLevel& to) {
-  for (int32_t y = 0; y < to.rows; ++y) {
-    for (int32_t x = 0; x < to.columns; ++x) {
-      ColourSum sum;
-      for (int32_t row = 2 * y; row < Min(2 * y + 2, from.rows); ++row) {
-        for (int32_t column = 2 * x; column < Min(2 * x + 2, from.columns); ++column) {
-          const ColourMean& mean = from.At(column, row);
-          sum.Add(mean.rgb, ColourSum::kUnit * mean.weight);
-        }
-      }
-      to.At(x, y) = sum.Mean();
-    }
-  }
-}
-
 }  // namespace
-
-bool HairMemory::HasEdge(size_t cell) const { return high[cell] - low[cell] > kEdgeStep; }
 
 ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena) {
   ColourPyramid pyramid = {};
@@ -496,7 +447,20 @@ ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena) {
 
 bool CarryOnColours(const ColourPyramid& pyramid) {
   const int32_t last = pyramid.count - 1;
-  for (int32_t k = 0; k < last; ++k) PullLevel(pyramid.levels[k], pyramid.levels[k + 1]);
+  for (int32_t k = 0; k < last; ++k) {
+    const ColourLevel &from = pyramid.levels[k], &to = pyramid.levels[k + 1];
+    for (int32_t n = 0; n < to.columns * to.rows; ++n) {
+      const int32_t x = n % to.columns * 2, y = n / to.columns * 2;
+      ColourSum sum;
+      for (int32_t row = y; row < Min(y + 2, from.rows); ++row) {
+        for (int32_t column = x; column < Min(x + 2, from.columns); ++column) {
+          const ColourMean& mean = from.At(column, row);
+          sum.Add(mean.rgb, ColourSum::kUnit * mean.weight);
+        }
+      }
+      to.means[n] = sum.Mean();
+    }
+  }
   for (int32_t k = last - 1; k >= 0; --k) {
     const ColourLevel &level = pyramid.levels[k], &above = pyramid.levels[k + 1];
     for (int32_t y = 0; y < level.rows; ++y) {
@@ -519,23 +483,24 @@ void ColourAt(const ColourPyramid& pyramid, int32_t x, int32_t y, int32_t* rgb) 
 }
 
 HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena) {
+  const auto divided = [](int32_t size, int32_t by) { return (size + by - 1) / by; };
   HairMemory memory = {};
-  memory.columns = (width + kHairCell - 1) / kHairCell;
-  memory.rows = (height + kHairCell - 1) / kHairCell;
-  const auto columns = static_cast<size_t>(memory.columns);
-  const auto rows = static_cast<size_t>(memory.rows);
+  memory.columns = divided(width, kHairCell);
+  memory.rows = divided(height, kHairCell);
+  memory.block_columns = divided(memory.columns, kHairBlock);
+  memory.block_rows = divided(memory.rows, kHairBlock);
+  const size_t cells = memory.At(0, memory.rows);
   for (int16_t** range : {&memory.least, &memory.greatest, &memory.low, &memory.high}) {
-    *range = arena->Take<int16_t>(columns, rows);
+    *range = arena->Take<int16_t>(cells);
   }
-  memory.hair = arena->Take<uint8_t>(columns, rows);
+  memory.hair = arena->Take<uint8_t>(cells);
   return memory;
 }
 
 void TakeHairColours(int32_t width, int32_t height, Arena* arena, HairMemory* memory) {
   memory->far = TakeColourPyramid(width, height, arena);
   memory->near = TakeColourPyramid(width, height, arena);
-  const auto across = static_cast<size_t>(BlocksOf(memory->columns));
-  memory->votes = arena->Take<HairVotes>(across, static_cast<size_t>(BlocksOf(memory->rows)));
+  memory->votes = arena->Take<HairVotes>(memory->BlockAt(0, memory->block_rows));
 }
 
 bool FindHairCoverage(const HairPicture& picture, const HairMemory& memory, Sequence* run) {
@@ -546,12 +511,12 @@ bool FindHairCoverage(const HairPicture& picture, const HairMemory& memory, Sequ
   const auto phase = [&](void (*work)(const Search&, const Range&), const auto& conclude) {
     if (!found) return run->Skip();
     run->Run([&](int32_t index, int32_t) {
-      work(search, PartOf({0, search.block_rows}, index, run->count()));
+      work(search, PartOf({0, search.memory.block_rows}, index, run->count()));
     });
     found = run->status() == STARFOCUS_OK && conclude();
   };
   const auto always = [] { return true; };
-  phase(MeasureCells, [&] { return JoinCells(memory), true; });
+  phase(MeasureCells, [&] { return JoinCells(memory); });
   phase(PullFar, [&] { return CarryOnColours(memory.far); });
   phase(PullNear, [&] { return CarryOnColours(memory.near); });
   phase(CountVotes, [&] { return FillHair(search); });
@@ -572,19 +537,15 @@ bool HasHair(const HairMemory& memory, const Rect& rect) {
 
 void CompleteCoverage(const HairMemory& memory, const Range& columns, int32_t y,
                       const int16_t* disparity, uint8_t* coverage, uint8_t* confidence) {
-  for (int32_t x = columns.first; x < columns.last; ++x) {
-    const int32_t k = x - columns.first;
-    const size_t at = memory.At(x / kHairCell, y / kHairCell);
+  for (int32_t k = 0; k < columns.last - columns.first; ++k) {
+    const int32_t column = (columns.first + k) / kHairCell, row = y / kHairCell;
+    const size_t at = memory.At(column, row);
+    const uint8_t hair = memory.hair[at];
     const bool is_near = !memory.HasEdge(at) || memory.IsNear(at, disparity[k]);
     const int32_t given = is_near ? UINT8_MAX : 0;
-    if (memory.hair[at] == 0) {
-      coverage[k] = static_cast<uint8_t>(given);
-    } else {
-      coverage[k] = static_cast<uint8_t>(Faded(given, coverage[k], memory.hair[at]));
-      if (confidence != nullptr) {
-        confidence[k] = static_cast<uint8_t>(UINT8_MAX - Abs(coverage[k] - given));
-      }
-    }
+    coverage[k] = static_cast<uint8_t>(hair == 0 ? given : Faded(given, coverage[k], hair));
+    if (hair == 0 || confidence == nullptr) continue;
+    confidence[k] = static_cast<uint8_t>(UINT8_MAX - Abs(coverage[k] - given));
   }
 }
 

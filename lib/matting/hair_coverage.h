@@ -12,13 +12,14 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 
 namespace starfocus {
 
-// Side of a cell in pixels. Pyramids and the memory of the search have one element per cell.
-inline constexpr int32_t kHairCell = 4;
+// Side of a cell in pixels, and side of a block of cells that vote together.
+inline constexpr int32_t kHairCell = 4, kHairBlock = 8;
 // Fractional bits of mean colours.
 inline constexpr int kMeanBits = 6;
 // Weight of a mean colour that is fully known.
@@ -67,22 +68,29 @@ struct HairPicture {
 // Votes of the pixels of a block on whether the block shows hair.
 struct HairVotes;
 
-// Memory of the search, with one element per cell of a picture.
+// Memory of the search in cells and blocks.
 struct HairMemory {
-  int32_t columns, rows;
-  int16_t *least, *greatest;  // Range of the disparities of the cell.
-  int16_t *low, *high;  // Range of the disparities of all cells that are at most 10 cells away.
-  uint8_t* hair;        // To what degree the cell shows hair, 0 to 255.
+  int32_t columns, rows, block_columns, block_rows;
+  int16_t *least, *greatest;  // Range of the disparities of each cell.
+  int16_t *low, *high;        // Range of the disparities of all cells at most 10 cells away.
+  uint8_t* hair;              // To what degree each cell shows hair, 0 to 255.
   // FindHairCoverage alone uses the following.
   ColourPyramid far, near;
   HairVotes* votes;  // One element for each block.
 
+  // Smallest difference of disparity between two surfaces, kDisparityBits.
+  static constexpr int32_t kEdgeStep = 5 << kDisparityBits;
+
   size_t At(int32_t column, int32_t row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
   }
+  size_t BlockAt(int32_t column, int32_t row) const {
+    return static_cast<size_t>(row * block_columns + column);
+  }
+  HairVotes& VotesAt(int32_t column, int32_t row) const;
   // Returns true if there are two surfaces within 10 cells.
-  bool HasEdge(size_t cell) const;
-  // Returns true if the disparity belongs to the nearer of the two surfaces of a cell with an edge.
+  bool HasEdge(size_t cell) const { return high[cell] - low[cell] > kEdgeStep; }
+  // Returns true if the disparity belongs to the nearer of the two surfaces around a cell.
   bool IsNear(size_t cell, int32_t disparity) const {
     return HasEdge(cell) && 2 * disparity > low[cell] + high[cell];
   }
