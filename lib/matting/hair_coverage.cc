@@ -40,28 +40,34 @@ constexpr int32_t kSame = 100;
 // Hair from which on a cell keeps its disparities.
 constexpr uint8_t kHairy = 128;
 
-// Interpolates bilinearly between values at the centres of columns x rows cells, which have sides
-// of kSide samples. Returns the value at the centre of sample (x, y).
-template <int32_t kSide, class Value>
-int32_t Interpolated(int32_t columns, int32_t rows, int32_t x, int32_t y, const Value& value) {
+// Calls add(column, row, weight) for the four of columns x rows cells, with sides of kSide samples,
+// whose centres are nearest to the centre of sample (x, y). The weights are those of bilinear
+// interpolation, and their sum is 4 kSide^2.
+template <int32_t kSide, class Add>
+void Interpolate(int32_t columns, int32_t rows, int32_t x, int32_t y, const Add& add) {
   constexpr int32_t kStep = 2 * kSide;  // between two centres, in half samples
   // Position in half samples, from the centre of the cell before the first cell.
   const int32_t across = 2 * x + 1 + kSide, down = 2 * y + 1 + kSide;
   const int32_t left = Max(across / kStep - 1, 0), right = Min(across / kStep, columns - 1);
   const int32_t top = Max(down / kStep - 1, 0), bottom = Min(down / kStep, rows - 1);
   const int32_t dx = across % kStep, dy = down % kStep;
-  const int32_t above = (kStep - dx) * value(left, top) + dx * value(right, top);
-  const int32_t below = (kStep - dx) * value(left, bottom) + dx * value(right, bottom);
-  return ((kStep - dy) * above + dy * below + kStep * kStep / 2) / (kStep * kStep);
+  add(left, top, (kStep - dx) * (kStep - dy));
+  add(right, top, dx * (kStep - dy));
+  add(left, bottom, (kStep - dx) * dy);
+  add(right, bottom, dx * dy);
 }
 
-// Returns channel c of a level at the centre of (x, y), where cells have sides of kSide samples.
+// Interpolates the colour of a level at the centre of sample (x, y). Cells have sides of kSide
+// samples.
 template <int32_t kSide>
-int32_t LevelAt(const ColourLevel& level, int32_t x, int32_t y, int c) {
-  const auto value = [&](int32_t column, int32_t row) {
-    return int32_t{level.At(column, row).rgb[c]};
-  };
-  return Interpolated<kSide>(level.columns, level.rows, x, y, value);
+void ColourOfLevel(const ColourLevel& level, int32_t x, int32_t y, int32_t* rgb) {
+  std::fill_n(rgb, 3, 2 * kSide * kSide);
+  Interpolate<kSide>(level.columns, level.rows, x, y,
+                     [&](int32_t column, int32_t row, int32_t weight) {
+                       const ColourMean& mean = level.At(column, row);
+                       for (int c = 0; c < 3; ++c) rgb[c] += weight * mean.rgb[c];
+                     });
+  for (int c = 0; c < 3; ++c) rgb[c] /= 4 * kSide * kSide;
 }
 
 // Weighted sum of the colours of pixels or cells. Weights are at most kFull for a pixel or cell
@@ -115,6 +121,11 @@ struct CellPixel {
   int32_t rgb[3];  // kMeanBits
 };
 
+// Returns true for half of the pixels of a cell, in a pattern that is the same in a mirrored cell.
+bool IsSample(const CellPixel& pixel) {
+  return ((pixel.x ^ pixel.x >> 1 ^ pixel.y ^ pixel.y >> 1) & 1) == 0;
+}
+
 // Calls act(pixel) for all pixels of a cell.
 template <class Act>
 void ForPixels(const Search& search, int32_t column, int32_t row, const Act& act) {
@@ -157,9 +168,10 @@ void MeasureCells(const Search& search, const Range& blocks) {
     const int32_t left = column * kHairCell, right = Min(left + kHairCell, picture.width);
     int16_t least = INT16_MAX, greatest = INT16_MIN;
     for (int32_t y = row * kHairCell; y < Min((row + 1) * kHairCell, picture.height); ++y) {
-      const int16_t* disparities = picture.disparity.Row(y);
-      least = std::min(least, *std::min_element(disparities + left, disparities + right));
-      greatest = std::max(greatest, *std::max_element(disparities + left, disparities + right));
+      for (int32_t x = left; x < right; ++x) {
+        least = std::min(least, picture.disparity.Row(y)[x]);
+        greatest = std::max(greatest, picture.disparity.Row(y)[x]);
+      }
     }
     search.memory.low[at] = search.memory.least[at] = least;
     search.memory.high[at] = search.memory.greatest[at] = greatest;
@@ -222,11 +234,12 @@ void PullNear(const Search& search, const Range& blocks) {
     ColourSum sum;
     if (HasWithin(search.memory, column, row, 0, true)) {
       ForPixels(search, column, row, [&](const CellPixel& pixel) {
+        if (!pixel.is_near || !IsSample(pixel)) return;
         int32_t far[3];
         ColourAt(search.memory.far, pixel.x, pixel.y, far);
         const int64_t contrast = SquaredDifference(far, pixel.rgb) / 16;
         const int64_t fourth = contrast * contrast / 256;
-        if (pixel.is_near) sum.Add(pixel.rgb, std::min(fourth * fourth, ColourSum::kFull));
+        sum.Add(pixel.rgb, std::min(fourth * fourth, ColourSum::kFull));
       });
     }
     search.memory.near.levels[0].At(column, row) = sum.Mean();
@@ -279,6 +292,7 @@ Unmixed Unmix(const HairMemory& memory, const CellPixel& pixel, int32_t own) {
 void CountInside(const Search& search, int32_t column, int32_t row, HairVotes* votes) {
   int32_t count = 0, sum = 0, squares = 0;
   ForPixels(search, column, row, [&](const CellPixel& pixel) {
+    if (!IsSample(pixel)) return;
     const Unmixed unmixed = Unmix(search.memory, pixel, 0);
     ++count;
     sum += unmixed.share;
@@ -290,7 +304,7 @@ void CountInside(const Search& search, int32_t column, int32_t row, HairVotes* v
   votes->inside += count;
   votes->sum += sum;
   votes->squares += squares;
-  votes->fine += squares - sum * sum / count;
+  votes->fine += squares - sum * sum / Max(count, 1);
 }
 
 void CountVotes(const Search& search, const Range& blocks) {
@@ -300,12 +314,14 @@ void CountVotes(const Search& search, const Range& blocks) {
   }
   ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
     memory.hair[at] = 0;
+    if (!memory.HasEdge(at)) return;
     const bool near = HasWithin(memory, column, row, kBeside, true);
     if (near == HasWithin(memory, column, row, kBeside, false)) return;
     if (!HasWithin(memory, column, row, kMostInside, !near)) return;
     HairVotes* const votes = &memory.VotesAt(column / kHairBlock, row / kHairBlock);
     if (near) return CountInside(search, column, row, votes);
     ForPixels(search, column, row, [&](const CellPixel& pixel) {
+      if (!IsSample(pixel)) return;
       ++votes->outside;
       votes->beyond += Unmix(memory, pixel, 0).share;
     });
@@ -337,8 +353,8 @@ int32_t Fade(int64_t value, int32_t low, int32_t high) {
 // They are not if pixels outside look like foreground: the foreground colour is then one of a
 // pattern of the background, which the map covers by mistake.
 int32_t FindHair(const HairMemory& memory, int32_t column, int32_t row) {
-  // 2048 votes against hair decide where there are few pixels.
-  int64_t inside = 2048, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;
+  // 1024 votes against hair decide where there are few pixels.
+  int64_t inside = 1024, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;
   ForBlocksAround(memory, column, row, 3, [&](const HairVotes& votes, int32_t weight) {
     const int64_t sum = votes.sum;
     inside += weight * votes.inside;
@@ -350,8 +366,8 @@ int32_t FindHair(const HairMemory& memory, int32_t column, int32_t row) {
     beyond += weight * votes.beyond;
   });
   const int64_t colours = (far << 14) / inside * same / inside;
-  const int32_t like = Fade(colours, 70, 90) *
-                       Fade(1024 * fine / coarse + std::min<int64_t>(colours / 16, 120), 676, 702) /
+  const int32_t like = Fade(colours, 50, 70) *
+                       Fade(1024 * fine / coarse + std::min<int64_t>(colours / 16, 120), 664, 690) /
                        256;
   return like * (256 - Fade(1024 * beyond / (kWhole * outside), 40, 60)) / 256;
 }
@@ -370,17 +386,18 @@ bool FillHair(const Search& search) {
     }
   }
   if (!any) return false;
-  const auto around = [&](int32_t x, int32_t y) {
-    int32_t most = 0;
-    ForBlocksAround(memory, x, y, 1,
-                    [&](const HairVotes& votes, int32_t) { most = Max(most, votes.found); });
-    return most;
-  };
   ForCells(search, {0, memory.block_rows}, [&](int32_t column, int32_t row, size_t at) {
     if (!memory.HasEdge(at)) return;
-    const int32_t hair =
-        Interpolated<kHairBlock>(memory.block_columns, memory.block_rows, column, row, around);
-    memory.hair[at] = static_cast<uint8_t>(Min(hair, UINT8_MAX));
+    int32_t hair = 0;
+    Interpolate<kHairBlock>(
+        memory.block_columns, memory.block_rows, column, row,
+        [&](int32_t x, int32_t y, int32_t weight) {
+          int32_t most = 0;
+          ForBlocksAround(memory, x, y, 1,
+                          [&](const HairVotes& votes, int32_t) { most = Max(most, votes.found); });
+          hair += weight * most;
+        });
+    memory.hair[at] = static_cast<uint8_t>(Min(hair / (4 * kHairBlock * kHairBlock), UINT8_MAX));
   });
   return true;
 }
@@ -467,9 +484,10 @@ bool CarryOnColours(const ColourPyramid& pyramid) {
       for (int32_t x = 0; x < level.columns; ++x) {
         ColourMean& cell = level.At(x, y);
         const int32_t known = cell.weight;
-        for (int c = 0; c < 3 && known < kFullyKnown; ++c) {
-          const int32_t around = LevelAt<2>(above, x, y, c);
-          const int32_t mixed = known * cell.rgb[c] + (kFullyKnown - known) * around;
+        int32_t around[3];
+        ColourOfLevel<2>(above, x, y, around);
+        for (int c = 0; c < 3; ++c) {
+          const int32_t mixed = known * cell.rgb[c] + (kFullyKnown - known) * around[c];
           cell.rgb[c] = static_cast<uint16_t>((mixed + kFullyKnown / 2) >> kKnownBits);
         }
       }
@@ -479,7 +497,7 @@ bool CarryOnColours(const ColourPyramid& pyramid) {
 }
 
 void ColourAt(const ColourPyramid& pyramid, int32_t x, int32_t y, int32_t* rgb) {
-  for (int c = 0; c < 3; ++c) rgb[c] = LevelAt<kHairCell>(pyramid.levels[0], x, y, c);
+  ColourOfLevel<kHairCell>(pyramid.levels[0], x, y, rgb);
 }
 
 HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena) {

@@ -141,6 +141,17 @@ TEST_CASE("hair coverage: the texture of the wall does not get coverage") {
   CHECK(Difference({60, 40, 160, 56}, found.coverage, portrait.coverage) < 0.5);
 }
 
+TEST_CASE("hair coverage: a pattern of the wall that the map covers is not taken for hair") {
+  Portrait portrait;
+  portrait.strands.period = 1;  // The strands cover nothing.
+  portrait.spots = true;
+  portrait.spot_share = 100;
+  portrait.spot_period = 7;
+  portrait.body = {};
+  portrait.Draw();
+  CHECK(Repair(portrait).has_coverage == 0);
+}
+
 TEST_CASE("hair coverage: a map without edges has no coverage") {
   Portrait portrait = MakeClosedHair();
   portrait.map.assign(portrait.map.size(), kNear);

@@ -25,7 +25,8 @@ struct ClosedHair {
   Area body = {40, 110, 240, 181}, hair = {40, 60, 180, 110};
   Area post = {};      // An opaque object at the disparity of the body.
   Strands strands;     // Strands of the hair; without strands, the hair is opaque.
-  bool spots = false;  // True if the wall has spots, which contain a quarter of the near colour.
+  bool spots = false;  // True if the wall has spots, which contain a part of the near colour.
+  int spot_share = 64, spot_period = 9;
   std::vector<uint8_t> rgb, coverage;
   std::vector<float> map;
 
@@ -45,8 +46,8 @@ struct ClosedHair {
     const bool in_hair = hair.Has(x, y), solid = body.Has(x, y) || post.Has(x, y);
     int covers = in_hair || solid ? 255 : 0;
     if (in_hair && strands.any()) covers = strands.CoverageAt(x, y);
-    const bool in_spot = spots && x % 9 < 2 && y % 9 < 2;
-    const int mixed = in_spot && covers == 0 ? 64 : covers;
+    const bool in_spot = spots && x % spot_period < 2 && y % spot_period < 2;
+    const int mixed = in_spot && covers == 0 ? spot_share : covers;
     for (int c = 0; c < 3; ++c) rgb.push_back(Mixture(mixed, near[c], far[c]));
     coverage.push_back(uint8_t(covers));
     map.push_back(in_hair || solid ? kNear : kFar);
