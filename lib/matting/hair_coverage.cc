@@ -353,8 +353,8 @@ int32_t Fade(int64_t value, int32_t low, int32_t high) {
 // They are not if pixels outside look like foreground: the foreground colour is then one of a
 // pattern of the background, which the map covers by mistake.
 int32_t FindHair(const HairMemory& memory, int32_t column, int32_t row) {
-  // 1024 votes against hair decide where there are few pixels.
-  int64_t inside = 1024, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;
+  // 2048 votes against hair decide where there are few pixels.
+  int64_t inside = 2048, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;
   ForBlocksAround(memory, column, row, 3, [&](const HairVotes& votes, int32_t weight) {
     const int64_t sum = votes.sum;
     inside += weight * votes.inside;
@@ -367,9 +367,9 @@ int32_t FindHair(const HairMemory& memory, int32_t column, int32_t row) {
   });
   const int64_t colours = (far << 14) / inside * same / inside;
   const int32_t like = Fade(colours, 50, 70) *
-                       Fade(1024 * fine / coarse + std::min<int64_t>(colours / 16, 120), 664, 690) /
+                       Fade(1024 * fine / coarse + std::min<int64_t>(colours / 16, 120), 652, 678) /
                        256;
-  return like * (256 - Fade(1024 * beyond / (kWhole * outside), 40, 60)) / 256;
+  return like * (256 - Fade(1024 * beyond / (kWhole * outside), 36, 48)) / 256;
 }
 
 // Decides which cells show hair. Hair extends to the blocks around those with the colours of hair,
