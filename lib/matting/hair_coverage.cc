@@ -351,7 +351,8 @@ int32_t Fade(int64_t value, int32_t low, int32_t high) {
 // have nearly its colour, which surfaces that happen to resemble the background rarely have; and
 // the part of the variance of the coverage that lies within cells, because shading varies slowly.
 // They are not if pixels outside look like foreground: the foreground colour is then one of a
-// pattern of the background, which the map covers by mistake.
+// pattern of the background, which the map covers by mistake. All limits lie between the values of
+// scenes with hair and those of scenes and photographs without (docs/lab-notebook.md).
 int32_t FindHair(const HairMemory& memory, int32_t column, int32_t row) {
   // 2048 votes against hair decide where there are few pixels.
   int64_t inside = 2048, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;
@@ -365,10 +366,11 @@ int32_t FindHair(const HairMemory& memory, int32_t column, int32_t row) {
     outside += weight * votes.outside;
     beyond += weight * votes.beyond;
   });
+  // Product of both shares of colours, in units of 1/16384.
   const int64_t colours = (far << 14) / inside * same / inside;
-  const int32_t like = Fade(colours, 50, 70) *
-                       Fade(1024 * fine / coarse + std::min<int64_t>(colours / 16, 120), 652, 678) /
-                       256;
+  // Strands as wide as a cell are less fine, but many pixels between them have equal colours.
+  const int64_t fineness = 1024 * fine / coarse + std::min<int64_t>(colours / 16, 120);
+  const int32_t like = Fade(colours, 50, 70) * Fade(fineness, 652, 678) / 256;
   return like * (256 - Fade(1024 * beyond / (kWhole * outside), 36, 48)) / 256;
 }
 
