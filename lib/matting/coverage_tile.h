@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of the coverage passes (coverage.cc), which process one tile each: finding the pixels
-// near depth edges and their two surfaces, unmixing, and estimating the light of the far surface.
-// Means over cells of increasing size collect the known light of the far surface, and extend it
-// smoothly to pixels without known light (the pull-push algorithm).
+// The steps of the coverage passes (coverage_passes.cc), which process one tile each: finding the
+// pixels near depth edges and their two surfaces, unmixing, and estimating the light of the far
+// surface. Means over cells of increasing size collect the known light of the far surface, and
+// extend it smoothly to pixels without known light (the pull-push algorithm).
 #ifndef STARFOCUS_LIB_MATTING_COVERAGE_TILE_H_
 #define STARFOCUS_LIB_MATTING_COVERAGE_TILE_H_
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/matting/coverage.h"
-
 #include "lib/base/features.h"
+#include "lib/matting/coverage.h"
 #include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
