@@ -10,6 +10,7 @@
 #include "lib/io/layers.h"
 #include "lib/matting/coverage.h"
 #include "lib/matting/mixed_pixels.h"
+#include "lib/matting/rims.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/cells.h"
 
@@ -64,7 +65,8 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
     const int32_t moved = (border << layer) + LargestMove(config) + CapturedBorder(layer);
     if (!one_view) borders.views = Max(borders.views, moved);
   }
-  borders.centre = Max(borders.centre, borders.layer[0] + kMixedPixelBorder);
+  const int32_t mixed = one_view ? kRimBorder : kMixedPixelBorder;
+  borders.centre = Max(borders.centre, borders.layer[0] + mixed);
   borders.matting = borders.centre;
   borders.centre = borders.matting + CoverageBorder(config);
   const int32_t read = one_view || !Has(config, STARFOCUS_FEATURE_COVERAGE)

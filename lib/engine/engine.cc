@@ -128,6 +128,7 @@ void TakePicture(const starfocus_config& config, Arena* arena, EngineState* engi
   TakeLayers(config, arena, &engine->layers);
   const Borders borders = LargestBorders(config);
   TakeCoverage(config, borders.matting, arena, &engine->stripe.coverage);
+  TakeRims(config, borders.layer[0], arena, &engine->stripe.rims);
   TakePlan(config, arena, &engine->stripe);
   TakeFrameDiff(Columns(config), config.superblock, borders.views, arena, &engine->stripe.changes);
 }
@@ -240,6 +241,7 @@ void ForgetStripe(StripeState* stripe) {
   std::memset(stripe->map.layers, kNoLayer, static_cast<size_t>(stripe->map.columns));
   stripe->plan.all_measured = false;
   ForgetCoverage(&stripe->coverage);
+  ForgetRims(&stripe->rims);
 }
 
 void ForgetLayers(const starfocus_config& config, StripeLayers* layers) {

@@ -19,6 +19,7 @@
 #include "lib/io/input.h"
 #include "lib/io/layers.h"
 #include "lib/matting/coverage.h"
+#include "lib/matting/rims.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/partition.h"
 #include "simd/kernels.h"
@@ -123,6 +124,7 @@ struct StripePlan {
 struct StripeState {
   CellGrid cells;        // Cells of the stripe and of the surroundings that splat into the stripe.
   CoverageMap coverage;  // Coverage of the stripe and of the rows around the stripe.
+  RimMap rims;           // Rims of the same rows.
   StripePlan plan;
   LayerMap map;       // Layer of each smallest block, for deblocking.
   FrameDiff changes;  // Superblocks that differ from the previous light field.

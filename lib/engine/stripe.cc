@@ -49,11 +49,25 @@ starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
   return FindCoverage(engine->config, engine->input, rows, engine->jobs, map);
 }
 
+// Finds the rims of the rows that the blocks of the stripe read.
+starfocus_status FindRims(const Stripe& stripe, EngineState* engine) {
+  const Lens& lens = engine->lens;
+  RimMap* const map = &engine->stripe.rims;
+  const bool finds = engine->config.views == 1 && lens.renderer->gathers &&
+                     lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
+  engine->input.rims = finds ? map : nullptr;
+  if (!finds) return STARFOCUS_OK;
+  const int32_t border = lens.borders.layer[0];
+  const Range rows = {stripe.y - border, stripe.y + stripe.height + border};
+  return FindRims(engine->config, engine->input, rows, engine->jobs, map);
+}
+
 starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
                                EngineState* engine) {
   const starfocus_config& config = engine->config;
   const Lens& lens = engine->lens;
   starfocus_status status = FindCoverage(stripe, engine);
+  if (status == STARFOCUS_OK) status = FindRims(stripe, engine);
   if (status == STARFOCUS_OK) status = PlanStripe(stripe, engine);
   if (status == STARFOCUS_OK && IsBlockMode(lens) && !engine->input.has_layers) {
     PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, engine);

@@ -22,6 +22,7 @@ namespace starfocus {
 struct CoverageMap;
 struct Input;
 struct LampRuns;
+struct RimMap;
 
 // Rows of a light field in memory of the engine. Planes without memory have null data.
 struct InputRings {
@@ -89,6 +90,8 @@ struct Input {
   Plane<const uint8_t> given_coverage;
   // Coverage computed from `given_coverage` or for thin structures; null: no coverage.
   const CoverageMap* coverage = nullptr;
+  // Contaminated rims beside outlines; null: no rims.
+  const RimMap* rims = nullptr;
 
   // Not null: this input reads the excess of the highlights of `captured`, at layer 0, instead of
   // its light (highlights.h). `runs` is the cache of their sizes. `excess_factor` multiplies the

@@ -196,6 +196,7 @@ PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const Blo
     : centre_(input, &field),
       grid_(grid),
       field_(field),
+      rims_(field.layer == 0 && input.captured == nullptr ? input.rims : nullptr),
       map_(field.layer == 0 ? input.coverage : nullptr),
       step_(static_cast<int16_t>(kDepthEdge << field.layer)),
       rim_(grid.Move(grid.n())) {}
@@ -214,17 +215,114 @@ bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel
     sum.nearest = Max(sum.nearest, near);
     sum.Add(FindMixture(centre_, {x, y, side, disparity, near, step_}, kContrastFade));
   }
+  if (sum.nearest == INT16_MIN) return false;
   const int32_t share = RoundShift(sum.most * simd::kSliceWhole, kShareBits);
-  if (share == 0) return false;
+  const bool is_rim = rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty();
+  if (share == 0 && !is_rim) return false;
   *pixel = {SplitPixel::kBoundary,
             column,
             row,
             static_cast<uint8_t>(share),
             static_cast<int16_t>(sum.nearest),
             disparity,
-            sum.Mean(sum.near),
-            sum.Mean(sum.far)};
+            share > 0 ? sum.Mean(sum.near) : Colour(),
+            share > 0 ? sum.Mean(sum.far) : centre_.ColourAt(x, y)};
+  if (is_rim) CleanRim(OutlineAt(x, y), pixel);
+  return pixel->share > 0;
+}
+
+PixelSplitter::Outline PixelSplitter::OutlineAt(int32_t x, int32_t y) const {
+  const int32_t here = centre_.Disparity(x, y);
+  Outline outline = {0, 0, INT16_MIN};
+  for (int32_t distance = 1; distance <= kRimWidth; ++distance) {
+    for (int side = 0; side < kSideCount; ++side) {
+      const int32_t there =
+          centre_.Disparity(x + distance * kSides[side][0], y + distance * kSides[side][1]);
+      if (there - here <= kRimStep) continue;
+      outline = {distance, outline.sides | 1 << side, Max(outline.near, there)};
+    }
+    if (outline.distance != 0) break;
+  }
+  return outline;
+}
+
+// Limits a colour to the range of the clean colours beyond the rim, on the line across the outline
+// and on two lines beside it. Returns false if the far surface ends there.
+bool PixelSplitter::LimitToClean(int32_t x, int32_t y, const Outline& outline,
+                                 Colour* colour) const {
+  const int32_t here = centre_.Disparity(x, y);
+  int32_t low[3] = {INT16_MAX, INT16_MAX, INT16_MAX}, high[3] = {0, 0, 0}, count = 0;
+  ForEachBit(static_cast<uint32_t>(outline.sides), [&](int32_t side) {
+    const int32_t dx = kSides[side][0], dy = kSides[side][1];
+    for (int32_t distance = kRimWidth + 1; distance <= kRimEnd; ++distance) {
+      const int32_t away = distance - outline.distance;
+      for (int32_t beside = -2; beside <= 2; beside += 2) {
+        const int32_t clean_x = x - away * dx + beside * dy, clean_y = y - away * dy + beside * dx;
+        if (Abs(centre_.Disparity(clean_x, clean_y) - here) > kRimStep / 2) continue;
+        const Colour clean = centre_.ColourAt(clean_x, clean_y);
+        for (int c = 0; c < 3; ++c) {
+          low[c] = Min(low[c], clean[c]);
+          high[c] = Max(high[c], clean[c]);
+        }
+        ++count;
+      }
+    }
+  });
+  if (count < kRimEnd - kRimWidth) return false;
+  for (int c = 0; c < 3; ++c) {
+    colour->rgb[c] = static_cast<int16_t>(Clamp(colour->rgb[c], low[c], high[c]));
+  }
   return true;
+}
+
+// Divides a pixel of a rim into the clean far colour and the rest of the pixel's light, which the
+// near surface takes. The part of the near surface is at least a quarter, and so large that its
+// light is not brighter than white or negative.
+void PixelSplitter::CleanRim(const Outline& outline, SplitPixel* pixel) const {
+  const int32_t x = field_.x + pixel->column, y = field_.y + pixel->row;
+  if (outline.distance == 0) return;
+  const CellRim& rim = rims_->RimAt(x, y);
+  const int32_t k = outline.distance - 1, weight = rim.weight[k];
+  Colour clean;
+  const Colour mixed = centre_.ColourAt(x, y);
+  for (int c = 0; c < 3; ++c) clean.rgb[c] = static_cast<int16_t>(mixed[c] - rim.excess[k][c]);
+  if (weight == 0 || !LimitToClean(x, y, outline, &clean)) return;
+  int32_t part = simd::kSliceWhole / 4;
+  for (int c = 0; c < 3; ++c) {
+    const int32_t more = mixed[c] - clean[c];
+    const int32_t most = more > 0 ? ranges::kUnmixed.high - clean[c] : clean[c];
+    if (more != 0) part = Max(part, (Abs(more) * simd::kSliceWhole + most - 1) / most);
+  }
+  const auto blend = [&](int32_t from, int32_t to) {
+    return from + (to - from) * weight / kWholeRim;
+  };
+  const int32_t share = Min(blend(pixel->share, Max(pixel->share, part)), simd::kSliceWhole - 1);
+  if (share == 0) return;
+  pixel->share = static_cast<uint8_t>(share);
+  for (int c = 0; c < 3; ++c) {
+    const int32_t far = blend(pixel->far[c], clean[c]);
+    const int32_t near = far + (mixed[c] - far) * simd::kSliceWhole / share;
+    pixel->far.rgb[c] = static_cast<int16_t>(far);
+    pixel->near.rgb[c] =
+        static_cast<int16_t>(Clamp(near, ranges::kUnmixed.low, ranges::kUnmixed.high));
+  }
+}
+
+bool PixelSplitter::SplitRim(int32_t column, int32_t row, SplitPixel* pixel) const {
+  const int32_t x = field_.x + column, y = field_.y + row;
+  if (map_ != nullptr && map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0) return false;
+  const int16_t far = *field_.Disparity(column, row);
+  for (const auto& side : kSides) {  // SplitBoundary splits boundary pixels
+    if (*field_.Disparity(column + side[0], row + side[1]) - far > step_) return false;
+  }
+  const Outline outline = OutlineAt(x, y);
+  if (outline.distance == 0) return false;
+  if (Abs(grid_.Shift(rim_, outline.near) - grid_.Shift(rim_, far)) <= kLeastMove) return false;
+  *pixel = {
+      SplitPixel::kBoundary, column, row, 0, static_cast<int16_t>(outline.near), far, Colour(),
+      centre_.ColourAt(x, y)};
+  CleanRim(outline, pixel);
+  return pixel->share > 0;
 }
 
 void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pixel) const {

@@ -12,6 +12,7 @@
 #include "lib/io/block_pixels.h"
 #include "lib/io/input.h"
 #include "lib/matting/coverage.h"
+#include "lib/matting/rims.h"
 #include "lib/optics/view_grid.h"
 #include "simd/kernels.h"
 
@@ -182,16 +183,30 @@ class PixelSplitter {
   // Splits the boundary pixel (column, row). Returns false if it is not a mixture, or if the
   // coverage map splits it.
   bool SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const;
+  // Splits a pixel of a contaminated rim that is not a boundary pixel. Returns false if the pixel
+  // does not belong to a rim.
+  bool SplitRim(int32_t column, int32_t row, SplitPixel* pixel) const;
   // Splits pixel (x, y) of the picture, which lies in a thin tile, as the coverage map says at
   // index `from` (CoverageMap::At).
   void SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pixel) const;
 
   int16_t step() const { return step_; }
+  const RimMap* rims() const { return rims_; }
 
  private:
+  // The outline next to a pixel of its far surface: the distance to the nearest pixel of the near
+  // surface, 0 if it is more than kRimWidth pixels away; the sides on which it is (one bit of
+  // kSides each); and the largest disparity there.
+  struct Outline {
+    int32_t distance, sides, near;
+  };
+  Outline OutlineAt(int32_t x, int32_t y) const;
+  bool LimitToClean(int32_t x, int32_t y, const Outline& outline, Colour* colour) const;
+  void CleanRim(const Outline& outline, SplitPixel* pixel) const;
   const CentreView centre_;
   const ViewGrid& grid_;
   const BlockPixels& field_;
+  const RimMap* const rims_;      // Null if no pixel of the field belongs to a rim.
   const CoverageMap* const map_;  // Null if the coverage map splits no pixel of the field.
   const int16_t step_;            // Largest step between pixels that is not a depth edge.
   const int64_t rim_;
@@ -217,6 +232,24 @@ void ForEachThin(const CoverageMap& map, const BlockPixels& field, const Act& ac
   }
 }
 
+// Calls act(x, y) for each pixel of the picture in the field, except its outermost pixels, that
+// lies in a cell with a rim.
+template <class Act>
+void ForEachRim(const RimMap& map, const BlockPixels& field, const Act& act) {
+  const int32_t left = Max(0, field.x + 1), right = Min(field.x + field.width - 1, map.width);
+  const int32_t top = Max(0, field.y + 1), bottom = Min(field.y + field.height - 1, map.height);
+  for (int32_t y = top, end; y < bottom; y = end) {
+    end = Min(bottom, (y / kRimCell + 1) * kRimCell);
+    for (int32_t x = left, last; x < right; x = last) {
+      last = Min(right, (x / kRimCell + 1) * kRimCell);
+      if (map.RimAt(x, y).IsEmpty()) continue;
+      for (int32_t row = y; row < end; ++row) {
+        for (int32_t column = x; column < last; ++column) act(column, row);
+      }
+    }
+  }
+}
+
 // Calls visit(SplitPixel) for each split pixel of a field, and for each pixel of thin tiles. The
 // disparities of the field must come from TakeDisparities.
 template <class Visit>
@@ -228,6 +261,11 @@ void ForEachSplitPixel(const Input& input, const ViewGrid& grid, const BlockPixe
                     [&](int32_t column, int32_t row) {
                       if (splitter.SplitBoundary(column, row, &pixel)) visit(pixel);
                     });
+  if (splitter.rims() != nullptr) {
+    ForEachRim(*splitter.rims(), field, [&](int32_t x, int32_t y) {
+      if (splitter.SplitRim(x - field.x, y - field.y, &pixel)) visit(pixel);
+    });
+  }
   if (input.coverage == nullptr || field.layer > 0) return;
   ForEachThin(*input.coverage, field, [&](int32_t x, int32_t y, size_t at) {
     splitter.SplitThin(x, y, at, &pixel);

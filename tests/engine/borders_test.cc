@@ -223,16 +223,18 @@ struct Sum {
 // Reasons for unused pixels:
 // - Layers: blocks begin and end with whole cells, which determine their bytes. The outermost taps
 //   of two successive filters contribute too little to change a rounded sample.
+// - One view: noise has no rims, which depend on pixels farther away than boundary pixels do.
 // - Side views: hidden pixels at the edge of the border are hardly visible, especially at layers 1
 //   and 2. The disparities of hidden pixels seldom reach the largest disparity of the
 //   configuration.
 const Sum kSums[] = {
-    {"boundary pixels", 1, STARFOCUS_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map, 0},
+    {"boundary pixels", 1, STARFOCUS_RENDERER_SLICES, 0, 7, 1, 1, &Borders::centre, &Kept::map,
+     starfocus::kRimBorder - 1},
     {"edges", 5, STARFOCUS_RENDERER_SLICES, 0, 1, 1.0 / 24, 1, &Borders::centre, &Kept::map, 0, 1,
      161},
-    {"layer 1", 1, STARFOCUS_RENDERER_SLICES, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 0},
+    {"layer 1", 1, STARFOCUS_RENDERER_SLICES, 1, 11, 1, 1, &Borders::centre, &Kept::centre, 26},
     {"layer 2", 1, STARFOCUS_RENDERER_LINE_SCAN, 2, 11, 1, 0.25, &Borders::centre, &Kept::centre,
-     10},
+     20},
     {"views", 5, STARFOCUS_RENDERER_SLICES, 0, 7, 7.0 / 24, 1, &Borders::views, &Kept::sides, 4},
     {"views, layer 1", 5, STARFOCUS_RENDERER_SLICES, 1, 11, 0.5, 0.75, &Borders::views,
      &Kept::sides, 8},

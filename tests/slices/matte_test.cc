@@ -89,6 +89,60 @@ TEST_CASE("matte: a defocused background contains no light of a sharp surface") 
   }
 }
 
+// Makes a dark surface on the right in front of a grey one, with one view. The far columns next to
+// the edge have the greys of `rim`, beginning at the edge, in rows for which is_rim(y) is true.
+template <class IsRim>
+test::Scene Rimmed(const std::vector<int>& rim, const IsRim& is_rim) {
+  test::Scene scene = Mixed(6, 0, 1);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int away = kEdge - 1 - x;
+      const bool in_rim = away >= 0 && away < int(rim.size()) && is_rim(y);
+      const int grey = away < 0 ? 20 : in_rim ? rim[size_t(away)] : 120;
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(grey));
+    }
+  }
+  return scene;
+}
+
+test::Scene Rimmed(const std::vector<int>& rim) {
+  return Rimmed(rim, [](int) { return true; });
+}
+
+TEST_CASE("matte: with one view, no contaminated rim remains sharp behind a defocused surface") {
+  const std::vector<int> clean = MiddleRow(Rimmed({}), 0);
+  const std::vector<int> rims[] = {{180, 180}, {120, 150, 140}, {180, 170, 160, 150}, {60, 90}};
+  for (const std::vector<int>& rim : rims) {
+    const std::vector<int> row = MiddleRow(Rimmed(rim), 0);
+    for (int x = kEdge - 10; x < kEdge + 10; ++x) {
+      CAPTURES(rim[0], x);
+      CHECK(std::abs(row[size_t(x)] - clean[size_t(x)]) <= 24);
+      CHECK(std::abs(row[size_t(x)] - row[size_t(x - 1)]) <= 20);
+    }
+  }
+}
+
+TEST_CASE("matte: with one view, a halo stays beside a sharp surface") {
+  const std::vector<int> row = MiddleRow(Rimmed({180, 180}), 6);
+  CHECK(row[kEdge - 1] >= 160);
+  CHECK(row[kEdge - 2] >= 160);
+  CHECK(row[kEdge - 5] <= 130);
+}
+
+TEST_CASE("matte: with one view, neither texture nor a gradient beside an edge is a rim") {
+  const int middle = kHeight / 2;
+  const auto is_texture = [](int y) { return y % 5 == 4; };
+  REQUIRE(is_texture(middle));
+  CHECK(MiddleRow(Rimmed({180, 180}, is_texture), 0)[kEdge - 2] >= 130);
+  const std::vector<int> gradient = {148, 144, 140, 136, 132, 128, 124, 120, 116};
+  const std::vector<int> row = MiddleRow(Rimmed(gradient), 0), flat = MiddleRow(Rimmed({}), 0);
+  for (int away = 0; away < 4; ++away) {
+    const auto x = size_t(kEdge - 1 - away);
+    CAPTURE(away);
+    CHECK(2 * (row[x] - flat[x]) >= gradient[size_t(away)] - 120);
+  }
+}
+
 TEST_CASE("matte: a pixel is split only if its surfaces move apart by more than a pixel") {
   // With three views along the radius, the outermost view is at 96/94 of the radius. With the
   // aperture 94/96, the outermost view is therefore at a distance of 1 from the centre view.

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/matting/rims.h"
+
+#include <cstring>
+
+namespace starfocus {
+namespace {
+
+// Unit of the differences in RimSums, in light.
+constexpr int32_t kUnit = 1 << (kLightBits - 3);
+constexpr int64_t kSquareOne = 64;  // square of one code, in these units
+// Number of clean pixels of a line. The near colour is read at the third near pixel, because a rim
+// also contaminates the near surface.
+constexpr int32_t kClean = kRimEnd - kRimWidth, kNearDepth = 3;
+// Largest change of disparity within one surface along a line, kDisparityBits.
+constexpr int32_t kSameRim = kRimStep / 2;
+// Squared mean difference that noise explains: 2/255 of white in each channel.
+constexpr int64_t kNoise = 12 * kSquareOne;
+// Squared contrast, 8/255 of white in one channel, that is added to all contrasts.
+constexpr int64_t kLeastContrast = 64 * kSquareOne;
+// Number of neighbouring lines that count as one, because textures are coherent.
+constexpr int64_t kDependent = 16;
+// Number of lines at which a rim begins to count; twice as many count fully.
+constexpr int64_t kLeastLines = 6;
+constexpr int kFadeBits = 8;
+constexpr int64_t kFadeOne = 1 << kFadeBits;
+
+// Returns value / whole, limited to 0..1, in kFadeBits.
+int64_t Fade(int64_t value, int64_t whole) {
+  return value <= 0 ? 0 : value >= whole ? kFadeOne : value * kFadeOne / whole;
+}
+
+int64_t Larger(int64_t a, int64_t b) { return a > b ? a : b; }
+
+// Sums the lines of the cells of one row.
+class RimSummer {
+ public:
+  RimSummer(const Input& input, int32_t row) : input_(input), top_(row * kRimCell) {
+    for (int32_t k = 0; k < kSide; ++k) {
+      rows_[k] = input.disparity.Row(Clamp(top_ + k - kReach, 0, input.height - 1));
+    }
+  }
+
+  // Sums the lines of a cell. Cells at the edge of the picture, where lines may leave the picture,
+  // have no lines.
+  void Sum(int32_t column, RimSums* sums) {
+    std::memset(sums, 0, sizeof(*sums));
+    left_ = column * kRimCell;
+    if (top_ < kReach || top_ + kRimCell + kReach > input_.height) return;
+    if (left_ < kReach || left_ + kRimCell + kReach > input_.width || !HasStep()) return;
+    loaded_ = false;
+    for (int32_t y = top_; y < top_ + kRimCell; ++y) {
+      for (int32_t x = left_; x < left_ + kRimCell; ++x) {
+        const int32_t edge = Disparity(x, y) + kRimStep;
+        for (int side = 0; side < kSideCount; ++side) {
+          if (Disparity(x + kSides[side][0], y + kSides[side][1]) > edge) AddLine(x, y, side, sums);
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr int32_t kReach = kRimEnd - 1, kSide = kRimCell + 2 * kReach;
+
+  int32_t Disparity(int32_t x, int32_t y) const { return rows_[y - top_ + kReach][x]; }
+  int16_t* Light(int32_t x, int32_t y) {
+    return light_[y - top_ + kReach] + 3 * (x - left_ + kReach);
+  }
+
+  // Returns false if the disparities of the cell and of the pixels around it are so similar that
+  // they contain no outline. The rows of a ring are not contiguous at its end.
+  bool HasStep() const {
+    int32_t low = INT16_MAX, high = INT16_MIN;
+    const auto stride = static_cast<ptrdiff_t>(input_.disparity.stride);
+    constexpr int32_t kEnd = kReach + kRimCell + 1;
+    for (int32_t first = kReach - 1, next; first < kEnd; first = next) {
+      for (next = first + 1; next < kEnd && rows_[next] - rows_[next - 1] == stride;) ++next;
+      simd::DisparityRange range;
+      input_.kernels->FindRanges(rows_[first] + left_ - 1, input_.disparity.stride,
+                                 static_cast<size_t>(next - first), kRimCell + 2, &range);
+      low = Min(low, range.low);
+      high = Max(high, range.high);
+    }
+    return high - low > kRimStep;
+  }
+
+  // Reads the light of the cell and of the pixels around it.
+  void Load() {
+    if (loaded_) return;
+    loaded_ = true;
+    for (int32_t k = 0; k < kSide; ++k) {
+      input_.Light(0, left_ - kReach, top_ - kReach + k, kSide, light_[k]);
+    }
+  }
+
+  // Returns true if no outline along the other axis is nearer to a pixel than `distance`.
+  bool IsNearest(int32_t x, int32_t y, int side, int32_t distance) const {
+    const int32_t dx = kSides[side][1], dy = kSides[side][0], edge = Disparity(x, y) + kRimStep;
+    for (int32_t k = 1; k < distance; ++k) {
+      if (Disparity(x + k * dx, y + k * dy) > edge) return false;
+      if (Disparity(x - k * dx, y - k * dy) > edge) return false;
+    }
+    return true;
+  }
+
+  // Returns true if the line from pixel (x, y) away from the near surface stays on the far surface,
+  // and the line towards side `side` on the near surface.
+  bool IsLine(int32_t x, int32_t y, int side) const {
+    const int32_t dx = kSides[side][0], dy = kSides[side][1], here = Disparity(x, y);
+    const int32_t near = Disparity(x + kNearDepth * dx, y + kNearDepth * dy);
+    if (Abs(near - Disparity(x + dx, y + dy)) > kSameRim) return false;
+    for (int32_t k = 1; k <= kReach; ++k) {
+      if (Abs(Disparity(x - k * dx, y - k * dy) - here) > kSameRim) return false;
+    }
+    return true;
+  }
+
+  // Adds the line from the far pixel (x, y) away from the near surface on side `side`.
+  void AddLine(int32_t x, int32_t y, int side, RimSums* sums) {
+    if (!IsLine(x, y, side)) return;
+    Load();
+    const int32_t dx = kSides[side][0], dy = kSides[side][1];
+    int32_t clean[3] = {0, 0, 0};
+    for (int32_t k = kRimWidth; k < kRimEnd; ++k) {
+      const int16_t* const light = Light(x - k * dx, y - k * dy);
+      for (int c = 0; c < 3; ++c) clean[c] += light[c];
+    }
+    const auto difference = [&](const int16_t* light, int c) {
+      return (kClean * light[c] - clean[c]) / (kClean * kUnit);
+    };
+    const int16_t* const near = Light(x + kNearDepth * dx, y + kNearDepth * dy);
+    const int16_t* const first = Light(x - kRimWidth * dx, y - kRimWidth * dy);
+    const int16_t* const last = Light(x - kReach * dx, y - kReach * dy);
+    for (int c = 0; c < 3; ++c) {
+      sums->near[c] += difference(near, c);
+      sums->slope[c] += (first[c] - last[c]) / kUnit;
+    }
+    ++sums->lines;
+    for (int32_t k = 0; k < kRimWidth; ++k) {
+      const int32_t far_x = x - k * dx, far_y = y - k * dy;
+      if (!IsNearest(far_x, far_y, side, k + 1)) continue;
+      const int16_t* const far = Light(far_x, far_y);
+      ++sums->count[k];
+      for (int c = 0; c < 3; ++c) {
+        const int32_t excess = difference(far, c);
+        sums->excess[k][c] += excess;
+        sums->squares[k] += static_cast<uint32_t>(excess * excess);
+      }
+    }
+  }
+
+  const Input& input_;
+  const int32_t top_;  // first row of pixels of the cells
+  int32_t left_ = 0;   // first column of pixels of the current cell
+  const int16_t* rows_[kSide];
+  bool loaded_ = false;  // true if `light_` belongs to the current cell
+  int16_t light_[kSide][3 * kSide + simd::kPadding / sizeof(int16_t)];
+};
+
+// Sums of the cells around a cell.
+struct RimTotal {
+  int64_t excess[kRimWidth][3] = {}, squares[kRimWidth] = {}, count[kRimWidth] = {};
+  int64_t near[3] = {}, slope[3] = {}, lines = 0;
+
+  void Add(const RimSums& sums) {
+    if (sums.lines == 0) return;
+    for (int k = 0; k < kRimWidth; ++k) {
+      for (int c = 0; c < 3; ++c) excess[k][c] += sums.excess[k][c];
+      squares[k] += sums.squares[k];
+      count[k] += sums.count[k];
+    }
+    for (int c = 0; c < 3; ++c) {
+      near[c] += sums.near[c];
+      slope[c] += sums.slope[c];
+    }
+    lines += sums.lines;
+  }
+
+  // Returns how clearly the pixels at a distance of k + 1 belong to a rim, in kFadeBits. All along
+  // the outlines, pixels of a rim differ from the clean pixels by the same colour, roughly a
+  // multiple of the difference between the near surface and the clean pixels: a negative one in a
+  // halo, a positive one if the pixels contain light of the near surface. Textures differ from line
+  // to line, and gradients continue in the clean pixels.
+  int32_t WeightOf(int k) const {
+    if (count[k] <= kLeastLines) return 0;
+    int64_t square = 0, along = 0, contrast = kLeastContrast, slopes = 0;
+    for (int c = 0; c < 3; ++c) {
+      const int64_t mean = excess[k][c] / count[k], other = near[c] / lines;
+      square += mean * mean;
+      along += mean * other;
+      contrast += other * other;
+      slopes += slope[c] * slope[c] / (lines * lines);
+    }
+    // Next to an outline, light of the near surface is an ordinary mixture (FindMixture).
+    const bool is_halo = along < 0;
+    if (k == 0 && !is_halo) return 0;
+    const int64_t spread = squares[k] / count[k] - square;
+    const int64_t by_chance = spread * Larger(kDependent, is_halo ? count[k] / 2 : count[k]);
+    // The slope is that of 3 pixels, and the middle of the clean pixels is away / 2 pixels away.
+    const int64_t away = 2 * kRimWidth + kClean - 1 - 2 * k;
+    const int64_t limit = kNoise + by_chance / count[k] + slopes * away * away / 18;
+    const int64_t beside = square - along * along / contrast;
+    const int64_t clear = Fade(square - limit, limit);
+    const int64_t aligned = Fade(13 * square - 16 * beside, 3 * square);
+    const int64_t large = Fade(32 * (is_halo ? -along : along) - contrast, contrast);
+    const int64_t enough = Fade(count[k] - kLeastLines, kLeastLines);
+    return static_cast<int32_t>((clear * aligned * large >> (2 * kFadeBits)) * enough >> kFadeBits);
+  }
+};
+
+// Finds the rim in a cell. A rim has no gap: no pixel counts more than a pixel between itself and
+// the outline. Only the first pixel may count less, because it may be an ordinary mixture.
+void FindRim(const RimMap& map, int32_t column, int32_t row, CellRim* rim) {
+  *rim = {};
+  RimTotal total;
+  const int32_t right = Min(map.columns - 1, column + kRimAround);
+  const int32_t bottom = Min(map.Rows() - 1, row + kRimAround);
+  for (int32_t y = Max(0, row - kRimAround); y <= bottom; ++y) {
+    for (int32_t x = Max(0, column - kRimAround); x <= right; ++x) {
+      total.Add(map.sums[map.At(x, y)]);
+    }
+  }
+  if (total.lines <= kLeastLines) return;
+  int32_t weight = kWholeRim;
+  for (int k = 1; k < kRimWidth && weight > 0; ++k) {
+    weight = Min(weight, total.WeightOf(k));
+    rim->weight[k] = static_cast<uint8_t>(weight);
+  }
+  const int32_t first = Max(rim->weight[1], total.WeightOf(0));
+  rim->weight[0] = static_cast<uint8_t>(Min(first, kWholeRim));
+  for (int k = 0; k < kRimWidth && rim->weight[k] > 0; ++k) {
+    for (int c = 0; c < 3; ++c) {
+      rim->excess[k][c] = static_cast<int16_t>(total.excess[k][c] * kUnit / total.count[k]);
+    }
+  }
+}
+
+}  // namespace
+
+void TakeRims(const starfocus_config& config, int32_t border, Arena* arena, RimMap* map) {
+  if (config.views != 1) return;
+  map->width = config.width;
+  map->height = config.height;
+  map->columns = (config.width + kRimCell - 1) / kRimCell;
+  map->rows = (config.superblock + 2 * border) / kRimCell + 2 * kRimAround + 2;
+  const auto columns = static_cast<size_t>(map->columns), rows = static_cast<size_t>(map->rows);
+  map->sums = arena->Take<RimSums>(columns, rows);
+  map->rims = arena->Take<CellRim>(columns, rows);
+}
+
+void ForgetRims(RimMap* map) { map->summed = map->found = -1; }
+
+starfocus_status FindRims(const starfocus_config& config, const Input& input, const Range& rows,
+                          Jobs* jobs, RimMap* map) {
+  const int32_t top = Max(0, rows.first) / kRimCell;
+  const int32_t end = Min(map->Rows(), (rows.last + kRimCell - 1) / kRimCell);
+  const int32_t side = config.superblock / kRimCell;
+  // Calls run(column, row) for all cells of `of_cells` that are not known; *known is the first row
+  // that is not known, or -1.
+  const auto for_each = [&](const Range& of_cells, int32_t* known, const auto& run) {
+    const Range unknown = {*known < 0 ? of_cells.first : *known, of_cells.last};
+    const starfocus_status status =
+        ForEach((map->columns + side - 1) / side, jobs, [&](int32_t index, int32_t) {
+          for (int32_t row = unknown.first; row < unknown.last; ++row) {
+            run({index * side, Min((index + 1) * side, map->columns)}, row);
+          }
+        });
+    if (status == STARFOCUS_OK) *known = Max(unknown.first, unknown.last);
+    return status;
+  };
+  const starfocus_status status =
+      for_each({Max(0, top - kRimAround), Min(map->Rows(), end + kRimAround)}, &map->summed,
+               [&](const Range& columns, int32_t row) {
+                 RimSummer summer(input, row);
+                 for (int32_t column = columns.first; column < columns.last; ++column) {
+                   summer.Sum(column, &map->sums[map->At(column, row)]);
+                 }
+               });
+  if (status != STARFOCUS_OK) return status;
+  return for_each({top, end}, &map->found, [&](const Range& columns, int32_t row) {
+    for (int32_t column = columns.first; column < columns.last; ++column) {
+      FindRim(*map, column, row, &map->rims[map->At(column, row)]);
+    }
+  });
+}
+
+}  // namespace starfocus
