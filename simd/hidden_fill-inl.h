@@ -91,41 +91,72 @@ inline void PutFarthest(const FarRow& far, const int16_t* HWY_RESTRICT disparity
   }
 }
 
-inline void SmoothFar(const int16_t* const* disparity, const int16_t* const* rgb, size_t plane,
-                      const uint16_t* source, int16_t unit, int32_t step, size_t count,
-                      int16_t* HWY_RESTRICT out) {
+inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT out) {
+  const LanesTag d16;
+  const auto most = hn::Set(d16, rows.unit), least = hn::Set(d16, static_cast<int16_t>(-rows.unit));
+  const auto zero = hn::Zero(d16);
+  for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
+    const auto from = hn::LoadU(d16, reinterpret_cast<const int16_t*>(rows.source) + n);
+    if (hn::AllTrue(d16, hn::Eq(from, zero))) continue;
+    const auto across = hn::Ne(hn::And(from, hn::Set(d16, int16_t{3})), zero);
+    const auto down = hn::Ne(hn::And(from, hn::Set(d16, int16_t{12})), zero);
+    const auto own = hn::LoadU(d16, rows.disparity[1] + n);
+    const auto is_other = [&](const int16_t* beside, const int16_t* along) HWY_ATTR {
+      const auto there = hn::IfThenElse(across, hn::LoadU(d16, beside + n), hn::LoadU(d16, along));
+      const auto less = hn::SaturatedSub(own, there);
+      return hn::Or(hn::Gt(less, most), hn::Gt(least, less));
+    };
+    const auto other = hn::Or(is_other(rows.disparity[0], rows.disparity[1] + n - 1),
+                              is_other(rows.disparity[2], rows.disparity[1] + n + 1));
+    const auto takes = hn::AndNot(other, hn::Xor(across, down));
+    if (hn::AllFalse(d16, takes)) continue;
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t at = c * rows.plane + n;
+      const auto first = hn::IfThenElse(across, hn::LoadU(d16, rows.rgb[0] + at),
+                                        hn::LoadU(d16, rows.rgb[1] + at - 1));
+      const auto second = hn::IfThenElse(across, hn::LoadU(d16, rows.rgb[2] + at),
+                                         hn::LoadU(d16, rows.rgb[1] + at + 1));
+      const auto limited =
+          hn::Min(hn::Max(hn::LoadU(d16, rows.rgb[1] + at), hn::Min(first, second)),
+                  hn::Max(first, second));
+      hn::StoreU(hn::IfThenElse(takes, limited, hn::LoadU(d16, out + at)), d16, out + at);
+    }
+  }
+}
+
+inline void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
-  const auto most = hn::Set(d16, unit), least = hn::Set(d16, static_cast<int16_t>(-unit));
+  const auto most = hn::Set(d16, rows.unit), least = hn::Set(d16, static_cast<int16_t>(-rows.unit));
   // Largest integer distance n for which 2 n < step.
   const auto short_of = hn::Set(d16, static_cast<int16_t>((step - 1) / 2));
   const auto mean = [&](LanesVec a, LanesVec b) HWY_ATTR {
     return hn::BitCast(d16, hn::AverageRound(hn::BitCast(du16, a), hn::BitCast(du16, b)));
   };
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
-    const auto distance = hn::ShiftRight<kSourceDistance>(hn::LoadU(du16, source + n));
+    const auto distance = hn::ShiftRight<kSourceDistance>(hn::LoadU(du16, rows.source + n));
     const auto takes = hn::Gt(hn::BitCast(d16, distance), short_of);
     if (hn::AllFalse(d16, takes)) continue;
-    const auto own = hn::LoadU(d16, disparity[1] + n);
+    const auto own = hn::LoadU(d16, rows.disparity[1] + n);
     const auto is_other = [&](const int16_t* at) HWY_ATTR {
       const auto less = hn::SaturatedSub(own, hn::LoadU(d16, at));
       return hn::Or(hn::Gt(less, most), hn::Gt(least, less));
     };
-    const auto left = is_other(disparity[1] + n - step);
-    const auto right = is_other(disparity[1] + n + step);
-    const auto above = is_other(disparity[0] + n);
-    const auto below = is_other(disparity[2] + n);
+    const auto left = is_other(rows.disparity[1] + n - step);
+    const auto right = is_other(rows.disparity[1] + n + step);
+    const auto above = is_other(rows.disparity[0] + n);
+    const auto below = is_other(rows.disparity[2] + n);
     for (size_t c = 0; c < 3; ++c) {
-      const int16_t* at = rgb[1] + c * plane + n;
+      const int16_t* at = rows.rgb[1] + c * rows.plane + n;
       const auto here = hn::LoadU(d16, at);
       const auto across = mean(hn::IfThenElse(left, here, hn::LoadU(d16, at - step)),
                                hn::IfThenElse(right, here, hn::LoadU(d16, at + step)));
-      const auto upper = hn::LoadU(d16, rgb[0] + c * plane + n);
-      const auto lower = hn::LoadU(d16, rgb[2] + c * plane + n);
+      const auto upper = hn::LoadU(d16, rows.rgb[0] + c * rows.plane + n);
+      const auto lower = hn::LoadU(d16, rows.rgb[2] + c * rows.plane + n);
       const auto down =
           mean(hn::IfThenElse(above, here, upper), hn::IfThenElse(below, here, lower));
       const auto smooth = mean(here, mean(across, down));
-      int16_t* const to = out + c * plane + n;
+      int16_t* const to = out + c * rows.plane + n;
       hn::StoreU(hn::IfThenElse(takes, smooth, hn::LoadU(d16, to)), d16, to);
     }
   }

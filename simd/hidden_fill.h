@@ -22,6 +22,16 @@ struct FarRow {
   size_t plane;
 };
 
+// A row of farthest surfaces, index 1, between two neighbouring rows. At both ends of the rows,
+// kSliceLanes more pixels must be readable. All planes of colours are `plane` samples apart.
+struct FarRows {
+  const int16_t* disparity[3];
+  const int16_t* rgb[3];
+  size_t plane;
+  const uint16_t* source;  // of row 1
+  int16_t unit;            // largest difference of disparity within one surface
+};
+
 namespace reference {
 
 inline bool IsHiding(uint64_t hiding, size_t n) { return (hiding >> (n / kSliceLanes) & 1) != 0; }
@@ -66,32 +76,54 @@ STARFOCUS_REFERENCE int32_t TakeFarthest(const SurfaceRow& row, const uint16_t* 
 // mean of its four neighbours at a distance of `step` pixels. If the disparity of a neighbour
 // differs by more than `unit`, the pixel itself replaces the neighbour. The mean of the neighbours
 // is the mean of two means: the mean of left and right, and the mean of above and below. Each mean
-// is rounded half up.
-//
-// The row has index 1 in `disparity` and `rgb`. The row `step` rows above has index 0, and the row
-// `step` rows below has index 2. `source` belongs to row 1. At both ends of the rows, kSliceLanes
-// more pixels must be readable. Colours are light and not negative. All planes are `plane` samples
-// apart.
-STARFOCUS_REFERENCE void SmoothFar(const int16_t* const* disparity, const int16_t* const* rgb,
-                                   size_t plane, const uint16_t* source, int16_t unit, int32_t step,
-                                   size_t count, int16_t* out) {
+// is rounded half up. Rows 0 and 2 are `step` rows above and below. Colours are light and not
+// negative.
+STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* out) {
   // Left, right, above and below.
   const int row_of[4] = {1, 1, 0, 2};
   const ptrdiff_t across[4] = {-step, step, 0, 0};
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    if (2 * (source[n] >> kSourceDistance) < step) continue;
+    if (2 * (rows.source[n] >> kSourceDistance) < step) continue;
     for (size_t c = 0; c < 3; ++c) {
-      const size_t at = c * plane + n;
-      const int16_t here = rgb[1][at];
+      const size_t at = c * rows.plane + n;
+      const int16_t here = rows.rgb[1][at];
       int32_t colours[4];
       for (int k = 0; k < 4; ++k) {
-        const int16_t other = disparity[row_of[k]][static_cast<ptrdiff_t>(n) + across[k]];
-        const int16_t less = Saturated(disparity[1][n] - other);
-        const bool same = less <= unit && less >= -unit;
-        colours[k] = same ? rgb[row_of[k]][static_cast<ptrdiff_t>(at) + across[k]] : here;
+        const int16_t other = rows.disparity[row_of[k]][static_cast<ptrdiff_t>(n) + across[k]];
+        const int16_t less = Saturated(rows.disparity[1][n] - other);
+        const bool same = less <= rows.unit && less >= -rows.unit;
+        colours[k] = same ? rows.rgb[row_of[k]][static_cast<ptrdiff_t>(at) + across[k]] : here;
       }
       const int32_t around = Mean(Mean(colours[0], colours[1]), Mean(colours[2], colours[3]));
       out[at] = static_cast<int16_t>(Mean(here, around));
+    }
+  }
+}
+
+// Limits repeated colours to the range of two neighbours, so that no odd source shows as a streak:
+// the pixels above and below if the source is on the left or right, the pixels on the left and
+// right if the source is above or below. A pixel with sources in both directions, or with a
+// neighbour whose disparity differs by more than `unit`, is not changed. Rows 0 and 2 are the next
+// rows. Processes whole groups of kSliceLanes.
+STARFOCUS_REFERENCE void LimitFar(const FarRows& rows, size_t count, int16_t* out) {
+  constexpr int kAcross = 3, kDown = 12;  // bits of the sources along a row and along a column
+  for (size_t n = 0; n < SliceSamples(count); ++n) {
+    const bool across = (rows.source[n] & kAcross) != 0, down = (rows.source[n] & kDown) != 0;
+    if (rows.source[n] == 0 || across == down) continue;
+    const int row_of[2] = {across ? 0 : 1, across ? 2 : 1};
+    const ptrdiff_t beside[2] = {across ? 0 : -1, across ? 0 : 1};
+    bool same = true;
+    for (int k = 0; k < 2; ++k) {
+      const int16_t other = rows.disparity[row_of[k]][static_cast<ptrdiff_t>(n) + beside[k]];
+      const int16_t less = Saturated(rows.disparity[1][n] - other);
+      same = same && less <= rows.unit && less >= -rows.unit;
+    }
+    for (size_t c = 0; c < 3 && same; ++c) {
+      const size_t at = c * rows.plane + n;
+      const int16_t first = rows.rgb[row_of[0]][static_cast<ptrdiff_t>(at) + beside[0]];
+      const int16_t second = rows.rgb[row_of[1]][static_cast<ptrdiff_t>(at) + beside[1]];
+      const int16_t low = first < second ? first : second, high = first < second ? second : first;
+      out[at] = rows.rgb[1][at] < low ? low : rows.rgb[1][at] > high ? high : rows.rgb[1][at];
     }
   }
 }

@@ -49,6 +49,7 @@
   KERNEL(CoverPlaces)             \
   KERNEL(SumNear)                 \
   KERNEL(TakeFarthest)            \
+  KERNEL(LimitFar)                \
   KERNEL(SmoothFar)               \
   KERNEL(PutFarthest)             \
   KERNEL(SelectSlice)             \

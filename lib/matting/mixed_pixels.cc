@@ -276,22 +276,28 @@ bool PixelSplitter::LimitToClean(int32_t x, int32_t y, const Outline& outline,
 }
 
 // Divides a pixel of a rim into the clean far colour and the rest of the pixel's light, which the
-// near surface takes. The part of the near surface is at least a quarter, and so large that its
-// light is not brighter than white or negative.
+// near surface takes. The near surface covers a quarter of the pixel, or less if the rest is faint
+// (kWholeRest), or more if its light would otherwise be brighter than white or negative.
 void PixelSplitter::CleanRim(const Outline& outline, SplitPixel* pixel) const {
-  const int32_t x = field_.x + pixel->column, y = field_.y + pixel->row;
+  constexpr int32_t kWholeRest = 8 << kLightBits;
   if (outline.distance == 0) return;
+  const int32_t x = field_.x + pixel->column, y = field_.y + pixel->row;
   const CellRim& rim = rims_->RimAt(x, y);
-  const int32_t k = outline.distance - 1, weight = rim.weight[k];
-  Colour clean;
+  const int32_t weight = rim.weight[outline.distance - 1];
+  if (weight == 0) return;
   const Colour mixed = centre_.ColourAt(x, y);
-  for (int c = 0; c < 3; ++c) clean.rgb[c] = static_cast<int16_t>(mixed[c] - rim.excess[k][c]);
-  if (weight == 0 || !LimitToClean(x, y, outline, &clean)) return;
-  int32_t part = simd::kSliceWhole / 4;
+  Colour clean;
   for (int c = 0; c < 3; ++c) {
-    const int32_t more = mixed[c] - clean[c];
+    const int32_t light = mixed[c] - rim.excess[outline.distance - 1][c];
+    clean.rgb[c] = static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
+  }
+  if (!LimitToClean(x, y, outline, &clean)) return;
+  int32_t part = 0;
+  for (int c = 0; c < 3; ++c) {
+    const int32_t more = mixed[c] - clean[c], rest = Abs(more) * simd::kSliceWhole;
     const int32_t most = more > 0 ? ranges::kUnmixed.high - clean[c] : clean[c];
-    if (more != 0) part = Max(part, (Abs(more) * simd::kSliceWhole + most - 1) / most);
+    const int32_t least = more == 0 ? 0 : (rest + most - 1) / most;
+    part = Max(part, Max(least, Min(rest / (4 * kWholeRest), simd::kSliceWhole / 4)));
   }
   const auto blend = [&](int32_t from, int32_t to) {
     return from + (to - from) * weight / kWholeRim;

@@ -195,7 +195,7 @@ struct RimTotal {
     const bool is_halo = along < 0;
     if (k == 0 && !is_halo) return 0;
     const int64_t spread = squares[k] / count[k] - square;
-    const int64_t by_chance = spread * Larger(kDependent, is_halo ? count[k] / 2 : count[k]);
+    const int64_t by_chance = spread * Larger(kDependent, (is_halo ? count[k] : 3 * count[k]) / 2);
     // The slope is that of 3 pixels, and the middle of the clean pixels is away / 2 pixels away.
     const int64_t away = 2 * kRimWidth + kClean - 1 - 2 * k;
     const int64_t limit = kNoise + by_chance / count[k] + slopes * away * away / 18;

@@ -25,10 +25,12 @@ class HiddenFiller {
     for (int32_t y = 0; y < height; ++y) TakeRow(y);
     Separate(RowAt(height));
     for (int32_t y = 0; y < height; ++y) TakeSources(y);
+    const auto width = static_cast<size_t>(surfaces_.width);
+    Pass(1, [&](const simd::FarRows& rows, int16_t* out) { kernels_.LimitFar(rows, width, out); });
     for (int32_t step = kFillStep; step > 0; step /= 2) {
-      for (int32_t y = 0; y < height; ++y) {
-        if (Takes(y, step)) SmoothRow(y, step);
-      }
+      Pass(step, [&](const simd::FarRows& rows, int16_t* out) {
+        kernels_.SmoothFar(rows, step, width, out);
+      });
     }
     for (int32_t y = 0; y < height; ++y) {
       if (scratch_.farthest[y] != 0) PutRow(y);
@@ -129,23 +131,29 @@ class HiddenFiller {
     }
   }
 
-  // Smooths a row. Smoothing reads the colours that neighbours had before the current pass. The old
-  // colours of a row are therefore saved until the row `step` rows below has been smoothed. At the
-  // upper and lower end of the surfaces, the row itself replaces the missing neighbouring row.
-  void SmoothRow(int32_t y, int32_t step) {
-    const int32_t above = y >= step ? y - step : y, below = y + step;
-    const int32_t next = below < surfaces_.height ? below : y;
-    int16_t* const row = Colours(y);
-    int16_t* const here = Saved(y, step);
-    std::memcpy(here, row, 3 * stride_ * sizeof(*row));
-    const int16_t* const first = scratch_.disparity + Column(0);
-    const int16_t* const disparity[3] = {first + RowAt(above), first + RowAt(y),
-                                         first + RowAt(next)};
-    const int16_t* const rgb[3] = {
-        (Takes(above, step) ? Saved(above, step) : Colours(above)) + Column(0), here + Column(0),
-        (next == y ? here : Colours(next)) + Column(0)};
-    kernels_.SmoothFar(disparity, rgb, stride_, scratch_.source + RowAt(y) + Column(0), unit_, step,
-                       static_cast<size_t>(surfaces_.width), row + Column(0));
+  // Calls change(rows, out) for all rows with colours that are repeated over a distance of at least
+  // step / 2. It reads the colours that neighbours `step` pixels away had before the pass. The
+  // old colours of a row are therefore saved until the row `step` rows below has been changed. At
+  // the upper and lower end of the surfaces, the row itself replaces the missing neighbouring row.
+  template <class Change>
+  void Pass(int32_t step, const Change& change) {
+    for (int32_t y = 0; y < surfaces_.height; ++y) {
+      if (!Takes(y, step)) continue;
+      const int32_t above = y >= step ? y - step : y, below = y + step;
+      const int32_t next = below < surfaces_.height ? below : y;
+      int16_t* const row = Colours(y);
+      int16_t* const here = Saved(y, step);
+      std::memcpy(here, row, 3 * stride_ * sizeof(*row));
+      const int16_t* const first = scratch_.disparity + Column(0);
+      const int16_t* const from = Takes(above, step) ? Saved(above, step) : Colours(above);
+      const int16_t* const to = next == y ? here : Colours(next);
+      change({{first + RowAt(above), first + RowAt(y), first + RowAt(next)},
+              {from + Column(0), here + Column(0), to + Column(0)},
+              stride_,
+              scratch_.source + RowAt(y) + Column(0),
+              unit_},
+             row + Column(0));
+    }
   }
 
   const simd::Kernels& kernels_;

@@ -81,34 +81,59 @@ void TakeFarthest(Draw* draw, KernelCall* call) {
   };
 }
 
-// SmoothFar reads three rows of farthest surfaces that are `step` rows apart. Each row has readable
-// pixels on both sides.
-void SmoothFar(Draw* draw, KernelCall* call) {
+namespace {
+
+// Arguments of LimitFar and SmoothFar.
+struct ThreeRows {
+  size_t count, whole;
+  FarRows rows;
+  int16_t* out;
+};
+
+ThreeRows RowsOf(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedWidth), whole = SliceSamples(count);
   const size_t row = whole + 2 * kSliceLanes;
-  const int32_t step = 1 << draw->Int(0, 4);
-  const auto unit = int16_t(64 << draw->Int(0, 2));
-  const int16_t *disparity[3], *rgb[3];
+  ThreeRows made = {count, whole, {{}, {}, row, nullptr, int16_t(64 << draw->Int(0, 2))}, nullptr};
   for (int k = 0; k < 3; ++k) {
     std::vector<int16_t> values = Disparities(row, draw);
     for (int16_t& value : values) {
       if (draw->Int(0, 9) == 0) value = kNoSurface;
     }
-    disparity[k] = call->Input("disparity", values) + kSliceLanes;
-    rgb[k] = call->Input("rgb", Light(3 * row, draw)) + kSliceLanes;
+    made.rows.disparity[k] = call->Input("disparity", values) + kSliceLanes;
+    made.rows.rgb[k] = call->Input("rgb", Light(3 * row, draw)) + kSliceLanes;
   }
-  const uint16_t* source = call->Input("source", AnySources(whole, draw));
-  auto* out = call->Output<int16_t>("out", 3 * row);
-  std::fill_n(out, 3 * row, int16_t{77});
-  call->ResultRows(out, 3, row, whole);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.SmoothFar(disparity, rgb, row, source, unit, step, count, out);
-  });
+  made.rows.source = call->Input("source", AnySources(whole, draw));
+  made.out = call->Output<int16_t>("out", 3 * row);
+  std::fill_n(made.out, 3 * row, int16_t{77});
+  call->ResultRows(made.out, 3, row, whole);
+  return made;
+}
+
+}  // namespace
+
+void LimitFar(Draw* draw, KernelCall* call) {
+  const ThreeRows made = RowsOf(draw, call);
+  call->Runs([=](const Kernels& kernels) { kernels.LimitFar(made.rows, made.count, made.out); });
   call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(whole, [&](size_t n) {
-      const bool takes = 2 * (source[n] >> kSourceDistance) >= step;
+    return AllRight(made.whole, [&](size_t n) {
+      const uint16_t source = made.rows.source[n];
+      const bool changed = made.out[n] != 77;
+      ++(*met)[changed ? "limited" : "left"];
+      return !changed || ((source & 3) != 0) != ((source & 12) != 0);
+    });
+  };
+}
+
+void SmoothFar(Draw* draw, KernelCall* call) {
+  const ThreeRows made = RowsOf(draw, call);
+  const int32_t step = 1 << draw->Int(0, 4);
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.SmoothFar(made.rows, step, made.count, made.out); });
+  call->is_right = [=](uint64_t, Met* met) {
+    return AllRight(made.whole, [&](size_t n) {
+      const bool takes = 2 * (made.rows.source[n] >> kSourceDistance) >= step;
       ++(*met)[takes ? "smoothed" : "left"];
-      return takes || out[n] == 77;
+      return takes || made.out[n] == 77;
     });
   };
 }

@@ -75,6 +75,17 @@ TEST_CASE(
   for (int y = 18; y < 24; ++y) CHECK(std::abs(scene.Colour(21, y, 0) - 100) <= 40);
 }
 
+TEST_CASE("hidden fill: a single odd pixel beside an edge leaves no streak") {
+  Scene scene(1);
+  scene.Fill(0, kSize, 0, kSize, 0, 100);
+  scene.Fill(0, 14, 20, 21, 0, 220);
+  scene.Fill(14, 30, 4, 36, 16, 90);
+  scene.Find();
+  CHECK(scene.Colour(16, 20, 0) == 220);
+  scene.InpaintHidden();
+  for (int x = 14; x < 22; ++x) CHECK(scene.Colour(x, 20, 0) <= (x < 16 ? 130 : 110));
+}
+
 TEST_CASE("hidden fill: hidden pixels that captured views show do not change") {
   Scene scene = BeforeStripes(5);
   scene.Find();
