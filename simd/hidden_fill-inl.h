@@ -116,9 +116,13 @@ inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT ou
                                         hn::LoadU(d16, rows.rgb[1] + at - 1));
       const auto second = hn::IfThenElse(across, hn::LoadU(d16, rows.rgb[2] + at),
                                          hn::LoadU(d16, rows.rgb[1] + at + 1));
+      const auto low = hn::Min(first, second), high = hn::Max(first, second);
+      const auto range = hn::Sub(high, low);
+      const auto more =
+          hn::SaturatedAdd(hn::SaturatedAdd(range, range), hn::Set(d16, kStreakLight));
       const auto limited =
-          hn::Min(hn::Max(hn::LoadU(d16, rows.rgb[1] + at), hn::Min(first, second)),
-                  hn::Max(first, second));
+          hn::Min(hn::Max(hn::LoadU(d16, rows.rgb[1] + at), hn::SaturatedSub(low, more)),
+                  hn::SaturatedAdd(high, more));
       hn::StoreU(hn::IfThenElse(takes, limited, hn::LoadU(d16, out + at)), d16, out + at);
     }
   }

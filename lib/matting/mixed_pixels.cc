@@ -134,12 +134,47 @@ int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
   return static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
 }
 
+// Returns the smallest share of a near surface whose light is neither negative nor brighter than
+// white, if the light of the far surface is `far`.
+int32_t LeastShare(const Colour& mixed, const Colour& far) {
+  int32_t least = 0;
+  for (int c = 0; c < 3; ++c) {
+    const int32_t more = mixed[c] - far[c];
+    const int32_t most = more > 0 ? ranges::kUnmixed.high - far[c] : far[c];
+    if (more != 0) least = Max(least, (Abs(more) * simd::kSliceWhole + most - 1) / most);
+  }
+  return least;
+}
+
 // Returns true if a pixel of the field has a far surface that is not hidden.
 bool IsPartial(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y) {
   const bool in_field = x >= Max(0, field.x) && x < Min(field.x + field.width, map.width) &&
                         y >= Max(0, field.y) && y < Min(field.y + field.height, map.height);
   return in_field && map.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
          map.alpha[map.At(x, y)] < kLeastWhole;
+}
+
+// Limits a colour of the far surface at pixel (x, y) to the range of the far colour of the map and
+// of pixels around that the near surface does not cover.
+void LimitToFar(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y,
+                Colour* far) {
+  constexpr int32_t kAround = 6;
+  Colour low, high;
+  std::memcpy(low.rgb, map.FarAt(x, y).rgb, sizeof(low.rgb));
+  high = low;
+  for (int32_t row = y - kAround; row <= y + kAround; ++row) {
+    for (int32_t column = x - kAround; column <= x + kAround; ++column) {
+      if (!IsPartial(map, field, column, row) || map.alpha[map.At(column, row)] != 0) continue;
+      const int16_t* const rgb = field.Rgb(column - field.x, row - field.y);
+      for (int c = 0; c < 3; ++c) {
+        low.rgb[c] = static_cast<int16_t>(Min(low[c], rgb[c]));
+        high.rgb[c] = static_cast<int16_t>(Max(high[c], rgb[c]));
+      }
+    }
+  }
+  for (int c = 0; c < 3; ++c) {
+    far->rgb[c] = static_cast<int16_t>(Clamp(far->rgb[c], low[c], high[c]));
+  }
 }
 
 // Returns true if a pixel lies inside its near surface, so that slices on both sides of a step
@@ -292,12 +327,10 @@ void PixelSplitter::CleanRim(const Outline& outline, SplitPixel* pixel) const {
     clean.rgb[c] = static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
   }
   if (!LimitToClean(x, y, outline, &clean)) return;
-  int32_t part = 0;
+  int32_t part = LeastShare(mixed, clean);
   for (int c = 0; c < 3; ++c) {
-    const int32_t more = mixed[c] - clean[c], rest = Abs(more) * simd::kSliceWhole;
-    const int32_t most = more > 0 ? ranges::kUnmixed.high - clean[c] : clean[c];
-    const int32_t least = more == 0 ? 0 : (rest + most - 1) / most;
-    part = Max(part, Max(least, Min(rest / (4 * kWholeRest), simd::kSliceWhole / 4)));
+    const int32_t rest = Abs(mixed[c] - clean[c]) * simd::kSliceWhole;
+    part = Max(part, Min(rest / (4 * kWholeRest), simd::kSliceWhole / 4));
   }
   const auto blend = [&](int32_t from, int32_t to) {
     return from + (to - from) * weight / kWholeRim;
@@ -362,18 +395,26 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pix
     if (is_excess) far = {};
     if (!is_excess) std::memcpy(far.rgb, cell.rgb, sizeof(far.rgb));
   } else if (alpha > 0 && !is_excess) {
+    const Colour mixed = near;
     for (int c = 0; c < 3; ++c) {
-      const int16_t mixed = near.rgb[c];
-      near.rgb[c] = RestOf(mixed, cell.rgb[c], kWhole - alpha);
+      near.rgb[c] = RestOf(mixed[c], cell.rgb[c], kWhole - alpha);
       // RestOf may have clipped the near surface's light. The far surface's light compensates for
       // the clipping, so that the mixture of both surfaces still equals the light of the pixel. If
       // the far surface covers less than half of the pixel, it compensates only in part, because
       // it would multiply noise.
-      const int32_t more = RestOf(mixed, near.rgb[c], alpha) - cell.rgb[c];
+      const int32_t more = RestOf(mixed[c], near.rgb[c], alpha) - cell.rgb[c];
       const int32_t part = Min(2 * (kWhole - alpha), kWhole);
       far.rgb[c] = static_cast<int16_t>(cell.rgb[c] + RoundShift(more * part, kAlphaBits));
     }
+    if (rims_ != nullptr && HasGiven(centre_.input()) &&
+        std::memcmp(far.rgb, cell.rgb, sizeof(far.rgb)) != 0) {
+      LimitToFar(map, field_, x, y, &far);
+      const int32_t share = Min(Max(alpha, LeastShare(mixed, far)), kWhole - 1);
+      pixel->share = static_cast<uint8_t>(share);
+      for (int c = 0; c < 3; ++c) near.rgb[c] = RestOf(mixed[c], far[c], kWhole - share);
+    }
   }
+  if (!whole && rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty()) CleanRim(OutlineAt(x, y), pixel);
 }
 
 void TakeDisparities(const Input& input, BlockPixels* field) {

@@ -21,7 +21,7 @@ constexpr int64_t kLeastContrast = 64 * kSquareOne;
 // Number of neighbouring lines that count as one, because textures are coherent.
 constexpr int64_t kDependent = 16;
 // Number of lines at which a rim begins to count; twice as many count fully.
-constexpr int64_t kLeastLines = 6;
+constexpr int64_t kLeastLines = 12;
 constexpr int kFadeBits = 8;
 constexpr int64_t kFadeOne = 1 << kFadeBits;
 
@@ -202,9 +202,12 @@ struct RimTotal {
     const int64_t beside = square - along * along / contrast;
     const int64_t clear = Fade(square - limit, limit);
     const int64_t aligned = Fade(13 * square - 16 * beside, 3 * square);
-    const int64_t large = Fade(32 * (is_halo ? -along : along) - contrast, contrast);
+    const int64_t size = is_halo ? -along : along;
+    const int64_t large = Fade(32 * size - contrast, contrast);
+    const int64_t small = Fade(2 * contrast - (is_halo ? 3 : 6) * size, contrast);
     const int64_t enough = Fade(count[k] - kLeastLines, kLeastLines);
-    return static_cast<int32_t>((clear * aligned * large >> (2 * kFadeBits)) * enough >> kFadeBits);
+    return static_cast<int32_t>(
+        ((clear * aligned * large >> (2 * kFadeBits)) * enough >> kFadeBits) * small >> kFadeBits);
   }
 };
 

@@ -37,8 +37,8 @@ constexpr size_t FillStride(size_t width) {
 
 // Replaces the colours that FindLayeredDepth repeated on the farthest surfaces. First, each
 // repeated pixel takes the far colour of its source pixel. SplitMixedPixels may have separated the
-// source's colour into a near and a far colour. A colour that differs from those of both neighbours
-// along the edge is limited to their range, because a single odd source would show as a streak.
+// source's colour into a near and a far colour. A colour that differs much from those of both
+// neighbours along the edge is limited, because a single odd source would show as a streak.
 //
 // The colours are then smoothed in five passes, with steps of 16, 8, 4, 2 and 1 pixels. A pass
 // changes the pixels whose source is at least half a step away. The new colour is half of the
