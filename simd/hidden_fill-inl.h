@@ -118,8 +118,7 @@ inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT ou
                                          hn::LoadU(d16, rows.rgb[1] + at + 1));
       const auto low = hn::Min(first, second), high = hn::Max(first, second);
       const auto range = hn::Sub(high, low);
-      const auto more =
-          hn::SaturatedAdd(hn::SaturatedAdd(range, range), hn::Set(d16, kStreakLight));
+      const auto more = hn::SaturatedAdd(range, hn::Set(d16, kStreakLight));
       const auto limited =
           hn::Min(hn::Max(hn::LoadU(d16, rows.rgb[1] + at), hn::SaturatedSub(low, more)),
                   hn::SaturatedAdd(high, more));

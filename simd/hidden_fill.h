@@ -104,11 +104,11 @@ STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int32_t step, size_t cou
 }
 
 // Limits repeated colours to the colours of two neighbours, so that no odd source shows as a
-// streak: they may exceed the range of both by twice this range and kStreakLight. The neighbours
-// are the pixels above and below if the source is on the left or right, the pixels on the left and
-// right if the source is above or below. A pixel with sources in both directions, or with a
-// neighbour whose disparity differs by more than `unit`, is not changed. Rows 0 and 2 are the next
-// rows. Processes whole groups of kSliceLanes.
+// streak: they may exceed the range of both by this range and kStreakLight. The neighbours are the
+// pixels above and below if the source is on the left or right, the pixels on the left and right if
+// the source is above or below. A pixel with sources in both directions, or with a neighbour whose
+// disparity differs by more than `unit`, is not changed. Rows 0 and 2 are the next rows. Processes
+// whole groups of kSliceLanes.
 STARFOCUS_REFERENCE void LimitFar(const FarRows& rows, size_t count, int16_t* out) {
   constexpr int kAcross = 3, kDown = 12;  // bits of the sources along a row and along a column
   for (size_t n = 0; n < SliceSamples(count); ++n) {
@@ -127,7 +127,7 @@ STARFOCUS_REFERENCE void LimitFar(const FarRows& rows, size_t count, int16_t* ou
       const int16_t first = rows.rgb[row_of[0]][static_cast<ptrdiff_t>(at) + beside[0]];
       const int16_t second = rows.rgb[row_of[1]][static_cast<ptrdiff_t>(at) + beside[1]];
       const int16_t low = first < second ? first : second, high = first < second ? second : first;
-      const int16_t more = Saturated(Saturated(2 * (high - low)) + kStreakLight);
+      const int16_t more = Saturated(high - low + kStreakLight);
       const int16_t own = rows.rgb[1][at];
       const int16_t least = Saturated(low - more), most = Saturated(high + more);
       out[at] = own < least ? least : own > most ? most : own;

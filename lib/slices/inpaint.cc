@@ -26,12 +26,12 @@ class HiddenFiller {
     Separate(RowAt(height));
     for (int32_t y = 0; y < height; ++y) TakeSources(y);
     const auto width = static_cast<size_t>(surfaces_.width);
-    Pass(1, [&](const simd::FarRows& rows, int16_t* out) { kernels_.LimitFar(rows, width, out); });
     for (int32_t step = kFillStep; step > 0; step /= 2) {
       Pass(step, [&](const simd::FarRows& rows, int16_t* out) {
         kernels_.SmoothFar(rows, step, width, out);
       });
     }
+    Pass(1, [&](const simd::FarRows& rows, int16_t* out) { kernels_.LimitFar(rows, width, out); });
     for (int32_t y = 0; y < height; ++y) {
       if (scratch_.farthest[y] != 0) PutRow(y);
     }

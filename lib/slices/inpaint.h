@@ -37,16 +37,17 @@ constexpr size_t FillStride(size_t width) {
 
 // Replaces the colours that FindLayeredDepth repeated on the farthest surfaces. First, each
 // repeated pixel takes the far colour of its source pixel. SplitMixedPixels may have separated the
-// source's colour into a near and a far colour. A colour that differs much from those of both
-// neighbours along the edge is limited, because a single odd source would show as a streak.
+// source's colour into a near and a far colour.
 //
 // The colours are then smoothed in five passes, with steps of 16, 8, 4, 2 and 1 pixels. A pass
 // changes the pixels whose source is at least half a step away. The new colour is half of the
 // pixel's colour plus an eighth of the colour of each of four neighbours. The four neighbours are
 // one step to the left, right, top and bottom. If the farthest surface of a neighbour differs by
-// more than one pixel of disparity, the pixel's own colour replaces the neighbour's colour. After
-// all passes, pixels near the edge have the colours next to the edge, and pixels far behind have
-// the mean of these colours. The page docs/constants.md lists measurements of this continuation.
+// more than one pixel of disparity, the pixel's own colour replaces the neighbour's colour. Last, a
+// colour that differs much from those of both neighbours along the edge is limited (LimitFar),
+// because a single odd source would show as a streak near the edge. After all passes, pixels near
+// the edge have the colours next to the edge, and pixels far behind have the mean of these colours.
+// The page docs/constants.md lists measurements of this continuation.
 void InpaintHidden(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
                    LayeredDepth* surfaces);
 
