@@ -143,6 +143,23 @@ TEST_CASE("matte: with one view, neither texture nor a gradient beside an edge i
   }
 }
 
+TEST_CASE(
+    "matte: with one view, coverage that is too small leaves hardly an outline at far focus") {
+  test::Scene scene = Mixed(6, 0, 1, false, 20);
+  scene.coverage.assign(size_t(kWidth * kHeight), 0);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      // The last far column shows the dark near surface, but its coverage is only a quarter.
+      std::fill_n(scene.Pixel(0, x, y), 3, uint8_t(x >= kEdge - 1 ? 20 : 200));
+      scene.coverage[size_t(y * kWidth + x)] = x >= kEdge ? 255 : x == kEdge - 1 ? 64 : 0;
+    }
+  }
+  // Without the larger share, the far surface would have level 23 in the last far column.
+  const std::vector<int> row = MiddleRow(scene, 0);
+  CHECK(row[kEdge - 1] >= 55);
+  CHECK(row[kEdge] <= row[kEdge - 1] + 15);
+}
+
 TEST_CASE("matte: a pixel is split only if its surfaces move apart by more than a pixel") {
   // With three views along the radius, the outermost view is at 96/94 of the radius. With the
   // aperture 94/96, the outermost view is therefore at a distance of 1 from the centre view.
