@@ -65,7 +65,7 @@ Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) 
     const int32_t moved = (border << layer) + LargestMove(config) + CapturedBorder(layer);
     if (!one_view) borders.views = Max(borders.views, moved);
   }
-  const int32_t mixed = one_view ? kRimBorder : kMixedPixelBorder;
+  const int32_t mixed = HasRims(config) ? kRimBorder : kMixedPixelBorder;
   borders.centre = Max(borders.centre, borders.layer[0] + mixed);
   borders.matting = borders.centre;
   borders.centre = borders.matting + CoverageBorder(config);

@@ -53,7 +53,7 @@ starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
 starfocus_status FindRims(const Stripe& stripe, EngineState* engine) {
   const Lens& lens = engine->lens;
   RimMap* const map = &engine->stripe.rims;
-  const bool finds = engine->config.views == 1 && lens.renderer->gathers &&
+  const bool finds = HasRims(engine->config) && lens.renderer->gathers &&
                      lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
   engine->input.rims = finds ? map : nullptr;
   if (!finds) return STARFOCUS_OK;

@@ -241,7 +241,7 @@ void FindRim(const RimMap& map, int32_t column, int32_t row, CellRim* rim) {
 }  // namespace
 
 void TakeRims(const starfocus_config& config, int32_t border, Arena* arena, RimMap* map) {
-  if (config.views != 1) return;
+  if (!HasRims(config)) return;
   map->width = config.width;
   map->height = config.height;
   map->columns = (config.width + kRimCell - 1) / kRimCell;

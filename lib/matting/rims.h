@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/features.h"
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
@@ -70,8 +71,13 @@ struct RimMap {
   const CellRim& RimAt(int32_t x, int32_t y) const { return rims[At(x / kRimCell, y / kRimCell)]; }
 };
 
-// Allocates the cells for stripes whose blocks read `border` rows above and below. Only
-// configurations with one view have rims, because side views show clean far colours.
+// Returns true if an engine of this configuration finds rims: with one view, because side views show
+// clean far colours, and with STARFOCUS_FEATURE_COVERAGE.
+inline bool HasRims(const starfocus_config& config) {
+  return config.views == 1 && Has(config, STARFOCUS_FEATURE_COVERAGE);
+}
+
+// Allocates the cells for stripes whose blocks read `border` rows above and below.
 void TakeRims(const starfocus_config& config, int32_t border, Arena* arena, RimMap* map);
 
 // Forgets all rows, so that FindRims starts anew.
