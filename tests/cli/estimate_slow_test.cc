@@ -124,7 +124,7 @@ TEST_CASE("refocus --repair, import: hair with a closed outline gets its coverag
   CHECK(Text(folder.file("imported.png")) == Text(folder.file("repaired.png")));
   // A repair must keep given coverage.
   Succeed(folder, "refocus truth -o given.png --focus -4 --repair");
-  CHECK(Psnr(folder, "truth.png given.png") > Psnr(folder, "truth.png repaired.png"));
+  CHECK(Psnr(folder, "truth.png given.png") > Psnr(folder, "truth.png closed.png") + 3);
 }
 
 }  // namespace
