@@ -95,11 +95,11 @@ inline void SumVotes(const VoteRows& rows, VoteSums* HWY_RESTRICT sums) {
     const auto blue = hn::LoadU(d16, rows.colour[2] + n);
     const auto middle = hn::LoadU(d16, rows.middle + n);
     auto similar_far = hn::Zero(du16), similar_near = similar_far;
-    auto weight_far = zero, weight_near = zero;
+    auto weight_all = zero, weight_near = zero;
     const int16_t* HWY_RESTRICT closeness = rows.closeness;
     for (int32_t y = -rows.reach; y <= rows.reach; y += rows.step) {
       const ptrdiff_t row = static_cast<ptrdiff_t>(n) + y * rows.stride;
-      auto far = zero, near = zero;
+      auto all = zero, near = zero;
       for (int32_t x = -rows.reach; x <= rows.reach; x += rows.step, ++closeness) {
         const ptrdiff_t at = row + x;
         const auto trust = hn::LoadU(d16, rows.trust + at);
@@ -107,23 +107,24 @@ inline void SumVotes(const VoteRows& rows, VoteSums* HWY_RESTRICT sums) {
         const auto r = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[0] + at), red));
         const auto g = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[1] + at), green));
         const auto b = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[2] + at), blue));
-        const auto difference = hn::Add(hn::Add(r, g), b);
-        const auto wide = hn::Max(hn::Sub(hn::Set(d16, kWide), difference), zero);
-        const auto tight = hn::Max(hn::Sub(hn::Set(d16, kTight), difference), zero);
-        const auto similar = hn::Add(hn::ShiftRight<9>(hn::Mul(wide, wide)),
-                                     hn::ShiftRight<2>(hn::Mul(tight, tight)));
-        const auto product = hn::Mul(trust, hn::Set(d16, *closeness));
-        const auto weight = hn::ShiftRight<6>(hn::Add(product, hn::Set(d16, kMostTrust / 2)));
+        const auto difference = hn::BitCast(du16, hn::Add(hn::Add(r, g), b));
+        const auto wide = hn::SaturatedSub(hn::Set(du16, kWide), difference);
+        const auto tight = hn::SaturatedSub(hn::Set(du16, kTight), difference);
+        const auto similar = hn::BitCast(d16, hn::Add(hn::ShiftRight<9>(hn::Mul(wide, wide)),
+                                                      hn::ShiftRight<2>(hn::Mul(tight, tight))));
+        const auto weight = hn::MulFixedPoint15(trust, hn::Set(d16, *closeness));
         const auto weighted = hn::Mul(weight, similar);
         const auto nearer = hn::Gt(hn::LoadU(d16, rows.surface + at), middle);
+        all = hn::Add(all, weighted);
         near = hn::Add(near, hn::IfThenElseZero(nearer, weighted));
-        far = hn::Add(far, hn::IfThenZeroElse(nearer, weighted));
+        weight_all = hn::Add(weight_all, weight);
         weight_near = hn::Add(weight_near, hn::IfThenElseZero(nearer, weight));
-        weight_far = hn::Add(weight_far, hn::IfThenZeroElse(nearer, weight));
       }
+      const auto far = hn::BitCast(du16, hn::Sub(all, near));
       similar_near = hn::Add(similar_near, hn::ShiftRight<4>(hn::BitCast(du16, near)));
-      similar_far = hn::Add(similar_far, hn::ShiftRight<4>(hn::BitCast(du16, far)));
+      similar_far = hn::Add(similar_far, hn::ShiftRight<4>(far));
     }
+    const auto weight_far = hn::Sub(weight_all, weight_near);
     hn::StoreU(similar_far, du16, sums->similar[0] + n);
     hn::StoreU(similar_near, du16, sums->similar[1] + n);
     hn::StoreU(hn::BitCast(du16, weight_far), du16, sums->weight[0] + n);

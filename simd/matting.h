@@ -76,8 +76,10 @@ inline constexpr int16_t kNearTaps[kNearReach + 1][kNearReach + 1] = {
 
 // Largest number of samples in a row and in a column around a pixel, for SumVotes.
 inline constexpr int32_t kMostVoteSide = 18;
-// Largest trust of a sample and largest closeness.
+// Largest trust of a sample and largest closeness. Closeness is given in 1/kClosenessUnit, so that
+// the rounded product with 15 fractional bits is the weight of the sample.
 inline constexpr int32_t kMostTrust = 64, kMostCloseness = 16;
+inline constexpr int32_t kClosenessUnit = (1 << 15) / kMostTrust;
 
 // The pixels around a row of kSliceLanes pixels. All pointers, except `closeness`, point to the
 // first pixel of the row. Rows are `stride` samples apart.
@@ -88,7 +90,7 @@ struct VoteRows {
   const int16_t* middle;     // disparity above which a surface counts as nearer, for each pixel
   ptrdiff_t stride;
   int32_t reach, step;       // every step-th column and row from -reach to reach is a sample
-  const int16_t* closeness;  // [0, kMostCloseness], one for each sample, in contiguous rows
+  const int16_t* closeness;  // [0, kMostCloseness * kClosenessUnit], one for each sample, by rows
 };
 
 // Sums over the samples that are farther and nearer than the middle.
@@ -203,7 +205,7 @@ STARFOCUS_REFERENCE void SumNear(const NearRows& rows, NearSums* sums) {
 }
 
 // Compares kSliceLanes pixels with the samples around them. The weight of a sample is the product
-// of its trust and its closeness, in 1/64, rounded.
+// of its trust and its closeness, rounded.
 STARFOCUS_REFERENCE void SumVotes(const VoteRows& rows, VoteSums* sums) {
   *sums = {};
   for (size_t n = 0; n < kSliceLanes; ++n) {
@@ -218,7 +220,7 @@ STARFOCUS_REFERENCE void SumVotes(const VoteRows& rows, VoteSums* sums) {
           difference += std::abs(colour[there] - colour[here]);
         const int32_t wide = difference < kWide ? kWide - difference : 0;
         const int32_t tight = difference < kTight ? kTight - difference : 0;
-        const int32_t weight = (rows.trust[there] * *closeness++ + kMostTrust / 2) / kMostTrust;
+        const int32_t weight = Product15(rows.trust[there], *closeness++);
         const int side = rows.surface[there] > rows.middle[here] ? 1 : 0;
         similar[side] += weight * ((wide * wide >> 9) + (tight * tight >> 2));
         sums->weight[side][n] = static_cast<uint16_t>(sums->weight[side][n] + weight);

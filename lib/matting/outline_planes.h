@@ -45,7 +45,7 @@ struct ShiftCells {
 };
 
 struct OutlineCounts;
-struct OutlineScratch;
+union OutlineScratch;
 
 // Planes of the size of the picture, with contiguous rows, and memory of the workers.
 struct OutlineMemory {

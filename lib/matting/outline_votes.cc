@@ -60,29 +60,44 @@ struct Samples {
     int32_t k = 0;
     for (int32_t y = -reach; y <= reach; y += step) {
       for (int32_t x = -reach; x <= reach; x += step, ++k) {
-        closeness[k] =
-            static_cast<int16_t>(simd::kMostCloseness * kFallOff / (kFallOff + x * x + y * y));
-        sum += closeness[k];
+        const int32_t close = simd::kMostCloseness * kFallOff / (kFallOff + x * x + y * y);
+        closeness[k] = static_cast<int16_t>(close * simd::kClosenessUnit);
+        sum += close;
       }
     }
   }
 };
 
+// Writes the colours of a row of pixels, from sample `at` of the planes.
+void FillColours(const uint8_t* rgb, int32_t count, int32_t at, const simd::DepthKernels& kernels,
+                 VoteBlock* block) {
+  uint8_t split[3][VoteBlock::kWidth];
+  kernels.SplitRow(rgb, static_cast<size_t>(count), VoteBlock::kWidth, split[0]);
+  int16_t* const brightness = block->colour[0] + at;
+  for (int32_t k = 0; k < count; ++k) {
+    brightness[k] = static_cast<int16_t>((split[0][k] + 2 * split[1][k] + split[2][k]) >> 2);
+  }
+  // Hue distinguishes surfaces that shading makes alike, so its weight is larger.
+  for (int32_t c = 0; c < 3; c += 2) {
+    int16_t* const hue = block->colour[1 + c / 2] + at;
+    for (int32_t k = 0; k < count; ++k) {
+      hue[k] = static_cast<int16_t>(3 * (split[c][k] - split[1][k]) / 2);
+    }
+  }
+}
+
 // Writes the planes of the pixels around `area`, with the trust and the surface of
 // sample(x, y, at, &trust), which returns the surface. Pixels outside the picture have no trust.
 template <class Sample>
 void FillBlock(const OutlinePicture& picture, const OutlineMemory& memory, const Rect& area,
-               int32_t reach, const Sample& sample, VoteBlock* block) {
+               int32_t reach, const simd::DepthKernels& kernels, const Sample& sample,
+               VoteBlock* block) {
   const Rect around = memory.Widened(area, reach);
   std::fill_n(block->trust, VoteBlock::kWidth * VoteBlock::kWidth, int16_t{0});
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
     const int32_t row = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach - area.x;
+    FillColours(picture.Pixel(around.x, y), around.width, row + around.x, kernels, block);
     for (int32_t x = around.x; x < around.x + around.width; ++x) {
-      const uint8_t* rgb = picture.Pixel(x, y);
-      // Hue distinguishes surfaces that shading makes alike, so its weight is larger.
-      block->colour[0][row + x] = static_cast<int16_t>((rgb[0] + 2 * rgb[1] + rgb[2]) >> 2);
-      block->colour[1][row + x] = static_cast<int16_t>(3 * (rgb[0] - rgb[1]) / 2);
-      block->colour[2][row + x] = static_cast<int16_t>(3 * (rgb[2] - rgb[1]) / 2);
       block->surface[row + x] = sample(memory.At(x, y), block->trust + row + x);
     }
   }
@@ -95,21 +110,15 @@ void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const
                const Sample& sample, const Act& act) {
   constexpr auto kLanes = static_cast<int32_t>(simd::kSliceLanes);
   const auto visit = [&](const Rect& area) {
-    bool any = false;
-    ForBand(memory, area, [&](int32_t, int32_t, size_t) { any = true; });
-    if (!any) return;
-    FillBlock(picture, memory, area, samples.reach, sample, block);
+    if (!HasBand(memory, area)) return;
+    FillBlock(picture, memory, area, samples.reach, kernels, sample, block);
     for (int32_t y = area.y; y < area.y + area.height; ++y) {
       for (int32_t x = area.x; x < area.x + area.width; x += kLanes) {
         const int32_t count = Min(kLanes, area.x + area.width - x);
         const Rect row = {x, y, count, 1};
+        if (!HasBand(memory, row)) continue;
         int16_t middle[kLanes] = {};
-        any = false;
-        ForBand(memory, row, [&](int32_t column, int32_t, size_t at) {
-          middle[column - x] = memory.middle[at];
-          any = true;
-        });
-        if (!any) continue;
+        std::copy_n(memory.middle + memory.At(x, y), count, middle);
         const int32_t own = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach + x - area.x;
         const simd::VoteRows rows = {
             {block->colour[0] + own, block->colour[1] + own, block->colour[2] + own},
@@ -190,10 +199,9 @@ void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const R
   // bins[k] is the sum of the votes k - kZero pixels from the outline, rounded.
   constexpr int32_t kZero = kMostBand + 1, kBins = 2 * kZero + 1;
   ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
-    bool any = false;
-    if (begins) ForBand(memory, cell, [&](int32_t, int32_t, size_t) { any = true; });
-    if (begins) memory.gain[number] = 0;
-    if (!any) return;
+    if (!begins) return;
+    memory.gain[number] = 0;
+    if (!HasBand(memory, cell)) return;
     int32_t bins[kBins] = {}, count = 0, farther = 0;
     ForBand(memory, memory.Widened(cell, kShiftRadius), [&](int32_t, int32_t, size_t at) {
       bins[kZero + ((memory.distance[at] + 2) >> 2)] += memory.vote[at];

@@ -5,6 +5,7 @@
 #define STARFOCUS_LIB_MATTING_OUTLINE_VOTES_H_
 
 #include <cstdint>
+#include <cstring>
 
 #include "lib/matting/outline_planes.h"
 #include "simd/depth_kernels.h"
@@ -21,6 +22,16 @@ void ForBand(const OutlineMemory& memory, const Rect& rect, const Act& act) {
       if (memory.distance[at] != 0) act(x, y, at);
     }
   }
+}
+
+// Returns true if a pixel of `rect` belongs to the band.
+inline bool HasBand(const OutlineMemory& memory, const Rect& rect) {
+  static constexpr int8_t kNone[kMostOutlineTile] = {};
+  const auto count = static_cast<size_t>(rect.width);
+  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
+    if (std::memcmp(memory.distance + memory.At(rect.x, y), kNone, count) != 0) return true;
+  }
+  return false;
 }
 
 // Calls act(disparity, dx, dy) for the four neighbours of a pixel.

@@ -36,9 +36,14 @@ struct OutlineCounts {
   bool wrong;                // true if a part of the map is wrong
 };
 
-struct OutlineScratch {
+struct DistancePlanes {
   int32_t outlines[kMostRegion * kMostRegion];
   int16_t extremes[2][kMostTall * kMostRegion];  // lowest and highest disparities of windows
+};
+
+// Each phase uses one of these.
+union OutlineScratch {
+  DistancePlanes distances;
   VoteBlock block;
   SidePlanes sides;
 };
@@ -67,15 +72,15 @@ void GrowWindows(int32_t most, const Join& join) {
   }
 }
 
-// Fills scratch->extremes with the lowest and highest disparity in the window of each
+// Fills scratch->distances.extremes with the lowest and highest disparity in the window of each
 // pixel of `rect`.
 void FindExtremes(const OutlineMemory& memory, const int16_t* map, const Rect& rect, int32_t radius,
                   OutlineScratch* scratch) {
   const int32_t side = 2 * radius + 1, wide = rect.width + 2 * radius;
   const int32_t tall = rect.height + 2 * radius;
   const auto line = [&](int32_t y) {
-    return Extremes{scratch->extremes[0] + ptrdiff_t{y} * rect.width,
-                    scratch->extremes[1] + ptrdiff_t{y} * rect.width};
+    return Extremes{scratch->distances.extremes[0] + ptrdiff_t{y} * rect.width,
+                    scratch->distances.extremes[1] + ptrdiff_t{y} * rect.width};
   };
   int16_t buffers[2][2][kMostTall];
   for (int32_t y = 0; y < tall; ++y) {
@@ -137,9 +142,10 @@ void CountRamps(const OutlineMemory& memory, const Rect& tile, OutlineScratch* s
   for (int32_t y = 0; y < tile.height; ++y) {
     for (int32_t x = 0; x < tile.width; ++x) {
       const int32_t k = y * tile.width + x,
-                    range = scratch->extremes[1][k] - scratch->extremes[0][k];
+                    range = scratch->distances.extremes[1][k] - scratch->distances.extremes[0][k];
       if (range <= kLeastStep) continue;
-      const int32_t middle = (scratch->extremes[1][k] + scratch->extremes[0][k]) >> 1;
+      const int32_t middle =
+          (scratch->distances.extremes[1][k] + scratch->distances.extremes[0][k]) >> 1;
       const int32_t step = StepAcross(memory, map, tile.x + x, tile.y + y, middle);
       if (step == 0) continue;
       if (IsSlanted(memory, map, tile.x + x, tile.y + y, range, kMostOutlineRadius)) continue;
@@ -183,14 +189,15 @@ void FindCrossings(const OutlineMemory& memory, const OutlinePass& pass, const i
       if (pass.IsHard()) {
         middle = MiddleOfStep(memory, map, column, row);
       } else {
-        const int32_t low = scratch->extremes[0][k], range = scratch->extremes[1][k] - low;
+        const int32_t low = scratch->distances.extremes[0][k],
+                      range = scratch->distances.extremes[1][k] - low;
         const int32_t between = low + (range >> 1);
         const bool crosses = range > kLeastStep &&
                              StepAcross(memory, map, column, row, between) > 0 &&
                              !IsSlanted(memory, map, column, row, range, pass.radius);
         if (crosses) middle = between;
       }
-      scratch->outlines[k] = middle == INT32_MIN ? kFar : NumberOf(kDistance / 2, middle);
+      scratch->distances.outlines[k] = middle == INT32_MIN ? kFar : NumberOf(kDistance / 2, middle);
     }
   }
 }
@@ -222,12 +229,13 @@ void MeasureDistances(const OutlineMemory& memory, const OutlinePass& pass, cons
                       const Rect& tile, OutlineScratch* scratch) {
   const Rect region = memory.Widened(tile, pass.band + 2);
   FindCrossings(memory, pass, map, region, scratch);
-  ExtendDistances(region, scratch->outlines);
+  ExtendDistances(region, scratch->distances.outlines);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     std::fill_n(memory.distance + memory.At(tile.x, y), tile.width, int8_t{0});
     std::fill_n(memory.side + memory.At(tile.x, y), tile.width, int8_t{0});
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const int32_t* own = scratch->outlines + (y - region.y) * region.width + x - region.x;
+      const int32_t* own =
+          scratch->distances.outlines + (y - region.y) * region.width + x - region.x;
       const int32_t to_outline = DistanceOf(*own), middle = MiddleOf(*own);
       if (to_outline > kDistance * pass.band + 2) continue;
       const size_t at = memory.At(x, y);
@@ -319,9 +327,7 @@ void KeepRight(const OutlinePicture& picture, const OutlineMemory& memory, bool 
     changes += memory.counts[k].changes;
   }
   ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
-    bool any = false;
-    ForBand(memory, cell, [&](int32_t, int32_t, size_t) { any = true; });
-    if (!any) return;
+    if (!HasBand(memory, cell)) return;
     const bool right =
         decides ? IsRight(memory, number, beside, changes) : memory.is_right[number] != 0;
     if (decides && begins) memory.is_right[number] = right ? 1 : 0;

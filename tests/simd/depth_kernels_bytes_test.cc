@@ -137,7 +137,7 @@ TEST_CASE("depth kernels: LeastSide and MeanCost return values computed by hand"
 TEST_CASE("depth kernels: SumVotes weighs similar colours of farther and nearer pixels") {
   constexpr size_t kStride = kSliceLanes + 2, kSamples = 3 * kStride;
   std::vector<int16_t> colour(kSamples, 100), surface(kSamples, 0), trust(kSamples, 0);
-  const std::vector<int16_t> middle(kSliceLanes, 50), closeness(9, 8);
+  const std::vector<int16_t> middle(kSliceLanes, 50), closeness(9, 8 * kClosenessUnit);
   // The first pixel has a nearer sample of its colour above it, and a farther sample whose colour
   // differs by 3 * 10 beside it. The second pixel has both beside it.
   const size_t own = kStride + 1;

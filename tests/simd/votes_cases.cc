@@ -31,7 +31,7 @@ void SumVotes(Draw* draw, DepthCall* call) {
       own;
   rows.middle = call->Input("middle", Filled<int16_t>(kSliceLanes, disparity));
   rows.closeness = call->Input("closeness", Filled<int16_t>(kMostVoteSide * kMostVoteSide, [&] {
-                                 return int16_t(draw->Int(0, kMostCloseness));
+                                 return int16_t(draw->Int(0, kMostCloseness * kClosenessUnit));
                                }));
   auto* sums = call->Results<uint16_t>("sums", 4 * kSliceLanes);
   call->Runs([=](const DepthKernels& kernels) {
