@@ -29,6 +29,10 @@ constexpr int32_t kLeastTrusted = 10;
 // as the other one, at most kMostPrior times.
 constexpr int32_t kPrior = 16, kMostPrior = 1000;
 
+// A first vote for the side of the displaced outline is final if both together make that side
+// kSurePrior times as probable as the other one.
+constexpr int32_t kSurePrior = 100;
+
 // Radius, around a cell, of the windows whose votes displace an outline.
 constexpr int32_t kShiftRadius = 4;
 // Weight of no displacement against displacements, in units of gains and weights of cells.
@@ -103,11 +107,13 @@ void FillBlock(const OutlinePicture& picture, const OutlineMemory& memory, const
   }
 }
 
-// Calls act(x, y, at, sums, lane) for each pixel of the band of a tile.
-template <class Sample, class Act>
+// Calls act(at, sums, lane) for each pixel of the band of a tile for which
+// needs(x, y, at, lane) returns true, and which lies in lane `lane`. The function `needs` is called
+// for the pixels of all lanes first.
+template <class Sample, class Needs, class Act>
 void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const Rect& tile,
                const Samples& samples, const simd::DepthKernels& kernels, VoteBlock* block,
-               const Sample& sample, const Act& act) {
+               const Sample& sample, const Needs& needs, const Act& act) {
   constexpr auto kLanes = static_cast<int32_t>(simd::kSliceLanes);
   const auto visit = [&](const Rect& area) {
     if (!HasBand(memory, area)) return;
@@ -117,6 +123,12 @@ void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const
         const int32_t count = Min(kLanes, area.x + area.width - x);
         const Rect row = {x, y, count, 1};
         if (!HasBand(memory, row)) continue;
+        size_t wanted[kLanes], wants = 0;
+        ForBand(memory, row, [&](int32_t column, int32_t, size_t at) {
+          const auto lane = static_cast<size_t>(column - x);
+          if (needs(column, y, at, lane)) wanted[wants++] = lane;
+        });
+        if (wants == 0) continue;
         int16_t middle[kLanes] = {};
         std::copy_n(memory.middle + memory.At(x, y), count, middle);
         const int32_t own = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach + x - area.x;
@@ -131,9 +143,7 @@ void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const
             samples.closeness};
         simd::VoteSums sums;
         kernels.SumVotes(rows, &sums);
-        ForBand(memory, row, [&](int32_t column, int32_t, size_t at) {
-          act(column, y, at, sums, static_cast<size_t>(column - x));
-        });
+        for (size_t k = 0; k < wants; ++k) act(memory.At(x, y) + wanted[k], sums, wanted[k]);
       }
     }
   };
@@ -188,7 +198,8 @@ void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
         *trusted = trust.of[Abs(memory.distance[at])];
         return map[at];
       },
-      [&](int32_t, int32_t, size_t at, const simd::VoteSums& sums, size_t lane) {
+      [](int32_t, int32_t, size_t, size_t) { return true; },
+      [&](size_t at, const simd::VoteSums& sums, size_t lane) {
         const int32_t weight = sums.weight[0][lane] + sums.weight[1][lane];
         const bool dense = 100 * weight < kLeastTrusted * samples.sum;
         memory.vote[at] = dense ? int8_t{0} : VoteOf(sums, lane, 1, 1);
@@ -232,7 +243,11 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
                VoteBlock* block) {
   const Samples samples(pass);
   const ShiftCells columns = memory.Columns(), rows = memory.Rows();
-  int32_t last_column = -1, last_row = -1, shift = 0;  // of the cell of the previous pixel
+  // The displacement of each column of cells of the tile, and the row of cells for which it holds.
+  int32_t shifts[kMostOutlineTile], shift_rows[kMostOutlineTile];
+  std::fill_n(shift_rows, kMostOutlineTile, -1);
+  const int32_t first_column = columns.Of(tile.x);
+  int32_t priors[simd::kSliceLanes];  // negative for the farther side
   uint8_t trust[kSure + 1];
   for (int32_t k = 0; k <= kSure; ++k) {
     trust[k] = static_cast<uint8_t>(k * k * simd::kMostTrust / (kSure * kSure));
@@ -248,19 +263,27 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
         if ((vote > 0) == (distance > 0)) return map[at];
         return static_cast<int16_t>(Clamp(2 * memory.middle[at] - map[at], INT16_MIN, INT16_MAX));
       },
-      [&](int32_t x, int32_t y, size_t at, const simd::VoteSums& sums, size_t lane) {
+      [&](int32_t x, int32_t y, size_t at, size_t lane) {
+        const int32_t vote = memory.vote[at];
         memory.side[at] = 0;
-        if (memory.vote[at] == 0) return;
-        const int32_t column = columns.Of(x), row = rows.Of(y);
-        if (column != last_column || row != last_row) shift = SmoothShift(memory, column, row);
-        last_column = column;
-        last_row = row;
-        const int32_t moved = memory.distance[at] + shift;
+        if (vote == 0) return false;
+        const int32_t column = columns.Of(x), row = rows.Of(y), cell = column - first_column;
+        if (shift_rows[cell] != row) shifts[cell] = SmoothShift(memory, column, row);
+        shift_rows[cell] = row;
+        const int32_t moved = memory.distance[at] + shifts[cell];
         const bool near = moved > 0 || (moved == 0 && memory.distance[at] > 0);
         const int32_t beyond = Max(2 * Abs(moved) - kDistance / 2, 0);  // in 1/(2 kDistance) pixel
         const int32_t prior =
             Min(1 + kPrior * beyond * beyond / (4 * kDistance * kDistance), kMostPrior);
-        memory.side[at] = VoteOf(sums, lane, near ? 1 : prior, near ? prior : 1);
+        priors[lane] = near ? prior : -prior;
+        if ((vote > 0) != near || prior * (kSure + Abs(vote)) < kSurePrior * (kSure + 1 - Abs(vote))) {
+          return true;
+        }
+        memory.side[at] = near ? kSure : -kSure;
+        return false;
+      },
+      [&](size_t at, const simd::VoteSums& sums, size_t lane) {
+        memory.side[at] = VoteOf(sums, lane, Max(-priors[lane], 1), Max(priors[lane], 1));
       });
 }
 
