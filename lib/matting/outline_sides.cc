@@ -138,12 +138,13 @@ size_t FindClean(const Region& region, const OutlinePass& pass, const int16_t* m
 // surface, are left out. Returns false if no neighbour has a disparity of this side.
 bool TakeFromNeighbours(const Region& region, int32_t middle, int32_t at, int32_t round) {
   SidePlanes& planes = *region.planes;
+  const int32_t end = round * kRound;
   const bool near = (planes.state[at] & kNearer) != 0;
   int32_t found[8], count = 0, extreme = near ? INT16_MIN : INT16_MAX;
   for (int32_t row = -1; row <= 1; ++row) {
     for (int32_t column = -1; column <= 1; ++column) {
       const int32_t other = at + row * region.Stride() + column;
-      if (planes.state[other] / kRound >= round) continue;
+      if (planes.state[other] >= end) continue;
       const int32_t disparity = planes.disparity[other];
       if ((disparity > middle) != near) continue;
       found[count++] = disparity;

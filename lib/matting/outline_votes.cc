@@ -31,7 +31,7 @@ constexpr int32_t kPrior = 16, kMostPrior = 1000;
 
 // A first vote for the side of the displaced outline is final if both together make that side
 // kSurePrior times as probable as the other one.
-constexpr int32_t kSurePrior = 100;
+constexpr int32_t kSurePrior = 64;
 
 // Radius, around a cell, of the windows whose votes displace an outline.
 constexpr int32_t kShiftRadius = 4;
@@ -276,7 +276,8 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
         const int32_t prior =
             Min(1 + kPrior * beyond * beyond / (4 * kDistance * kDistance), kMostPrior);
         priors[lane] = near ? prior : -prior;
-        if ((vote > 0) != near || prior * (kSure + Abs(vote)) < kSurePrior * (kSure + 1 - Abs(vote))) {
+        if ((vote > 0) != near ||
+            prior * (kSure + Abs(vote)) < kSurePrior * (kSure + 1 - Abs(vote))) {
           return true;
         }
         memory.side[at] = near ? kSure : -kSure;

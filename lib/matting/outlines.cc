@@ -110,11 +110,15 @@ void FindExtremes(const OutlineMemory& memory, const int16_t* map, const Rect& r
 // Returns the largest difference to a neighbour on the other side of `middle`, or 0.
 int32_t StepAcross(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y,
                    int32_t middle) {
-  const int32_t own = map[memory.At(x, y)];
+  const int16_t* own = map + memory.At(x, y);
+  const bool near = *own > middle;
   int32_t step = 0;
-  ForBeside(memory, map, x, y, [&](int32_t other, int32_t, int32_t) {
-    if ((own > middle) != (other > middle)) step = Max(step, Abs(other - own));
-  });
+  // The neighbours of pixels at the border are clamped to the picture.
+  for (const int16_t* other :
+       {x > 0 ? own - 1 : own, x + 1 < memory.width ? own + 1 : own,
+        y > 0 ? own - memory.width : own, y + 1 < memory.height ? own + memory.width : own}) {
+    if ((*other > middle) != near) step = Max(step, Abs(*other - *own));
+  }
   return step;
 }
 
@@ -133,7 +137,8 @@ bool IsSlanted(const OutlineMemory& memory, const int16_t* map, int32_t x, int32
   return (high - low) * 5 * radius <= 12 * range;
 }
 
-// Counts the widths of the map's ramps at the outlines of a tile. The width is the range of the
+// Counts the widths of the map's ramps at the outlines of a tile, at every second pixel of each row
+// and column, like the white fields of a chessboard. The width is the range of the
 // window, divided by the largest step.
 void CountRamps(const OutlineMemory& memory, const Rect& tile, OutlineScratch* scratch,
                 OutlineCounts* counts) {
@@ -141,14 +146,19 @@ void CountRamps(const OutlineMemory& memory, const Rect& tile, OutlineScratch* s
   FindExtremes(memory, map, tile, kMostOutlineRadius, scratch);
   for (int32_t y = 0; y < tile.height; ++y) {
     for (int32_t x = 0; x < tile.width; ++x) {
+      const int32_t column = tile.x + x, row = tile.y + y;
+      // Counted from the nearest border, so that mirrored maps have mirrored fields.
+      const int32_t field =
+          Min(column, memory.width - 1 - column) + Min(row, memory.height - 1 - row);
+      if (field % 2 != 0) continue;
       const int32_t k = y * tile.width + x,
                     range = scratch->distances.extremes[1][k] - scratch->distances.extremes[0][k];
       if (range <= kLeastStep) continue;
       const int32_t middle =
           (scratch->distances.extremes[1][k] + scratch->distances.extremes[0][k]) >> 1;
-      const int32_t step = StepAcross(memory, map, tile.x + x, tile.y + y, middle);
+      const int32_t step = StepAcross(memory, map, column, row, middle);
       if (step == 0) continue;
-      if (IsSlanted(memory, map, tile.x + x, tile.y + y, range, kMostOutlineRadius)) continue;
+      if (IsSlanted(memory, map, column, row, range, kMostOutlineRadius)) continue;
       ++counts->ramps[Min(kDistance * range / step, kRampCounts - 1)];
     }
   }
