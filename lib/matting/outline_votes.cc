@@ -58,8 +58,9 @@ struct Samples {
   int32_t reach, step, sum = 0;
   int16_t closeness[simd::kMostVoteSide * simd::kMostVoteSide];
 
-  explicit Samples(const OutlinePass& pass) : reach(pass.band + kVoteReach) {
-    step = reach > kCoarseReach ? 4 : reach > kFineReach ? 3 : 2;
+  // The second vote, whose samples are trusted more, compares fewer samples.
+  Samples(const OutlinePass& pass, bool second) : reach(pass.band + kVoteReach) {
+    step = (reach > kCoarseReach ? 4 : reach > kFineReach ? 3 : 2) + (second ? 1 : 0);
     reach -= reach % step;
     int32_t k = 0;
     for (int32_t y = -reach; y <= reach; y += step) {
@@ -191,7 +192,7 @@ void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
                   const OutlinePass& pass, const int16_t* map, const Rect& tile,
                   const simd::DepthKernels& kernels, VoteBlock* block) {
   const Trust trust(pass);
-  const Samples samples(pass);
+  const Samples samples(pass, false);
   SumAround(
       picture, memory, tile, samples, kernels, block,
       [&](size_t at, int16_t* trusted) {
@@ -241,7 +242,7 @@ void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const R
 void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
                const int16_t* map, const Rect& tile, const simd::DepthKernels& kernels,
                VoteBlock* block) {
-  const Samples samples(pass);
+  const Samples samples(pass, true);
   const ShiftCells columns = memory.Columns(), rows = memory.Rows();
   // The displacement of each column of cells of the tile, and the row of cells for which it holds.
   int32_t shifts[kMostOutlineTile], shift_rows[kMostOutlineTile];
