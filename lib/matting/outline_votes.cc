@@ -34,7 +34,7 @@ constexpr int32_t kPrior = 16, kMostPrior = 1000;
 constexpr int32_t kSurePrior = 64;
 
 // Radius, around a cell, of the windows whose votes displace an outline.
-constexpr int32_t kShiftRadius = 4;
+constexpr int32_t kShiftRadius = 3;
 // Weight of no displacement against displacements, in units of gains and weights of cells.
 constexpr int32_t kStill = 1;
 
