@@ -103,7 +103,6 @@ inline void SumVotes(const VoteRows& rows, VoteSums* HWY_RESTRICT sums) {
       for (int32_t x = -rows.reach; x <= rows.reach; x += rows.step, ++closeness) {
         const ptrdiff_t at = row + x;
         const auto trust = hn::LoadU(d16, rows.trust + at);
-        if (hn::AllTrue(d16, hn::Eq(trust, zero))) continue;
         const auto r = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[0] + at), red));
         const auto g = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[1] + at), green));
         const auto b = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[2] + at), blue));

@@ -218,9 +218,13 @@ void ExtendDistances(const Rect& region, int32_t* outlines) {
   const int32_t width = region.width;
   // Takes from a neighbouring row.
   const auto take = [&](int32_t* row, const int32_t* from) {
-    for (int32_t x = 0; x < width; ++x) row[x] = std::min(row[x], from[x] + kStep);
-    for (int32_t x = 1; x < width; ++x) row[x] = std::min(row[x], from[x - 1] + kAcross);
-    for (int32_t x = 0; x + 1 < width; ++x) row[x] = std::min(row[x], from[x + 1] + kAcross);
+    const auto from_three = [&](int32_t x, int32_t left, int32_t right) {
+      const int32_t beside = std::min(from[left], from[right]);
+      row[x] = std::min(row[x], std::min(from[x] + kStep, beside + kAcross));
+    };
+    from_three(0, 0, Min(1, width - 1));
+    for (int32_t x = 1; x + 1 < width; ++x) from_three(x, x - 1, x + 1);
+    from_three(width - 1, Max(width - 2, 0), width - 1);
   };
   for (int32_t y = 0; y < region.height; ++y) {
     int32_t* row = outlines + ptrdiff_t{y} * width;
