@@ -34,7 +34,7 @@ constexpr int32_t kPrior = 16, kMostPrior = 1000;
 constexpr int32_t kSurePrior = 64;
 
 // Radius, around a cell, of the windows whose votes displace an outline.
-constexpr int32_t kShiftRadius = 3;
+constexpr int32_t kShiftRadius = 4;
 // Weight of no displacement against displacements, in units of gains and weights of cells.
 constexpr int32_t kStill = 1;
 
@@ -58,9 +58,10 @@ struct Samples {
   int32_t reach, step, sum = 0;
   int16_t closeness[simd::kMostVoteSide * simd::kMostVoteSide];
 
-  // The second vote, whose samples are trusted more, compares fewer samples.
+  // In wider bands, the second vote, whose samples are trusted more, compares fewer samples.
   Samples(const OutlinePass& pass, bool second) : reach(pass.band + kVoteReach) {
-    step = (reach > kCoarseReach ? 4 : reach > kFineReach ? 3 : 2) + (second ? 1 : 0);
+    step = reach > kCoarseReach ? 4 : reach > kFineReach ? 3 : 2;
+    if (second && step > 2) ++step;
     reach -= reach % step;
     int32_t k = 0;
     for (int32_t y = -reach; y <= reach; y += step) {
