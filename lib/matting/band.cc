@@ -150,9 +150,40 @@ void SmoothNear(const int16_t* here, int32_t stride, int16_t* near) {
   }
 }
 
-// A pixel is a mixture if its given coverage differs from the coverage implied by the disparity map
-// by more than kLeastMixed (kAlphaBits).
-constexpr int32_t kLeastMixed = kWhole / 16;
+// A pixel is a mixture if its given coverage differs by more than kPure (kAlphaBits) from 0 and
+// from kWhole. The tolerance hides the noise of coverage that was computed or compressed.
+constexpr int32_t kPure = 2;
+
+// The pixels of a tile that have a mixture at most kBandReach pixels away along both axes.
+class BesideMixtures {
+ public:
+  BesideMixtures(const Input& input, int32_t column, int32_t row) {
+    const int32_t left = column * kCoverageTile - kBandReach, first = Max(0, left);
+    const int32_t end = Min(left + kSide, input.width);
+    for (int32_t y = 0; y < kSide; ++y) {
+      const int32_t from = row * kCoverageTile - kBandReach + y;
+      if (from < 0 || from >= input.height) continue;
+      const uint8_t* const given = input.given_coverage.Row(from);
+      uint32_t mixed = 0, wide = 0;  // bit k: column left + k
+      for (int32_t x = first; x < end; ++x) {
+        const int32_t alpha = GivenAlpha(given[x]);
+        mixed |= uint32_t{alpha > kPure && alpha < kWhole - kPure} << (x - left);
+      }
+      for (int32_t k = 0; k <= 2 * kBandReach; ++k) wide |= mixed >> k;
+      for (int32_t k = Max(0, y - 2 * kBandReach); k <= Min(y, kCoverageTile - 1); ++k) {
+        rows_[k] |= wide;
+      }
+    }
+  }
+
+  bool Has(int32_t x, int32_t y) const { return (rows_[y] >> x & 1) != 0; }
+
+ private:
+  static constexpr int32_t kSide = kCoverageTile + 2 * kBandReach;
+  static_assert(kSide <= 32, "a row of the tile and its surroundings has one bit per pixel");
+
+  uint32_t rows_[kCoverageTile] = {};  // bit k: column k of the tile
+};
 
 // Writes the surfaces, the coverage and the light of the pixels of a tile. find(y, at, pixels)
 // writes the BandPixels of row y of the tile, whose first pixel has the index `at` in `around`.
@@ -198,7 +229,6 @@ void StartPixels(const Input& input, int32_t column, int32_t row, const Disparit
   tile.near_bins = bins;
   tile.low = static_cast<int16_t>(low);
   tile.high = static_cast<int16_t>(high);
-  PullTile(column, row, map);
 }
 
 }  // namespace
@@ -245,22 +275,26 @@ void StartTile(const Input& input, int32_t column, int32_t row) {
       pixels[k] = BandPixelOf(here[k], beyond[k], square[k]);
     }
   });
+  PullTile(column, row, *input.coverage);
 }
 
 void StartGiven(const Input& input, int32_t column, int32_t row) {
   const GivenDisparities around(input, column, row);
   const SurfaceSearch search(around);
+  const BesideMixtures mixtures(input, column, row);
   CoverageTile& tile = input.coverage->Tile(column, row);
   const auto find = [&](int32_t x, int32_t y, int32_t at) -> BandPixel {
     const int32_t here = around.disparity[at];
+    const BandPixel one_surface = {false, kWhole, kWhole, here, here, kKnown};
     Surfaces surfaces;
-    if (!search.FindSurfaces(at, &surfaces)) return {false, kWhole, kWhole, here, here, kKnown};
-    const int32_t implied = surfaces.IsNear(here) ? kWhole : 0;
-    int32_t alpha = implied;
-    if (x < input.width && y < input.height) {
-      alpha = (input.given_coverage.Row(y)[x] * kWhole + 127) / 255;
+    if (x >= input.width || y >= input.height || !search.FindSurfaces(at, &surfaces)) {
+      return one_surface;
     }
-    if (Abs(alpha - implied) > kLeastMixed) tile.mixed = 1;
+    const int32_t implied = surfaces.IsNear(here) ? kWhole : 0;
+    const int32_t alpha = GivenAlpha(input.given_coverage.Row(y)[x]);
+    const bool agrees = Abs(alpha - implied) <= kPure && !search.IsOnRamp(at);
+    if (agrees && !mixtures.Has(x % kCoverageTile, y % kCoverageTile)) return one_surface;
+    tile.mixed = 1;
     return {true, implied, alpha, surfaces.low, surfaces.high, FarWeight(alpha)};
   };
   StartPixels(input, column, row, around, [&](int32_t y, int32_t at, BandPixel* pixels) {
@@ -268,6 +302,8 @@ void StartGiven(const Input& input, int32_t column, int32_t row) {
       pixels[k] = find(column * kCoverageTile + k, y, at + k);
     }
   });
+  if (input.views == 1) UnmixFar(input, column, row);
+  PullTile(column, row, *input.coverage);
 }
 
 }  // namespace starfocus

@@ -68,11 +68,10 @@ struct CoverageTile {
   // pixel wide. If the light field provides coverage, one pixel next to an edge makes the tile
   // ragged.
   uint8_t ragged;
-  // True if the light field provides coverage, and a pixel of the tile is a mixture of two
-  // surfaces.
+  // True if the light field provides coverage, and a pixel of the tile is split.
   uint8_t mixed;
   // True if pixels near edges are split in this tile, because this tile or a neighbouring tile is
-  // ragged. If the light field provides coverage, one of these tiles must also be mixed.
+  // ragged. If the light field provides coverage, this tile must also be mixed.
   uint8_t thin;
 };
 
@@ -144,6 +143,9 @@ struct CoverageMap {
 // Returns true if the light field contains coverage. If the light field contains no coverage, the
 // passes estimate the coverage.
 inline bool HasGiven(const Input& input) { return input.given_coverage.data != nullptr; }
+
+// Converts a sample of given coverage to kAlphaBits.
+inline int32_t GivenAlpha(uint8_t sample) { return (sample * kWhole + 127) / 255; }
 
 // Returns the distance in pixels from a split pixel to the farthest pixels that the passes read.
 // Returns 0 if the engine has no memory for coverage.

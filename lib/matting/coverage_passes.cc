@@ -29,7 +29,7 @@ int32_t TilesAhead(const starfocus_config& config, int pass) {
       // requires this light in the next row of tiles.
       return 1;
     case kUnmixFirst:
-      // A tile next to a mixed tile is thin, so the Look pass requires `mixed` one row ahead.
+      // The Look pass reads the coverage of surfaces that move onto a tile in side views.
       return 1 + Max(1, moved);
     case kStart:
       return TilesAhead(config, kUnmixFirst) + 1;
@@ -76,8 +76,7 @@ void Start(const Input& input, int32_t column, int32_t row) {
 
 void Look(const Input& input, int32_t column, int32_t row) {
   CoverageTile& tile = input.coverage->Tile(column, row);
-  const bool thin =
-      !HasGiven(input) || input.coverage->AnyAround(column, row, 1, &CoverageTile::mixed);
+  const bool thin = !HasGiven(input) || tile.mixed != 0;
   tile.thin = thin && input.coverage->IsStarted(column, row) ? 1 : 0;
   if (tile.thin != 0 && !IsGivenAlone(input)) LookBehindTile(input, column, row);
 }
@@ -103,7 +102,7 @@ void RunPass(const Input& input, int pass, int32_t first, int32_t last, int32_t 
     if (pass != kUnmixAgain || tile.thin == 0) continue;
     if (given) {
       TakeGiven(input, column, row);
-      AddFarDetail(input, column, row);
+      if (!IsGivenAlone(input)) AddFarDetail(input, column, row);
     } else {
       UnmixAgain(input, column, row);
     }

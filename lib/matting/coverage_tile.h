@@ -26,8 +26,9 @@ void ClearTile(const Input& input, int32_t column, int32_t row);
 void StartTile(const Input& input, int32_t column, int32_t row);
 
 // For each pixel of the tile near an edge, writes the disparities of both surfaces, the given
-// coverage, and the light of the centre view as light of the far surface. Sets `mixed` if the given
-// coverage of any pixel differs from the coverage that the disparity map implies.
+// coverage, and the light of the centre view as light of the far surface. With one view, the light
+// of the near surface is first removed (UnmixFar). Pixels whose coverage only repeats the map, and
+// which are not beside mixtures, are not split. Sets `mixed` if any pixel is split.
 void StartGiven(const Input& input, int32_t column, int32_t row);
 
 // Coverage (unmix.cc).
@@ -77,10 +78,16 @@ constexpr int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha);
 // the coverage by nearer surfaces.
 void LookBehindTile(const Input& input, int32_t column, int32_t row);
 
-// Adds detail to the light of the far surface in the mixed pixels of a tile. The light of a mixed
-// pixel that the means of both surfaces do not explain is detail of one of the surfaces. The far
-// surface gets a part of this light, which decreases with the coverage. Without this part, faint
-// coverage would give all detail of the background to the near surface.
+// Removes the light of the near surface, a mean of the light around, from the light of the far
+// surface in the cells of level 0 of a tile. The result keeps the detail of the background, and its
+// weight decreases with the coverage, because an error of the near light grows with the coverage.
+// Call UnmixFar before PullTile. CoverageMap::first contains the coverage of the tile.
+void UnmixFar(const Input& input, int32_t column, int32_t row);
+
+// Adds detail to the light of the far surface, which side views show, in the mixed pixels of a
+// tile. The light of a mixed pixel that the means of both surfaces do not explain is detail of one
+// of the surfaces. The far surface gets a part of this light, which decreases with the coverage.
+// Without this part, faint coverage would give all detail of the background to the near surface.
 void AddFarDetail(const Input& input, int32_t column, int32_t row);
 
 // Search for the surfaces around a pixel of a tile (surface_search.cc).

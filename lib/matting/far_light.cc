@@ -4,6 +4,11 @@
 namespace starfocus {
 namespace {
 
+// Returns a / b, rounded to the nearest integer; b > 0.
+int32_t Rounded(int64_t a, int32_t b) {
+  return static_cast<int32_t>((a + (a < 0 ? -(b / 2) : b / 2)) / b);
+}
+
 // Weighted sums of the light and the disparities of several cells that show one surface.
 struct FarSum {
   int64_t rgb[3] = {0, 0, 0}, disparity = 0;
@@ -14,14 +19,11 @@ struct FarSum {
     disparity += int64_t{part} * cell.disparity;
     weight += part;
   }
-  static int16_t Mean(int64_t sum, int32_t weight) {
-    return static_cast<int16_t>((sum + (sum < 0 ? -(weight / 2) : weight / 2)) / weight);
-  }
+  int16_t Mean(int64_t sum) const { return static_cast<int16_t>(Rounded(sum, weight)); }
   FarCell Mean(int32_t known) const {
     if (weight == 0) return {};
-    return {{Mean(rgb[0], weight), Mean(rgb[1], weight), Mean(rgb[2], weight)},
-            static_cast<int16_t>(known),
-            Mean(disparity, weight)};
+    return {
+        {Mean(rgb[0]), Mean(rgb[1]), Mean(rgb[2])}, static_cast<int16_t>(known), Mean(disparity)};
   }
 };
 
@@ -295,15 +297,16 @@ constexpr int kNearKnownBits = 2;
 struct NearMean {
   int32_t rgb[3];  // 0 if `weight` is 0
   int32_t weight;  // sum of the weights; kKnown for one pixel that the surface covers
+
+  // Returns the trust in the mean, with kNearKnownBits fractional bits.
+  int32_t Known() const { return Min(weight, 1 << kNearKnownBits); }
 };
 
-class DetailAdder {
+// Separates the light of the far surface from the light of the near surface in a tile.
+class FarUnmixer {
  public:
-  DetailAdder(const Input& input, int32_t column, int32_t row)
-      : map_(*input.coverage),
-        left_(column * kCoverageTile),
-        top_(row * kCoverageTile),
-        detail_bits_(4 * kAlphaBits + (input.views > 1 ? 1 : 0)) {
+  FarUnmixer(const Input& input, int32_t column, int32_t row)
+      : map_(*input.coverage), left_(column * kCoverageTile), top_(row * kCoverageTile) {
     const int32_t left = left_ - kNearReach, first = Max(0, left);
     const int32_t end = Min(left + kSide, map_.width);
     for (int32_t k = 0; k < kSide; ++k) {
@@ -312,23 +315,62 @@ class DetailAdder {
       input.Light(0, first, y, end - first, light_[k] + 3 * (first - left));
       const uint8_t* const coverage = input.given_coverage.Row(y);
       for (int32_t x = first; x < end; ++x) {
-        const int32_t alpha = (coverage[x] * kWhole + 127) / 255;
-        weights_[k][x - left] = static_cast<int16_t>(EighthPower(alpha));
+        weights_[k][x - left] = static_cast<int16_t>(EighthPower(GivenAlpha(coverage[x])));
       }
     }
   }
 
-  void Add() {
+  // Calls visit(x, y, alpha) for each pixel (x, y) of the tile whose coverage in `plane`,
+  // CoverageMap::first or CoverageMap::alpha, is between 0 and 1.
+  template <class Visit>
+  void ForEachMixture(const uint8_t* plane, const Visit& visit) const {
     for (int32_t y = 0; y < Min(kCoverageTile, map_.height - top_); ++y) {
       for (int32_t x = 0; x < Min(kCoverageTile, map_.width - left_); ++x) {
-        const int32_t alpha = map_.alpha[map_.At(left_ + x, top_ + y)];
-        if (alpha > 0 && alpha < kWhole) AddAt(x, y, alpha);
+        const int32_t alpha = plane[map_.At(left_ + x, top_ + y)];
+        if (alpha > 0 && alpha < kWhole) visit(x, y, alpha);
       }
+    }
+  }
+
+  // Unmixes pixel (x, y) of the tile: far = mixed + (mixed - near) alpha / (1 - alpha). The weight
+  // is (1 - alpha)^5.
+  void UnmixAt(int32_t x, int32_t y, int32_t alpha) const {
+    FarCell& far = map_.FarAt(left_ + x, top_ + y);
+    const NearMean near = MeanAround(x, y);
+    const int32_t rest = kWhole - alpha;
+    // If the light of the near surface is not known, it is assumed to equal the light of the pixel.
+    for (int c = 0; c < 3; ++c) {
+      const int32_t contrast = near.Known() * alpha * (far.rgb[c] - near.rgb[c]);
+      far.rgb[c] = Unmixed(far.rgb[c] + Rounded(contrast, rest << kNearKnownBits));
+    }
+    const int64_t square = int64_t{rest} * rest;
+    far.weight = static_cast<int16_t>(square * square * rest >> (5 * kAlphaBits - kFarKnownBits));
+  }
+
+  // Adds detail at pixel (x, y) of the tile. The far surface gets half of (1 - alpha)^3 of the
+  // light that the means of both surfaces do not explain, per part of the pixel that it covers. The
+  // other half is left away because the light from side views already has detail.
+  void AddDetailAt(int32_t x, int32_t y, int32_t alpha) const {
+    const int16_t* const mixed = light_[y + kNearReach] + 3 * (x + kNearReach);
+    int16_t* const far = map_.FarAt(left_ + x, top_ + y).rgb;
+    const NearMean near = MeanAround(x, y);
+    const int32_t rest = kWhole - alpha, cube = rest * rest * rest;
+    // If the light of the near surface is not known, it is assumed to equal the light of the far
+    // surface.
+    for (int c = 0; c < 3; ++c) {
+      const int32_t contrast = near.Known() * (near.rgb[c] - far[c]) >> kNearKnownBits;
+      const int64_t detail = (mixed[c] - far[c]) * kWhole - alpha * contrast;
+      far[c] =
+          Unmixed(far[c] + static_cast<int32_t>(RoundShift(detail * cube, 4 * kAlphaBits + 1)));
     }
   }
 
  private:
   static constexpr int32_t kSide = kCoverageTile + 2 * kNearReach;
+
+  static int16_t Unmixed(int32_t light) {
+    return static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
+  }
 
   NearMean MeanAround(int32_t x, int32_t y) const {
     NearMean mean = {};
@@ -339,32 +381,14 @@ class DetailAdder {
         for (int c = 0; c < 3; ++c) mean.rgb[c] += weight * light_[row][3 * column + c];
       }
     }
-    for (int c = 0; c < 3 && mean.weight > 0; ++c) mean.rgb[c] /= mean.weight;
-    return mean;
-  }
-
-  // Adds detail at pixel (x, y) of the tile. The far surface gets (1 - coverage)^3 of the light
-  // that both means do not explain, per part of the pixel that it covers. If side views show the
-  // far surface, its light already has detail, and it gets half as much.
-  void AddAt(int32_t x, int32_t y, int32_t alpha) const {
-    const int16_t* const mixed = light_[y + kNearReach] + 3 * (x + kNearReach);
-    int16_t* const far = map_.FarAt(left_ + x, top_ + y).rgb;
-    const NearMean near = MeanAround(x, y);
-    const int32_t rest = kWhole - alpha, cube = rest * rest * rest;
-    // If the light of the near surface is not known, it is assumed to equal the light of the far
-    // surface.
-    const int32_t known = Min(near.weight, 1 << kNearKnownBits);
-    for (int c = 0; c < 3; ++c) {
-      const int32_t contrast = known * (near.rgb[c] - far[c]) >> kNearKnownBits;
-      const int64_t detail = (mixed[c] - far[c]) * kWhole - alpha * contrast;
-      const auto light = far[c] + static_cast<int32_t>(RoundShift(detail * cube, detail_bits_));
-      far[c] = static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
+    for (int c = 0; c < 3 && mean.weight > 0; ++c) {
+      mean.rgb[c] = Rounded(mean.rgb[c], mean.weight);
     }
+    return mean;
   }
 
   const CoverageMap& map_;
   const int32_t left_, top_;
-  const int detail_bits_;  // fractional bits of products of detail and cube, plus 1 to halve them
   // Light and weights (EighthPower of the given coverage) of the tile and of kNearReach pixels on
   // each side. Pixels beyond the picture have weight 0.
   int16_t light_[kSide][3 * kSide] = {};
@@ -424,8 +448,18 @@ void LookBehindTile(const Input& input, int32_t column, int32_t row) {
   PullTile(column, row, *input.coverage);
 }
 
+void UnmixFar(const Input& input, int32_t column, int32_t row) {
+  const FarUnmixer unmixer(input, column, row);
+  unmixer.ForEachMixture(input.coverage->first, [&](int32_t x, int32_t y, int32_t alpha) {
+    unmixer.UnmixAt(x, y, alpha);
+  });
+}
+
 void AddFarDetail(const Input& input, int32_t column, int32_t row) {
-  DetailAdder(input, column, row).Add();
+  const FarUnmixer unmixer(input, column, row);
+  unmixer.ForEachMixture(input.coverage->alpha, [&](int32_t x, int32_t y, int32_t alpha) {
+    unmixer.AddDetailAt(x, y, alpha);
+  });
 }
 
 }  // namespace starfocus

@@ -238,7 +238,10 @@ PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const Blo
 
 bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const {
   const int32_t x = field_.x + column, y = field_.y + row;
-  if (map_ != nullptr && map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0) return false;
+  if (map_ != nullptr && map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
+      (!HasGiven(centre_.input()) || map_->alpha[map_->At(x, y)] != kUnsplit)) {
+    return false;
+  }
   const int16_t disparity = *field_.Disparity(column, row);
   const auto moves = [&](int32_t near, int32_t far) {
     return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;

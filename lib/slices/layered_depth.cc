@@ -357,6 +357,34 @@ void DropStrands(const SplitPixel& pixel, LayeredDepth* surfaces) {
   }
 }
 
+// Returns the index of the surface that FindLayeredDepth has continued behind a pixel that the near
+// surface of a thin structure covers, if this surface is the far surface of the pixel. Otherwise
+// returns 0. InpaintHidden continues the colours of both sides of an edge, which are more accurate
+// than the far colour of the coverage map, a mean of colours that are not behind the pixel.
+int ContinuedFar(const SplitPixel& pixel, const LayeredDepth& surfaces) {
+  const size_t at = surfaces.At(pixel.column, pixel.row);
+  if (pixel.kind != SplitPixel::kThin || pixel.share < simd::kSliceWhole) return 0;
+  for (int behind = 1; behind < simd::kSurfaces; ++behind) {
+    const int32_t disparity = surfaces.disparity[behind][at];
+    if (surfaces.sources[behind - 1][at] >> simd::kSourceDistance != 0 && disparity != kNoSurface &&
+        Abs(disparity - pixel.far_disparity) <= kThinStep) {
+      return behind;
+    }
+  }
+  return 0;
+}
+
+// Moves the second hidden surface of a pixel to the place of the first one.
+void DropFirstHidden(size_t at, LayeredDepth* surfaces) {
+  surfaces->disparity[1][at] = surfaces->disparity[2][at];
+  surfaces->sources[0][at] = surfaces->sources[1][at];
+  for (size_t sample = at; sample < 3 * surfaces->plane; sample += surfaces->plane) {
+    surfaces->rgb[1][sample] = surfaces->rgb[2][sample];
+  }
+  surfaces->disparity[2][at] = kNoSurface;
+  surfaces->sources[1][at] = 0;
+}
+
 // Gives a pixel the two surfaces that it mixes. A hidden surface at most `copy_step` behind the far
 // surface is a copy (kMostCopy), which the far surface replaces. The copy of a pixel inside a thin
 // structure stays in front of the far surface.
@@ -369,6 +397,13 @@ void Split(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
   const int far = is_closed ? 2 : 1;
   to.hiding[pixel.row] |= uint64_t{1} << (pixel.column / static_cast<int32_t>(simd::kSliceLanes));
   to.share[at] = pixel.share;
+  to.disparity[0][at] = pixel.near_disparity;
+  to.high = pixel.near_disparity > to.high ? pixel.near_disparity : to.high;
+  const int continued = ContinuedFar(pixel, to);
+  if (continued > 0) {
+    if (continued > far) DropFirstHidden(at, surfaces);
+    return;
+  }
   const bool moves = !is_thin && pixel.far_disparity - to.disparity[1][at] > copy_step;
   if (is_thin) {
     to.sources[0][at] = to.sources[1][at] = 0;
@@ -379,9 +414,7 @@ void Split(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
     to.sources[0][at] = to.sources[1][at];  // source of the surface behind the far surface
   }
   to.disparity[far][at] = pixel.far_disparity;
-  to.disparity[0][at] = pixel.near_disparity;
   to.low = pixel.far_disparity < to.low ? pixel.far_disparity : to.low;
-  to.high = pixel.near_disparity > to.high ? pixel.near_disparity : to.high;
   for (size_t c = 0; c < 3; ++c) {
     const size_t sample = c * to.plane + at;
     if (moves) to.rgb[2][sample] = to.rgb[1][sample];

@@ -219,7 +219,7 @@ TEST_CASE("coverage: with given coverage, the engine splits pixels like the refe
     for (const int views : kViews) {
       CAPTURE(views);
       const Distance distance = Check(Strands(views, map, true));
-      CHECK(distance.parted > 4000);
+      CHECK(distance.parted > 2500);
       CHECK(distance.parted < kWidth * kHeight - 500);
       all.Add(distance);
     }

@@ -74,6 +74,8 @@ class Parter {
   const Pixel& At(int x, int y) const { return pixels_[Index(x, y)]; }
   const Colour& Light(int x, int y) const { return centre_.colours[Index(x, y)]; }
 
+  double GivenAt(int x, int y) const { return RoundedCoverage(given_[Index(x, y)] / 255.0); }
+
   // Returns true if coverage is given, and no side view shows far surfaces.
   bool IsGivenAlone() const { return !given_.empty() && field_.size() == 1; }
 
@@ -90,7 +92,7 @@ class Parter {
   }
   bool IsStarted(int x, int y) const { return Any(ragged_, x, y, given_.empty() ? 1 : 2); }
   bool IsThin(int x, int y) const {
-    return IsStarted(x, y) && (given_.empty() || Any(mixed_, x, y, 1));
+    return IsStarted(x, y) && (given_.empty() || Any(mixed_, x, y, 0));
   }
 
   void MarkRagged() {
@@ -114,14 +116,58 @@ class Parter {
     }
   }
 
-  // Marks the tiles in which the given coverage of any pixel with two surfaces differs by more than
-  // 1/16 from the coverage according to the map.
+  // Marks the tiles in which any pixel has given coverage and two surfaces.
   void MarkMixed() {
     ForEach([&](int x, int y) {
       const Pixel& pixel = At(x, y);
-      if (given_.empty() || !pixel.two) return;
-      if (std::fabs(pixel.first - pixel.guess) > 1 / 16.0) mixed_.insert({x / kTile, y / kTile});
+      if (!given_.empty() && pixel.two) mixed_.insert({x / kTile, y / kTile});
     });
+  }
+
+  // Returns true if the given coverage of any pixel within 3 pixels along both axes differs by more
+  // than 2/128 from 0 and from 1.
+  bool IsBesideMixture(int x, int y) const {
+    for (int row = std::max(y - 3, 0); row <= std::min(y + 3, centre_.height - 1); ++row) {
+      for (int column = std::max(x - 3, 0); column <= std::min(x + 3, centre_.width - 1);
+           ++column) {
+        const double alpha = GivenAt(column, row);
+        if (alpha > 2 / 128.0 && alpha < 126 / 128.0) return true;
+      }
+    }
+    return false;
+  }
+
+  // Finds the two surfaces of a pixel with given coverage. Returns false if the pixel is not split,
+  // because no edge is near, or because the coverage only repeats the map.
+  bool FindGiven(int x, int y, int* low, int* high) const {
+    const int here = map_.Disparity(x, y);
+    if (!map_.FindGiven(x, y, low, high)) return false;
+    const double guess = 2 * here >= *low + *high ? 1 : 0;
+    return std::fabs(GivenAt(x, y) - guess) > 2 / 128.0 || map_.IsRamp(x, y) ||
+           IsBesideMixture(x, y);
+  }
+
+  // Returns the light of a pixel without the light of its near surface, which is the mean of the
+  // near light around the pixel.
+  Colour WithoutNear(int x, int y) const {
+    constexpr int kReach = 3;
+    Colour near = {0, 0, 0};
+    double weights = 0;
+    for (int row = y - kReach; row <= y + kReach; ++row) {
+      for (int column = x - kReach; column <= x + kReach; ++column) {
+        if (!centre_.Inside(column, row)) continue;
+        const double weight = EighthPower(GivenAt(column, row));
+        weights += weight;
+        for (size_t c = 0; c < 3; ++c) near[c] += weight * Light(column, row)[c];
+      }
+    }
+    const double alpha = At(x, y).first, known = std::min(64 * weights, 1.0);
+    Colour light = Light(x, y);
+    for (size_t c = 0; c < 3 && weights > 0; ++c) {
+      const double contrast = known * (light[c] - near[c] / weights);
+      light[c] = std::clamp(light[c] + alpha * contrast / (1 - alpha), 0.0, 255.0);
+    }
+    return light;
   }
 
   void StartPixel(int x, int y) {
@@ -131,22 +177,23 @@ class Parter {
     if (!IsStarted(x, y)) return;
     int low = here, high = here, square = 0;
     const bool given = !given_.empty();
-    pixel.two =
-        given ? map_.FindGiven(x, y, &low, &high) : map_.FindEdge(x, y, &low, &high, &square);
+    pixel.two = given ? FindGiven(x, y, &low, &high) : map_.FindEdge(x, y, &low, &high, &square);
     double known = 1;
     if (pixel.two) {
       pixel.near = map_.SmoothNear(x, y, high);
       pixel.far = low;
       pixel.guess = pixel.first = 2 * here >= low + high ? 1 : 0;
       if (given) {
-        pixel.first = RoundedCoverage(given_[Index(x, y)] / 255.0);
+        pixel.first = GivenAt(x, y);
         known = EighthPower(1 - pixel.first);
       } else {
         // Near a strand in the map, pixels may show strands that the map lacks.
         known = here == high ? 0 : square <= 2 ? 1 / 16.0 : square <= 5 ? 1 / 4.0 : 1;
       }
     }
-    far_.Pixel(x, y) = {Light(x, y), known, pixel.far};
+    const bool unmixes = IsGivenAlone() && pixel.first > 0 && pixel.first < 1;
+    if (unmixes) known = Kept(std::pow(1 - pixel.first, 5));
+    far_.Pixel(x, y) = {unmixes ? WithoutNear(x, y) : Light(x, y), known, pixel.far};
   }
 
   // --- Coverage computed from colours ---
@@ -271,7 +318,7 @@ class Parter {
     for (int row = y - kReach; row <= y + kReach; ++row) {
       for (int column = x - kReach; column <= x + kReach; ++column) {
         if (!centre_.Inside(column, row)) continue;
-        const double weight = EighthPower(RoundedCoverage(given_[Index(column, row)] / 255.0));
+        const double weight = EighthPower(GivenAt(column, row));
         weights += weight;
         for (size_t c = 0; c < 3; ++c) near[c] += weight * Light(column, row)[c];
       }
@@ -295,7 +342,7 @@ class Parter {
     if (!given_.empty()) {
       parted.parted = known;
       const bool is_mixed = pixel.first > 0 && pixel.first < 1;
-      if (is_mixed) parted.light = WithDetail(x, y, far.light);
+      if (is_mixed && !IsGivenAlone()) parted.light = WithDetail(x, y, far.light);
       return parted;
     }
     if (!known) {

@@ -22,6 +22,9 @@ class ThinMap {
   bool IsBesideNearer(int x, int y) const;
   // Returns true if two opposite neighbours of a pixel are farther.
   bool IsStrand(int x, int y) const;
+  // Returns true if the disparity of a pixel lies between the disparities of two opposite
+  // neighbours.
+  bool IsRamp(int x, int y) const;
   // FindGiven and FindEdge find the disparities of the two surfaces of a pixel, and return false if
   // the pixel has only one surface. FindGiven, for given coverage, uses the nearest surfaces within
   // 32 pixels, without ramps. FindEdge uses the surfaces at the nearest edge within 3 pixels.
@@ -34,7 +37,6 @@ class ThinMap {
  private:
   using Is = std::function<bool(int x, int y)>;
   std::pair<int, int> Nearest(int x, int y, int reach, const Is& is) const;
-  bool IsRamp(int x, int y) const;
 
   const Picture& picture_;
 };

@@ -160,6 +160,118 @@ TEST_CASE("given coverage: with side views, detail behind an outline stays as sh
   CHECK(with > without - 0.05);
 }
 
+// Returns one view of a disc in front of the wall. The map is hard, and coverage is true.
+test::Scene Disc() {
+  constexpr int kParts = 8;
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, float(kFar), float(kNear));
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      int parts = 0;
+      for (int part = 0; part < kParts * kParts; ++part) {
+        const double dx = x + (part % kParts + 0.5) / kParts - 95.8;
+        const double dy = y + (part / kParts + 0.5) / kParts - 80.3;
+        parts += dx * dx + dy * dy < 45 * 45 ? 1 : 0;
+      }
+      const double coverage = parts / double(kParts * kParts);
+      scene.coverage.push_back(uint8_t(std::lround(255 * coverage)));
+      for (int c = 0; c < 3; ++c) {
+        const double light = coverage * BarAt(c) + (1 - coverage) * WallAt(x, y, c);
+        scene.Pixel(0, x, y)[c] = uint8_t(std::lround(light));
+      }
+      scene.Disparity(x, y) = float(coverage >= 0.5 ? kNear : kFar);
+    }
+  }
+  return scene;
+}
+
+// Returns the squared error of a picture of Disc() that is focused on the disc.
+double ErrorBesideDisc(const test::Output& out, const test::Scene& scene) {
+  constexpr int kBlur = int(kNear - kFar);
+  double sum = 0;
+  for (int y = 16; y < kHeight - 16; ++y) {
+    for (int x = 16; x < kWidth - 16; ++x) {
+      double wall[3] = {}, points = 0;
+      for (int dy = -kBlur; dy <= kBlur; ++dy) {
+        for (int dx = -kBlur; dx <= kBlur; ++dx) {
+          if (dx * dx + dy * dy > kBlur * kBlur) continue;
+          for (int c = 0; c < 3; ++c) wall[c] += WallAt(x + dx, y + dy, c);
+          ++points;
+        }
+      }
+      const double coverage = scene.coverage[size_t(y * kWidth + x)] / 255.0;
+      for (int c = 0; c < 3; ++c) {
+        const double truth = coverage * BarAt(c) + (1 - coverage) * wall[c] / points;
+        sum += (out.Pixel(x, y)[c] - truth) * (out.Pixel(x, y)[c] - truth);
+      }
+    }
+  }
+  return sum;
+}
+
+TEST_CASE("given coverage: beside an exact map, true coverage does not cost accuracy") {
+  const test::Scene scene = Disc();
+  const starfocus_params params = ThroughDisc(kNear);
+  const double with = ErrorBesideDisc(test::OutputOf(CombConfig(scene), params, scene), scene);
+  const double without =
+      ErrorBesideDisc(test::OutputOf(CombConfig(scene), params, Without(scene)), scene);
+  MESSAGE("squared error without and with coverage: ", without, " and ", with);
+  CHECK(with < without);
+}
+
+TEST_CASE("given coverage: coverage that repeats the map changes nothing, even beside mixtures") {
+  test::Scene scene = Comb();
+  constexpr int kMixed = 60;  // the only mixed pixel is at (kMixed, kTop + 3)
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      scene.coverage[size_t(y * kWidth + x)] = scene.Disparity(x, y) == float(kNear) ? 255 : 0;
+    }
+  }
+  scene.coverage[size_t((kTop + 3) * kWidth + kMixed)] = 128;
+  starfocus_config config = CombConfig(scene);
+  config.tuning.gather = 0;
+  for (const double focus : {kFar, kNear}) {
+    const test::Output with = test::OutputOf(config, ThroughDisc(focus), scene);
+    const test::Output without = test::OutputOf(config, ThroughDisc(focus), Without(scene));
+    int most = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        // The mixture changes pixels up to 3 pixels away, which a blur of 12 pixels spreads.
+        if (std::max(std::abs(x - kMixed), std::abs(y - kTop - 3)) <= 3 + 12 + 2) continue;
+        for (int c = 0; c < 3; ++c) {
+          most = std::max(most, std::abs(with.Pixel(x, y)[c] - without.Pixel(x, y)[c]));
+        }
+      }
+    }
+    CAPTURE(focus);
+    CHECK(most <= 1);
+  }
+}
+
+TEST_CASE("given coverage: a change of coverage by one code changes no pixel by more than 8") {
+  const test::Scene comb = Comb(), disc = Disc();
+  for (const test::Scene& original : {comb, disc}) {
+    test::Scene scene = original;
+    test::Random random(5);
+    for (uint8_t& coverage : scene.coverage) {
+      coverage = uint8_t(std::clamp(coverage + random.Int(-9, 9), 1, 254));
+    }
+    for (const int shift : {-1, 1}) {
+      test::Scene shifted = scene;
+      for (uint8_t& coverage : shifted.coverage) coverage = uint8_t(coverage + shift);
+      for (const double focus : {kFar, 0.0, kNear}) {
+        const test::Output one = test::OutputOf(CombConfig(scene), ThroughDisc(focus), scene);
+        const test::Output other = test::OutputOf(CombConfig(scene), ThroughDisc(focus), shifted);
+        int most = 0;
+        for (size_t n = 0; n < one.bytes.size(); ++n) {
+          most = std::max(most, std::abs(one.bytes[n] - other.bytes[n]));
+        }
+        CAPTURES(shift, focus);
+        CHECK(most <= 8);
+      }
+    }
+  }
+}
+
 TEST_CASE("given coverage: a slanted surface that covers its pixels stays closed") {
   constexpr int kEdge = 60, kDark = 20, kBright = 240, kBlur = 20;
   test::Scene scene = test::EmptyScene(128, 96, 1, 0, 40);
