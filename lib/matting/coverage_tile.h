@@ -119,8 +119,8 @@ struct DisparitiesAround {
 // computed by neural networks, outlines are misplaced by up to kGivenReach pixels.
 inline constexpr int32_t kGivenReach = 32;
 
-// Distance in pixels from a pixel to the neighbours that decide whether the pixel is on a ramp.
-inline constexpr int32_t kRampReach = 1;
+// Largest distance in pixels from a pixel to the pixels that decide whether the pixel is on a ramp.
+inline constexpr int32_t kRampReach = 3;
 using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
 
 // Result of a search for the nearest pixel of a surface. Among equally distant pixels, the search
@@ -144,7 +144,8 @@ class SurfaceSearch {
  public:
   explicit SurfaceSearch(const GivenDisparities& around);
 
-  // A pixel is on a ramp if its disparity lies between the disparities of two opposite neighbours.
+  // A pixel is on a ramp if its disparity lies between the disparities of two opposite pixels at an
+  // equal distance of at most kRampReach.
   bool IsOnRamp(int32_t at) const { return on_ramp_[at]; }
 
   // Finds the nearest pixel in the square of radius kGivenReach around a pixel of the tile that is

@@ -11,7 +11,7 @@
 namespace starfocus {
 
 // Number of pixels around an area whose disparities MatteCoverage reads.
-inline constexpr int32_t kMatteReach = 33;
+inline constexpr int32_t kMatteReach = 35;
 
 // Writes the coverage of `area`. out.Row(y) receives row y of the picture, starting with column
 // area.x. All disparities must be known. `depth.columns` is ignored.

@@ -4,25 +4,28 @@
 namespace starfocus {
 namespace {
 
-// On a ramp, the steps to both neighbours are at least kLeastRamp, and the larger step is at most
-// kRampRatio times the smaller step.
+// On a ramp, the steps to both pixels are at least kLeastRamp, and the larger step is at most
+// kRampRatio times the smaller step. Two edges are a ramp with any ratio: repaired maps of networks
+// have narrow strips of another disparity along outlines.
 constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
 constexpr int32_t kRampRatio = 4;
 
-// Returns true if the middle of three adjacent pixels is on a ramp. The arguments are the
+// Returns true if the middle of three pixels is on a ramp. The arguments are the
 // disparities of the pixels in kDisparityBits.
 bool IsRamp(int32_t before, int32_t here, int32_t after) {
   if (Abs(after - before) < 2 * kLeastRamp) return false;  // most pixels
   const int32_t sign = after < before ? -1 : 1;
   const int32_t a = sign * (here - before), b = sign * (after - here);
-  return Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b);
+  return Min(a, b) > kThinStep || (Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b));
 }
 
-bool IsBetweenNeighbours(const int16_t* here) {
+bool IsBetween(const int16_t* here) {
   constexpr int32_t kSide = GivenDisparities::kSide;
   constexpr int32_t kOpposite[] = {1, kSide - 1, kSide, kSide + 1};
   for (const int32_t step : kOpposite) {
-    if (IsRamp(here[-step], here[0], here[step])) return true;
+    for (int32_t reach = 1; reach <= kRampReach; ++reach) {
+      if (IsRamp(here[-reach * step], here[0], here[reach * step])) return true;
+    }
   }
   return false;
 }
@@ -51,7 +54,7 @@ SurfaceSearch::SurfaceSearch(const GivenDisparities& around) : around_(around) {
   for (int32_t y = kRampReach; y < kSide - kRampReach; ++y) {
     for (int32_t x = kRampReach; x < kSide - kRampReach; ++x) {
       const int32_t at = y * kSide + x;
-      on_ramp_[at] = IsBetweenNeighbours(around.disparity + at);
+      on_ramp_[at] = IsBetween(around.disparity + at);
       Cell& cell = cells_[y / kCellSide * kCells + x / kCellSide];
       if (on_ramp_[at]) {
         cell.has_ramp = true;

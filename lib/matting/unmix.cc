@@ -179,8 +179,11 @@ void TakeGiven(const Input& input, int32_t column, int32_t row) {
       const size_t to = map.At(x, row * kCoverageTile + y);
       const FarCell& cell = far.cells[y * kCoverageTile + k];
       if (map.alpha[to] == kUnsplit) continue;
-      // A pixel cannot be split if the light of the far surface is not known nearby.
-      map.alpha[to] = cell.weight == 0 ? kUnsplit : map.first[to];
+      // A pixel cannot be split if the light of the far surface is not known nearby. It then
+      // belongs to the near surface if the near surface covers most of it.
+      map.alpha[to] = cell.weight > 0               ? map.first[to]
+                      : 2 * map.first[to] >= kWhole ? uint8_t{kWhole}
+                                                    : kUnsplit;
       std::memcpy(map.FarAt(x, row * kCoverageTile + y).rgb, cell.rgb, sizeof(cell.rgb));
     }
   }

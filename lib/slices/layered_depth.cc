@@ -367,7 +367,7 @@ int ContinuedFar(const SplitPixel& pixel, const LayeredDepth& surfaces) {
   for (int behind = 1; behind < simd::kSurfaces; ++behind) {
     const int32_t disparity = surfaces.disparity[behind][at];
     if (surfaces.sources[behind - 1][at] >> simd::kSourceDistance != 0 && disparity != kNoSurface &&
-        Abs(disparity - pixel.far_disparity) <= kThinStep) {
+        disparity <= pixel.far_disparity + kThinStep) {
       return behind;
     }
   }

@@ -340,8 +340,9 @@ class Parter {
     const bool known = far.known > 0;
     PartedPixel parted = {true, pixel.first, pixel.near, pixel.far, far.light};
     if (!given_.empty()) {
-      parted.parted = known;
-      const bool is_mixed = pixel.first > 0 && pixel.first < 1;
+      const bool is_mixed = known && pixel.first > 0 && pixel.first < 1;
+      parted.parted = known || pixel.first >= 0.5;
+      if (!known) parted.alpha = 1;
       if (is_mixed && !IsGivenAlone()) parted.light = WithDetail(x, y, far.light);
       return parted;
     }

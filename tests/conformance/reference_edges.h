@@ -22,8 +22,7 @@ class ThinMap {
   bool IsBesideNearer(int x, int y) const;
   // Returns true if two opposite neighbours of a pixel are farther.
   bool IsStrand(int x, int y) const;
-  // Returns true if the disparity of a pixel lies between the disparities of two opposite
-  // neighbours.
+  // Returns true if the disparity of a pixel lies between the disparities of two opposite pixels.
   bool IsRamp(int x, int y) const;
   // FindGiven and FindEdge find the disparities of the two surfaces of a pixel, and return false if
   // the pixel has only one surface. FindGiven, for given coverage, uses the nearest surfaces within

@@ -64,6 +64,18 @@ TEST_CASE("matte and map: at outlines of the subject, the coverage is the matte"
   }
 }
 
+TEST_CASE("matte and map: a narrow strip of the map along an outline does not count") {
+  Portrait portrait(0);
+  for (int y = 0; y < Portrait::kHeight; ++y) {
+    float* const row = portrait.map.data() + y * Portrait::kWidth;
+    std::fill(row + Portrait::kOutline - 3, row + Portrait::kOutline, 5.5F);
+  }
+  const Planes made = portrait.Coverage();
+  for (int x = Portrait::kOutline - 20; x < Portrait::kOutline + 20; ++x) {
+    CHECK(made.Coverage(x, 60) == portrait.matte.At(x, 60));
+  }
+}
+
 TEST_CASE("matte and map: at other edges, the coverage is what the map implies") {
   const Planes made = Portrait(0).Coverage();
   for (int y = Portrait::kHorizon - 32; y < Portrait::kHorizon + 32; ++y) {

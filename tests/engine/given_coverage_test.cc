@@ -218,6 +218,25 @@ TEST_CASE("given coverage: beside an exact map, true coverage does not cost accu
   CHECK(with < without);
 }
 
+TEST_CASE("given coverage: a narrow strip of another disparity along an outline does not show") {
+  const test::Scene scene = Disc();
+  test::Scene strip = scene;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double radius = std::hypot(x - 95.3, y - 79.8);
+      if (radius > 43 && radius < 45) strip.Disparity(x, y) = float((kNear + kFar) / 2);
+    }
+  }
+  const starfocus_params params = ThroughDisc(kFar);
+  const test::Output one = test::OutputOf(CombConfig(scene), params, scene);
+  const test::Output other = test::OutputOf(CombConfig(strip), params, strip);
+  int most = 0;
+  for (size_t n = 0; n < one.bytes.size(); ++n) {
+    most = std::max(most, std::abs(one.bytes[n] - other.bytes[n]));
+  }
+  CHECK(most <= 4);
+}
+
 TEST_CASE("given coverage: coverage that repeats the map changes nothing, even beside mixtures") {
   test::Scene scene = Comb();
   constexpr int kMixed = 60;  // the only mixed pixel is at (kMixed, kTop + 3)
