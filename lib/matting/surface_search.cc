@@ -4,19 +4,20 @@
 namespace starfocus {
 namespace {
 
-// On a ramp, the steps to both pixels are at least kLeastRamp, and the larger step is at most
-// kRampRatio times the smaller step. Two edges are a ramp with any ratio: repaired maps of networks
-// have narrow strips of another disparity along outlines.
+// On a ramp, the steps to both adjacent pixels are at least kLeastRamp, and the larger step is at
+// most kRampRatio times the smaller step.
 constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
 constexpr int32_t kRampRatio = 4;
 
-// Returns true if the middle of three pixels is on a ramp. The arguments are the
-// disparities of the pixels in kDisparityBits.
-bool IsRamp(int32_t before, int32_t here, int32_t after) {
+// Returns true if the middle of three pixels is on a ramp. The arguments are the disparities of the
+// pixels in kDisparityBits. Two edges are a ramp with any ratio and up to kRampReach pixels away,
+// because repaired maps of networks have narrow strips of another disparity along outlines.
+bool IsRamp(int32_t before, int32_t here, int32_t after, bool adjacent) {
   if (Abs(after - before) < 2 * kLeastRamp) return false;  // most pixels
   const int32_t sign = after < before ? -1 : 1;
   const int32_t a = sign * (here - before), b = sign * (after - here);
-  return Min(a, b) > kThinStep || (Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b));
+  if (Min(a, b) > kThinStep) return true;
+  return adjacent && Min(a, b) >= kLeastRamp && Max(a, b) <= kRampRatio * Min(a, b);
 }
 
 bool IsBetween(const int16_t* here) {
@@ -24,7 +25,7 @@ bool IsBetween(const int16_t* here) {
   constexpr int32_t kOpposite[] = {1, kSide - 1, kSide, kSide + 1};
   for (const int32_t step : kOpposite) {
     for (int32_t reach = 1; reach <= kRampReach; ++reach) {
-      if (IsRamp(here[-reach * step], here[0], here[reach * step])) return true;
+      if (IsRamp(here[-reach * step], here[0], here[reach * step], reach == 1)) return true;
     }
   }
   return false;

@@ -35,8 +35,8 @@ std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) cons
 }
 
 // Returns true if the disparity of the pixel lies between the disparities of two opposite pixels at
-// an equal distance of 1 to 3 pixels. Either both steps must be edges, or both must be at least
-// half a pixel, and the larger step at most 4 times the smaller one.
+// an equal distance of 1 to 3 pixels. Either both steps must be edges, or the pixels must be
+// adjacent, both steps at least half a pixel, and the larger step at most 4 times the smaller one.
 bool ThinMap::IsRamp(int x, int y) const {
   constexpr Direction kOpposite[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
   for (const Direction& to : kOpposite) {
@@ -46,7 +46,7 @@ bool ThinMap::IsRamp(int x, int y) const {
       const int after = Disparity(x + k * to.x, y + k * to.y) - here;
       const int least = std::min(std::abs(before), std::abs(after));
       const int most = std::max(std::abs(before), std::abs(after));
-      const bool ramp = least > kThinEdge || (least >= 32 && most <= 4 * least);
+      const bool ramp = least > kThinEdge || (k == 1 && least >= 32 && most <= 4 * least);
       if ((before > 0) == (after > 0) && ramp) return true;
     }
   }
