@@ -150,8 +150,8 @@ void SmoothNear(const int16_t* here, int32_t stride, int16_t* near) {
   }
 }
 
-// A pixel is a mixture if its given coverage differs by more than kPure (kAlphaBits) from 0 and
-// from kWhole. The tolerance hides the noise of coverage that was computed or compressed.
+// A pixel is a mixture if its given coverage is above kPure (kAlphaBits) and below kLeastWhole. The
+// tolerance hides the noise of coverage that was computed or compressed.
 constexpr int32_t kPure = 2;
 
 // The pixels of a tile that have a mixture at most kBandReach pixels away along both axes.
@@ -167,7 +167,7 @@ class BesideMixtures {
       uint32_t mixed = 0, wide = 0;  // bit k: column left + k
       for (int32_t x = first; x < end; ++x) {
         const int32_t alpha = GivenAlpha(given[x]);
-        mixed |= uint32_t{alpha > kPure && alpha < kWhole - kPure} << (x - left);
+        mixed |= uint32_t{alpha > kPure && alpha < kLeastWhole} << (x - left);
       }
       for (int32_t k = 0; k <= 2 * kBandReach; ++k) wide |= mixed >> k;
       for (int32_t k = Max(0, y - 2 * kBandReach); k <= Min(y, kCoverageTile - 1); ++k) {
@@ -292,7 +292,8 @@ void StartGiven(const Input& input, int32_t column, int32_t row) {
     }
     const int32_t implied = surfaces.IsNear(here) ? kWhole : 0;
     const int32_t alpha = GivenAlpha(input.given_coverage.Row(y)[x]);
-    const bool agrees = Abs(alpha - implied) <= kPure && !search.IsOnRamp(at);
+    const bool agrees =
+        (implied > 0 ? alpha >= kLeastWhole : alpha <= kPure) && !search.IsOnRamp(at);
     if (agrees && !mixtures.Has(x % kCoverageTile, y % kCoverageTile)) return one_surface;
     tile.mixed = 1;
     return {true, implied, alpha, surfaces.low, surfaces.high, FarWeight(alpha)};

@@ -28,6 +28,10 @@ inline constexpr int kAlphaBits = 7;
 inline constexpr int32_t kWhole = 1 << kAlphaBits;
 inline constexpr uint8_t kUnsplit = 255;
 
+// Coverage above kMostExact counts as more than it is: pixels with a coverage of at least
+// kLeastWhole belong to the near surface alone.
+inline constexpr int32_t kMostExact = 102, kLeastWhole = (kMostExact + kWhole) / 2;
+
 // Largest step of disparity within one surface, in kDisparityBits. A larger step of disparity
 // counts as an edge of a thin structure.
 inline constexpr int32_t kThinStep = 5 << kDisparityBits;

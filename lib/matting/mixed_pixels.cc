@@ -97,10 +97,6 @@ Mixture MixtureOf(const Division& division, const BoundaryColours& colours) {
 // limit of two pixels lost 0.2 dB (docs/constants.md).
 constexpr int32_t kLeastMove = kShiftOne;
 
-// Coverage above kMostExact counts as more than it is: pixels with a coverage of at least
-// kLeastWhole belong to the near surface alone.
-constexpr int32_t kMostExact = 102, kLeastWhole = (kMostExact + kWhole) / 2;
-
 // Sums of a boundary pixel's mixtures with the nearer surfaces on all sides, each mixture weighted
 // by its share.
 struct MixtureSum {

@@ -124,14 +124,14 @@ class Parter {
     });
   }
 
-  // Returns true if the given coverage of any pixel within 3 pixels along both axes differs by more
-  // than 2/128 from 0 and from 1.
+  // Returns true if the given coverage of any pixel within 3 pixels along both axes is above 2/128
+  // and below 115/128, from where the near surface covers the whole pixel.
   bool IsBesideMixture(int x, int y) const {
     for (int row = std::max(y - 3, 0); row <= std::min(y + 3, centre_.height - 1); ++row) {
       for (int column = std::max(x - 3, 0); column <= std::min(x + 3, centre_.width - 1);
            ++column) {
         const double alpha = GivenAt(column, row);
-        if (alpha > 2 / 128.0 && alpha < 126 / 128.0) return true;
+        if (alpha > 2 / 128.0 && alpha < 115 / 128.0) return true;
       }
     }
     return false;
@@ -143,8 +143,9 @@ class Parter {
     const int here = map_.Disparity(x, y);
     if (!map_.FindGiven(x, y, low, high)) return false;
     const double guess = 2 * here >= *low + *high ? 1 : 0;
-    return std::fabs(GivenAt(x, y) - guess) > 2 / 128.0 || map_.IsRamp(x, y) ||
-           IsBesideMixture(x, y);
+    const double alpha = GivenAt(x, y);
+    const bool differs = guess > 0 ? alpha < 115 / 128.0 : alpha > 2 / 128.0;
+    return differs || map_.IsRamp(x, y) || IsBesideMixture(x, y);
   }
 
   // Returns the light of a pixel without the light of its near surface, which is the mean of the
