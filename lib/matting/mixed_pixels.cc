@@ -232,12 +232,14 @@ PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const Blo
       step_(static_cast<int16_t>(kDepthEdge << field.layer)),
       rim_(grid.Move(grid.n())) {}
 
+bool PixelSplitter::IsInMap(int32_t x, int32_t y) const {
+  if (map_ == nullptr || map_->Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) return false;
+  return !HasGiven(centre_.input()) || map_->alpha[map_->At(x, y)] != kUnsplit;
+}
+
 bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const {
   const int32_t x = field_.x + column, y = field_.y + row;
-  if (map_ != nullptr && map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
-      (!HasGiven(centre_.input()) || map_->alpha[map_->At(x, y)] != kUnsplit)) {
-    return false;
-  }
+  if (IsInMap(x, y)) return false;
   const int16_t disparity = *field_.Disparity(column, row);
   const auto moves = [&](int32_t near, int32_t far) {
     return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;
@@ -348,7 +350,7 @@ void PixelSplitter::CleanRim(const Outline& outline, SplitPixel* pixel) const {
 
 bool PixelSplitter::SplitRim(int32_t column, int32_t row, SplitPixel* pixel) const {
   const int32_t x = field_.x + column, y = field_.y + row;
-  if (map_ != nullptr && map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0) return false;
+  if (IsInMap(x, y)) return false;
   const int16_t far = *field_.Disparity(column, row);
   for (const auto& side : kSides) {  // SplitBoundary splits boundary pixels
     if (*field_.Disparity(column + side[0], row + side[1]) - far > step_) return false;

@@ -200,6 +200,9 @@ class PixelSplitter {
   struct Outline {
     int32_t distance, sides, near;
   };
+  // Returns true if the coverage map decides how pixel (x, y) of the picture is split. Given
+  // coverage decides only on the pixels that it splits.
+  bool IsInMap(int32_t x, int32_t y) const;
   Outline OutlineAt(int32_t x, int32_t y) const;
   bool LimitToClean(int32_t x, int32_t y, const Outline& outline, Colour* colour) const;
   void CleanRim(const Outline& outline, SplitPixel* pixel) const;
@@ -250,8 +253,8 @@ void ForEachRim(const RimMap& map, const BlockPixels& field, const Act& act) {
   }
 }
 
-// Calls visit(SplitPixel) for each split pixel of a field, and for each pixel of thin tiles. The
-// disparities of the field must come from TakeDisparities.
+// Calls visit(SplitPixel) for each split pixel of a field, and for each other pixel of thin tiles
+// if the coverage is not given. The disparities of the field must come from TakeDisparities.
 template <class Visit>
 void ForEachSplitPixel(const Input& input, const ViewGrid& grid, const BlockPixels& field,
                        const Visit& visit) {
@@ -267,7 +270,9 @@ void ForEachSplitPixel(const Input& input, const ViewGrid& grid, const BlockPixe
     });
   }
   if (input.coverage == nullptr || field.layer > 0) return;
-  ForEachThin(*input.coverage, field, [&](int32_t x, int32_t y, size_t at) {
+  const CoverageMap& map = *input.coverage;
+  ForEachThin(map, field, [&](int32_t x, int32_t y, size_t at) {
+    if (HasGiven(input) && map.alpha[at] == kUnsplit) return;
     splitter.SplitThin(x, y, at, &pixel);
     visit(pixel);
   });
