@@ -71,8 +71,8 @@ struct RimMap {
   const CellRim& RimAt(int32_t x, int32_t y) const { return rims[At(x / kRimCell, y / kRimCell)]; }
 };
 
-// Returns true if an engine of this configuration finds rims: with one view, because side views show
-// clean far colours, and with STARFOCUS_FEATURE_COVERAGE.
+// Returns true if an engine of this configuration finds rims: with one view, because side views
+// show clean far colours, and with STARFOCUS_FEATURE_COVERAGE.
 inline bool HasRims(const starfocus_config& config) {
   return config.views == 1 && Has(config, STARFOCUS_FEATURE_COVERAGE);
 }
