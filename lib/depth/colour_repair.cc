@@ -158,9 +158,9 @@ starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_f
   if (run.status() != STARFOCUS_OK) return run.status();
   FindThin(GridOf(setup), kThinGiven, memory.thin);
   const Kept kept = {&setup, &light_field, &memory, *has_coverage};
-  const OutlinePicture picture = {
-      rgb, tiles, memory.jobs->max_workers, Kept::Tile, Kept::Keep, Kept::Known, &kept};
-  const int16_t* repaired = FollowOutlines(picture, memory.outlines, kernels, &run);
+  const OutlinePicture picture = {&kernels,   rgb,        tiles,       memory.jobs->max_workers,
+                                  Kept::Tile, Kept::Keep, Kept::Known, &kept};
+  const int16_t* repaired = FollowOutlines(picture, memory.outlines, &run);
   run.Run([&](int32_t index, int32_t) {
     WriteTile(map, output, memory.outlines, repaired, TileOf(setup, index));
   });

@@ -9,6 +9,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
+#include "simd/depth_kernels.h"
 
 namespace starfocus {
 
@@ -79,6 +80,7 @@ struct OutlineMemory {
 
 // The picture, and its tiles, which are the jobs of each phase. Results do not depend on the tiles.
 struct OutlinePicture {
+  const simd::DepthKernels* kernels;
   Plane<const uint8_t> rgb;
   int32_t tiles, max_workers;
   Rect (*tile)(const void* data, int32_t index);  // tiles have at most kMostOutlineTile^2 pixels

@@ -96,13 +96,12 @@ void FillColours(const uint8_t* rgb, int32_t count, int32_t at, const simd::Dept
 // sample(x, y, at, &trust), which returns the surface. Pixels outside the picture have no trust.
 template <class Sample>
 void FillBlock(const OutlinePicture& picture, const OutlineMemory& memory, const Rect& area,
-               int32_t reach, const simd::DepthKernels& kernels, const Sample& sample,
-               VoteBlock* block) {
+               int32_t reach, const Sample& sample, VoteBlock* block) {
   const Rect around = memory.Widened(area, reach);
   std::fill_n(block->trust, VoteBlock::kWidth * VoteBlock::kWidth, int16_t{0});
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
     const int32_t row = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach - area.x;
-    FillColours(picture.Pixel(around.x, y), around.width, row + around.x, kernels, block);
+    FillColours(picture.Pixel(around.x, y), around.width, row + around.x, *picture.kernels, block);
     for (int32_t x = around.x; x < around.x + around.width; ++x) {
       block->surface[row + x] = sample(memory.At(x, y), block->trust + row + x);
     }
@@ -114,12 +113,12 @@ void FillBlock(const OutlinePicture& picture, const OutlineMemory& memory, const
 // for the pixels of all lanes first.
 template <class Sample, class Needs, class Act>
 void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const Rect& tile,
-               const Samples& samples, const simd::DepthKernels& kernels, VoteBlock* block,
-               const Sample& sample, const Needs& needs, const Act& act) {
+               const Samples& samples, VoteBlock* block, const Sample& sample, const Needs& needs,
+               const Act& act) {
   constexpr auto kLanes = static_cast<int32_t>(simd::kSliceLanes);
   const auto visit = [&](const Rect& area) {
     if (!HasBand(memory, area)) return;
-    FillBlock(picture, memory, area, samples.reach, kernels, sample, block);
+    FillBlock(picture, memory, area, samples.reach, sample, block);
     for (int32_t y = area.y; y < area.y + area.height; ++y) {
       for (int32_t x = area.x; x < area.x + area.width; x += kLanes) {
         const int32_t count = Min(kLanes, area.x + area.width - x);
@@ -144,7 +143,7 @@ void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const
             samples.step,
             samples.closeness};
         simd::VoteSums sums;
-        kernels.SumVotes(rows, &sums);
+        picture.kernels->SumVotes(rows, &sums);
         for (size_t k = 0; k < wants; ++k) act(memory.At(x, y) + wanted[k], sums, wanted[k]);
       }
     }
@@ -190,12 +189,11 @@ int32_t SmoothShift(const OutlineMemory& memory, int32_t column, int32_t row) {
 }  // namespace
 
 void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
-                  const OutlinePass& pass, const int16_t* map, const Rect& tile,
-                  const simd::DepthKernels& kernels, VoteBlock* block) {
+                  const OutlinePass& pass, const int16_t* map, const Rect& tile, VoteBlock* block) {
   const Trust trust(pass);
   const Samples samples(pass, false);
   SumAround(
-      picture, memory, tile, samples, kernels, block,
+      picture, memory, tile, samples, block,
       [&](size_t at, int16_t* trusted) {
         *trusted = trust.of[Abs(memory.distance[at])];
         return map[at];
@@ -241,8 +239,7 @@ void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const R
 }
 
 void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
-               const int16_t* map, const Rect& tile, const simd::DepthKernels& kernels,
-               VoteBlock* block) {
+               const int16_t* map, const Rect& tile, VoteBlock* block) {
   const Samples samples(pass, true);
   const ShiftCells columns = memory.Columns(), rows = memory.Rows();
   // The displacement of each column of cells of the tile, and the row of cells for which it holds.
@@ -255,7 +252,7 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
     trust[k] = static_cast<uint8_t>(k * k * simd::kMostTrust / (kSure * kSure));
   }
   SumAround(
-      picture, memory, tile, samples, kernels, block,
+      picture, memory, tile, samples, block,
       [&](size_t at, int16_t* trusted) {
         *trusted = simd::kMostTrust;
         const int32_t distance = memory.distance[at], vote = memory.vote[at];

@@ -70,8 +70,7 @@ struct VoteBlock {
 
 // Writes memory.vote, from samples that are trusted by their distance to the outline.
 void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
-                  const OutlinePass& pass, const int16_t* map, const Rect& tile,
-                  const simd::DepthKernels& kernels, VoteBlock* block);
+                  const OutlinePass& pass, const int16_t* map, const Rect& tile, VoteBlock* block);
 
 // Writes memory.shift and memory.gain of the cells whose first pixels lie in the tile.
 void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const Rect& tile);
@@ -79,8 +78,7 @@ void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const R
 // Writes memory.side, from samples that are trusted by their own votes, and from the distance to
 // the displaced outline.
 void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
-               const int16_t* map, const Rect& tile, const simd::DepthKernels& kernels,
-               VoteBlock* block);
+               const int16_t* map, const Rect& tile, VoteBlock* block);
 
 // Planes of a region of at most kMostRegion^2 pixels and a margin of one, for TakeDisparities, and
 // the pixels that have no disparity yet.

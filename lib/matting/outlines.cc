@@ -360,19 +360,16 @@ void KeepRight(const OutlinePicture& picture, const OutlineMemory& memory, bool 
 // Runs a pass that reads `map` and writes `repaired`. If the map was hard, it is kept where it is
 // right, which the first pass decides.
 void RunPass(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
-             bool was_hard, const int16_t* map, int16_t* repaired,
-             const simd::DepthKernels& kernels, Sequence* run) {
+             bool was_hard, const int16_t* map, int16_t* repaired, Sequence* run) {
   run->Run([&](int32_t index, int32_t worker) {
     MeasureDistances(memory, pass, map, picture.Tile(index), memory.scratch + worker);
   });
   run->Run([&](int32_t index, int32_t worker) {
-    VoteByColour(picture, memory, pass, map, picture.Tile(index), kernels,
-                 &memory.scratch[worker].block);
+    VoteByColour(picture, memory, pass, map, picture.Tile(index), &memory.scratch[worker].block);
   });
   run->Run([&](int32_t index, int32_t) { ShiftOutlines(memory, pass, picture.Tile(index)); });
   run->Run([&](int32_t index, int32_t worker) {
-    VoteAgain(picture, memory, pass, map, picture.Tile(index), kernels,
-              &memory.scratch[worker].block);
+    VoteAgain(picture, memory, pass, map, picture.Tile(index), &memory.scratch[worker].block);
     picture.keep(picture.data, index, memory.side);
   });
   if (was_hard) {
@@ -419,17 +416,17 @@ OutlineMemory TakeOutlines(int32_t width, int32_t height, int32_t max_workers, A
 }
 
 const int16_t* FollowOutlines(const OutlinePicture& picture, const OutlineMemory& memory,
-                              const simd::DepthKernels& kernels, Sequence* run) {
+                              Sequence* run) {
   std::fill_n(memory.counts, picture.max_workers, OutlineCounts{});
   run->Run([&](int32_t index, int32_t worker) {
     CountRamps(memory, picture.Tile(index), memory.scratch + worker, memory.counts + worker);
   });
   const OutlinePass pass = FirstPass(memory.counts, picture.max_workers);
-  RunPass(picture, memory, pass, pass.IsHard(), memory.given, memory.repaired, kernels, run);
+  RunPass(picture, memory, pass, pass.IsHard(), memory.given, memory.repaired, run);
   bool again = false;
   for (int32_t k = 0; k < picture.max_workers; ++k) again |= memory.counts[k].wrong;
   if (again) {
-    RunPass(picture, memory, kSecondPass, true, memory.repaired, memory.given, kernels, run);
+    RunPass(picture, memory, kSecondPass, true, memory.repaired, memory.given, run);
     return memory.given;
   }
   for (int32_t k = 0; k < kPassPhases; ++k) run->Skip();

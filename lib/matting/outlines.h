@@ -18,7 +18,6 @@
 #include "lib/base/arena.h"
 #include "lib/base/jobs.h"
 #include "lib/matting/outline_planes.h"
-#include "simd/depth_kernels.h"
 
 namespace starfocus {
 
@@ -31,7 +30,7 @@ inline constexpr int32_t kOutlinePhases = 15;
 // are steps and few pixels would change their side, the map is right: memory.side is 0, memory.vote
 // is 0 at pixels whose colours contradict the map, and disparities are as given.
 const int16_t* FollowOutlines(const OutlinePicture& picture, const OutlineMemory& memory,
-                              const simd::DepthKernels& kernels, Sequence* run);
+                              Sequence* run);
 
 }  // namespace starfocus
 

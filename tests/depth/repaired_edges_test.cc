@@ -47,6 +47,7 @@ struct Scene {
     std::copy(map.begin(), map.end(), outlines.given);
     const int columns = (kWidth + side - 1) / side, tiles = columns * ((kHeight + side - 1) / side);
     const starfocus::OutlinePicture picture = {
+        &starfocus::simd::ReferenceDepthKernels(),
         {rgb.data(), 3 * kWidth},
         tiles,
         1,
@@ -62,8 +63,7 @@ struct Scene {
     starfocus::Jobs jobs;
     jobs.progress = progress.data();
     starfocus::Sequence run(&jobs, starfocus::kOutlinePhases, tiles);
-    const int16_t* repaired = starfocus::FollowOutlines(
-        picture, outlines, starfocus::simd::ReferenceDepthKernels(), &run);
+    const int16_t* repaired = starfocus::FollowOutlines(picture, outlines, &run);
     CHECK(run.status() == STARFOCUS_OK);
     return {repaired, repaired + map.size()};
   }
