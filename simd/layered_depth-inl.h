@@ -453,13 +453,14 @@ inline void ColourCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride,
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto copy = hn::LoadU(d16, copies + n);
     const int16_t* const at = row + n;
-    const auto copied = [=](ptrdiff_t next)
-                            HWY_ATTR { return hn::Eq(hn::LoadU(d16, at + next), copy); };
-    const auto right = copied(1), left = copied(-1), below = copied(stride),
-               above = copied(-stride);
+    // Vectors are arguments, because SVE vectors cannot be captured.
+    const auto is_copy = [=](LanesVec disparity, ptrdiff_t next)
+                             HWY_ATTR { return hn::Eq(hn::LoadU(d16, at + next), disparity); };
+    const auto right = is_copy(copy, 1), left = is_copy(copy, -1), below = is_copy(copy, stride),
+               above = is_copy(copy, -stride);
     const auto in_row = hn::Or(right, left), in_column = hn::Or(below, above);
-    const auto fall_below = copied(stride + 1), fall_above = copied(-stride - 1);
-    const auto rise_below = copied(stride - 1), rise_above = copied(-stride + 1);
+    const auto fall_below = is_copy(copy, stride + 1), fall_above = is_copy(copy, -stride - 1);
+    const auto rise_below = is_copy(copy, stride - 1), rise_above = is_copy(copy, -stride + 1);
     const auto falls = hn::Or(fall_below, fall_above), rises = hn::Or(rise_below, rise_above);
     for (size_t c = 0; c < 3; ++c) {
       const int16_t* const from = rgb + c * plane + n;
