@@ -343,13 +343,14 @@ void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, 
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
-    // LookBehind reads kSliceLanes samples before the first pixel of a row and ignores their
-    // values.
-    int16_t* before = arena->Take<int16_t>(simd::kSliceLanes + area);
-    surfaces.disparity[k] = before == nullptr ? nullptr : before + simd::kSliceLanes;
-    // ColourCopies reads one sample before the colours, which lies in the memory of the
-    // disparities, and ignores its value.
-    surfaces.rgb[k] = arena->Take<int16_t>(3 * area);
+    // LookBehind reads kSliceLanes samples before the first disparity, and ColourCopies one before
+    // the first colour. Both ignore their values.
+    const auto take = [&](size_t samples) {
+      int16_t* const before = arena->Take<int16_t>(simd::kSliceLanes + samples);
+      return before == nullptr ? nullptr : before + simd::kSliceLanes;
+    };
+    surfaces.disparity[k] = take(area);
+    surfaces.rgb[k] = take(3 * area);
   }
   surfaces.share = arena->Take<uint8_t>(area);
   surfaces.hiding = arena->Take<uint64_t>(extended);

@@ -70,9 +70,9 @@ struct LayeredScene {
     input.disparity = {disparity.data(), kSize, 0, 0};
     for (int k = 0; k < 3; ++k) {
       planes[k].assign(kArea + 2 * kStripColumns, 0);
-      colours[k].assign(3 * kArea, 0);
+      colours[k].assign(3 * kArea + kStripColumns, 0);
       surfaces.disparity[k] = planes[k].data() + kStripColumns;
-      surfaces.rgb[k] = colours[k].data();
+      surfaces.rgb[k] = colours[k].data() + kStripColumns;
     }
     for (int k = 0; k < 4; ++k) {
       edges[k].assign(kArea, 0);
