@@ -153,6 +153,8 @@ class SurfaceFinder {
     for (int32_t y = height - 2; y >= 0; --y) FindEdgesOfColumns(y, y + 1, 2);
     StartColumns(0, 3);
     for (int32_t y = 1; y < height; ++y) FindEdgesOfColumns(y, y - 1, 3);
+    // FindCopies reads the corner above the first pixel of row 1, which gets no copy.
+    surfaces_.disparity[0][-1] = surfaces_.disparity[0][0];
     for (int32_t y = 0; y < height; ++y) FindRow(y);
     surfaces_.repeats = colours_.Repeats();
   }
