@@ -14,6 +14,7 @@
 #include "platform/text.h"
 #include "platform/writers/png.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -90,12 +91,12 @@ starfocus_depth_map EngineMap(const FloatMap& map) {
 starfocus_disparity_stats MeasureDisparity(const FloatMap& map) {
   starfocus_disparity_stats stats = {};
   const starfocus_depth_map depth = EngineMap(map);
-  starfocus_measure_disparity(&depth, &stats);
+  starfocus_measure_disparity(&depth, &stats, nullptr);
   return stats;
 }
 
 starfocus_light_field EngineRows(const LightField& light_field, int first) {
-  starfocus_light_field rows = {};
+  starfocus_light_field rows = starfocus::NewLightField();
   for (size_t i = 0; i < light_field.views.size(); ++i) {
     const Image& view = light_field.views[i];
     rows.views[i] = starfocus_image_rgb(view.row(first), view.stride());

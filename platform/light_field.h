@@ -13,6 +13,7 @@
 #include "platform/result.h"
 #include "platform/runner.h"
 #include "platform/view_files.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "starfocus/status.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 

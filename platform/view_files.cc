@@ -126,7 +126,7 @@ Positions StarPositions(int views) {
   Positions positions(static_cast<size_t>(views));
   for (int index = 0; index < views; ++index) {
     starfocus_position& position = positions[static_cast<size_t>(index)];
-    starfocus_view_position(index, &position.u, &position.v);
+    starfocus_view_position(index, &position.u, &position.v, nullptr);
   }
   return positions;
 }

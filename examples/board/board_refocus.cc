@@ -19,6 +19,7 @@
 #include "platform/framebuffer.h"
 #include "platform/gpio.h"
 #include "platform/image_io.h"
+#include "starfocus/experimental.h"
 
 namespace {
 

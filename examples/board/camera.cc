@@ -7,6 +7,7 @@
 
 #include "platform/file.h"
 #include "platform/problem.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 
@@ -14,7 +15,7 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
   if (Error error = LoadLightField(folder, {}).MoveTo(&light_field_)) return error;
   FloatMap& map = light_field_.disparity;
   starfocus_status status =
-      starfocus_fill_disparity(map.values.data(), map.stride(), map.width, map.height);
+      starfocus_fill_disparity(map.values.data(), map.stride(), map.width, map.height, nullptr);
   if (status != STARFOCUS_OK) {
     return Expected(DisparityPath(folder), "a map with finite disparities", "none");
   }
@@ -55,9 +56,9 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
 
 starfocus_status Camera::Take(double focus, double aperture) {
   Params params;
-  params.mode = mode_;
-  params.lens.focus = focus;
-  params.lens.aperture = aperture;
+  params.study.mode = mode_;
+  params.focus = focus;
+  params.aperture = aperture;
   return engine_.Refocus(params, EngineRows(light_field_),
                          starfocus_image_rgb(picture_.pixels.data(), picture_.stride()));
 }

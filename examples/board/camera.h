@@ -10,6 +10,7 @@
 #include "platform/light_field.h"
 #include "platform/result.h"
 #include "platform/runner.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.hpp"
 
 namespace starfocus {

@@ -37,7 +37,7 @@ static starfocus_status MakeEngine(starfocus_pool* pool, starfocus_engine** engi
   config.superblock = 64; /* the default, 128, requires four times the memory per worker */
   config.max_workers = starfocus_pool_workers(pool);
   callbacks.runner = starfocus_pool_run, callbacks.runner_data = pool;
-  status = starfocus_create(&config, NULL, engine);
+  status = starfocus_create(&config, NULL, engine, NULL);
   return status == STARFOCUS_OK ? starfocus_set_callbacks(*engine, &callbacks) : status;
 }
 
@@ -46,7 +46,7 @@ static starfocus_status MakeEngine(starfocus_pool* pool, starfocus_engine** engi
 static starfocus_light_field FieldFrom(int first) {
   starfocus_light_field field;
   int i;
-  memset(&field, 0, sizeof field);
+  starfocus_light_field_init(&field);
   for (i = 0; i < kCameras; ++i) {
     starfocus_image* const view = &field.views[i];
     view->format = STARFOCUS_FORMAT_NV12;
@@ -98,7 +98,7 @@ static starfocus_status Refocus(starfocus_pool* pool, FILE* file, double* sensor
   starfocus_params params;
   starfocus_status status = MakeEngine(pool, &engine);
   starfocus_params_init(&params);
-  params.lens.focus = kBall;
+  params.focus = kBall;
   if (status == STARFOCUS_OK) status = starfocus_stream_begin(engine, &params);
   fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
   SensorDepth(depth);

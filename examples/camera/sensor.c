@@ -34,7 +34,7 @@ static uint8_t LumaAt(int x, int y, int u, int v) {
 void SensorRows(int camera, int first, int rows, uint8_t* luma, uint8_t* chroma) {
   double place_u = 0, place_v = 0;
   int u, v, x, y;
-  starfocus_view_position(camera, &place_u, &place_v);
+  starfocus_view_position(camera, &place_u, &place_v, NULL);
   u = (int)place_u;
   v = (int)place_v;
   for (y = first; y < first + rows; ++y) {

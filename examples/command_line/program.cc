@@ -55,7 +55,7 @@ int Report(const char* name, const Error& error) {
 }  // namespace
 
 std::string VersionText(const std::string& name) {
-  return name + " " + starfocus_version() + " (" + starfocus_simd_target() + ")";
+  return name + " " + starfocus_version(nullptr) + " (" + starfocus_simd_target() + ")";
 }
 
 int RunProgram(const char* name, const std::function<Error()>& run) {

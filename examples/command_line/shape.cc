@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "examples/command_line/options.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -19,7 +20,7 @@ Error ShapeError(const std::string& text) {
       "'" + text.substr(0, 60) + "'");
 }
 
-bool SetPolygon(const std::vector<double>& numbers, starfocus_lens* lens) {
+bool SetPolygon(const std::vector<double>& numbers, starfocus_params* lens) {
   if (numbers.empty() || numbers.size() > 3) return false;
   const double blades = numbers[0], rotation = numbers.size() > 1 ? numbers[1] : 0;
   const double curvature = numbers.size() > 2 ? numbers[2] : 0;
@@ -33,14 +34,14 @@ bool SetPolygon(const std::vector<double>& numbers, starfocus_lens* lens) {
   return true;
 }
 
-bool SetRing(const std::vector<double>& numbers, starfocus_lens* lens) {
+bool SetRing(const std::vector<double>& numbers, starfocus_params* lens) {
   if (numbers.size() != 1 || numbers[0] < 0 || numbers[0] > STARFOCUS_MAX_RING_INNER) return false;
   lens->shape = STARFOCUS_SHAPE_RING;
   lens->ring_inner = numbers[0];
   return true;
 }
 
-bool SetShape(const std::string& text, starfocus_lens* lens) {
+bool SetShape(const std::string& text, starfocus_params* lens) {
   const size_t colon = text.find(':');
   const std::string name = text.substr(0, colon);
   if (colon == std::string::npos) {
@@ -75,10 +76,8 @@ void AddShapeOptions(Command* command, ShapeOptions* options) {
       command);
 }
 
-Result<starfocus_lens> ParseShape(const ShapeOptions& options) {
-  starfocus_params defaults;
-  starfocus_params_init(&defaults);
-  starfocus_lens lens = defaults.lens;
+Result<starfocus::Params> ParseShape(const ShapeOptions& options) {
+  starfocus::Params lens;
   if (!SetShape(options.shape, &lens)) return ShapeError(options.shape);
   if (lens.shape != STARFOCUS_SHAPE_FALL_OFF && options.theta != ShapeOptions().theta) {
     return Error::Usage("--theta", "--shape fall-off", "--shape " + options.shape);

@@ -8,6 +8,7 @@
 #include "examples/command_line/command.h"
 #include "platform/result.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 
@@ -19,7 +20,7 @@ struct ShapeOptions {
 void AddShapeOptions(Command* command, ShapeOptions* options);
 
 // Returns a lens with the shape of the options; other fields have their defaults.
-Result<starfocus_lens> ParseShape(const ShapeOptions& options);
+Result<starfocus::Params> ParseShape(const ShapeOptions& options);
 
 // Returns a suffix for file names that identifies the shape, or "" for the default shape.
 std::string ShapeSuffix(const ShapeOptions& options);

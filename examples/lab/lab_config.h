@@ -5,21 +5,22 @@
 
 #include "platform/light_field.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 
 // Returns the configuration for a light field and every blur radius up to STARFOCUS_MAX_BLUR. The
 // other fields have their defaults.
-inline starfocus_config ConfigOf(const LightField& light_field) {
+inline starfocus::Config ConfigOf(const LightField& light_field) {
   const starfocus_disparity_stats stats = MeasureDisparity(light_field.disparity);
-  starfocus_config config;
-  starfocus_config_init(&config);
+  starfocus::Config config;
   config.width = light_field.width();
   config.height = light_field.height();
   ConfigureViews(light_field, &config);
   config.disparity_min = stats.min;
   config.disparity_max = stats.max;
   config.max_blur = STARFOCUS_MAX_BLUR;
+  config.tuning.line_scan = starfocus_line_scan_renderer();
   return config;
 }
 

@@ -16,15 +16,15 @@ int main(void) {
   config.width = W, config.height = H, config.views = 1;
   config.disparity_min = -8, config.disparity_max = 8, config.max_blur = 8;
   size_t bytes = 0;
-  starfocus_status status = starfocus_workspace_size(&config, &bytes);
+  starfocus_status status = starfocus_workspace_size(&config, &bytes, NULL);
   char* memory = malloc(bytes + STARFOCUS_ALIGNMENT); /* with room to align the workspace */
   void* workspace =
       memory ? memory + (STARFOCUS_ALIGNMENT - (uintptr_t)memory % STARFOCUS_ALIGNMENT) : NULL;
   starfocus_engine* engine = NULL;
-  if (!status) status = starfocus_init(&config, workspace, bytes, &engine);
+  if (!status) status = starfocus_init(&config, workspace, bytes, &engine, NULL);
   starfocus_params params; /* defaults: focus 0, which is the middle column, and aperture 1 */
   starfocus_params_init(&params);
-  starfocus_light_field field = {.views = {starfocus_image_rgb(view, W * 3)}};
+  starfocus_light_field field = {.size = sizeof field, .views = {starfocus_image_rgb(view, W * 3)}};
   field.depth = starfocus_depth_float(disparity, W * sizeof(float), W, H);
   starfocus_image picture = starfocus_image_rgb(out, W * 3);
   if (!status) status = starfocus_refocus(engine, &params, &field, &picture, NULL);

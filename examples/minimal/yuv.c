@@ -18,15 +18,15 @@ int main(void) {
   config.width = W, config.height = H, config.views = 1,
   config.features |= STARFOCUS_FEATURE_IMAGES;
   config.disparity_min = 2, config.disparity_max = 16, config.max_blur = 14;
-  config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
+  config.unknown = STARFOCUS_UNKNOWN_FILL;
   size_t bytes = 0;
-  starfocus_status status = starfocus_workspace_size(&config, &bytes);
+  starfocus_status status = starfocus_workspace_size(&config, &bytes, NULL);
   char* memory = malloc(bytes + STARFOCUS_ALIGNMENT); /* with room to align the workspace */
   void* workspace =
       memory ? memory + (STARFOCUS_ALIGNMENT - (uintptr_t)memory % STARFOCUS_ALIGNMENT) : NULL;
   starfocus_engine* engine = NULL;
-  if (!status) status = starfocus_init(&config, workspace, bytes, &engine);
-  starfocus_light_field field = {.coverage = NULL};
+  if (!status) status = starfocus_init(&config, workspace, bytes, &engine, NULL);
+  starfocus_light_field field = {.size = sizeof field};
   field.views[0] = (starfocus_image){
       .format = STARFOCUS_FORMAT_NV12, .planes = {luma, chroma}, .strides = {W, W}};
   field.depth = (starfocus_depth_map){.data = millimetres,
@@ -42,7 +42,7 @@ int main(void) {
       .format = STARFOCUS_FORMAT_NV12, .planes = {out_luma, out_chroma}, .strides = {W, W}};
   starfocus_params params; /* focus 8000 / 1000 mm: objects at a distance of 1 m are sharp */
   starfocus_params_init(&params);
-  params.lens.focus = 8;
+  params.focus = 8;
   if (!status) status = starfocus_refocus(engine, &params, &field, &out, NULL);
   FILE* file = status ? NULL : fopen("yuv.pgm", "wb");
   if (file) fprintf(file, "P5 %d %d 255\n", W, H), fwrite(out_luma, 1, W * H, file), fclose(file);

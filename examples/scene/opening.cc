@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/scene/opening.h"
+#include "starfocus/starfocus.hpp"
 
 #include <cmath>
 
@@ -14,7 +15,7 @@ double Square(double x) { return x * x; }
 
 }  // namespace
 
-SceneOpening::SceneOpening(const starfocus_lens& lens)
+SceneOpening::SceneOpening(const starfocus::Params& lens)
     : shape_(static_cast<starfocus_shape>(lens.shape)),
       inner_(lens.ring_inner),
       cats_eye_(lens.cats_eye),

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 
 class SceneOpening {
  public:
   // @param lens a valid lens
-  explicit SceneOpening(const starfocus_lens& lens);
+  explicit SceneOpening(const starfocus::Params& lens);
 
   // Returns cot^2(theta) of the density (3), or 0 if the opening is equally bright everywhere.
   double fall_off() const { return fall_off_; }

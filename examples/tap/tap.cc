@@ -57,7 +57,7 @@ Result<Subject> Open(const Options& options, ThreadRunner* runner) {
   Progress progress("rendering", int64_t{5} * options.size.y);
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;
-    starfocus_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v, nullptr);
     field.views.push_back(renderer.View(u, v, &progress));
   }
   field.disparity = renderer.Disparity();
@@ -95,11 +95,11 @@ class Session {
     config.disparity_min = stats.min;
     config.disparity_max = stats.max;
     config.max_blur = kBlur;
-    config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
+    config.unknown = STARFOCUS_UNKNOWN_FILL;
     config.max_workers = runner_->workers();
     config.previews = options_.shift;
     const double range = double(stats.max) - double(stats.min);
-    params_.lens.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
+    params_.aperture = std::min(1.0, kBlur / std::max(range, 1e-9));
     const double start = Seconds();
     if (Error error = Outcome(engine_.Init(config))) return error;
     starfocus_callbacks callbacks = {};
@@ -117,7 +117,7 @@ class Session {
     const double start = Seconds();
     double focus = 0;
     Error error = Outcome(
-        starfocus_focus_at(&field_.depth, map_.width, map_.height, point.x, point.y, &focus));
+        starfocus_focus_at(&field_.depth, map_.width, map_.height, point.x, point.y, &focus, nullptr));
     if (error) return error;
     const std::string tap = std::to_string(point.x) + "," + std::to_string(point.y);
     Say("tap at " + tap + ": focus " + Short(focus), start);
@@ -125,7 +125,7 @@ class Session {
   }
 
   Error Preview(double focus, const std::string& what) {
-    params_.lens.focus = focus;
+    params_.focus = focus;
     const double start = Seconds();
     Params params = params_;
     params.preview_shift = options_.shift;
@@ -136,7 +136,7 @@ class Session {
   }
 
   Error Full(double focus) {
-    params_.lens.focus = focus;
+    params_.focus = focus;
     const double start = Seconds();
     const starfocus_image out = starfocus_image_rgb(full_.pixels.data(), full_.stride());
     if (Error error = Outcome(engine_.RefocusPrepared(params_, out))) return error;
@@ -188,7 +188,7 @@ class Session {
   ThreadRunner* const runner_;
   const FloatMap& map_;
   const int views_;
-  const starfocus_light_field field_;
+  const starfocus_light_field field_ = starfocus::NewLightField();
   Image full_, preview_;
   Engine engine_;
   Params params_;

@@ -16,121 +16,95 @@ namespace {
 // around the superblock. Even with superblocks of 128 pixels, wide pictures have enough superblocks
 // for all workers. A worker uses four times as much memory with superblocks of 128 pixels as with
 // superblocks of 64 pixels.
-starfocus_config Choose(const starfocus_config& config) {
+FullConfig Choose(const FullConfig& config) {
   constexpr int32_t kWide = 1536;
-  starfocus_config chosen = config;
+  FullConfig chosen = config;
   if (chosen.superblock == 0) chosen.superblock = config.width < kWide ? 64 : 128;
   return chosen;
 }
 
 }  // namespace
 
-starfocus_config DefaultConfig() {
-  starfocus_config config = {};
+FullConfig DefaultConfig() {
+  FullConfig config = {};
+  config.size = sizeof(starfocus_config);
   config.views = 5;
   config.max_blur = 32.0;
   config.max_workers = 1;
+  config.highlights = 1;
+  config.features = STARFOCUS_FEATURE_COVERAGE;
+  config.tuning.size = sizeof(starfocus_tuning);
   config.tuning.max_layer = STARFOCUS_LAYERS - 1;
   config.tuning.deblocking = 35;
   config.tuning.timing = DefaultTiming();
   config.tuning.n_scale = 1.0;
   config.tuning.gather = 1;
-  config.highlights = 1;
-  config.features = STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE;
   return config;
 }
 
-starfocus_params DefaultParams() {
-  starfocus_params params = {};
+FullParams DefaultParams() {
+  FullParams params = {};
   params.mode = STARFOCUS_MODE_BLOCK;
-  params.lens.aperture = 1.0;
-  params.lens.blades = 5;
-  params.lens.theta = 0.26 * 3.14159265358979323846;
-  params.lens.ring_inner = 0.5;
+  params.aperture = 1.0;
+  params.blades = 5;
+  params.theta = 0.26 * 3.14159265358979323846;
+  params.ring_inner = 0.5;
   return params;
 }
 
 }  // namespace starfocus
 
-uint32_t starfocus_abi_version(void) { return STARFOCUS_ABI_VERSION; }
-
-const char* starfocus_version(void) { return STARFOCUS_VERSION_STRING; }
-
-size_t starfocus_struct_size(const char* name) {
-#define SIZE_OF(type) \
-  { #type, sizeof(type) }
-  constexpr struct {
-    const char* name;
-    size_t size;
-  } kSizes[] = {SIZE_OF(starfocus_allocator),
-                SIZE_OF(starfocus_block),
-                SIZE_OF(starfocus_config),
-                SIZE_OF(starfocus_depth_config),
-                SIZE_OF(starfocus_layer_report),
-                SIZE_OF(starfocus_light_field),
-                SIZE_OF(starfocus_disparity_stats),
-                SIZE_OF(starfocus_params),
-                SIZE_OF(starfocus_callbacks),
-                SIZE_OF(starfocus_problem),
-                SIZE_OF(starfocus_position),
-                SIZE_OF(starfocus_previous),
-                SIZE_OF(starfocus_region),
-                SIZE_OF(starfocus_report),
-                SIZE_OF(starfocus_timing),
-                SIZE_OF(starfocus_tuning),
-                SIZE_OF(starfocus_image),
-                SIZE_OF(starfocus_depth_map),
-                SIZE_OF(starfocus_disparity_output),
-                SIZE_OF(starfocus_matte),
-                SIZE_OF(starfocus_matte_stats),
-                SIZE_OF(starfocus_matte_depth),
-                SIZE_OF(starfocus_lens)};
-#undef SIZE_OF
-  if (name == nullptr) return 0;
-  for (const auto& entry : kSizes) {
-    if (AreEqual(entry.name, name)) return entry.size;
-  }
-  return 0;
+const char* starfocus_version(uint32_t* abi) {
+  if (abi != nullptr) *abi = STARFOCUS_ABI;
+  return STARFOCUS_VERSION_STRING;
 }
 
-void starfocus_config_init_sized(starfocus_config* config, uint32_t size) {
-  InitSized(DefaultConfig(), size, config);
-}
-
-void starfocus_params_init_sized(starfocus_params* params, uint32_t size) {
-  InitSized(DefaultParams(), size, params);
-}
-
-int starfocus_view_position(int32_t index, double* u, double* v) {
-  if (index < 0 || index >= STARFOCUS_MAX_VIEWS || u == nullptr || v == nullptr) return 0;
+starfocus_status starfocus_view_position(int32_t index, double* u, double* v,
+                                         starfocus_problem* problem) {
+  Checker check = Enter(problem);
+  check.In({"index", double(index)}, STARFOCUS_FROM_TO(0, 16));
+  check.NotNull(u, "u");
+  check.NotNull(v, "v");
+  if (!check.passed()) return check.status();
   const ViewPosition position = StarPosition(index);
   *u = position.u / static_cast<double>(kViewOne);
   *v = position.v / static_cast<double>(kViewOne);
-  return 1;
-}
-
-starfocus_status starfocus_workspace_size(const starfocus_config* config, size_t* bytes) {
-  starfocus_config full = DefaultConfig();
-  Checker check = Enter(config, &full);
-  check.NotNull(bytes, "bytes");
-  CheckConfig(full, &check);
-  if (!check.passed()) return check.status();
-  EngineState* counted = nullptr;
-  const size_t needed = LayOut(Choose(full), nullptr, &counted);
-  if (needed == kTooLarge) return check.Add(STARFOCUS_ERROR_TOO_LARGE);
-  *bytes = needed;
   return STARFOCUS_OK;
 }
 
+namespace starfocus {
+namespace {
+
+// Returns the number of bytes of the workspace of a configuration.
+size_t WorkspaceSize(const FullConfig& config, Checker* check) {
+  CheckConfig(config, check);
+  if (!check->passed()) return 0;
+  EngineState* counted = nullptr;
+  const size_t needed = LayOut(Choose(config), nullptr, &counted);
+  if (needed == kTooLarge) check->Add(STARFOCUS_ERROR_TOO_LARGE);
+  return needed;
+}
+
+}  // namespace
+}  // namespace starfocus
+
+starfocus_status starfocus_workspace_size(const starfocus_config* config, size_t* bytes,
+                                          starfocus_problem* problem) {
+  FullConfig full;
+  Checker check = Enter(config, problem, &full);
+  check.NotNull(bytes, "bytes");
+  const size_t needed = WorkspaceSize(full, &check);
+  if (check.passed()) *bytes = needed;
+  return check.status();
+}
+
 starfocus_status starfocus_init(const starfocus_config* config, void* workspace, size_t bytes,
-                                starfocus_engine** engine) {
+                                starfocus_engine** engine, starfocus_problem* problem) {
   if (engine != nullptr) *engine = nullptr;
-  starfocus_config full = DefaultConfig();
-  Checker check = Enter(config, &full);
+  FullConfig full;
+  Checker check = Enter(config, problem, &full);
   check.NotNull(engine, "engine");
-  size_t needed = 0;
-  if (check.passed()) check.Add(starfocus_workspace_size(config, &needed));
-  CheckMemory("workspace", workspace, bytes, needed, &check);
+  CheckMemory("workspace", workspace, bytes, WorkspaceSize(full, &check), &check);
   if (!check.passed()) return check.status();
   EngineState* made = nullptr;
   LayOut(Choose(full), workspace, &made);
@@ -147,13 +121,15 @@ starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
   Checker check = Enter(engine);
   check.NotNull(callbacks, "callbacks");
   if (!check.passed()) return check.status();
+  const starfocus_observer* const observer = callbacks->observer;
+  if (observer != nullptr && !check.Size(*observer, "callbacks.observer.size")) {
+    return check.status();
+  }
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   e.jobs->runner = callbacks->runner;
   e.jobs->runner_data = callbacks->runner_data;
   e.jobs->call_progress.SetProgress(callbacks->progress, callbacks->progress_data);
-  e.clock = callbacks->clock;
-  e.on_block = callbacks->on_block;
-  e.on_block_data = callbacks->on_block_data;
+  e.observer = observer != nullptr ? *observer : starfocus_observer{};
   return STARFOCUS_OK;
 }
 

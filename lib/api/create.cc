@@ -31,21 +31,21 @@ void ReleaseToHeap(void*, void* memory, size_t) { std::free(static_cast<void**>(
 }  // namespace starfocus
 
 starfocus_status starfocus_create(const starfocus_config* config,
-                                  const starfocus_allocator* allocator, starfocus_engine** engine) {
+                                  const starfocus_allocator* allocator, starfocus_engine** engine,
+                                  starfocus_problem* problem) {
   if (engine != nullptr) *engine = nullptr;
   const starfocus_allocator heap = {nullptr, AllocateFromHeap, ReleaseToHeap};
   const starfocus_allocator& from = allocator != nullptr ? *allocator : heap;
-  starfocus_config full = DefaultConfig();
-  Checker check = Enter(config, &full);
+  Checker check = Enter(problem);
   check.NotNull(engine, "engine");
   check.Need(from.allocate != nullptr, STARFOCUS_ERROR_NULL, {"allocator.allocate"}, {"not null"});
   check.Need(from.release != nullptr, STARFOCUS_ERROR_NULL, {"allocator.release"}, {"not null"});
   size_t bytes = 0;
-  if (check.passed()) check.Add(starfocus_workspace_size(config, &bytes));
+  if (check.passed()) check.Add(starfocus_workspace_size(config, &bytes, problem));
   if (!check.passed()) return check.status();
   void* const memory = from.allocate(from.data, bytes, STARFOCUS_ALIGNMENT);
   if (memory == nullptr) return check.Add(STARFOCUS_ERROR_MEMORY);
-  const starfocus_status status = starfocus_init(config, memory, bytes, engine);
+  const starfocus_status status = starfocus_init(config, memory, bytes, engine, problem);
   if (status != STARFOCUS_OK) {
     from.release(from.data, memory, bytes);
     return status;

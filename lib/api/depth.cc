@@ -3,7 +3,7 @@
 #include "starfocus/depth.h"
 
 #include "lib/api/validate.h"
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/depth/colour_repair.h"
 #include "lib/depth/maps.h"
 #include "lib/optics/view_set.h"
@@ -11,9 +11,8 @@
 namespace starfocus {
 namespace {
 
-void CheckDepthConfig(const starfocus_depth_config& config, bool repairs, Checker* check) {
-  CheckPicture(config.width, config.height, config.disparity_min, config.disparity_max,
-               config.max_workers, check);
+void CheckDepthConfig(const FullConfig& config, bool repairs, Checker* check) {
+  CheckPicture(config, check);
   if (!check->passed()) return;
   ViewSet views;
   check->Add(FindViews(config.views, config.positions, config.problem, &views));
@@ -21,14 +20,14 @@ void CheckDepthConfig(const starfocus_depth_config& config, bool repairs, Checke
               {"at least 2 views, or 1 view for a repair"});
   check->Need(views.star || !repairs, STARFOCUS_ERROR_RANGE, {"positions[]"},
               {"the positions of starfocus_view_position for a repair"});
-  check->Need((config.features & ~STARFOCUS_FEATURE_IMAGES) == 0, STARFOCUS_ERROR_RANGE,
-              {"features", double(config.features)}, {"STARFOCUS_FEATURE_IMAGES or 0"});
+  check->Need(repairs || config.disparity_min < config.disparity_max, STARFOCUS_ERROR_RANGE,
+              {"disparity_max", config.disparity_max},
+              {"above disparity_min", config.disparity_min, STARFOCUS_MAX_DISPARITY});
 }
 
 // Checks that the outputs do not overlap the inputs, the workspace or each other.
-void CheckOverlap(const starfocus_depth_config& config, const starfocus_light_field& light_field,
-                  bool repairs, const starfocus_disparity_output& map, const Extent& workspace,
-                  Checker* check) {
+void CheckOverlap(const FullConfig& config, const starfocus_light_field& light_field, bool repairs,
+                  const starfocus_disparity_output& map, const Extent& workspace, Checker* check) {
   const auto width = static_cast<size_t>(config.width), floats = width * sizeof(float);
   const int32_t height = config.height;
   Extents taken;
@@ -50,11 +49,10 @@ void CheckOverlap(const starfocus_depth_config& config, const starfocus_light_fi
 
 // Checks the map to repair: at least one disparity is known, and all known disparities lie in the
 // configured range.
-void CheckGiven(const starfocus_depth_config& config, const starfocus_depth_map& map,
-                Checker* check) {
+void CheckGiven(const FullConfig& config, const starfocus_depth_map& map, Checker* check) {
   if (!check->passed()) return;
   starfocus_disparity_stats stats;
-  check->Add(starfocus_measure_disparity(&map, &stats));
+  check->Add(starfocus_measure_disparity(&map, &stats, config.problem));
   if (!check->passed()) return;
   check->Need(stats.invalid < int64_t{map.width} * map.height, STARFOCUS_ERROR_ALL_INVALID,
               {"disparity"}, {"a finite value"});
@@ -67,49 +65,35 @@ void CheckGiven(const starfocus_depth_config& config, const starfocus_depth_map&
   TellPlace(check->status(), map, 0, config.problem);
 }
 
-starfocus_depth_config DefaultDepthConfig() {
-  starfocus_depth_config config = {};
-  config.disparity_min = config.disparity_max = kNoNumber;  // rejected unless the caller sets them
-  config.views = 5;
-  config.max_workers = 1;
-  return config;
-}
-
-bool Converts(const starfocus_depth_config& config) {
-  return Has(config, STARFOCUS_FEATURE_IMAGES);
-}
+bool Converts(const FullConfig& config) { return Has(config, STARFOCUS_FEATURE_IMAGES); }
 
 // Computes the size of a workspace, which contains the memory of an estimate or repair, followed by
 // the memory of the converted light field.
-starfocus_status SizeOf(const starfocus_depth_config* config, bool repairs, size_t* bytes) {
-  starfocus_depth_config full = DefaultDepthConfig();
-  Checker check = Enter(config, &full);
-  check.NotNull(bytes, "bytes");
-  CheckDepthConfig(full, repairs, &check);
-  if (!check.passed()) return check.status();
-  const SweepSetup setup = MakeSetup(full, repairs);
+size_t SizeOf(const FullConfig& config, bool repairs, Checker* check) {
+  CheckDepthConfig(config, repairs, check);
+  if (!check->passed()) return 0;
+  const SweepSetup setup = MakeSetup(config, repairs);
   Arena arena(nullptr);
-  if (full.views == 1) {
-    TakeColourRepair(setup, full.max_workers, &arena);
+  if (config.views == 1) {
+    TakeColourRepair(setup, config.max_workers, &arena);
   } else {
-    TakeEstimate(setup, full.max_workers, &arena);
+    TakeEstimate(setup, config.max_workers, &arena);
   }
-  if (Converts(full)) TakeConverted(full, repairs, &arena);
-  if (arena.Bytes() == kTooLarge) return check.Add(STARFOCUS_ERROR_TOO_LARGE);
-  *bytes = arena.Bytes();
-  return STARFOCUS_OK;
+  if (Converts(config)) TakeConverted(config, repairs, &arena);
+  if (arena.Bytes() == kTooLarge) check->Add(STARFOCUS_ERROR_TOO_LARGE);
+  return arena.Bytes();
 }
 
 // Arguments of an API call that estimates or repairs a map.
 struct DepthCall {
-  const starfocus_depth_config* config;
+  const FullConfig* config;
+  const starfocus_callbacks* callbacks;
   const starfocus_light_field* light_field;
   void* workspace;
   size_t bytes;
 };
 
-void CheckStrides(const starfocus_depth_config& config, const starfocus_disparity_output& map,
-                  Checker* check) {
+void CheckStrides(const FullConfig& config, const starfocus_disparity_output& map, Checker* check) {
   const auto width = static_cast<size_t>(config.width);
   check->Stride(
       map.confidence == nullptr || ValidStride(map.confidence_stride, width, config.height),
@@ -121,11 +105,10 @@ void CheckStrides(const starfocus_depth_config& config, const starfocus_disparit
 // Checks all arguments of an API call that estimates or repairs a map.
 void CheckCall(const DepthCall& call, bool repairs, const starfocus_disparity_output& map,
                Checker* check) {
-  size_t needed = 0;
-  check->Add(SizeOf(call.config, repairs, &needed));
+  const size_t needed = SizeOf(*call.config, repairs, check);
   CheckMemory("workspace", call.workspace, call.bytes, needed, check);
   if (!check->passed()) return;
-  const starfocus_depth_config& config = *call.config;
+  const FullConfig& config = *call.config;
   const starfocus_light_field& light_field = *call.light_field;
   const int32_t width = config.width, height = config.height;
   CheckViews(light_field, config.views, width, height, check);
@@ -145,11 +128,13 @@ void CheckCall(const DepthCall& call, bool repairs, const starfocus_disparity_ou
 template <class Make>
 starfocus_status Watched(const DepthCall& call, const SweepSetup& setup, Arena* arena, Jobs* jobs,
                          const Make& make) {
-  const starfocus_depth_config& config = *call.config;
-  jobs->runner = config.runner;
-  jobs->runner_data = config.runner_data;
+  const FullConfig& config = *call.config;
+  const starfocus_callbacks none = {};
+  const starfocus_callbacks& callbacks = call.callbacks != nullptr ? *call.callbacks : none;
+  jobs->runner = callbacks.runner;
+  jobs->runner_data = callbacks.runner_data;
   CallProgress* const call_progress = &jobs->call_progress;
-  call_progress->SetProgress(config.progress, config.progress_data);
+  call_progress->SetProgress(callbacks.progress, callbacks.progress_data);
   call_progress->Begin(0, config.height);
   starfocus_light_field field = *call.light_field;
   starfocus_status status = STARFOCUS_OK;
@@ -201,9 +186,10 @@ starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput
 }
 
 // Checks the arguments, then estimates or repairs the map.
-starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_output* map) {
-  starfocus_depth_config full = DefaultDepthConfig();
-  Checker check = Enter(call.config, &full);
+starfocus_status RunCall(const starfocus_config* config, DepthCall call, bool repairs,
+                         starfocus_disparity_output* map, starfocus_problem* problem) {
+  FullConfig full;
+  Checker check = Enter(config, problem, &full);
   check.NotNull(call.light_field, "light_field");
   check.NotNull(map, "map");
   check.NotNull(call.workspace, "workspace");
@@ -212,12 +198,12 @@ starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_outpu
   if (!check.passed()) return check.status();
   map->has_coverage = 0;
   const MapOutput output = {{map->disparity, map->disparity_stride / sizeof(float)},
-                            MinDisparity(*call.config),
-                            MaxDisparity(*call.config),
+                            MinDisparity(full),
+                            MaxDisparity(full),
                             {map->confidence, map->confidence_stride},
                             {map->coverage, map->coverage_stride}};
-  check.Add(call.config->views == 1 ? RepairOneView(call, output, &map->has_coverage)
-                                    : SweepViews(call, repairs, output));
+  check.Add(full.views == 1 ? RepairOneView(call, output, &map->has_coverage)
+                            : SweepViews(call, repairs, output));
   return check.status();
 }
 
@@ -226,30 +212,28 @@ starfocus_status RunCall(DepthCall call, bool repairs, starfocus_disparity_outpu
 
 using namespace starfocus;
 
-void starfocus_depth_config_init_sized(starfocus_depth_config* config, uint32_t size) {
-  InitSized(DefaultDepthConfig(), size, config);
+starfocus_status starfocus_map_workspace_size(const starfocus_config* config, int32_t repairs,
+                                              size_t* bytes, starfocus_problem* problem) {
+  FullConfig full;
+  Checker check = Enter(config, problem, &full);
+  check.NotNull(bytes, "bytes");
+  const size_t needed = SizeOf(full, repairs != 0, &check);
+  if (check.passed()) *bytes = needed;
+  return check.status();
 }
 
-starfocus_status starfocus_estimate_workspace_size(const starfocus_depth_config* config,
-                                                   size_t* bytes) {
-  return SizeOf(config, false, bytes);
-}
-
-starfocus_status starfocus_repair_workspace_size(const starfocus_depth_config* config,
-                                                 size_t* bytes) {
-  return SizeOf(config, true, bytes);
-}
-
-starfocus_status starfocus_estimate_disparity(const starfocus_depth_config* config,
+starfocus_status starfocus_estimate_disparity(const starfocus_config* config,
+                                              const starfocus_callbacks* callbacks,
                                               const starfocus_light_field* light_field,
                                               starfocus_disparity_output* map, void* workspace,
-                                              size_t bytes) {
-  return RunCall({config, light_field, workspace, bytes}, false, map);
+                                              size_t bytes, starfocus_problem* problem) {
+  return RunCall(config, {nullptr, callbacks, light_field, workspace, bytes}, false, map, problem);
 }
 
-starfocus_status starfocus_repair_disparity(const starfocus_depth_config* config,
+starfocus_status starfocus_repair_disparity(const starfocus_config* config,
+                                            const starfocus_callbacks* callbacks,
                                             const starfocus_light_field* light_field,
                                             starfocus_disparity_output* map, void* workspace,
-                                            size_t bytes) {
-  return RunCall({config, light_field, workspace, bytes}, true, map);
+                                            size_t bytes, starfocus_problem* problem) {
+  return RunCall(config, {nullptr, callbacks, light_field, workspace, bytes}, true, map, problem);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: measures disparity maps, fills their gaps, and computes the focus of a tapped pixel and
-// the aperture of an f-stop. The functions for disparity maps require no engine.
+// the largest aperture. The functions for disparity maps require no engine.
 #include <cmath>
 #include <limits>
 
@@ -122,9 +122,12 @@ int32_t ValueOf(int32_t k, int32_t pixels, int32_t values) {
 using namespace starfocus;
 
 starfocus_status starfocus_measure_disparity(const starfocus_depth_map* depth,
-                                             starfocus_disparity_stats* stats) {
-  if (depth == nullptr || stats == nullptr) return STARFOCUS_ERROR_NULL;
-  Checker check(nullptr);
+                                             starfocus_disparity_stats* stats,
+                                             starfocus_problem* problem) {
+  Checker check = Enter(problem);
+  check.NotNull(depth, "depth");
+  check.NotNull(stats, "stats");
+  if (!check.passed()) return check.status();
   CheckLoneMap(*depth, STARFOCUS_MAX_SIZE, STARFOCUS_MAX_SIZE, &check);
   if (!check.passed()) return check.status();
   constexpr int32_t kPiece = 256;  // number of values that are converted at once, on the stack
@@ -149,16 +152,19 @@ starfocus_status starfocus_measure_disparity(const starfocus_depth_map* depth,
 }
 
 starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32_t width,
-                                          int32_t height) {
+                                          int32_t height, starfocus_problem* problem) {
   starfocus_disparity_stats stats;
-  Checker check(nullptr);
+  Checker check = Enter(problem);
   CheckMap(disparity, stride, width, height, &check);
   if (!check.passed()) return check.status();
   const starfocus_depth_map map = starfocus_depth_float(disparity, stride, width, height);
-  const starfocus_status status = starfocus_measure_disparity(&map, &stats);
-  if (status != STARFOCUS_OK || stats.invalid == 0) return status;
+  check.Add(starfocus_measure_disparity(&map, &stats, problem));
+  if (!check.passed() || stats.invalid == 0) return check.status();
   const size_t row_step = stride / sizeof(float);
-  if (stats.invalid == int64_t{width} * height) return STARFOCUS_ERROR_ALL_INVALID;
+  if (stats.invalid == int64_t{width} * height) {
+    check.Need(false, STARFOCUS_ERROR_ALL_INVALID, {"disparity"}, {"a finite value"});
+    return check.status();
+  }
   for (int32_t y = 0; y < height; ++y) {
     FillLine({disparity + static_cast<size_t>(y) * row_step, 1, width});
   }
@@ -168,16 +174,23 @@ starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32
 }
 
 starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t width, int32_t height,
-                                    int32_t x, int32_t y, double* focus) {
-  if (depth == nullptr || focus == nullptr) return STARFOCUS_ERROR_NULL;
-  Checker check(nullptr);
+                                    int32_t x, int32_t y, double* focus,
+                                    starfocus_problem* problem) {
+  Checker check = Enter(problem);
+  check.NotNull(depth, "depth");
+  check.NotNull(focus, "focus");
+  if (!check.passed()) return check.status();
   CheckLoneMap(*depth, width, height, &check);
   if (!check.passed()) return check.status();
-  if (x < 0 || x >= width || y < 0 || y >= height) return STARFOCUS_ERROR_RANGE;
+  check.In({"x", double(x)}, {"inside the picture", 0, width - 1.0});
+  check.In({"y", double(y)}, {"inside the picture", 0, height - 1.0});
+  if (!check.passed()) return check.status();
   const Place place = {*depth, ValueOf(x, width, depth->width), ValueOf(y, height, depth->height)};
   Sorted sorted;
   place.ForKnown(kAround, [&](float disparity) { sorted.Insert(disparity); });
-  if (sorted.count == 0) return STARFOCUS_ERROR_NOT_FINITE;
+  check.Need(sorted.count > 0, STARFOCUS_ERROR_NOT_FINITE, {"depth"},
+             {"a finite disparity near the pixel"});
+  if (!check.passed()) return check.status();
   const double own = place.Own();
   double surface = HasNeighbour(place, own) ? own : MostCommon(sorted);
   // Taking the median twice makes the focus less dependent on the noise of the tapped pixel.
@@ -188,23 +201,15 @@ starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t wi
   return STARFOCUS_OK;
 }
 
-starfocus_status starfocus_largest_aperture(starfocus_engine* engine, const starfocus_lens* lens,
-                                            double* aperture) {
+starfocus_status starfocus_largest_aperture(starfocus_engine* engine,
+                                            const starfocus_params* params, double* aperture) {
   Checker check = Enter(engine);
-  check.NotNull(lens, "lens");
+  check.NotNull(params, "params");
   check.NotNull(aperture, "aperture");
   if (!check.passed()) return check.status();
-  CheckFocus(*lens, &check);
+  CheckFocus(*params, &check);
   if (check.passed()) {
-    *aperture = LargestAperture(reinterpret_cast<EngineState*>(engine)->config, *lens);
+    *aperture = LargestAperture(reinterpret_cast<EngineState*>(engine)->config, *params);
   }
   return check.status();
-}
-
-starfocus_status starfocus_aperture_of_f_stop(double f_stop, double widest, double* aperture) {
-  if (aperture == nullptr) return STARFOCUS_ERROR_NULL;
-  // If an argument is NaN, a comparison is false and the function returns an error.
-  if (!(widest > 0.0 && widest <= f_stop && std::isfinite(f_stop))) return STARFOCUS_ERROR_RANGE;
-  *aperture = widest / f_stop;
-  return STARFOCUS_OK;
 }

@@ -137,10 +137,12 @@ class Background {
 
 using namespace starfocus;
 
-starfocus_status starfocus_measure_matte(const starfocus_matte* matte,
-                                         starfocus_matte_stats* stats) {
-  if (matte == nullptr || stats == nullptr) return STARFOCUS_ERROR_NULL;
-  Checker check(nullptr);
+starfocus_status starfocus_measure_matte(const starfocus_matte* matte, starfocus_matte_stats* stats,
+                                         starfocus_problem* problem) {
+  Checker check = Enter(problem);
+  check.NotNull(matte, "matte");
+  check.NotNull(stats, "stats");
+  if (!check.passed()) return check.status();
   CheckMatte(*matte, &check);
   if (!check.passed()) return check.status();
   const int32_t width = matte->width, height = matte->height;
@@ -178,9 +180,13 @@ starfocus_status starfocus_measure_matte(const starfocus_matte* matte,
 starfocus_status starfocus_matte_field(const starfocus_matte* matte,
                                        const starfocus_matte_depth* depth, int32_t width,
                                        int32_t height, const starfocus_region* region,
-                                       starfocus_disparity_output* out) {
-  if (matte == nullptr || depth == nullptr || out == nullptr) return STARFOCUS_ERROR_NULL;
-  Checker check(nullptr);
+                                       starfocus_disparity_output* out,
+                                       starfocus_problem* problem) {
+  Checker check = Enter(problem);
+  check.NotNull(matte, "matte");
+  check.NotNull(depth, "depth");
+  check.NotNull(out, "out");
+  if (!check.passed()) return check.status();
   CheckMatte(*matte, &check);
   CheckMatteDepth(*depth, &check);
   Rect area;
@@ -221,9 +227,13 @@ starfocus_status starfocus_matte_field(const starfocus_matte* matte,
 starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
                                           const starfocus_depth_map* depth, int32_t width,
                                           int32_t height, const starfocus_region* region,
-                                          starfocus_disparity_output* out) {
-  if (matte == nullptr || depth == nullptr || out == nullptr) return STARFOCUS_ERROR_NULL;
-  Checker check(nullptr);
+                                          starfocus_disparity_output* out,
+                                          starfocus_problem* problem) {
+  Checker check = Enter(problem);
+  check.NotNull(matte, "matte");
+  check.NotNull(depth, "depth");
+  check.NotNull(out, "out");
+  if (!check.passed()) return check.status();
   CheckMatte(*matte, &check);
   CheckLoneMap(*depth, width, height, &check);
   Rect area;
@@ -242,8 +252,10 @@ starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
   const uint32_t flags =
       CheckDepth(kernels, source,
                  {Max(0, area.y - kMatteReach), Min(height, area.y + area.height + kMatteReach)});
-  if ((flags & simd::kUnknownDepth) != 0) return STARFOCUS_ERROR_NOT_FINITE;
-  if ((flags & simd::kDepthOutside) != 0) return STARFOCUS_ERROR_DISPARITY;
+  check.Need((flags & simd::kUnknownDepth) == 0, STARFOCUS_ERROR_NOT_FINITE, {"depth"}, {"finite"});
+  check.Need((flags & simd::kDepthOutside) == 0, STARFOCUS_ERROR_DISPARITY, {"depth"},
+             {"disparities within +-STARFOCUS_MAX_DISPARITY"});
+  if (!check.passed()) return check.status();
   MatteCoverage(kernels, *matte, source, area, {out->coverage, out->coverage_stride, 0, area.y});
   out->has_coverage = 1;
   return STARFOCUS_OK;

@@ -9,7 +9,7 @@ namespace starfocus {
 namespace {
 
 // Returns the size of a prepared light field for a valid configuration.
-size_t SizeOf(const starfocus_config& config, Checker* check) {
+size_t SizeOf(const FullConfig& config, Checker* check) {
   if (!check->passed()) return 0;
   Prepared* counted = nullptr;
   const size_t needed = LayOutPrepared(config, nullptr, &counted);
@@ -69,12 +69,11 @@ starfocus_status PrepareAllocated(const starfocus_light_field& light_field, Engi
 
 using namespace starfocus;
 
-starfocus_status starfocus_prepared_size(const starfocus_config* config, size_t* bytes) {
-  starfocus_config full = DefaultConfig();
-  Checker check = Enter(config, &full);
+starfocus_status starfocus_prepared_size(starfocus_engine* engine, size_t* bytes) {
+  Checker check = Enter(engine);
   check.NotNull(bytes, "bytes");
-  CheckConfig(full, &check);
-  const size_t needed = SizeOf(full, &check);
+  if (!check.passed()) return check.status();
+  const size_t needed = SizeOf(reinterpret_cast<EngineState*>(engine)->config, &check);
   if (check.passed()) *bytes = needed;
   return check.status();
 }

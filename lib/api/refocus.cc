@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: refocuses whole pictures, regions and previews.
 #include "lib/api/validate.h"
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/base/problem.h"
 #include "lib/engine/driver.h"
@@ -16,15 +16,15 @@ namespace {
 // Prepares the engine for comparing the current light field with the previous light field.
 void CompareWith(const starfocus_previous& previous, const starfocus_light_field* now, int32_t mode,
                  EngineState* engine) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   FrameDiff& changes = engine->stripe.changes;
   changes.active = true;
-  changes.before = &previous.light_field;
-  changes.picture = &previous.out;
+  changes.before = previous.light_field;
+  changes.picture = previous.out;
   changes.now = now;
   // STARFOCUS_MODE_BLUR reads only the centre view.
   changes.views = mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
-  changes.fills = Has(config, STARFOCUS_FEATURE_FILL_UNKNOWN);
+  changes.fills = config.unknown == STARFOCUS_UNKNOWN_FILL;
   changes.width = config.width;
   changes.height = config.height;
   changes.side = config.superblock;
@@ -36,8 +36,8 @@ void CompareWith(const starfocus_previous& previous, const starfocus_light_field
 
 // Checks `params` and the prepared light field, which may be null, against the configuration of
 // the engine.
-void CheckCall(const starfocus_config& config, const starfocus_params& params,
-               const Prepared* prepared, Checker* check) {
+void CheckCall(const FullConfig& config, const FullParams& params, const Prepared* prepared,
+               Checker* check) {
   CheckParams(config, params, check);
   CheckRegion(params.region, config.width, config.height, check);
   if (prepared == nullptr) return;
@@ -59,7 +59,7 @@ Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
 // Runs a refocusing. Before this call, the caller must set the engine's input and check
 // all arguments except the values of the map. `previous` and `now` are the previous frame and the
 // current light field of a video; `previous` is null if frames are not compared.
-starfocus_status RunCall(const starfocus_params& params, const Output& out,
+starfocus_status RunCall(const FullParams& params, const Output& out,
                          const starfocus_previous* previous, const starfocus_light_field* now,
                          EngineState* engine, starfocus_report* report) {
   engine->stream.active = false;
@@ -68,27 +68,27 @@ starfocus_status RunCall(const starfocus_params& params, const Output& out,
   if (check.Add(SetLens(params, engine)) != STARFOCUS_OK) return check.status();
   if (previous != nullptr) CompareWith(*previous, now, params.mode, engine);
   check.Add(RefocusRows(out, engine));
-  if (check.passed() && report != nullptr) *report = engine->report;
+  if (check.passed()) WriteReport(*engine, report);
   return check.status();
 }
 
 // Returns the parameters in pixels of the preview, whose region is `rect`.
-starfocus_params ReducedParams(const starfocus_params& full, const Rect& rect) {
-  starfocus_params params = full;
+FullParams ReducedParams(const FullParams& full, const Rect& rect) {
+  FullParams params = full;
   const double scale = 1.0 / (1 << full.preview_shift);
-  params.lens.focus *= scale;
-  params.lens.focus_nearer *= scale;
-  params.lens.focus_farther *= scale;
+  params.focus *= scale;
+  params.focus_nearer *= scale;
+  params.focus_farther *= scale;
   if (!IsWhole(params.region)) params.region = {rect.x, rect.y, rect.width, rect.height};
   return params;
 }
 
 // Checks the arguments, refocuses the light field that is reduced by params.preview_shift, and
 // writes the picture to `out`. The lens and region of `params` are in pixels of the full size.
-starfocus_status RefocusPreview(const starfocus_params& params, const Prepared& prepared,
+starfocus_status RefocusPreview(const FullParams& params, const Prepared& prepared,
                                 const starfocus_image& out, EngineState* engine,
                                 starfocus_report* report) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   const int32_t shift = params.preview_shift, most = prepared.config.previews;
   Checker check(config.problem);
   CheckCall(config, params, &prepared, &check);
@@ -110,6 +110,7 @@ starfocus_status RefocusPreview(const starfocus_params& params, const Prepared& 
 
 // Fields of params.previous that checks of light fields and pictures may reject.
 constexpr const char* kPreviousFields[] = {
+    "previous.light_field.size",
     "previous.light_field.views[].format",
     "previous.light_field.views[].matrix",
     "previous.light_field.views[].range",
@@ -152,21 +153,24 @@ void NamePrevious(starfocus_problem* problem) {
   }
 }
 
-void CheckFieldInPlace(const starfocus_config& config, const starfocus_light_field& field,
+void CheckFieldInPlace(const FullConfig& config, const starfocus_light_field& field,
                        Checker* check) {
   CheckInPlace(field, config.views, check);
   CheckInPlace(field.depth, config.width, config.height, check);
 }
 
 // Checks the previous frame. Frames can be compared only if both frames are read in place.
-void CheckPrevious(const starfocus_config& config, const starfocus_previous& previous,
+void CheckPrevious(const FullConfig& config, const starfocus_previous& previous,
                    const starfocus_light_field& light_field, const starfocus_image& out,
                    const Rect& rect, Checker* check) {
   CheckFieldInPlace(config, light_field, check);
+  if (!check->passed() || !check->Size(previous, "previous.size")) return;
+  check->NotNull(previous.light_field, "previous.light_field");
+  check->NotNull(previous.out, "previous.out");
   if (!check->passed()) return;
-  CheckLightField(config, previous.light_field, check);
-  CheckFieldInPlace(config, previous.light_field, check);
-  CheckOutput(config, previous.out, rect.width, rect.height, check);
+  CheckLightField(config, *previous.light_field, check);
+  CheckFieldInPlace(config, *previous.light_field, check);
+  CheckOutput(config, *previous.out, rect.width, rect.height, check);
   if (!check->passed()) {
     NamePrevious(config.problem);
     return;
@@ -176,16 +180,16 @@ void CheckPrevious(const starfocus_config& config, const starfocus_previous& pre
                 {"STARFOCUS_FORMAT_RGB without gaps, for out and previous.out"});
   };
   need(out, "out.format");
-  need(previous.out, "previous.out.format");
+  need(*previous.out, "previous.out.format");
 }
 
 // Checks the arguments of an API call that refocuses. `prepared` may be null. Not inlined, so that
 // address ranges and inputs, which are large, are not on the stack while the picture is refocused.
-[[gnu::noinline]] void CheckRefocus(const starfocus_params& params,
+[[gnu::noinline]] void CheckRefocus(const FullParams& params,
                                     const starfocus_light_field& light_field,
                                     const Prepared* prepared, const starfocus_image& out,
                                     const EngineState& engine, Checker* check) {
-  const starfocus_config& config = engine.config;
+  const FullConfig& config = engine.config;
   const starfocus_previous* const previous = params.previous;
   CheckCall(config, params, prepared, check);
   CheckLightField(config, light_field, check);
@@ -197,8 +201,8 @@ void CheckPrevious(const starfocus_config& config, const starfocus_previous& pre
   Extents read = MemoryOf(engine, prepared);
   AddLightField(config, light_field, &read);
   if (previous != nullptr) {
-    AddLightField(config, previous->light_field, &read);
-    AddImage(previous->out, rect.width, rect.height, &read);
+    AddLightField(config, *previous->light_field, &read);
+    AddImage(*previous->out, rect.width, rect.height, &read);
   }
   CheckOutputApart(out, rect.width, rect.height, read, check);
 }
@@ -211,10 +215,10 @@ void CheckPrevious(const starfocus_config& config, const starfocus_previous& pre
   if (prepared != nullptr) UsePrepared(*prepared, &engine->input);
 }
 
-starfocus_status Refocus(const starfocus_params& params, const starfocus_light_field& light_field,
+starfocus_status Refocus(const FullParams& params, const starfocus_light_field& light_field,
                          const Prepared* prepared, const starfocus_image& to, EngineState* engine,
                          starfocus_report* report) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   Checker check(config.problem);
   CheckRefocus(params, light_field, prepared, to, *engine, &check);
   if (!check.passed()) return check.status();
@@ -225,7 +229,7 @@ starfocus_status Refocus(const starfocus_params& params, const starfocus_light_f
   out.alpha_step = in.images[0].step;
   // Two frames can be compared if both light fields have coverage, or if both lack coverage.
   const starfocus_previous* const previous = params.previous;
-  const bool comparable = previous != nullptr && (previous->light_field.coverage == nullptr) ==
+  const bool comparable = previous != nullptr && (previous->light_field->coverage == nullptr) ==
                                                      (light_field.coverage == nullptr);
   const starfocus_status status =
       RunCall(params, out, comparable ? previous : nullptr, &light_field, engine, report);
@@ -240,11 +244,12 @@ using namespace starfocus;
 starfocus_status starfocus_refocus(starfocus_engine* engine, const starfocus_params* params,
                                    const starfocus_light_field* light_field,
                                    const starfocus_image* out, starfocus_report* report) {
-  starfocus_params full;
+  FullParams full;
   Checker check = Enter(engine);
   check.NotNull(params, "params");
   check.NotNull(light_field, "light_field");
   check.NotNull(out, "out");
+  if (report != nullptr) check.Size(*report, "report.size");
   ReadParams(params, &full, &check);
   if (!check.passed()) return check.status();
   check.In({"preview_shift", double(full.preview_shift)},
@@ -258,11 +263,12 @@ starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
                                             const starfocus_params* params,
                                             const starfocus_prepared* prepared,
                                             const starfocus_image* out, starfocus_report* report) {
-  starfocus_params full;
+  FullParams full;
   Checker check = Enter(engine);
   check.NotNull(params, "params");
   check.NotNull(prepared, "prepared");
   check.NotNull(out, "out");
+  if (report != nullptr) check.Size(*report, "report.size");
   ReadParams(params, &full, &check);
   if (!check.passed()) return check.status();
   auto& e = *reinterpret_cast<EngineState*>(engine);

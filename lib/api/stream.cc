@@ -2,7 +2,7 @@
 // C API: streams. The caller pushes input rows, which are stored in ring buffers, and pulls
 // finished rows.
 #include "lib/api/validate.h"
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/stripe.h"
@@ -27,14 +27,14 @@ void CheckCount(const EngineState& engine, int32_t rows, int32_t most, Checker* 
 
 // Checks the number of rows of a push or pull that starts at row `first`. YUV formats require pairs
 // of rows.
-void CheckPairs(const starfocus_config& config, bool is_yuv, int32_t first, int32_t rows,
+void CheckPairs(const FullConfig& config, bool is_yuv, int32_t first, int32_t rows,
                 Checker* check) {
   check->Need(!is_yuv || (first % 2 == 0 && (rows % 2 == 0 || first + rows == config.height)),
               STARFOCUS_ERROR_RANGE, {"rows", double(rows)},
               {"even, except at the end of the picture"});
 }
 
-bool AnyYuv(const starfocus_config& config, const starfocus_light_field& light_field) {
+bool AnyYuv(const FullConfig& config, const starfocus_light_field& light_field) {
   for (int view = 0; view < config.views; ++view) {
     if (IsYuv(light_field.views[view].format)) return true;
   }
@@ -43,7 +43,7 @@ bool AnyYuv(const starfocus_config& config, const starfocus_light_field& light_f
 
 void CheckPush(const EngineState& engine, const starfocus_light_field& light_field, int32_t rows,
                Checker* check) {
-  const starfocus_config& config = engine.config;
+  const FullConfig& config = engine.config;
   const int32_t pushed = engine.stream.pushed;
   CheckCount(engine, rows, config.height - pushed, check);
   CheckLightField(config, light_field, check);
@@ -54,7 +54,7 @@ void CheckPush(const EngineState& engine, const starfocus_light_field& light_fie
 // Checks a pull of `rows` rows. `rows` must not exceed the number of remaining rows.
 void CheckPull(const EngineState& engine, const starfocus_image& out, int32_t rows,
                Checker* check) {
-  const starfocus_config& config = engine.config;
+  const FullConfig& config = engine.config;
   CheckOutput(config, out, config.width, config.height, check);
   CheckPairs(config, IsYuv(out.format), engine.stream.written, rows, check);
   if (!check->passed() || rows == 0) return;
@@ -123,7 +123,7 @@ starfocus_status StoreFinished(const Output& out, int32_t end, EngineState* engi
 // Writes up to `rows` finished rows to `out`. Refocuses the stripes of these rows if their input
 // rows have been pushed. Adds the number of written rows to *written.
 starfocus_status PullRows(const Output& out, int32_t rows, EngineState* engine, int32_t* written) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   Stream& stream = engine->stream;
   CallProgress& call_progress = engine->jobs->call_progress;
   // Ends the cancellation of an earlier pull, also for rows that this pull only stores.
@@ -152,7 +152,7 @@ starfocus_status PullRows(const Output& out, int32_t rows, EngineState* engine, 
 using namespace starfocus;
 
 starfocus_status starfocus_stream_begin(starfocus_engine* engine, const starfocus_params* params) {
-  starfocus_params full;
+  FullParams full;
   Checker check = Enter(engine);
   check.NotNull(params, "params");
   ReadParams(params, &full, &check);
@@ -201,6 +201,7 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   Checker check = Enter(engine);
   check.NotNull(out, "out");
   check.NotNull(written, "written");
+  if (report != nullptr) check.Size(*report, "report.size");
   if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   CheckCount(e, rows, INT32_MAX, &check);
@@ -212,6 +213,6 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   Output output = OutputOf(*out, {0, first, e.config.width, left}, e.odd_row);
   output.alpha = {alpha.data, alpha.stride, alpha.rows, 0};
   check.Add(PullRows(output, most, &e, written));
-  if (check.passed() && report != nullptr) *report = e.report;
+  if (check.passed()) WriteReport(e, report);
   return check.status();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/api/validate.h"
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/engine/engine.h"
 #include "lib/io/depth_map.h"
 #include "lib/io/image.h"
@@ -11,23 +11,23 @@ namespace starfocus {
 namespace {
 
 // Checks all fields, including fields that the shape does not use.
-void CheckLens(const starfocus_config& config, const starfocus_lens& lens, Checker* check) {
+void CheckLens(const FullConfig& config, const starfocus_params& lens, Checker* check) {
   CheckFocus(lens, check);
-  check->In({"lens.aperture", lens.aperture}, STARFOCUS_FROM_TO(0, 1));
-  check->In({"lens.shape", double(lens.shape)}, {"a starfocus_shape", 0, STARFOCUS_SHAPE_RING});
-  check->In({"lens.blades", double(lens.blades)},
+  check->In({"aperture", lens.aperture}, STARFOCUS_FROM_TO(0, 1));
+  check->In({"shape", double(lens.shape)}, {"a starfocus_shape", 0, STARFOCUS_SHAPE_RING});
+  check->In({"blades", double(lens.blades)},
             STARFOCUS_FROM_TO(STARFOCUS_MIN_BLADES, STARFOCUS_MAX_BLADES));
-  check->In({"lens.theta", lens.theta},
+  check->In({"theta", lens.theta},
             {"0.05 pi to 0.45 pi", STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA});
-  check->In({"lens.rotation", lens.rotation}, STARFOCUS_FROM_TO(-360, 360));
-  check->In({"lens.curvature", lens.curvature}, STARFOCUS_FROM_TO(0, 1));
-  check->In({"lens.ring_inner", lens.ring_inner}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_RING_INNER));
-  check->In({"lens.cats_eye", lens.cats_eye}, STARFOCUS_FROM_TO(0, 1));
+  check->In({"rotation", lens.rotation}, STARFOCUS_FROM_TO(-360, 360));
+  check->In({"curvature", lens.curvature}, STARFOCUS_FROM_TO(0, 1));
+  check->In({"ring_inner", lens.ring_inner}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_RING_INNER));
+  check->In({"cats_eye", lens.cats_eye}, STARFOCUS_FROM_TO(0, 1));
   if (Has(config, STARFOCUS_FEATURE_SHAPES)) return;
   check->Need(lens.shape != STARFOCUS_SHAPE_POLYGON, STARFOCUS_ERROR_FEATURE,
-              {"lens.shape", double(lens.shape)},
+              {"shape", double(lens.shape)},
               {"not STARFOCUS_SHAPE_POLYGON without STARFOCUS_FEATURE_SHAPES"});
-  check->Need(lens.cats_eye == 0, STARFOCUS_ERROR_FEATURE, {"lens.cats_eye", lens.cats_eye},
+  check->Need(lens.cats_eye == 0, STARFOCUS_ERROR_FEATURE, {"cats_eye", lens.cats_eye},
               {"0 without STARFOCUS_FEATURE_SHAPES"});
 }
 
@@ -68,38 +68,55 @@ Checker Enter(starfocus_engine* engine) {
   return Enter(&reinterpret_cast<EngineState*>(engine)->problem);
 }
 
-void ReadParams(const starfocus_params* params, starfocus_params* full, Checker* check) {
+Checker Enter(const starfocus_config* config, starfocus_problem* problem, FullConfig* full) {
+  *full = DefaultConfig();
+  full->problem = problem;
+  Checker check = Enter(problem);
+  check.NotNull(config, "config");
+  if (!check.passed()) return check;
+  check.Need(ReadSized<starfocus_config>(*config, full), STARFOCUS_ERROR_STRUCTURE,
+             {"config.size", double(config->size)}, {"the value set by starfocus_config_init"});
+  const starfocus_tuning* const tuning = full->starfocus_config::tuning;
+  if (!check.passed() || tuning == nullptr) return check;
+  check.Need(ReadSized(*tuning, &full->tuning), STARFOCUS_ERROR_STRUCTURE,
+             {"tuning.size", double(tuning->size)}, {"the value set by starfocus_tuning_init"});
+  return check;
+}
+
+void ReadParams(const starfocus_params* params, FullParams* full, Checker* check) {
   if (!check->passed()) return;
   *full = DefaultParams();
-  check->Need(ReadSized(*params, full), STARFOCUS_ERROR_STRUCTURE,
+  check->Need(ReadSized<starfocus_params>(*params, full), STARFOCUS_ERROR_STRUCTURE,
               {"params.size", double(params->size)}, {"the value set by starfocus_params_init"});
+  if (!check->passed() || full->study == nullptr) return;
+  if (!check->Size(*full->study, "study.size")) return;
+  full->mode = full->study->mode;
+  full->renderer = full->study->renderer;
 }
 
-void CheckPicture(int32_t width, int32_t height, double disparity_min, double disparity_max,
-                  int32_t max_workers, Checker* check) {
+void CheckPicture(const FullConfig& config, Checker* check) {
   const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check->In({"width", double(width)}, size);
-  check->In({"height", double(height)}, size);
+  check->In({"width", double(config.width)}, size);
+  check->In({"height", double(config.height)}, size);
   const Allowed disparity = STARFOCUS_FROM_TO(-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY);
-  check->In({"disparity_min", disparity_min}, disparity);
-  check->In({"disparity_max", disparity_max}, disparity);
-  check->In({"disparity_max", disparity_max},
-            {"at least disparity_min", disparity_min, STARFOCUS_MAX_DISPARITY});
-  check->In({"max_workers", double(max_workers)}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_WORKERS));
+  check->In({"disparity_min", config.disparity_min}, disparity);
+  check->In({"disparity_max", config.disparity_max}, disparity);
+  check->In({"disparity_max", config.disparity_max},
+            {"at least disparity_min", config.disparity_min, STARFOCUS_MAX_DISPARITY});
+  check->In({"max_workers", double(config.max_workers)},
+            STARFOCUS_FROM_TO(1, STARFOCUS_MAX_WORKERS));
 }
 
-void CheckFocus(const starfocus_lens& lens, Checker* check) {
-  check->In({"lens.focus", lens.focus},
-            STARFOCUS_FROM_TO(-STARFOCUS_MAX_FOCUS, STARFOCUS_MAX_FOCUS));
-  check->In({"lens.focus_nearer", lens.focus_nearer},
-            {"at least 0 and at most 1000000 - lens.focus", 0, STARFOCUS_MAX_FOCUS - lens.focus});
-  check->In({"lens.focus_farther", lens.focus_farther},
-            {"at least 0 and at most 1000000 + lens.focus", 0, STARFOCUS_MAX_FOCUS + lens.focus});
+void CheckFocus(const starfocus_params& lens, Checker* check) {
+  check->In({"focus", lens.focus}, STARFOCUS_FROM_TO(-STARFOCUS_MAX_FOCUS, STARFOCUS_MAX_FOCUS));
+  check->In({"focus_nearer", lens.focus_nearer},
+            {"at least 0 and at most 1000000 - focus", 0, STARFOCUS_MAX_FOCUS - lens.focus});
+  check->In({"focus_farther", lens.focus_farther},
+            {"at least 0 and at most 1000000 + focus", 0, STARFOCUS_MAX_FOCUS + lens.focus});
 }
 
-void CheckConfig(const starfocus_config& config, Checker* check) {
-  CheckPicture(config.width, config.height, config.disparity_min, config.disparity_max,
-               config.max_workers, check);
+void CheckConfig(const FullConfig& config, Checker* check) {
+  CheckPicture(config, check);
   if (!check->passed()) return;
   ViewSet views;
   check->Add(FindViews(config.views, config.positions, config.problem, &views));
@@ -109,27 +126,29 @@ void CheckConfig(const starfocus_config& config, Checker* check) {
   check->Need(IsBlock(config.superblock), STARFOCUS_ERROR_RANGE,
               {"superblock", double(config.superblock)}, {"0, 32, 64, 128 or 256"});
   CheckTuning(config.tuning, check);
-  constexpr uint32_t kFeatures = STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE |
-                                 STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES |
-                                 STARFOCUS_FEATURE_FILL_UNKNOWN | STARFOCUS_FEATURE_SHAPES;
+  constexpr uint32_t kFeatures = STARFOCUS_FEATURE_COVERAGE | STARFOCUS_FEATURE_STREAMING |
+                                 STARFOCUS_FEATURE_IMAGES | STARFOCUS_FEATURE_SHAPES;
   check->Need((config.features & ~kFeatures) == 0, STARFOCUS_ERROR_RANGE,
               {"features", double(config.features)}, {"bits of STARFOCUS_FEATURE_"});
+  check->In({"unknown", double(config.unknown)},
+            {"a starfocus_unknown", 0, STARFOCUS_UNKNOWN_FILL});
   check->In({"previews", double(config.previews)}, STARFOCUS_FROM_TO(0, STARFOCUS_MAX_PREVIEW));
   check->In({"transfer", double(config.transfer)},
             {"a starfocus_transfer", 0, STARFOCUS_TRANSFER_NONE});
   check->In({"highlights", config.highlights}, STARFOCUS_FROM_TO(1, STARFOCUS_MAX_HIGHLIGHTS));
 }
 
-void CheckParams(const starfocus_config& config, const starfocus_params& params, Checker* check) {
-  check->In({"mode", double(params.mode)}, {"a starfocus_mode", 0, STARFOCUS_MODE_BLUR});
-  check->In({"renderer", double(params.renderer)},
+void CheckParams(const FullConfig& config, const FullParams& params, Checker* check) {
+  check->In({"study.mode", double(params.mode)}, {"a starfocus_mode", 0, STARFOCUS_MODE_BLUR});
+  check->In({"study.renderer", double(params.renderer)},
             {"a starfocus_renderer", 0, STARFOCUS_RENDERER_SLICES});
-  CheckLens(config, params.lens, check);
+  CheckLens(config, params, check);
   if (params.renderer == STARFOCUS_RENDERER_LINE_SCAN && params.mode != STARFOCUS_MODE_BLUR) {
-    check->Need(Has(config, STARFOCUS_FEATURE_LINE_SCAN), STARFOCUS_ERROR_FEATURE,
-                {"renderer", double(params.renderer)},
-                {"not STARFOCUS_RENDERER_LINE_SCAN without STARFOCUS_FEATURE_LINE_SCAN"});
-    check->Need(HasStar(config), STARFOCUS_ERROR_FEATURE, {"renderer", double(params.renderer)},
+    check->Need(config.tuning.line_scan != nullptr, STARFOCUS_ERROR_FEATURE,
+                {"study.renderer", double(params.renderer)},
+                {"not STARFOCUS_RENDERER_LINE_SCAN without starfocus_tuning.line_scan"});
+    check->Need(HasStar(config), STARFOCUS_ERROR_FEATURE,
+                {"study.renderer", double(params.renderer)},
                 {"not STARFOCUS_RENDERER_LINE_SCAN without the views of starfocus_view_position"});
   }
 }
@@ -210,13 +229,25 @@ constexpr ImageNames kViewNames = {"views[].format",       "views[].matrix", "vi
                                    "views[].pixel_stride", "views[].planes", "views[].strides"};
 constexpr ImageNames kOutNames = {"out.format",       "out.matrix", "out.range",
                                   "out.pixel_stride", "out.planes", "out.strides"};
+constexpr ImageNames kImageNames = {"format",       "matrix", "range",
+                                    "pixel_stride", "planes", "strides"};
+
+// Checks the format and the pixel_stride of an image.
+void CheckLayout(const starfocus_image& image, const ImageNames& names, int32_t index,
+                 Checker* check) {
+  check->In({names.format, double(image.format), index},
+            {"a starfocus_format", 0, STARFOCUS_FORMAT_YUV_420_888});
+  if (!check->passed()) return;
+  check->Need(ValidPixelStride(image.format, image.pixel_stride), STARFOCUS_ERROR_RANGE,
+              {names.pixel_stride, double(image.pixel_stride), index},
+              {"0, or a number of bytes that the format allows"});
+}
 
 // Checks an image, which is view `index` of a light field or an output picture.
 void CheckImage(const starfocus_image& image, int32_t width, int32_t height,
                 const ImageNames& names, int32_t index, Checker* check) {
   const int32_t format = image.format;
-  check->In({names.format, double(format), index},
-            {"a starfocus_format", 0, STARFOCUS_FORMAT_YUV_420_888});
+  CheckLayout(image, names, index, check);
   if (!check->passed()) return;
   if (IsYuv(format)) {
     check->In({names.matrix, double(image.matrix), index},
@@ -224,9 +255,6 @@ void CheckImage(const starfocus_image& image, int32_t width, int32_t height,
     check->In({names.range, double(image.range), index},
               {"a starfocus_range", STARFOCUS_RANGE_LIMITED, STARFOCUS_RANGE_FULL});
   }
-  check->Need(ValidPixelStride(format, image.pixel_stride), STARFOCUS_ERROR_RANGE,
-              {names.pixel_stride, double(image.pixel_stride), index},
-              {"0, or a number of bytes that the format allows"});
   if (!check->passed()) return;
   for (int plane = 0; plane < PlanesOfFormat(format); ++plane) {
     check->NotNull(image.planes[plane], names.planes, index);
@@ -248,6 +276,7 @@ void NeedInPlace(const starfocus_image& image, const ImageNames& names, int32_t 
 
 void CheckViews(const starfocus_light_field& light_field, int32_t count, int32_t width,
                 int32_t height, Checker* check) {
+  if (!check->passed() || !check->Size(light_field, "light_field.size")) return;
   for (int32_t view = 0; view < count; ++view) {
     CheckImage(light_field.views[view], width, height, kViewNames, view, check);
   }
@@ -294,7 +323,7 @@ void CheckInPlace(const starfocus_depth_map& map, int32_t width, int32_t height,
        "in config.features"});
 }
 
-void CheckLightField(const starfocus_config& config, const starfocus_light_field& light_field,
+void CheckLightField(const FullConfig& config, const starfocus_light_field& light_field,
                      Checker* check) {
   const int32_t width = config.width, height = config.height;
   CheckViews(light_field, config.views, width, height, check);
@@ -312,7 +341,7 @@ void AddDepthMap(const starfocus_depth_map& map, Extents* extents) {
                    DepthBytes(map.type) * static_cast<size_t>(map.width));
 }
 
-void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
+void AddLightField(const FullConfig& config, const starfocus_light_field& light_field,
                    Extents* extents) {
   AddDepthMap(light_field.depth, extents);
   if (light_field.coverage != nullptr) {
@@ -330,7 +359,7 @@ void AddImage(const starfocus_image& image, int32_t width, int32_t height, Exten
   }
 }
 
-void CheckOutput(const starfocus_config& config, const starfocus_image& image, int32_t width,
+void CheckOutput(const FullConfig& config, const starfocus_image& image, int32_t width,
                  int32_t height, Checker* check) {
   CheckImage(image, width, height, kOutNames, 0, check);
   if (!Has(config, STARFOCUS_FEATURE_IMAGES)) NeedInPlace(image, kOutNames, 0, check);
@@ -364,3 +393,26 @@ starfocus_status TellPlace(starfocus_status status, const starfocus_depth_map& m
 }
 
 }  // namespace starfocus
+
+using namespace starfocus;
+
+starfocus_status starfocus_plane_size(const starfocus_image* image, int32_t plane, int32_t width,
+                                      int32_t height, int32_t* rows, size_t* row_bytes,
+                                      starfocus_problem* problem) {
+  Checker check = Enter(problem);
+  check.NotNull(image, "image");
+  check.NotNull(rows, "rows");
+  check.NotNull(row_bytes, "row_bytes");
+  const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
+  check.In({"width", double(width)}, size);
+  check.In({"height", double(height)}, size);
+  if (!check.passed()) return check.status();
+  CheckLayout(*image, kImageNames, 0, &check);
+  if (!check.passed()) return check.status();
+  check.In({"plane", double(plane)},
+           {"a plane of the format", 0, PlanesOfFormat(image->format) - 1.0});
+  if (!check.passed()) return check.status();
+  *rows = PlaneRows(image->format, plane, height);
+  *row_bytes = PlaneRowBytes(*image, plane, width);
+  return STARFOCUS_OK;
+}

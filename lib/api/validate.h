@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/base/problem.h"
 #include "starfocus/starfocus.h"
@@ -40,35 +41,29 @@ bool ReadSized(const Structure& given, Structure* full) {
 // Returns true if two strings are equal. The engine does not use the strings of the C library.
 bool AreEqual(const char* a, const char* b);
 
-starfocus_config DefaultConfig();
+FullConfig DefaultConfig();
 
-starfocus_params DefaultParams();
+FullParams DefaultParams();
 
 // Start an API call that receives a configuration or an engine, which may be null. Clear the error
-// description (`problem`) of the previous call. Copy the configuration to *full, which must contain
-// the defaults.
-template <class Config>
-Checker Enter(const Config* config, Config* full) {
-  if (config == nullptr) return Checker(nullptr, STARFOCUS_ERROR_NULL);
-  if (!ReadSized(*config, full)) return Checker(nullptr, STARFOCUS_ERROR_STRUCTURE);
-  return Enter(full->problem);
-}
+// description of the previous call. Fill *full from the configuration and its tuning; full->problem
+// is `problem`, which may be null.
+Checker Enter(const starfocus_config* config, starfocus_problem* problem, FullConfig* full);
 Checker Enter(starfocus_engine* engine);
 
 // All functions below that take a Checker have no effect after an error.
 
-// Copies `params` to *full.
-void ReadParams(const starfocus_params* params, starfocus_params* full, Checker* check);
+// Fills *full from `params` and its study.
+void ReadParams(const starfocus_params* params, FullParams* full, Checker* check);
 
-// Checks the fields that starfocus_config and starfocus_depth_config have in common.
-void CheckPicture(int32_t width, int32_t height, double disparity_min, double disparity_max,
-                  int32_t max_workers, Checker* check);
+// Checks the fields of a configuration that engines and estimates of maps have in common.
+void CheckPicture(const FullConfig& config, Checker* check);
 
 // Checks the fields of a lens that determine which disparities are in focus.
-void CheckFocus(const starfocus_lens& lens, Checker* check);
+void CheckFocus(const starfocus_params& lens, Checker* check);
 
-void CheckConfig(const starfocus_config& config, Checker* check);
-void CheckParams(const starfocus_config& config, const starfocus_params& params, Checker* check);
+void CheckConfig(const FullConfig& config, Checker* check);
+void CheckParams(const FullConfig& config, const FullParams& params, Checker* check);
 
 // Checks that memory, which the caller passes as the argument `name`, is aligned to
 // STARFOCUS_ALIGNMENT and has at least `needed` bytes.
@@ -101,21 +96,21 @@ void CheckInPlace(const starfocus_light_field& light_field, int32_t count, Check
 void CheckInPlace(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check);
 
 // Checks a light field for an engine of `config`.
-void CheckLightField(const starfocus_config& config, const starfocus_light_field& light_field,
+void CheckLightField(const FullConfig& config, const starfocus_light_field& light_field,
                      Checker* check);
 
 // Adds the address range of a depth map to *extents.
 void AddDepthMap(const starfocus_depth_map& map, Extents* extents);
 
 // Adds the address ranges of all planes of a light field to *extents.
-void AddLightField(const starfocus_config& config, const starfocus_light_field& light_field,
+void AddLightField(const FullConfig& config, const starfocus_light_field& light_field,
                    Extents* extents);
 
 // Adds the address ranges of the planes of a picture of width x height to *extents.
 void AddImage(const starfocus_image& image, int32_t width, int32_t height, Extents* extents);
 
 // Checks an output picture of width x height, except for overlaps with other memory.
-void CheckOutput(const starfocus_config& config, const starfocus_image& image, int32_t width,
+void CheckOutput(const FullConfig& config, const starfocus_image& image, int32_t width,
                  int32_t height, Checker* check);
 
 // Checks that an output picture does not overlap the inputs.

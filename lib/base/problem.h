@@ -49,6 +49,15 @@ class Checker {
   void In(const FieldValue& field, const Allowed& allowed);
   void Stride(bool good, const char* name, size_t stride, int32_t index = 0);
   void NotNull(const void* pointer, const char* name, int32_t index = 0);
+  // Rejects structures that were not initialised by their init function. `name` names their field
+  // `size`. All structures that are checked by this function still have the size of their first
+  // version; once one grows, shorter ones must be copied. Returns passed().
+  template <class Structure>
+  bool Size(const Structure& given, const char* name) {
+    Need(given.size == sizeof(Structure), STARFOCUS_ERROR_STRUCTURE, {name, double(given.size)},
+         {"the value set by the init function", double(sizeof(Structure))});
+    return passed();
+  }
   // Checks that an output does not overlap the address ranges in `read`.
   void Apart(const Extent& out, const Extents& read, const char* name);
   // Adds the result of another function: a check, the runner, the progress function or the

@@ -3,7 +3,7 @@
 // repair.
 #include <limits>
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/depth/maps.h"
 #include "lib/io/depth_map.h"
@@ -61,7 +61,7 @@ void ConvertRows(const simd::ImageKernels& kernels, const DepthSource& map, int3
 
 }  // namespace
 
-ConvertedMemory TakeConverted(const starfocus_depth_config& config, bool has_map, Arena* arena) {
+ConvertedMemory TakeConverted(const FullConfig& config, bool has_map, Arena* arena) {
   const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
   ConvertedMemory memory = {};
   for (int32_t k = 0; k < config.views; ++k) {
@@ -72,7 +72,7 @@ ConvertedMemory TakeConverted(const starfocus_depth_config& config, bool has_map
   return memory;
 }
 
-starfocus_status ConvertField(const starfocus_depth_config& config, const ConvertedMemory& memory,
+starfocus_status ConvertField(const FullConfig& config, const ConvertedMemory& memory,
                               int32_t most_jobs, Jobs* jobs, starfocus_light_field* field) {
   const simd::ImageKernels& kernels = simd::BestImageKernels();
   const int32_t width = config.width, height = config.height;

@@ -14,6 +14,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/config.h"
 #include "lib/base/jobs.h"
 #include "lib/depth/setup.h"
 #include "lib/depth/thin_cells.h"
@@ -109,13 +110,13 @@ struct ConvertedMemory {
   float* disparity;   // Null: the light field has no map.
   uint32_t* columns;  // Positions in the map of the columns of the picture (FillColumns).
 };
-ConvertedMemory TakeConverted(const starfocus_depth_config& config, bool has_map, Arena* arena);
+ConvertedMemory TakeConverted(const FullConfig& config, bool has_map, Arena* arena);
 
 // Replaces the views of *field, and its map if memory.disparity is not null, by converted copies.
 // Images and maps that are read in place are not copied. Disparities are rounded to 1/64 pixel and
 // limited to the configured range; unknown disparities are NaN. A set has at most `most_jobs` jobs.
 // Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
-starfocus_status ConvertField(const starfocus_depth_config& config, const ConvertedMemory& memory,
+starfocus_status ConvertField(const FullConfig& config, const ConvertedMemory& memory,
                               int32_t most_jobs, Jobs* jobs, starfocus_light_field* field);
 
 // Estimates the disparity map of the centre view and writes the map to `output`. Returns

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 namespace starfocus {
 namespace {
 
@@ -91,7 +91,7 @@ int32_t SweepSetup::AllPhases() const {
   return phases;
 }
 
-SweepSetup MakeSetup(const starfocus_depth_config& config, bool repairs) {
+SweepSetup MakeSetup(const FullConfig& config, bool repairs) {
   SweepSetup setup = {};
   setup.width = config.width;
   setup.height = config.height;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/optics/view_set.h"
@@ -98,7 +99,7 @@ struct SweepSetup {
 };
 
 // Returns the setup for a valid configuration of an estimate or, if `repairs` is true, of a repair.
-SweepSetup MakeSetup(const starfocus_depth_config& config, bool repairs);
+SweepSetup MakeSetup(const FullConfig& config, bool repairs);
 
 // Returns a setup with every second label of `setup` and with half of the paths. The last label of
 // the coarse setup does not exceed the last label of `setup`. The first sweep of a repair uses the

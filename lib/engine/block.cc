@@ -209,17 +209,16 @@ ViewGrid ViewGridOf(const BlockInputs& in, const Block& block, uint16_t* weights
                         ShiftOfRim(opening, block.rect, in.config->width, in.config->height),
                         weights)
           : whole;
-  ViewGrid grid =
-      MakeViewGrid(rendered, lens.scale.focus, lens.params.lens.aperture * rendered.extent,
-                   block.layer, in.config->views == 17);
+  ViewGrid grid = MakeViewGrid(rendered, lens.scale.focus, lens.params.aperture * rendered.extent,
+                               block.layer, in.config->views == 17);
   if (pinhole) grid.step = 0;
   return grid;
 }
 
 void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
                   Scratch* scratch) {
-  const starfocus_clock clock = in.clock;
-  const uint64_t start = clock != nullptr ? clock() : 0;
+  const starfocus_observer& observer = *in.observer;
+  const uint64_t start = observer.clock != nullptr ? observer.clock(observer.clock_data) : 0;
   Rendered rendered = {1, 0};  // a block blurred entirely without views counts as one view
   if (IsPinhole(*in.lens)) {
     rendered = CopyBlock(in, block.rect, out, scratch);
@@ -240,7 +239,9 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
   report.views += rendered.views;
   report.rendered_samples += rendered.samples;
   report.predicted_ps += block.cost;
-  if (clock != nullptr) report.measured_ns += clock() - start;
+  if (observer.clock != nullptr) {
+    report.measured_ns += observer.clock(observer.clock_data) - start;
+  }
 }
 
 }  // namespace starfocus

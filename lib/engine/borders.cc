@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds up the borders of all processing steps. Each step declares its own border next to its code.
 // Only this file adds borders.
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/engine/deblock.h"
 #include "lib/engine/lens.h"
@@ -26,7 +26,7 @@ int32_t ToWholeCells(int32_t pixels) { return (pixels + kCellSize - 1) / kCellSi
 
 // Returns the largest absolute disparity, rounded up: the largest distance by which a point moves
 // between the centre view and a side view.
-int32_t LargestMove(const starfocus_config& config) {
+int32_t LargestMove(const FullConfig& config) {
   const double nearer = config.disparity_max, farther = -config.disparity_min;
   return CeilPixels(nearer > farther ? nearer : farther);
 }
@@ -48,7 +48,7 @@ int32_t DownToPicture(int32_t border, int layer) {
 
 }  // namespace
 
-Borders AddBorders(const starfocus_config& config, double max_blur, bool joins) {
+Borders AddBorders(const FullConfig& config, double max_blur, bool joins) {
   const int32_t blur = CeilPixels(max_blur), reach = ReachOf(blur << kDisparityBits);
   const bool one_view = config.views == 1;
   Borders borders;

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/base/problem.h"
 #include "lib/engine/engine.h"
@@ -51,18 +51,17 @@ Range StripeRows(const EngineState& engine) {
           Min(engine.config.height, region.y + region.height + reach)};
 }
 
-starfocus_status CheckFlags(uint32_t flags, const starfocus_config& config) {
+starfocus_status CheckFlags(uint32_t flags, const FullConfig& config) {
   Checker check(config.problem);
-  check.Need((flags & simd::kUnknownDepth) == 0 || Has(config, STARFOCUS_FEATURE_FILL_UNKNOWN),
-             STARFOCUS_ERROR_NOT_FINITE, {"disparity"},
-             {"finite, or STARFOCUS_FEATURE_FILL_UNKNOWN"});
+  check.Need((flags & simd::kUnknownDepth) == 0 || config.unknown == STARFOCUS_UNKNOWN_FILL,
+             STARFOCUS_ERROR_NOT_FINITE, {"disparity"}, {"finite, or STARFOCUS_UNKNOWN_FILL"});
   check.Need((flags & simd::kDepthOutside) == 0, STARFOCUS_ERROR_DISPARITY, {"disparity"},
              {"disparity_min to disparity_max", config.disparity_min, config.disparity_max});
   return check.status();
 }
 
 starfocus_status ReadRows(const Range& rows, const Plane<int16_t>* disparity, EngineState* engine) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   const Input& in = engine->input;
   const bool has_map = in.map.map.data != nullptr;
   const bool converts = in.converts_centre && disparity != nullptr;
@@ -91,7 +90,7 @@ starfocus_status ReadRows(const Range& rows, const Plane<int16_t>* disparity, En
 }
 
 starfocus_status RefocusRows(const Output& out, EngineState* engine) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   const Lens& lens = engine->lens;
   const int32_t side = config.superblock, reach = lens.borders.centre, top = lens.region.y;
   const int32_t bottom = top + lens.region.height;

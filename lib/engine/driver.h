@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/engine/engine.h"
@@ -16,7 +17,7 @@ struct Output;
 
 // Returns the status of simd::DepthFlags: STARFOCUS_OK, STARFOCUS_ERROR_NOT_FINITE or
 // STARFOCUS_ERROR_DISPARITY. If both kinds of errors occur, returns STARFOCUS_ERROR_NOT_FINITE.
-starfocus_status CheckFlags(uint32_t flags, const starfocus_config& config);
+starfocus_status CheckFlags(uint32_t flags, const FullConfig& config);
 
 // If `disparity` is null, checks the map of the engine's input, and returns an error of CheckFlags
 // if any value on which `rows` depend is invalid. Otherwise converts rows of the map to `disparity`
@@ -35,7 +36,7 @@ Range StripeRows(const EngineState& engine);
 // the last step.
 template <class Step>
 starfocus_status ForStripes(const Range& stripes, int32_t reach, int32_t available,
-                            const starfocus_config& config, const Step& step) {
+                            const FullConfig& config, const Step& step) {
   starfocus_status status = STARFOCUS_OK;
   Range read = {0, Max(0, stripes.first - reach)};
   for (int32_t y = stripes.first; y < stripes.last; y += config.superblock) {

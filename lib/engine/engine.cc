@@ -4,7 +4,7 @@
 #include <cstring>
 #include <new>
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/engine/lens.h"
 #include "lib/io/block_pixels.h"
 #include "lib/matting/coverage.h"
@@ -13,7 +13,7 @@
 
 namespace starfocus {
 
-int32_t MaxJobs(const starfocus_config& config) {
+int32_t MaxJobs(const FullConfig& config) {
   const int32_t side = config.superblock;
   // A set has one job per block of a stripe, or one job per column of superblocks. Deblocking has
   // one job per row of smallest blocks in a stripe and in the rows kept above the stripe. A stripe
@@ -31,8 +31,7 @@ struct EngineMemory {
 namespace {
 
 // Memory of blocks that are blurred without views, and of layers that are upsampled.
-void TakeUpsampling(const starfocus_config& config, size_t extended, Arena* arena,
-                    Scratch* scratch) {
+void TakeUpsampling(const FullConfig& config, size_t extended, Arena* arena, Scratch* scratch) {
   const auto side = static_cast<size_t>(config.superblock);
   const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
   // Gathering reads `field` and writes to `layer_samples`.
@@ -55,7 +54,7 @@ void TakeUpsampling(const starfocus_config& config, size_t extended, Arena* aren
 
 // A worker runs one step at a time, and keeps only the sums of the rendered pixels. Therefore the
 // steps share memory.
-Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
+Scratch TakeScratch(const FullConfig& config, Arena* arena) {
   const auto side = static_cast<size_t>(config.superblock);
   const Borders borders = LargestBorders(config);
   Scratch scratch = {};
@@ -63,11 +62,11 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   const int32_t renderers = RendererCount(config);
   int32_t max_n[kMaxRenderers] = {}, most = 0;
   for (int32_t k = 0; k < renderers; ++k) {
-    max_n[k] = Max(LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur),
+    max_n[k] = Max(LargestN(config, RendererAt(config, k), Demand::kRing, config.max_blur),
                    ViewsOfBenchmark(config.max_blur));
     most = Max(most, max_n[k]);
-    scratch.renderers[k] =
-        reinterpret_cast<RendererScratch*>(arena->Take<uint8_t>(kRenderers[k]->scratch_bytes));
+    scratch.renderers[k] = reinterpret_cast<RendererScratch*>(
+        arena->Take<uint8_t>(RendererAt(config, k).scratch_bytes));
   }
   scratch.sums = arena->Take<uint32_t>(3 * side * side);
   if (Has(config, STARFOCUS_FEATURE_SHAPES))
@@ -75,8 +74,8 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
   if (config.highlights > 1) scratch.lamp_runs = arena->Take<LampRuns>(1);
   const auto renderer = [&](int32_t k) {
     if (k >= renderers) return;
-    kRenderers[k]->take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,
-                                scratch.renderers[k]);
+    RendererAt(config, k).take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,
+                                       scratch.renderers[k]);
   };
   const auto partition = [&] {
     scratch.candidates = arena->Take<PartitionCandidate>(
@@ -85,14 +84,14 @@ Scratch TakeScratch(const starfocus_config& config, Arena* arena) {
         arena->Take<int16_t>(SurroundingSamples(config.superblock / kCellSize, borders.cells));
   };
   // The slices come last, because their pool fills the memory of the longest other step.
-  arena->Overlap([&] { renderer(kLineScanRenderer.index); },
+  arena->Overlap([&] { renderer(kMaxRenderers - 1); },
                  [&] { TakeUpsampling(config, extended, arena, &scratch); },
                  [&] { TakeResample(config, arena, &scratch.resample); }, partition,
                  [&] { renderer(kSliceRenderer.index); });
   return scratch;
 }
 
-void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine) {
+void TakeRows(const FullConfig& config, Arena* arena, EngineState* engine) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = Has(config, STARFOCUS_FEATURE_STREAMING);
   const Borders borders = LargestBorders(config);
@@ -108,7 +107,7 @@ void TakeRows(const starfocus_config& config, Arena* arena, EngineState* engine)
 
 // Allocates what does not depend on the size of the picture: pieces of memory that the pictures of
 // previews use as well.
-void TakeEngine(const starfocus_config& config, Arena* arena, EngineMemory* memory) {
+void TakeEngine(const FullConfig& config, Arena* arena, EngineMemory* memory) {
   TakeTables(config, arena, &memory->tables);
   memory->jobs.max_workers = config.max_workers;
   memory->jobs.progress =
@@ -123,7 +122,7 @@ void TakeEngine(const starfocus_config& config, Arena* arena, EngineMemory* memo
   memory->engine.scratch = scratch;
 }
 
-void TakePicture(const starfocus_config& config, Arena* arena, EngineState* engine) {
+void TakePicture(const FullConfig& config, Arena* arena, EngineState* engine) {
   TakeRows(config, arena, engine);
   TakeLayers(config, arena, &engine->layers);
   const Borders borders = LargestBorders(config);
@@ -146,7 +145,7 @@ void VisitZones(const EngineState& engine, void (*visit)(void*, size_t, size_t))
 
 }  // namespace
 
-size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
+size_t LayOut(const FullConfig& config, void* base, EngineState** engine,
               const PieceVisitor* pieces) {
   Arena arena(base, PTRDIFF_MAX, pieces);
   EngineMemory counted;  // replaces *taken while the layout only counts
@@ -167,7 +166,7 @@ size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
   return made.bytes;
 }
 
-EngineState PreviewEngine(const starfocus_config& config, EngineState* engine) {
+EngineState PreviewEngine(const FullConfig& config, EngineState* engine) {
   engine->stream.active = false;
   engine->rings.map_width = 0;
   EngineState preview = *engine;
@@ -198,7 +197,7 @@ void Add(const starfocus_layer_report& part, starfocus_layer_report* sum) {
   sum->measured_ns += part.measured_ns;
 }
 
-void Add(const Counts& counts, starfocus_report* report) {
+void Add(const Counts& counts, FullReport* report) {
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     Add(counts.layers[layer], &report->layers[layer]);
     report->rendered_samples += counts.layers[layer].rendered_samples;
@@ -210,11 +209,12 @@ void Add(const Counts& counts, starfocus_report* report) {
 
 }  // namespace
 
-starfocus_status SetLens(const starfocus_params& params, EngineState* engine) {
+starfocus_status SetLens(const FullParams& params, EngineState* engine) {
   const starfocus_status status =
       MakeLens(engine->config, params, &engine->jobs->call_progress, engine->tables, &engine->lens);
   if (status != STARFOCUS_OK) return status;
-  engine->report = starfocus_report();
+  engine->report = FullReport();
+  engine->report.size = sizeof(starfocus_report);
   engine->report.r_max = engine->lens.r_max;
   engine->report.superblock = engine->config.superblock;
   DropCounts(engine);
@@ -237,6 +237,14 @@ void DropCounts(EngineState* engine) {
   }
 }
 
+void WriteReport(const EngineState& engine, starfocus_report* report) {
+  if (report == nullptr) return;
+  starfocus_layer_report* const layers = report->layers;
+  *report = engine.report;
+  report->layers = layers;
+  if (layers != nullptr) std::memcpy(layers, engine.report.layers, sizeof engine.report.layers);
+}
+
 void ForgetStripe(StripeState* stripe) {
   std::memset(stripe->map.layers, kNoLayer, static_cast<size_t>(stripe->map.columns));
   stripe->plan.all_measured = false;
@@ -244,7 +252,7 @@ void ForgetStripe(StripeState* stripe) {
   ForgetRims(&stripe->rims);
 }
 
-void ForgetLayers(const starfocus_config& config, StripeLayers* layers) {
+void ForgetLayers(const FullConfig& config, StripeLayers* layers) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     LayerPlane& plane = layers->planes[layer];
     plane.width = LayerSize(config.width, layer);

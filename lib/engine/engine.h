@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/engine/deblock.h"
@@ -67,6 +68,11 @@ starfocus_status CompareRows(int32_t y, CancelToken* cancel, FrameDiff* changes)
 // Returns true if a superblock that overlaps `rect` has changed. The distance from `rect` to the
 // stripe that was compared last must be less than the height of a stripe.
 bool HasChanged(const FrameDiff& changes, const Rect& rect);
+
+// Statistics of a refocusing with the layers by value, which hides the caller's pointer.
+struct FullReport : starfocus_report {
+  starfocus_layer_report layers[STARFOCUS_LAYERS];
+};
 
 // Counts of one worker in one stripe.
 struct Counts {
@@ -151,7 +157,7 @@ struct EngineMemory;
 // Copies of an engine share its tables, jobs and memory.
 struct EngineState {
   // The following members are valid for the life of the engine.
-  starfocus_config config;         // config.problem points to `problem` of this struct.
+  FullConfig config;               // config.problem points to `problem` of this struct.
   starfocus_problem problem = {};  // Problem that the last call reported.
   const simd::Kernels* kernels;
   Tables* tables;
@@ -169,16 +175,14 @@ struct EngineState {
 
   // The following members are valid until the next call of starfocus_set_callbacks, like the runner
   // and the progress function in `jobs`.
-  starfocus_clock clock = nullptr;
-  starfocus_block_visitor on_block = nullptr;
-  void* on_block_data = nullptr;
+  starfocus_observer observer = {};
 
   // The following members are valid for one refocusing.
   Lens lens;
   Input input;
   StripeLayers layers;
   Stream stream;
-  starfocus_report report;
+  FullReport report;
 
   // The following member is valid for one stripe.
   StripeState stripe;
@@ -187,38 +191,41 @@ struct EngineState {
 // Sets up the lens for `params` and discards the state of the previous refocusing. Reports progress
 // through the workers' CallProgress. Returns STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or
 // STARFOCUS_OK. The caller must have checked all other requirements on `params`.
-starfocus_status SetLens(const starfocus_params& params, EngineState* engine);
+starfocus_status SetLens(const FullParams& params, EngineState* engine);
 
 // TakeCounts moves the workers' counts to the report. DropCounts discards these counts.
 void TakeCounts(EngineState* engine);
 void DropCounts(EngineState* engine);
 
+// Writes the statistics of the last refocusing to *report, unless it is null.
+void WriteReport(const EngineState& engine, starfocus_report* report);
+
 // Discards the state of the previous stripe, so that the next stripe reuses no data.
 void ForgetStripe(StripeState* stripe);
 
 // Discards the rows of the layers, which belong to another picture or are incomplete.
-void ForgetLayers(const starfocus_config& config, StripeLayers* layers);
+void ForgetLayers(const FullConfig& config, StripeLayers* layers);
 
 // Allocates the memory of a worker that subsamples a column of superblocks.
-void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample);
+void TakeResample(const FullConfig& config, Arena* arena, ResampleScratch* resample);
 
 // Allocates the planes of layers 1 and 2 around a stripe, and the marks of their columns.
-void TakeLayers(const starfocus_config& config, Arena* arena, StripeLayers* layers);
+void TakeLayers(const FullConfig& config, Arena* arena, StripeLayers* layers);
 
 // Allocates the cells and blocks of a stripe, and the map of their layers.
-void TakePlan(const starfocus_config& config, Arena* arena, StripeState* stripe);
+void TakePlan(const FullConfig& config, Arena* arena, StripeState* stripe);
 
 // Makes an engine for a valid configuration at `base`, aligned to STARFOCUS_ALIGNMENT. If `base` is
 // null, only counts the bytes and sets *engine to null. Returns the number of bytes, or kTooLarge.
 // `pieces` receives each piece and may be null.
-size_t LayOut(const starfocus_config& config, void* base, EngineState** engine,
+size_t LayOut(const FullConfig& config, void* base, EngineState** engine,
               const PieceVisitor* pieces = nullptr);
 
 // Returns an engine for pictures of `config`, which may differ from the configuration of *engine
 // only in a smaller or equal picture and range of disparities, and must not enable streaming. Both
 // engines share all memory, so *engine must not be used while the result is; afterwards *engine
 // keeps its tables, but no state of a stream.
-EngineState PreviewEngine(const starfocus_config& config, EngineState* engine);
+EngineState PreviewEngine(const FullConfig& config, EngineState* engine);
 
 // Poisons the red zones of an engine's memory during the lifetime of this object; no-op in builds
 // without red zones. After the lifetime of this object, the caller, which owns the memory, may use
@@ -238,7 +245,7 @@ class RedZones {
 Extent Workspace(const EngineState& engine);
 
 // Returns the largest number of jobs in any set of an engine.
-int32_t MaxJobs(const starfocus_config& config);
+int32_t MaxJobs(const FullConfig& config);
 
 }  // namespace starfocus
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/base/problem.h"
 #include "lib/optics/psf.h"
 #include "lib/optics/rules.h"
@@ -20,18 +20,17 @@ constexpr int64_t kAperturePoints = 256;
 
 }  // namespace
 
-int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Demand demand,
-                 double r_max) {
+int32_t LargestN(const FullConfig& config, const Renderer& renderer, Demand demand, double r_max) {
   return ScaleViews(renderer.view_count(r_max + 1, demand), config.tuning.n_scale);
 }
 
-void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables) {
+void TakeTables(const FullConfig& config, Arena* arena, Tables* tables) {
   const bool full = Has(config, STARFOCUS_FEATURE_SHAPES);
   const auto weights_of = [&](int32_t n) {
     return full ? FullApertureSize(n) : ViewWeightsSize(n);
   };
   for (int32_t k = 0; k < RendererCount(config); ++k) {
-    const int32_t last = LargestN(config, *kRenderers[k], Demand::kRing, config.max_blur);
+    const int32_t last = LargestN(config, RendererAt(config, k), Demand::kRing, config.max_blur);
     size_t weights = 0;
     for (int32_t n = 0; n <= last; ++n) weights += weights_of(n);
     tables->apertures[k].apertures = arena->Take<ViewWeights>(static_cast<size_t>(last) + 1);
@@ -92,7 +91,7 @@ double NextBelow(double value) {
 }
 
 // Returns the largest distance of a configured disparity from the range in focus.
-double LargestDistance(const starfocus_config& config, const starfocus_lens& lens) {
+double LargestDistance(const FullConfig& config, const starfocus_params& lens) {
   const double nearer = config.disparity_max - (lens.focus + lens.focus_nearer);
   const double farther = lens.focus - lens.focus_farther - config.disparity_min;
   const double distance = nearer > farther ? nearer : farther;
@@ -101,17 +100,17 @@ double LargestDistance(const starfocus_config& config, const starfocus_lens& len
 
 // Returns the renderer of a lens. By default, one view is rendered with slices, because line scans
 // of one view show a halo as wide as the blur.
-const Renderer& RendererOf(const starfocus_config& config, const starfocus_params& params) {
+const Renderer& RendererOf(const FullConfig& config, const FullParams& params) {
   const bool by_default = params.renderer == STARFOCUS_RENDERER_AUTO &&
                           params.mode == STARFOCUS_MODE_FRAME && config.views > 1 &&
                           HasStar(config);
   const bool is_paper = params.renderer == STARFOCUS_RENDERER_LINE_SCAN || by_default;
-  return is_paper && Has(config, STARFOCUS_FEATURE_LINE_SCAN) ? kLineScanRenderer : kSliceRenderer;
+  return RendererAt(config, is_paper ? RendererCount(config) - 1 : kSliceRenderer.index);
 }
 
 // Returns the aperture of a mode that uses one number of views for all blocks. The aperture of
 // benchmark mode has its own memory. STARFOCUS_MODE_BLUR reads only the centre view and uses N = 0.
-ViewWeights FrameWeights(const starfocus_config& config, const Tables& tables, const Lens& lens) {
+ViewWeights FrameWeights(const FullConfig& config, const Tables& tables, const Lens& lens) {
   const Renderer& renderer = *lens.renderer;
   if (lens.params.mode == STARFOCUS_MODE_BLUR) return lens.apertures[0];
   if (IsBenchmark(lens)) {
@@ -124,7 +123,7 @@ ViewWeights FrameWeights(const starfocus_config& config, const Tables& tables, c
 
 }  // namespace
 
-Rect RegionOf(const starfocus_config& config, const starfocus_params& params) {
+Rect RegionOf(const FullConfig& config, const FullParams& params) {
   const starfocus_region& region = params.region;
   if (IsWhole(region)) return {0, 0, config.width, config.height};
   return {region.x, region.y, region.width, region.height};
@@ -132,11 +131,11 @@ Rect RegionOf(const starfocus_config& config, const starfocus_params& params) {
 
 int32_t LastGatherStep(const Lens& lens) { return BlurStepCount(LargestGather(lens.r_max)) - 1; }
 
-double LargestBlur(const starfocus_config& config, const starfocus_params& params) {
-  return params.lens.aperture * LargestDistance(config, params.lens);
+double LargestBlur(const FullConfig& config, const FullParams& params) {
+  return params.aperture * LargestDistance(config, params);
 }
 
-double LargestAperture(const starfocus_config& config, const starfocus_lens& lens) {
+double LargestAperture(const FullConfig& config, const starfocus_params& lens) {
   const double distance = LargestDistance(config, lens), most = config.max_blur;
   double aperture = distance <= most ? 1 : most / distance;
   // The rounded quotient may be too large by one unit in the last place. The loop ends for any
@@ -145,21 +144,21 @@ double LargestAperture(const starfocus_config& config, const starfocus_lens& len
   return aperture;
 }
 
-starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params) {
+starfocus_status CheckBlur(const FullConfig& config, const FullParams& params) {
   Checker check(config.problem);
   check.Need(LargestBlur(config, params) <= config.max_blur, STARFOCUS_ERROR_BLUR,
-             {"lens.aperture", params.lens.aperture},
+             {"aperture", params.aperture},
              {"at most max_blur over the largest distance of a configured disparity from the focus",
-              0, LargestAperture(config, params.lens)});
+              0, LargestAperture(config, params)});
   return check.status();
 }
 
-starfocus_status MakeLens(const starfocus_config& config, const starfocus_params& params,
+starfocus_status MakeLens(const FullConfig& config, const FullParams& params,
                           CallProgress* call_progress, Tables* tables, Lens* lens) {
   const double r_max = LargestBlur(config, params);
   const starfocus_status fits = CheckBlur(config, params);
   if (fits != STARFOCUS_OK) return fits;
-  SetOpening(ShapeOf(params.lens), tables);
+  SetOpening(ShapeOf(params), tables);
   lens->params = params;
   lens->region = RegionOf(config, params);
   lens->renderer = &RendererOf(config, params);
@@ -174,7 +173,7 @@ starfocus_status MakeLens(const starfocus_config& config, const starfocus_params
   if (status != STARFOCUS_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
   lens->aperture = FrameWeights(config, *tables, *lens);
-  const starfocus_lens& given = params.lens;
+  const FullParams& given = params;
   const FocusRange focus = MakeFocusRange(given.focus, given.focus_nearer, given.focus_farther);
   const ViewGrid grid = MakeViewGrid(lens->aperture, focus, given.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};

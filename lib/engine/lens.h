@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/optics/psf.h"
@@ -20,18 +20,20 @@
 
 namespace starfocus {
 
-// All renderers, indexed by Renderer::index. An engine uses the first RendererCount renderers.
+// An engine has one renderer for slices, and may have the caller's line scan. Renderers are indexed
+// by Renderer::index.
 inline constexpr int32_t kMaxRenderers = 2;
-inline constexpr const Renderer* kRenderers[kMaxRenderers] = {&kSliceRenderer, &kLineScanRenderer};
-inline int32_t RendererCount(const starfocus_config& config) {
-  return Has(config, STARFOCUS_FEATURE_LINE_SCAN) ? 2 : 1;
+inline int32_t RendererCount(const FullConfig& config) {
+  return config.tuning.line_scan != nullptr ? 2 : 1;
+}
+inline const Renderer& RendererAt(const FullConfig& config, int32_t index) {
+  return index == kSliceRenderer.index ? kSliceRenderer : config.tuning.line_scan->renderer;
 }
 
 // Returns the largest N that the block and frame modes use for blur radii up to r_max pixels. The
 // modes round radii up before they choose N. Of all shapes of the opening, rings (Demand::kRing)
 // require the largest N.
-int32_t LargestN(const starfocus_config& config, const Renderer& renderer, Demand demand,
-                 double r_max);
+int32_t LargestN(const FullConfig& config, const Renderer& renderer, Demand demand, double r_max);
 
 // Apertures of one renderer, indexed by N.
 struct ApertureTable {
@@ -54,7 +56,7 @@ struct Tables {
 };
 
 // Allocates the tables of an engine.
-void TakeTables(const starfocus_config& config, Arena* arena, Tables* tables);
+void TakeTables(const FullConfig& config, Arena* arena, Tables* tables);
 
 // Sets the opening. Discards all tables that were made for another opening.
 void SetOpening(const ApertureShape& opening, Tables* tables);
@@ -85,25 +87,25 @@ struct Borders {
 
 // Adds the borders of all processing steps for blur radii up to `max_blur`. `joins` is true if
 // blocks are deblocked.
-Borders AddBorders(const starfocus_config& config, double max_blur, bool joins);
+Borders AddBorders(const FullConfig& config, double max_blur, bool joins);
 
 // Returns the borders for the largest configured blur radius.
-inline Borders LargestBorders(const starfocus_config& config) {
+inline Borders LargestBorders(const FullConfig& config) {
   return AddBorders(config, config.max_blur, true);
 }
 
 // Number of columns of superblocks.
-inline int32_t Columns(const starfocus_config& config) {
+inline int32_t Columns(const FullConfig& config) {
   return (config.width + config.superblock - 1) / config.superblock;
 }
 
 // Largest number of rows of a layer that a stripe reads.
-inline int32_t LayerRows(const starfocus_config& config, int layer) {
+inline int32_t LayerRows(const FullConfig& config, int layer) {
   return (config.superblock >> layer) + 2 * LargestBorders(config).layer[layer];
 }
 
 struct Lens {
-  starfocus_params params;
+  FullParams params;
   Rect region;  // region of `params`, or the whole picture if no region is set
   const Renderer* renderer;
   double r_max;                  // Largest blur radius for the configured disparities, in pixels.
@@ -120,10 +122,10 @@ inline bool IsWhole(const starfocus_region& region) {
 }
 
 // Returns the rectangle of the picture that `params` select.
-Rect RegionOf(const starfocus_config& config, const starfocus_params& params);
+Rect RegionOf(const FullConfig& config, const FullParams& params);
 
 // Returns true if the result is a copy of the centre view, in any mode.
-inline bool IsPinhole(const Lens& lens) { return lens.params.lens.aperture == 0; }
+inline bool IsPinhole(const Lens& lens) { return lens.params.aperture == 0; }
 
 inline bool IsBlockMode(const Lens& lens) { return lens.params.mode == STARFOCUS_MODE_BLOCK; }
 
@@ -131,8 +133,8 @@ inline bool IsBenchmark(const Lens& lens) { return lens.params.mode == STARFOCUS
 
 // Returns true if cells of smooth surfaces are blurred without views with this lens. Blurring
 // without views supports only openings whose eight octants mirror each other.
-inline bool Gathers(const starfocus_config& config, const Lens& lens) {
-  const starfocus_lens& asked = lens.params.lens;
+inline bool Gathers(const FullConfig& config, const Lens& lens) {
+  const FullParams& asked = lens.params;
   const bool octant = asked.shape != STARFOCUS_SHAPE_POLYGON && asked.cats_eye == 0;
   return IsBlockMode(lens) && lens.renderer->gathers && config.tuning.gather != 0 && octant;
 }
@@ -146,23 +148,23 @@ inline const ViewWeights& WeightsOf(const Lens& lens, int32_t n) {
 }
 
 // Returns true if the boundaries between blocks of different layers are smoothed.
-inline bool IsDeblocking(const starfocus_config& config, const Lens& lens) {
+inline bool IsDeblocking(const FullConfig& config, const Lens& lens) {
   return IsBlockMode(lens) && config.tuning.max_layer > 0 && config.tuning.deblocking > 0;
 }
 
 // Returns the largest blur radius in pixels for the configured range of disparities.
-double LargestBlur(const starfocus_config& config, const starfocus_params& params);
+double LargestBlur(const FullConfig& config, const FullParams& params);
 
 // Returns the largest aperture, at most 1, whose largest blur radius is at most max_blur.
-double LargestAperture(const starfocus_config& config, const starfocus_lens& lens);
+double LargestAperture(const FullConfig& config, const starfocus_params& lens);
 
 // Returns STARFOCUS_ERROR_BLUR if the largest blur radius exceeds max_blur, otherwise STARFOCUS_OK.
-starfocus_status CheckBlur(const starfocus_config& config, const starfocus_params& params);
+starfocus_status CheckBlur(const FullConfig& config, const FullParams& params);
 
 // Makes the lens for `params`, and the tables of the lens that do not exist yet. Returns
 // STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or STARFOCUS_OK. The caller must have checked all
 // other requirements on `params`.
-starfocus_status MakeLens(const starfocus_config& config, const starfocus_params& params,
+starfocus_status MakeLens(const FullConfig& config, const FullParams& params,
                           CallProgress* call_progress, Tables* tables, Lens* lens);
 
 }  // namespace starfocus

@@ -3,7 +3,7 @@
 
 #include <new>
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/stripe.h"
@@ -123,7 +123,7 @@ int16_t ConvertedEnd(const EngineState& engine, float end) {
 // Reduces the map to 1/2^shift of its size.
 bool ReduceMap(const Prepared& prepared, const EngineState& engine, int shift, const Rect& part,
                Scratch* scratch) {
-  const starfocus_config reduced = ReducedConfig(engine.config, shift);
+  const FullConfig reduced = ReducedConfig(engine.config, shift);
   // A rounded disparity may exceed the disparity range by one unit of fixed point, so the result is
   // clamped.
   const int16_t low = ConvertedEnd(engine, MinDisparity(reduced));
@@ -170,7 +170,7 @@ bool ReduceCoverage(const Prepared& prepared, const EngineState& engine, int shi
 // Reduces the rows of a stripe of the engine's input to all sizes of previews.
 starfocus_status ReduceRows(const Prepared& prepared, const Range& rows,
                             const EngineState& engine) {
-  const starfocus_config& config = engine.config;
+  const FullConfig& config = engine.config;
   const int32_t previews = prepared.config.previews;
   if (previews == 0) return STARFOCUS_OK;
   return ForEach(Columns(config), engine.jobs, [&](int32_t column, int32_t worker) {
@@ -196,8 +196,8 @@ Rect ReducedRect(const Rect& rect, int shift) {
           ReducedSize(rect.y + rect.height, shift) - y};
 }
 
-starfocus_config ReducedConfig(const starfocus_config& config, int shift) {
-  starfocus_config reduced = config;
+FullConfig ReducedConfig(const FullConfig& config, int shift) {
+  FullConfig reduced = config;
   const double side = 1 << shift;
   reduced.width = ReducedSize(config.width, shift);
   reduced.height = ReducedSize(config.height, shift);
@@ -210,7 +210,7 @@ starfocus_config ReducedConfig(const starfocus_config& config, int shift) {
 
 namespace {
 
-void TakeReduced(const starfocus_config& config, int shift, Arena* arena, ReducedField* field) {
+void TakeReduced(const FullConfig& config, int shift, Arena* arena, ReducedField* field) {
   const auto width = static_cast<size_t>(ReducedSize(config.width, shift));
   const int32_t height = ReducedSize(config.height, shift);
   for (int view = 0; view < config.views; ++view) {
@@ -231,7 +231,7 @@ starfocus_status MakeLayers(const Prepared& prepared, const Range& rows, Range* 
                             EngineState* engine) {
   // Layers extend beyond the picture (LayerSize) by fewer than kBeyond pixels of the picture.
   // PlaceLayers omits rows outside the layers.
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   const bool is_last = rows.last == config.height;
   StripeLayers* const store = &engine->layers;
   const int32_t most = config.tuning.max_layer;
@@ -268,7 +268,7 @@ starfocus_status MakePlanes(const Prepared& prepared, EngineState maker) {
 
 }  // namespace
 
-size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared) {
+size_t LayOutPrepared(const FullConfig& config, void* base, Prepared** prepared) {
   Arena arena(base);
   *prepared = arena.Take<Prepared>(1);
   Prepared counted;  // used instead of **prepared if `base` is null
@@ -305,8 +305,8 @@ starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared)
   return STARFOCUS_OK;
 }
 
-bool Fits(const Prepared& prepared, const starfocus_config& config) {
-  const starfocus_config& made = prepared.config;
+bool Fits(const Prepared& prepared, const FullConfig& config) {
+  const FullConfig& made = prepared.config;
   return made.width == config.width && made.height == config.height && SameViews(made, config) &&
          made.disparity_min == config.disparity_min && made.disparity_max == config.disparity_max &&
          made.tuning.max_layer == config.tuning.max_layer && made.transfer == config.transfer;

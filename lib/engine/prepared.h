@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/engine/engine.h"
 
@@ -30,13 +31,13 @@ struct ReducedField {
 };
 
 // Returns the configuration of an engine for a light field of `config` at 1/2^shift of its size.
-starfocus_config ReducedConfig(const starfocus_config& config, int shift);
+FullConfig ReducedConfig(const FullConfig& config, int shift);
 
 struct Prepared {
   // Allocator and size of the memory; `release` is null if the memory belongs to the caller.
   starfocus_allocator allocator = {};
   size_t bytes = 0;
-  starfocus_config config;  // configuration of the engine that prepared the light field
+  FullConfig config;  // configuration of the engine that prepared the light field
   starfocus_light_field light_field;
   bool covers = false;       // True if the light field has coverage.
   Plane<int16_t> disparity;  // Disparities of all rows.
@@ -47,7 +48,7 @@ struct Prepared {
 
 // Lays out a prepared light field for a valid configuration at `base`. If `base` is null, only
 // counts the bytes and sets *prepared to null. Returns the number of bytes, or kTooLarge.
-size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** prepared);
+size_t LayOutPrepared(const FullConfig& config, void* base, Prepared** prepared);
 
 // Prepares the light field of the engine's input in `memory`. Checks and converts the map, and
 // computes the layers and reduced light fields stripe by stripe. The engine's planes, except for
@@ -56,7 +57,7 @@ size_t LayOutPrepared(const starfocus_config& config, void* base, Prepared** pre
 starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared);
 
 // Returns true if an engine of `config` can refocus the prepared light field.
-bool Fits(const Prepared& prepared, const starfocus_config& config);
+bool Fits(const Prepared& prepared, const FullConfig& config);
 
 // Returns the address range of the prepared light field.
 Extent PreparedMemory(const Prepared& prepared);

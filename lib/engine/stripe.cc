@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/engine/engine.h"
 #include "lib/matting/coverage.h"
 
@@ -15,7 +15,7 @@ namespace {
 // one job per column of superblocks, then boundaries between columns, with one job per
 // kSmallestBlock finished rows.
 starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   const Transfer* transfer = engine->input.transfer;
   const DeblockJob job = {
       &engine->stripe.map,      out,      config.width,   config.height, stripe.y,
@@ -64,7 +64,7 @@ starfocus_status FindRims(const Stripe& stripe, EngineState* engine) {
 
 starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
                                EngineState* engine) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   const Lens& lens = engine->lens;
   starfocus_status status = FindCoverage(stripe, engine);
   if (status == STARFOCUS_OK) status = FindRims(stripe, engine);
@@ -103,7 +103,7 @@ void KeepStripe(EngineState* engine) {
 
 // Restores the state that the engine had before a stripe failed. A retry recomputes the data that
 // the failed stripe shares with the previous stripe.
-void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
+void WithdrawStripe(const FullReport& report, EngineState* engine) {
   engine->report = report;
   DropCounts(engine);
   engine->stripe.plan.all_measured = false;
@@ -113,12 +113,12 @@ void WithdrawStripe(const starfocus_report& report, EngineState* engine) {
 }  // namespace
 
 BlockInputs InputsOf(const EngineState& engine) {
-  return {&engine.config, engine.tables,        &engine.lens,
-          &engine.input,  &engine.stripe.cells, &engine.stripe.plan.gathered,
-          engine.clock};
+  return {&engine.config,  engine.tables,        &engine.lens,
+          &engine.input,   &engine.stripe.cells, &engine.stripe.plan.gathered,
+          &engine.observer};
 }
 
-int32_t FinishedRows(const starfocus_config& config, int32_t y) {
+int32_t FinishedRows(const FullConfig& config, int32_t y) {
   const int32_t end = y + config.superblock;
   return end >= config.height ? config.height : end - kDeblockRows;
 }
@@ -129,7 +129,7 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
 
 starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   const RedZones zones(*engine);
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   const Stripe stripe = {y, Min(config.superblock, config.height - y)};
   const Plane<uint8_t> rows = BufferRows(*engine, y);
   uint8_t* const ends = rows.Row(y + config.superblock - kDeblockRows);
@@ -138,7 +138,7 @@ starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   // Deblocking may change the last rows of the previous stripe. A retry after a failure starts from
   // the saved rows.
   std::memcpy(rows.Row(y - kDeblockRows), last_rows != nullptr ? last_rows : ends, bytes);
-  const starfocus_report report = engine->report;
+  const FullReport report = engine->report;
   if (!ChooseColumns(stripe, engine)) {
     // No block of the current stripe is refocused, so the next stripe deblocks no boundary with the
     // current stripe.

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/lens.h"
@@ -20,13 +21,13 @@ namespace starfocus {
 
 // Inputs that the blocks of a stripe share.
 struct BlockInputs {
-  const starfocus_config* config;
+  const FullConfig* config;
   const Tables* tables;
   const Lens* lens;
   const Input* input;
   const CellGrid* cells;
   const GatherMap* gathered;
-  starfocus_clock clock;  // a null clock disables measuring the time of blocks
+  const starfocus_observer* observer;
 };
 
 // Returns the grid of the views that the block is rendered from. `weights` is memory for the
@@ -39,13 +40,13 @@ void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t
 
 // Clears the marks of the columns to subsample, for a new stripe. Keeps the old marks as the marks
 // of the previous stripe.
-void ClearLayerColumns(const starfocus_config& config, StripeLayers* layers);
+void ClearLayerColumns(const FullConfig& config, StripeLayers* layers);
 
 // Marks all columns of all layers that the engine may use.
-void MarkLayerColumns(const starfocus_config& config, StripeLayers* layers);
+void MarkLayerColumns(const FullConfig& config, StripeLayers* layers);
 
 // Marks the columns of superblocks that `block` reads.
-void MarkLayerColumns(const starfocus_config& config, const Block& block, StripeLayers* layers);
+void MarkLayerColumns(const FullConfig& config, const Block& block, StripeLayers* layers);
 
 // Moves the layers, also of the engine's input, to the rows `of_picture` of the picture, extended
 // by `borders`. Rows of the layers that were computed for the previous stripe are kept.
@@ -73,7 +74,7 @@ starfocus_status PlanStripe(const Stripe& rows, EngineState* engine);
 BlockInputs InputsOf(const EngineState& engine);
 
 // Returns the number of output rows that are final after the stripe at row y.
-int32_t FinishedRows(const starfocus_config& config, int32_t y);
+int32_t FinishedRows(const FullConfig& config, int32_t y);
 
 // Returns the output buffer for the stripe at row y. The buffer also contains the rows above the
 // stripe that the stripe may still change.

@@ -34,7 +34,7 @@ bool AnyColumn(const uint8_t* needed, int32_t columns) {
 
 }  // namespace
 
-void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch* resample) {
+void TakeResample(const FullConfig& config, Arena* arena, ResampleScratch* resample) {
   // The last column of superblocks includes one or two pixels of a layer that lie beyond the
   // picture.
   const auto side = config.superblock;
@@ -47,7 +47,7 @@ void TakeResample(const starfocus_config& config, Arena* arena, ResampleScratch*
   resample->above = arena->Take<int16_t>(3 * columns, static_cast<size_t>(above_two));
 }
 
-void TakeLayers(const starfocus_config& config, Arena* arena, StripeLayers* layers) {
+void TakeLayers(const FullConfig& config, Arena* arena, StripeLayers* layers) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     const auto width = static_cast<size_t>(LayerSize(config.width, layer));
     layers->planes[layer].samples = TakePlane<int16_t>(3 * width, LayerRows(config, layer), arena);
@@ -57,7 +57,7 @@ void TakeLayers(const starfocus_config& config, Arena* arena, StripeLayers* laye
   }
 }
 
-void ClearLayerColumns(const starfocus_config& config, StripeLayers* layers) {
+void ClearLayerColumns(const FullConfig& config, StripeLayers* layers) {
   for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
       uint8_t& need = layers->needed[layer][column];
@@ -66,7 +66,7 @@ void ClearLayerColumns(const starfocus_config& config, StripeLayers* layers) {
   }
 }
 
-void MarkLayerColumns(const starfocus_config& config, StripeLayers* layers) {
+void MarkLayerColumns(const FullConfig& config, StripeLayers* layers) {
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     for (int32_t column = 0; column < Columns(config); ++column) {
       layers->needed[layer][column] |= kNeeded;
@@ -74,7 +74,7 @@ void MarkLayerColumns(const starfocus_config& config, StripeLayers* layers) {
   }
 }
 
-void MarkLayerColumns(const starfocus_config& config, const Block& block, StripeLayers* layers) {
+void MarkLayerColumns(const FullConfig& config, const Block& block, StripeLayers* layers) {
   if (block.layer == 0) return;
   const int32_t side = config.superblock, scale = 1 << block.layer;
   int32_t left = block.rendered.x - block.border.left;

@@ -148,16 +148,17 @@ void ReportBlock(const Block& block, EngineState* engine) {
     report.n = block.n;
     report.rendered_views = WeightsOf(engine->lens, block.n).views;
   }
-  if (engine->on_block == nullptr) return;
+  const starfocus_observer& observer = engine->observer;
+  if (observer.on_block == nullptr) return;
   const starfocus_block told = {block.rect.x,      block.rect.y, block.rect.width,
                                 block.rect.height, block.layer,  block.n};
-  engine->on_block(engine->on_block_data, &told);
+  observer.on_block(observer.on_block_data, &told);
 }
 
 // Keeps the blocks that affect the requested pixels, and derives the inputs of the later phases
 // from these blocks.
 void ReadPlan(const Stripe& stripe, EngineState* engine) {
-  const starfocus_config& config = engine->config;
+  const FullConfig& config = engine->config;
   StripeLayers& layers = engine->layers;
   StripePlan& plan = engine->stripe.plan;
   plan.used = 0;
@@ -177,7 +178,7 @@ void ReadPlan(const Stripe& stripe, EngineState* engine) {
 
 }  // namespace
 
-void TakePlan(const starfocus_config& config, Arena* arena, StripeState* stripe) {
+void TakePlan(const FullConfig& config, Arena* arena, StripeState* stripe) {
   const Borders borders = LargestBorders(config);
   const int32_t side = config.superblock, columns = Columns(config), cells = side / kCellSize;
   const auto blocks = static_cast<size_t>(columns);

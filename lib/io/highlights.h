@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Highlights: computes the light beyond white that clipped samples represent
-// (starfocus_config.highlights).
+// (FullConfig.highlights).
 #ifndef STARFOCUS_LIB_IO_HIGHLIGHTS_H_
 #define STARFOCUS_LIB_IO_HIGHLIGHTS_H_
 
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/io/input.h"
@@ -54,7 +55,7 @@ struct LampRuns {
 // Returns an input whose light is the excess of the highlights of `captured`, at layer 0. Clears
 // `runs`, its cache. `captured` and `runs` must outlive the result. The excess of a highlight rises
 // with the square of the code, from kFirstExcess on, and equals white for a clipped sample. Other
-// pixels have no excess. `highlights` is starfocus_config.highlights.
+// pixels have no excess. `highlights` is FullConfig.highlights.
 //
 // A highlight that is at most LargestLamp pixels high or wide has its full excess. The excess of
 // larger highlights decreases to 0 at twice this size. Highlights that reach the edge of the

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/io/depth_map.h"
 #include "lib/io/image.h"
 
@@ -117,7 +117,7 @@ void ReadImageLight(const Input& in, int view, int32_t x, int32_t y, int32_t cou
 }
 
 // Returns an input of packed views, without its planes.
-Input EmptyInput(const starfocus_config& config, const simd::Kernels& kernels) {
+Input EmptyInput(const FullConfig& config, const simd::Kernels& kernels) {
   Input in;
   in.kernels = &kernels;
   in.transfer = &TransferOf(config.transfer);
@@ -152,7 +152,7 @@ int32_t FillUnknown(const Input& in, int16_t* row) {
 
 }  // namespace
 
-void TakeInput(const starfocus_config& config, int32_t rows, int32_t alpha_rows, Arena* arena,
+void TakeInput(const FullConfig& config, int32_t rows, int32_t alpha_rows, Arena* arena,
                InputRings* rings) {
   const auto width = static_cast<size_t>(config.width);
   const bool streaming = Has(config, STARFOCUS_FEATURE_STREAMING);
@@ -191,7 +191,7 @@ void ReadPackedLight(const Input& in, int view, int32_t x, int32_t y, int32_t co
   in.kernels->Decode(codes, 3 * static_cast<size_t>(count), in.transfer->encoding, rgb);
 }
 
-Input InputOf(const starfocus_config& config, const simd::Kernels& kernels,
+Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
               const starfocus_light_field& given, int32_t first, InputRings* rings) {
   Input in = EmptyInput(config, kernels);
   in.image_kernels = &simd::BestImageKernels();
@@ -215,13 +215,13 @@ Input InputOf(const starfocus_config& config, const simd::Kernels& kernels,
   // If the map has fewer rows than the picture, the caller always passes all rows of the map, so
   // the first row is 0.
   if (given.depth.height == in.height) in.map.first = first;
-  in.fills_unknown = Has(config, STARFOCUS_FEATURE_FILL_UNKNOWN);
+  in.fills_unknown = config.unknown == STARFOCUS_UNKNOWN_FILL;
   in.disparity = Constant(rings->disparity);
   in.given_coverage = {given.coverage, given.coverage_stride, 0, first};
   return in;
 }
 
-Input InputOf(const starfocus_config& config, const simd::Kernels& kernels,
+Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
               const Plane<uint8_t>* views, const Plane<int16_t>& disparity,
               const Plane<uint8_t>& coverage) {
   Input in = EmptyInput(config, kernels);

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/transfer.h"
@@ -40,7 +41,7 @@ struct InputRings {
 };
 
 // Allocates rings of `rows` rows, but of `alpha_rows` rows for alpha, which is read later.
-void TakeInput(const starfocus_config& config, int32_t rows, int32_t alpha_rows, Arena* arena,
+void TakeInput(const FullConfig& config, int32_t rows, int32_t alpha_rows, Arena* arena,
                InputRings* rings);
 
 // Read `count` pixels of a row of packed RGB codes, as the members of Input require.
@@ -116,11 +117,11 @@ struct Input {
 // centre view are converted into its ring, and pixels of side views are converted when they are
 // read. Disparities are converted into their ring. If the map is smaller than the picture, sets the
 // columns of `rings`.
-Input InputOf(const starfocus_config& config, const simd::Kernels& kernels,
+Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
               const starfocus_light_field& given, int32_t first, InputRings* rings);
 
 // Returns a light field in memory of the library. The planes of `views` have the same geometry.
-Input InputOf(const starfocus_config& config, const simd::Kernels& kernels,
+Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
               const Plane<uint8_t>* views, const Plane<int16_t>& disparity,
               const Plane<uint8_t>& coverage);
 

@@ -403,7 +403,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
 }
 
 // In the comments of LineScanScratch, E is `extended`, and R is the side of a superblock.
-void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
+void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena* arena,
                  RendererScratch* memory) {
   LineScanScratch counted;
   LineScanScratch& scratch = memory == nullptr ? counted : *static_cast<LineScanScratch*>(memory);
@@ -465,20 +465,14 @@ bool NothingMoves(const RenderJob& job) {
   return true;
 }
 
+constexpr starfocus_line_scan kLineScan = {
+    {1, false,
+     256,  // benchmark mode: largest side of a superblock
+     [](double r_max, Demand) { return ViewsByPaper(r_max); }, LayerOf, MakeViewWeights,
+     MeasureWork, sizeof(LineScanScratch), TakeScratch, NothingMoves, RefocusRectangle,
+     [](const ViewWeights& aperture) { return aperture.sum_bits + kLightBits; }}};
+
 }  // namespace
-
-const Renderer kLineScanRenderer = {
-    1,
-    false,
-    256,  // benchmark mode: largest side of a superblock
-    [](double r_max, Demand) { return ViewsByPaper(r_max); },
-    LayerOf,
-    MakeViewWeights,
-    MeasureWork,
-    sizeof(LineScanScratch),
-    TakeScratch,
-    NothingMoves,
-    RefocusRectangle,
-    [](const ViewWeights& aperture) { return aperture.sum_bits + kLightBits; }};
-
 }  // namespace starfocus
+
+const starfocus_line_scan* starfocus_line_scan_renderer(void) { return &starfocus::kLineScan; }

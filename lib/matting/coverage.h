@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
@@ -88,7 +89,7 @@ struct CoverageMap {
   int32_t width = 0, height = 0;  // size of the picture
   // Number of columns of tiles; number of rows of tiles in memory.
   int32_t columns = 0, tile_rows = 0;
-  int16_t disparity_min = 0;  // starfocus_config.disparity_min, kDisparityBits.
+  int16_t disparity_min = 0;  // FullConfig.disparity_min, kDisparityBits.
   int bin_bits = 0;           // log2 of the number of disparity values in each bin of near_bins.
   // Largest distance, in tiles, between a tile that is marked `ragged` and a tile that the passes
   // process.
@@ -153,10 +154,10 @@ inline int32_t GivenAlpha(uint8_t sample) { return (sample * kWhole + 127) / 255
 
 // Returns the distance in pixels from a split pixel to the farthest pixels that the passes read.
 // Returns 0 if the engine has no memory for coverage.
-int32_t CoverageBorder(const starfocus_config& config);
+int32_t CoverageBorder(const FullConfig& config);
 
 // Allocates the coverage map for stripes that read `border` rows above and below.
-void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena, CoverageMap* map);
+void TakeCoverage(const FullConfig& config, int32_t border, Arena* arena, CoverageMap* map);
 
 // Forgets the rows that were computed, so that FindCoverage starts anew.
 void ForgetCoverage(CoverageMap* map);
@@ -164,7 +165,7 @@ void ForgetCoverage(CoverageMap* map);
 // Computes the coverage of `rows` of the picture in `map`, which must be input.coverage. Rows
 // beyond the picture are ignored. Stripes must follow each other from top to bottom. Returns
 // STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
-starfocus_status FindCoverage(const starfocus_config& config, const Input& input, const Range& rows,
+starfocus_status FindCoverage(const FullConfig& config, const Input& input, const Range& rows,
                               Jobs* jobs, CoverageMap* map);
 
 }  // namespace starfocus

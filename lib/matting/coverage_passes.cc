@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/matting/coverage.h"
 #include "lib/matting/coverage_tile.h"
 
@@ -12,14 +12,14 @@ constexpr int32_t kAroundGiven = 2;
 
 // Returns the largest movement in pixels of a nearer surface relative to a farther surface, in any
 // view that is read.
-int32_t LargestMoveBefore(const starfocus_config& config) {
+int32_t LargestMoveBefore(const FullConfig& config) {
   if (config.views == 1) return 0;
   const float range = MaxDisparity(config) - MinDisparity(config);
   return Min(static_cast<int32_t>(range) + 3, kMostMove + 1);
 }
 
 // Returns the number of rows of tiles by which a pass must be ahead of the last pass.
-int32_t TilesAhead(const starfocus_config& config, int pass) {
+int32_t TilesAhead(const FullConfig& config, int pass) {
   const int32_t moved = (LargestMoveBefore(config) + kCoverageTile - 1) / kCoverageTile;
   switch (pass) {
     case kUnmixAgain:
@@ -38,13 +38,13 @@ int32_t TilesAhead(const starfocus_config& config, int pass) {
   }
 }
 
-int32_t TilesOfSuperblock(const starfocus_config& config) {
+int32_t TilesOfSuperblock(const FullConfig& config) {
   return config.superblock / kCoverageTile;
 }
 
 // Largest number of rows of tiles that must stay in memory, from the pass that writes a row to the
 // last pass that reads the row.
-int32_t MostTileRows(const starfocus_config& config, int32_t border) {
+int32_t MostTileRows(const FullConfig& config, int32_t border) {
   const int32_t read = (config.superblock + 2 * border) / kCoverageTile + 2;
   const int32_t looked_at = TilesOfSuperblock(config) + kMostMove / kCoverageTile + 1;
   return Max(read, looked_at) + TilesAhead(config, kFindRagged) + 1;
@@ -111,7 +111,7 @@ void RunPass(const Input& input, int pass, int32_t first, int32_t last, int32_t 
 
 // Runs all passes, so that the last pass completes the rows of tiles [top, end). A job of a pass
 // processes one column of superblocks.
-starfocus_status RunPasses(const starfocus_config& config, const Input& input, const Range& tiles,
+starfocus_status RunPasses(const FullConfig& config, const Input& input, const Range& tiles,
                            Jobs* jobs, CoverageMap* map) {
   const int32_t side = TilesOfSuperblock(config);
   for (int pass = 0; pass < kCoveragePasses; ++pass) {
@@ -139,12 +139,12 @@ starfocus_status RunPasses(const starfocus_config& config, const Input& input, c
 
 }  // namespace
 
-int32_t CoverageBorder(const starfocus_config& config) {
+int32_t CoverageBorder(const FullConfig& config) {
   if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return 0;
   return (TilesAhead(config, kFindRagged) + 1) * kCoverageTile + kBandReach + 2;
 }
 
-void TakeCoverage(const starfocus_config& config, int32_t border, Arena* arena, CoverageMap* map) {
+void TakeCoverage(const FullConfig& config, int32_t border, Arena* arena, CoverageMap* map) {
   if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return;
   map->width = config.width;
   map->height = config.height;
@@ -170,7 +170,7 @@ void ForgetCoverage(CoverageMap* map) {
   for (int32_t& done : map->done) done = -1;
 }
 
-starfocus_status FindCoverage(const starfocus_config& config, const Input& input, const Range& rows,
+starfocus_status FindCoverage(const FullConfig& config, const Input& input, const Range& rows,
                               Jobs* jobs, CoverageMap* map) {
   map->around = HasGiven(input) ? kAroundGiven : 1;
   const int32_t top = Max(0, rows.first) / kCoverageTile;

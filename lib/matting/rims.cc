@@ -240,7 +240,7 @@ void FindRim(const RimMap& map, int32_t column, int32_t row, CellRim* rim) {
 
 }  // namespace
 
-void TakeRims(const starfocus_config& config, int32_t border, Arena* arena, RimMap* map) {
+void TakeRims(const FullConfig& config, int32_t border, Arena* arena, RimMap* map) {
   if (!HasRims(config)) return;
   map->width = config.width;
   map->height = config.height;
@@ -253,7 +253,7 @@ void TakeRims(const starfocus_config& config, int32_t border, Arena* arena, RimM
 
 void ForgetRims(RimMap* map) { map->summed = map->found = -1; }
 
-starfocus_status FindRims(const starfocus_config& config, const Input& input, const Range& rows,
+starfocus_status FindRims(const FullConfig& config, const Input& input, const Range& rows,
                           Jobs* jobs, RimMap* map) {
   const int32_t top = Max(0, rows.first) / kRimCell;
   const int32_t end = Min(map->Rows(), (rows.last + kRimCell - 1) / kRimCell);

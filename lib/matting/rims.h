@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
-#include "lib/base/features.h"
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
@@ -73,12 +73,12 @@ struct RimMap {
 
 // Returns true if an engine of this configuration finds rims: with one view, because side views
 // show clean far colours, and with STARFOCUS_FEATURE_COVERAGE.
-inline bool HasRims(const starfocus_config& config) {
+inline bool HasRims(const FullConfig& config) {
   return config.views == 1 && Has(config, STARFOCUS_FEATURE_COVERAGE);
 }
 
 // Allocates the cells for stripes whose blocks read `border` rows above and below.
-void TakeRims(const starfocus_config& config, int32_t border, Arena* arena, RimMap* map);
+void TakeRims(const FullConfig& config, int32_t border, Arena* arena, RimMap* map);
 
 // Forgets all rows, so that FindRims starts anew.
 void ForgetRims(RimMap* map);
@@ -86,7 +86,7 @@ void ForgetRims(RimMap* map);
 // Finds the rims in `rows` of the picture. Rows beyond the picture are ignored. Stripes must follow
 // each other from top to bottom. Returns STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or
 // STARFOCUS_ERROR_CANCELLED.
-starfocus_status FindRims(const starfocus_config& config, const Input& input, const Range& rows,
+starfocus_status FindRims(const FullConfig& config, const Input& input, const Range& rows,
                           Jobs* jobs, RimMap* map);
 
 }  // namespace starfocus

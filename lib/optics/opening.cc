@@ -27,7 +27,7 @@ UnitVector DirectionOf(double angle) {
 // half the angle between the two corners. The centre of the arc lies on the edge's normal, at
 // cos(half) - sqrt(1 / curvature^2 - sin(half)^2). The product of the centre's position and the
 // curvature remains finite as the curvature approaches 0 (straight edges).
-void SetPolygon(const starfocus_lens& lens, ApertureShape* opening) {
+void SetPolygon(const starfocus_params& lens, ApertureShape* opening) {
   opening->blades = lens.blades;
   const double half = kPi / lens.blades;
   const double sine = DirectionOf(half).sine, cosine = DirectionOf(half).cosine;
@@ -59,7 +59,7 @@ uint32_t ApertureFallOff(double theta) {
   return static_cast<uint32_t>(65536.0 / (tangent * tangent) + 0.5);
 }
 
-ApertureShape ShapeOf(const starfocus_lens& lens) {
+ApertureShape ShapeOf(const starfocus_params& lens) {
   ApertureShape opening;
   opening.shape = static_cast<starfocus_shape>(lens.shape);
   if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) opening.fall_off = ApertureFallOff(lens.theta);

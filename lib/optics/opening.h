@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opening of a lens: the part of the lens disc that lets light through. The lens setup derives the
-// opening from a starfocus_lens, and lib/optics/view_weights.h derives the weights of the views
+// opening from a starfocus_params, and lib/optics/view_weights.h derives the weights of the views
 // from the opening. The parameters are rounded once; the weights are then computed in integers, so
 // that every machine gets the same weights.
 #ifndef STARFOCUS_LIB_OPTICS_OPENING_H_
@@ -46,7 +46,7 @@ struct ApertureShape {
 };
 
 // Returns the opening of a valid lens.
-ApertureShape ShapeOf(const starfocus_lens& lens);
+ApertureShape ShapeOf(const starfocus_params& lens);
 
 // Returns true if two results of ShapeOf differ at most in their cat's eyes.
 bool AreAlike(ApertureShape a, const ApertureShape& b);

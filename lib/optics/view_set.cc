@@ -101,13 +101,13 @@ starfocus_status FindViews(int32_t count, const starfocus_position* positions,
   return check.status();
 }
 
-bool HasStar(const starfocus_config& config) {
+bool HasStar(const FullConfig& config) {
   ViewSet views;
   return FindViews(config.views, config.positions, config.problem, &views) == STARFOCUS_OK &&
          views.star;
 }
 
-bool SameViews(const starfocus_config& a, const starfocus_config& b) {
+bool SameViews(const FullConfig& a, const FullConfig& b) {
   ViewSet first, second;
   FindViews(a.views, a.positions, a.problem, &first);
   FindViews(b.views, b.positions, b.problem, &second);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "starfocus/starfocus.h"
 
@@ -61,10 +62,10 @@ starfocus_status FindViews(int32_t count, const starfocus_position* positions,
 
 // Returns true if the views of a valid configuration have the positions that
 // starfocus_view_position returns.
-bool HasStar(const starfocus_config& config);
+bool HasStar(const FullConfig& config);
 
 // Returns true if two valid configurations have the same views in the same order.
-bool SameViews(const starfocus_config& a, const starfocus_config& b);
+bool SameViews(const FullConfig& a, const FullConfig& b);
 
 // Chooses the views that see behind edges on each side: the views whose direction is closer to this
 // side than to any other side. The farthest views near the axis of the side come first, because the

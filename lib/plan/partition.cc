@@ -301,7 +301,7 @@ class Partition {
   const CellGrid& cells_;
   PartitionCandidate* const candidates_;
   const GatherMap& gathered_;
-  const starfocus_config& config_;
+  const FullConfig& config_;
   const int32_t side_;  // side of a superblock, in units of the smallest blocks
   int levels_ = 0;
   const int32_t x_, y_;  // upper left corner of the superblock

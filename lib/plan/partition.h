@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "lib/base/config.h"
 #include "lib/plan/cells.h"
 #include "lib/plan/renderer.h"
 #include "lib/plan/smooth_cells.h"
@@ -47,7 +48,7 @@ struct Block {
 // superblock.
 struct PartitionRules {
   const simd::Kernels* kernels;
-  const starfocus_config* config;
+  const FullConfig* config;
   const Renderer* renderer;
   const ViewWeights* apertures;  // weights of the views for each N, indexed by N up to max_n
   int32_t max_n;

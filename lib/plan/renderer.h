@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "lib/base/arena.h"
+#include "lib/base/config.h"
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/io/input.h"
@@ -82,7 +83,7 @@ struct Renderer {
   // Allocates the scratch memory of one worker and stores its pointers at `scratch`. If `scratch`
   // is null, the function only counts the bytes. `extended` is the largest side of a rectangle with
   // its border, max_n the largest N.
-  void (*take_scratch)(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
+  void (*take_scratch)(const FullConfig& config, size_t extended, size_t max_n, Arena* arena,
                        RendererScratch* scratch);
 
   // Returns true if no view moves any pixel of the rectangle. The refocused rectangle is then an
@@ -97,9 +98,12 @@ struct Renderer {
 
 // Renderer with slices: each view represents a subaperture of the lens (lib/slices).
 extern const Renderer kSliceRenderer;
-// The paper's line scan: views at most about one pixel apart (lib/line_scan).
-extern const Renderer kLineScanRenderer;
-
 }  // namespace starfocus
+
+// The paper's line scan: views at most about one pixel apart (lib/line_scan). The engine knows this
+// renderer only by the pointer in starfocus_tuning, so that other programs do not link it.
+struct starfocus_line_scan {
+  starfocus::Renderer renderer;
+};
 
 #endif  // STARFOCUS_LIB_PLAN_RENDERER_H_

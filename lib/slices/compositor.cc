@@ -335,7 +335,7 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
 }
 
 // Allocates the scratch memory of one worker; see Renderer::take_scratch.
-void TakeScratch(const starfocus_config& config, size_t extended, size_t max_n, Arena* arena,
+void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena* arena,
                  RendererScratch* memory) {
   CompositorScratch counted;
   CompositorScratch& scratch =

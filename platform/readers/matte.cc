@@ -43,7 +43,7 @@ struct CoverTask {
     out.coverage = task.coverage + size_t(top) * size_t(width);
     out.coverage_stride = size_t(width);
     task.statuses[size_t(index)] =
-        starfocus_matte_coverage(&task.matte, &task.depth, width, height, &rows, &out);
+        starfocus_matte_coverage(&task.matte, &task.depth, width, height, &rows, &out, nullptr);
   }
 };
 
@@ -60,7 +60,7 @@ Matte::Matte(const FloatMap& map) : width(map.width), height(map.height) {
 std::string Description(const Matte& matte) {
   starfocus_matte_stats stats = {};
   const starfocus_matte engine = EngineMatte(matte);
-  starfocus_measure_matte(&engine, &stats);
+  starfocus_measure_matte(&engine, &stats, nullptr);
   return SizeText(matte.width, matte.height) + ", the subject covers " +
          std::to_string(std::lround(100 * stats.covered)) + " % of the picture";
 }
@@ -106,12 +106,12 @@ Error FillTwoSurfaces(const std::string& where, const Matte& matte, double subje
   const starfocus_matte engine = EngineMatte(matte);
   if (floor) {
     starfocus_matte_stats stats = {};
-    if (Error error = Judge(where, starfocus_measure_matte(&engine, &stats))) return error;
+    if (Error error = Judge(where, starfocus_measure_matte(&engine, &stats, nullptr))) return error;
     depth.horizon = stats.horizon;
     depth.ground = stats.ground;
   }
   return Judge(
-      where, starfocus_matte_field(&engine, &depth, picture.width, picture.height, nullptr, &out));
+      where, starfocus_matte_field(&engine, &depth, picture.width, picture.height, nullptr, &out, nullptr));
 }
 
 Error CoverByMatte(const std::string& where, const Matte& matte, ThreadRunner* runner,

@@ -28,6 +28,7 @@
 #include "lib/optics/view_weights.h"
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus::engine_constants_slow_test {
 namespace {
@@ -35,11 +36,10 @@ namespace {
 using namespace analysis;
 
 TEST_CASE("constants: the default theta is the theta of Table I at r = 3") {
-  starfocus_params params;
-  starfocus_params_init(&params);
-  const double theta = params.lens.theta, table = OptimiseOnGrid(3).filters.theta;
+  starfocus::Params params;
+  const double theta = params.theta, table = OptimiseOnGrid(3).filters.theta;
   CHECK_MESSAGE(theta == doctest::Approx(table).epsilon(1e-12),
-                "the default of starfocus_lens.theta is "
+                "the default of starfocus_params.theta is "
                     << theta / kPi << " pi, but Table I has " << table / kPi
                     << " pi, which affects all figures and rules of the paper");
   CHECK_MESSAGE(theta == doctest::Approx(kDefaultTheta).epsilon(1e-12),

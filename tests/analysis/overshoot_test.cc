@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "examples/lab/analysis/engine_psf.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
 
@@ -51,9 +53,9 @@ double Undershoot(double r, starfocus_renderer renderer, int layer, starfocus_tr
       std::fill_n(scene.Pixel(0, u, v), 3, uint8_t(bright ? kHigh : kLow));
     }
   }
-  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
-  params.renderer = renderer;
-  starfocus_config config = test::ConfigFor(scene, r + 1);
+  starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+  params.study.renderer = renderer;
+  test::Config config = test::ConfigFor(scene, r + 1);
   config.transfer = transfer;
   config.tuning.max_layer = layer;
   config.tuning.gather = 0;

@@ -9,8 +9,10 @@
 #include <string>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/api/illegal_values.h"
 #include "tests/api/refusals.h"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -23,11 +25,11 @@ constexpr int kWidth = 20, kHeight = 12;
 
 struct Fixture {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 17, -2, 2, 1);
-  starfocus_config config = test::ConfigFor(scene, 8);
-  starfocus_params params = test::Params(0.5);
+  test::Config config = test::ConfigFor(scene, 8);
+  starfocus::Params params = test::Params(0.5);
   starfocus_light_field field = scene.Field();
   test::Output out{kWidth, kHeight, 4};
-  starfocus_report report = {};
+  starfocus_report report = starfocus::NewReport();
 
   starfocus_status Refocus(starfocus_engine* engine) {
     return test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report);
@@ -38,19 +40,18 @@ TEST_CASE("configuration: illegal values are rejected and named") {
   Fixture f;
   test::Engine legal(f.config);
   REQUIRE(legal.status() == STARFOCUS_OK);
-  for (const Bad<starfocus_config>& bad : kBadConfigs) {
+  for (const Bad<test::Config>& bad : kBadConfigs) {
     CAPTURE(bad.field);
     starfocus_problem problem = {};
-    starfocus_config config = f.config;
-    config.problem = &problem;
+    test::Config config = f.config;
     bad.spoil(&config);
     size_t bytes = 4711;
-    CHECK(starfocus_workspace_size(&config, &bytes) == bad.status);
-    CHECK(starfocus_prepared_size(&config, &bytes) == bad.status);
+    CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == bad.status);
     CHECK(bytes == 4711);
     starfocus_engine* engine = legal.get();
     std::vector<uint8_t> before(legal.workspace(), legal.workspace() + legal.bytes());
-    CHECK(starfocus_init(&config, legal.workspace(), legal.bytes(), &engine) == bad.status);
+    CHECK(starfocus_init(&config, legal.workspace(), legal.bytes(), &engine, &problem) ==
+          bad.status);
     if (bad.field[0] != 0) refusals::CheckProblem(&problem, bad.status, bad.field);
     CHECK(engine == nullptr);
     CHECK(std::memcmp(before.data(), legal.workspace(), before.size()) == 0);
@@ -61,23 +62,28 @@ TEST_CASE("configuration: null pointers and uninitialized structures are rejecte
   Fixture f;
   size_t bytes = 0;
   starfocus_engine* engine = nullptr;
-  starfocus_config zero;
-  std::memset(&zero, 0, sizeof zero);
-  CHECK(starfocus_workspace_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_workspace_size(&f.config, nullptr) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_workspace_size(&zero, &bytes) == STARFOCUS_ERROR_STRUCTURE);
-  REQUIRE(starfocus_workspace_size(&f.config, &bytes) == STARFOCUS_OK);
+  const starfocus_config zero = {};
+  CHECK(starfocus_workspace_size(nullptr, &bytes, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_workspace_size(&f.config, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
+  starfocus_problem problem = {};
+  CHECK(starfocus_workspace_size(&zero, &bytes, &problem) == STARFOCUS_ERROR_STRUCTURE);
+  refusals::CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "config.size");
+  starfocus_tuning tuning = {};
+  starfocus_config tuned = f.config;
+  tuned.tuning = &tuning;
+  CHECK(starfocus_workspace_size(&tuned, &bytes, &problem) == STARFOCUS_ERROR_STRUCTURE);
+  refusals::CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "tuning.size");
+  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
   std::vector<uint8_t> memory(bytes + STARFOCUS_ALIGNMENT);
-  CHECK(starfocus_init(nullptr, memory.data(), bytes, &engine) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_init(&f.config, nullptr, bytes, &engine) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_init(&f.config, memory.data(), bytes, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_init(nullptr, memory.data(), bytes, &engine, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_init(&f.config, nullptr, bytes, &engine, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_init(&f.config, memory.data(), bytes, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
   starfocus_config_init(nullptr);
   starfocus_params_init(nullptr);
 }
 
 TEST_CASE("configuration: values at the limits of their ranges are legal") {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   config.width = config.height = STARFOCUS_MAX_SIZE;
   config.views = STARFOCUS_MAX_VIEWS;
   config.disparity_min = static_cast<float>(-STARFOCUS_MAX_DISPARITY);
@@ -90,11 +96,11 @@ TEST_CASE("configuration: values at the limits of their ranges are legal") {
   size_t bytes = 0;
   // Each value is legal, but the workspace for all limits together exceeds a 32-bit address space.
   const starfocus_status legal = sizeof(size_t) == 4 ? STARFOCUS_ERROR_TOO_LARGE : STARFOCUS_OK;
-  CHECK(starfocus_workspace_size(&config, &bytes) == legal);
+  CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == legal);
   CHECK((bytes > 0) == (legal == STARFOCUS_OK));
   for (const double n_scale : {STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE}) {
     config.tuning.n_scale = n_scale;
-    CHECK(starfocus_workspace_size(&config, &bytes) == legal);
+    CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == legal);
   }
   for (const int max_layer : {0, 1, 2}) {
     for (const int deblocking : {0, 1, 255}) {
@@ -102,7 +108,7 @@ TEST_CASE("configuration: values at the limits of their ranges are legal") {
         config.tuning.max_layer = max_layer;
         config.tuning.deblocking = deblocking;
         config.tuning.timing = {timing, timing, timing, timing, timing, timing, timing, timing};
-        CHECK(starfocus_workspace_size(&config, &bytes) == legal);
+        CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == legal);
       }
     }
   }
@@ -114,13 +120,13 @@ TEST_CASE(
   for (const int width : {1, 1535, 1536, 1700}) {
     CAPTURE(width);
     const test::Scene scene = test::RandomScene(width, 3, 1, -2, 2, 9);
-    starfocus_config config = test::ConfigFor(scene, 4);
+    test::Config config = test::ConfigFor(scene, 4);
     test::Engine chosen(config);
     config.superblock = width < 1536 ? 64 : 128;
     test::Engine told(config);
     CHECK(chosen.bytes() == told.bytes());
-    starfocus_report report = {};
-    const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+    starfocus_report report = starfocus::NewReport();
+    const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
     const test::Output a = test::OutputOf(&chosen, params, scene, &report);
     const test::Output b = test::OutputOf(&told, params, scene);
     CHECK(report.superblock == config.superblock);
@@ -131,13 +137,13 @@ TEST_CASE(
 TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
   Fixture f;
   size_t bytes = 0;
-  REQUIRE(starfocus_workspace_size(&f.config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
   test::Engine legal(f.config);
   REQUIRE(legal.status() == STARFOCUS_OK);
   uint8_t* workspace = legal.workspace();
   for (size_t size : {size_t{0}, size_t{1}, size_t{64}, bytes / 2, bytes - 1}) {
     starfocus_engine* engine = legal.get();
-    CHECK(starfocus_init(&f.config, workspace, size, &engine) == STARFOCUS_ERROR_WORKSPACE);
+    CHECK(starfocus_init(&f.config, workspace, size, &engine, nullptr) == STARFOCUS_ERROR_WORKSPACE);
     CHECK(engine == nullptr);
   }
   std::vector<uint8_t> larger(bytes + 2 * STARFOCUS_ALIGNMENT);
@@ -146,11 +152,11 @@ TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
       larger.data() + (STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT) % STARFOCUS_ALIGNMENT;
   for (int offset : {1, 2, 8, 16, 32, 63}) {
     starfocus_engine* engine = legal.get();
-    CHECK(starfocus_init(&f.config, aligned + offset, bytes, &engine) == STARFOCUS_ERROR_WORKSPACE);
+    CHECK(starfocus_init(&f.config, aligned + offset, bytes, &engine, nullptr) == STARFOCUS_ERROR_WORKSPACE);
     CHECK(engine == nullptr);
   }
   starfocus_engine* engine = nullptr;
-  CHECK(starfocus_init(&f.config, aligned, bytes + 64, &engine) == STARFOCUS_OK);
+  CHECK(starfocus_init(&f.config, aligned, bytes + 64, &engine, nullptr) == STARFOCUS_OK);
   CHECK(engine != nullptr);
 }
 
@@ -158,10 +164,10 @@ TEST_CASE("refocus: parameters at the limits of their ranges are legal") {
   Fixture f;
   test::Engine engine(f.config);
   f.params = test::Params(6);  // the blur radius is 8, the configured maximum
-  f.params.lens.curvature = 1;
-  f.params.lens.ring_inner = STARFOCUS_MAX_RING_INNER;
-  f.params.lens.blades = STARFOCUS_MAX_BLADES;
-  f.params.lens.rotation = 360;
+  f.params.curvature = 1;
+  f.params.ring_inner = STARFOCUS_MAX_RING_INNER;
+  f.params.blades = STARFOCUS_MAX_BLADES;
+  f.params.rotation = 360;
   CHECK(f.Refocus(engine.get()) == STARFOCUS_OK);
   CHECK(f.report.r_max == 8);
 }
@@ -206,7 +212,7 @@ TEST_CASE(
   CHECK(f.report.r_max == doctest::Approx(2.5));
   CHECK(f.report.n == 3);
   CHECK(f.report.rendered_views == 29);
-  f.params.mode = STARFOCUS_MODE_BENCHMARK;
+  f.params.study.mode = STARFOCUS_MODE_BENCHMARK;
   REQUIRE(f.Refocus(engine.get()) == STARFOCUS_OK);
   CHECK(f.report.n == 6);
   CHECK(f.report.rendered_views == 101);

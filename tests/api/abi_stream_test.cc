@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
 
@@ -16,8 +18,8 @@ constexpr int kWidth = 20, kHeight = 90;
 
 struct Fixture {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 9, -2, 2, 3);
-  starfocus_config config = test::ConfigFor(scene, 8);
-  starfocus_params params = test::Params(0.5);
+  test::Config config = test::ConfigFor(scene, 8);
+  starfocus::Params params = test::Params(0.5);
   test::Output out{kWidth, kHeight, 4};
 
   Fixture() { config.features |= STARFOCUS_FEATURE_STREAMING; }
@@ -40,8 +42,8 @@ TEST_CASE("stream: calls fail without the streaming feature and without begin") 
     CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_STATE);
     CHECK(f.Pull(engine.get(), 1, &count) == STARFOCUS_ERROR_STATE);
     // A rejected starfocus_stream_begin starts no stream.
-    starfocus_params params = f.params;
-    params.lens.aperture = 2;
+    starfocus::Params params = f.params;
+    params.aperture = 2;
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
     CHECK(f.Push(engine.get(), f.scene.Field(), 1, &count) == STARFOCUS_ERROR_STATE);
   }

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
@@ -18,13 +20,15 @@
 namespace after_test {
 namespace {
 
-starfocus_status After(test::Engine* engine, const starfocus_params& params,
+starfocus_status After(test::Engine* engine, const starfocus::Params& params,
                        const test::Scene& scene, const test::Scene& before,
                        const test::Output& before_out, test::Output* out,
                        starfocus_report* report) {
   const starfocus_light_field field = scene.Field();
-  const starfocus_previous previous = {
-      before.Field(), starfocus_image_rgb(before_out.bytes.data(), before_out.stride)};
+  const starfocus_light_field before_field = before.Field();
+  const starfocus_image before_image =
+      starfocus_image_rgb(before_out.bytes.data(), before_out.stride);
+  const starfocus_previous previous = {sizeof previous, &before_field, &before_image};
   return test::RefocusAfterRgb(engine->get(), &params, &field, &previous, out->bytes.data(),
                                out->stride, report);
 }
@@ -53,7 +57,7 @@ void Change(test::Scene* scene, bool unknown, test::Random* random) {
   }
 }
 
-void CheckFrames(test::Scene scene, const starfocus_config& config, const starfocus_params& params,
+void CheckFrames(test::Scene scene, const test::Config& config, const starfocus::Params& params,
                  int frames, test::Random* random) {
   test::Engine engine(config), alone(config);
   const starfocus_region& r = params.region;
@@ -66,9 +70,9 @@ void CheckFrames(test::Scene scene, const starfocus_config& config, const starfo
     const test::Scene before = scene;
     const int changes = random->Int(0, 3);
     for (int k = 0; k < changes; ++k)
-      Change(&scene, test::Has(config.features, STARFOCUS_FEATURE_FILL_UNKNOWN), random);
+      Change(&scene, config.unknown == STARFOCUS_UNKNOWN_FILL, random);
     test::Output expected(width, height, 2), out(width, height, 2);
-    starfocus_report report = {}, whole = {};
+    test::Report report, whole;
     REQUIRE(After(&engine, params, scene, before, before_out, &out, &report) == STARFOCUS_OK);
     REQUIRE(test::Refocus(&alone, params, scene, &expected, nullptr, nullptr, &whole) ==
             STARFOCUS_OK);
@@ -91,14 +95,14 @@ TEST_CASE("previous frame: reusing blocks does not change the bytes of a frame i
     const int width = random.Int(1, 300), height = random.Int(1, 260);
     const test::Scene scene =
         test::LayeredScene(width, height, test::kStars[round % 4], 5, uint64_t(round) + 900);
-    starfocus_config config = test::ConfigFor(scene, 12);
+    test::Config config = test::ConfigFor(scene, 12);
     config.superblock = 32 << random.Int(0, 1);
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     config.tuning.deblocking = random.Int(0, 3) == 0 ? 35 : 255;
-    starfocus_params params =
+    starfocus::Params params =
         test::Params(random.Real(-5, 5), random.Real(0.1, 1), STARFOCUS_MODE_BLOCK);
-    params.renderer = random.Int(0, 2);
-    if (round % 4 == 3) params.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
+    params.study.renderer = random.Int(0, 2);
+    if (round % 4 == 3) params.study.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
     if (round % 5 == 4) {
       params.region = {random.Int(0, width - 1), random.Int(0, height - 1), 1, 1};
       params.region.width = random.Int(1, width - params.region.x);
@@ -121,9 +125,9 @@ TEST_CASE(
       for (int x = first; x <= last; ++x)
         scene.Disparity(x, y) = std::numeric_limits<float>::infinity();
     }
-    starfocus_config config = test::ConfigFor(scene, 8);
+    test::Config config = test::ConfigFor(scene, 8);
     config.superblock = 32;
-    config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
+    config.unknown = STARFOCUS_UNKNOWN_FILL;
     CheckFrames(scene, config, test::Params(random.Real(-3, 3), 0.5, STARFOCUS_MODE_BLOCK), 8,
                 &random);
   }
@@ -132,11 +136,11 @@ TEST_CASE(
 TEST_CASE(
     "previous frame: a change of a side view reaches blocks up to the largest disparity away") {
   const test::Scene before = test::NearScene(70, 900, 5, 13);
-  starfocus_config config = test::ConfigFor(before, 8);
+  test::Config config = test::ConfigFor(before, 8);
   config.superblock = 32;
   test::Engine engine(config);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
-    const starfocus_params params = test::Params(test::kNearFocus, 0.2, mode);
+    const starfocus::Params params = test::Params(test::kNearFocus, 0.2, mode);
     const test::Output first = test::OutputOf(&engine, params, before);
     for (int view = 1; view < 5; ++view) {
       CAPTURE(view);
@@ -145,7 +149,7 @@ TEST_CASE(
         for (int y = 445; y < 455; ++y) scene.Pixel(view, x, y)[1] ^= 0xFF;
       }
       test::Output second(70, 900);
-      starfocus_report report = {};
+      test::Report report;
       REQUIRE(After(&engine, params, scene, before, first, &second, &report) == STARFOCUS_OK);
       const test::Output expected = test::OutputOf(&engine, params, scene);
       CHECK((second.bytes == expected.bytes));
@@ -161,11 +165,11 @@ TEST_CASE(
   test::Scene scene = test::LayeredScene(320, 320, 1, 6, 5);
   test::SetDisparity(&scene,
                      [&](int x, int y) { return (x / 32 + y / 32) % 2 == 0 ? 0.0f : 6.0f; });
-  starfocus_config config = test::ConfigFor(scene, 9);
+  test::Config config = test::ConfigFor(scene, 9);
   config.superblock = 32;
   config.tuning.deblocking = 255;
   for (const double focus : {-1.0, 0.0, 3.0}) {
-    starfocus_params params =
+    starfocus::Params params =
         test::Params(focus, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
     CheckFrames(scene, config, params, 12, &random);
   }
@@ -177,15 +181,15 @@ TEST_CASE("previous frame: if the layer of a block changes, its boundaries are d
   test::Scene scene = test::LayeredScene(600, 600, 1, 6, 5);
   std::fill(scene.disparity.begin(), scene.disparity.end(), 6.0f);
   scene.Disparity(500, 5) = scene.Disparity(5, 500) = 0;
-  starfocus_config config = test::ConfigFor(scene, 6);
+  test::Config config = test::ConfigFor(scene, 6);
   config.superblock = 256;
   config.tuning.deblocking = 255;
   config.tuning.timing = {};
   config.tuning.timing.block = STARFOCUS_MAX_TIMING;
-  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
+  starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
   test::Engine engine(config);
   test::Output second(600, 600);
-  starfocus_report report = {};
+  test::Report report;
   const test::Output first = test::OutputOf(&engine, params, scene);
   const test::Scene before = scene;
   scene.Disparity(5, 5) = 0;
@@ -206,13 +210,13 @@ TEST_CASE("previous frame: if the layer of a block changes, its boundaries are d
 
 TEST_CASE("previous frame: blocks far from a change are reused") {
   const test::Scene before = test::LayeredScene(640, 512, 5, 2, 6);
-  starfocus_config config = test::ConfigFor(before, 4);
+  test::Config config = test::ConfigFor(before, 4);
   // The search for coverage would read pixels farther away from the change.
   config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   test::Engine engine(config);
-  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   test::Output second(640, 512);
-  starfocus_report whole = {}, report = {};
+  test::Report whole, report;
   const test::Output first = test::OutputOf(&engine, params, before, &whole);
   test::Scene now = before;
   now.Pixel(3, 40, 30)[1] ^= 1;
@@ -226,12 +230,12 @@ TEST_CASE("previous frame: blocks far from a change are reused") {
 TEST_CASE("previous frame: in blur mode, all blocks are reused if only a side view changes") {
   const test::Scene before = test::LayeredScene(100, 100, 5, 2, 6);
   test::Engine engine(test::ConfigFor(before, 4));
-  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLUR);
+  const starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLUR);
   test::Output second(100, 100);
   const test::Output first = test::OutputOf(&engine, params, before);
   test::Scene now = before;
   now.Pixel(3, 50, 50)[1] ^= 1;
-  starfocus_report report = {};
+  test::Report report;
   REQUIRE(After(&engine, params, now, before, first, &second, &report) == STARFOCUS_OK);
   CHECK(report.reused_blocks == 4);
   CHECK(first.bytes == second.bytes);

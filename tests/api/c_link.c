@@ -23,7 +23,8 @@ static void* Align(void* memory) {
 static int Run(const starfocus_config* config, void* workspace, size_t bytes) {
   static uint8_t picture[3 * kWidth * kHeight], out[3 * kWidth * kHeight];
   static float disparity[kWidth * kHeight];
-  starfocus_light_field field = {0};
+  starfocus_light_field field;
+  starfocus_light_field_init(&field);
   starfocus_engine* engine = NULL;
   starfocus_params params;
   starfocus_image result;
@@ -33,10 +34,10 @@ static int Run(const starfocus_config* config, void* workspace, size_t bytes) {
   for (i = 0; i < kWidth * kHeight; ++i) disparity[i] = (float)(i % 3);
   field.views[0] = starfocus_image_rgb(picture, 3 * kWidth);
   field.depth = starfocus_depth_float(disparity, kWidth * sizeof(float), kWidth, kHeight);
-  status = starfocus_init(config, workspace, bytes, &engine);
+  status = starfocus_init(config, workspace, bytes, &engine, NULL);
   if (status != STARFOCUS_OK) return Fail("starfocus_init", status);
   starfocus_params_init(&params);
-  params.lens.focus = -1.0;
+  params.focus = -1.0;
   result = starfocus_image_rgb(out, 3 * kWidth);
   status = starfocus_refocus(engine, &params, &field, &result, NULL);
   if (status != STARFOCUS_OK) return Fail("starfocus_refocus", status);
@@ -55,14 +56,15 @@ int main(void) {
   starfocus_status status;
   void* memory;
   int result;
-  if (starfocus_abi_version() != STARFOCUS_ABI_VERSION)
-    return Fail("starfocus_abi_version", STARFOCUS_ERROR_STRUCTURE);
+  uint32_t abi = 0;
+  if (!starfocus_version(&abi) || abi != STARFOCUS_ABI)
+    return Fail("starfocus_version", STARFOCUS_ERROR_STRUCTURE);
   starfocus_config_init(&config);
   config.width = kWidth;
   config.height = kHeight;
   config.views = 1;
   config.disparity_max = 2.0f;
-  status = starfocus_workspace_size(&config, &bytes);
+  status = starfocus_workspace_size(&config, &bytes, NULL);
   if (status != STARFOCUS_OK) return Fail("starfocus_workspace_size", status);
   memory = malloc(bytes + STARFOCUS_ALIGNMENT);
   if (!memory) return Fail("malloc", STARFOCUS_ERROR_NULL);
@@ -71,9 +73,9 @@ int main(void) {
   if (result) return result;
   {
     starfocus_engine* engine = NULL;
-    if (starfocus_struct_size("starfocus_config") != sizeof config)
-      return Fail("starfocus_struct_size", STARFOCUS_ERROR_RANGE);
-    status = starfocus_create(&config, NULL, &engine);
+    if (starfocus_fields("starfocus_config", NULL, NULL) != sizeof config)
+      return Fail("starfocus_fields", STARFOCUS_ERROR_RANGE);
+    status = starfocus_create(&config, NULL, &engine, NULL);
     if (status != STARFOCUS_OK) return Fail("starfocus_create", status);
     starfocus_destroy(engine);
   }

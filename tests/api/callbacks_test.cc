@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
@@ -22,6 +24,7 @@ constexpr int kWidth = 70, kHeight = 75;
 // Counts the calls of each callback.
 struct Calls {
   int runner = 0, progress = 0, blocks = 0;
+  starfocus_observer observer = {};
 
   static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     ++static_cast<Calls*>(self)->runner;
@@ -35,7 +38,8 @@ struct Calls {
   static void Visit(void* self, const starfocus_block*) { ++static_cast<Calls*>(self)->blocks; }
 
   starfocus_callbacks All() {
-    return {Run, this, Tell, this, [] { return uint64_t{0}; }, Visit, this};
+    observer = {sizeof observer, [](void*) { return uint64_t{0}; }, nullptr, Visit, this};
+    return {Run, this, Tell, this, &observer};
   }
   // Returns true if all callbacks were called, and resets the numbers of calls.
   bool Take() {
@@ -48,13 +52,13 @@ struct Calls {
 
 struct Fixture {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 9, 8);
-  starfocus_params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
+  starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
   starfocus_light_field field = scene.Field();
   test::Output out{kWidth, kHeight};
   Calls calls;
 
-  starfocus_config Config() const {
-    starfocus_config config = test::ConfigFor(scene, 12);
+  test::Config Config() const {
+    test::Config config = test::ConfigFor(scene, 12);
     config.superblock = 32;
     config.features |= STARFOCUS_FEATURE_STREAMING;
     config.previews = 1;
@@ -75,7 +79,7 @@ TEST_CASE("callbacks: the engine calls the set functions until other functions a
     REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
     CHECK(f.calls.Take());
   }
-  test::PreparedMemory memory(f.Config());
+  test::PreparedMemory memory(engine.get());
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), f.field);
   CHECK(f.calls.runner > 0);
   CHECK(f.calls.progress > 0);
@@ -91,13 +95,16 @@ TEST_CASE("callbacks: the engine calls the set functions until other functions a
   CHECK(f.calls.None());
 }
 
-TEST_CASE("callbacks: null pointers are rejected, and the previous functions remain in use") {
+TEST_CASE("callbacks: wrong pointers are rejected, and the previous functions remain in use") {
   Fixture f;
   test::Engine engine(f.Config());
   const starfocus_callbacks callbacks = f.calls.All();
   CHECK(starfocus_set_callbacks(nullptr, &callbacks) == STARFOCUS_ERROR_NULL);
   REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
   CHECK(starfocus_set_callbacks(engine.get(), nullptr) == STARFOCUS_ERROR_NULL);
+  const starfocus_observer not_initialized = {};
+  const starfocus_callbacks wrong = {nullptr, nullptr, nullptr, nullptr, &not_initialized};
+  CHECK(starfocus_set_callbacks(engine.get(), &wrong) == STARFOCUS_ERROR_STRUCTURE);
   REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
   CHECK(f.calls.Take());
 }
@@ -134,13 +141,13 @@ TEST_CASE("callbacks: rows that are reported as finished are complete and do not
   // Blocks of different layers are adjacent, so that rows above a superblock are deblocked late.
   test::SetDisparity(&scene,
                      [](int x, int y) { return (x / kSide + y / kSide) % 2 == 0 ? 0.0f : 11.0f; });
-  starfocus_config config = test::ConfigFor(scene, 13);
+  test::Config config = test::ConfigFor(scene, 13);
   config.superblock = kSide;
   config.max_workers = 2;
   config.tuning.deblocking = 255;
   test::Engine engine(config);
   for (const starfocus_region region : {starfocus_region{0, 0, 0, 0}, {5, 21, 70, 120}}) {
-    starfocus_params params = test::Params(-1, 1, STARFOCUS_MODE_BLOCK);
+    starfocus::Params params = test::Params(-1, 1, STARFOCUS_MODE_BLOCK);
     params.region = region;
     test::Output out(region.width > 0 ? region.width : 100, region.width > 0 ? region.height : 170);
     FinishedRows rows = {&out, {}};

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/rgb_calls.h"
 #include "tests/support/test_scene.h"
@@ -52,8 +54,8 @@ struct Counter {
 
 struct Fixture {
   test::Scene scene = test::RandomScene(70, 50, 5, -3, 6, 4);
-  starfocus_config config = test::ConfigFor(scene, 12);
-  starfocus_params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
+  test::Config config = test::ConfigFor(scene, 12);
+  starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
   test::Output expected{70, 50};
 
   Fixture() {
@@ -73,21 +75,18 @@ TEST_CASE("configuration: the missing fields of a shorter structure get their de
   constexpr uint32_t kShort = offsetof(starfocus_config, superblock);
   std::vector<uint8_t> memory(kShort);
   starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
-  starfocus_config_init_sized(config, kShort);
+  starfocus_defaults("starfocus_config", config, kShort);
   CHECK(config->size == kShort);
   config->width = config->height = 20;
   starfocus_config whole;
   starfocus_config_init(&whole);
   whole.width = whole.height = 20;
   size_t bytes = 0, expected = 0;
-  REQUIRE(starfocus_workspace_size(config, &bytes) == STARFOCUS_OK);
-  REQUIRE(starfocus_workspace_size(&whole, &expected) == STARFOCUS_OK);
-  CHECK(bytes == expected);
-  REQUIRE(starfocus_prepared_size(config, &bytes) == STARFOCUS_OK);
-  REQUIRE(starfocus_prepared_size(&whole, &expected) == STARFOCUS_OK);
+  REQUIRE(starfocus_workspace_size(config, &bytes, nullptr) == STARFOCUS_OK);
+  REQUIRE(starfocus_workspace_size(&whole, &expected, nullptr) == STARFOCUS_OK);
   CHECK(bytes == expected);
   starfocus_engine* engine = nullptr;
-  REQUIRE(starfocus_create(config, nullptr, &engine) == STARFOCUS_OK);
+  REQUIRE(starfocus_create(config, nullptr, &engine, nullptr) == STARFOCUS_OK);
   starfocus_destroy(engine);
 }
 
@@ -95,24 +94,24 @@ TEST_CASE(
     "configuration: init zeroes unknown fields of a longer structure, and calls reject its size") {
   std::vector<uint8_t> memory(sizeof(starfocus_config) + 24, test::kPoison);
   starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
-  starfocus_config_init_sized(config, uint32_t(memory.size()));
+  starfocus_defaults("starfocus_config", config, uint32_t(memory.size()));
   CHECK(config->size == memory.size());
   CHECK(std::count(memory.end() - 24, memory.end(), 0) == 24);
   config->width = config->height = 20;
   size_t bytes = 0;
-  CHECK(starfocus_workspace_size(config, &bytes) == STARFOCUS_ERROR_STRUCTURE);
+  CHECK(starfocus_workspace_size(config, &bytes, nullptr) == STARFOCUS_ERROR_STRUCTURE);
 }
 
 TEST_CASE("create: the only allocation has the size of the workspace and is released once") {
   const Fixture f;
   Counter counter;
   size_t bytes = 0;
-  REQUIRE(starfocus_workspace_size(&f.config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
   starfocus_engine* engine = nullptr;
   {
     // The engine copies the allocator, so the structure may become invalid after starfocus_create.
     const starfocus_allocator allocator = counter.Allocator();
-    REQUIRE(starfocus_create(&f.config, &allocator, &engine) == STARFOCUS_OK);
+    REQUIRE(starfocus_create(&f.config, &allocator, &engine, nullptr) == STARFOCUS_OK);
   }
   CHECK(counter.bytes == bytes);
   for (int round = 0; round < 2; ++round) f.CheckPicture(engine);
@@ -128,7 +127,7 @@ TEST_CASE("create: without an allocator, memory comes from the heap and is align
   const Fixture f;
   std::vector<starfocus_engine*> engines(5);
   for (starfocus_engine*& engine : engines) {
-    REQUIRE(starfocus_create(&f.config, nullptr, &engine) == STARFOCUS_OK);
+    REQUIRE(starfocus_create(&f.config, nullptr, &engine, nullptr) == STARFOCUS_OK);
     CHECK(reinterpret_cast<uintptr_t>(engine) % STARFOCUS_ALIGNMENT == 0);
   }
   for (starfocus_engine* engine : engines) f.CheckPicture(engine);
@@ -139,14 +138,13 @@ TEST_CASE(
     "create: if the allocation fails or is misaligned, or after other errors, no memory leaks") {
   Fixture f;
   starfocus_problem problem = {};
-  f.config.problem = &problem;
   const auto field = [&problem] { return std::string(problem.field); };
   Counter counter;
   const starfocus_allocator allocator = counter.Allocator();
   starfocus_engine* const poison = reinterpret_cast<starfocus_engine*>(&counter);
   starfocus_engine* engine = poison;
   counter.empty = true;
-  CHECK(starfocus_create(&f.config, &allocator, &engine) == STARFOCUS_ERROR_MEMORY);
+  CHECK(starfocus_create(&f.config, &allocator, &engine, &problem) == STARFOCUS_ERROR_MEMORY);
   CHECK(problem.status == STARFOCUS_ERROR_MEMORY);
   CHECK(field() == "allocator");
   CHECK(engine == nullptr);
@@ -156,23 +154,23 @@ TEST_CASE(
   counter.empty = false;
   counter.offset = 8;
   engine = poison;
-  CHECK(starfocus_create(&f.config, &allocator, &engine) == STARFOCUS_ERROR_WORKSPACE);
+  CHECK(starfocus_create(&f.config, &allocator, &engine, &problem) == STARFOCUS_ERROR_WORKSPACE);
   CHECK(engine == nullptr);
   CHECK(counter.releases == 1);
   CHECK(counter.wrong == 0);
 
-  starfocus_config bad = f.config;
+  test::Config bad = f.config;
   bad.views = 3;
   engine = poison;
-  CHECK(starfocus_create(&bad, &allocator, &engine) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_create(&bad, &allocator, &engine, &problem) == STARFOCUS_ERROR_RANGE);
   CHECK(engine == nullptr);
-  CHECK(starfocus_create(nullptr, &allocator, &engine) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_create(&f.config, &allocator, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_create(nullptr, &allocator, &engine, &problem) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_create(&f.config, &allocator, nullptr, &problem) == STARFOCUS_ERROR_NULL);
   CHECK(field() == "engine");
   const starfocus_allocator without[] = {{&counter, nullptr, Counter::Release},
                                          {&counter, Counter::Allocate, nullptr}};
   for (const starfocus_allocator& half : without) {
-    CHECK(starfocus_create(&f.config, &half, &engine) == STARFOCUS_ERROR_NULL);
+    CHECK(starfocus_create(&f.config, &half, &engine, &problem) == STARFOCUS_ERROR_NULL);
     CHECK(field() == (half.allocate == nullptr ? "allocator.allocate" : "allocator.release"));
   }
   CHECK(counter.allocations == 2);
@@ -183,11 +181,11 @@ TEST_CASE("prepare: without memory, the allocator of the engine provides the mem
   Counter workspace, counter;
   starfocus_engine* engine = nullptr;
   const starfocus_allocator allocator = workspace.Allocator();
-  REQUIRE(starfocus_create(&f.config, &allocator, &engine) == STARFOCUS_OK);
+  REQUIRE(starfocus_create(&f.config, &allocator, &engine, nullptr) == STARFOCUS_OK);
   // The memory of the engine stays, and `counter` provides the memory of prepared light fields.
   workspace.next = &counter;
   size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(&f.config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_prepared_size(engine, &bytes) == STARFOCUS_OK);
   const starfocus_light_field field = f.scene.Field();
   starfocus_prepared* prepared = nullptr;
   REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
@@ -226,7 +224,7 @@ TEST_CASE("prepare: without memory, the allocator of the engine provides the mem
 TEST_CASE("prepare: a prepared light field from the heap may outlive its engine") {
   const Fixture f;
   starfocus_engine* engine = nullptr;
-  REQUIRE(starfocus_create(&f.config, nullptr, &engine) == STARFOCUS_OK);
+  REQUIRE(starfocus_create(&f.config, nullptr, &engine, nullptr) == STARFOCUS_OK);
   const starfocus_light_field field = f.scene.Field();
   starfocus_prepared* prepared = nullptr;
   REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
@@ -248,7 +246,7 @@ TEST_CASE("prepare: an engine in memory of the caller requires memory of the cal
   CHECK(starfocus_prepare(engine.get(), &field, nullptr, 0, &prepared) == STARFOCUS_ERROR_NULL);
   CHECK(std::string(starfocus_engine_problem(engine.get())->field) == "memory");
   CHECK(prepared == nullptr);
-  test::PreparedMemory memory(f.config);
+  test::PreparedMemory memory(engine.get());
   prepared = memory.Prepare(engine.get(), field);
   starfocus_destroy_prepared(prepared);
   starfocus_destroy_prepared(nullptr);

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/image_scene.h"
 #include "tests/support/test_scene.h"
 
@@ -24,7 +26,7 @@ struct Map {
       : width(w), height(h), row(size_t(w + padding)), values(row * size_t(h), 0.f) {}
   float& At(int x, int y) { return values[size_t(y) * row + size_t(x)]; }
   starfocus_status Fill() {
-    return starfocus_fill_disparity(values.data(), row * 4, width, height);
+    return starfocus_fill_disparity(values.data(), row * 4, width, height, nullptr);
   }
 
   int width, height;
@@ -62,18 +64,18 @@ TEST_CASE("disparity: illegal arguments are rejected") {
   const starfocus_disparity_stats poison = stats;
   const auto measure = [&](const float* d, size_t stride, int w, int h) {
     const starfocus_depth_map depth = starfocus_depth_float(d, stride, w, h);
-    return starfocus_measure_disparity(&depth, &stats);
+    return starfocus_measure_disparity(&depth, &stats, nullptr);
   };
   const auto fill = [&](float* d, size_t stride, int w, int h) {
-    return starfocus_fill_disparity(d, stride, w, h);
+    return starfocus_fill_disparity(d, stride, w, h, nullptr);
   };
   CHECK(measure(nullptr, 20, 5, 4) == STARFOCUS_ERROR_NULL);
   const starfocus_depth_map good = starfocus_depth_float(map.values.data(), 20, 5, 4);
-  CHECK(starfocus_measure_disparity(&good, nullptr) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_measure_disparity(nullptr, &stats) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_measure_disparity(&good, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_measure_disparity(nullptr, &stats, nullptr) == STARFOCUS_ERROR_NULL);
   starfocus_depth_map flat = good;
   flat.scale = 0;
-  CHECK(starfocus_measure_disparity(&flat, &stats) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_measure_disparity(&flat, &stats, nullptr) == STARFOCUS_ERROR_RANGE);
   CHECK(fill(nullptr, 20, 5, 4) == STARFOCUS_ERROR_NULL);
   for (int size : {0, -1, STARFOCUS_MAX_SIZE + 1, INT32_MAX, INT32_MIN}) {
     CHECK(measure(map.values.data(), size_t{1} << 30, size, 4) == STARFOCUS_ERROR_RANGE);
@@ -97,21 +99,21 @@ TEST_CASE("disparity: smallest, largest and non-finite values are measured") {
   }
   starfocus_disparity_stats stats;
   const starfocus_depth_map depth = starfocus_depth_float(map.values.data(), 28, 5, 3);
-  REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_disparity(&depth, &stats, nullptr) == STARFOCUS_OK);
   CHECK(stats.min == -2);
   CHECK(stats.max == 4);
   CHECK(stats.invalid == 0);
   map.At(0, 2) = kNan;
   map.At(4, 0) = kInf;
   map.At(2, 1) = -kInf;
-  REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_disparity(&depth, &stats, nullptr) == STARFOCUS_OK);
   CHECK(stats.min == -1);
   CHECK(stats.max == 3);
   CHECK(stats.invalid == 3);
   Map none(2, 2);
   none.values.assign(4, kNan);
   const starfocus_depth_map unknown = starfocus_depth_float(none.values.data(), 8, 2, 2);
-  REQUIRE(starfocus_measure_disparity(&unknown, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_disparity(&unknown, &stats, nullptr) == STARFOCUS_OK);
   CHECK(stats.min == 0);
   CHECK(stats.max == 0);
   CHECK(stats.invalid == 4);
@@ -129,22 +131,21 @@ TEST_CASE("disparity: distances of 16 bits are measured as disparities") {
   depth.scale = 8000;
   depth.offset = -1;
   starfocus_disparity_stats stats;
-  REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_disparity(&depth, &stats, nullptr) == STARFOCUS_OK);
   CHECK(stats.min == 1);
   CHECK(stats.max == 15);
   CHECK(stats.invalid == 3);  // 8000 / 0 is infinite
   depth.has_invalid = 1;
   depth.invalid = 500;
   depth.width = 300;  // more values than are converted at once
-  REQUIRE(starfocus_measure_disparity(&depth, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_disparity(&depth, &stats, nullptr) == STARFOCUS_OK);
   CHECK(stats.max == 7);
   CHECK(stats.invalid == 598);
 }
 
 // Refocuses a picture whose depth map is `map`. Returns the status.
 starfocus_status RefocusWith(const starfocus_depth_map& map) {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   config.width = map.width;
   config.height = map.height;
   config.views = 1;
@@ -152,17 +153,16 @@ starfocus_status RefocusWith(const starfocus_depth_map& map) {
   config.disparity_max = STARFOCUS_MAX_DISPARITY;
   config.features |= STARFOCUS_FEATURE_IMAGES;
   starfocus_engine* engine = nullptr;
-  REQUIRE(starfocus_create(&config, nullptr, &engine) == STARFOCUS_OK);
+  REQUIRE(starfocus_create(&config, nullptr, &engine, nullptr) == STARFOCUS_OK);
   const size_t row = 3 * size_t(map.width);
   const std::vector<uint8_t> view(row * size_t(map.height), 90);
   std::vector<uint8_t> out(view.size());
-  starfocus_light_field field = {};
+  starfocus_light_field field = starfocus::NewLightField();
   field.views[0] = starfocus_image_rgb(view.data(), row);
   field.depth = map;
   const starfocus_image picture = starfocus_image_rgb(out.data(), row);
-  starfocus_params params;
-  starfocus_params_init(&params);
-  params.lens.aperture = 0;
+  starfocus::Params params;
+  params.aperture = 0;
   const starfocus_status status = starfocus_refocus(engine, &params, &field, &picture, nullptr);
   starfocus_destroy(engine);
   return status;
@@ -200,7 +200,7 @@ TEST_CASE("disparity: special values mean the same in maps of every type") {
           const double disparity = (meaning == STARFOCUS_DEPTH_LINEAR ? z / 64 : 1.0 / 64 / z) + 3;
           const bool known = std::isfinite(disparity) && has_invalid == 0;
           starfocus_disparity_stats stats;
-          REQUIRE(starfocus_measure_disparity(&memory.map, &stats) == STARFOCUS_OK);
+          REQUIRE(starfocus_measure_disparity(&memory.map, &stats, nullptr) == STARFOCUS_OK);
           CHECK(stats.invalid == (known ? 0 : kValues));
           if (known) CHECK(double(stats.max) == doctest::Approx(disparity).epsilon(1e-6));
           CHECK(RefocusWith(memory.map) == (known ? STARFOCUS_OK : STARFOCUS_ERROR_NOT_FINITE));

@@ -8,6 +8,7 @@ static float disparity[320 * 200];
 ]])
 set(of_library [[
 #include <starfocus/depth.h>
+#include <starfocus/experimental.h>
 #include <starfocus/matte.h>
 #include <starfocus/pool.h>
 #include <stdatomic.h>

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Usage: cmake -DNM=… -DBUILD=… -P engine_alone_test.cmake
 # Checks which parts of the library are linked into statically linked programs. A program that only refocuses in its
-# own memory must contain neither lib/depth nor starfocus_create. A program that computes disparity maps contains
-# lib/depth. The program starfocus must not contain examples/lab/analysis, the ray tracer or tests. The program starfocus-lab
-# contains examples/lab/analysis, the ray tracer and tests.
+# own memory must not contain lib/depth, the renderer of the paper and starfocus_create. A program that computes
+# disparity maps contains lib/depth. The program starfocus must not contain examples/lab/analysis, the ray tracer or
+# tests. The program starfocus-lab contains examples/lab/analysis, the ray tracer and tests.
 cmake_minimum_required(VERSION 3.20)
 
 # expect(PROGRAM has|lacks NAME...) checks that PROGRAM has (or lacks) symbols that match each NAME.
@@ -26,7 +26,7 @@ endfunction()
 set(depth "starfocus_(estimate|repair)_|DepthKernels|AddPaths")
 set(developers "analysis::" "RayTracer" "stress::")
 expect(minimal has "starfocus_init")
-expect(minimal lacks "starfocus_create" ${depth})
-expect(starfocus has ${depth})
+expect(minimal lacks "starfocus_create" "LineScan|line_scan" ${depth})
+expect(starfocus has "LineScan" ${depth})
 expect(starfocus lacks ${developers})
 expect(starfocus-lab has ${developers})

@@ -11,13 +11,17 @@
 
 #include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "starfocus/version.h"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace facts_test {
 
 TEST_CASE("the version of the library is the version of the headers") {
-  CHECK(starfocus_version() == std::string(STARFOCUS_VERSION_STRING));
+  uint32_t abi = 0;
+  CHECK(starfocus_version(&abi) == std::string(STARFOCUS_VERSION_STRING));
+  CHECK(abi == STARFOCUS_ABI);
 }
 
 // Returns the names of the structures that a header defines.
@@ -32,26 +36,42 @@ std::vector<std::string> StructuresOf(const std::string& header) {
   return names;
 }
 
-TEST_CASE("the sizes of all structures match the headers") {
-  CHECK(starfocus_struct_size("starfocus_config") == sizeof(starfocus_config));
-  CHECK(starfocus_struct_size("starfocus_params") == sizeof(starfocus_params));
-  CHECK(starfocus_struct_size("starfocus_report") == sizeof(starfocus_report));
-  CHECK(starfocus_struct_size("starfocus_depth_config") == sizeof(starfocus_depth_config));
+TEST_CASE("the fields of all structures are listed, without gaps or overlaps") {
+  CHECK(starfocus_fields("starfocus_config", nullptr, nullptr) == sizeof(starfocus_config));
+  CHECK(starfocus_fields("starfocus_params", nullptr, nullptr) == sizeof(starfocus_params));
+  CHECK(starfocus_fields("starfocus_report", nullptr, nullptr) == sizeof(starfocus_report));
+  constexpr size_t kSizes[] = {4, 4, 8, 8, 8, sizeof(void*)};
   size_t structures = 0;
-  for (const char* header :
-       {"starfocus.h", "status.h", "tuning.h", "lens.h", "depth.h", "image.h", "matte.h"}) {
+  for (const char* header : {"starfocus.h", "experimental.h", "depth.h", "image.h", "matte.h"}) {
     for (const std::string& name : StructuresOf(header)) {
       CAPTURE(name);
-      CHECK(starfocus_struct_size(name.c_str()) > 0);
+      const starfocus_field* fields = nullptr;
+      int32_t count = 0;
+      const size_t size = starfocus_fields(name.c_str(), &fields, &count);
+      REQUIRE(size > 0);
+      size_t end = 0;
+      for (const starfocus_field* field = fields; field != fields + count; ++field) {
+        CAPTURE(field->name);
+        CHECK((field->structure != nullptr) == (field->type == STARFOCUS_FIELD_STRUCTURE));
+        const size_t bytes = field->structure == nullptr
+                                 ? kSizes[field->type]
+                                 : starfocus_fields(field->structure, nullptr, nullptr);
+        REQUIRE(bytes > 0);
+        CHECK(field->offset >= end);
+        CHECK(field->offset - end < 8);  // only padding
+        end = field->offset + bytes * field->count;
+      }
+      CHECK(end <= size);
+      CHECK(size - end < 8);
       ++structures;
     }
   }
-  CHECK(structures >= 21);
+  CHECK(structures >= 24);
   for (const char* name :
        {"", "starfocus_", "starfocus_confi", "starfocus_configs", "starfocus_engine"}) {
-    CHECK(starfocus_struct_size(name) == 0);
+    CHECK(starfocus_fields(name, nullptr, nullptr) == 0);
   }
-  CHECK(starfocus_struct_size(nullptr) == 0);
+  CHECK(starfocus_fields(nullptr, nullptr, nullptr) == 0);
 }
 
 TEST_CASE("the defaults match the documentation in the headers") {
@@ -62,30 +82,38 @@ TEST_CASE("the defaults match the documentation in the headers") {
   CHECK(config.max_blur == 32);
   CHECK(config.superblock == 0);
   CHECK(config.max_workers == 1);
-  CHECK(config.tuning.max_layer == 2);
-  CHECK(config.tuning.deblocking == 35);
-  CHECK(config.tuning.n_scale == 1);
-  CHECK(config.tuning.gather == 1);
+  CHECK(config.tuning == nullptr);
+  CHECK(config.unknown == STARFOCUS_UNKNOWN_REFUSE);
+  starfocus_tuning tuning;
+  starfocus_tuning_init(&tuning);
+  CHECK(tuning.line_scan == nullptr);
+  CHECK(tuning.max_layer == 2);
+  CHECK(tuning.deblocking == 35);
+  CHECK(tuning.n_scale == 1);
+  CHECK(tuning.gather == 1);
   CHECK(config.transfer == STARFOCUS_TRANSFER_SRGB);
   CHECK(config.highlights == 1);
-  CHECK(config.features == (STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE));
+  CHECK(config.features == STARFOCUS_FEATURE_COVERAGE);
+  starfocus_study study;
+  starfocus_study_init(&study);
+  CHECK(study.mode == STARFOCUS_MODE_BLOCK);
+  CHECK(study.renderer == STARFOCUS_RENDERER_AUTO);
   starfocus_params params;
   std::memset(&params, test::kPoison, sizeof params);
   starfocus_params_init(&params);
   CHECK(params.size == sizeof params);
-  CHECK(params.mode == STARFOCUS_MODE_BLOCK);
-  CHECK(params.renderer == STARFOCUS_RENDERER_AUTO);
-  CHECK(params.lens.aperture == 1);
-  CHECK(params.lens.focus == 0);
-  CHECK(params.lens.focus_nearer == 0);
-  CHECK(params.lens.focus_farther == 0);
-  CHECK(params.lens.shape == STARFOCUS_SHAPE_FALL_OFF);
-  CHECK(params.lens.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
-  CHECK(params.lens.blades == 5);
-  CHECK(params.lens.rotation == 0);
-  CHECK(params.lens.curvature == 0);
-  CHECK(params.lens.ring_inner == 0.5);
-  CHECK(params.lens.cats_eye == 0);
+  CHECK(params.study == nullptr);
+  CHECK(params.aperture == 1);
+  CHECK(params.focus == 0);
+  CHECK(params.focus_nearer == 0);
+  CHECK(params.focus_farther == 0);
+  CHECK(params.shape == STARFOCUS_SHAPE_FALL_OFF);
+  CHECK(params.theta == doctest::Approx(0.26 * 3.14159265358979).epsilon(1e-12));
+  CHECK(params.blades == 5);
+  CHECK(params.rotation == 0);
+  CHECK(params.curvature == 0);
+  CHECK(params.ring_inner == 0.5);
+  CHECK(params.cats_eye == 0);
   CHECK(params.region.width == 0);
 }
 
@@ -95,17 +123,17 @@ TEST_CASE("starfocus_view_position returns the documented positions for star set
       {-1, 1},   {1, -1},    {-1, -1},    {0.5, 0},    {-0.5, 0},   {0, 0.5},
       {0, -0.5}, {0.5, 0.5}, {-0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}};
   double u = 7, v = 7;
-  CHECK(starfocus_view_position(-1, &u, &v) == 0);
-  CHECK(starfocus_view_position(STARFOCUS_MAX_VIEWS, &u, &v) == 0);
-  CHECK(starfocus_view_position(INT32_MAX, &u, &v) == 0);
-  CHECK(starfocus_view_position(INT32_MIN, &u, &v) == 0);
-  CHECK(starfocus_view_position(0, nullptr, &v) == 0);
-  CHECK(starfocus_view_position(0, &u, nullptr) == 0);
+  CHECK(starfocus_view_position(-1, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_view_position(STARFOCUS_MAX_VIEWS, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_view_position(INT32_MAX, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_view_position(INT32_MIN, &u, &v, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_view_position(0, nullptr, &v, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_view_position(0, &u, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
   CHECK(u == 7);
   CHECK(v == 7);
   for (int i = 0; i < STARFOCUS_MAX_VIEWS; ++i) {
     CAPTURE(i);
-    REQUIRE(starfocus_view_position(i, &u, &v) != 0);
+    REQUIRE(starfocus_view_position(i, &u, &v, nullptr) == STARFOCUS_OK);
     CHECK(u == kExpected[i][0]);
     CHECK(v == kExpected[i][1]);
   }

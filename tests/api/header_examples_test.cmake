@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Usage: cmake -DSOURCE=… -DBUILD=… -DCC=… -P header_examples_test.cmake
 # Compiles the examples in the comments of the public headers as C11, with warnings as errors.
-foreach(header starfocus depth)
+foreach(header starfocus depth matte)
   file(READ ${SOURCE}/lib/include/starfocus/${header}.h text)
   if(NOT text MATCHES "@code\n(.*)@endcode")
     message(FATAL_ERROR "${header}.h: expected an example between @code and @endcode, found none")

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "starfocus/starfocus.hpp"
+
 namespace {
 
 bool no_memory = false;  // true if allocations of workspaces and prepared light fields fail
@@ -27,7 +29,7 @@ constexpr int kSize = 12;
 struct Field {
   std::vector<uint8_t> picture = std::vector<uint8_t>(3 * kSize * kSize, 50);
   std::vector<float> disparity = std::vector<float>(kSize * kSize, 0.5f);
-  starfocus_light_field field = {};
+  starfocus_light_field field = starfocus::NewLightField();
   starfocus::Config config;
   starfocus::Params params;
 
@@ -39,7 +41,7 @@ struct Field {
     config.disparity_max = 1;
     config.features |= STARFOCUS_FEATURE_STREAMING;
     config.previews = 1;
-    params.lens.focus = 3;
+    params.focus = 3;
   }
 
   // Returns true if all ways to refocus succeed and return the picture of the view.
@@ -67,7 +69,8 @@ struct Field {
   }
   bool RefocusesAfter(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
-    const starfocus_previous previous = {field, starfocus_image_rgb(picture.data(), 3 * kSize)};
+    const starfocus_image image = starfocus_image_rgb(picture.data(), 3 * kSize);
+    const starfocus_previous previous = {sizeof previous, &field, &image};
     starfocus::Params after = params;
     after.previous = &previous;
     return engine->Refocus(after, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==

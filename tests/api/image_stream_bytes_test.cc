@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/inside.h"
 #include "tests/support/prepared_memory.h"
@@ -32,7 +34,7 @@ ImageField FieldOf(const test::Scene& scene, int format, bool unknown, test::Ran
   return test::MakeImageField(scene, kinds, std::move(depth), random);
 }
 
-ImageMemory Refocused(test::Engine* engine, const ImageField& field, const starfocus_params& params,
+ImageMemory Refocused(test::Engine* engine, const ImageField& field, const starfocus::Params& params,
                       const ImageKind& kind, starfocus_report* report) {
   ImageMemory image(field.converted.width, field.converted.height, kind);
   const starfocus_light_field images = field.Field();
@@ -45,12 +47,12 @@ TEST_CASE("image streams: rows of R, G, B may be pushed and pulled") {
   test::Random random(42);
   const test::Scene scene = test::LayeredScene(100, 90, 5, 7, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_RGBX, false, &random);
-  starfocus_config config = test::ImageConfig(field, 20);
+  test::Config config = test::ImageConfig(field, 20);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   ImageKind kind;
   kind.format = STARFOCUS_FORMAT_BGRX;
-  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
   test::Output got(100, 90);
   const test::Output expected = test::OutputOf(&engine, params, field.converted);
   ImageMemory image(100, 90, kind), opaque(100, 90, kind);
@@ -79,13 +81,13 @@ TEST_CASE("image streams: alpha is copied to the output even if the rows are pul
   test::Random random(48);
   test::Scene scene = test::LayeredScene(20, 900, 1, 1, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_RGBX, false, &random);
-  starfocus_config config = test::ImageConfig(field, 2);
+  test::Config config = test::ImageConfig(field, 2);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   config.superblock = 256;
   test::Engine engine(config);
   ImageKind kind;
   kind.format = STARFOCUS_FORMAT_RGBX;
-  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
   ImageMemory streamed(20, 900, kind);
   REQUIRE(test::Stream(&engine, field, params, 900, 2, &streamed, nullptr) == STARFOCUS_OK);
@@ -96,11 +98,11 @@ TEST_CASE("image streams: after a cancelled pull, a repeated pull returns the re
   test::Random random(51);
   const ImageField field =
       FieldOf(test::LayeredScene(70, 100, 1, 7, 50), STARFOCUS_FORMAT_RGBX, false, &random);
-  starfocus_config config = test::ImageConfig(field, 20);
+  test::Config config = test::ImageConfig(field, 20);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   config.superblock = 32;
   test::Engine engine(config);
-  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
   const ImageKind kind = test::AnyKind(STARFOCUS_FORMAT_NV12, &random);
   const ImageMemory expected = Refocused(&engine, field, params, kind, nullptr);
   bool ended = false;
@@ -139,7 +141,7 @@ TEST_CASE("image streams: ring buffers hold an even number of rows for every dis
   test::Random random(49);
   const ImageField field =
       FieldOf(test::LayeredScene(20, 20, 1, 1, 50), STARFOCUS_FORMAT_RGB, false, &random);
-  starfocus_config config = test::ImageConfig(field, 2);
+  test::Config config = test::ImageConfig(field, 2);
   for (float most = 3; most < 12; most += 0.5f) {
     config.disparity_max = most;
     const starfocus::Borders borders = test::BordersOf(config);
@@ -154,10 +156,10 @@ TEST_CASE(
   test::Random random(43);
   const test::Scene scene = test::LayeredScene(60, 51, 1, 7, 50);
   ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
-  starfocus_config config = test::ImageConfig(field, 20);
+  test::Config config = test::ImageConfig(field, 20);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
-  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
   starfocus_light_field images = field.Field();
   ImageMemory image(60, 51, test::AnyKind(STARFOCUS_FORMAT_I420, &random));
   starfocus_image out = image.Out();
@@ -195,10 +197,10 @@ TEST_CASE(
     CAPTURE(side);
     const test::Scene scene = test::LayeredScene(150, 271, 1, 7, 60);
     const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
-    starfocus_config config = test::ImageConfig(field, 20);
+    test::Config config = test::ImageConfig(field, 20);
     config.superblock = side;
     test::Engine engine(config);
-    test::PreparedMemory memory(config), other(config);
+    test::PreparedMemory memory(engine.get()), other(engine.get());
     const starfocus_prepared* got = memory.Prepare(engine.get(), field.Field());
     const starfocus_prepared* expected = other.Prepare(engine.get(), field.converted.Field());
     const auto& a = *reinterpret_cast<const starfocus::Prepared*>(got);
@@ -217,12 +219,12 @@ TEST_CASE(
   test::Random random(45);
   const test::Scene scene = test::LayeredScene(60, 50, 5, 7, 50);
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
-  const starfocus_config config = test::ImageConfig(field, 20);
+  const test::Config config = test::ImageConfig(field, 20);
   test::Engine engine(config);
-  test::PreparedMemory memory(config), other(config);
+  test::PreparedMemory memory(engine.get()), other(engine.get());
   const starfocus_prepared* of_images = memory.Prepare(engine.get(), field.Field());
   const starfocus_prepared* of_pictures = other.Prepare(engine.get(), field.converted.Field());
-  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
   test::Output out(60, 50);
   ImageMemory image(60, 50, test::AnyKind(STARFOCUS_FORMAT_NV12, &random));
   const starfocus_image to = image.Out();

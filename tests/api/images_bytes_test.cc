@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/rounds.h"
@@ -34,7 +36,7 @@ ImageField AnyField(const test::Scene& scene, int format, int round, test::Rando
 
 // Checks that images and their conversions to R, G, B are refocused to equal bytes: whole,
 // prepared, as previews and streamed.
-void CheckSame(const ImageField& field, starfocus_config config, const starfocus_params& params,
+void CheckSame(const ImageField& field, test::Config config, const starfocus::Params& params,
                const ImageKind& kind, test::Random* random, starfocus_runner runner = nullptr) {
   config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
@@ -44,7 +46,7 @@ void CheckSame(const ImageField& field, starfocus_config config, const starfocus
   ImageMemory got(width, height, kind);
   const starfocus_light_field images = field.Field();
   const starfocus_image out = got.Out();
-  starfocus_report report = {}, expected_report = {};
+  test::Report report, expected_report;
   const starfocus_callbacks callbacks = test::RunBy(runner);
   REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
   REQUIRE(starfocus_refocus(engine.get(), &params, &images, &out, &report) == STARFOCUS_OK);
@@ -54,7 +56,7 @@ void CheckSame(const ImageField& field, starfocus_config config, const starfocus
   CHECK((got == field.Converted(expected, kind, r.x, r.y)));
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
   CHECK(report.n == expected_report.n);
-  test::PreparedMemory memory(config), other(config);
+  test::PreparedMemory memory(engine.get()), other(engine.get());
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), images);
   ImageMemory again(width, height, kind);
   const starfocus_image to = again.Out();
@@ -93,7 +95,7 @@ TEST_CASE(
     const test::Scene scene =
         test::LayeredScene(size[0], size[1], kAllViews[round % 4], 7, uint64_t(round) + 1);
     const ImageField field = AnyField(scene, round % kFormats, round, &random);
-    starfocus_config config = test::ImageConfig(field);
+    test::Config config = test::ImageConfig(field);
     config.superblock = 32 << random.Int(0, 3);
     config.max_workers = 2;
     config.previews = 2;
@@ -101,8 +103,8 @@ TEST_CASE(
     const starfocus_mode mode = round % 6 == 4   ? STARFOCUS_MODE_FRAME
                                 : round % 6 == 5 ? STARFOCUS_MODE_BLUR
                                                  : STARFOCUS_MODE_BLOCK;
-    starfocus_params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), mode);
-    params.renderer = random.Int(0, 2);
+    starfocus::Params params = test::Params(random.Real(-9, 9), random.Real(0.3, 1), mode);
+    params.study.renderer = random.Int(0, 2);
     const ImageKind kind = test::AnyKind((round * 3 + round / kFormats) % kFormats, &random);
     CheckSame(field, config, params, kind, &random, round % 2 == 0 ? nullptr : test::RunOnTwo);
   }
@@ -115,10 +117,10 @@ TEST_CASE(
   for (int round = 0; round < (test::kSlow ? 1 : 2) * kFormats; ++round) {
     CAPTURE(round);
     const ImageField field = AnyField(scene, round % kFormats, round, &random);
-    starfocus_config config = test::ImageConfig(field);
+    test::Config config = test::ImageConfig(field);
     config.superblock = 32 << random.Int(0, 1);
     config.max_workers = 2;
-    starfocus_params params = test::Params(random.Real(-9, 9), 1, STARFOCUS_MODE_BLOCK);
+    starfocus::Params params = test::Params(random.Real(-9, 9), 1, STARFOCUS_MODE_BLOCK);
     starfocus_region& region = params.region;
     region = {random.Int(0, 60), random.Int(0, 40), 1, 1};
     region.width = random.Int(1, scene.width - region.x);
@@ -135,8 +137,8 @@ TEST_CASE(
     for (const int renderer : {STARFOCUS_RENDERER_SLICES, STARFOCUS_RENDERER_LINE_SCAN}) {
       const test::Scene scene = test::NearScene(173, 122, views, 3);
       const ImageField field = AnyField(scene, STARFOCUS_FORMAT_NV12, 0, &random);
-      starfocus_config config = test::ImageConfig(field, 8);
-      starfocus_params params = test::Params(test::kNearFocus, 0.2, STARFOCUS_MODE_BLOCK, renderer);
+      test::Config config = test::ImageConfig(field, 8);
+      starfocus::Params params = test::Params(test::kNearFocus, 0.2, STARFOCUS_MODE_BLOCK, renderer);
       CheckSame(field, config, params, test::AnyKind(STARFOCUS_FORMAT_I420, &random), &random);
     }
   }
@@ -155,7 +157,7 @@ TEST_CASE("images: highlights of lamps equal the highlights of pictures converte
   }
   for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
     const ImageField field = AnyField(scene, STARFOCUS_FORMAT_NV21, 5, &random);
-    starfocus_config config = test::ImageConfig(field);
+    test::Config config = test::ImageConfig(field);
     config.highlights = 8;
     config.superblock = 32;
     CheckSame(field, config, test::Params(5, 1, mode),
@@ -189,12 +191,12 @@ TEST_CASE("images: depth maps may have any type, meaning and size, and unknown v
     }
     const ImageField field = test::MakeImageField(
         scene, {test::AnyKind(STARFOCUS_FORMAT_NV12, &random)}, depth, &random);
-    starfocus_config config = test::ImageConfig(field);
+    test::Config config = test::ImageConfig(field);
     config.superblock = 32;
-    config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
-    const starfocus_params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
+    config.unknown = STARFOCUS_UNKNOWN_FILL;
+    const starfocus::Params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
     CheckSame(field, config, params, test::AnyKind(STARFOCUS_FORMAT_NV12, &random), &random);
-    config.features &= ~STARFOCUS_FEATURE_FILL_UNKNOWN;
+    config.unknown = STARFOCUS_UNKNOWN_REFUSE;
     test::Engine engine(config);
     ImageMemory out(130, 97, test::AnyKind(STARFOCUS_FORMAT_RGB, &random)), before = out;
     const starfocus_light_field images = field.Field();
@@ -211,7 +213,7 @@ TEST_CASE(
   test::Random random(29);
   const test::Scene scene = test::LayeredScene(70, 60, 1, 7, 4);
   ImageField field = AnyField(scene, STARFOCUS_FORMAT_I420, 4, &random);
-  const starfocus_config config = test::ImageConfig(field);
+  const test::Config config = test::ImageConfig(field);
   starfocus_depth_map& map = field.depth.map;
   field.depth = test::MakeDepth(scene, 30, 20, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0);
   field.depth.Put(29, 19, 1);
@@ -220,7 +222,7 @@ TEST_CASE(
   ImageMemory out(70, 60, test::AnyKind(STARFOCUS_FORMAT_NV12, &random)), before = out;
   const starfocus_light_field images = field.Field();
   const starfocus_image to = out.Out();
-  const starfocus_params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
   CHECK(starfocus_refocus(engine.get(), &params, &images, &to, nullptr) ==
         STARFOCUS_ERROR_DISPARITY);
   const bool untouched = out == before;

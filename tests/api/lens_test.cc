@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
 #include "tests/support/shapes.h"
@@ -20,27 +22,27 @@ namespace {
 constexpr int kWidth = 97, kHeight = 70;
 constexpr test::NamedShape kPlain = {"fall-off", STARFOCUS_SHAPE_FALL_OFF, 5, 0, 0, 0.5F, 0};
 
-starfocus_lens LensOf(const test::NamedShape& shape, double theta = 0.8) {
-  starfocus_lens lens = test::Params(-3.5).lens;
+starfocus::Params LensOf(const test::NamedShape& shape, double theta = 0.8) {
+  starfocus::Params lens = test::Params(-3.5);
   lens.theta = theta;
   shape.Set(&lens);
   return lens;
 }
 
 // Returns lenses with openings of every shape. Some consecutive lenses differ in only one field.
-std::vector<starfocus_lens> Lenses() {
-  std::vector<starfocus_lens> lenses = {LensOf(kPlain)};
+std::vector<starfocus::Params> Lenses() {
+  std::vector<starfocus::Params> lenses = {LensOf(kPlain)};
   for (const test::NamedShape& shape : test::kShapes) lenses.push_back(LensOf(shape));
   lenses.push_back(LensOf(kPlain));
   lenses.push_back(LensOf(kPlain, 1.2));
-  const starfocus_lens polygon =
+  const starfocus::Params polygon =
       LensOf({"hexagon", STARFOCUS_SHAPE_POLYGON, 6, 10, 0.25F, 0.5F, 0});
   lenses.insert(lenses.end(), 8, polygon);
   lenses[lenses.size() - 7].blades = 7;
   lenses[lenses.size() - 5].rotation = 30;
   lenses[lenses.size() - 3].curvature = 0.75;
   lenses[lenses.size() - 1].cats_eye = 0.75;
-  const starfocus_lens ring = LensOf({"ring", STARFOCUS_SHAPE_RING, 5, 0, 0, 0.25F, 0});
+  const starfocus::Params ring = LensOf({"ring", STARFOCUS_SHAPE_RING, 5, 0, 0, 0.25F, 0});
   lenses.insert(lenses.end(), 2, ring);
   lenses.back().ring_inner = 0.75;
   lenses.push_back(LensOf(kPlain));
@@ -49,25 +51,26 @@ std::vector<starfocus_lens> Lenses() {
 
 test::Scene MakeScene() { return test::LayeredScene(kWidth, kHeight, 5, 4, 3); }
 
-starfocus_config Config(const test::Scene& scene) {
-  starfocus_config config = test::ConfigFor(scene, 10);
+test::Config Config(const test::Scene& scene) {
+  test::Config config = test::ConfigFor(scene, 10);
   config.superblock = 32;
   config.features |= STARFOCUS_FEATURE_SHAPES | STARFOCUS_FEATURE_STREAMING;
   return config;
 }
 
-starfocus_params ParamsOf(const starfocus_lens& lens, starfocus_mode mode,
+starfocus::Params ParamsOf(const starfocus::Params& lens, starfocus_mode mode,
                           starfocus_renderer renderer) {
-  starfocus_params params = test::Params(0, 1, mode, renderer);
-  params.lens = lens;
+  starfocus::Params params = lens;
+  params.study.mode = mode;
+  params.study.renderer = renderer;
   return params;
 }
 
 // Refocuses a scene with an engine that has memory for a single aperture shape, and returns the
 // picture.
-std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus_params& params) {
-  starfocus_config config = Config(scene);
-  test::ReserveFor(params.lens, &config);
+std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus::Params& params) {
+  test::Config config = Config(scene);
+  test::ReserveFor(params, &config);
   const test::Output out = test::OutputOf(config, params, scene);
   return out.bytes;
 }
@@ -76,7 +79,7 @@ TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new e
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
   int index = 0;
-  for (const starfocus_lens& lens : Lenses()) {
+  for (const starfocus::Params& lens : Lenses()) {
     CAPTURE(index);
     ++index;
     // In the second iteration, the engine must use the tables that it made for this lens in the
@@ -87,7 +90,7 @@ TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new e
           if (mode == STARFOCUS_MODE_BLUR && renderer == STARFOCUS_RENDERER_LINE_SCAN)
             continue;  // blur mode ignores the renderer
           CAPTURES(round, mode, renderer);
-          const starfocus_params params = ParamsOf(lens, mode, renderer);
+          const starfocus::Params params = ParamsOf(lens, mode, renderer);
           const test::Output out = test::OutputOf(&engine, params, scene);
           CHECK((out.bytes == Expected(scene, params)));
         }
@@ -101,12 +104,12 @@ int CancelAfter(void* left, int32_t, int32_t) { return (*static_cast<int*>(left)
 
 TEST_CASE("lens: a call with another shape does not use the tables of a cancelled call") {
   const test::Scene scene = MakeScene();
-  const starfocus_lens pentagon = LensOf(test::kShapes[1]), plain = LensOf(kPlain);
+  const starfocus::Params pentagon = LensOf(test::kShapes[1]), plain = LensOf(kPlain);
   for (const starfocus_mode mode : test::kModes) {
     CAPTURE(mode);
     test::Engine engine(Config(scene));
-    const auto check = [&](const starfocus_lens& lens) {
-      const starfocus_params params = ParamsOf(lens, mode, STARFOCUS_RENDERER_AUTO);
+    const auto check = [&](const starfocus::Params& lens) {
+      const starfocus::Params params = ParamsOf(lens, mode, STARFOCUS_RENDERER_AUTO);
       const test::Output out = test::OutputOf(&engine, params, scene);
       CHECK((out.bytes == Expected(scene, params)));
     };
@@ -114,7 +117,7 @@ TEST_CASE("lens: a call with another shape does not use the tables of a cancelle
     for (int calls = 0; calls < 6; ++calls) {
       int left = calls;
       test::Output out(kWidth, kHeight);
-      const starfocus_params params = ParamsOf(pentagon, mode, STARFOCUS_RENDERER_AUTO);
+      const starfocus::Params params = ParamsOf(pentagon, mode, STARFOCUS_RENDERER_AUTO);
       const starfocus_status status =
           test::Refocus(&engine, params, scene, &out, test::ToldTo(CancelAfter, &left));
       cancelled += status == STARFOCUS_ERROR_CANCELLED;
@@ -126,22 +129,22 @@ TEST_CASE("lens: a call with another shape does not use the tables of a cancelle
 
 TEST_CASE("lens: engines share a prepared light field, each with different lenses") {
   const test::Scene scene = MakeScene();
-  const starfocus_config config = Config(scene);
+  const test::Config config = Config(scene);
   test::Engine first(config), second(config);
   size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_prepared_size(first.get(), &bytes) == STARFOCUS_OK);
   std::vector<uint8_t> memory(bytes + STARFOCUS_ALIGNMENT);
   uint8_t* const aligned = memory.data() + STARFOCUS_ALIGNMENT -
                            reinterpret_cast<uintptr_t>(memory.data()) % STARFOCUS_ALIGNMENT;
   const starfocus_light_field field = scene.Field();
   starfocus_prepared* prepared = nullptr;
   REQUIRE(starfocus_prepare(first.get(), &field, aligned, bytes, &prepared) == STARFOCUS_OK);
-  const std::vector<starfocus_lens> lenses = Lenses();
+  const std::vector<starfocus::Params> lenses = Lenses();
   for (size_t k = 0; k < lenses.size(); ++k) {
     CAPTURE(k);
     for (const bool ahead : {false, true}) {
-      const starfocus_lens& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
-      const starfocus_params params = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
+      const starfocus::Params& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
+      const starfocus::Params params = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
       test::Output out(kWidth, kHeight);
       REQUIRE(test::RefocusPreparedRgb((ahead ? second : first).get(), &params, prepared,
                                        out.bytes.data(), out.stride, nullptr) == STARFOCUS_OK);
@@ -153,13 +156,13 @@ TEST_CASE("lens: engines share a prepared light field, each with different lense
 TEST_CASE("lens: a stream keeps the lens that was given to begin") {
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
-  for (const starfocus_lens& lens : Lenses()) {
-    const starfocus_params expected = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
-    starfocus_params params = expected;
+  for (const starfocus::Params& lens : Lenses()) {
+    const starfocus::Params expected = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
+    starfocus::Params params = expected;
     REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
-    params.lens = LensOf(test::kShapes[0]);
+    params = LensOf(test::kShapes[0]);
     // A rejected starfocus_stream_begin changes nothing.
-    params.lens.blades = 99;
+    params.blades = 99;
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_RANGE);
     test::Output out(kWidth, kHeight);
     test::StreamSteps steps = {&engine, scene, &out};
@@ -169,30 +172,30 @@ TEST_CASE("lens: a stream keeps the lens that was given to begin") {
 }
 
 TEST_CASE("lens: the missing fields of a shorter starfocus_params get their defaults") {
-  constexpr uint32_t kShort = offsetof(starfocus_params, lens) + offsetof(starfocus_lens, blades);
+  constexpr uint32_t kShort = offsetof(starfocus_params, theta);
   const test::Scene scene = MakeScene();
-  const starfocus_params expected = test::Params(-3.5, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params expected = test::Params(-3.5, 1, STARFOCUS_MODE_BLOCK);
   std::vector<uint8_t> memory(kShort);
   starfocus_params* const params = reinterpret_cast<starfocus_params*>(memory.data());
-  starfocus_params_init_sized(params, kShort);
+  starfocus_defaults("starfocus_params", params, kShort);
   CHECK(params->size == kShort);
-  params->lens.focus = expected.lens.focus;
+  params->focus = expected.focus;
   test::Engine engine(Config(scene));
-  test::Output streamed(kWidth, kHeight);
-  const test::Output out = test::OutputOf(&engine, *params, scene);
+  test::Output out(kWidth, kHeight);
+  const starfocus_light_field field = scene.Field();
+  REQUIRE(test::RefocusRgb(engine.get(), params, &field, out.bytes.data(), out.stride, nullptr) ==
+          STARFOCUS_OK);
   CHECK((out.bytes == Expected(scene, expected)));
-  REQUIRE(test::Stream(&engine, *params, scene, &streamed, kHeight, kHeight) == STARFOCUS_OK);
-  CHECK((streamed.bytes == out.bytes));
 }
 
 TEST_CASE("lens: without STARFOCUS_FEATURE_SHAPES, only polygons and cat's eyes are rejected") {
   const test::Scene scene = MakeScene();
-  starfocus_config config = Config(scene);
+  test::Config config = Config(scene);
   config.features &= ~STARFOCUS_FEATURE_SHAPES;
   test::Engine engine(config);
-  for (const starfocus_lens& lens : Lenses()) {
+  for (const starfocus::Params& lens : Lenses()) {
     const bool refused = lens.shape == STARFOCUS_SHAPE_POLYGON || lens.cats_eye > 0;
-    const starfocus_params params = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
+    const starfocus::Params params = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
     test::Output out(kWidth, kHeight);
     const starfocus_status status = test::Refocus(&engine, params, scene, &out);
     CHECK(status == (refused ? STARFOCUS_ERROR_FEATURE : STARFOCUS_OK));
@@ -205,15 +208,14 @@ TEST_CASE(
     "eyes") {
   for (const int block : {32, 64, 128}) {
     for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
-      starfocus_config config;
-      starfocus_config_init(&config);
+      test::Config config;
       config.width = config.height = 500;
       config.superblock = block;
       config.max_blur = blur;
       size_t without = 0, with = 0;
-      REQUIRE(starfocus_workspace_size(&config, &without) == STARFOCUS_OK);
+      REQUIRE(starfocus_workspace_size(&config, &without, nullptr) == STARFOCUS_OK);
       config.features |= STARFOCUS_FEATURE_SHAPES;
-      REQUIRE(starfocus_workspace_size(&config, &with) == STARFOCUS_OK);
+      REQUIRE(starfocus_workspace_size(&config, &with, nullptr) == STARFOCUS_OK);
       CAPTURES(block, blur);
       CHECK(with > without);
     }

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace photographer_test {
@@ -29,7 +31,7 @@ struct Map {
   double Focus(int x, int y) const {
     double focus = -77;
     const starfocus_depth_map depth = Depth();
-    REQUIRE(starfocus_focus_at(&depth, width, height, x, y, &focus) == STARFOCUS_OK);
+    REQUIRE(starfocus_focus_at(&depth, width, height, x, y, &focus, nullptr) == STARFOCUS_OK);
     return focus;
   }
 
@@ -43,17 +45,17 @@ TEST_CASE("focus at: illegal arguments are rejected") {
   double focus = -77;
   const auto at = [&](const float* d, size_t stride, int w, int h, int x, int y) {
     const starfocus_depth_map depth = starfocus_depth_float(d, stride, w, h);
-    return starfocus_focus_at(&depth, 5, 4, x, y, &focus);
+    return starfocus_focus_at(&depth, 5, 4, x, y, &focus, nullptr);
   };
   const float* const d = map.values.data();
   CHECK(at(nullptr, 28, 5, 4, 0, 0) == STARFOCUS_ERROR_NULL);
   const starfocus_depth_map depth = map.Depth();
-  CHECK(starfocus_focus_at(&depth, 5, 4, 0, 0, nullptr) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_focus_at(nullptr, 5, 4, 0, 0, &focus) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_focus_at(&depth, 5, 4, 0, 0, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_focus_at(nullptr, 5, 4, 0, 0, &focus, nullptr) == STARFOCUS_ERROR_NULL);
   // The map must not be larger than the picture.
-  CHECK(starfocus_focus_at(&depth, 4, 4, 0, 0, &focus) == STARFOCUS_ERROR_RANGE);
-  CHECK(starfocus_focus_at(&depth, 5, 3, 0, 0, &focus) == STARFOCUS_ERROR_RANGE);
-  CHECK(starfocus_focus_at(&depth, STARFOCUS_MAX_SIZE + 1, 4, 0, 0, &focus) ==
+  CHECK(starfocus_focus_at(&depth, 4, 4, 0, 0, &focus, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_focus_at(&depth, 5, 3, 0, 0, &focus, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_focus_at(&depth, STARFOCUS_MAX_SIZE + 1, 4, 0, 0, &focus, nullptr) ==
         STARFOCUS_ERROR_RANGE);
   CHECK(at(d, 28, 0, 4, 0, 0) == STARFOCUS_ERROR_RANGE);
   CHECK(at(d, 28, 5, STARFOCUS_MAX_SIZE + 1, 0, 0) == STARFOCUS_ERROR_RANGE);
@@ -79,7 +81,7 @@ TEST_CASE("focus at: unknown values are ignored, unless all values near the pixe
     for (int y = 6; y <= 12; ++y) std::fill_n(&map.At(9, y), 7, bad);
     const starfocus_depth_map depth = map.Depth();
     double focus = -77;
-    CHECK(starfocus_focus_at(&depth, 30, 20, 12, 9, &focus) == STARFOCUS_ERROR_NOT_FINITE);
+    CHECK(starfocus_focus_at(&depth, 30, 20, 12, 9, &focus, nullptr) == STARFOCUS_ERROR_NOT_FINITE);
     CHECK(focus == -77);
     map.At(9, 12) = 5;
     CHECK(map.Focus(12, 9) == 5);
@@ -102,7 +104,7 @@ TEST_CASE("focus at: distances of 16 bits with unknown values are read") {
     for (int x = 0; x < 18; ++x) {
       // All surfaces consist of one value, so the focus is the smallest disparity, 800 / 400.
       double focus = -77;
-      REQUIRE(starfocus_focus_at(&depth, 18, 5, x, y, &focus) == STARFOCUS_OK);
+      REQUIRE(starfocus_focus_at(&depth, 18, 5, x, y, &focus, nullptr) == STARFOCUS_OK);
       CHECK(focus == 2);
     }
   }
@@ -117,49 +119,46 @@ TEST_CASE("focus at: the focus of a small map is the focus of the value at the p
   for (int y = 0; y < 61; ++y) {
     for (int x = 0; x < 79; ++x) {
       double focus = -77;
-      REQUIRE(starfocus_focus_at(&depth, 79, 61, x, y, &focus) == STARFOCUS_OK);
+      REQUIRE(starfocus_focus_at(&depth, 79, 61, x, y, &focus, nullptr) == STARFOCUS_OK);
       CHECK(focus == small.Focus((2 * x + 1) * 20 / 158, (2 * y + 1) * 15 / 122));
     }
   }
 }
 
 TEST_CASE("largest aperture: the engine accepts it, and no larger aperture") {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   config.width = config.height = 16;
   config.views = 1;
   config.disparity_min = -3;
   config.disparity_max = 10;
   config.max_blur = 7;
   starfocus_engine* engine = nullptr;
-  REQUIRE(starfocus_create(&config, nullptr, &engine) == STARFOCUS_OK);
+  REQUIRE(starfocus_create(&config, nullptr, &engine, nullptr) == STARFOCUS_OK);
   const std::vector<uint8_t> view(16 * 48, 100);
   std::vector<uint8_t> out(view.size());
   const std::vector<float> map(16 * 16, 1);
-  starfocus_light_field field = {};
+  starfocus_light_field field = starfocus::NewLightField();
   field.views[0] = starfocus_image_rgb(view.data(), 48);
   field.depth = starfocus_depth_float(map.data(), 64, 16, 16);
   const starfocus_image picture = starfocus_image_rgb(out.data(), 48);
-  starfocus_params params;
-  starfocus_params_init(&params);
+  starfocus::Params params;
   for (double focus = -20; focus <= 20; focus += 0.37) {
-    params.lens.focus = focus;
-    REQUIRE(starfocus_largest_aperture(engine, &params.lens, &params.lens.aperture) ==
-            STARFOCUS_OK);
+    params.focus = focus;
+    REQUIRE(starfocus_largest_aperture(engine, &params, &params.aperture) == STARFOCUS_OK);
     const double farthest = std::max(10 - focus, focus + 3);
-    CHECK(params.lens.aperture == doctest::Approx(std::min(1.0, 7 / farthest)).epsilon(1e-14));
+    CHECK(params.aperture == doctest::Approx(std::min(1.0, 7 / farthest)).epsilon(1e-14));
     CHECK(starfocus_refocus(engine, &params, &field, &picture, nullptr) == STARFOCUS_OK);
-    if (params.lens.aperture == 1) continue;
-    params.lens.aperture *= 1 + 1e-14;
+    if (params.aperture == 1) continue;
+    params.aperture *= 1 + 1e-14;
     CHECK(starfocus_refocus(engine, &params, &field, &picture, nullptr) == STARFOCUS_ERROR_BLUR);
   }
   double aperture = -77;
-  params.lens.focus = 2 * STARFOCUS_MAX_FOCUS;
-  CHECK(starfocus_largest_aperture(engine, &params.lens, &aperture) == STARFOCUS_ERROR_RANGE);
-  CHECK(std::strcmp(starfocus_engine_problem(engine)->field, "lens.focus") == 0);
+  params.focus = 2 * STARFOCUS_MAX_FOCUS;
+  CHECK(starfocus_largest_aperture(engine, &params, &aperture) == STARFOCUS_ERROR_RANGE);
+  CHECK(std::strcmp(starfocus_engine_problem(engine)->field, "focus") == 0);
   CHECK(starfocus_largest_aperture(engine, nullptr, &aperture) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_largest_aperture(engine, &params.lens, nullptr) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_largest_aperture(nullptr, &params.lens, &aperture) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_largest_aperture(engine, &params, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_largest_aperture(nullptr, &params, &aperture) == STARFOCUS_ERROR_NULL);
   CHECK(aperture == -77);
   starfocus_destroy(engine);
 }
@@ -170,16 +169,15 @@ TEST_CASE("photographer: the largest aperture is right for every max_blur, howev
     for (const double focus : {-STARFOCUS_MAX_FOCUS, -1.0, 0.0, 0.7, 3.0, STARFOCUS_MAX_FOCUS}) {
       CAPTURE(max_blur);
       CAPTURE(focus);
-      starfocus_config config;
-      starfocus_config_init(&config);
+      test::Config config;
       config.width = config.height = 8;
       config.views = 1;
       config.disparity_min = -1.5;
       config.disparity_max = 1.5;
       config.max_blur = max_blur;
       starfocus_engine* engine = nullptr;
-      REQUIRE(starfocus_create(&config, nullptr, &engine) == STARFOCUS_OK);
-      starfocus_lens lens = test::Params(focus).lens;
+      REQUIRE(starfocus_create(&config, nullptr, &engine, nullptr) == STARFOCUS_OK);
+      starfocus::Params lens = test::Params(focus);
       double aperture = -77;
       REQUIRE(starfocus_largest_aperture(engine, &lens, &aperture) == STARFOCUS_OK);
       const double distance = std::max(1.5 - focus, focus + 1.5);
@@ -310,32 +308,6 @@ TEST_CASE("focus at: for random maps, the focus equals the focus computed by the
       }
     }
   }
-}
-
-TEST_CASE("f-stops: the aperture is the f-stop of the widest lens divided by the f-stop") {
-  const auto aperture = [](double f_stop, double widest) {
-    double u = -77;
-    REQUIRE(starfocus_aperture_of_f_stop(f_stop, widest, &u) == STARFOCUS_OK);
-    return u;
-  };
-  CHECK(aperture(1, 1) == 1);
-  CHECK(aperture(4, 1) == 0.25);
-  CHECK(aperture(2.8, 1.4) == 0.5);
-  CHECK(aperture(0.5, 0.5) == 1);
-  CHECK(aperture(1e300, 1e-300) == 0);
-}
-
-TEST_CASE("f-stops: values wider than the widest lens and illegal values are rejected") {
-  double u = -77;
-  const double nan = kNan;
-  const double bad[][2] = {{0.99, 1}, {1.4, 1.8}, {0, 1},     {-2, 1},     {nan, 1},
-                           {kInf, 1}, {2, 0},     {2, -1},    {2, nan},    {2, kInf},
-                           {0, 0},    {-1, -2},   {nan, nan}, {kInf, kInf}};
-  for (const auto& pair : bad) {
-    CHECK(starfocus_aperture_of_f_stop(pair[0], pair[1], &u) == STARFOCUS_ERROR_RANGE);
-  }
-  CHECK(starfocus_aperture_of_f_stop(2, 1, nullptr) == STARFOCUS_ERROR_NULL);
-  CHECK(u == -77);
 }
 
 }  // namespace

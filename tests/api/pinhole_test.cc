@@ -7,6 +7,8 @@
 #include <cstdint>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -25,8 +27,8 @@ test::Scene AnyScene(int width, int height, uint64_t seed) {
   return scene;
 }
 
-starfocus_config AnyConfig(const test::Scene& scene, test::Random* random) {
-  starfocus_config config = test::ConfigFor(scene, 20);
+test::Config AnyConfig(const test::Scene& scene, test::Random* random) {
+  test::Config config = test::ConfigFor(scene, 20);
   config.superblock = 32 << random->Int(0, 3);
   config.tuning.max_layer = random->Int(0, 2);
   config.tuning.deblocking = random->Int(0, 1) * 255;
@@ -42,12 +44,12 @@ TEST_CASE("pinhole: every mode, renderer and way to refocus returns the centre v
   for (const auto& size : kSizes) {
     for (const starfocus_mode mode : test::kModes) {
       const test::Scene scene = AnyScene(size[0], size[1], ++seed);
-      const starfocus_config config = AnyConfig(scene, &random);
-      starfocus_params params = test::Params(random.Real(-9, 9), 0, mode);
-      params.renderer = random.Int(0, 2);
-      params.lens.theta = random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
+      const test::Config config = AnyConfig(scene, &random);
+      starfocus::Params params = test::Params(random.Real(-9, 9), 0, mode);
+      params.study.renderer = random.Int(0, 2);
+      params.theta = random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
       // At aperture 0, any focus is legal.
-      if (seed % 4 == 0) params.lens.focus = -STARFOCUS_MAX_FOCUS;
+      if (seed % 4 == 0) params.focus = -STARFOCUS_MAX_FOCUS;
       CAPTURE(seed);
       const test::Output whole = test::CheckWays(scene, config, params);
       for (int y = 0; y < scene.height; ++y) {
@@ -61,8 +63,8 @@ TEST_CASE("pinhole: every mode, renderer and way to refocus returns the centre v
 TEST_CASE("pinhole: the report counts one copied view, and bad maps are rejected") {
   test::Scene scene = test::LayeredScene(130, 67, 9, 7, 4);
   for (const starfocus_mode mode : test::kModes) {
-    starfocus_report report = {};
-    const starfocus_params params =
+    test::Report report;
+    const starfocus::Params params =
         test::Params(-STARFOCUS_MAX_FOCUS, 0, mode, STARFOCUS_RENDERER_LINE_SCAN);
     const test::Output out = test::OutputOf(test::ConfigFor(scene, 20), params, scene, &report);
     CHECK(report.r_max == 0);

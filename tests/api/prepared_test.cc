@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
@@ -21,9 +23,9 @@ namespace {
 TEST_CASE(
     "prepared: an engine may use a light field prepared by another engine, and stream in between") {
   const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
-  starfocus_config config = test::ConfigFor(scene, 20);
+  test::Config config = test::ConfigFor(scene, 20);
   test::Engine maker(config);
-  test::PreparedMemory memory(config);
+  test::PreparedMemory memory(maker.get());
   const starfocus_prepared* prepared = memory.Prepare(maker.get(), scene.Field());
   config.max_workers = 3;
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -32,7 +34,7 @@ TEST_CASE(
   test::Engine user(config);
   const auto params = [](double focus) { return test::Params(focus, 1, STARFOCUS_MODE_BLOCK); };
   const auto check = [&](double focus) {
-    const starfocus_params asked = params(focus);
+    const starfocus::Params asked = params(focus);
     test::Output got(140, 100);
     REQUIRE(test::RefocusPreparedRgb(user.get(), &asked, prepared, got.bytes.data(), got.stride,
                                      nullptr) == STARFOCUS_OK);
@@ -49,11 +51,11 @@ TEST_CASE(
 TEST_CASE("prepared: refocusing does not read the map again, and previews read no plane again") {
   test::Scene scene = test::LayeredScene(90, 70, 5, 7, 13);
   scene.coverage.assign(size_t{90} * 70, 255);
-  starfocus_config config = test::ConfigFor(scene, 20);
+  test::Config config = test::ConfigFor(scene, 20);
   config.previews = 1;
   test::Engine engine(config);
-  test::PreparedMemory memory(config);
-  const starfocus_params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
+  test::PreparedMemory memory(engine.get());
+  const starfocus::Params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
   const test::Output expected = test::OutputOf(&engine, params, scene);
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   const auto preview = [&] {
@@ -75,43 +77,41 @@ TEST_CASE("prepared: refocusing does not read the map again, and previews read n
 
 TEST_CASE("prepared: the memory has the documented size") {
   const test::Scene scene = test::LayeredScene(1000, 800, 5, 7, 11);
-  starfocus_config config = test::ConfigFor(scene, 20);
+  test::Config config = test::ConfigFor(scene, 20);
   const double pixels = 1000.0 * 800;
-  CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
+  CHECK(double(test::PreparedMemory(test::Engine(config).get()).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
   config.tuning.max_layer = 0;
-  CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
+  CHECK(double(test::PreparedMemory(test::Engine(config).get()).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
 }
 
-TEST_CASE("prepared: the size query rejects bad configurations") {
-  starfocus_config config = test::ConfigFor(test::LayeredScene(50, 40, 5, 3, 12), 8);
+TEST_CASE("prepared: the size query rejects null pointers") {
+  test::Engine engine(test::ConfigFor(test::LayeredScene(50, 40, 5, 3, 12), 8));
   size_t bytes = 4711;
   CHECK(starfocus_prepared_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_prepared_size(&config, nullptr) == STARFOCUS_ERROR_NULL);
-  config.views = 3;
-  CHECK(starfocus_prepared_size(&config, &bytes) == STARFOCUS_ERROR_RANGE);
+  CHECK(starfocus_prepared_size(engine.get(), nullptr) == STARFOCUS_ERROR_NULL);
   CHECK(bytes == 4711);
 }
 
 TEST_CASE("prepared: engines of another configuration reject a prepared light field") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  const starfocus_config config = test::ConfigFor(scene, 8);
+  const test::Config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
-  test::PreparedMemory memory(config);
+  test::PreparedMemory memory(engine.get());
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   test::Output out(50, 40);
-  const starfocus_params params = test::Params(1);
-  void (*const kOthers[])(starfocus_config*) = {
-      [](starfocus_config* c) { c->width = 49; },
-      [](starfocus_config* c) { c->height = 39; },
-      [](starfocus_config* c) { c->views = 1; },
-      [](starfocus_config* c) { c->disparity_min = -4; },
-      [](starfocus_config* c) { c->disparity_max = 4; },
-      [](starfocus_config* c) { c->tuning.max_layer = 1; },
-      [](starfocus_config* c) {
+  const starfocus::Params params = test::Params(1);
+  void (*const kOthers[])(test::Config*) = {
+      [](test::Config* c) { c->width = 49; },
+      [](test::Config* c) { c->height = 39; },
+      [](test::Config* c) { c->views = 1; },
+      [](test::Config* c) { c->disparity_min = -4; },
+      [](test::Config* c) { c->disparity_max = 4; },
+      [](test::Config* c) { c->tuning.max_layer = 1; },
+      [](test::Config* c) {
         for (int k = 1; k < c->views; ++k) c->positions[k] = {0.25 * k / c->views, 0};
       }};
   for (const auto other : kOthers) {
-    starfocus_config changed = config;
+    test::Config changed = config;
     other(&changed);
     test::Engine another(changed);
     CHECK(test::RefocusPreparedRgb(another.get(), &params, prepared, out.bytes.data(), out.stride,
@@ -122,9 +122,9 @@ TEST_CASE("prepared: engines of another configuration reject a prepared light fi
 
 TEST_CASE("prepared: a bad map is rejected before anything is written") {
   test::Scene scene = test::LayeredScene(50, 90, 5, 3, 12);
-  const starfocus_config config = test::ConfigFor(scene, 8);
+  const test::Config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
-  test::PreparedMemory memory(config);
+  test::PreparedMemory memory(engine.get());
   const std::vector<uint8_t> before(memory.get(), memory.get() + memory.bytes);
   for (const int row : {0, 40, 89}) {
     CAPTURE(row);

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "lib/base/transfer.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
@@ -74,8 +76,8 @@ test::Scene Reduced(const test::Scene& scene, int shift, int32_t transfer) {
   return reduced;
 }
 
-starfocus_config ReducedConfig(const starfocus_config& config, int shift, int32_t superblock) {
-  starfocus_config reduced = config;
+test::Config ReducedConfig(const test::Config& config, int shift, int32_t superblock) {
+  test::Config reduced = config;
   const float side = float(1 << shift);
   reduced.width = Ceil(config.width, shift);
   reduced.height = Ceil(config.height, shift);
@@ -100,15 +102,15 @@ starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
 // An engine, and a light field that the engine has prepared.
 class Prepared {
  public:
-  Prepared(const test::Scene& scene, const starfocus_config& config,
+  Prepared(const test::Scene& scene, const test::Config& config,
            starfocus_runner runner = nullptr)
-      : engine(config), memory(config), scene_(scene) {
+      : engine(config), memory(engine.get()), scene_(scene) {
     const starfocus_callbacks callbacks = test::RunBy(runner);
     REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
     field_ = memory.Prepare(engine.get(), scene.Field());
   }
 
-  starfocus_status Preview(const starfocus_params& params, int shift, test::Output* out,
+  starfocus_status Preview(const starfocus::Params& params, int shift, test::Output* out,
                            const starfocus_callbacks& callbacks = {},
                            starfocus_report* report = nullptr) {
     const starfocus_status status = starfocus_set_callbacks(engine.get(), &callbacks);
@@ -117,7 +119,7 @@ class Prepared {
                             report);
   }
   // Returns the preview of the whole picture or of params.region.
-  test::Output Preview(const starfocus_params& params, int shift,
+  test::Output Preview(const starfocus::Params& params, int shift,
                        const starfocus_callbacks& callbacks = {},
                        starfocus_report* report = nullptr) {
     const starfocus_region region = ReducedRegion(params.region, shift);
@@ -155,14 +157,14 @@ double Psnr(const test::Output& got, const test::Output& full, int shift, int32_
 }
 
 // Returns true if a preview has the same bytes as the refocused light field `reduced`.
-bool IsOfReduced(Prepared* prepared, starfocus_params params, int shift,
-                 const starfocus_config& config, const test::Scene& reduced) {
-  starfocus_report report = {};
+bool IsOfReduced(Prepared* prepared, starfocus::Params params, int shift,
+                 const test::Config& config, const test::Scene& reduced) {
+  starfocus_report report = starfocus::NewReport();
   const test::Output got = prepared->Preview(params, shift, test::RunBy(test::RunOnTwo), &report);
   test::Engine small(ReducedConfig(config, shift, report.superblock));
-  params.lens.focus /= 1 << shift;
-  params.lens.focus_nearer /= 1 << shift;
-  params.lens.focus_farther /= 1 << shift;
+  params.focus /= 1 << shift;
+  params.focus_nearer /= 1 << shift;
+  params.focus_farther /= 1 << shift;
   params.region = ReducedRegion(params.region, shift);
   test::Output expected(got.width, got.height, 3);
   REQUIRE(test::Refocus(&small, params, reduced, &expected) == STARFOCUS_OK);
@@ -177,7 +179,7 @@ TEST_CASE("preview: a preview equals the picture of a light field that is reduce
   for (const auto& size : kSizes) {
     const test::Scene scene =
         test::LayeredScene(size[0], size[1], test::kStars[round % 4], 7, uint64_t(round) + 90);
-    starfocus_config config = test::ConfigFor(scene, 20);
+    test::Config config = test::ConfigFor(scene, 20);
     config.superblock = 32 << random.Int(0, 2);
     config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
     config.transfer = round % 3 == 0 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
@@ -193,15 +195,15 @@ TEST_CASE("preview: a preview equals the picture of a light field that is reduce
       CAPTURE(shift);
       const test::Scene reduced = Reduced(scene, shift, config.transfer);
       for (int lens = 0; lens < test::Rounds(4); ++lens) {
-        starfocus_params params =
+        starfocus::Params params =
             test::Params(random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
-        params.renderer = random.Int(0, 2);
-        if (test::Has(config.features, STARFOCUS_FEATURE_SHAPES)) params.lens.cats_eye = 0.5;
+        params.study.renderer = random.Int(0, 2);
+        if (test::Has(config.features, STARFOCUS_FEATURE_SHAPES)) params.cats_eye = 0.5;
         if (lens == 2)
-          params.mode = random.Int(0, 1) == 0 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
+          params.study.mode = random.Int(0, 1) == 0 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
         if (lens % 2 == 1) {
-          params.lens.focus_nearer = 3;
-          params.lens.focus_farther = 1.5;
+          params.focus_nearer = 3;
+          params.focus_farther = 1.5;
         }
         if (lens == 3) {
           params.region = {random.Int(0, size[0] - 1), random.Int(0, size[1] - 1), 1, 1};
@@ -225,7 +227,7 @@ TEST_CASE("preview: a streaming engine accepts scenes whose disparities all have
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) scene.Disparity(x, y) += offset;
     }
-    starfocus_config config = test::ConfigFor(scene, 8);
+    test::Config config = test::ConfigFor(scene, 8);
     config.superblock = 32;
     config.features |= STARFOCUS_FEATURE_STREAMING;
     config.max_workers = 2;
@@ -234,7 +236,7 @@ TEST_CASE("preview: a streaming engine accepts scenes whose disparities all have
     for (int shift = 1; shift <= 3; ++shift) {
       CAPTURE(shift);
       const test::Scene reduced = Reduced(scene, shift, config.transfer);
-      const starfocus_params params = test::Params(offset + 1, 1, STARFOCUS_MODE_BLOCK);
+      const starfocus::Params params = test::Params(offset + 1, 1, STARFOCUS_MODE_BLOCK);
       CHECK(IsOfReduced(&prepared, params, shift, config, reduced));
     }
   }
@@ -242,15 +244,15 @@ TEST_CASE("preview: a streaming engine accepts scenes whose disparities all have
 
 TEST_CASE("preview: previews neither change the engine nor need a larger workspace") {
   const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
-  starfocus_config config = test::ConfigFor(scene, 20);
+  test::Config config = test::ConfigFor(scene, 20);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   size_t without = 0, with = 0;
-  REQUIRE(starfocus_workspace_size(&config, &without) == STARFOCUS_OK);
+  REQUIRE(starfocus_workspace_size(&config, &without, nullptr) == STARFOCUS_OK);
   config.previews = 3;
-  REQUIRE(starfocus_workspace_size(&config, &with) == STARFOCUS_OK);
+  REQUIRE(starfocus_workspace_size(&config, &with, nullptr) == STARFOCUS_OK);
   CHECK(with == without);
   Prepared prepared(scene, config);
-  const starfocus_params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
   test::Output streamed(170, 130);
   const test::Output before = test::OutputOf(&prepared.engine, params, scene);
   const test::Output first = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
@@ -269,11 +271,11 @@ TEST_CASE("preview: previews neither change the engine nor need a larger workspa
 
 TEST_CASE("preview: the memory has the documented size") {
   const test::Scene scene = test::LayeredScene(800, 640, 5, 7, 11);
-  starfocus_config config = test::ConfigFor(scene, 20);
+  test::Config config = test::ConfigFor(scene, 20);
   constexpr double kExpected[] = {3.89, 8.40, 9.52, 9.81};
   for (int previews = 0; previews <= 3; ++previews) {
     config.previews = previews;
-    const size_t bytes = test::PreparedMemory(config).bytes;
+    const size_t bytes = test::PreparedMemory(test::Engine(config).get()).bytes;
     CHECK(double(bytes) / (800.0 * 640) == doctest::Approx(kExpected[previews]).epsilon(0.01));
   }
 }
@@ -283,7 +285,7 @@ test::Scene SmoothScene(int width, int height) {
   test::Scene scene = test::EmptyScene(width, height, 5, -12, 12);
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;
-    starfocus_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v, nullptr);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         const double nx = x + 9 * u - 0.5 * width, ny = y + 9 * v - 0.5 * height;
@@ -302,14 +304,14 @@ test::Scene SmoothScene(int width, int height) {
 
 TEST_CASE("preview: the preview is close to the full picture, reduced to the size of the preview") {
   const test::Scene scene = SmoothScene(512, 384);
-  starfocus_config config = test::ConfigFor(scene, 24);
+  test::Config config = test::ConfigFor(scene, 24);
   config.previews = 3;
   Prepared prepared(scene, config);
   // The PSNR of the smallest preview is low, since waves of 9 pixels hardly survive at 1/8 of the
   // size.
   constexpr double kLeast[] = {0, 53.5, 51.5, 43};
   for (const double focus : {9.0, 0.0, -9.0}) {
-    const starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
+    const starfocus::Params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
     const test::Output full = test::OutputOf(&prepared.engine, params, scene);
     for (int shift = 1; shift <= 3; ++shift) {
       CAPTURES(focus, shift);
@@ -320,13 +322,13 @@ TEST_CASE("preview: the preview is close to the full picture, reduced to the siz
 
 TEST_CASE("preview: the light field must be prepared for previews by an engine of the same size") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
-  starfocus_config config = test::ConfigFor(scene, 8);
+  test::Config config = test::ConfigFor(scene, 8);
   Prepared none(scene, config);
   config.previews = 2;
   Prepared prepared(scene, config);
   config.width = 49;
   test::Engine another(config);
-  const starfocus_params params = test::Params(1);
+  const starfocus::Params params = test::Params(1);
   test::Output out(25, 20);
   CHECK(none.Preview(params, 1, &out) == STARFOCUS_ERROR_PREPARED);
   const auto run = [&](const test::Engine& engine) {

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string>
 
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/prepared_memory.h"
 
@@ -46,8 +48,8 @@ struct Fixture {
         scene, {kinds, kinds + 3},
         test::MakeDepth(scene, 10, 9, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0), &random);
   }
-  starfocus_config MakeConfig(uint32_t features) const {
-    starfocus_config made = images ? test::ImageConfig(image) : test::ConfigFor(scene, 8);
+  test::Config MakeConfig(uint32_t features) const {
+    test::Config made = images ? test::ImageConfig(image) : test::ConfigFor(scene, 8);
     made.features = (made.features & ~STARFOCUS_FEATURE_IMAGES) | features;
     made.previews = 2;
     return made;
@@ -59,9 +61,9 @@ struct Fixture {
                              : test::RandomScene(width, kHeight, 17, -2, 2, 1);
   test::ImageField image = MakeImages();
   starfocus_light_field field = images ? image.Field() : scene.Field();
-  starfocus_config config = MakeConfig(STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES);
+  test::Config config = MakeConfig(STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES);
   test::Engine engine{config}, plain{MakeConfig(STARFOCUS_FEATURE_STREAMING)};
-  test::PreparedMemory memory{config}, free{config};
+  test::PreparedMemory memory{engine.get()}, free{engine.get()};
   starfocus_prepared* prepared = memory.Prepare(engine.get(), field);
   test::ImageMemory blank{width, kHeight, image.views[images ? 2 : 0].kind()};
 };
@@ -69,7 +71,7 @@ struct Fixture {
 // A call of one of the functions; the constructor makes all arguments legal.
 struct Call {
   Call(Fixture* of, unsigned to) : f(*of), function(to) {
-    std::memset(&report, test::kPoison, sizeof report);
+    Poison(&report);
     if (function == kAfter) params.previous = &before;
     if (function == kPreview) params.preview_shift = 1;
     for (test::Engine* one : {&f.engine, &f.plain}) {
@@ -98,21 +100,29 @@ struct Call {
         return starfocus_stream_pull(engine, out_at, rows, count_at, &report);
     }
   }
+  static void Poison(starfocus_report* report) {
+    std::memset(report, test::kPoison, sizeof *report);
+    report->size = sizeof *report;
+    report->layers = nullptr;
+  }
   // Returns true if no output was written.
   bool Untouched() const {
     starfocus_report poison;
-    std::memset(&poison, test::kPoison, sizeof poison);
+    Poison(&poison);
+    poison.size = report.size;  // tests may spoil the size
     return picture == f.blank && std::memcmp(&report, &poison, sizeof report) == 0;
   }
 
   Fixture& f;
   unsigned function;
   starfocus_engine* engine = f.engine.get();
-  starfocus_params params = test::Params(0.5);
+  starfocus::Params params = test::Params(0.5);
   starfocus_light_field field = f.field;
   test::ImageMemory picture = f.blank, picture_before = f.blank;
   starfocus_image out = picture.Out();
-  starfocus_previous before = {field, picture_before.Out()};
+  starfocus_light_field field_before = field;
+  starfocus_image out_before = picture_before.Out();
+  starfocus_previous before = {sizeof before, &field_before, &out_before};
   starfocus_report report;
   uint8_t* memory = f.free.get();
   size_t bytes = f.free.bytes;

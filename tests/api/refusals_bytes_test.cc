@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/api/illegal_values.h"
 #include "tests/api/refusals.h"
 
@@ -22,7 +23,7 @@ struct Row {
   void (*spoil)(Call*);
 };
 
-constexpr starfocus_status kNull = STARFOCUS_ERROR_NULL, kRange = STARFOCUS_ERROR_RANGE,
+constexpr starfocus_status kNull = STARFOCUS_ERROR_NULL, kStructure = STARFOCUS_ERROR_STRUCTURE, kRange = STARFOCUS_ERROR_RANGE,
                            kStride = STARFOCUS_ERROR_STRIDE, kOverlap = STARFOCUS_ERROR_OVERLAP,
                            kFeature = STARFOCUS_ERROR_FEATURE, kOk = STARFOCUS_OK,
                            kWorkspace = STARFOCUS_ERROR_WORKSPACE,
@@ -71,32 +72,39 @@ const Row kPictures[] = {
     {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, c->f.scene.disparity.data()); }},
     {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, &c->f.scene.disparity.back()); }},
 
-    {kAfter, "previous.out.planes", kNull, [](Call* c) { c->before.out.planes[0] = nullptr; }},
-    {kAfter, "previous.out.strides", kStride, [](Call* c) { c->before.out.strides[0] = 59; }},
+    {kAfter, "previous.size", kStructure, [](Call* c) { c->before.size = 8; }},
+    {kAfter, "previous.light_field", kNull, [](Call* c) { c->before.light_field = nullptr; }},
+    {kAfter, "previous.out", kNull, [](Call* c) { c->before.out = nullptr; }},
+    {kAfter, "previous.light_field.size", kStructure, [](Call* c) { c->field_before.size = 0; }},
+    {kTakesField, "light_field.size", kStructure, [](Call* c) { c->field.size -= 8; }},
+    {kRefocus | kAfter | kPrepared | kPreview | kPull, "report.size", kStructure,
+     [](Call* c) { c->report.size = 0; }},
+    {kAfter, "previous.out.planes", kNull, [](Call* c) { c->out_before.planes[0] = nullptr; }},
+    {kAfter, "previous.out.strides", kStride, [](Call* c) { c->out_before.strides[0] = 59; }},
     {kAfter, "previous.light_field.views[].planes", kNull,
-     [](Call* c) { c->before.light_field.views[4].planes[0] = nullptr; }},
+     [](Call* c) { c->field_before.views[4].planes[0] = nullptr; }},
     {kAfter, "previous.light_field.depth.stride", kStride,
-     [](Call* c) { c->before.light_field.depth.stride = 4; }},
+     [](Call* c) { c->field_before.depth.stride = 4; }},
     {kAfter, "out", kOverlap, [](Call* c) { PutOut(c, c->picture_before.Colour(1, 0, 0)); }},
     {kAfter, "out", kOverlap,
      [](Call* c) {
-       c->before.light_field = c->f.image.converted.Field();
+       c->field_before = c->f.image.converted.Field();
        PutOut(c, c->f.image.converted.pictures[2].data());
      }},
-    {kAfter, "previous.out.format", kRange, [](Call* c) { c->before.out.format = 99; }},
+    {kAfter, "previous.out.format", kRange, [](Call* c) { c->out_before.format = 99; }},
     {kAfter, "out.format", kFeature, [](Call* c) { c->out.format = STARFOCUS_FORMAT_BGR; }},
-    {kAfter, "previous.out.pixel_stride", kRange, [](Call* c) { c->before.out.pixel_stride = 2; }},
+    {kAfter, "previous.out.pixel_stride", kRange, [](Call* c) { c->out_before.pixel_stride = 2; }},
     {kAfter, "previous.light_field.coverage_stride", kStride,
      [](Call* c) {
-       c->before.light_field.coverage = c->f.scene.pictures[0].data();
-       c->before.light_field.coverage_stride = 19;
+       c->field_before.coverage = c->f.scene.pictures[0].data();
+       c->field_before.coverage_stride = 19;
      }},
     {kAfter, "previous.out.format", kFeature,
-     [](Call* c) { c->before.out.format = STARFOCUS_FORMAT_BGR; }},
+     [](Call* c) { c->out_before.format = STARFOCUS_FORMAT_BGR; }},
     {kAfter, "previous.light_field.views[].format", kFeature,
-     [](Call* c) { c->before.light_field.views[2].format = STARFOCUS_FORMAT_BGR; }},
+     [](Call* c) { c->field_before.views[2].format = STARFOCUS_FORMAT_BGR; }},
     {kAfter, "previous.light_field.depth", kFeature,
-     [](Call* c) { c->before.light_field.depth.scale = 2; }},
+     [](Call* c) { c->field_before.depth.scale = 2; }},
     {kPrepared | kPreview | kBegin, "previous", kRange,
      [](Call* c) { c->params.previous = &c->before; }},
     {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = -1; }},
@@ -238,7 +246,7 @@ TEST_CASE("calls: null pointers and illegal pictures, memory, row counts and shi
 
 TEST_CASE("calls: illegal parameters, light fields and regions are rejected") {
   Fixture f(false);
-  for (const Bad<starfocus_params>& bad : kBadParams) {
+  for (const Bad<starfocus::Params>& bad : kBadParams) {
     const unsigned previews = std::string(bad.field) == "preview_shift" ? kPrepared | kPreview : 0;
     Check(
         &f, kTakesParams & ~previews, [&](Call* c) { bad.spoil(&c->params); }, bad.status,

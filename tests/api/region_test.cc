@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -31,10 +33,10 @@ TEST_CASE("region: boundaries outside the region are deblocked if they affect pi
     test::Scene scene = test::LayeredScene(160, 160, 5, 12, 5);
     test::SetDisparity(&scene,
                        [&](int x, int y) { return (x / side + y / side) % 2 == 0 ? 0.0f : 11.0f; });
-    starfocus_config config = test::ConfigFor(scene, 13);
+    test::Config config = test::ConfigFor(scene, 13);
     config.superblock = side;
     config.tuning.deblocking = 255;
-    starfocus_params params =
+    starfocus::Params params =
         test::Params(-1, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
     test::CheckWays(scene, config, params, true);
   }
@@ -42,17 +44,18 @@ TEST_CASE("region: boundaries outside the region are deblocked if they affect pi
 
 TEST_CASE("region: only the region and its surroundings are rendered") {
   const test::Scene scene = test::LayeredScene(640, 640, 5, 4, 9);
-  starfocus_config config = test::ConfigFor(scene, 8);
+  test::Config config = test::ConfigFor(scene, 8);
   config.superblock = 32;
   test::Engine engine(config);
   for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
-    starfocus_params params = test::Params(1, 1, mode);
+    starfocus::Params params = test::Params(1, 1, mode);
     test::Output out(20, 20);
-    starfocus_report report = {}, part = {};
+    test::Report report, part;
     const test::Output whole = test::OutputOf(&engine, params, scene, &report);
     int told = 0;
-    const starfocus_callbacks counts = test::VisitedBy(
+    const starfocus_observer observer = test::Visitor(
         [](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &told);
+    const starfocus_callbacks counts = test::ObservedBy(&observer);
     params.region = {326, 326, 20, 20};  // inside one superblock
     REQUIRE(test::Refocus(&engine, params, scene, &out, counts, &part) == STARFOCUS_OK);
     CHECK(test::BlocksOf(part) == uint64_t(told));
@@ -68,11 +71,11 @@ TEST_CASE(
     "region: only disparities within the reach of the region are checked, before pixels are "
     "written") {
   test::Scene scene = test::LayeredScene(40, 600, 1, 4, 3);
-  starfocus_config config = test::ConfigFor(scene, 4);
+  test::Config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
   test::Engine engine(config);
   REQUIRE(engine.status() == STARFOCUS_OK);
-  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+  starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.region = {0, 290, 40, 20};
   test::Output out(40, 20);
   for (const int far : {0, 120, 480, 599}) {
@@ -92,7 +95,7 @@ TEST_CASE(
 TEST_CASE("region: each row with a bad disparity is either rejected before output or never read") {
   constexpr int kHeight = 240;
   test::Scene scene = test::LayeredScene(40, kHeight, 5, 3, 4);
-  starfocus_config config = test::ConfigFor(scene, 4);
+  test::Config config = test::ConfigFor(scene, 4);
   config.superblock = 32;
   // The search for coverage would read rows that are farther away from the region.
   config.features &= ~STARFOCUS_FEATURE_COVERAGE;
@@ -103,7 +106,7 @@ TEST_CASE("region: each row with a bad disparity is either rejected before outpu
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
     for (const starfocus_region& region : kRegions) {
       CAPTURES(mode, Text(region));
-      starfocus_params params = test::Params(0, 1, mode);
+      starfocus::Params params = test::Params(0, 1, mode);
       params.region = region;
       const test::Output blank(region.width > 0 ? region.width : 40,
                                region.width > 0 ? region.height : kHeight);

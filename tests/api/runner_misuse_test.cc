@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace runner_misuse_test {
@@ -78,8 +80,8 @@ struct Runner {
 
 struct Fixture {
   test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 6, 4);
-  starfocus_config config = test::ConfigFor(scene, 20);
-  starfocus_params params = test::Params(-9, 1, STARFOCUS_MODE_BLOCK);
+  test::Config config = test::ConfigFor(scene, 20);
+  starfocus::Params params = test::Params(-9, 1, STARFOCUS_MODE_BLOCK);
   test::Output expected{kWidth, kHeight};
 
   Fixture() {
@@ -131,7 +133,10 @@ TEST_CASE("runner: a job for a worker that is busy is rejected with STARFOCUS_ER
   test::Output out(kWidth, kHeight);
   running.nested = false;
   starfocus_callbacks callbacks = {};
-  callbacks.clock = []() -> uint64_t {
+  starfocus_observer observer;
+  starfocus_observer_init(&observer);
+  callbacks.observer = &observer;
+  observer.clock = [](void*) -> uint64_t {
     // The nested call simulates another thread that uses worker 0 at the same time.
     if (!running.nested) running.job(running.data, 2, 0);
     running.nested = true;

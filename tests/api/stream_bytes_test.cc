@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/ways.h"
@@ -14,8 +16,8 @@
 namespace stream_bytes_test {
 namespace {
 
-void CheckSame(const test::Scene& scene, const starfocus_params& params, int block) {
-  starfocus_config config = test::ConfigFor(scene);
+void CheckSame(const test::Scene& scene, const starfocus::Params& params, int block) {
+  test::Config config = test::ConfigFor(scene);
   config.superblock = block;
   test::CheckStreamed(scene, config, params);
 }
@@ -62,7 +64,7 @@ TEST_CASE("stream: the strides of the input pictures do not affect the result") 
       }
     }
   }
-  starfocus_config config = test::ConfigFor(tight);
+  test::Config config = test::ConfigFor(tight);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   test::Output b(50, 70, 1), c(50, 70, 40);
@@ -78,21 +80,21 @@ TEST_CASE("stream: the strides of the input pictures do not affect the result") 
 TEST_CASE("stream: a picture of 20,000 rows fits the workspace of a picture of 200 rows") {
   constexpr int kWidth = 24, kTall = 20000;
   const test::Scene scene = test::RandomScene(kWidth, kTall, 17, -2, 2, 77);
-  starfocus_config config = test::ConfigFor(scene);
+  test::Config config = test::ConfigFor(scene);
   size_t tall_bytes = 0, low_bytes = 0;
   for (int streaming : {0, 1}) {
     test::SetFeature(STARFOCUS_FEATURE_STREAMING, streaming, &config.features);
     config.height = kTall;
-    REQUIRE(starfocus_workspace_size(&config, &tall_bytes) == STARFOCUS_OK);
+    REQUIRE(starfocus_workspace_size(&config, &tall_bytes, nullptr) == STARFOCUS_OK);
     config.height = 200;
-    REQUIRE(starfocus_workspace_size(&config, &low_bytes) == STARFOCUS_OK);
+    REQUIRE(starfocus_workspace_size(&config, &low_bytes, nullptr) == STARFOCUS_OK);
     CHECK(tall_bytes == low_bytes);
   }
   // The ring buffers hold fewer than 20,000 rows, so a single push must not consume all rows.
   config.height = kTall;
   test::Engine engine(config);
   REQUIRE(engine.bytes() == low_bytes);
-  const starfocus_params params = test::Params(0.5);
+  const starfocus::Params params = test::Params(0.5);
   REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
   const starfocus_light_field field = scene.Field();
   int32_t consumed = 0;
@@ -112,12 +114,12 @@ TEST_CASE("stream: ring buffers hold all rows that layers need, up to the larges
   for (int radius = 1; radius <= 16; ++radius) {
     test::Scene scene = test::RandomScene(48, 200, 1, 0, float(radius), 70 + uint64_t(radius));
     for (float& disparity : scene.disparity) disparity = float(radius);
-    starfocus_config config = test::ConfigFor(scene, radius);
+    test::Config config = test::ConfigFor(scene, radius);
     config.superblock = 32;
-    starfocus_params params =
+    starfocus::Params params =
         test::Params(0, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
     test::Output streamed(48, 200);
-    starfocus_report report = {};
+    test::Report report;
     const test::Output whole = test::OutputOf(config, params, scene, &report);
     CHECK(report.layers[radius < 3 ? 0 : radius < 6 ? 1 : 2].pixels == 48 * 200);
     config.features |= STARFOCUS_FEATURE_STREAMING;

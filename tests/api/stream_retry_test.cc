@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
 
@@ -32,14 +34,14 @@ struct Failing {
 
 struct Streamed {
   test::Output out{kWidth, kHeight, 5};
-  starfocus_report report = {};
+  test::Report report;
   int failures = 0;
 };
 
 // Pushes as many rows as possible and pulls `chunk` rows at a time. Repeats each pull whose runner
 // failed. Uses a new engine, since memory from an earlier stream could have the right contents by
 // chance.
-Streamed Stream(const starfocus_config& config, const starfocus_params& params,
+Streamed Stream(const test::Config& config, const starfocus::Params& params,
                 const test::Scene& scene, int chunk, Failing* failing) {
   Streamed result;
   test::Engine engine(config);
@@ -68,7 +70,7 @@ test::Scene MixedScene() {
   return scene;
 }
 
-void CheckEqual(const starfocus_report& report, const starfocus_report& expected) {
+void CheckEqual(const test::Report& report, const test::Report& expected) {
   CHECK(report.n == expected.n);
   CHECK(report.rendered_views == expected.rendered_views);
   CHECK(report.rendered_samples == expected.rendered_samples);
@@ -77,8 +79,8 @@ void CheckEqual(const starfocus_report& report, const starfocus_report& expected
   CHECK(report.gathered_pixels == expected.gathered_pixels);
 }
 
-void CheckRetries(const test::Scene& scene, const starfocus_params& params, int gather) {
-  starfocus_config config = test::ConfigFor(scene, 28);
+void CheckRetries(const test::Scene& scene, const starfocus::Params& params, int gather) {
+  test::Config config = test::ConfigFor(scene, 28);
   config.superblock = 32;
   config.features |= STARFOCUS_FEATURE_STREAMING;
   config.tuning.gather = gather;
@@ -86,7 +88,7 @@ void CheckRetries(const test::Scene& scene, const starfocus_params& params, int 
   const Streamed expected = Stream(config, params, scene, kHeight, &never);
   REQUIRE(expected.failures == 0);
   const bool all_layers =
-      params.mode == STARFOCUS_MODE_BLOCK && params.renderer == STARFOCUS_RENDERER_SLICES;
+      params.study.mode == STARFOCUS_MODE_BLOCK && params.study.renderer == STARFOCUS_RENDERER_SLICES;
   for (const starfocus_layer_report& layer : expected.report.layers)
     CHECK((!all_layers || layer.blocks > 0));
   constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator is twenty times slower
@@ -115,7 +117,7 @@ TEST_CASE(
         const bool plain = renderer == STARFOCUS_RENDERER_SLICES && gather == 0;
         if (mode != STARFOCUS_MODE_BLOCK && !plain) continue;
         CAPTURES(mode, renderer, gather);
-        starfocus_params params = test::Params(0, 1, mode, renderer);
+        starfocus::Params params = test::Params(0, 1, mode, renderer);
         CheckRetries(scene, params, gather);
       }
     }

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -25,7 +27,7 @@ test::Scene Scene(const std::vector<starfocus_position>& positions) {
 
 std::vector<uint8_t> Picture(const test::Scene& scene, starfocus_mode mode = STARFOCUS_MODE_BLOCK,
                              starfocus_renderer renderer = STARFOCUS_RENDERER_SLICES) {
-  starfocus_params params = test::Params(kFocus, 1, mode, renderer);
+  starfocus::Params params = test::Params(kFocus, 1, mode, renderer);
   return test::RefocusScene(scene, test::ConfigFor(scene), params).rgb;
 }
 
@@ -113,34 +115,34 @@ TEST_CASE(
 
 TEST_CASE("views: the renderer line-scan requires a star set, and the renderer slices does not") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}, {0, 1}});
-  starfocus_config config = test::ConfigFor(scene);
+  test::Config config = test::ConfigFor(scene);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
   for (const starfocus_mode mode :
        {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLOCK}) {
-    starfocus_params params = test::Params(kFocus, 0.5, mode, STARFOCUS_RENDERER_LINE_SCAN);
+    starfocus::Params params = test::Params(kFocus, 0.5, mode, STARFOCUS_RENDERER_LINE_SCAN);
     CHECK(test::Refocus(&engine, params, scene, &out) == STARFOCUS_ERROR_FEATURE);
     CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_FEATURE);
-    params.renderer = STARFOCUS_RENDERER_AUTO;
+    params.study.renderer = STARFOCUS_RENDERER_AUTO;
     REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
     const std::vector<uint8_t> by_default = out.Tight();
-    params.renderer = STARFOCUS_RENDERER_SLICES;
+    params.study.renderer = STARFOCUS_RENDERER_SLICES;
     REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
     CHECK(out.Tight() == by_default);
   }
-  starfocus_params blur = test::Params(kFocus, 0.5, STARFOCUS_MODE_BLUR);
-  blur.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // blur mode ignores the renderer
+  starfocus::Params blur = test::Params(kFocus, 0.5, STARFOCUS_MODE_BLUR);
+  blur.study.renderer = STARFOCUS_RENDERER_LINE_SCAN;  // blur mode ignores the renderer
   CHECK(test::Refocus(&engine, blur, scene, &out) == STARFOCUS_OK);
 }
 
 TEST_CASE("views: starfocus_workspace_size rejects bad positions") {
   const test::Scene scene = Scene({{0, 0}, {1, 0}});
   const auto status = [&](const std::vector<starfocus_position>& positions) {
-    starfocus_config config = test::ConfigFor(scene);
+    test::Config config = test::ConfigFor(scene);
     std::copy(positions.begin(), positions.end(), config.positions);
     size_t bytes = 0;
-    return starfocus_workspace_size(&config, &bytes);
+    return starfocus_workspace_size(&config, &bytes, nullptr);
   };
   CHECK(status({{0, 0}, {-1, 1}}) == STARFOCUS_OK);
   // Without positions, a light field of two views is illegal, since no star set has two views.

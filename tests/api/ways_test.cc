@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks that all ways to request a picture return the bytes of the whole picture.
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/ways.h"
 
 #include <doctest/doctest.h>
@@ -26,17 +28,17 @@ TEST_CASE(
               height = any ? random.Int(1, 150) : size[1];
     const test::Scene scene =
         test::LayeredScene(width, height, kViews[random.Int(0, 3)], 7, uint64_t(round) + 700);
-    starfocus_config config = test::ConfigFor(scene, 20);
+    test::Config config = test::ConfigFor(scene, 20);
     config.superblock = 32 << random.Int(0, 3);
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     config.tuning.deblocking = random.Int(0, 2) == 0 ? random.Int(0, 255) : 255;
-    starfocus_params params =
+    starfocus::Params params =
         test::Params(random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
-    params.renderer = random.Int(0, 2);
-    if (round % 4 == 3) params.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
-    if (round == 11) params.mode = STARFOCUS_MODE_BENCHMARK;
-    if (round % 3 == 0) params.lens.focus_nearer = random.Real(0, 6);
-    if (round % 5 == 0) params.lens.focus_farther = random.Real(0, 6);
+    params.study.renderer = random.Int(0, 2);
+    if (round % 4 == 3) params.study.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
+    if (round == 11) params.study.mode = STARFOCUS_MODE_BENCHMARK;
+    if (round % 3 == 0) params.focus_nearer = random.Real(0, 6);
+    if (round % 5 == 0) params.focus_farther = random.Real(0, 6);
     test::CheckWays(scene, config, params, true);
   }
 }

@@ -12,6 +12,7 @@
 #include "lib/optics/opening.h"
 #include "lib/optics/psf.h"
 #include "lib/optics/view_weights.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/reference_opening.h"
 #include "tests/support/shapes.h"
 
@@ -21,14 +22,14 @@ namespace {
 using starfocus::ApertureShape;
 using starfocus::ViewWeights;
 
-starfocus_lens LensOf(const test::NamedShape& shape) {
-  starfocus_lens lens = test::Params(0).lens;
+starfocus::Params LensOf(const test::NamedShape& shape) {
+  starfocus::Params lens = test::Params(0);
   shape.Set(&lens);
   return lens;
 }
 
-starfocus_lens RandomLens(test::Random* random) {
-  starfocus_lens lens = test::Params(0).lens;
+starfocus::Params RandomLens(test::Random* random) {
+  starfocus::Params lens = test::Params(0);
   test::RandomShape(&lens, random);
   return lens;
 }
@@ -46,7 +47,7 @@ TEST_CASE("opening: points inside the shape pass light, and points outside the s
   constexpr int kRadius = 1000;
   test::Random random(5);
   for (int trial = 0; trial < 200; ++trial) {
-    const starfocus_lens lens = RandomLens(&random);
+    const starfocus::Params lens = RandomLens(&random);
     const ApertureShape opening = starfocus::ShapeOf(lens);
     const reference::ApertureShape exact(lens);
     int wrong = 0;
@@ -68,7 +69,7 @@ TEST_CASE("opening: points inside the shape pass light, and points outside the s
 TEST_CASE("opening: weights sum to a power of two, and each weight fits its type") {
   test::Random random(6);
   for (int trial = 0; trial < 150; ++trial) {
-    const starfocus_lens lens = RandomLens(&random);
+    const starfocus::Params lens = RandomLens(&random);
     const ApertureShape opening = starfocus::ShapeOf(lens);
     const int n = random.Int(0, 9) == 0 ? random.Int(60, 130) : random.Int(1, 30);
     std::vector<uint16_t> weights(starfocus::ViewWeightsSize(opening, n));
@@ -136,7 +137,7 @@ TEST_CASE("opening: PSFs of the blur mode sum to exactly one for any shape") {
   constexpr double kMost = 13;
   const int steps = starfocus::BlurStepCount(kMost);
   for (int trial = 0; trial < 60; ++trial) {
-    const starfocus_lens lens = RandomLens(&random);
+    const starfocus::Params lens = RandomLens(&random);
     const ApertureShape opening = starfocus::ShapeOf(lens);
     std::vector<uint16_t> weights(starfocus::BlurWeightCount(!opening.IsSymmetric(), kMost));
     std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));

@@ -2,6 +2,7 @@
 // Tests the positions of captured views, and the choice of views that see behind edges on each
 // side.
 #include "lib/optics/view_set.h"
+#include "tests/support/config.h"
 
 #include <doctest/doctest.h>
 
@@ -15,28 +16,29 @@ namespace {
 
 using namespace starfocus;
 
-starfocus_config Config(const std::vector<starfocus_position>& positions) {
-  starfocus_config config = {};
+test::Config Config(const std::vector<starfocus_position>& positions) {
+  test::Config config;
+  config.views = 0;
   for (const starfocus_position& position : positions) config.positions[config.views++] = position;
   return config;
 }
 
-starfocus_config Star(int views) {
-  starfocus_config config = {};
+test::Config Star(int views) {
+  test::Config config;
   config.views = views;
   return config;
 }
 
-starfocus_status Check(const starfocus_config& config) {
+starfocus_status Check(const test::Config& config) {
   ViewSet set;
-  return starfocus::FindViews(config.views, config.positions, config.problem, &set);
+  return starfocus::FindViews(config.views, config.positions, nullptr, &set);
 }
 
 // Returns the indices of the views that see behind edges to the right, left, bottom and top.
 using Sides = std::vector<std::vector<int>>;
-Sides LooksOf(const starfocus_config& config) {
+Sides LooksOf(const test::Config& config) {
   ViewSet set;
-  REQUIRE(starfocus::FindViews(config.views, config.positions, config.problem, &set) ==
+  REQUIRE(starfocus::FindViews(config.views, config.positions, nullptr, &set) ==
           STARFOCUS_OK);
   const OcclusionViews occlusion_views = starfocus::ChooseOcclusionViews(set);
   Sides sides(kSideCount);
@@ -106,9 +108,9 @@ TEST_CASE("views: the choice of occlusion views does not depend on the order of 
 TEST_CASE("views: the star is recognised by the order and values of its positions") {
   for (const int views : {1, 5, 9, 17}) {
     CHECK(starfocus::HasStar(Star(views)));
-    starfocus_config config = Star(views);
+    test::Config config = Star(views);
     for (int k = 0; k < views; ++k) {
-      starfocus_view_position(k, &config.positions[k].u, &config.positions[k].v);
+      starfocus_view_position(k, &config.positions[k].u, &config.positions[k].v, nullptr);
     }
     CHECK(starfocus::HasStar(config));
     if (views == 1) continue;
@@ -133,7 +135,7 @@ TEST_CASE("views: invalid sets of views are rejected") {
   CHECK(Check(Config({{0, 0}, {1, 0}, {0, 0}})) == STARFOCUS_ERROR_RANGE);
   CHECK(Check(Config({{0, 0}, {0.5, 0}, {0.5 + 1.0 / 16384, 0}})) == STARFOCUS_OK);
   // Positions beyond the number of views are ignored.
-  starfocus_config config = Config({{0, 0}, {1, 0}});
+  test::Config config = Config({{0, 0}, {1, 0}});
   config.positions[2] = {nan, 7};
   CHECK(Check(config) == STARFOCUS_OK);
 }

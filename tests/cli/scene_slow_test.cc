@@ -15,6 +15,8 @@
 #include "examples/scene/render.h"
 #include "starfocus/matte.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/psnr.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -32,9 +34,8 @@ Scene Made(const std::string& name, uint32_t seed = kSceneSeed) {
 }
 
 SceneOpening DefaultOpening() {
-  starfocus_params params;
-  starfocus_params_init(&params);
-  return SceneOpening(params.lens);
+  starfocus::Params params;
+  return SceneOpening(params);
 }
 
 // Returns 1 if all pixels in the 3x3 neighbourhood of (x, y) are near, 0 if all are far, and -1
@@ -111,7 +112,7 @@ TEST_CASE("scene: views warped by the exact disparity equal the centre view") {
     const double least = std::string(name) == "grass" ? 0.75 : 0.88;
     for (int index : {1, 4, 6, 16}) {
       double u = 0, v = 0;
-      REQUIRE(starfocus_view_position(index, &u, &v));
+      REQUIRE(starfocus_view_position(index, &u, &v, nullptr) == STARFOCUS_OK);
       const Image view = renderer.View(u, v, nullptr);
       CAPTURE(name);
       CAPTURE(index);
@@ -391,7 +392,7 @@ TEST_CASE("strand scenes: the coverage of a pixel is the share that a half plane
 
 // Returns the picture of a lens of radius 1 that is focused at disparity `focus`.
 std::vector<uint8_t> Refocused(const test::Scene& photo, double focus) {
-  starfocus_config config = test::ConfigFor(photo);
+  test::Config config = test::ConfigFor(photo);
   config.transfer = STARFOCUS_TRANSFER_NONE;
   return test::OutputOf(config, test::Params(focus), photo).bytes;
 }
@@ -416,7 +417,7 @@ TEST_CASE("cutout: a photo and its matte show 36 dB of the picture that a lens t
   out.disparity_stride = kSmall * sizeof(float);
   out.coverage = photo.coverage.data();
   out.coverage_stride = kSmall;
-  REQUIRE(starfocus_matte_field(&matte, &depth, view.width, view.height, nullptr, &out) ==
+  REQUIRE(starfocus_matte_field(&matte, &depth, view.width, view.height, nullptr, &out, nullptr) ==
           STARFOCUS_OK);
   test::Scene hard = photo, flat = photo;
   hard.coverage.clear();

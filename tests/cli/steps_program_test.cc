@@ -52,7 +52,7 @@ LightField TwoPlanes() {
   field.disparity = {kWidth, kHeight, std::vector<float>(size_t{kWidth} * kHeight)};
   for (int view = 0; view < 5; ++view) {
     double u = 0, v = 0;
-    starfocus_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v, nullptr);
     Image picture(kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {

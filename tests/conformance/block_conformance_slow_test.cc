@@ -10,9 +10,11 @@
 
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/conformance.h"
 #include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
+#include "tests/support/config.h"
 #include "tests/support/error_line.h"
 #include "tests/support/rounds.h"
 #include "tests/support/simd_targets.h"
@@ -47,8 +49,8 @@ void Count(const std::vector<reference::Block>& blocks, Covered* covered) {
   }
 }
 
-Distance Check(const test::Scene& scene, const starfocus_params& params,
-               const starfocus_config& config, Covered* covered) {
+Distance Check(const test::Scene& scene, const starfocus::Params& params,
+               const test::Config& config, Covered* covered) {
   test::Engine engine(config);
   REQUIRE(engine.status() == STARFOCUS_OK);
   const EngineResult result =
@@ -67,8 +69,8 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
   return distance;
 }
 
-starfocus_config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
-  starfocus_config config = test::ConfigFor(scene, max_blur);
+test::Config Config(const test::Scene& scene, int max_layer, double max_blur = 24) {
+  test::Config config = test::ConfigFor(scene, max_blur);
   config.tuning.max_layer = max_layer;
   // The reference has no thin structures, which random disparities contain.
   // coverage_conformance_slow_test compares how their pixels are split.
@@ -80,9 +82,9 @@ starfocus_config Config(const test::Scene& scene, int max_layer, double max_blur
   return config;
 }
 
-starfocus_params SlicesOf(double focus, starfocus_mode mode) {
-  starfocus_params params = test::Params(focus, 1, mode);
-  params.renderer = STARFOCUS_RENDERER_SLICES;
+starfocus::Params SlicesOf(double focus, starfocus_mode mode) {
+  starfocus::Params params = test::Params(focus, 1, mode);
+  params.study.renderer = STARFOCUS_RENDERER_SLICES;
   return params;
 }
 
@@ -91,13 +93,13 @@ Distance CheckAll(const test::Scene& scene, double focus, double aperture, Cover
   Distance all;
   for (const starfocus_renderer renderer : kRules) {
     for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
-      starfocus_params params = test::Params(focus, aperture, STARFOCUS_MODE_BLOCK);
-      params.renderer = renderer;
+      starfocus::Params params = test::Params(focus, aperture, STARFOCUS_MODE_BLOCK);
+      params.study.renderer = renderer;
       Covered here;
       // Both transfer functions are checked, except for sRGB with layer 1 as the maximum.
       for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
         if (transfer == STARFOCUS_TRANSFER_SRGB && max_layer == 1) continue;
-        starfocus_config config = Config(scene, max_layer);
+        test::Config config = Config(scene, max_layer);
         config.transfer = transfer;
         all.Add(Check(scene, params, config, &here));
       }
@@ -149,7 +151,7 @@ TEST_CASE("block conformance: slices in benchmark mode match the reference") {
       const Range range = {low, low + float(random.Real(0.5, 4))};
       const test::Scene scene =
           MakeScene(random.Int(40, 64), random.Int(33, 48), views, range, depth, &random);
-      const starfocus_params params = SlicesOf(low - random.Real(-1, 2), STARFOCUS_MODE_BENCHMARK);
+      const starfocus::Params params = SlicesOf(low - random.Real(-1, 2), STARFOCUS_MODE_BENCHMARK);
       all.Add(Check(scene, params, Config(scene, 2), &covered));
     }
   }
@@ -168,8 +170,8 @@ TEST_CASE(
       const test::Scene scene = MakeScene(64, 48, 5, {0, 4}, depth, &random, Colours::kRandom);
       for (const double focus : {-25.0, -7.0, -2.0}) {
         for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
-          const starfocus_params params = SlicesOf(focus, STARFOCUS_MODE_BLOCK);
-          starfocus_config config = Config(scene, max_layer, 32);
+          const starfocus::Params params = SlicesOf(focus, STARFOCUS_MODE_BLOCK);
+          test::Config config = Config(scene, max_layer, 32);
           config.tuning.timing.block = block_cost;
           all.Add(Check(scene, params, config, &covered));
         }
@@ -198,7 +200,7 @@ TEST_CASE(
         const test::Scene scene =
             MakeScene(64, 48, views, {lens.low, lens.high}, depth, &random, Colours::kRandom);
         for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
-          const starfocus_params params = SlicesOf(lens.focus, STARFOCUS_MODE_BLOCK);
+          const starfocus::Params params = SlicesOf(lens.focus, STARFOCUS_MODE_BLOCK);
           all.Add(Check(scene, params, Config(scene, max_layer, lens.max_blur), &covered));
         }
       }
@@ -216,8 +218,8 @@ TEST_CASE("block conformance: each tile of a large block has its own slices") {
     for (const Depth depth : {Depth::kSlanted, Depth::kNoisy}) {
       const test::Scene scene =
           MakeScene(200, 90, 5, {-range / 2, range / 2}, depth, &random, Colours::kRandom);
-      const starfocus_params params = SlicesOf(random.Real(-1, 1), STARFOCUS_MODE_FRAME);
-      starfocus_config config = Config(scene, 0);
+      const starfocus::Params params = SlicesOf(random.Real(-1, 1), STARFOCUS_MODE_FRAME);
+      test::Config config = Config(scene, 0);
       config.superblock = 256;
       Covered covered;
       all.Add(Check(scene, params, config, &covered));
@@ -240,7 +242,7 @@ TEST_CASE("block conformance: parts of the demo's scenes match the reference") {
     starfocus::LightField field;
     for (int i = 0; i < 5; ++i) {
       double u = 0, v = 0;
-      starfocus_view_position(i, &u, &v);
+      starfocus_view_position(i, &u, &v, nullptr);
       field.views.push_back(renderer.View(u, v, nullptr));
     }
     field.disparity = renderer.Disparity();

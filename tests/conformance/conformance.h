@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 #ifdef STARFOCUS_PROGRAM
@@ -112,20 +114,20 @@ inline test::Scene MakeScene(int width, int height, int views, const Range& rang
 }
 
 // Describes a scene, its parameters and its configuration in one line.
-inline std::string TextOf(const test::Scene& scene, const starfocus_params& params,
-                          const starfocus_config& config) {
+inline std::string TextOf(const test::Scene& scene, const starfocus::Params& params,
+                          const test::Config& config) {
   char text[600];
   std::snprintf(text, sizeof(text),
                 "%dx%d, %d views, mode %d, rule %d, disparity [%.9g, %.9g], focus %.9g + %.9g "
                 "- %.9g, aperture %.9g, block %d, layers %d, theta %.9g, n_scale %.9g, gather %d, "
                 "block cost %u, "
                 "transfer %d, highlights %.9g, %s",
-                scene.width, scene.height, scene.views(), params.mode, params.renderer,
-                double{scene.disparity_min}, double{scene.disparity_max}, params.lens.focus,
-                params.lens.focus_nearer, params.lens.focus_farther, params.lens.aperture,
-                config.superblock, config.tuning.max_layer, params.lens.theta,
-                config.tuning.n_scale, config.tuning.gather, config.tuning.timing.block,
-                config.transfer, double{config.highlights}, test::ShapeText(params.lens).c_str());
+                scene.width, scene.height, scene.views(), params.study.mode, params.study.renderer,
+                double{scene.disparity_min}, double{scene.disparity_max}, params.focus,
+                params.focus_nearer, params.focus_farther, params.aperture, config.superblock,
+                config.tuning.max_layer, params.theta, config.tuning.n_scale, config.tuning.gather,
+                config.tuning.timing.block, config.transfer, double{config.highlights},
+                test::ShapeText(params).c_str());
   return text;
 }
 

@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/conformance.h"
 #include "tests/conformance/reference.h"
+#include "tests/support/config.h"
 #include "tests/support/error_line.h"
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
@@ -24,12 +26,12 @@ namespace {
 using namespace conformance;
 
 // Refocuses with the engine and the reference, and checks their distance.
-Distance Check(const test::Scene& scene, const starfocus_params& params,
-               const starfocus_config& config) {
+Distance Check(const test::Scene& scene, const starfocus::Params& params,
+               const test::Config& config) {
   const int block = config.superblock;
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  starfocus_report report;
+  starfocus_report report = starfocus::NewReport();
   REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
   const reference::Result expected = reference::Refocus(scene, params, config, block);
   CAPTURE(TextOf(scene, params, config));
@@ -42,11 +44,11 @@ Distance Check(const test::Scene& scene, const starfocus_params& params,
 }
 
 // Checks the line scan with both transfer functions. block_conformance_slow_test checks slices.
-Distance Check(const test::Scene& scene, starfocus_params params, int block, double theta) {
-  params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
-  starfocus_config config = test::ConfigFor(scene, 16);
+Distance Check(const test::Scene& scene, starfocus::Params params, int block, double theta) {
+  params.study.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+  test::Config config = test::ConfigFor(scene, 16);
   config.superblock = block;
-  params.lens.theta = theta;
+  params.theta = theta;
   Distance all;
   for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
     config.transfer = transfer;
@@ -55,14 +57,14 @@ Distance Check(const test::Scene& scene, starfocus_params params, int block, dou
   return all;
 }
 
-Distance Check(const test::Scene& scene, const starfocus_params& params, int block = 32) {
+Distance Check(const test::Scene& scene, const starfocus::Params& params, int block = 32) {
   return Check(scene, params, block, 0.26 * 3.14159265358979323846);
 }
 
 // Widths and heights of the random scenes. The scenes are small, because the reference is slow.
 constexpr int kSizes[][2] = {{1, 1}, {7, 5}, {40, 33}, {96, 64}};
 // Returns parameters with a random lens whose largest blur radius is r_max.
-starfocus_params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,
+starfocus::Params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,
                             test::Random* random) {
   const double aperture = random->Int(0, 2) == 0 ? 1 : random->Real(0.3, 1);
   const double reach = r_max / aperture;

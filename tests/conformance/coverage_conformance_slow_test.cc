@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <vector>
 
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference_coverage.h"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/strands.h"
 #include "tests/support/test_scene.h"
@@ -102,7 +104,7 @@ test::Scene RandomStrands(bool given, uint64_t seed) {
 
 // Returns the engine's coverage map of the whole picture, which fits into one stripe.
 std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
-  starfocus_config config = test::ConfigFor(scene);
+  test::Config config = test::ConfigFor(scene);
   config.transfer = STARFOCUS_TRANSFER_NONE;
   config.superblock = 64;
   test::Engine engine(config);

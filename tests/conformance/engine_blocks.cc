@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/engine_blocks.h"
 
 #include <algorithm>
@@ -62,14 +63,15 @@ struct Visit {
 
 }  // namespace
 
-EngineResult RunEngine(const test::Scene& scene, const starfocus_params& params,
+EngineResult RunEngine(const test::Scene& scene, const starfocus::Params& params,
                        const starfocus::simd::Kernels& kernels, test::Engine* engine) {
   EngineResult result;
   test::UseKernels(&kernels, engine->get());
   Visit visit = {engine->get(), &result.blocks};
   test::Output out(scene.width, scene.height);
-  result.status = test::Refocus(engine, params, scene, &out, test::VisitedBy(Visit::Add, &visit),
-                                &result.report);
+  const starfocus_observer observer = test::Visitor(Visit::Add, &visit);
+  result.status =
+      test::Refocus(engine, params, scene, &out, test::ObservedBy(&observer), &result.report);
   result.bytes = out.Tight();
   return result;
 }

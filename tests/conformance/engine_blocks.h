@@ -9,6 +9,7 @@
 
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/reference.h"
 #include "tests/support/test_scene.h"
 
@@ -16,13 +17,13 @@ namespace conformance {
 
 struct EngineResult {
   starfocus_status status = STARFOCUS_OK;
-  starfocus_report report = {};
+  starfocus_report report = starfocus::NewReport();
   std::vector<uint8_t> bytes;            // Output samples, 3 * width * height.
   std::vector<reference::Block> blocks;  // Partition: blocks of all stripes.
 };
 
 // Refocuses the scene with the given kernels on an initialised engine.
-EngineResult RunEngine(const test::Scene& scene, const starfocus_params& params,
+EngineResult RunEngine(const test::Scene& scene, const starfocus::Params& params,
                        const starfocus::simd::Kernels& kernels, test::Engine* engine);
 
 }  // namespace conformance

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/reference.h"
 
 #include "tests/conformance/reference_gather.h"
 #include "tests/conformance/reference_rectangle.h"
 #include "tests/conformance/reference_stack.h"
+#include "tests/support/config.h"
 #include "tests/support/transfer_curve.h"
 
 namespace reference {
@@ -72,15 +74,15 @@ LightField LoadExcess(const test::Scene& scene, int transfer) {
   return field;
 }
 
-Lens MakeLens(const starfocus_params& params, const ApertureShape& opening, int n, int layer,
+Lens MakeLens(const starfocus::Params& params, const ApertureShape& opening, int n, int layer,
               bool wide = false) {
   Lens lens;
   lens.n = n;
   lens.most = n * n;
-  lens.radius = params.lens.aperture;
+  lens.radius = params.aperture;
   lens.opening = opening;
-  lens.far = RoundedTo64(params.lens.focus - params.lens.focus_farther);
-  lens.near = RoundedTo64(params.lens.focus + params.lens.focus_nearer);
+  lens.far = RoundedTo64(params.focus - params.focus_farther);
+  lens.near = RoundedTo64(params.focus + params.focus_nearer);
   double extent = 1;
   if (wide) {
     // The centres of the outermost subapertures are up to 5/32 of a subaperture beyond the rim of
@@ -91,7 +93,7 @@ Lens MakeLens(const starfocus_params& params, const ApertureShape& opening, int 
     lens.most = int(farthest * farthest);
     extent = lens.n / lens.subapertures;
   }
-  const auto step = int64_t(params.lens.aperture * extent * (1 << 24));
+  const auto step = int64_t(params.aperture * extent * (1 << 24));
   lens.step = std::max<int64_t>(1, Rounded(2 * step, 1 + layer));
   lens.layer = layer;
   return lens;
@@ -228,7 +230,7 @@ void Put(const Picture& from, int x0, int y0, int width, Result* result) {
 
 // Converts light to codes and adds the excess of highlights. `excess` is empty if there are no
 // highlights.
-void Encode(const starfocus_config& config, const std::vector<double>& excess, Result* result) {
+void Encode(const test::Config& config, const std::vector<double>& excess, Result* result) {
   for (size_t i = 0; i < result->rgb.size(); ++i) {
     double& value = result->rgb[i];
     if (!excess.empty()) value = std::min(255.0, value + (config.highlights - 1) * excess[i]);
@@ -255,7 +257,7 @@ LightField Load(const test::Scene& scene, int transfer) {
   return field;
 }
 
-double LargestBlur(const starfocus_lens& lens, double low, double high) {
+double LargestBlur(const starfocus::Params& lens, double low, double high) {
   const double near = lens.focus + lens.focus_nearer, far = lens.focus - lens.focus_farther;
   return lens.aperture * std::max({0.0, high - near, far - low});
 }
@@ -289,11 +291,11 @@ void RefocusFrame(const LightField& field, const Lens& lens, int border, int blo
 
 }  // namespace
 
-Result Refocus(const test::Scene& scene, const starfocus_params& params,
-               const starfocus_config& config, int block) {
-  const double r_max = LargestBlur(params.lens, scene.disparity_min, scene.disparity_max);
-  const int n = ViewsAlongRadius(r_max, params.mode), border = int(std::ceil(r_max)) + 2;
-  const Lens lens = MakeLens(params, params.lens, n, 0);
+Result Refocus(const test::Scene& scene, const starfocus::Params& params,
+               const test::Config& config, int block) {
+  const double r_max = LargestBlur(params, scene.disparity_min, scene.disparity_max);
+  const int n = ViewsAlongRadius(r_max, params.study.mode), border = int(std::ceil(r_max)) + 2;
+  const Lens lens = MakeLens(params, params, n, 0);
   Result result;
   result.n = n;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
@@ -323,22 +325,21 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
 // For all blocks, adds the rendered views and the cells that are blurred without rendering views to
 // the result. With `excess`, only blocks that may show highlights are rendered. Blocks that may
 // show highlights are at layer 0 and are rendered completely from views.
-void RefocusAll(const LightField& field, const starfocus_params& params,
-                const starfocus_config& config, const std::vector<Block>& blocks, bool excess,
+void RefocusAll(const LightField& field, const starfocus::Params& params,
+                const test::Config& config, const std::vector<Block>& blocks, bool excess,
                 Result* result) {
   const Picture& centre = field.at({0, 0});
   const std::vector<Picture> layers = MakeLayers(centre);
-  const bool benchmark = params.mode == STARFOCUS_MODE_BENCHMARK;
-  const double r_max = LargestBlur(params.lens, config.disparity_min, config.disparity_max);
+  const bool benchmark = params.study.mode == STARFOCUS_MODE_BENCHMARK;
+  const double r_max = LargestBlur(params, config.disparity_min, config.disparity_max);
   const int widest = std::max(int(r_max), 32) + 3;  // reach of the most blurred slice
   const Slicing slicing = {size_t(benchmark ? 32 : 16), 5 * (widest + 16) * (widest + 16),
                            benchmark ? 0.125 : 0.375};
   for (const Block& block : blocks) {
     if (excess && (block.layer > 0 || !block.gathered.empty())) continue;
-    const bool by_subaperture = params.renderer == STARFOCUS_RENDERER_SLICES && block.n > 0;
-    const ApertureShape here =
-        ApertureShape(params.lens)
-            .At(block.x, block.y, block.width, block.height, centre.width, centre.height);
+    const bool by_subaperture = params.study.renderer == STARFOCUS_RENDERER_SLICES && block.n > 0;
+    const ApertureShape here = ApertureShape(params).At(block.x, block.y, block.width, block.height,
+                                                        centre.width, centre.height);
     const Lens lens = MakeLens(params, here, block.n, block.layer, by_subaperture);
     const Rectangle rectangle = {
         block.rendered_x, block.rendered_y, block.rendered_width, block.rendered_height, block.left,
@@ -364,8 +365,8 @@ void RefocusAll(const LightField& field, const starfocus_params& params,
 
 }  // namespace
 
-std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus_params& params,
-                                  const starfocus_config& config,
+std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus::Params& params,
+                                  const test::Config& config,
                                   const std::vector<Block>& blocks) {
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);

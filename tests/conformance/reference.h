@@ -10,13 +10,15 @@
 
 #include "lib/slices/slices.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/reference_opening.h"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace reference {
 
 // Returns the largest blur radius in pixels of the disparities from `low` to `high`.
-double LargestBlur(const starfocus_lens& lens, double low, double high);
+double LargestBlur(const starfocus::Params& lens, double low, double high);
 
 // Returns the number of views along the aperture radius: (9), or 2 * ceil(r_max) for the benchmark.
 int ViewsAlongRadius(double r_max, int mode);
@@ -30,8 +32,8 @@ struct Result {
 // Refocuses the scene with the transfer function of `config`. `block` is the side of the blocks in
 // pixels. The side of the blocks affects the result, since runs start at the edge of a block's
 // extended rectangle.
-Result Refocus(const test::Scene& scene, const starfocus_params& params,
-               const starfocus_config& config, int block);
+Result Refocus(const test::Scene& scene, const starfocus::Params& params,
+               const test::Config& config, int block);
 
 // A cell of the picture that is blurred by a filter, without rendering views (reference_gather.h).
 struct GatheredCell {
@@ -53,8 +55,8 @@ struct Block {
 
 // Refocuses in block mode or in benchmark mode. `blocks` is the partition of the picture;
 // boundaries are not deblocked. Returns 3 * width * height unrounded values.
-std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus_params& params,
-                                  const starfocus_config& config, const std::vector<Block>& blocks);
+std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus::Params& params,
+                                  const test::Config& config, const std::vector<Block>& blocks);
 
 }  // namespace reference
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening of the lens in the reference: (3), and the shapes of starfocus_lens, in double precision.
+// Opening of the lens in the reference: (3), and the shapes of starfocus::Params, in double
+// precision.
 #ifndef STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 #define STARFOCUS_TESTS_CONFORMANCE_REFERENCE_OPENING_H_
 
@@ -7,6 +8,7 @@
 #include <cmath>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace reference {
 
@@ -34,7 +36,7 @@ struct ApertureShape {
 
   ApertureShape(double angle)  // NOLINT: theta alone defines a fall-off
       : theta(angle), cot2(1 / (std::tan(theta) * std::tan(theta))) {}
-  ApertureShape(const starfocus_lens& lens)  // NOLINT: converts
+  ApertureShape(const starfocus::Params& lens)  // NOLINT: converts
       : theta(lens.theta),
         shape(lens.shape),
         blades(lens.blades),

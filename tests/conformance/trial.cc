@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/trial.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include "simd/kernels.h"
 #include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
+#include "tests/support/config.h"
 #include "tests/support/shapes.h"
 
 namespace conformance {
@@ -96,14 +98,14 @@ void SetLens(Trial* trial, test::Random* random) {
                               : random->Int(0, 3) == 0 ? STARFOCUS_MODE_FRAME
                                                        : STARFOCUS_MODE_BLOCK;
   trial->params = test::Params(focus, aperture, mode);
-  trial->params.renderer =
+  trial->params.study.renderer =
       random->Int(0, 3) == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
 }
 
 // Extends the focus of every third lens to a range, which may contain all disparities.
 void SetRange(Trial* trial, test::Random* random) {
   if (random->Int(0, 2) != 0) return;
-  starfocus_lens& lens = trial->params.lens;
+  starfocus::Params& lens = trial->params;
   const double widest = 1 + 1.2 * std::max(trial->scene.disparity_max - lens.focus,
                                            lens.focus - trial->scene.disparity_min);
   lens.focus_nearer = random->Int(0, 2) == 0 ? 0 : random->Real(0, widest);
@@ -111,13 +113,12 @@ void SetRange(Trial* trial, test::Random* random) {
 }
 
 double RadiusOf(const Trial& trial) {
-  return reference::LargestBlur(trial.params.lens, trial.scene.disparity_min,
-                                trial.scene.disparity_max);
+  return reference::LargestBlur(trial.params, trial.scene.disparity_min, trial.scene.disparity_max);
 }
 
 void SetConfig(Trial* trial, test::Random* random) {
   const double radius = RadiusOf(*trial);
-  starfocus_config& config = trial->config;
+  test::Config& config = trial->config;
   config = test::ConfigFor(trial->scene, std::max(0.5, radius));
   // The reference has no thin structures, which random disparities contain.
   config.features &= ~STARFOCUS_FEATURE_COVERAGE;
@@ -129,17 +130,17 @@ void SetConfig(Trial* trial, test::Random* random) {
   // A low cost per block makes the partition fine, and a high cost makes the partition coarse.
   if (random->Int(0, 1) == 0) config.tuning.timing.block = 1u << random->Int(0, 26);
   if (random->Int(0, 1) == 0) {
-    trial->params.lens.theta = OneOf({STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA,
-                                      random->Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA)},
-                                     random);
+    trial->params.theta = OneOf({STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA,
+                                 random->Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA)},
+                                random);
   }
   if (random->Int(0, 1) == 0)
     config.tuning.n_scale = random->Real(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE);
   config.transfer = random->Int(0, 1) == 0 ? STARFOCUS_TRANSFER_SRGB : STARFOCUS_TRANSFER_NONE;
   const int lamps = random->Int(0, 5);
   if (lamps < 2) config.highlights = float(random->Real(1, lamps == 0 ? 4 : 16));
-  if (random->Int(0, 1) == 0) test::RandomShape(&trial->params.lens, random);
-  test::ReserveFor(trial->params.lens, &config);
+  if (random->Int(0, 1) == 0) test::RandomShape(&trial->params, random);
+  test::ReserveFor(trial->params, &config);
 }
 
 }  // namespace
@@ -160,7 +161,7 @@ Trial MakeTrial(uint64_t seed, bool anywhere) {
   trial.scene = AnyScene(&random);
   SetLens(&trial, &random);
   SetConfig(&trial, &random);
-  if (anywhere && trial.params.renderer != STARFOCUS_RENDERER_LINE_SCAN) {
+  if (anywhere && trial.params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN) {
     test::RandomViews(&trial.scene, &trial.config, &random);
   }
   SetRange(&trial, &random);

@@ -8,15 +8,17 @@
 #include <string>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/conformance.h"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace conformance {
 
 struct Trial {
   test::Scene scene;
-  starfocus_params params;
-  starfocus_config config;
+  starfocus::Params params;
+  test::Config config;
 
   std::string Text() const;
 };

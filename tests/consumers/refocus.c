@@ -37,18 +37,18 @@ int main(void) {
   callbacks.runner = starfocus_pool_run;
   callbacks.runner_data = pool;
 #endif
-  status = starfocus_workspace_size(&config, &bytes);
+  status = starfocus_workspace_size(&config, &bytes, NULL);
   memory = (char*)malloc(bytes + STARFOCUS_ALIGNMENT);
   if (!memory) return 1;
   if (status == STARFOCUS_OK) {
     status = starfocus_init(
         &config, memory + (STARFOCUS_ALIGNMENT - (uintptr_t)memory % STARFOCUS_ALIGNMENT), bytes,
-        &engine);
+        &engine, NULL);
   }
   if (status == STARFOCUS_OK) status = starfocus_set_callbacks(engine, &callbacks);
   starfocus_params_init(&params);
   for (i = 0; status == STARFOCUS_OK && i < sizeof foci / sizeof *foci; ++i) {
-    params.lens.focus = foci[i];
+    params.focus = foci[i];
     status = starfocus_refocus(engine, &params, &field, &picture, NULL);
     if (status == STARFOCUS_OK) printf("%08x\n", (unsigned)Checksum(out, sizeof out));
   }

@@ -17,7 +17,7 @@ int main() {
   starfocus_status status = engine.Init(config);
   for (const double focus : {6.0, -4.0}) {
     starfocus::Params params;
-    params.lens.focus = focus;
+    params.focus = focus;
     if (status == STARFOCUS_OK)
       status = engine.Refocus(params, field, starfocus_image_rgb(out, kStride));
     if (status == STARFOCUS_OK)

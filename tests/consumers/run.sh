@@ -150,24 +150,24 @@ swift() {
 int main(void) {
   starfocus_config config;
   starfocus_image image = {0};
-  starfocus_depth_config depth;
-  starfocus_light_field frame = {0};
+  starfocus_light_field frame;
   starfocus_disparity_stats range;
   starfocus_params params;
   starfocus_engine* engine;
   starfocus_prepared* prepared;
   starfocus_config_init(&config);
-  starfocus_depth_config_init(&depth);
+  starfocus_light_field_init(&frame);
+  starfocus_params_init(&params);
   // The calls of examples/phone/TapToFocus.swift.
-  starfocus_measure_disparity(&frame.depth, &range);
-  starfocus_create(&config, 0, &engine);
+  starfocus_measure_disparity(&frame.depth, &range, NULL);
+  starfocus_create(&config, 0, &engine, NULL);
   starfocus_prepare(engine, &frame, 0, 0, &prepared);
-  starfocus_focus_at(&frame.depth, 640, 480, 1, 2, &params.lens.focus);
-  starfocus_largest_aperture(engine, &params.lens, &params.lens.aperture);
+  starfocus_focus_at(&frame.depth, 640, 480, 1, 2, &params.focus, NULL);
+  starfocus_largest_aperture(engine, &params, &params.aperture);
   starfocus_refocus_prepared(engine, &params, prepared, &image, 0);
   starfocus_destroy_prepared(prepared);
   starfocus_destroy(engine);
-  return image.format + (int)(starfocus_abi_version() - STARFOCUS_ABI_VERSION);
+  return image.format + (starfocus_version(NULL) == NULL);
 }
 TEXT
   quietly clang -fsyntax-only -Wall -Werror -fmodules "-fmodules-cache-path=$work/modules" \

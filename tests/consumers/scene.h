@@ -6,7 +6,6 @@
 #define STARFOCUS_TESTS_CONSUMERS_SCENE_H_
 
 #include <starfocus/starfocus.h>
-#include <string.h>
 
 enum { kWidth = 200, kHeight = 150, kViews = 5, kStride = 3 * kWidth };
 
@@ -26,10 +25,10 @@ static uint8_t TextureAt(int x, int y, int channel) {
 static starfocus_light_field MakeScene(Scene* scene) {
   starfocus_light_field field;
   int i, x, y, channel;
-  memset(&field, 0, sizeof field);
+  starfocus_light_field_init(&field);
   for (i = 0; i < kViews; ++i) {
     double u = 0, v = 0;
-    starfocus_view_position(i, &u, &v);
+    starfocus_view_position(i, &u, &v, NULL);
     for (y = 0; y < kHeight; ++y) {
       for (x = 0; x < kWidth; ++x) {
         const int d = DisparityAt(x, y);

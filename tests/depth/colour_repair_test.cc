@@ -15,8 +15,10 @@
 
 #include "lib/base/fixed.h"
 #include "lib/depth/colour_map.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace colour_repair_test {
@@ -35,8 +37,7 @@ struct Repaired {
 };
 
 starfocus::SweepSetup SetupOf(const Photo& photo) {
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+  test::Config config;
   config.width = photo.width;
   config.height = photo.height;
   config.disparity_min = -500;
@@ -45,7 +46,7 @@ starfocus::SweepSetup SetupOf(const Photo& photo) {
 }
 
 starfocus_light_field FieldOf(const Photo& photo) {
-  starfocus_light_field field = {};
+  starfocus_light_field field = starfocus::NewLightField();
   const auto width = size_t(photo.width);
   field.views[0] = starfocus_image_rgb(photo.rgb.data(), 3 * width);
   field.depth =

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "starfocus/depth.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
 
@@ -49,7 +51,7 @@ struct PlaneField {
   std::vector<starfocus_position> positions = {};  // Empty: a star.
 
   starfocus_light_field Get() const {
-    starfocus_light_field field = {};
+    starfocus_light_field field = starfocus::NewLightField();
     for (size_t k = 0; k < views.size(); ++k) {
       field.views[k] = starfocus_image_rgb(views[k].data(), 3 * size_t(width));
     }
@@ -74,7 +76,7 @@ PlaneField RenderViews(int width, int height, int views, const Pixel& pixel) {
   PlaneField field = {width, height, {}};
   for (int k = 0; k < views; ++k) {
     starfocus_position position = {};
-    starfocus_view_position(k, &position.u, &position.v);
+    starfocus_view_position(k, &position.u, &position.v, nullptr);
     field.views.push_back(RenderView(width, height, position, pixel));
   }
   return field;
@@ -111,9 +113,8 @@ inline std::vector<PlaneScene> ScenesOfAnySize() {
   return scenes;
 }
 
-inline starfocus_depth_config ConfigOf(const PlaneField& field, float low, float high) {
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+inline test::Config ConfigOf(const PlaneField& field, float low, float high) {
+  test::Config config;
   config.width = field.width;
   config.height = field.height;
   config.views = int32_t(field.views.size());
@@ -143,11 +144,11 @@ struct MadeMap {
 };
 
 // Returns the estimated map, or the repaired map if `given` is not empty.
-inline MadeMap MakeMap(const PlaneField& field, const starfocus_depth_config& config,
+inline MadeMap MakeMap(const PlaneField& field, const test::Config& config,
                        const std::vector<float>& given = {}) {
   size_t bytes = 0;
-  REQUIRE((given.empty() ? starfocus_estimate_workspace_size : starfocus_repair_workspace_size)(
-              &config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_map_workspace_size(&config, given.empty() ? 0 : 1, &bytes, nullptr) ==
+          STARFOCUS_OK);
   const Memory memory(bytes);
   const auto width = size_t(field.width), pixels = width * size_t(field.height);
   MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
@@ -157,7 +158,8 @@ inline MadeMap MakeMap(const PlaneField& field, const starfocus_depth_config& co
   starfocus_disparity_output map = {
       made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, nullptr, 0, 0};
   const auto make = given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
-  REQUIRE(make(&config, &light_field, &map, memory.data, memory.bytes) == STARFOCUS_OK);
+  REQUIRE(make(&config, nullptr, &light_field, &map, memory.data, memory.bytes, nullptr) ==
+          STARFOCUS_OK);
   return made;
 }
 

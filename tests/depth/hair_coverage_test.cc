@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "starfocus/depth.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/support/closed_hair.h"
+#include "tests/support/config.h"
 
 namespace hair_coverage_test {
 namespace {
@@ -31,9 +33,9 @@ struct Found {
 
 Found Repair(const Portrait& portrait, bool covers = true) {
   const test::PlaneField plane = {Portrait::kWidth, Portrait::kHeight, {portrait.rgb}};
-  const starfocus_depth_config config = test::ConfigOf(plane, -12, 12);
+  const test::Config config = test::ConfigOf(plane, -12, 12);
   size_t bytes = 0;
-  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_map_workspace_size(&config, 1, &bytes, nullptr) == STARFOCUS_OK);
   const test::Memory memory(bytes);
   const size_t width = Portrait::kWidth, row = sizeof(float) * width, pixels = portrait.map.size();
   starfocus_light_field field = plane.Get();
@@ -43,7 +45,7 @@ Found Repair(const Portrait& portrait, bool covers = true) {
   starfocus_disparity_output map = {
       found.map.data(), row, found.confidence.data(), width, nullptr, width, -1};
   if (covers) map.coverage = found.coverage.data();
-  found.status = starfocus_repair_disparity(&config, &field, &map, memory.data, bytes);
+  found.status = starfocus_repair_disparity(&config, nullptr, &field, &map, memory.data, bytes, nullptr);
   found.has_coverage = map.has_coverage;
   return found;
 }

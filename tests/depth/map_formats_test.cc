@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "starfocus/depth.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/properties/operations.h"
+#include "tests/support/config.h"
 #include "tests/support/image_field.h"
 
 namespace map_formats_test {
@@ -31,8 +33,7 @@ Made Make(const ImageField& field, bool repairs, uint32_t features, int workers 
           const starfocus_callbacks& callbacks = {}) {
   const test::Scene& scene = field.converted;
   Made made;
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+  test::Config config;
   config.width = scene.width;
   config.height = scene.height;
   config.views = scene.views();
@@ -40,14 +41,8 @@ Made Make(const ImageField& field, bool repairs, uint32_t features, int workers 
   config.disparity_max = scene.disparity_max;
   config.features = features;
   config.max_workers = workers;
-  config.runner = callbacks.runner;
-  config.runner_data = callbacks.runner_data;
-  config.progress = callbacks.progress;
-  config.progress_data = callbacks.progress_data;
-  config.problem = &made.problem;
   size_t bytes = 0;
-  REQUIRE((repairs ? starfocus_repair_workspace_size : starfocus_estimate_workspace_size)(
-              &config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_map_workspace_size(&config, repairs ? 1 : 0, &bytes, nullptr) == STARFOCUS_OK);
   const test::Memory memory(bytes);
   const auto width = size_t(scene.width), pixels = width * size_t(scene.height);
   made.disparity.assign(pixels, -77);
@@ -56,7 +51,7 @@ Made Make(const ImageField& field, bool repairs, uint32_t features, int workers 
       made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, {}, {}, {}};
   const starfocus_light_field images = features != 0 ? field.Field() : scene.Field();
   made.status = (repairs ? starfocus_repair_disparity : starfocus_estimate_disparity)(
-      &config, &images, &map, memory.data, memory.bytes);
+      &config, &callbacks, &images, &map, memory.data, memory.bytes, &made.problem);
   return made;
 }
 
@@ -138,16 +133,14 @@ TEST_CASE("maps of any format: without the feature, other formats are rejected")
   const ImageField field = Field(1, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, &random);
   const test::Scene& scene = field.converted;
   starfocus_problem problem = {};
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+  test::Config config;
   config.width = scene.width;
   config.height = scene.height;
   config.views = 1;
   config.disparity_min = scene.disparity_min;
   config.disparity_max = scene.disparity_max;
-  config.problem = &problem;
   size_t bytes = 0, with = 0;
-  REQUIRE(starfocus_repair_workspace_size(&config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_map_workspace_size(&config, 1, &bytes, nullptr) == STARFOCUS_OK);
   const test::Memory memory(bytes);
   std::vector<float> map(size_t(scene.width * scene.height), -77);
   starfocus_disparity_output out = {};
@@ -155,7 +148,8 @@ TEST_CASE("maps of any format: without the feature, other formats are rejected")
   out.disparity_stride = sizeof(float) * size_t(scene.width);
   const starfocus_light_field images = field.Field();
   const auto run = [&](const starfocus_light_field& given) {
-    return starfocus_repair_disparity(&config, &given, &out, memory.data, memory.bytes);
+    return starfocus_repair_disparity(&config, nullptr, &given, &out, memory.data, memory.bytes,
+                                      &problem);
   };
   CHECK(run(images) == STARFOCUS_ERROR_FEATURE);
   CHECK(std::string(problem.field) == "views[].format");
@@ -168,12 +162,9 @@ TEST_CASE("maps of any format: without the feature, other formats are rejected")
   CHECK(std::string(problem.expected).find(feature) != std::string::npos);
   config.features = STARFOCUS_FEATURE_IMAGES;
   CHECK(run(images) == STARFOCUS_ERROR_WORKSPACE);
-  REQUIRE(starfocus_repair_workspace_size(&config, &with) == STARFOCUS_OK);
+  REQUIRE(starfocus_map_workspace_size(&config, 1, &with, nullptr) == STARFOCUS_OK);
   const double more = double(with - bytes) / (scene.width * scene.height);
   CHECK(more == doctest::Approx(7).epsilon(0.2));
-  config.features = STARFOCUS_FEATURE_COVERAGE;
-  CHECK(run(images) == STARFOCUS_ERROR_RANGE);
-  CHECK(std::string(problem.field) == "features");
   CHECK(map == std::vector<float>(map.size(), -77));
 }
 

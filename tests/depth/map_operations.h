@@ -18,10 +18,12 @@
 #include "lib/depth/maps.h"
 #include "lib/matting/hair_coverage.h"
 #include "starfocus/depth.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"
 #include "tests/properties/operations.h"
 #include "tests/support/closed_hair.h"
+#include "tests/support/config.h"
 
 namespace properties {
 
@@ -97,9 +99,8 @@ struct Maps {
     config = test::ConfigOf(input.field, input.low, input.high);
     config.max_workers = setup.workers;
     size_t bytes = 0;
-    const auto size =
-        input.given.empty() ? starfocus_estimate_workspace_size : starfocus_repair_workspace_size;
-    REQUIRE(size(&config, &bytes) == STARFOCUS_OK);
+    REQUIRE(starfocus_map_workspace_size(&config, input.given.empty() ? 0 : 1, &bytes, nullptr) ==
+            STARFOCUS_OK);
     memory = std::make_unique<test::Memory>(bytes);
     if (setup.used) std::memset(memory->data, 0x11, bytes);
   }
@@ -118,10 +119,6 @@ struct Maps {
   }
 
   starfocus_status Make(const starfocus_callbacks& callbacks, Bytes* out) {
-    config.runner = callbacks.runner;
-    config.runner_data = callbacks.runner_data;
-    config.progress = callbacks.progress;
-    config.progress_data = callbacks.progress_data;
     const auto width = size_t(config.width), pixels = width * size_t(config.height);
     std::vector<float> disparity(pixels, NAN);
     std::vector<uint8_t> confidence(pixels, 77);
@@ -145,7 +142,7 @@ struct Maps {
     } else {
       const auto make =
           input.given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
-      status = make(&config, &field, &map, memory->data, memory->bytes);
+      status = make(&config, &callbacks, &field, &map, memory->data, memory->bytes, nullptr);
       CHECK(map.has_coverage == int(status == STARFOCUS_OK && input.covers));
     }
     // Combines confidence and coverage into one plane, so that a comparison covers both.
@@ -174,7 +171,7 @@ struct Maps {
 
   MapInput input;
   Setup setup;
-  starfocus_depth_config config;
+  test::Config config;
   std::unique_ptr<test::Memory> memory;
 };
 

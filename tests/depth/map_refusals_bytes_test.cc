@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "starfocus/depth.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
+#include "tests/support/config.h"
 
 namespace map_refusals_bytes_test {
 namespace {
@@ -38,13 +40,12 @@ struct Call {
     REQUIRE(SizeOf(&config, &needed) == STARFOCUS_OK);
     return needed;
   }
-  starfocus_status SizeOf(const starfocus_depth_config* of, size_t* needed) const {
-    return (function == kEstimate ? starfocus_estimate_workspace_size
-                                  : starfocus_repair_workspace_size)(of, needed);
+  starfocus_status SizeOf(const starfocus_config* of, size_t* needed) const {
+    return starfocus_map_workspace_size(of, function == kEstimate ? 0 : 1, needed, nullptr);
   }
   starfocus_status Run() {
     return (function == kEstimate ? starfocus_estimate_disparity : starfocus_repair_disparity)(
-        &config, &field, out_at, at, bytes);
+        &config, &callbacks, &field, out_at, at, bytes, nullptr);
   }
   // Returns true if the call wrote no output.
   bool Untouched() const {
@@ -56,7 +57,8 @@ struct Call {
 
   const int function;
   test::PlaneField planes = Planes();
-  starfocus_depth_config config = test::ConfigOf(planes, -6, 8);
+  test::Config config = test::ConfigOf(planes, -6, 8);
+  starfocus_callbacks callbacks = {};
   const size_t width = size_t(planes.width), row = sizeof(float) * width;
   const size_t pixels = width * size_t(planes.height);
   std::vector<float> given = std::vector<float>(pixels, 1), map = std::vector<float>(pixels, 42);
@@ -139,18 +141,13 @@ const Refusal kConfigurations[] = {
        Place(2, {1, 0}, c);
      }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = 9; }},
-    {kBoth, STARFOCUS_ERROR_RANGE,
+    {kEstimate, STARFOCUS_ERROR_RANGE,
      [](Call* c) {
-       starfocus_depth_config fresh;
-       starfocus_depth_config_init(&fresh);
+       const test::Config fresh;
        c->config.disparity_min = fresh.disparity_min;
-     }},
-    {kBoth, STARFOCUS_ERROR_RANGE,
-     [](Call* c) {
-       starfocus_depth_config fresh;
-       starfocus_depth_config_init(&fresh);
        c->config.disparity_max = fresh.disparity_max;
      }},
+    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = NAN; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = NAN; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = 501; }},
     {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.max_workers = 0; }},
@@ -180,9 +177,8 @@ TEST_CASE("maps: calls with bad arguments return the expected status and write n
 TEST_CASE("maps: fields beyond the end of a shorter configuration get their defaults") {
   for (const int function : {kEstimate, kRepair}) {
     Call call(function);
-    call.config.size = offsetof(starfocus_depth_config, max_workers);
+    call.config.size = offsetof(starfocus_config, max_workers);
     call.config.max_workers = -1;
-    call.config.runner = [](void*, starfocus_job, void*, int32_t) { return 1; };
     CHECK(call.Run() == STARFOCUS_OK);
   }
 }
@@ -198,7 +194,7 @@ TEST_CASE("maps: calls with bad configurations return the expected status") {
     Call call(function);
     CHECK(call.SizeOf(nullptr, &needed) == STARFOCUS_ERROR_NULL);
     CHECK(call.SizeOf(&call.config, nullptr) == STARFOCUS_ERROR_NULL);
-    call.config.runner = [](void*, starfocus_job, void*, int32_t) { return 0; };
+    call.callbacks.runner = [](void*, starfocus_job, void*, int32_t) { return 0; };
     CHECK(call.Run() == STARFOCUS_ERROR_RUNNER);
   }
 }

@@ -41,7 +41,7 @@ struct Portrait {
     const starfocus_depth_map depth = Depth();
     Planes planes(kWidth, kHeight);
     starfocus_disparity_output out = planes.Out();
-    REQUIRE(starfocus_matte_coverage(&given, &depth, kWidth, kHeight, nullptr, &out) ==
+    REQUIRE(starfocus_matte_coverage(&given, &depth, kWidth, kHeight, nullptr, &out, nullptr) ==
             STARFOCUS_OK);
     CHECK(out.has_coverage == 1);
     CHECK(planes.PaddingIsUnset());
@@ -143,9 +143,9 @@ TEST_CASE("matte and map: a map of codes at a smaller size gives the coverage of
   Planes one(Portrait::kWidth, Portrait::kHeight), other(Portrait::kWidth, Portrait::kHeight);
   starfocus_disparity_output first = one.Out(), second = other.Out();
   REQUIRE(starfocus_matte_coverage(&matte, &small, Portrait::kWidth, Portrait::kHeight, nullptr,
-                                   &first) == STARFOCUS_OK);
+                                   &first, nullptr) == STARFOCUS_OK);
   REQUIRE(starfocus_matte_coverage(&matte, &floats, Portrait::kWidth, Portrait::kHeight, nullptr,
-                                   &second) == STARFOCUS_OK);
+                                   &second, nullptr) == STARFOCUS_OK);
   CHECK((one.coverage == other.coverage));
   for (int x = 30; x < 90; ++x) CHECK(one.Coverage(x, 60) == portrait.matte.At(x, 60));
 }
@@ -170,11 +170,11 @@ TEST_CASE("matte: illegal arguments are rejected, and nothing is written") {
     change(&call);
     if (use != kCoverage) {
       CHECK(starfocus_matte_field(&call.matte, &call.depth, call.width, call.height, &call.region,
-                                  &call.out) == status);
+                                  &call.out, nullptr) == status);
     }
     if (use != kField) {
       CHECK(starfocus_matte_coverage(&call.matte, &call.map, call.width, call.height, &call.region,
-                                     &call.out) == status);
+                                     &call.out, nullptr) == status);
     }
     CHECK(call.out.has_coverage == 0);
   };
@@ -239,14 +239,14 @@ TEST_CASE("matte: illegal arguments are rejected, and nothing is written") {
   starfocus_disparity_output out = planes.Out();
   starfocus_matte_stats stats;
   const S null = STARFOCUS_ERROR_NULL;
-  CHECK(starfocus_measure_matte(nullptr, &stats) == null);
-  CHECK(starfocus_measure_matte(&call.matte, nullptr) == null);
-  CHECK(starfocus_matte_field(nullptr, &call.depth, kWidth, kHeight, nullptr, &out) == null);
-  CHECK(starfocus_matte_field(&call.matte, nullptr, kWidth, kHeight, nullptr, &out) == null);
-  CHECK(starfocus_matte_field(&call.matte, &call.depth, kWidth, kHeight, nullptr, nullptr) == null);
-  CHECK(starfocus_matte_coverage(nullptr, &call.map, kWidth, kHeight, nullptr, &out) == null);
-  CHECK(starfocus_matte_coverage(&call.matte, nullptr, kWidth, kHeight, nullptr, &out) == null);
-  CHECK(starfocus_matte_coverage(&call.matte, &call.map, kWidth, kHeight, nullptr, nullptr) ==
+  CHECK(starfocus_measure_matte(nullptr, &stats, nullptr) == null);
+  CHECK(starfocus_measure_matte(&call.matte, nullptr, nullptr) == null);
+  CHECK(starfocus_matte_field(nullptr, &call.depth, kWidth, kHeight, nullptr, &out, nullptr) == null);
+  CHECK(starfocus_matte_field(&call.matte, nullptr, kWidth, kHeight, nullptr, &out, nullptr) == null);
+  CHECK(starfocus_matte_field(&call.matte, &call.depth, kWidth, kHeight, nullptr, nullptr, nullptr) == null);
+  CHECK(starfocus_matte_coverage(nullptr, &call.map, kWidth, kHeight, nullptr, &out, nullptr) == null);
+  CHECK(starfocus_matte_coverage(&call.matte, nullptr, kWidth, kHeight, nullptr, &out, nullptr) == null);
+  CHECK(starfocus_matte_coverage(&call.matte, &call.map, kWidth, kHeight, nullptr, nullptr, nullptr) ==
         null);
 }
 
@@ -261,8 +261,8 @@ TEST_CASE("matte: regions have the bytes of the whole picture") {
     for (const bool has_map : {false, true}) {
       const auto make = [&](const starfocus_region* region, Planes* planes) {
         starfocus_disparity_output out = planes->Out();
-        REQUIRE((has_map ? starfocus_matte_coverage(&matte, &map, kWidth, kHeight, region, &out)
-                         : starfocus_matte_field(&matte, &depth, kWidth, kHeight, region, &out)) ==
+        REQUIRE((has_map ? starfocus_matte_coverage(&matte, &map, kWidth, kHeight, region, &out, nullptr)
+                         : starfocus_matte_field(&matte, &depth, kWidth, kHeight, region, &out, nullptr)) ==
                 STARFOCUS_OK);
       };
       Planes whole(kWidth, kHeight), again(kWidth, kHeight);

@@ -18,7 +18,7 @@ Planes Field(const starfocus_matte& matte, const starfocus_matte_depth& depth, i
              int height) {
   Planes planes(width, height);
   starfocus_disparity_output out = planes.Out();
-  REQUIRE(starfocus_matte_field(&matte, &depth, width, height, nullptr, &out) == STARFOCUS_OK);
+  REQUIRE(starfocus_matte_field(&matte, &depth, width, height, nullptr, &out, nullptr) == STARFOCUS_OK);
   CHECK(out.has_coverage == 1);
   CHECK(planes.PaddingIsUnset());
   return planes;
@@ -66,7 +66,7 @@ TEST_CASE("matte: the box, the mean and the proposed floor are measured") {
   }
   const starfocus_matte given = matte.Get();
   starfocus_matte_stats stats;
-  REQUIRE(starfocus_measure_matte(&given, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_matte(&given, &stats, nullptr) == STARFOCUS_OK);
   CHECK(stats.covered == doctest::Approx((20 * 14 * 128 + 20 * 127) / (255.0 * 800)));
   CHECK(stats.left == 0.25);
   CHECK(stats.right == 0.75);
@@ -77,7 +77,7 @@ TEST_CASE("matte: the box, the mean and the proposed floor are measured") {
   for (int y = 8; y < 20; ++y) {
     for (int x = 0; x < 40; ++x) matte.At(x, y) = 0;
   }
-  REQUIRE(starfocus_measure_matte(&given, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_matte(&given, &stats, nullptr) == STARFOCUS_OK);
   CHECK(stats.horizon == doctest::Approx(0.3));
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("matte: a wrong sample does not move the proposed floor") {
     if (specks > 0) matte.At(3, specks == 1 ? 79 : 0) = 255;
     const starfocus_matte given = matte.Get();
     starfocus_matte_stats stats;
-    REQUIRE(starfocus_measure_matte(&given, &stats) == STARFOCUS_OK);
+    REQUIRE(starfocus_measure_matte(&given, &stats, nullptr) == STARFOCUS_OK);
     CHECK(stats.ground == 0.6);
     CHECK(stats.horizon == doctest::Approx(0.4));
     CHECK(stats.bottom == (specks == 0 ? 0.6 : 1));
@@ -103,7 +103,7 @@ TEST_CASE("matte: without a subject, the box and the floor are 0") {
   std::fill(matte.bytes.begin(), matte.bytes.end(), uint8_t{127});
   const starfocus_matte given = matte.Get();
   starfocus_matte_stats stats;
-  REQUIRE(starfocus_measure_matte(&given, &stats) == STARFOCUS_OK);
+  REQUIRE(starfocus_measure_matte(&given, &stats, nullptr) == STARFOCUS_OK);
   CHECK(stats.covered == doctest::Approx(127 / 255.0));
   for (const double zero :
        {stats.left, stats.top, stats.right, stats.bottom, stats.horizon, stats.ground}) {
@@ -202,7 +202,7 @@ TEST_CASE("matte: the coverage is optional, and disparities are rounded to 1/64"
   starfocus_disparity_output out = {};
   out.disparity = &map;
   out.disparity_stride = sizeof map;
-  REQUIRE(starfocus_matte_field(&given, &depth, 1, 1, nullptr, &out) == STARFOCUS_OK);
+  REQUIRE(starfocus_matte_field(&given, &depth, 1, 1, nullptr, &out, nullptr) == STARFOCUS_OK);
   CHECK(map == 1 + 1 / 64.0F);
   CHECK(out.has_coverage == 0);
 }

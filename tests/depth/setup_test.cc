@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "starfocus/depth.h"
+#include "tests/support/config.h"
 
 namespace setup_test {
 namespace {
@@ -18,8 +19,7 @@ using starfocus::MakeSetup;
 using starfocus::SweepSetup;
 
 SweepSetup SetupOf(int width, int height, int views, float low, float high) {
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+  test::Config config;
   config.width = width;
   config.height = height;
   config.views = views;
@@ -53,7 +53,7 @@ TEST_CASE("setup: views of a ring lie opposite each other, at the positions of t
     CHECK(!setup.one_sided());
     for (int32_t k = 0; k < setup.side_views; ++k) {
       double u = 0, v = 0;
-      REQUIRE(starfocus_view_position(setup.side[k].index, &u, &v) == 1);
+      REQUIRE(starfocus_view_position(setup.side[k].index, &u, &v, nullptr) == STARFOCUS_OK);
       CHECK(setup.side[k].at.u == starfocus::kViewOne * u);
       CHECK(setup.side[k].at.v == starfocus::kViewOne * v);
       const int32_t ring = k / setup.arms * setup.arms;
@@ -65,8 +65,7 @@ TEST_CASE("setup: views of a ring lie opposite each other, at the positions of t
 }
 
 SweepSetup PlanAt(const std::vector<starfocus_position>& positions, float low, float high) {
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+  test::Config config;
   config.width = config.height = 10;
   config.views = int32_t(positions.size());
   std::copy(positions.begin(), positions.end(), config.positions);
@@ -137,8 +136,7 @@ TEST_CASE("setup: WholeMove rounds shifts to whole pixels, and halves towards 0"
 }
 
 TEST_CASE("setup: CoarseSetup keeps every other label and the range of the labels") {
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+  test::Config config;
   config.width = config.height = 10;
   for (int range = 0; range <= 1000; range = range < 70 ? range + 1 : range + 93) {
     config.disparity_min = -float(range) / 2;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/depth/sweep.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 
 namespace swept_test {

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/filter/deblock_reference.h"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/psnr.h"
@@ -34,8 +36,8 @@ struct Setup {
   starfocus_mode mode = STARFOCUS_MODE_BLOCK;
   starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO;
 
-  starfocus_params Params() const {
-    starfocus_params params = test::Params(focus, aperture, mode, renderer);
+  starfocus::Params Params() const {
+    starfocus::Params params = test::Params(focus, aperture, mode, renderer);
     return params;
   }
 };
@@ -50,8 +52,8 @@ std::string Text(const Setup& s, const test::Scene& scene) {
   return text;
 }
 
-starfocus_config Config(const Setup& s, const test::Scene& scene) {
-  starfocus_config config = test::ConfigFor(scene, s.max_blur);
+test::Config Config(const Setup& s, const test::Scene& scene) {
+  test::Config config = test::ConfigFor(scene, s.max_blur);
   config.superblock = s.block;
   config.tuning.max_layer = s.max_layer;
   config.tuning.deblocking = s.deblocking;
@@ -79,9 +81,6 @@ Setup RandomSetup(test::Random* random, float limit) {
   return s;
 }
 
-uint64_t BlocksOf(const starfocus_report& report) {
-  return report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks;
-}
 
 void CheckStreamed(const test::Scene& scene, const Setup& s) {
   CAPTURE(Text(s, scene));
@@ -150,7 +149,7 @@ TEST_CASE(
         s.focus = 3.25;
         s.block = block;
         s.max_layer = max_layer;
-        starfocus_report report = {};
+        test::Report report;
         const bool same = Whole(scene, s, &report) == scene.pictures[0];
         CHECK_MESSAGE(same, Text(s, scene));
         CHECK(report.layers[0].pixels == uint64_t(size.first) * uint64_t(size.second));
@@ -172,7 +171,7 @@ TEST_CASE("block: a scene far out of focus is rendered at the largest allowed la
       s.renderer = STARFOCUS_RENDERER_LINE_SCAN;
       s.max_layer = max_layer;
       s.block = 128;
-      starfocus_report report = {};
+      test::Report report;
       Whole(scene, s, &report);
       CAPTURE(Text(s, scene));
       for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
@@ -202,8 +201,8 @@ TEST_CASE("block: the visited blocks cover the picture once and agree with the r
     Told told = {
         scene.width, scene.height, {}, 0, 0, 0, s.renderer != STARFOCUS_RENDERER_LINE_SCAN};
     told.covered.assign(size_t(scene.width) * size_t(scene.height), 0);
-    const starfocus_params params = s.Params();
-    const starfocus_block_visitor visitor = [](void* data, const starfocus_block* block) {
+    const starfocus::Params params = s.Params();
+    const auto visitor = [](void* data, const starfocus_block* block) {
       Told& to = *static_cast<Told*>(data);
       for (int y = block->y; y < block->y + block->height; ++y) {
         for (int x = block->x; x < block->x + block->width; ++x) {
@@ -220,13 +219,14 @@ TEST_CASE("block: the visited blocks cover the picture once and agree with the r
         }
       }
     };
+    const starfocus_observer observer = test::Visitor(visitor, &told);
     test::Output out(scene.width, scene.height);
-    starfocus_report report = {};
-    REQUIRE(test::Refocus(&engine, params, scene, &out, test::VisitedBy(visitor, &told), &report) ==
+    test::Report report;
+    REQUIRE(test::Refocus(&engine, params, scene, &out, test::ObservedBy(&observer), &report) ==
             STARFOCUS_OK);
     CAPTURE(Text(s, scene));
     CHECK(std::all_of(told.covered.begin(), told.covered.end(), [](int n) { return n == 1; }));
-    CHECK(told.blocks == BlocksOf(report));
+    CHECK(told.blocks == test::BlocksOf(report));
     CHECK(told.largest_n == report.n);
     const uint64_t views = report.layers[0].views + report.layers[1].views + report.layers[2].views;
     CHECK(told.views >= views);  // the report does not count views of copied blocks
@@ -247,7 +247,7 @@ test::Scene SmoothScene(int width, int height, int views) {
                      [&](int x, int) { return float(std::clamp(disparity(x), -6.0, 6.0)); });
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
-    starfocus_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v, nullptr);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         // px is the solution of px - u d(px) = x for the linear disparity d.
@@ -293,11 +293,11 @@ TEST_CASE("block: deblocking of a whole picture equals deblocking of stripes") {
     s.block = 32 << random.Int(0, 1);
     s.max_layer = random.Int(0, 4) == 0 ? 1 : 2;
     s.deblocking = 0;
-    const starfocus_config config = Config(s, scene);
+    const test::Config config = Config(s, scene);
     test::Engine engine(config);
     test::LayeredPicture picture(scene.width, scene.height);
-    const starfocus_params params = s.Params();
-    const starfocus_block_visitor visitor = [](void* data, const starfocus_block* block) {
+    const starfocus::Params params = s.Params();
+    const auto visitor = [](void* data, const starfocus_block* block) {
       auto* to = static_cast<test::LayeredPicture*>(data);
       for (int y = block->y; y < block->y + block->height; y += test::kUnit) {
         for (int x = block->x; x < block->x + block->width; x += test::kUnit) {
@@ -305,8 +305,9 @@ TEST_CASE("block: deblocking of a whole picture equals deblocking of stripes") {
         }
       }
     };
+    const starfocus_observer observer = test::Visitor(visitor, &picture);
     test::Output out(scene.width, scene.height);
-    REQUIRE(test::Refocus(&engine, params, scene, &out, test::VisitedBy(visitor, &picture)) ==
+    REQUIRE(test::Refocus(&engine, params, scene, &out, test::ObservedBy(&observer)) ==
             STARFOCUS_OK);
     for (const int beta : {35, 255}) {
       picture.rgb = out.bytes;

@@ -13,6 +13,8 @@
 #include "lib/io/input.h"
 #include "lib/io/layers.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/rounds.h"
@@ -93,8 +95,8 @@ struct Way {
   int side = 160;
 
   int Side() const { return highlights > 1 ? 288 : side; }
-  starfocus_config Config(const test::Scene& scene) const {
-    starfocus_config config = test::ConfigFor(scene, aperture * (limit + std::abs(focus)));
+  test::Config Config(const test::Scene& scene) const {
+    test::Config config = test::ConfigFor(scene, aperture * (limit + std::abs(focus)));
     if (!coverage) config.features &= ~STARFOCUS_FEATURE_COVERAGE;
     config.superblock = kSuperblock;
     config.tuning.max_layer = int16_t(max_layer);
@@ -126,7 +128,7 @@ class Superblock {
   }
 
   Borders Limits() const { return test::BordersOf(way_.Config(scene_)); }
-  const starfocus_report& report() const { return report_; }
+  const test::Report& report() const { return report_; }
 
   bool FrameDiff(const Kept& kept, test::Random* random) {
     return Refocus(Poisoned(scene_, rect_, kept, random), nullptr) != bytes_;
@@ -134,7 +136,7 @@ class Superblock {
 
  private:
   std::vector<uint8_t> Refocus(const test::Scene& scene, starfocus_report* report) {
-    starfocus_params params =
+    starfocus::Params params =
         test::Params(way_.focus, way_.aperture, starfocus_mode(way_.mode), way_.renderer);
     params.region = {rect_.x, rect_.y, rect_.width, rect_.height};
     test::Output out(rect_.width, rect_.height);
@@ -146,7 +148,7 @@ class Superblock {
   const test::Scene scene_;
   test::Engine engine_;
   Rect rect_ = {};
-  starfocus_report report_ = {};
+  test::Report report_;
   std::vector<uint8_t> bytes_;
 };
 

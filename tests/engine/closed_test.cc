@@ -7,6 +7,8 @@
 #include <cstdlib>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -89,13 +91,13 @@ TEST_CASE("closed: a surface with noisy or sloping disparities lets no light thr
       for (const Outline outline : {Outline::kSharp, Outline::kHairy, Outline::kGiven}) {
         for (const int views : {1, 5}) {
           const test::Scene scene = Before({jitter, slope, outline}, views, uint64_t(++seed));
-          starfocus_config config = test::ConfigFor(scene, 16);
+          test::Config config = test::ConfigFor(scene, 16);
           config.features |= STARFOCUS_FEATURE_COVERAGE;
           test::Engine engine(config);
           for (const double focus : {-6.0, -2.0, 2.5, 5.0, 9.0}) {
             for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
               CAPTURES(jitter, slope, int(outline), views, seed, focus, mode);
-              starfocus_params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
+              starfocus::Params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
               const test::Output out = test::OutputOf(&engine, params, scene);
               const int blur = int(std::max(std::abs(focus - 2), std::abs(focus - 4))) + 9;
               CHECK(MostLeaked(out, blur) <= 1);

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/shapes.h"
@@ -64,16 +66,16 @@ int Changed(const Trial& t, int most = 0) {
   } else {
     test::RandomDisparity(&scene, &random);
   }
-  starfocus_config config = test::ConfigFor(scene, t.max_blur);
+  test::Config config = test::ConfigFor(scene, t.max_blur);
   config.superblock = t.block;
   config.tuning.n_scale = t.n_scale;
   config.transfer = t.transfer;
   test::SetFeature(STARFOCUS_FEATURE_COVERAGE, t.splits_thin, &config.features);
   test::Random shapes(t.shape);
-  starfocus_params params = test::Params(t.focus, t.aperture, t.mode, t.renderer);
-  if (t.theta > 0) params.lens.theta = t.theta;
-  if (t.shape != 0) test::RandomShape(&params.lens, &shapes);
-  test::ReserveFor(params.lens, &config);
+  starfocus::Params params = test::Params(t.focus, t.aperture, t.mode, t.renderer);
+  if (t.theta > 0) params.theta = t.theta;
+  if (t.shape != 0) test::RandomShape(&params, &shapes);
+  test::ReserveFor(params, &config);
   const test::Output out = test::OutputOf(config, params, scene);
   int changed = 0;
   for (size_t i = 0; i < out.bytes.size(); ++i) {

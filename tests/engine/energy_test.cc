@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -42,7 +44,7 @@ TEST_CASE("energy: views shifted by half a pixel do not change the mean brightne
       for (int round = 0; round < kRounds; ++round) {
         const int mean = 108 + round;
         const test::Scene scene = PeriodicScene(mean, uint64_t(round) + 1);
-        starfocus_config config = test::ConfigFor(scene, 7);
+        test::Config config = test::ConfigFor(scene, 7);
         config.transfer = STARFOCUS_TRANSFER_NONE;
         const test::Output out = test::OutputOf(config, test::Params(radius, 1, mode), scene);
         for (int y = kMargin; y < kMargin + kPeriod; ++y) {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/ways.h"
@@ -50,9 +52,9 @@ Scenes WithGaps(int views) {
   return scenes;
 }
 
-starfocus_config FillingConfig(const test::Scene& scene) {
-  starfocus_config config = test::ConfigFor(scene, 32);
-  config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
+test::Config FillingConfig(const test::Scene& scene) {
+  test::Config config = test::ConfigFor(scene, 32);
+  config.unknown = STARFOCUS_UNKNOWN_FILL;
   return config;
 }
 
@@ -60,7 +62,7 @@ TEST_CASE("fill unknown: in every mode, gaps get the farther known value of the 
   for (const int views : {1, 5}) {
     const Scenes scenes = WithGaps(views);
     for (const starfocus_mode mode : test::kModes) {
-      const starfocus_params params = test::Params(0.5, 0.5, mode);
+      const starfocus::Params params = test::Params(0.5, 0.5, mode);
       const test::Refocused filled =
           test::RefocusScene(scenes.unknown, FillingConfig(scenes.unknown), params);
       const test::Refocused by_hand =
@@ -75,8 +77,8 @@ TEST_CASE("fill unknown: in every mode, gaps get the farther known value of the 
 
 TEST_CASE("fill unknown: all ways to refocus fill unknown disparities with equal values") {
   const Scenes scenes = WithGaps(5);
-  const starfocus_config config = FillingConfig(scenes.unknown);
-  const starfocus_params params = test::Params(0.5, 0.5, STARFOCUS_MODE_BLOCK);
+  const test::Config config = FillingConfig(scenes.unknown);
+  const starfocus::Params params = test::Params(0.5, 0.5, STARFOCUS_MODE_BLOCK);
   test::CheckWays(scenes.unknown, config, params);
   const starfocus_report report = test::RefocusScene(scenes.unknown, config, params).report;
   CHECK(report.unknown_pixels == uint64_t(scenes.count));
@@ -86,7 +88,7 @@ TEST_CASE(
     "fill unknown: known values outside the range are rejected, even next to unknown values") {
   Scenes scenes = WithGaps(1);
   scenes.unknown.Disparity(70, 10) = scenes.unknown.disparity_max + 1;
-  const starfocus_config config = FillingConfig(scenes.unknown);
+  const test::Config config = FillingConfig(scenes.unknown);
   test::Engine engine(config);
   test::Output out(scenes.unknown.width, scenes.unknown.height);
   CHECK(test::Refocus(&engine, test::Params(0, 0.5, STARFOCUS_MODE_BLOCK), scenes.unknown, &out) ==
@@ -94,7 +96,7 @@ TEST_CASE(
   CHECK(out.Untouched());
 }
 
-TEST_CASE("fill unknown: without STARFOCUS_FEATURE_FILL_UNKNOWN, unknown values are rejected") {
+TEST_CASE("fill unknown: without STARFOCUS_UNKNOWN_FILL, unknown values are rejected") {
   const Scenes scenes = WithGaps(1);
   test::Engine engine(test::ConfigFor(scenes.unknown, 32));
   test::Output out(scenes.unknown.width, scenes.unknown.height);

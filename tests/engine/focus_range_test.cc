@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -19,20 +21,20 @@ namespace {
 constexpr int kSide = 96, kReach = 16;
 
 // Returns parameters with the disparities from `far` to `near` in focus. `focus` lies inside.
-starfocus_params ParamsOf(double far, double focus, double near) {
-  starfocus_params params = test::Params(focus);
-  params.lens.focus_nearer = near - focus;
-  params.lens.focus_farther = focus - far;
+starfocus::Params ParamsOf(double far, double focus, double near) {
+  starfocus::Params params = test::Params(focus);
+  params.focus_nearer = near - focus;
+  params.focus_farther = focus - far;
   return params;
 }
 
 // Calls check(params) for every mode and renderer.
-void ForModes(starfocus_params params, const std::function<void(const starfocus_params&)>& check) {
+void ForModes(starfocus::Params params, const std::function<void(const starfocus::Params&)>& check) {
   for (const starfocus_mode mode : test::kModes) {
     for (const starfocus_renderer renderer : test::kRenderers) {
       CAPTURES(mode, renderer);
-      params.mode = mode;
-      params.renderer = renderer;
+      params.study.mode = mode;
+      params.study.renderer = renderer;
       check(params);
     }
   }
@@ -87,8 +89,8 @@ TEST_CASE("focus range: if all disparities are in focus, the picture is the cent
   for (const int views : {1, 5, 17}) {
     const test::Scene scene = test::LayeredScene(kSide, kSide, views, 7, 3);
     test::Engine engine(test::ConfigFor(scene, 4));
-    ForModes(ParamsOf(-7, 2, 7.5), [&](const starfocus_params& params) {
-      starfocus_report report;
+    ForModes(ParamsOf(-7, 2, 7.5), [&](const starfocus::Params& params) {
+      starfocus_report report = starfocus::NewReport();
       CHECK(test::OutputOf(&engine, params, scene, &report).bytes == CentreOf(scene));
       CHECK(report.r_max == 0);
     });
@@ -101,15 +103,15 @@ TEST_CASE("focus range: outside, the blur is that of a lens focused at the adjac
     double far, near, focus;
   } constexpr kRanges[] = {{6, 9.5, 6}, {-11, -5.25, -5.25}, {-1e6, -5, -5}, {5, 1e6, 5}};
   for (const auto& range : kRanges) {
-    starfocus_config config = test::ConfigFor(scene, 16);
+    test::Config config = test::ConfigFor(scene, 16);
     // The disparities of a gathered cell have a middle that is rounded towards 0. Closing
     // disparities in front of the range may therefore change the PSF of a cell.
     config.tuning.gather = range.focus < 0 ? 0 : 1;
     ForModes(ParamsOf(range.far, range.far / 2 + range.near / 2, range.near),
-             [&](const starfocus_params& params) {
-               starfocus_params single = params;
-               single.lens.focus_nearer = single.lens.focus_farther = 0;
-               single.lens.focus = range.focus;
+             [&](const starfocus::Params& params) {
+               starfocus::Params single = params;
+               single.focus_nearer = single.focus_farther = 0;
+               single.focus = range.focus;
                CHECK(test::OutputOf(config, params, scene).bytes ==
                      test::OutputOf(config, single, scene).bytes);
              });
@@ -125,10 +127,10 @@ TEST_CASE("focus range: surfaces inside the range are sharp beside blurred surfa
         std::fill(all.disparity.begin(), all.disparity.end(), wall);
         return all;
       }();
-      const starfocus_config config = test::ConfigFor(scene, kReach);
-      ForModes(ParamsOf(-2, 3, 5), [&](const starfocus_params& params) {
+      const test::Config config = test::ConfigFor(scene, kReach);
+      ForModes(ParamsOf(-2, 3, 5), [&](const starfocus::Params& params) {
         CAPTURES(wall, views);
-        if (params.mode == STARFOCUS_MODE_BENCHMARK) return;  // as frame, but slow
+        if (params.study.mode == STARFOCUS_MODE_BENCHMARK) return;  // as frame, but slow
         const auto made = test::OutputOf(config, params, scene).bytes;
         CHECK(LargestDifference(made, CentreOf(scene), 0, kSide / 2 - kReach) <= 1);
         const auto blurred = test::OutputOf(config, params, flat).bytes;

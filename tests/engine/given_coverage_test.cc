@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
@@ -52,17 +54,17 @@ test::Scene Comb() {
   return scene;
 }
 
-starfocus_config CombConfig(const test::Scene& scene) {
-  starfocus_config config = test::ConfigFor(scene, kNear - kFar);
+test::Config CombConfig(const test::Scene& scene) {
+  test::Config config = test::ConfigFor(scene, kNear - kFar);
   config.transfer = STARFOCUS_TRANSFER_NONE;
   config.superblock = 64;
   return config;
 }
 
 // Returns parameters for block mode with a disc as the opening.
-starfocus_params ThroughDisc(double focus) {
-  starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
-  params.lens.shape = STARFOCUS_SHAPE_DISC;
+starfocus::Params ThroughDisc(double focus) {
+  starfocus::Params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
+  params.shape = STARFOCUS_SHAPE_DISC;
   return params;
 }
 
@@ -98,7 +100,7 @@ test::Scene Without(test::Scene scene) {
 
 TEST_CASE("given coverage: coverage shows gaps of a comb that the disparity map lacks") {
   const test::Scene scene = Comb();
-  const starfocus_params params = ThroughDisc(kFar);
+  const starfocus::Params params = ThroughDisc(kFar);
   const double with = PsnrOf(test::OutputOf(CombConfig(scene), params, scene));
   const double without = PsnrOf(test::OutputOf(CombConfig(scene), params, Without(scene)));
   MESSAGE("PSNR without and with coverage: ", without, " and ", with, " dB");
@@ -153,7 +155,7 @@ TEST_CASE("given coverage: with side views, detail behind an outline stays as sh
       scene.Disparity(x, y) = float(x < kOutline ? kNear : kFar);
     }
   }
-  const starfocus_params params = ThroughDisc(kFar);
+  const starfocus::Params params = ThroughDisc(kFar);
   const double with = FinePsnrOf(test::OutputOf(CombConfig(scene), params, scene));
   const double without = FinePsnrOf(test::OutputOf(CombConfig(scene), params, Without(scene)));
   MESSAGE("PSNR without and with coverage: ", without, " and ", with, " dB");
@@ -210,7 +212,7 @@ double ErrorBesideDisc(const test::Output& out, const test::Scene& scene) {
 
 TEST_CASE("given coverage: beside an exact map, true coverage does not cost accuracy") {
   const test::Scene scene = Disc();
-  const starfocus_params params = ThroughDisc(kNear);
+  const starfocus::Params params = ThroughDisc(kNear);
   const double with = ErrorBesideDisc(test::OutputOf(CombConfig(scene), params, scene), scene);
   const double without =
       ErrorBesideDisc(test::OutputOf(CombConfig(scene), params, Without(scene)), scene);
@@ -227,7 +229,7 @@ TEST_CASE("given coverage: a narrow strip of another disparity along an outline 
       if (radius > 43 && radius < 45) strip.Disparity(x, y) = float((kNear + kFar) / 2);
     }
   }
-  const starfocus_params params = ThroughDisc(kFar);
+  const starfocus::Params params = ThroughDisc(kFar);
   const test::Output one = test::OutputOf(CombConfig(scene), params, scene);
   const test::Output other = test::OutputOf(CombConfig(strip), params, strip);
   int most = 0;
@@ -251,11 +253,11 @@ TEST_CASE("given coverage: coverage that repeats the map changes nothing, even b
     }
   }
   scene.coverage[size_t((kTop + 3) * kWidth + kMixed)] = 128;
-  starfocus_config config = CombConfig(scene);
+  test::Config config = CombConfig(scene);
   config.tuning.gather = 0;
   for (const double focus : {kFar, kNear}) {
-    starfocus_params params = ThroughDisc(focus);
-    params.lens.aperture = 0.5;
+    starfocus::Params params = ThroughDisc(focus);
+    params.aperture = 0.5;
     const test::Output with = test::OutputOf(config, params, scene);
     const test::Output without = test::OutputOf(config, params, Without(scene));
     int most = 0;
@@ -311,10 +313,10 @@ TEST_CASE("given coverage: a slanted surface that covers its pixels stays closed
     }
     scene.coverage[size_t(y * 128 + kEdge - 1)] = 200;
   }
-  const starfocus_config config = test::ConfigFor(scene, kBlur);
+  const test::Config config = test::ConfigFor(scene, kBlur);
   for (const double focus : {34.0, 37.0}) {
     CAPTURE(focus);
-    const starfocus_params params = test::Params(focus, 0.5, STARFOCUS_MODE_BLOCK);
+    const starfocus::Params params = test::Params(focus, 0.5, STARFOCUS_MODE_BLOCK);
     const test::Output out = test::OutputOf(config, params, scene);
     int lightest = 0;
     for (int y = 8; y < 88; ++y) {
@@ -336,7 +338,7 @@ TEST_CASE("given coverage: the wall ends where coverage ends, even deep inside a
       scene.Disparity(x, y) = float(near * kRadius);
     }
   }
-  starfocus_config config = CombConfig(scene);
+  test::Config config = CombConfig(scene);
   config.max_blur = kRadius;
   const test::Output out = test::OutputOf(config, ThroughDisc(0), scene);
   double most = 0;
@@ -351,10 +353,10 @@ TEST_CASE("given coverage: the wall ends where coverage ends, even deep inside a
 
 TEST_CASE("given coverage: all ways to refocus return the same bytes") {
   const test::Scene scene = Comb();
-  const starfocus_config config = CombConfig(scene);
+  const test::Config config = CombConfig(scene);
   for (const double focus : {kFar, 1.0, kNear}) {
     CAPTURE(focus);
-    starfocus_params params = ThroughDisc(focus);
+    starfocus::Params params = ThroughDisc(focus);
     CHECK((test::OutputOf(config, params, Without(scene)).bytes !=
            test::OutputOf(config, params, scene).bytes));
     test::CheckWays(scene, config, params);
@@ -380,25 +382,25 @@ test::Scene Doubled(const test::Scene& scene) {
 
 TEST_CASE("given coverage: each preview pixel has the mean coverage of 2x2 pixels") {
   const test::Scene scene = Comb(), doubled = Doubled(scene);
-  starfocus_config config = CombConfig(doubled);
+  test::Config config = CombConfig(doubled);
   config.max_blur = 4 * kNear;
   config.previews = 1;
   test::Engine engine(config);
-  test::PreparedMemory memory(config);
+  test::PreparedMemory memory(engine.get());
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), doubled.Field());
-  starfocus_params params = ThroughDisc(2 * kFar);
+  starfocus::Params params = ThroughDisc(2 * kFar);
   test::Output preview(kWidth, kHeight);
   REQUIRE(test::PreviewRgb(engine.get(), &params, prepared, 1, preview.bytes.data(), preview.stride,
                            nullptr) == STARFOCUS_OK);
-  params.lens.focus = kFar;
+  params.focus = kFar;
   CHECK((preview.bytes == test::OutputOf(CombConfig(scene), params, scene).bytes));
   CHECK((preview.bytes != test::OutputOf(CombConfig(scene), params, Without(scene)).bytes));
 }
 
 TEST_CASE("given coverage: with a previous frame, changes of coverage are detected") {
   const test::Scene before = Comb();
-  const starfocus_config config = CombConfig(before);
-  const starfocus_params params = ThroughDisc(kFar);
+  const test::Config config = CombConfig(before);
+  const starfocus::Params params = ThroughDisc(kFar);
   const test::Output first = test::OutputOf(config, params, before);
   test::Scene changed = before;
   changed.coverage[size_t(90 * kWidth + 100)] ^= 255;
@@ -406,8 +408,9 @@ TEST_CASE("given coverage: with a previous frame, changes of coverage are detect
     test::Engine engine(config);
     test::Output out(kWidth, kHeight);
     const starfocus_light_field field = now.Field();
-    const starfocus_previous previous = {before.Field(),
-                                         starfocus_image_rgb(first.bytes.data(), first.stride)};
+    const starfocus_light_field before_field = before.Field();
+    const starfocus_image before_image = starfocus_image_rgb(first.bytes.data(), first.stride);
+    const starfocus_previous previous = {sizeof previous, &before_field, &before_image};
     REQUIRE(test::RefocusAfterRgb(engine.get(), &params, &field, &previous, out.bytes.data(),
                                   out.stride, nullptr) == STARFOCUS_OK);
     CHECK((out.bytes == test::OutputOf(config, params, now).bytes));
@@ -419,9 +422,9 @@ TEST_CASE(
   test::Scene scene = Comb();
   test::Random random(3);
   for (uint8_t& coverage : scene.coverage) coverage = random.Byte();
-  starfocus_config config = CombConfig(scene);
-  starfocus_params params = ThroughDisc(0);
-  params.lens.aperture = 0.001;
+  test::Config config = CombConfig(scene);
+  starfocus::Params params = ThroughDisc(0);
+  params.aperture = 0.001;
   const test::Output out = test::OutputOf(config, params, scene);
   CHECK((out.bytes == scene.pictures[0]));
 }
@@ -430,8 +433,8 @@ TEST_CASE("given coverage: highlights brighten only pixels near lamps") {
   test::Scene scene = Comb();
   for (auto& sample : scene.pictures[0]) sample = std::min<uint8_t>(sample, 240);
   for (int y = 2; y < 6; ++y) std::fill_n(scene.Pixel(0, 2, y), 12, uint8_t{255});
-  starfocus_config config = CombConfig(scene);
-  const starfocus_params params = ThroughDisc(kNear);
+  test::Config config = CombConfig(scene);
+  const starfocus::Params params = ThroughDisc(kNear);
   const test::Output plain = test::OutputOf(config, params, scene);
   config.highlights = 16;
   const test::Output lit = test::OutputOf(config, params, scene);
@@ -448,9 +451,9 @@ TEST_CASE("given coverage: highlights brighten only pixels near lamps") {
 TEST_CASE(
     "given coverage: without the coverage feature, coverage is ignored; bad input is rejected") {
   const test::Scene scene = Comb();
-  starfocus_config config = CombConfig(scene);
+  test::Config config = CombConfig(scene);
   config.features |= STARFOCUS_FEATURE_STREAMING;
-  const starfocus_params params = ThroughDisc(kFar);
+  const starfocus::Params params = ThroughDisc(kFar);
   test::Engine engine(config);
   starfocus_light_field field = scene.Field();
   int32_t consumed = 0;

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/integer_scene.h"
 #include "tests/support/refocused.h"
@@ -119,7 +121,7 @@ struct Covered {
 // Returns the checksum of the refocused picture, and adds its pixels to `covered`.
 std::string Refocus(const Case& one, const test::Scene& scene,
                     const starfocus::simd::Kernels* kernels, Covered* covered) {
-  starfocus_config config = test::ConfigFor(scene, 43);
+  test::Config config = test::ConfigFor(scene, 43);
   config.superblock = one.block;
   // Cases with slanted surfaces average codes as in the paper, and other cases average light.
   config.transfer =
@@ -127,16 +129,16 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   // In cases with 9 views, every cell is rendered from views, so views occur at all layers.
   config.tuning.gather = one.views != 9;
   if (one.levels > 0) config.tuning.n_scale = 0.5;
-  starfocus_params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
-  if (one.shape != nullptr) one.shape->Set(&params.lens);
-  test::ReserveFor(params.lens, &config);
+  starfocus::Params params = test::Params(one.lens.focus, one.lens.aperture, one.lens.mode);
+  if (one.shape != nullptr) one.shape->Set(&params);
+  test::ReserveFor(params, &config);
   test::Engine engine(config);
   test::UseKernels(kernels, engine.get());
   // The renderer slices uses no layer 2 at depth edges, so cases with blocks of 32 use the line
   // scan.
-  if (one.block == 32) params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
-  if (one.levels > 0) params.renderer = STARFOCUS_RENDERER_SLICES;
-  starfocus_report report = {};
+  if (one.block == 32) params.study.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+  if (one.levels > 0) params.study.renderer = STARFOCUS_RENDERER_SLICES;
+  test::Report report;
   const test::Output out = test::OutputOf(&engine, params, scene, &report);
   for (int layer = 0; layer < STARFOCUS_LAYERS; ++layer) {
     covered->layers[layer] += report.layers[layer].pixels;

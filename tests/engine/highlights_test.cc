@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/transfer_curve.h"
 #include "tests/support/ways.h"
@@ -35,14 +37,14 @@ std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highl
                              starfocus_mode mode = STARFOCUS_MODE_BLOCK,
                              starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO,
                              starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB) {
-  starfocus_config config = test::ConfigFor(scene, 20);
+  test::Config config = test::ConfigFor(scene, 20);
   config.superblock = 32;
   // The test disables layers 1 and 2 and the blurring of cells without views, which the engine does
   // not use near highlights.
   config.tuning.max_layer = config.tuning.gather = 0;
   config.highlights = float(highlights);
   config.transfer = transfer;
-  starfocus_params params = test::Params(blur, 1, mode, renderer);
+  starfocus::Params params = test::Params(blur, 1, mode, renderer);
   return test::RefocusScene(scene, config, params).rgb;
 }
 
@@ -127,7 +129,7 @@ TEST_CASE("highlights: white areas larger than lamps are not brightened") {
 
 TEST_CASE("highlights: for a white picture, the excess of highlights is not rendered") {
   const auto samples = [](const test::Scene& scene, double highlights) {
-    starfocus_config config = test::ConfigFor(scene, 20);
+    test::Config config = test::ConfigFor(scene, 20);
     config.tuning.gather = 0;
     config.highlights = float(highlights);
     return test::RefocusScene(scene, config, test::Params(9, 1, STARFOCUS_MODE_BLOCK))
@@ -166,10 +168,10 @@ TEST_CASE("highlights: all ways to refocus return the same bytes") {
       }
     }
     for (const starfocus_mode mode : test::kModes) {
-      starfocus_config config = test::ConfigFor(scene, 9);
+      test::Config config = test::ConfigFor(scene, 9);
       config.superblock = 32;
       config.highlights = 6;
-      const starfocus_params params = test::Params(-4, 1, mode);
+      const starfocus::Params params = test::Params(-4, 1, mode);
       CAPTURES(views, mode);
       test::CheckWays(scene, config, params);
     }

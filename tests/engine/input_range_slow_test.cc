@@ -9,6 +9,8 @@
 #include <cstdio>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
@@ -37,8 +39,8 @@ void DrawTwoLevels(int low, int high, test::Random* random, test::Scene* scene) 
 
 struct Trial {
   test::Scene scene;
-  starfocus_config config;
-  starfocus_params params;
+  test::Config config;
+  starfocus::Params params;
   int low, high;
 };
 
@@ -59,16 +61,16 @@ Trial MakeTrial(uint64_t seed, starfocus_mode mode, starfocus_renderer renderer,
   DrawTwoLevels(trial.low, trial.high, &random, &trial.scene);
   const double radius = random.Real(1, 40);
   trial.params = test::Params(random.Int(0, 1) == 0 ? range + radius : -radius, 1, mode);
-  trial.params.renderer = renderer;
+  trial.params.study.renderer = renderer;
   trial.config = test::ConfigFor(trial.scene, radius + range + 1);
   trial.config.transfer = seed % 2 == 0 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
   if (openings == Openings::kAnyTheta) {
-    trial.params.lens.theta = random.Int(0, 1) == 0
-                                  ? STARFOCUS_MAX_THETA
-                                  : random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
+    trial.params.theta = random.Int(0, 1) == 0
+                             ? STARFOCUS_MAX_THETA
+                             : random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
   }
-  if (openings == Openings::kAnyShape) test::RandomShape(&trial.params.lens, &random);
-  test::ReserveFor(trial.params.lens, &trial.config);
+  if (openings == Openings::kAnyShape) test::RandomShape(&trial.params, &random);
+  test::ReserveFor(trial.params, &trial.config);
   return trial;
 }
 

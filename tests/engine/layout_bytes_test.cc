@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/memory_parts.h"
 #include "tests/support/test_scene.h"
@@ -80,12 +81,12 @@ TEST_CASE("layout: sizes beyond the address space are reported as too large") {
 // The recorded sizes are the sizes in KiB in docs/boards.md, for all modes and both renderers.
 TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes" *
           doctest::skip(starfocus::kRedZone > 0)) {
-  const auto with_coverage = [](starfocus_config config) {
+  const auto with_coverage = [](test::Config config) {
     config.features |= STARFOCUS_FEATURE_COVERAGE;
     return config;
   };
   const struct {
-    starfocus_config config;
+    test::Config config;
     size_t most;
   } kBoards[] = {
       // The first three boards have memory for thin structures.
@@ -99,7 +100,7 @@ TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes"
       {test::BoardConfig(1920, 1080, 1, 64, 32, 0), 3049},
       // On the last board, the engine has no layers 1 and 2.
       {[] {
-         starfocus_config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
+         test::Config config = test::BoardConfig(640, 480, 1, 32, 8, 1);
          config.tuning.max_layer = 0;
          return config;
        }(),
@@ -107,7 +108,7 @@ TEST_CASE("layout: the workspaces for boards do not exceed their recorded sizes"
   };
   for (const auto& board : kBoards) {
     size_t bytes = 0;
-    REQUIRE(starfocus_workspace_size(&board.config, &bytes) == STARFOCUS_OK);
+    REQUIRE(starfocus_workspace_size(&board.config, &bytes, nullptr) == STARFOCUS_OK);
     CAPTURE(bytes);
     CHECK(bytes <= board.most << 10);
   }
@@ -118,11 +119,11 @@ TEST_CASE("layout: the sizes of all parts add up to the size of the workspace" *
           doctest::skip(starfocus::kRedZone > 0)) {
   for (const int streaming : {0, 1}) {
     for (const int images : {0, 1}) {
-      starfocus_config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
+      test::Config config = test::BoardConfig(320, 200, 5, 64, 12, streaming);
       test::SetFeature(STARFOCUS_FEATURE_IMAGES, images, &config.features);
       const std::vector<test::MemoryPart> parts = test::MeasureParts(config);
       size_t bytes = 0;
-      REQUIRE(starfocus_workspace_size(&config, &bytes) == STARFOCUS_OK);
+      REQUIRE(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);
       CHECK(!parts.empty());
       CHECK(test::SumOf(parts).all == bytes);
     }
@@ -133,8 +134,7 @@ TEST_CASE("layout: the sizes of all parts add up to the size of the workspace" *
 TEST_CASE("layout: the layout of a preview fits into the workspace of the full picture") {
   test::Random random(44);
   for (int round = 0; round < 300; ++round) {
-    starfocus_config config;
-    starfocus_config_init(&config);
+    test::Config config;
     config.width = random.Int(1, random.Int(0, 1) == 0 ? 40 : STARFOCUS_MAX_SIZE);
     config.height = random.Int(1, 4000);
     config.disparity_max = float(random.Real(0, 500));
@@ -148,7 +148,7 @@ TEST_CASE("layout: the layout of a preview fits into the workspace of the full p
     const size_t bytes = test::WorkspaceBytes(config);
     if (bytes == kTooLarge) continue;
     for (int shift = 1; shift <= STARFOCUS_MAX_PREVIEW; ++shift) {
-      const starfocus_config reduced = starfocus::ReducedConfig(config, shift);
+      const starfocus::FullConfig reduced = starfocus::ReducedConfig(config, shift);
       CAPTURES(round, shift);
       CHECK(test::WorkspaceBytes(reduced) <= bytes);
     }
@@ -157,8 +157,7 @@ TEST_CASE("layout: the layout of a preview fits into the workspace of the full p
 
 TEST_CASE(
     "layout: an engine of a preview shares workers and tables, and leaves the engine unchanged") {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   config.width = 300;
   config.height = 200;
   config.max_workers = 2;
@@ -166,7 +165,6 @@ TEST_CASE(
   test::Engine engine(config);
   REQUIRE(engine.status() == STARFOCUS_OK);
   starfocus::EngineState& state = test::StateOf(engine.get());
-  config = state.config;
   const starfocus::Scratch* workers = state.scratch;
   const uint32_t* sums = workers[1].sums;
   const uint16_t* weights = state.tables->apertures[0].weights;
@@ -174,7 +172,7 @@ TEST_CASE(
   state.rings.map_width = 300;
   state.stream.active = true;
   const starfocus::EngineState preview =
-      starfocus::PreviewEngine(starfocus::ReducedConfig(config, 2), &state);
+      starfocus::PreviewEngine(starfocus::ReducedConfig(state.config, 2), &state);
   CHECK(preview.config.width == 75);
   CHECK(preview.scratch == workers);
   CHECK(preview.scratch[1].sums == sums);
@@ -191,8 +189,7 @@ TEST_CASE(
 
 // On 32-bit machines, wide streaming configurations exceed the address space.
 TEST_CASE("layout: sizes never overflow, and every call rejects sizes that are too large") {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   config.height = 65535;
   config.views = STARFOCUS_MAX_VIEWS;
   config.disparity_min = -500;
@@ -206,26 +203,22 @@ TEST_CASE("layout: sizes never overflow, and every call rejects sizes that are t
     // Ring buffers of streams hold all views with 3 bytes per pixel. A ring buffer has the rows of
     // a stripe, and the rows within reach of the largest disparity and blur.
     const uint64_t rings = uint64_t{3 * STARFOCUS_MAX_VIEWS * (256 + 2 * 628)} * uint64_t(width);
-    const uint64_t disparities = uint64_t{2 * 65535} * uint64_t(width);
-    for (const bool prepared : {false, true}) {
-      size_t bytes = 77;
-      const starfocus_status status = prepared ? starfocus_prepared_size(&config, &bytes)
-                                               : starfocus_workspace_size(&config, &bytes);
-      CAPTURES(width, prepared);
-      if (status == STARFOCUS_OK) {
-        CHECK(bytes > (prepared ? disparities : rings));
-        CHECK(bytes < (prepared ? 2 : 4) * (prepared ? disparities : rings) + (1 << 26));
-        continue;
-      }
-      CHECK(status == STARFOCUS_ERROR_TOO_LARGE);
-      CHECK(bytes == 77);
-      ++refused;
-      if (prepared) continue;
-      alignas(STARFOCUS_ALIGNMENT) static uint8_t little[STARFOCUS_ALIGNMENT];
-      starfocus_engine* engine = nullptr;
-      CHECK(starfocus_init(&config, little, sizeof(little), &engine) == STARFOCUS_ERROR_TOO_LARGE);
-      CHECK(engine == nullptr);
+    size_t bytes = 77;
+    const starfocus_status status = starfocus_workspace_size(&config, &bytes, nullptr);
+    CAPTURE(width);
+    if (status == STARFOCUS_OK) {
+      CHECK(bytes > rings);
+      CHECK(bytes < 4 * rings + (1 << 26));
+      continue;
     }
+    CHECK(status == STARFOCUS_ERROR_TOO_LARGE);
+    CHECK(bytes == 77);
+    ++refused;
+    alignas(STARFOCUS_ALIGNMENT) static uint8_t little[STARFOCUS_ALIGNMENT];
+    starfocus_engine* engine = nullptr;
+    CHECK(starfocus_init(&config, little, sizeof(little), &engine, nullptr) ==
+          STARFOCUS_ERROR_TOO_LARGE);
+    CHECK(engine == nullptr);
   }
   CHECK((refused > 0) == (sizeof(size_t) == 4));
 }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
@@ -55,11 +57,11 @@ test::Scene VariedScene(int width, int height, int views, float limit, test::Ran
 
 // Refocuses a scene. Checks that each block of the last stripe has unchanged bytes if the block is
 // rendered instead of copied. Returns the number of copied pixels.
-uint64_t CheckRendered(const test::Scene& scene, const starfocus_config& config,
-                       const starfocus_params& params) {
+uint64_t CheckRendered(const test::Scene& scene, const test::Config& config,
+                       const starfocus::Params& params) {
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
-  starfocus_report report = {};
+  test::Report report;
   REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
   for (const starfocus::Block& block : test::PlanOf(engine.get()).blocks) {
     const bool same =
@@ -77,7 +79,7 @@ TEST_CASE("omitted work: in every mode, a copied block has the bytes of a render
     const int width = random.Int(1, 200), height = random.Int(1, 120);
     const int views = test::kStars[random.Int(0, 3)];
     const test::Scene scene = VariedScene(width, height, views, limit, &random);
-    starfocus_config config = test::ConfigFor(scene, 20);
+    test::Config config = test::ConfigFor(scene, 20);
     config.superblock = kBlocks[random.Int(0, 3)];
     config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
     if (random.Int(0, 3) == 0) config.tuning.n_scale = random.Real(0.5, 2);
@@ -86,8 +88,8 @@ TEST_CASE("omitted work: in every mode, a copied block has the bytes of a render
     const double focus = random.Int(0, 1) == 0 ? 0 : random.Real(-2 * limit, 2 * limit);
     double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.02, 1);
     if (mode == STARFOCUS_MODE_BENCHMARK) aperture /= limit;
-    starfocus_params params = test::Params(focus, aperture, mode);
-    params.renderer = random.Int(0, 2);
+    starfocus::Params params = test::Params(focus, aperture, mode);
+    params.study.renderer = random.Int(0, 2);
     CAPTURES(round, mode);
     copied += CheckRendered(scene, config, params);
   }
@@ -110,9 +112,9 @@ TEST_CASE(
     "omitted work: in frame modes, blocks in focus are copied unless other pixels blur into them") {
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Scene scene = ColumnScene(256, 64, 250, 8);
-    starfocus_params params = test::Params(0, 1, mode);
-    params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
-    const starfocus_config config = test::ConfigFor(scene, 8);
+    starfocus::Params params = test::Params(0, 1, mode);
+    params.study.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+    const test::Config config = test::ConfigFor(scene, 8);
     const test::Refocused picture = test::RefocusScene(scene, config, params);
     CHECK(picture.report.copied_pixels == 3 * 64 * 64);
     CHECK(picture.report.layers[0].views == 3 + uint64_t(picture.report.rendered_views));
@@ -125,7 +127,7 @@ TEST_CASE(
 TEST_CASE("omitted work: the line scan copies blocks with a blur radius below a third of a pixel") {
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
-    const starfocus_params params =
+    const starfocus::Params params =
         test::Params(1 - radius, 1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN);
     CAPTURE(radius);
     CHECK(CheckRendered(scene, test::ConfigFor(scene, 8), params) ==
@@ -144,7 +146,7 @@ test::Scene FlatScene() {
 
 TEST_CASE("omitted work: layers that no block reads are not computed") {
   const test::Scene scene = FlatScene();
-  starfocus_config config = test::ConfigFor(scene, 40);
+  test::Config config = test::ConfigFor(scene, 40);
   const auto columns = [&](double focus) {
     test::Engine engine(config);
     test::Output out(scene.width, scene.height);

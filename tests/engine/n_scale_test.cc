@@ -10,6 +10,8 @@
 
 #include "lib/optics/rules.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/integer_scene.h"
 #include "tests/support/psnr.h"
 #include "tests/support/refocused.h"
@@ -22,9 +24,9 @@ using test::Refocused;
 
 constexpr double kScales[] = {0.5, 0.7, 1, 1.4, 2};
 
-Refocused Refocus(const test::Scene& scene, const starfocus_params& params, double n_scale,
+Refocused Refocus(const test::Scene& scene, const starfocus::Params& params, double n_scale,
                   double max_blur = 32) {
-  starfocus_config config = test::ConfigFor(scene, max_blur);
+  test::Config config = test::ConfigFor(scene, max_blur);
   config.tuning.n_scale = n_scale;
   config.tuning.gather = 0;  // If all cells are rendered from views, only N affects the pictures.
   return test::RefocusScene(scene, config, params);
@@ -38,12 +40,12 @@ TEST_CASE("n_scale: the scale multiplies N of both renderers in frame and block 
     for (const double scale : kScales) {
       for (const starfocus_renderer renderer : test::kRenderers) {
         for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
-          starfocus_params params = test::Params(radius, 1, mode, renderer);
-          starfocus_config config = test::ConfigFor(scene);
+          starfocus::Params params = test::Params(radius, 1, mode, renderer);
+          test::Config config = test::ConfigFor(scene);
           config.tuning.n_scale = scale;
           config.tuning.max_layer = 0;
           config.tuning.gather = 0;  // All cells are rendered from views.
-          starfocus_report report = {};
+          starfocus_report report = starfocus::NewReport();
           const test::Output out = test::OutputOf(config, params, scene, &report);
           const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN
                             ? starfocus::ViewsByPaper(radius)
@@ -59,7 +61,7 @@ TEST_CASE("n_scale: the scale multiplies N of both renderers in frame and block 
 TEST_CASE("n_scale: the scale does not affect benchmark and blur mode") {
   const test::Scene scene = test::IntegerScene(70, 50, 5, test::Depth::kLayers);
   for (const starfocus_mode mode : {STARFOCUS_MODE_BENCHMARK, STARFOCUS_MODE_BLUR}) {
-    const starfocus_params params = test::Params(1, 0.5, mode);
+    const starfocus::Params params = test::Params(1, 0.5, mode);
     const Refocused plain = Refocus(scene, params, 1);
     for (const double scale : kScales) {
       const Refocused scaled = Refocus(scene, params, scale);
@@ -75,7 +77,7 @@ TEST_CASE(
     const test::Scene scene = FlatScene(2);
     for (const starfocus_renderer renderer : test::kRenderers) {
       for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
-        starfocus_params params = test::Params(radius, 1, mode, renderer);
+        starfocus::Params params = test::Params(radius, 1, mode, renderer);
         CAPTURE(radius);
         CHECK((Refocus(scene, params, 2, radius).rgb == Refocus(scene, params, 2, 64).rgb));
       }
@@ -89,9 +91,9 @@ TEST_CASE(
   // layers.
   const test::Scene scene = test::IntegerScene(160, 120, 1, test::Depth::kSlanted);
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
-    starfocus_params params = test::Params(-9.5, 1, STARFOCUS_MODE_BENCHMARK);
+    starfocus::Params params = test::Params(-9.5, 1, STARFOCUS_MODE_BENCHMARK);
     const std::vector<uint8_t> benchmark = Refocus(scene, params, 1).rgb;
-    params.mode = mode;
+    params.study.mode = mode;
     std::string line = "mode " + std::to_string(mode) + ":";
     uint64_t samples = 0;
     std::vector<double> psnr;

@@ -14,6 +14,8 @@
 
 #include "lib/plan/partition.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -105,9 +107,9 @@ struct FrameDiff {
   }
 };
 
-void CheckPicture(const test::Scene& scene, const starfocus_params& params, int more,
+void CheckPicture(const test::Scene& scene, const starfocus::Params& params, int more,
                   FrameDiff* changes) {
-  starfocus_config config = test::ConfigFor(scene, 40);
+  test::Config config = test::ConfigFor(scene, 40);
   config.tuning.gather = 0;  // All cells are rendered from views.
   config.superblock = 128;   // One superblock, so that layers are complete.
   config.tuning.n_scale = more % 2 == 0 ? 1 : STARFOCUS_MIN_N_SCALE;
@@ -136,9 +138,9 @@ FrameDiff CheckPictures(int rounds, double least_aperture, const MakeScene& make
     const test::Scene scene =
         make_scene(width, height, test::kStars[random.Int(0, 3)], limit, &random);
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(least_aperture, 1);
-    starfocus_params params =
+    starfocus::Params params =
         test::Params(kFocus[random.Int(0, 7)], aperture, STARFOCUS_MODE_BLOCK);
-    params.renderer = round % 2 == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
+    params.study.renderer = round % 2 == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
     CheckPicture(scene, params, random.Int(1, 9), &changes);
   }
   changes.Tell();

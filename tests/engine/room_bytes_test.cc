@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
@@ -27,7 +29,7 @@ test::Scene Levels(int side, int count, float range, test::Random* random) {
   return scene;
 }
 
-std::vector<uint8_t> Picture(const starfocus_config& config, const starfocus_params& params,
+std::vector<uint8_t> Picture(const test::Config& config, const starfocus::Params& params,
                              const test::Scene& scene) {
   test::Engine engine(config);
   test::Output out(scene.width, scene.height);
@@ -46,19 +48,19 @@ TEST_CASE(
     const float range = static_cast<float>(random.Real(2, 40));
     const int side = random.Int(0, 2) == 0 ? 96 : 32 << random.Int(0, 1);
     const test::Scene scene = Levels(side, random.Int(5, 16), range, &random);
-    starfocus_params params =
+    starfocus::Params params =
         test::Params(0, 1, random.Int(0, 1) == 0 ? STARFOCUS_MODE_BLOCK : STARFOCUS_MODE_FRAME);
-    if (range < 5 && random.Int(0, 1) == 0) params.mode = STARFOCUS_MODE_BENCHMARK;
-    params.renderer =
+    if (range < 5 && random.Int(0, 1) == 0) params.study.mode = STARFOCUS_MODE_BENCHMARK;
+    params.study.renderer =
         random.Int(0, 5) == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
-    starfocus_config config = test::ConfigFor(scene, double{range});
+    test::Config config = test::ConfigFor(scene, double{range});
     config.superblock = 32 << random.Int(0, 1);
     config.tuning.n_scale = random.Int(0, 1) == 0 ? 0.5 : 1;
     config.tuning.timing.block = 1u << random.Int(0, 26);
     config.tuning.gather = random.Int(0, 1);
     const std::vector<uint8_t> expected = Picture(config, params, scene);
     for (const double max_blur : {range + 1.0, 45.0, STARFOCUS_MAX_BLUR}) {
-      starfocus_config other = config;
+      test::Config other = config;
       other.max_blur = max_blur;
       test::SetFeature(STARFOCUS_FEATURE_STREAMING, random.Int(0, 1), &other.features);
       other.max_workers = random.Int(1, 3);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the blur of a small white patch for openings of every shape. The blurred patch must have
 // the shape of the opening, rotated by half a turn if the patch is nearer than the focus.
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/shapes.h"
 
 #include <doctest/doctest.h>
@@ -36,13 +38,13 @@ struct Patch {
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) std::fill_n(scene.Pixel(0, at.x + x, at.y + y), 3, 255);
     }
-    starfocus_config config = test::ConfigFor(scene, std::abs(focus) + 1);
+    test::Config config = test::ConfigFor(scene, std::abs(focus) + 1);
     config.superblock = 32;
     config.tuning.max_layer = 0;                // Layers 1 and 2 would smooth the picture.
     config.transfer = STARFOCUS_TRANSFER_NONE;  // Levels are proportional to light.
-    starfocus_params params = test::Params(focus, 1, mode, renderer);
-    shape.Set(&params.lens);
-    test::ReserveFor(params.lens, &config);
+    starfocus::Params params = test::Params(focus, 1, mode, renderer);
+    shape.Set(&params);
+    test::ReserveFor(params, &config);
     const test::Output out = test::OutputOf(config, params, scene);
     for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) levels.push_back(*out.Pixel(x, y));
@@ -98,15 +100,15 @@ TEST_CASE(
     "shapes: with a steep fall-off, dark areas beyond the reach of bright areas do not change") {
   constexpr int kWidth = 40, kHeight = 12, kEdge = 28;
   test::Scene scene = test::EmptyScene(kWidth, kHeight, 1, 0, 0);
-  const starfocus_config config = test::ConfigFor(scene, 4);
+  const test::Config config = test::ConfigFor(scene, 4);
   for (const starfocus_mode mode : test::kModes) {
     for (int code = 1; code < 40; ++code) {
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x)
           std::fill_n(scene.Pixel(0, x, y), 3, x < kEdge ? code : 249);
       }
-      starfocus_params params = test::Params(2.4, 1, mode);
-      params.lens.theta = 1.41;
+      starfocus::Params params = test::Params(2.4, 1, mode);
+      params.theta = 1.41;
       const test::Output out = test::OutputOf(config, params, scene);
       CAPTURES(mode, code);
       CHECK(int{*out.Pixel(10, 6)} == code);

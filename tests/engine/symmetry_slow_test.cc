@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
@@ -44,8 +46,8 @@ TEST_CASE("symmetry: mirroring or rotating a light field permutes the positions 
   }
 }
 
-test::Output Refocused(const test::Scene& scene, const starfocus_params& params) {
-  starfocus_config config = test::ConfigFor(scene);
+test::Output Refocused(const test::Scene& scene, const starfocus::Params& params) {
+  test::Config config = test::ConfigFor(scene);
   config.superblock = 32;
   // Layers 1 and 2 are not symmetric, since they keep every second pixel from the left and the top.
   config.tuning.max_layer = 0;
@@ -53,15 +55,15 @@ test::Output Refocused(const test::Scene& scene, const starfocus_params& params)
   return out;
 }
 
-Distance Measure(const Symmetry& s, const test::Scene& scene, const starfocus_params& params) {
+Distance Measure(const Symmetry& s, const test::Scene& scene, const starfocus::Params& params) {
   const test::Output plain = Refocused(scene, params);
   CHECK(plain.bytes != scene.pictures[0]);
   const test::Output moved = Refocused(test::Move(s.move, scene), params);
   return test::Compare(s.move, scene.width, scene.height, plain.bytes.data(), moved.bytes.data());
 }
 
-void Check(const Symmetry& s, const test::Scene& scene, const starfocus_params& params) {
-  CAPTURES(s.name, scene.width, scene.height, scene.views(), params.lens.focus);
+void Check(const Symmetry& s, const test::Scene& scene, const starfocus::Params& params) {
+  CAPTURES(s.name, scene.width, scene.height, scene.views(), params.focus);
   CHECK(Measure(s, scene, params).samples == 0);
 }
 
@@ -84,10 +86,10 @@ TEST_CASE("symmetry: transposed and rotated light fields give transposed and rot
     for (int views : {17, 9, 5, 1}) {
       const test::Scene scene = test::RandomScene(size[0], size[1], views, -4, 4, 32);
       for (const Symmetry& s : kTurns) {
-        for (starfocus_params params : {test::Params(0), test::Params(2.6, 0.9)}) {
+        for (starfocus::Params params : {test::Params(0), test::Params(2.6, 0.9)}) {
           // The test uses the line scan, since slices are moved along rows first and are not
           // exactly symmetric.
-          params.renderer = STARFOCUS_RENDERER_LINE_SCAN;
+          params.study.renderer = STARFOCUS_RENDERER_LINE_SCAN;
           Check(s, scene, params);
         }
       }
@@ -101,7 +103,7 @@ TEST_CASE("symmetry: benchmark pictures of noisy disparities are symmetric") {
   test::NoisyDisparity(&scene, &random);
   for (const Symmetry& s : kMirrors)
     Check(s, scene, test::Params(0.4, 1, STARFOCUS_MODE_BENCHMARK));
-  starfocus_params lines =
+  starfocus::Params lines =
       test::Params(0.4, 1, STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_LINE_SCAN);
   for (const Symmetry& s : kMirrors) Check(s, scene, lines);
   for (const Symmetry& s : kTurns) Check(s, scene, lines);
@@ -116,7 +118,7 @@ TEST_CASE(
     for (const bool noisy : {false, true}) {
       if (noisy) test::NoisyDisparity(&scene, &random);
       for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
-        starfocus_params params = test::Params(-12.6, 1, mode, STARFOCUS_RENDERER_SLICES);
+        starfocus::Params params = test::Params(-12.6, 1, mode, STARFOCUS_RENDERER_SLICES);
         for (const Symmetry& s : kMirrors) Check(s, scene, params);
       }
     }
@@ -130,7 +132,7 @@ TEST_CASE("symmetry: with wide subapertures, rotated light fields give nearly ro
   for (const int views : {17, 5, 1}) {
     for (const starfocus_mode mode : {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME}) {
       for (const double focus : {-12.6, 1.3}) {
-        starfocus_params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
+        starfocus::Params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
         for (const Symmetry& s : kTurns) {
           CAPTURES(s.name, views, mode, focus);
           test::Scene flat = test::RandomScene(64, 32, views, 3, 3, 37);

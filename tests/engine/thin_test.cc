@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -65,8 +67,8 @@ test::Scene Strands(int views) {
   return scene;
 }
 
-starfocus_config ConfigFor(const test::Scene& scene, bool coverage) {
-  starfocus_config config = test::ConfigFor(scene, kNear - kFar);
+test::Config ConfigFor(const test::Scene& scene, bool coverage) {
+  test::Config config = test::ConfigFor(scene, kNear - kFar);
   config.transfer = STARFOCUS_TRANSFER_NONE;
   config.superblock = 64;
   if (!coverage) config.features &= ~STARFOCUS_FEATURE_COVERAGE;
@@ -74,9 +76,9 @@ starfocus_config ConfigFor(const test::Scene& scene, bool coverage) {
 }
 
 // Returns parameters for block mode with a disc as the opening.
-starfocus_params ThroughDisc(double focus) {
-  starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
-  params.lens.shape = STARFOCUS_SHAPE_DISC;
+starfocus::Params ThroughDisc(double focus) {
+  starfocus::Params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
+  params.shape = STARFOCUS_SHAPE_DISC;
   return params;
 }
 
@@ -121,7 +123,7 @@ TEST_CASE(
     const std::vector<double> truth = TruthOf(focus);
     for (const int views : {1, 5}) {
       const test::Scene scene = Strands(views);
-      const starfocus_params params = ThroughDisc(focus);
+      const starfocus::Params params = ThroughDisc(focus);
       const double with = PsnrOf(test::OutputOf(ConfigFor(scene, true), params, scene), truth);
       const double without = PsnrOf(test::OutputOf(ConfigFor(scene, false), params, scene), truth);
       MESSAGE("views ", views, ", focus ", focus, ": PSNR without and with coverage ", without,
@@ -133,12 +135,12 @@ TEST_CASE(
 
 TEST_CASE("thin: all ways to refocus return the same bytes") {
   const test::Scene scene = Strands(5);
-  starfocus_config config = ConfigFor(scene, true);
+  test::Config config = ConfigFor(scene, true);
   for (const double focus : {kFar, 0.0, kNear}) {
     CAPTURE(focus);
-    starfocus_params params = ThroughDisc(focus);
+    starfocus::Params params = ThroughDisc(focus);
     const test::Output whole = test::CheckWays(scene, config, params);
-    config.features ^= STARFOCUS_FEATURE_LINE_SCAN;
+    config.tuning.line_scan = nullptr;
     CHECK((test::OutputOf(config, params, scene).bytes == whole.Tight()));
   }
 }
@@ -164,7 +166,7 @@ TEST_CASE("thin: noise of one code changes no pixel by more than 8 codes") {
       }
     }
     for (const double focus : {kFar, 0.0, kNear}) {
-      const starfocus_params params = ThroughDisc(focus);
+      const starfocus::Params params = ThroughDisc(focus);
       const test::Output before = test::OutputOf(ConfigFor(scene, true), params, scene);
       const test::Output after = test::OutputOf(ConfigFor(scene, true), params, noisy);
       int most = 0;

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "simd/kernels.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/transfer_curve.h"
 
@@ -65,9 +67,9 @@ test::Scene FlatScene(int width, int height, double disparity, const CodeAt& cod
 test::Refocused RefocusFlat(const test::Scene& scene, double blur, starfocus_mode mode,
                             starfocus_transfer transfer,
                             starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO) {
-  starfocus_config config = test::ConfigFor(scene, 32);
+  test::Config config = test::ConfigFor(scene, 32);
   config.transfer = transfer;
-  starfocus_params params = test::Params(double(scene.disparity_min) - blur, 1, mode, renderer);
+  starfocus::Params params = test::Params(double(scene.disparity_min) - blur, 1, mode, renderer);
   return test::RefocusScene(scene, config, params);
 }
 

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -35,10 +37,10 @@ TEST_CASE("workers: each block is a job, and blocks with the largest predicted t
     float* row = scene.disparity.data() + size_t(y) * scene.disparity_width;
     std::fill(row + kSide / 4, row + scene.width, 9.0F);
   }
-  starfocus_config config = test::ConfigFor(scene);
+  test::Config config = test::ConfigFor(scene);
   config.superblock = kSide;
   test::Engine engine(config);
-  const starfocus_params params = test::Params(-9, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(-9, 1, STARFOCUS_MODE_BLOCK);
   const auto costs = [&] {
     std::vector<uint64_t> all;
     for (const starfocus::Block& block : test::PlanOf(engine.get()).blocks) {
@@ -63,7 +65,7 @@ TEST_CASE("workers: engines that refocus in several threads at once do not affec
   for (int i = 0; i < kThreads; ++i) {
     constexpr int kViews[] = {17, 9, 5, 1};
     scenes.push_back(test::RandomScene(60 + 11 * i, 70, kViews[i], -3, 3, 20 + uint64_t(i)));
-    starfocus_config config = test::ConfigFor(scenes[size_t(i)]);
+    test::Config config = test::ConfigFor(scenes[size_t(i)]);
     config.superblock = 32;
     expected[size_t(i)] = test::RefocusScene(scenes[size_t(i)], config, test::Params(i - 1.5)).rgb;
   }
@@ -72,7 +74,7 @@ TEST_CASE("workers: engines that refocus in several threads at once do not affec
   for (int i = 0; i < kThreads; ++i) {
     threads.emplace_back([&, i] {
       const test::Scene& scene = scenes[size_t(i)];
-      starfocus_config config = test::ConfigFor(scene);
+      test::Config config = test::ConfigFor(scene);
       config.superblock = 32;
       test::Engine engine(config);
       test::Output out(scene.width, scene.height);

@@ -13,7 +13,9 @@
 
 #include "lib/optics/view_weights.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/reference_blur.h"
+#include "tests/support/config.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
@@ -26,17 +28,17 @@ static_assert(kOne == 1 << starfocus::kDisparityBits, "the same scale");
 
 // Returns the reference of a blurred picture, with samples that are not rounded. PSFs of pixels
 // behind the focus are rotated by 180 degrees.
-std::vector<double> Reference(const test::Scene& scene, const starfocus_params& params,
+std::vector<double> Reference(const test::Scene& scene, const starfocus::Params& params,
                               const reference::ApertureShape& opening, int transfer) {
   double light[256];
   for (int code = 0; code < 256; ++code) light[code] = test::LightOf(code, transfer);
   std::vector<double> out;
-  const int focus = int(std::floor(params.lens.focus * kOne + 0.5));
+  const int focus = int(std::floor(params.focus * kOne + 0.5));
   for (int y = 0; y < scene.height; ++y) {
     for (int x = 0; x < scene.width; ++x) {
       const int signed_distance = int(std::floor(scene.Disparity(x, y) * kOne + 0.5f)) - focus;
       const int distance = std::abs(signed_distance), side = signed_distance < 0 ? -1 : 1;
-      const double r = reference::NearestRadius(int(std::floor(params.lens.aperture * distance)));
+      const double r = reference::NearestRadius(int(std::floor(params.aperture * distance)));
       const reference::Psf& kernel = reference::PsfOf(r, opening);
       double sums[3] = {0, 0, 0};
       for (int m = -kernel.size; m <= kernel.size; ++m) {
@@ -55,13 +57,13 @@ std::vector<double> Reference(const test::Scene& scene, const starfocus_params& 
 
 std::vector<uint8_t> Blurred(const test::Scene& scene, double focus, double aperture, int block,
                              double theta, int transfer, const test::NamedShape* shape = nullptr) {
-  starfocus_config config = test::ConfigFor(scene, 40);
+  test::Config config = test::ConfigFor(scene, 40);
   config.superblock = block;
   config.transfer = transfer;
-  starfocus_params params = test::Params(focus, aperture, STARFOCUS_MODE_BLUR);
-  params.lens.theta = theta;
-  if (shape != nullptr) shape->Set(&params.lens);
-  test::ReserveFor(params.lens, &config);
+  starfocus::Params params = test::Params(focus, aperture, STARFOCUS_MODE_BLUR);
+  params.theta = theta;
+  if (shape != nullptr) shape->Set(&params);
+  test::ReserveFor(params, &config);
   test::Engine engine(config);
   test::Output out(scene.width, scene.height, 3);
   REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
@@ -133,7 +135,7 @@ TEST_CASE("blur: random disparities, foci, apertures, fall-offs and blocks match
 TEST_CASE(
     "blur: openings of other shapes match the reference, in front of the focus and behind it") {
   for (const test::NamedShape& shape : test::kShapes) {
-    starfocus_lens lens = test::Params(0).lens;
+    starfocus::Params lens = test::Params(0);
     shape.Set(&lens);
     for (const double r : {0.5, 0.75, 1.0, 1.75, 3.0, 4.5, 8.0, 13.0}) {
       CAPTURES(shape.name, r);
@@ -220,7 +222,7 @@ TEST_CASE("blur: PSFs are as wide as (4), without a second integral over pixels"
   const double most = 4;
   for (const test::NamedShape& shape : test::kShapes) {
     CAPTURE(shape.name);
-    starfocus_lens lens = test::Params(0, 1, STARFOCUS_MODE_BLUR).lens;
+    starfocus::Params lens = test::Params(0, 1, STARFOCUS_MODE_BLUR);
     shape.Set(&lens);
     const starfocus::ApertureShape opening = starfocus::ShapeOf(lens);
     const int steps = starfocus::BlurStepCount(most);

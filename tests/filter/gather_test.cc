@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/plan/measured_cells.h"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/psnr.h"
@@ -131,7 +133,7 @@ TEST_CASE("gather: for a flat surface, block mode gives the same picture as blur
   for (const double radius : {0.6, 1.0, 2.5, 4.0, 7.3, 12.0}) {
     for (const int block : {32, 64, 256}) {
       test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
-      starfocus_config config = test::ConfigFor(scene, 16);
+      test::Config config = test::ConfigFor(scene, 16);
       config.superblock = block;
       config.transfer = STARFOCUS_TRANSFER_NONE;
       const Refocused gathered =
@@ -142,7 +144,7 @@ TEST_CASE("gather: for a flat surface, block mode gives the same picture as blur
       CHECK(gathered.rgb == blurred.rgb);
       // With sRGB, light is not an integer code, so both pictures may differ by a level after
       // rounding.
-      starfocus_config light = config;
+      test::Config light = config;
       light.transfer = STARFOCUS_TRANSFER_SRGB;
       CHECK(LargestDifference(
                 RefocusScene(scene, light, test::Params(radius, 1, STARFOCUS_MODE_BLOCK)),
@@ -163,9 +165,9 @@ TEST_CASE(
     "gather: only block mode with slices blurs cells without views, for blurs from 1/16 to 48 "
     "pixels") {
   const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
-  const starfocus_config config = test::ConfigFor(scene, 49);
+  const test::Config config = test::ConfigFor(scene, 49);
   const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {
-    starfocus_params params = test::Params(focus, 1, mode, renderer);
+    starfocus::Params params = test::Params(focus, 1, mode, renderer);
     return RefocusScene(scene, config, params).report.gathered_pixels;
   };
   CHECK(gathered(48.1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);
@@ -197,7 +199,7 @@ TEST_CASE(
     "gather: cells at depth edges use rendered views, and gathering does not reduce the PSNR") {
   for (const uint64_t seed : {64, 65, 66}) {
     const test::Scene scene = test::LayeredScene(180, 130, 9, 6, seed);
-    starfocus_config config = test::ConfigFor(scene, 16);
+    test::Config config = test::ConfigFor(scene, 16);
     const Refocused benchmark =
         RefocusScene(scene, config, test::Params(1, 1, STARFOCUS_MODE_BENCHMARK));
     const Refocused gathered =

@@ -7,6 +7,7 @@
 
 #include "lib/gather/gather.h"
 #include "lib/optics/opening.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/plan/measured_cells.h"
 
 namespace slope_test {
@@ -129,7 +130,7 @@ TEST_CASE("slope: MeanSquare has the expected value for each opening") {
   opening.shape = STARFOCUS_SHAPE_RING;
   opening.inner = 1 << 13;
   CHECK(mean_square() == doctest::Approx(0.3125));
-  starfocus_lens lens = test::Params(0, 1, STARFOCUS_MODE_BLUR).lens;
+  starfocus::Params lens = test::Params(0, 1, STARFOCUS_MODE_BLUR);
   lens.shape = STARFOCUS_SHAPE_POLYGON;
   lens.blades = 3;
   opening = starfocus::ShapeOf(lens);

@@ -10,7 +10,9 @@
 
 #include "starfocus/depth.h"
 #include "starfocus/matte.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/fuzz/input.h"
+#include "tests/support/config.h"
 #include "tests/support/strands.h"
 
 namespace {
@@ -20,9 +22,8 @@ using starfocus::fuzz::Input;
 constexpr int kViews[] = {1, 5, 9, 17};
 
 // Makes a configuration. Most configurations are valid; a few have arbitrary bytes in one field.
-starfocus_depth_config MakeConfig(Input* input) {
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+test::Config MakeConfig(Input* input) {
+  test::Config config;
   const int side = input->Rarely() ? 200 : input->Rarely() ? 80 : 24;
   config.width = input->Int(1, side);
   config.height = input->Int(1, side);
@@ -39,21 +40,26 @@ starfocus_depth_config MakeConfig(Input* input) {
   config.disparity_max = static_cast<float>(std::max(a, b));
   config.max_workers = input->Rarely() ? STARFOCUS_MAX_WORKERS : 1;
   if (input->Rarely()) {
-    uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
-    input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
+    // The fuzzer does not select pointers, which must be valid.
+    constexpr size_t kNumbers = offsetof(starfocus_config, tuning);
+    uint8_t* bytes = reinterpret_cast<uint8_t*>(static_cast<starfocus_config*>(&config));
+    input->Bytes(bytes + input->Int(0, static_cast<int>(kNumbers / 4) - 1) * 4, 4);
   }
+  return config;
+}
+
+// Makes callbacks, which may cancel the call.
+starfocus_callbacks MakeCallbacks(Input* input) {
   static int32_t left;  // number of calls of progress before the cancellation
   left = input->Int(0, 20);
-  config.problem = nullptr;  // the fuzzer does not select pointers, which must be valid
-  config.runner = nullptr;
-  config.progress = nullptr;
-  config.progress_data = &left;
+  starfocus_callbacks callbacks = {};
+  callbacks.progress_data = &left;
   if (input->Rarely()) {
-    config.progress = [](void* data, int32_t, int32_t) -> int {
+    callbacks.progress = [](void* data, int32_t, int32_t) -> int {
       return (*static_cast<int32_t*>(data))-- == 0;
     };
   }
-  return config;
+  return callbacks;
 }
 
 // Owns rows with any stride. No memory follows the last row.
@@ -76,7 +82,7 @@ void FillPicture(Input* input, Rows<uint8_t>* picture) {
   }
 }
 
-void FillMap(const starfocus_depth_config& config, Input* input, Rows<float>* map) {
+void FillMap(const test::Config& config, Input* input, Rows<float>* map) {
   uint8_t levels[32];
   input->Bytes(levels, sizeof(levels));
   const auto length = static_cast<size_t>(input->Int(1, 40));
@@ -92,7 +98,7 @@ void FillMap(const starfocus_depth_config& config, Input* input, Rows<float>* ma
 }
 
 // Makes a picture of strands above a body, and a map in which the strands form a closed outline.
-void FillHair(const starfocus_depth_config& config, Input* input, Rows<uint8_t>* picture,
+void FillHair(const test::Config& config, Input* input, Rows<uint8_t>* picture,
               Rows<float>* map) {
   const test::Strands strands = test::DrawStrands(input);
   uint8_t colours[6];
@@ -113,7 +119,7 @@ void FillHair(const starfocus_depth_config& config, Input* input, Rows<uint8_t>*
 }
 
 // Checks that all values of the map are in the range of the configuration.
-void CheckMap(const starfocus_depth_config& config, const Rows<float>& map) {
+void CheckMap(const test::Config& config, const Rows<float>& map) {
   for (int32_t y = 0; y < config.height; ++y) {
     for (int32_t x = 0; x < config.width; ++x) {
       const float value = map.values[static_cast<size_t>(y) * map.stride + static_cast<size_t>(x)];
@@ -123,7 +129,7 @@ void CheckMap(const starfocus_depth_config& config, const Rows<float>& map) {
 }
 
 // Computes coverage from a matte and a map of known values, and both planes from the matte alone.
-void UseMatte(const starfocus_depth_config& config, const Rows<float>& map, Input* input) {
+void UseMatte(const test::Config& config, const Rows<float>& map, Input* input) {
   const int32_t width = input->Int(1, 90), height = input->Int(1, 90), step = input->Int(0, 4);
   Rows<uint8_t> samples(static_cast<size_t>((width - 1) * std::max(step, 1) + 1), height, input);
   FillPicture(input, &samples);
@@ -144,10 +150,10 @@ void UseMatte(const starfocus_depth_config& config, const Rows<float>& map, Inpu
   const starfocus_matte_depth surfaces = {config.disparity_max, config.disparity_min,
                                           input->Real(0, 0.5), input->Real(0.6, 1)};
   starfocus_matte_stats stats;
-  if (starfocus_measure_matte(&matte, &stats) != STARFOCUS_OK ||
-      starfocus_matte_coverage(&matte, &depth, config.width, config.height, &region, &out) !=
+  if (starfocus_measure_matte(&matte, &stats, nullptr) != STARFOCUS_OK ||
+      starfocus_matte_coverage(&matte, &depth, config.width, config.height, &region, &out, nullptr) !=
           STARFOCUS_OK ||
-      starfocus_matte_field(&matte, &surfaces, config.width, config.height, &region, &out) !=
+      starfocus_matte_field(&matte, &surfaces, config.width, config.height, &region, &out, nullptr) !=
           STARFOCUS_OK) {
     std::abort();
   }
@@ -157,17 +163,19 @@ void UseMatte(const starfocus_depth_config& config, const Rows<float>& map, Inpu
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
-  const starfocus_depth_config config = MakeConfig(&input);
+  const test::Config config = MakeConfig(&input);
+  const starfocus_callbacks callbacks = MakeCallbacks(&input);
   const bool repairs = input.Int(0, 1) == 1;
   size_t bytes = 0;
-  const auto size_of =
-      repairs ? starfocus_repair_workspace_size : starfocus_estimate_workspace_size;
-  if (size_of(&config, &bytes) != STARFOCUS_OK || bytes > (size_t{300} << 20)) return 0;
+  if (starfocus_map_workspace_size(&config, repairs ? 1 : 0, &bytes, nullptr) != STARFOCUS_OK ||
+      bytes > (size_t{300} << 20)) {
+    return 0;
+  }
   if (int64_t{config.width} * config.height > 20000) return 0;
   void* workspace = nullptr;
   if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
   const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
-  starfocus_light_field field = {};
+  starfocus_light_field field = starfocus::NewLightField();
   std::vector<Rows<uint8_t>> pictures;
   const auto width = static_cast<size_t>(config.width);
   for (int view = 0; view < config.views; ++view) {
@@ -193,7 +201,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                                     -1};
   if (input.Rarely()) out.confidence = nullptr;
   if (input.Rarely()) out.coverage = nullptr;
-  const starfocus_status status = make(&config, &field, &out, workspace, bytes);
+  const starfocus_status status = make(&config, &callbacks, &field, &out, workspace, bytes, nullptr);
   if (status == STARFOCUS_OK) {
     CheckMap(config, map);
     UseMatte(config, map, &input);
@@ -203,7 +211,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     std::abort();
   }
   // All arguments except the map are valid, so only the map may cause an error.
-  const bool cancelled = config.progress != nullptr && status == STARFOCUS_ERROR_CANCELLED;
+  const bool cancelled = callbacks.progress != nullptr && status == STARFOCUS_ERROR_CANCELLED;
   if (status != STARFOCUS_OK && !cancelled &&
       !(repairs &&
         (status == STARFOCUS_ERROR_DISPARITY || status == STARFOCUS_ERROR_ALL_INVALID))) {

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/fuzz/input.h"
+#include "tests/support/config.h"
 #include "tests/support/features.h"
 #include "tests/support/rgb_calls.h"
 #include "tests/support/strands.h"
@@ -25,7 +27,7 @@ constexpr int kBlocks[] = {32, 64, 128, 256};
 constexpr double kMostWork = 300000;
 
 // Derives the shape from the value of another field, so that recorded inputs keep their meaning.
-void SetShape(int drawn, starfocus_lens* lens) {
+void SetShape(int drawn, starfocus_params* lens) {
   lens->shape = drawn % 4;
   lens->blades = 3 + drawn % 10;
   lens->rotation = 3 * drawn - 360;
@@ -51,9 +53,8 @@ void SetDepths(Input* input, starfocus_config* config) {
 // Makes a configuration and the shape of the lens. With `strands`, the picture is large enough for
 // strands; otherwise, the picture has any size. Most configurations are valid; a few have arbitrary
 // bytes in one field.
-starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
-  starfocus_config config;
-  starfocus_config_init(&config);
+test::Config MakeConfig(bool strands, Input* input, starfocus_params* lens) {
+  test::Config config;
   const int side = input->Rarely() ? 100 : 24;
   config.width = input->Int(strands ? 16 : 1, side);
   config.height = input->Int(strands ? 16 : 1, side);
@@ -87,29 +88,30 @@ starfocus_config MakeConfig(bool strands, Input* input, starfocus_lens* lens) {
   if (config.tuning.deblocking % 6 == 1) SetPositions(config.tuning.deblocking, &config);
   if (config.tuning.deblocking % 8 == 3) config.features = 0;
   if (input->Rarely()) {
-    uint8_t* bytes = reinterpret_cast<uint8_t*>(&config);
-    input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(config) / 4) - 1) * 4, 4);
-    config.problem = nullptr;  // the caller passes only valid pointers
+    // The caller passes only valid pointers.
+    constexpr size_t kNumbers = offsetof(starfocus_config, tuning);
+    uint8_t* bytes = reinterpret_cast<uint8_t*>(static_cast<starfocus_config*>(&config));
+    input->Bytes(bytes + input->Int(0, static_cast<int>(kNumbers / 4) - 1) * 4, 4);
   }
   return config;
 }
 
 // Sets all parameters except the shape of the lens, which the caller has set.
-void SetParams(const starfocus_config& config, Input* input, starfocus_params* given) {
-  starfocus_params& params = *given;
-  params.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
-  params.renderer = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 2);
-  params.lens.focus = input->Real(config.disparity_min, config.disparity_max);
-  if (input->Rarely()) params.lens.focus = input->Value<double>();
-  params.lens.aperture = input->Real(0, 1);
+void SetParams(const test::Config& config, Input* input, starfocus::Params* given) {
+  starfocus::Params& params = *given;
+  params.study.mode = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 3);
+  params.study.renderer = input->Rarely() ? input->Value<int32_t>() : input->Int(0, 2);
+  params.focus = input->Real(config.disparity_min, config.disparity_max);
+  if (input->Rarely()) params.focus = input->Value<double>();
+  params.aperture = input->Real(0, 1);
   // In most cases, reduces the aperture to the largest one that the configuration allows.
-  const double radius = params.lens.aperture * std::max(params.lens.focus - config.disparity_min,
-                                                        config.disparity_max - params.lens.focus);
+  const double radius = params.aperture * std::max(params.focus - config.disparity_min,
+                                                   config.disparity_max - params.focus);
   if (radius > config.max_blur && !input->Rarely()) {
-    params.lens.aperture *= config.max_blur / radius * 0.999;
+    params.aperture *= config.max_blur / radius * 0.999;
   }
-  if (input->Rarely()) params.lens.focus_nearer = input->Real(0, config.disparity_max);
-  if (input->Rarely()) params.lens.focus_farther = input->Real(0, config.disparity_max);
+  if (input->Rarely()) params.focus_nearer = input->Real(0, config.disparity_max);
+  if (input->Rarely()) params.focus_farther = input->Real(0, config.disparity_max);
   if (input->Rarely()) {
     params.region = {input->Int(0, config.width), input->Int(0, config.height),
                      input->Int(0, config.width), input->Int(0, config.height)};
@@ -139,7 +141,7 @@ struct Pictures {
   std::vector<std::unique_ptr<uint8_t[]>> bytes;
   std::unique_ptr<float[]> disparity;
   std::unique_ptr<uint8_t[]> coverage;  // or null
-  starfocus_light_field field = {};
+  starfocus_light_field field = starfocus::NewLightField();
 };
 
 // Returns the size in bytes of a picture that ends with its last pixel.
@@ -154,7 +156,7 @@ struct Levels {
 };
 
 // Makes runs of random levels, or the levels of the strands.
-Levels MakeLevels(const starfocus_config& config, const Strands& strands,
+Levels MakeLevels(const test::Config& config, const Strands& strands,
                   int (Strands::*level_at)(int x, int y) const, Input* input) {
   const auto width = static_cast<size_t>(config.width);
   Levels levels;
@@ -172,7 +174,7 @@ Levels MakeLevels(const starfocus_config& config, const Strands& strands,
   return levels;
 }
 
-void MakeDisparity(const starfocus_config& config, const Strands& strands, Input* input,
+void MakeDisparity(const test::Config& config, const Strands& strands, Input* input,
                    Pictures* pictures) {
   const Levels levels = MakeLevels(config, strands, &Strands::DepthAt, input);
   pictures->disparity.reset(new float[levels.count]);
@@ -189,7 +191,7 @@ void MakeDisparity(const starfocus_config& config, const Strands& strands, Input
       pictures->disparity.get(), levels.stride * sizeof(float), config.width, config.height);
 }
 
-void MakeCoverage(const starfocus_config& config, const Strands& strands, Input* input,
+void MakeCoverage(const test::Config& config, const Strands& strands, Input* input,
                   Pictures* pictures) {
   if (input->Int(0, 2) != 0) return;
   Levels levels = MakeLevels(config, strands, &Strands::CoverageAt, input);
@@ -210,7 +212,7 @@ void MakeView(const Strands& strands, size_t stride, size_t bytes, Input* input,
   }
 }
 
-Pictures MakePictures(const starfocus_config& config, const Strands& strands, Input* input) {
+Pictures MakePictures(const test::Config& config, const Strands& strands, Input* input) {
   Pictures pictures;
   const size_t row = 3 * static_cast<size_t>(config.width);
   for (int view = 0; view < config.views; ++view) {
@@ -244,8 +246,8 @@ int RowCount(int left, Input* input) {
 }
 
 // Pushes rows, and pulls finished rows into `out`, in any order. Restarts the stream in some cases.
-void Stream(starfocus_engine* engine, const starfocus_config& config,
-            const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
+void Stream(starfocus_engine* engine, const test::Config& config,
+            const starfocus::Params& params, const Pictures& pictures, uint8_t* out, size_t stride,
             Input* input) {
   if (starfocus_stream_begin(engine, &params) != STARFOCUS_OK) return;
   int pushed = 0, pulled = 0;
@@ -270,10 +272,10 @@ void Stream(starfocus_engine* engine, const starfocus_config& config,
 
 // Refocuses a whole picture with one of several API functions. The previous frame may be equal to
 // the current frame or different.
-void Refocus(starfocus_engine* engine, const starfocus_config& config,
-             const starfocus_params& params, const Pictures& pictures, uint8_t* out, size_t stride,
+void Refocus(starfocus_engine* engine, const test::Config& config,
+             const starfocus::Params& params, const Pictures& pictures, uint8_t* out, size_t stride,
              Input* input) {
-  starfocus_report report;
+  starfocus_report report = starfocus::NewReport();
   if (!input->Rarely()) {
     test::RefocusRgb(engine, &params, &pictures.field, out, stride, &report);
     return;
@@ -282,13 +284,14 @@ void Refocus(starfocus_engine* engine, const starfocus_config& config,
     const Pictures before = MakePictures(config, Strands(), input);
     const size_t bytes = Needed(stride, config.height, 3 * static_cast<size_t>(config.width));
     const std::unique_ptr<uint8_t[]> picture(new uint8_t[bytes]());
-    const starfocus_previous previous = {input->Int(0, 1) == 0 ? before.field : pictures.field,
-                                         starfocus_image_rgb(picture.get(), stride)};
+    const starfocus_image image = starfocus_image_rgb(picture.get(), stride);
+    const starfocus_previous previous = {
+        sizeof previous, input->Int(0, 1) == 0 ? &before.field : &pictures.field, &image};
     test::RefocusAfterRgb(engine, &params, &pictures.field, &previous, out, stride, &report);
     return;
   }
   size_t bytes = 0;
-  if (starfocus_prepared_size(&config, &bytes) != STARFOCUS_OK) std::abort();
+  if (starfocus_prepared_size(engine, &bytes) != STARFOCUS_OK) std::abort();
   void* memory = nullptr;
   if (posix_memalign(&memory, STARFOCUS_ALIGNMENT, bytes) != 0) return;
   const std::unique_ptr<void, void (*)(void*)> owner(memory, std::free);
@@ -306,31 +309,30 @@ void Refocus(starfocus_engine* engine, const starfocus_config& config,
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
   const Strands strands = input.Int(0, 1) == 0 ? Strands() : test::DrawStrands(&input);
-  starfocus_params lens;
-  starfocus_params_init(&lens);
-  const starfocus_config config = MakeConfig(strands.any(), &input, &lens.lens);
+  starfocus::Params lens;
+  const test::Config config = MakeConfig(strands.any(), &input, &lens);
   size_t bytes = 0;
-  if (starfocus_workspace_size(&config, &bytes) != STARFOCUS_OK || bytes > (size_t{200} << 20))
+  if (starfocus_workspace_size(&config, &bytes, nullptr) != STARFOCUS_OK || bytes > (size_t{200} << 20))
     return 0;
   if (int64_t{config.width} * config.height > 20000) return 0;
   void* workspace = nullptr;
   if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
   const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
   starfocus_engine* engine = nullptr;
-  if (starfocus_init(&config, workspace, bytes, &engine) != STARFOCUS_OK) std::abort();
+  if (starfocus_init(&config, workspace, bytes, &engine, nullptr) != STARFOCUS_OK) std::abort();
   const Pictures pictures = MakePictures(config, strands, &input);
   const size_t row = 3 * static_cast<size_t>(config.width);
   const size_t stride = row + static_cast<size_t>(input.Int(0, 5));
   const std::unique_ptr<uint8_t[]> out(new uint8_t[Needed(stride, config.height, row)]);
   for (int round = 0; round < 2; ++round) {
-    starfocus_params params = lens;
+    starfocus::Params params = lens;
     SetParams(config, &input, &params);
     SetProgress(engine, &input);
-    const double scale = params.mode == STARFOCUS_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
-    const bool frame = params.mode == STARFOCUS_MODE_FRAME;
-    const bool by_default = params.mode == STARFOCUS_MODE_BLOCK || (frame && config.views == 1);
-    const bool subapertures = by_default ? params.renderer != STARFOCUS_RENDERER_LINE_SCAN
-                                         : frame && params.renderer == STARFOCUS_RENDERER_SLICES;
+    const double scale = params.study.mode == STARFOCUS_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
+    const bool frame = params.study.mode == STARFOCUS_MODE_FRAME;
+    const bool by_default = params.study.mode == STARFOCUS_MODE_BLOCK || (frame && config.views == 1);
+    const bool subapertures = by_default ? params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN
+                                         : frame && params.study.renderer == STARFOCUS_RENDERER_SLICES;
     // The rule of subapertures uses at most 13 views along the radius, however large the blur is.
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;

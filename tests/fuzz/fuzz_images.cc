@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/fuzz/input.h"
+#include "tests/support/config.h"
 #include "tests/support/features.h"
 
 namespace {
@@ -83,7 +85,7 @@ starfocus_depth_map MakeDepth(const Size& size, Input* input, Planes* planes) {
   return map;
 }
 
-starfocus_status StreamAll(starfocus_engine* engine, const starfocus_params& params,
+starfocus_status StreamAll(starfocus_engine* engine, const starfocus::Params& params,
                            const starfocus_light_field& field, const starfocus_image& out,
                            const Size& size) {
   int32_t consumed = 0, written = 0;
@@ -105,29 +107,27 @@ bool MayBe(starfocus_status status) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   const Size picture = {input.Int(1, 90), input.Int(1, 70)};
   config.width = picture.width, config.height = picture.height;
   config.views = input.Int(0, 1) == 0 ? 1 : 5;
   config.disparity_min = -14, config.disparity_max = 14, config.max_blur = 16;
   config.features |= STARFOCUS_FEATURE_IMAGES, config.superblock = 32;
   test::SetFeature(STARFOCUS_FEATURE_STREAMING, input.Int(0, 1), &config.features);
-  test::SetFeature(STARFOCUS_FEATURE_FILL_UNKNOWN, input.Rarely() ? 0 : 1, &config.features);
+  test::SetFeature(STARFOCUS_UNKNOWN_FILL, input.Rarely() ? 0 : 1, &config.features);
   config.highlights = input.Rarely() ? 4 : 1;
-  starfocus_params params;
-  starfocus_params_init(&params);
-  params.lens.focus = input.Real(-2, 2);
-  params.mode = input.Rarely() ? STARFOCUS_MODE_BLUR : STARFOCUS_MODE_BLOCK;
+  starfocus::Params params;
+  params.focus = input.Real(-2, 2);
+  params.study.mode = input.Rarely() ? STARFOCUS_MODE_BLUR : STARFOCUS_MODE_BLOCK;
   size_t bytes = 0;
-  if (starfocus_workspace_size(&config, &bytes) != STARFOCUS_OK) std::abort();
+  if (starfocus_workspace_size(&config, &bytes, nullptr) != STARFOCUS_OK) std::abort();
   void* workspace = nullptr;
   if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
   const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
   starfocus_engine* engine = nullptr;
-  if (starfocus_init(&config, workspace, bytes, &engine) != STARFOCUS_OK) std::abort();
+  if (starfocus_init(&config, workspace, bytes, &engine, nullptr) != STARFOCUS_OK) std::abort();
   Planes planes;
-  starfocus_light_field field = {};
+  starfocus_light_field field = starfocus::NewLightField();
   for (int view = 0; view < config.views; ++view) {
     field.views[view] = MakeImage(picture, &input, &planes);
   }

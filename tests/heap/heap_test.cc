@@ -12,6 +12,8 @@
 
 #include "starfocus/matte.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/test_scene.h"
@@ -138,11 +140,11 @@ TEST_CASE("size queries, initialisation, refocusing and streaming make no heap c
                                 STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
       CAPTURE(views);
       const test::Scene scene = test::RandomScene(70, 50, views, -3, 3, 5);
-      starfocus_config config = test::ConfigFor(scene, 16);
+      test::Config config = test::ConfigFor(scene, 16);
       config.features |= STARFOCUS_FEATURE_STREAMING;
       test::Engine holder(config);  // The test uses only the memory of this engine.
       REQUIRE(holder.status() == STARFOCUS_OK);
-      const starfocus_params params = test::Params(1.25, 0.9, mode);
+      const starfocus::Params params = test::Params(1.25, 0.9, mode);
       const starfocus_light_field field = scene.Field();
       test::Output out(70, 50);
       const starfocus_callbacks callbacks =
@@ -154,9 +156,9 @@ TEST_CASE("size queries, initialisation, refocusing and streaming make no heap c
       HeapWatch watch;
       size_t bytes = 0;
       starfocus_engine* engine = nullptr;
-      starfocus_report report;
-      Expect(STARFOCUS_OK, starfocus_workspace_size(&config, &bytes));
-      Expect(STARFOCUS_OK, starfocus_init(&config, holder.workspace(), bytes, &engine));
+      test::Report report;
+      Expect(STARFOCUS_OK, starfocus_workspace_size(&config, &bytes, nullptr));
+      Expect(STARFOCUS_OK, starfocus_init(&config, holder.workspace(), bytes, &engine, nullptr));
       Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
       Expect(STARFOCUS_OK,
              test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report));
@@ -180,13 +182,13 @@ TEST_CASE("refocusing and streaming images make no heap call") {
   const test::ImageField field = test::MakeImageField(
       scene, {nv12},
       test::MakeDepth(scene, 35, 25, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0), &random);
-  starfocus_config config = test::ImageConfig(field, 16);
+  test::Config config = test::ImageConfig(field, 16);
   config.features |= STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   test::ImageMemory image(70, 50, nv12);
   const starfocus_light_field images = field.Field();
   const starfocus_image out = image.Out();
-  const starfocus_params params = test::Params(1.25, 0.9, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(1.25, 0.9, STARFOCUS_MODE_BLOCK);
   int32_t taken = 0, given = 0;
   HeapWatch watch;
   Expect(STARFOCUS_OK, starfocus_refocus(engine.get(), &params, &images, &out, nullptr));
@@ -207,24 +209,25 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
       scene.Disparity(x, y) = x < 48 ? 0.0f : x < 80 ? 6.0f : 26.0f;
     }
   }
-  starfocus_config config = test::ConfigFor(scene, 28);
+  test::Config config = test::ConfigFor(scene, 28);
   config.superblock = 32;
   config.features |= STARFOCUS_FEATURE_STREAMING;
   config.tuning.gather = 0;     // Without gathering, blocks use all layers.
   test::Engine holder(config);  // The test uses only the memory of this engine.
   REQUIRE(holder.status() == STARFOCUS_OK);
-  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   int told = 0;
-  starfocus_callbacks callbacks = test::VisitedBy(
+  starfocus_observer observer = test::Visitor(
       [](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &told);
-  callbacks.clock = []() -> uint64_t { return 7; };
+  observer.clock = [](void*) -> uint64_t { return 7; };
+  const starfocus_callbacks callbacks = test::ObservedBy(&observer);
   const starfocus_light_field field = scene.Field();
   test::Output out(scene.width, scene.height);
 
   HeapWatch watch;
   starfocus_engine* engine = nullptr;
-  starfocus_report report;
-  Expect(STARFOCUS_OK, starfocus_init(&config, holder.workspace(), holder.bytes(), &engine));
+  test::Report report;
+  Expect(STARFOCUS_OK, starfocus_init(&config, holder.workspace(), holder.bytes(), &engine, nullptr));
   Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
   Expect(STARFOCUS_OK,
          test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report));
@@ -239,12 +242,12 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
 
 TEST_CASE("creating an engine with an allocator, and cancelling, make no heap call") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
-  const starfocus_config config = test::ConfigFor(scene, 16);
+  const test::Config config = test::ConfigFor(scene, 16);
   test::Engine holder(config);  // The test uses only the memory of this engine.
   const starfocus_allocator allocator = {holder.workspace(),
                                          [](void* memory, size_t, size_t) { return memory; },
                                          [](void*, void*, size_t) {}};
-  const starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   int progress_calls = 0;
   const starfocus_callbacks callbacks =
       test::ToldTo([](void* data, int32_t, int32_t) { return ++*static_cast<int*>(data) / 30; },
@@ -254,7 +257,7 @@ TEST_CASE("creating an engine with an allocator, and cancelling, make no heap ca
 
   HeapWatch watch;
   starfocus_engine* engine = nullptr;
-  Expect(STARFOCUS_OK, starfocus_create(&config, &allocator, &engine));
+  Expect(STARFOCUS_OK, starfocus_create(&config, &allocator, &engine, nullptr));
   Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
   Expect(STARFOCUS_ERROR_CANCELLED,
          test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, nullptr));
@@ -268,12 +271,12 @@ TEST_CASE("creating an engine with an allocator, and cancelling, make no heap ca
 
 TEST_CASE("preparing a light field and refocusing regions make no heap call") {
   const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
-  const starfocus_config config = test::ConfigFor(scene, 16);
+  const test::Config config = test::ConfigFor(scene, 16);
   test::Engine holder(config), memory(config);
   size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_prepared_size(holder.get(), &bytes) == STARFOCUS_OK);
   REQUIRE(bytes <= memory.bytes());  // the memory of this engine holds the prepared light field
-  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
+  starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.region = {30, 20, 50, 50};
   const starfocus_light_field field = scene.Field();
   test::Output out(50, 50);
@@ -300,10 +303,10 @@ TEST_CASE("measuring, filling and focusing with disparity maps make no heap call
   const starfocus_depth_map depth = starfocus_depth_float(scene.disparity.data(), 160, 40, 30);
   HeapWatch watch;
   starfocus_disparity_stats stats;
-  const starfocus_status measured = starfocus_measure_disparity(&depth, &stats);
-  const starfocus_status filled = starfocus_fill_disparity(scene.disparity.data(), 160, 40, 30);
+  const starfocus_status measured = starfocus_measure_disparity(&depth, &stats, nullptr);
+  const starfocus_status filled = starfocus_fill_disparity(scene.disparity.data(), 160, 40, 30, nullptr);
   double focus = 0;
-  const starfocus_status tapped = starfocus_focus_at(&depth, 40, 30, 4, 4, &focus);
+  const starfocus_status tapped = starfocus_focus_at(&depth, 40, 30, 4, 4, &focus, nullptr);
   CHECK(watch.Stop() == 0);
   CHECK(tapped == STARFOCUS_OK);
   CHECK(measured == STARFOCUS_OK);
@@ -326,9 +329,9 @@ TEST_CASE("maps and coverage from mattes make no heap call") {
   out.coverage_stride = 40;
   HeapWatch watch;
   starfocus_matte_stats stats;
-  const starfocus_status measured = starfocus_measure_matte(&matte, &stats);
-  const starfocus_status field = starfocus_matte_field(&matte, &surfaces, 40, 30, nullptr, &out);
-  const starfocus_status covered = starfocus_matte_coverage(&matte, &depth, 40, 30, nullptr, &out);
+  const starfocus_status measured = starfocus_measure_matte(&matte, &stats, nullptr);
+  const starfocus_status field = starfocus_matte_field(&matte, &surfaces, 40, 30, nullptr, &out, nullptr);
+  const starfocus_status covered = starfocus_matte_coverage(&matte, &depth, 40, 30, nullptr, &out, nullptr);
   CHECK(watch.Stop() == 0);
   CHECK(measured == STARFOCUS_OK);
   CHECK(field == STARFOCUS_OK);

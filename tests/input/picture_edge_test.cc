@@ -11,6 +11,8 @@
 
 #include "lib/io/block_pixels.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/star_views.h"
 #include "tests/support/test_scene.h"
@@ -26,7 +28,7 @@ test::Scene FlatScene(int x0, int y0, int side, int views, float disparity) {
   test::Scene scene = test::EmptyScene(side, side, views, disparity - 1, disparity + 1);
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
-    starfocus_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v, nullptr);
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; ++x) {
         // View (u, v) shows pixel (x, y) of the centre view at (x - u d, y - v d).
@@ -84,13 +86,13 @@ TEST_CASE("picture edge: refocused pixels at the edges match a larger picture of
       for (const starfocus_mode mode :
            {STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
         for (const int gather : {0, 1}) {
-          starfocus_config config = test::ConfigFor(scene, 9);
+          test::Config config = test::ConfigFor(scene, 9);
           config.tuning.gather = gather;
           config.transfer = STARFOCUS_TRANSFER_NONE;
-          starfocus_config larger_config = test::ConfigFor(larger, 9);
+          test::Config larger_config = test::ConfigFor(larger, 9);
           larger_config.tuning.gather = gather;
           larger_config.transfer = STARFOCUS_TRANSFER_NONE;
-          const starfocus_params params = test::Params(double(disparity) - 8, 1, mode);
+          const starfocus::Params params = test::Params(double(disparity) - 8, 1, mode);
           const Difference difference =
               AtEdges(test::RefocusScene(scene, config, params),
                       test::RefocusScene(larger, larger_config, params), kMargin);
@@ -107,9 +109,9 @@ TEST_CASE("picture edge: with one view, the edge pixels are repeated") {
   constexpr int kMargin = 32;
   const test::Scene scene = FlatScene(0, 0, kSide, 1, 9);
   const test::Scene larger = FlatScene(-kMargin, -kMargin, kSide + 2 * kMargin, 1, 9);
-  const starfocus_params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
   const auto refocused = [&](const test::Scene& one) {
-    starfocus_config config = test::ConfigFor(one, 9);
+    test::Config config = test::ConfigFor(one, 9);
     config.transfer = STARFOCUS_TRANSFER_NONE;
     return test::RefocusScene(one, config, params);
   };

@@ -26,12 +26,12 @@ final class LightFieldTest {
     check(Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH / 2 - 1, 10) == 2, "focus at the left");
     check(Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH / 2, 10) == 16, "focus at the right half");
     check(Refocuser.focusAt(depth, WIDTH, HEIGHT, 0, 0) == 2, "focus at an unknown value");
-    checkThrows(StarfocusException.class, "(expected 0 to 159, found 160)",
+    checkThrows(StarfocusException.class, "(expected inside the picture, found 160)",
         () -> Refocuser.focusAt(depth, WIDTH, HEIGHT, WIDTH, 10));
     checkThrows(
         StarfocusException.class, "y: ", () -> Refocuser.focusAt(depth, WIDTH, HEIGHT, 10, -1));
     checkThrows(StarfocusException.class, "width: ", () -> Refocuser.focusAt(depth, 39, 30, 5, 5));
-    checkThrows(StarfocusException.class, "(expected 30 to 65535, found 0)",
+    checkThrows(StarfocusException.class, "(expected 1 to 65535, found 0)",
         () -> Refocuser.focusAt(depth, 40, 0, 5, 5));
     try (Refocuser refocuser = new Refocuser(configuration)) {
       final Parameters parameters = new Parameters();

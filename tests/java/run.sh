@@ -125,7 +125,10 @@ archive() {
   cat >"$work/linked.c" <<'TEXT'
 #include <starfocus/starfocus.h>
 #include <starfocus/pool.h>
-int main(void) { return starfocus_pool_cores() == 0 || starfocus_abi_version() != STARFOCUS_ABI_VERSION; }
+int main(void) {
+  uint32_t abi = 0;
+  return starfocus_pool_cores() == 0 || !starfocus_version(&abi) || abi != STARFOCUS_ABI;
+}
 TEXT
   quietly "$cc" "-I$work/aar/$module/include" -o "$work/linked" "$work/linked.c" \
     "$work/aar/jni/$abi/libstarfocus_jni.so" -Wl,--unresolved-symbols=ignore-in-shared-libs

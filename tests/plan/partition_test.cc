@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "starfocus/experimental.h"
 #include "tests/plan/measured_cells.h"
 #include "tests/support/inside.h"
 #include "tests/support/partition_plan.h"
@@ -193,7 +194,7 @@ TEST_CASE(
       CAPTURES(exact, max_layer);
       for (const bool subapertures : {false, true}) {
         CAPTURE(subapertures);
-        plan.Use(subapertures ? starfocus::kSliceRenderer : starfocus::kLineScanRenderer);
+        plan.Use(subapertures ? starfocus::kSliceRenderer : starfocus_line_scan_renderer()->renderer);
         for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
           const int layer =
               std::min(LayerOf(subapertures, exact, false, plan.rules.demand), max_layer);
@@ -237,7 +238,7 @@ TEST_CASE("partition: for constant blur, blocks read all rows of their stripe's 
     plan.grid = test::MeasureCells(plan.disparity, 192, 192, plan.rules.scale, &plan.cells);
     const starfocus::Borders borders = test::BordersOf(r);
     plan.rules.around = borders.cells;
-    plan.Use(starfocus::kLineScanRenderer);
+    plan.Use(starfocus_line_scan_renderer()->renderer);
     int most[3] = {};
     for (int max_layer = 0; max_layer <= 2; ++max_layer) {
       plan.rules.max_layer = max_layer;

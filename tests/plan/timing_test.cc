@@ -8,7 +8,9 @@
 
 #include "lib/plan/partition.h"
 #include "lib/plan/renderer.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace timing_test {
@@ -91,7 +93,7 @@ TEST_CASE("timing: the work of a block is the sum over its views") {
     const bool subapertures = random.Int(0, 1) == 1;
     const BlockWork expected =
         MeasureViewByView(rect, border, n, subapertures, upsampled, content, layer);
-    const starfocus::Renderer& renderer = subapertures ? kSliceRenderer : kLineScanRenderer;
+    const starfocus::Renderer& renderer = subapertures ? kSliceRenderer : starfocus_line_scan_renderer()->renderer;
     BlockWork got = renderer.measure_work(rect, border, DiscOf(n), content, layer);
     got.upsample = upsampled;
     CAPTURE(n);
@@ -169,7 +171,7 @@ TEST_CASE(
     const auto pixels = uint32_t(side * side);
     const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
     const Content content[2] = {along, along};
-    BlockWork work = kLineScanRenderer.measure_work({0, 0, side, side}, {140, 140, 140, 140},
+    BlockWork work = starfocus_line_scan_renderer()->renderer.measure_work({0, 0, side, side}, {140, 140, 140, 140},
                                                     DiscOf(102), content, 0);
     work.upsample = pixels;
     CAPTURE(side);
@@ -179,8 +181,7 @@ TEST_CASE(
 }
 
 TEST_CASE("timing: the default coefficients are the same on every machine") {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   constexpr starfocus_timing kDefault = {5659266, 0, 2354, 0, 106, 3266, 720, 507};
   for (const auto coefficient : kCoefficients) {
     CHECK(config.tuning.timing.*coefficient == kDefault.*coefficient);

@@ -9,6 +9,7 @@
 
 #include "platform/image_io.h"
 #include "platform/writers/png.h"
+#include "tests/support/config.h"
 #include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
@@ -102,7 +103,7 @@ TEST_CASE("light_field: views at any positions are read back, with the centre fi
     CHECK(back.views[i].pixels[0] == 10 * order[i] + 3);
     CHECK(SamePosition(back.positions[i], light_field.positions[size_t(order[i])]));
   }
-  starfocus_config config = {};
+  test::Config config;
   ConfigureViews(back, &config);
   CHECK(config.views == 4);
   CHECK(config.positions[3].v == -0.25);

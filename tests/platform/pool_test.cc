@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/watch.h"
 
@@ -113,9 +115,9 @@ TEST_CASE("pool: several pools can exist at once, and one pool can serve several
 TEST_CASE(
     "pool: a pool can be the runner of an engine, and one thread at a time reports progress") {
   const test::Scene scene = test::RandomScene(300, 120, 5, -3, 6, 4);
-  starfocus_config config = test::ConfigFor(scene, 12);
+  test::Config config = test::ConfigFor(scene, 12);
   config.superblock = 32;
-  starfocus_params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
+  starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
   test::Output expected(300, 120);
   test::Engine one(config);
   REQUIRE(test::Refocus(&one, params, scene, &expected) == STARFOCUS_OK);

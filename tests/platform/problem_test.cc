@@ -8,6 +8,7 @@
 #include <string>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/config.h"
 
 namespace problem_test {
 namespace {
@@ -18,19 +19,17 @@ std::string Text(starfocus_status status, const starfocus_problem* problem) {
 
 TEST_CASE("problem: the line names a field with its range and value") {
   starfocus_problem problem = {};
-  starfocus_config config;
-  starfocus_config_init(&config);
-  config.problem = &problem;
+  test::Config config;
   size_t bytes = 0;
-  CHECK(Text(starfocus_workspace_size(&config, &bytes), &problem) ==
+  CHECK(Text(starfocus_workspace_size(&config, &bytes, &problem), &problem) ==
         "width: a field or an argument is outside its range (expected 1 to 65535, found 0)");
   config.width = config.height = 8;
   config.views = 2;
   config.positions[1] = {0, 1.5};
-  CHECK(Text(starfocus_workspace_size(&config, &bytes), &problem) ==
+  CHECK(Text(starfocus_workspace_size(&config, &bytes, &problem), &problem) ==
         "positions[1].v: a field or an argument is outside its range (expected -1 to 1, found "
         "1.5)");
-  CHECK(Text(starfocus_workspace_size(&config, nullptr), &problem) ==
+  CHECK(Text(starfocus_workspace_size(&config, nullptr, &problem), &problem) ==
         "bytes: a required pointer is null (expected not null)");
 }
 

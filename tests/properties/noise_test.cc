@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -95,9 +97,9 @@ const Way kWays[] = {{STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES, 10},
                      {STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_LINE_SCAN, kWall}};
 
 test::Output Refocused(const test::Scene& scene, const Way& way) {
-  starfocus_config config = test::ConfigFor(scene);
+  test::Config config = test::ConfigFor(scene);
   config.transfer = STARFOCUS_TRANSFER_NONE;
-  config.features = STARFOCUS_FEATURE_LINE_SCAN | STARFOCUS_FEATURE_COVERAGE;
+  config.features = STARFOCUS_FEATURE_COVERAGE;
   return test::OutputOf(config, test::Params(way.focus, 1, way.mode, way.renderer), scene);
 }
 

@@ -11,7 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/properties/operations.h"
+#include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/inside.h"
 #include "tests/support/prepared_memory.h"
@@ -72,20 +74,20 @@ struct Picture {
     config.highlights = lens.highlights;
     config.tuning.gather = lens.layered ? 0 : 1;
     params = test::Params(-3, lens.aperture, lens.mode);
-    params.renderer = lens.renderer;
+    params.study.renderer = lens.renderer;
     engine = std::make_unique<test::Engine>(config);
     REQUIRE(engine->status() == STARFOCUS_OK);
     if (setup.kernels != nullptr) test::UseKernels(setup.kernels, engine->get());
     if (setup.used) Use();
     REQUIRE(test::Refocus(engine.get(), params, before, &previous) == STARFOCUS_OK);
-    memory = std::make_unique<test::PreparedMemory>(config);
+    memory = std::make_unique<test::PreparedMemory>(engine->get());
     REQUIRE(Prepare(scene.Field(), &prepared) == STARFOCUS_OK);
   }
   void Use() {
     test::Output out(kWidth, kHeight);
-    starfocus_params other = test::Params(7, 0.4, STARFOCUS_MODE_BLUR);
+    starfocus::Params other = test::Params(7, 0.4, STARFOCUS_MODE_BLUR);
     REQUIRE(test::Refocus(engine.get(), other, before, &out) == STARFOCUS_OK);
-    other.mode = STARFOCUS_MODE_FRAME;
+    other.study.mode = STARFOCUS_MODE_FRAME;
     REQUIRE(starfocus_stream_begin(engine->get(), &other) == STARFOCUS_OK);
     const starfocus_light_field field = before.Field();
     int32_t moved = 0;
@@ -101,8 +103,8 @@ struct Picture {
   }
 
   test::Scene scene, before;
-  starfocus_config config;
-  starfocus_params params;
+  test::Config config;
+  starfocus::Params params;
   std::unique_ptr<test::Engine> engine;
   test::Output previous{kWidth, kHeight, 5};
   std::unique_ptr<test::PreparedMemory> memory;
@@ -120,7 +122,7 @@ inline starfocus_status Whole(Picture* of, const starfocus_callbacks& callbacks,
 }
 inline starfocus_status Region(Picture* of, const starfocus_callbacks& callbacks, test::Output* out,
                                starfocus_report* report) {
-  starfocus_params params = of->params;
+  starfocus::Params params = of->params;
   params.region = {21, 17, 30, 41};
   return test::Refocus(of->engine.get(), params, of->scene, out, callbacks, report);
 }
@@ -131,8 +133,10 @@ inline starfocus_status Stream(Picture* of, const starfocus_callbacks& callbacks
 inline starfocus_status After(Picture* of, const starfocus_callbacks&, test::Output* out,
                               starfocus_report* report) {
   const starfocus_light_field field = of->scene.Field();
-  const starfocus_previous previous = {
-      of->before.Field(), starfocus_image_rgb(of->previous.bytes.data(), of->previous.stride)};
+  const starfocus_light_field before = of->before.Field();
+  const starfocus_image picture =
+      starfocus_image_rgb(of->previous.bytes.data(), of->previous.stride);
+  const starfocus_previous previous = {sizeof previous, &before, &picture};
   return test::RefocusAfterRgb(of->engine->get(), &of->params, &field, &previous, out->bytes.data(),
                                out->stride, report);
 }
@@ -173,7 +177,7 @@ inline Operation OperationOf(const Lens& lens, const NamedWay& way) {
             return [of, way](const starfocus_callbacks& callbacks, Bytes* bytes) {
               REQUIRE(starfocus_set_callbacks(of->engine->get(), &callbacks) == STARFOCUS_OK);
               test::Output out(way.width, way.height, 5);
-              starfocus_report report = {};
+              test::Report report;
               const starfocus_status status = way.ask(of.get(), callbacks, &out, &report);
               CHECK(out.PaddingUntouched());
               *bytes = out.bytes;

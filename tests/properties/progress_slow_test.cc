@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/properties/picture_operations.h"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
@@ -51,7 +53,7 @@ TEST_CASE(
     "progress: after cancelled pulls, a stream returns the rows and report of an undisturbed "
     "stream") {
   const Picture f(SceneOf(kBlocks), kBlocks, {});
-  starfocus_report expected = {}, report = {};
+  test::Report expected, report;
   test::Output whole(kWidth, kHeight, 5), out(kWidth, kHeight, 5);
   REQUIRE(test::Refocus(f.engine.get(), f.params, f.scene, &whole) == STARFOCUS_OK);
   REQUIRE(PullOn(f, 1 << 20, &expected, &out) == 0);
@@ -90,19 +92,19 @@ TEST_CASE("progress: at most a million samples are computed between two progress
     const int side = gathered ? 128 : 64;
     test::Scene scene = test::RandomScene(side, side, 5, -3, 9, 8);
     if (gathered) scene.disparity.assign(scene.disparity.size(), 9);
-    starfocus_config config = test::ConfigFor(scene, 32);
+    test::Config config = test::ConfigFor(scene, 32);
     config.superblock = side;
     config.tuning.max_layer = 0;
     // As a lower bound of the work for cells that are blurred without views, the test assumes PSFs
     // of half the width.
     const int radius = gathered ? 12 : 32, size = (gathered ? 1 : 2) * radius + 1;
-    starfocus_params params = test::Params(9 - radius, 1, of.mode, of.renderer);
+    starfocus::Params params = test::Params(9 - radius, 1, of.mode, of.renderer);
     test::Engine engine(config);
     // The first picture also computes the PSFs, which causes further progress calls. The test
     // therefore counts only the progress calls of the second picture.
     test::Output out = test::OutputOf(&engine, params, scene);
     Watch watch;
-    starfocus_report report = {};
+    test::Report report;
     REQUIRE(test::Refocus(&engine, params, scene, &out, Watched(&watch), &report) == STARFOCUS_OK);
     CHECK(watch.Ended());
     double samples =

@@ -90,7 +90,7 @@ TEST_CASE("documents: pages begin with what readers type or look for, not with t
 
 TEST_CASE("documents: files that name the version of the library name the right one") {
   const std::string version = STARFOCUS_VERSION_STRING;
-  const std::string major = std::to_string(STARFOCUS_VERSION_MAJOR);
+  const std::string abi = std::to_string(STARFOCUS_ABI);
   const fs::path packaging = kRoot / "toolchains" / "packaging";
   const auto only = [](const fs::path& file, const std::string& pattern) {
     const std::set<std::string> found = Find(Read(file), pattern);
@@ -105,8 +105,8 @@ TEST_CASE("documents: files that name the version of the library name the right 
   // package ends with the version of the ABI.
   const std::string changelog = Read(packaging / "debian/changelog");
   CHECK(changelog.substr(0, changelog.find(')') + 1) == "starfocus (" + version + ")");
-  CHECK(only(packaging / "debian/control", "\nPackage: libstarfocus([0-9]+)\n") == major);
-  CHECK(fs::exists(packaging / "debian" / ("libstarfocus" + major + ".symbols")));
+  CHECK(only(packaging / "debian/control", "\nPackage: libstarfocus([0-9]+)\n") == abi);
+  CHECK(fs::exists(packaging / "debian" / ("libstarfocus" + abi + ".symbols")));
 }
 
 TEST_CASE("documents: the targets of all links in documents exist") {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/refocused.h"
 #include "tests/support/simd_targets.h"
@@ -34,11 +36,11 @@ test::Scene HalfPlanes(double near, double far, int views) {
 
 std::vector<int> MiddleRow(const test::Scene& scene, double focus, starfocus_mode mode,
                            int layers = 0) {
-  starfocus_config config = test::ConfigFor(scene, 32);
+  test::Config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
   config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = layers;
-  starfocus_params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
+  starfocus::Params params = test::Params(focus, 1, mode, STARFOCUS_RENDERER_SLICES);
   const test::Refocused picture = test::RefocusScene(scene, config, params);
   std::vector<int> row;
   for (int x = 0; x < kWidth; ++x) {
@@ -115,7 +117,7 @@ TEST_CASE("stack: the end of a slope covers the same share where slices overlap 
   test::SetDisparity(&scene, [&](int x, int y) {
     return x < kEdge ? 3 + float(y) / kHeight : scene.Disparity(x, y);
   });
-  starfocus_config config = test::ConfigFor(scene, 32);
+  test::Config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
   config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = 0;
@@ -146,7 +148,7 @@ TEST_CASE("stack: slices that are computed in several parts give the same pictur
   const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::StripBytes(8, reach);
   REQUIRE(pool > 2 * whole);
   for (const double focus : {0.0, 6.0}) {
-    const starfocus_params params = test::Params(focus, 1, STARFOCUS_MODE_BENCHMARK);
+    const starfocus::Params params = test::Params(focus, 1, STARFOCUS_MODE_BENCHMARK);
     test::Output out(kWidth, kHeight);
     const test::Output expected = test::OutputOf(&engine, params, scene);
     const size_t ample = pool;
@@ -167,7 +169,7 @@ int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
 
 TEST_CASE("stack: no more tiles are computed after cancellation") {
   const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
-  starfocus_config config = test::ConfigFor(scene, 32);
+  test::Config config = test::ConfigFor(scene, 32);
   config.superblock = 256;
   test::Engine engine(config);
   starfocus::simd::Kernels counting = starfocus::simd::BestKernels();
@@ -176,7 +178,7 @@ TEST_CASE("stack: no more tiles are computed after cancellation") {
     starfocus::simd::BestKernels().FindRanges(arguments...);
   };
   test::UseKernels(&counting, engine.get());
-  starfocus_params params = test::Params(0, 1, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES);
+  starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES);
   test::Output out = test::OutputOf(&engine, params, scene);
   const int all = ranges_found;
   ranges_found = 0;
@@ -191,10 +193,10 @@ TEST_CASE("stack: a worker requires 1.15 MiB for blocks of 64 pixels and blurs o
           doctest::skip(starfocus::kRedZone > 0)) {
   size_t bytes[2];
   for (int workers = 1; workers <= 2; ++workers) {
-    starfocus_config config = test::ConfigFor(HalfPlanes(16, -16, 17), 32);
+    test::Config config = test::ConfigFor(HalfPlanes(16, -16, 17), 32);
     config.superblock = 64;
     config.max_workers = workers;
-    REQUIRE(starfocus_workspace_size(&config, &bytes[workers - 1]) == STARFOCUS_OK);
+    REQUIRE(starfocus_workspace_size(&config, &bytes[workers - 1], nullptr) == STARFOCUS_OK);
   }
   CHECK(bytes[1] - bytes[0] <= size_t{1180} << 10);
 }

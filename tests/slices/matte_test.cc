@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <vector>
 
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
@@ -36,7 +38,7 @@ test::Scene Mixed(double near, double far, int views, bool transposed = false, i
 
 std::vector<int> MiddleRow(const test::Scene& scene, double focus, bool transposed = false,
                            double aperture = 1) {
-  starfocus_config config = test::ConfigFor(scene, 32);
+  test::Config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
   config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = 0;
@@ -196,7 +198,7 @@ TEST_CASE(
   for (int y = 0; y < kHeight; ++y) {
     for (int x = kEdge; x < kWidth; ++x) scene.Disparity(x, y) = float(-0.6 + 1.2 * y / kHeight);
   }
-  starfocus_config config = test::ConfigFor(scene, 32);
+  test::Config config = test::ConfigFor(scene, 32);
   config.tuning.gather = 0;
   config.transfer = STARFOCUS_TRANSFER_NONE;
   config.tuning.max_layer = 0;
@@ -238,7 +240,7 @@ test::Scene Disc(int views, double near, double far, int bright, int dark) {
 
 // Returns the largest difference from the wall's colour among pixels that light of the disc cannot
 // reach. Light of the disc reaches only the blur of the disc and the mixed pixels around the disc.
-int GlowOf(const test::Scene& scene, const starfocus_config& config, double focus, double near,
+int GlowOf(const test::Scene& scene, const test::Config& config, double focus, double near,
            int wall) {
   const test::Refocused picture =
       test::RefocusScene(scene, config, test::Params(focus, 1, STARFOCUS_MODE_BLOCK));
@@ -265,7 +267,7 @@ TEST_CASE("matte: no light of a subject reaches the wall, at any level and size 
       for (const double focus : {4.0, 2.5, -2.0, -4.0, -10.0}) {
         for (const int max_layer : {0, 1, 2}) {
           for (const int block : {32, 64, 128, 256}) {
-            starfocus_config config = test::ConfigFor(scene, 40);
+            test::Config config = test::ConfigFor(scene, 40);
             config.transfer = STARFOCUS_TRANSFER_NONE;
             config.tuning.max_layer = max_layer;
             config.superblock = block;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/stress/families.h"
 #include "tests/stress/rig.h"
 #include "tests/stress/setup.h"
+#include "tests/support/config.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/transfer_curve.h"
 
@@ -33,25 +35,25 @@ constexpr int kLayerJumpOfTheta = 48;
 constexpr int kLadderJump = 48;
 
 // Returns the layer of a flat scene, in which all blocks have the same layer.
-int LayerOf(const starfocus_report& report) {
+int LayerOf(const test::Report& report) {
   return report.layers[2].pixels > 0 ? 2 : report.layers[1].pixels > 0 ? 1 : 0;
 }
 
 // Returns true if each rendered view stands for a wide subaperture. The result is not valid for the
 // blur mode, which has no views.
 bool UsesSubapertures(const Setup& setup) {
-  const starfocus_params& params = setup.params;
-  if (params.mode != STARFOCUS_MODE_FRAME || setup.config.views == 1)
-    return params.renderer != STARFOCUS_RENDERER_LINE_SCAN;
-  return params.renderer == STARFOCUS_RENDERER_SLICES;
+  const starfocus::Params& params = setup.params;
+  if (params.study.mode != STARFOCUS_MODE_FRAME || setup.config.views == 1)
+    return params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN;
+  return params.study.renderer == STARFOCUS_RENDERER_SLICES;
 }
 
-int MostJump(const Setup& setup, const starfocus_report& a, const starfocus_report& b) {
-  const starfocus_params& params = setup.params;
-  if (params.mode == STARFOCUS_MODE_BLUR) return kLadderJump;
+int MostJump(const Setup& setup, const test::Report& a, const test::Report& b) {
+  const starfocus::Params& params = setup.params;
+  if (params.study.mode == STARFOCUS_MODE_BLUR) return kLadderJump;
   int most = kSmoothJump;
   if (LayerOf(a) != LayerOf(b)) {
-    most = params.lens.theta == test::Params(0).lens.theta ? kLayerJump : kLayerJumpOfTheta;
+    most = params.theta == test::Params(0).theta ? kLayerJump : kLayerJumpOfTheta;
   }
   return a.n != b.n && !UsesSubapertures(setup) ? std::max(most, kViewsJump) : most;
 }
@@ -88,12 +90,12 @@ Outcome Mirrors(test::Random* random) {
   // With the disparity range of strands, several pixels are often at the same smallest distance.
   if (setup.strands) setup.config.features &= ~STARFOCUS_FEATURE_COVERAGE;
   // Polygons and cat's eyes are not symmetric.
-  starfocus_lens& lens = setup.params.lens;
+  starfocus::Params& lens = setup.params;
   if (lens.shape == STARFOCUS_SHAPE_POLYGON) lens.shape = STARFOCUS_SHAPE_DISC;
   lens.cats_eye = 0;
   test::Symmetry symmetry = {random->Int(0, 1) == 1, random->Int(0, 1) == 1,
                              random->Int(0, 1) == 1};
-  if (setup.params.mode != STARFOCUS_MODE_BLUR && UsesSubapertures(setup))
+  if (setup.params.study.mode != STARFOCUS_MODE_BLUR && UsesSubapertures(setup))
     symmetry.transpose = false;
   const std::vector<uint8_t> plain = Refocused(setup, RandomVariant(random));
   Setup other = setup;
@@ -136,14 +138,14 @@ Outcome Continuity(test::Random* random) {
   const bool focus = random->Int(0, 1) == 0;
   Setup other = setup;
   if (focus) {
-    other.params.lens.focus += other.params.lens.focus < 0 ? -1.0 / 64 : 1.0 / 64;
+    other.params.focus += other.params.focus < 0 ? -1.0 / 64 : 1.0 / 64;
   } else {
-    setup.params.lens.aperture = random->Real(0.1, 1);
-    other.params.lens.aperture = setup.params.lens.aperture * (1 - 1.0 / 256);
+    setup.params.aperture = random->Real(0.1, 1);
+    other.params.aperture = setup.params.aperture * (1 - 1.0 / 256);
   }
   FitBlur(&setup);
   FitBlur(&other);
-  starfocus_report report_a, report_b;
+  test::Report report_a, report_b;
   const std::vector<uint8_t> a = Refocused(setup, RandomVariant(random), &report_a);
   const std::vector<uint8_t> b = Refocused(other, RandomVariant(random), &report_b);
   const double jump = LargestDifference(a, b, setup.config.transfer);

@@ -2,6 +2,7 @@
 // Family of calls that must return the same picture: whole, streamed, as regions, from a prepared
 // light field, and as a frame of a video. The engines may have been used before, and their runners
 // may have failed before.
+#include "starfocus/starfocus.hpp"
 #include "tests/stress/differential.h"
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <limits>
 
 #include "tests/stress/families.h"
+#include "tests/support/config.h"
 
 namespace starfocus::stress {
 namespace {
@@ -22,22 +24,22 @@ constexpr Bounds kRegimes[] = {
     {160, 3, 4, 8}, {160, 6, 4, 500}, {100, 16, 4, 40}, {64, 50, 4, 500}, {40, 128, 4, 500}};
 
 bool IsLineByLine(const Setup& setup) {
-  const starfocus_params& params = setup.params;
-  return params.renderer == STARFOCUS_RENDERER_LINE_SCAN ||
-         params.mode == STARFOCUS_MODE_BENCHMARK ||
-         (params.mode == STARFOCUS_MODE_FRAME && params.renderer == STARFOCUS_RENDERER_AUTO &&
+  const starfocus::Params& params = setup.params;
+  return params.study.renderer == STARFOCUS_RENDERER_LINE_SCAN ||
+         params.study.mode == STARFOCUS_MODE_BENCHMARK ||
+         (params.study.mode == STARFOCUS_MODE_FRAME && params.study.renderer == STARFOCUS_RENDERER_AUTO &&
           setup.config.views > 1);
 }
 
 // Limits the work of the line scan, whose number of views grows with the square of the radius.
 void LimitWork(Setup* setup) {
   const double n = 1 + setup->Radius() * std::max(1.0, setup->config.tuning.n_scale);
-  const double views = 3.2 * n * n * (setup->params.mode == STARFOCUS_MODE_BENCHMARK ? 4 : 1);
+  const double views = 3.2 * n * n * (setup->params.study.mode == STARFOCUS_MODE_BENCHMARK ? 4 : 1);
   if (!IsLineByLine(*setup) || views * setup->config.width * setup->config.height < kMostWork) {
     return;
   }
-  setup->params.mode = STARFOCUS_MODE_BLOCK;
-  setup->params.renderer = STARFOCUS_RENDERER_SLICES;
+  setup->params.study.mode = STARFOCUS_MODE_BLOCK;
+  setup->params.study.renderer = STARFOCUS_RENDERER_SLICES;
 }
 
 Setup RandomCase(test::Random* random) {
@@ -57,7 +59,7 @@ Setup RandomCase(test::Random* random) {
       *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (STARFOCUS_MAX_TIMING + 1);
     }
   }
-  if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && random->Int(0, 2) == 0) {
+  if (setup.params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN && random->Int(0, 2) == 0) {
     test::RandomViews(&setup.scene, &setup.config, random);
   }
   return setup;
@@ -66,10 +68,10 @@ Setup RandomCase(test::Random* random) {
 // Uses the engine for another call, so that the workspace contains data of that call.
 void Distract(const Asked& asked, Rig* rig, test::Random* random) {
   const Setup& setup = asked.setup;
-  starfocus_params params = setup.params;
-  params.mode = random->Int(0, 1) == 0 ? STARFOCUS_MODE_BLOCK : STARFOCUS_MODE_BLUR;
-  params.renderer = STARFOCUS_RENDERER_SLICES;
-  params.lens.aperture /= random->Int(1, 4);
+  starfocus::Params params = setup.params;
+  params.study.mode = random->Int(0, 1) == 0 ? STARFOCUS_MODE_BLOCK : STARFOCUS_MODE_BLUR;
+  params.study.renderer = STARFOCUS_RENDERER_SLICES;
+  params.aperture /= random->Int(1, 4);
   const starfocus_light_field field = setup.scene.Field();
   test::Output out(setup.scene.width, setup.scene.height);
   const int what = random->Int(0, 5);
@@ -101,7 +103,7 @@ std::string Whole(const Asked& asked, test::Random* random) {
 std::string Region(const Asked& asked, test::Random* random) {
   Rig rig(asked.setup.config, RandomVariant(random));
   Distract(asked, &rig, random);
-  starfocus_params params = asked.setup.params;
+  starfocus::Params params = asked.setup.params;
   params.region = RandomRegion(asked.setup.scene, random);
   test::Output out(params.region.width, params.region.height, random->Int(0, 5));
   const starfocus_status status = Retried(&rig, random, [&] {
@@ -136,14 +138,14 @@ std::string Refused(const Asked& asked, test::Random* random) {
 
 // Checks a prepared light field that another engine made.
 std::string Prepared(const Asked& asked, test::Random* random) {
-  starfocus_config config = asked.setup.config;
+  test::Config config = asked.setup.config;
   if (random->Int(0, 1) == 0) config.superblock = 32 << random->Int(0, 3);
   if (random->Int(0, 1) == 0) config.max_blur = random->Real(0.5, 64);
   if (random->Int(0, 1) == 0) config.tuning.gather = 1 - config.tuning.gather;
   if (random->Int(0, 1) == 0) config.previews = random->Int(1, STARFOCUS_MAX_PREVIEW);
   Rig maker(config, RandomVariant(random)), rig(asked.setup.config, RandomVariant(random));
   size_t bytes = 0;
-  starfocus_status status = starfocus_prepared_size(&config, &bytes);
+  starfocus_status status = starfocus_prepared_size(maker.get(), &bytes);
   if (status != STARFOCUS_OK) return starfocus_status_string(status);
   const Memory memory(bytes, random->Int(0, 255), random);
   starfocus_prepared* prepared = nullptr;
@@ -154,7 +156,7 @@ std::string Prepared(const Asked& asked, test::Random* random) {
   });
   if (status != STARFOCUS_OK) return std::string("preparing: ") + starfocus_status_string(status);
   const bool part = random->Int(0, 1) == 0;
-  starfocus_params params = asked.setup.params;
+  starfocus::Params params = asked.setup.params;
   if (part) params.region = RandomRegion(asked.setup.scene, random);
   const starfocus_region whole = {0, 0, asked.setup.scene.width, asked.setup.scene.height};
   const starfocus_region region = part ? params.region : whole;

@@ -2,6 +2,7 @@
 // Sequences of frames: each frame must be equal to the frame refocused alone.
 #include <algorithm>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/stress/differential.h"
 
 namespace starfocus::stress {
@@ -86,11 +87,13 @@ std::string After(const Asked& asked, test::Random* random) {
     Changer changer = {&now.setup.scene, random};
     changer.Apply(static_cast<Change>(random->Int(0, 6)));
     now.picture = Refocused(now.setup, Variant());
-    starfocus_params params = now.setup.params;
+    starfocus::Params params = now.setup.params;
     if (part) params.region = region;
     const starfocus_light_field field = now.setup.scene.Field();
-    const starfocus_previous previous = {
-        before.Field(), starfocus_image_rgb(last.data(), 3 * size_t(region.width))};
+    const starfocus_light_field before_field = before.Field();
+    const starfocus_image before_image =
+        starfocus_image_rgb(last.data(), 3 * size_t(region.width));
+    const starfocus_previous previous = {sizeof previous, &before_field, &before_image};
     test::Output out(region.width, region.height, random->Int(0, 5));
     const starfocus_status status = Retried(&rig, random, [&] {
       rig.SetCallbacks();

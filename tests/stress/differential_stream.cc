@@ -3,6 +3,7 @@
 // in between.
 #include <limits>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/stress/differential.h"
 
 namespace starfocus::stress {

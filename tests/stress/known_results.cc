@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "starfocus/experimental.h"
 #include "tests/stress/families.h"
 #include "tests/stress/rig.h"
 #include "tests/stress/setup.h"
@@ -23,8 +24,8 @@ constexpr int kMostInversion = 2;
 // radius 3. Apertures steeper than the default are nearly pinholes, whose blur does not remove the
 // overshoot.
 double MostOvershoot(const Setup& setup) {
-  const bool steep = setup.params.lens.theta > test::Params(0).lens.theta;
-  if (setup.params.renderer != STARFOCUS_RENDERER_LINE_SCAN && setup.Radius() >= 4)
+  const bool steep = setup.params.theta > test::Params(0).theta;
+  if (setup.params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN && setup.Radius() >= 4)
     return steep ? 0.1 : 0.02;
   return steep ? 0.144 : 0.03;
 }
@@ -36,7 +37,7 @@ void Invert(Setup* setup) {
 }
 
 bool MayResample(const Setup& setup) {
-  return setup.params.mode == STARFOCUS_MODE_BLOCK && setup.config.tuning.max_layer > 0;
+  return setup.params.study.mode == STARFOCUS_MODE_BLOCK && setup.config.tuning.max_layer > 0;
 }
 
 // Smallest and largest sample of the views.
@@ -162,10 +163,10 @@ Outcome Limits(test::Random* random) {
   SetColours(Colours::kExtreme, &setup.scene, random);
   const double radius = kind == 0 ? 16 : kind < 4 ? STARFOCUS_MAX_BLUR : random->Int(13, 30);
   RandomLens(radius, 4, &setup, random);
-  setup.params.mode = kind == 0 ? int{STARFOCUS_MODE_BENCHMARK} : random->Int(0, 1) + 2;
+  setup.params.study.mode = kind == 0 ? int{STARFOCUS_MODE_BENCHMARK} : random->Int(0, 1) + 2;
   setup.config.superblock = 32;
   if (setup.Radius() > STARFOCUS_MAX_BLUR)
-    setup.params.lens.aperture *= STARFOCUS_MAX_BLUR / setup.Radius() * 0.999999;
+    setup.params.aperture *= STARFOCUS_MAX_BLUR / setup.Radius() * 0.999999;
   FitBlur(&setup);
   return random->Int(0, 1) == 0 ? CheckConstant(setup, random) : CheckInversion(setup, random);
 }
@@ -184,9 +185,9 @@ Outcome FarFocus(test::Random* random) {
   Setup setup = RandomSetup(bounds, random);
   const double distance = std::pow(10.0, random->Real(1, 5.9));
   const bool in_front = random->Int(0, 1) == 0;
-  SetFocus(in_front ? distance : -distance, in_front, &setup.params.lens, random);
-  setup.params.lens.aperture = 1;
-  setup.params.lens.aperture = std::min(1.0, random->Real(0.01, 6) / setup.Radius());
+  SetFocus(in_front ? distance : -distance, in_front, &setup.params, random);
+  setup.params.aperture = 1;
+  setup.params.aperture = std::min(1.0, random->Real(0.01, 6) / setup.Radius());
   FitBlur(&setup);
   RandomMode(4, &setup, random);
   return random->Int(0, 1) == 0 ? CheckConstant(setup, random) : CheckInversion(setup, random);

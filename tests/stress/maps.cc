@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "starfocus/depth.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/stress/families.h"
 #include "tests/stress/rig.h"
+#include "tests/support/config.h"
 #include "tests/support/symmetry.h"
 
 namespace starfocus::stress {
@@ -49,19 +51,18 @@ int RunBackwards(void*, starfocus_job job, void* data, int32_t count) {
 
 Map Make(const Question& question, starfocus_runner runner, test::Random* random) {
   const test::Scene& scene = question.scene;
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+  test::Config config;
   config.width = scene.width;
   config.height = scene.height;
   config.views = scene.views();
   config.disparity_min = -kMost;
   config.disparity_max = kMost;
   config.max_workers = runner == nullptr ? 1 : 3;
-  config.runner = runner;
+  starfocus_callbacks callbacks = {};
+  callbacks.runner = runner;
   size_t bytes = 0;
   Map map;
-  map.status = (question.repairs ? starfocus_repair_workspace_size
-                                 : starfocus_estimate_workspace_size)(&config, &bytes);
+  map.status = starfocus_map_workspace_size(&config, question.repairs ? 1 : 0, &bytes, nullptr);
   if (map.status != STARFOCUS_OK) return map;
   const Memory memory(bytes, random->Int(0, 256), random);
   const auto width = static_cast<size_t>(scene.width);
@@ -71,7 +72,7 @@ Map Make(const Question& question, starfocus_runner runner, test::Random* random
   const auto make = question.repairs ? starfocus_repair_disparity : starfocus_estimate_disparity;
   starfocus_disparity_output out = {
       map.disparity.data(), sizeof(float) * width, map.confidence.data(), width, nullptr, 0, 0};
-  map.status = make(&config, &field, &out, memory.get(), bytes);
+  map.status = make(&config, &callbacks, &field, &out, memory.get(), bytes, nullptr);
   return map;
 }
 
@@ -82,7 +83,7 @@ void DrawPlane(int disparity, test::Random* random, test::Scene* scene) {
       test::RandomBytes(3 * size_t(stride) * size_t(scene->height + 2 * margin), random);
   for (int view = 0; view < scene->views(); ++view) {
     double u = 0, v = 0;
-    starfocus_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v, nullptr);
     const int left = margin + int(u * disparity), top = margin + int(v * disparity);
     for (int y = 0; y < scene->height; ++y) {
       std::memcpy(scene->Pixel(view, 0, y),

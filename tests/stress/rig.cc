@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/simd_targets.h"
 
@@ -62,19 +63,19 @@ void Memory::Free::operator()(void* memory) const {
   ::operator delete (memory, std::align_val_t{STARFOCUS_ALIGNMENT});
 }
 
-Rig::Rig(const starfocus_config& config, const Variant& variant)
+Rig::Rig(const test::Config& config, const Variant& variant)
     : config_(config), variant_(variant), random_(variant.order) {
   test::SetFeature(STARFOCUS_FEATURE_STREAMING, variant.stream, &config_.features);
   config_.max_workers = variant.workers;
   config_.max_blur = std::min(STARFOCUS_MAX_BLUR, config.max_blur * variant.room);
-  status_ = starfocus_workspace_size(&config_, &bytes_);
+  status_ = starfocus_workspace_size(&config_, &bytes_, nullptr);
   if (status_ != STARFOCUS_OK) return;
   memory_ = std::make_unique<Memory>(bytes_, variant.poison, &random_);
   Restart();
 }
 
 void Rig::Restart() {
-  status_ = starfocus_init(&config_, memory_->get(), bytes_, &engine_);
+  status_ = starfocus_init(&config_, memory_->get(), bytes_, &engine_, nullptr);
   if (status_ == STARFOCUS_OK && variant_.kernels != nullptr) {
     test::UseKernels(variant_.kernels, engine_);
   }

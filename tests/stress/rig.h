@@ -12,6 +12,7 @@
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
 #include "tests/stress/setup.h"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace starfocus::stress {
@@ -22,7 +23,7 @@ struct Variant {
   bool stream = false;
   int push_rows = 1, pull_rows = 1;
   uint64_t order = 0;  // Seed of the order of jobs; 0: no runner.
-  double room = 1;     // Factor of starfocus_config.max_blur.
+  double room = 1;     // Factor of test::Config.max_blur.
   int poison = -1;     // Initial bytes of the workspace, see Memory.
 
   std::string Text() const;
@@ -50,14 +51,14 @@ class Memory {
 // An engine in a workspace of exactly the required size, and the runner of its jobs.
 class Rig {
  public:
-  Rig(const starfocus_config& config, const Variant& variant);
+  Rig(const test::Config& config, const Variant& variant);
 
   // Creates the engine again in the same memory.
   void Restart();
 
   starfocus_status status() const { return status_; }
   starfocus_engine* get() const { return engine_; }
-  const starfocus_config& config() const { return config_; }
+  const test::Config& config() const { return config_; }
   const Variant& variant() const { return variant_; }
 
   // Returns callbacks with a runner, or without a runner if the engine runs the jobs itself.
@@ -86,7 +87,7 @@ class Rig {
   // Runs the jobs sequentially in a shuffled order, each with a random worker.
   static int Run(void* self, starfocus_job job, void* data, int32_t count);
 
-  starfocus_config config_;
+  test::Config config_;
   Variant variant_;
   size_t bytes_ = 0;
   std::unique_ptr<Memory> memory_;

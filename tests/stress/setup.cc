@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "starfocus/starfocus.hpp"
 #include "tests/stress/setup.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/config.h"
 #include "tests/support/shapes.h"
 #include "tests/support/strands.h"
 
@@ -33,7 +35,7 @@ double OftenAnEnd(double low, double high, test::Random* random) {
 }  // namespace
 
 double Setup::Radius() const {
-  const starfocus_lens& lens = params.lens;
+  const starfocus::Params& lens = params;
   const double nearer = config.disparity_max - (lens.focus + lens.focus_nearer);
   const double farther = lens.focus - lens.focus_farther - config.disparity_min;
   return lens.aperture * std::max({0.0, nearer, farther});
@@ -41,18 +43,17 @@ double Setup::Radius() const {
 
 std::string Setup::Text() const {
   return std::to_string(config.width) + "x" + std::to_string(config.height) + ", " +
-         std::to_string(config.views) + " views, " + kModes[params.mode] + ", renderer " +
-         std::to_string(params.renderer) + ", disparity [" + Number(config.disparity_min) + ", " +
-         Number(config.disparity_max) + "], focus " + Number(params.lens.focus) + " - " +
-         Number(params.lens.focus_farther) + " + " + Number(params.lens.focus_nearer) +
-         ", aperture " + Number(params.lens.aperture) + ", max_blur " + Number(config.max_blur) +
-         ", block " + std::to_string(config.superblock) + ", layers " +
-         std::to_string(config.tuning.max_layer) + ", deblocking " +
-         std::to_string(config.tuning.deblocking) + ", transfer " +
+         std::to_string(config.views) + " views, " + kModes[params.study.mode] + ", renderer " +
+         std::to_string(params.study.renderer) + ", disparity [" + Number(config.disparity_min) + ", " +
+         Number(config.disparity_max) + "], focus " + Number(params.focus) + " - " +
+         Number(params.focus_farther) + " + " + Number(params.focus_nearer) + ", aperture " +
+         Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
+         std::to_string(config.superblock) + ", layers " + std::to_string(config.tuning.max_layer) +
+         ", deblocking " + std::to_string(config.tuning.deblocking) + ", transfer " +
          std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
-         ", theta " + Number(params.lens.theta) + ", n_scale " + Number(config.tuning.n_scale) +
+         ", theta " + Number(params.theta) + ", n_scale " + Number(config.tuning.n_scale) +
          (config.tuning.gather != 0 ? "" : ", nothing gathered") +
-         (scene.coverage.empty() ? "" : ", coverage") + ", " + test::ShapeText(params.lens);
+         (scene.coverage.empty() ? "" : ", coverage") + ", " + test::ShapeText(params);
 }
 
 double RandomRadius(double largest, test::Random* random) {
@@ -137,15 +138,15 @@ void FitBlur(Setup* setup) {
 }
 
 void RandomMode(int modes, Setup* setup, test::Random* random) {
-  setup->params.mode = random->Int(0, modes - 1);
-  setup->params.renderer = random->Int(STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES);
+  setup->params.study.mode = random->Int(0, modes - 1);
+  setup->params.study.renderer = random->Int(STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES);
   // In benchmark mode, the number of views is proportional to the square of twice the radius.
-  if (setup->params.mode == STARFOCUS_MODE_BENCHMARK && setup->Radius() > 4) {
-    setup->params.mode = STARFOCUS_MODE_BLOCK;
+  if (setup->params.study.mode == STARFOCUS_MODE_BENCHMARK && setup->Radius() > 4) {
+    setup->params.study.mode = STARFOCUS_MODE_BLOCK;
   }
 }
 
-void SetFocus(double end, bool in_front, starfocus_lens* lens, test::Random* random) {
+void SetFocus(double end, bool in_front, starfocus_params* lens, test::Random* random) {
   const double width = (random->Int(0, 1) == 0 ? 0 : random->Int(1, kWidestRange)) / 64.0;
   const double toward = 0.5 * random->Int(0, 2) * width, away = width - toward;
   lens->focus = in_front ? end + toward : end - toward;
@@ -162,13 +163,13 @@ void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
   const double offset = std::max(0.0, radius / aperture - half);
   const bool in_front = random->Int(0, 1) == 0;
   setup->params = test::Params(0, aperture);
-  SetFocus(centre + (in_front ? offset : -offset), in_front, &setup->params.lens, random);
+  SetFocus(centre + (in_front ? offset : -offset), in_front, &setup->params, random);
   setup->config = test::ConfigFor(scene);
   setup->config.superblock = kBlocks[std::min(random->Int(0, 3), random->Int(0, 3))];
   setup->config.tuning.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
   if (random->Int(0, 3) == 0) setup->config.tuning.deblocking = random->Int(0, 255);
   if (random->Int(0, 3) == 0) {
-    setup->params.lens.theta = OftenAnEnd(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA, random);
+    setup->params.theta = OftenAnEnd(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA, random);
   }
   // A low cost per block makes the partition fine, and a high cost makes the partition coarse.
   if (random->Int(0, 1) == 0) setup->config.tuning.timing.block = 1u << random->Int(0, 26);
@@ -182,9 +183,9 @@ Setup FlatSetup(int width, int height, double radius, test::Random* random) {
   Setup setup;
   setup.scene = test::EmptyScene(width, height, kViews[random->Int(0, 3)], 0, 0);
   RandomLens(radius, 4, &setup, random);
-  setup.params.lens.aperture = 1;
+  setup.params.aperture = 1;
   const bool in_front = random->Int(0, 1) == 0;
-  SetFocus(in_front ? radius : -radius, in_front, &setup.params.lens, random);
+  SetFocus(in_front ? radius : -radius, in_front, &setup.params, random);
   FitBlur(&setup);
   RandomMode(4, &setup, random);
   return setup;
@@ -221,8 +222,8 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
     SetDepth(static_cast<Depth>(random->Int(0, 6)), &setup.scene, &fill);
     SetColours(static_cast<Colours>(random->Int(0, 3)), &setup.scene, &fill);
   }
-  if (fill.Int(0, 3) == 0) test::RandomShape(&setup.params.lens, &fill);
-  test::ReserveFor(setup.params.lens, &setup.config);
+  if (fill.Int(0, 3) == 0) test::RandomShape(&setup.params, &fill);
+  test::ReserveFor(setup.params, &setup.config);
   return setup;
 }
 

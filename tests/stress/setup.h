@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace starfocus::stress {
@@ -17,8 +19,8 @@ enum class Colours { kNoise, kExtreme, kSmooth, kPlainCentre };
 
 struct Setup {
   test::Scene scene;
-  starfocus_config config;
-  starfocus_params params;
+  test::Config config;
+  starfocus::Params params;
   bool strands = false;  // true if SetStrands made the scene
 
   double Radius() const;     // Returns the largest blur radius of the configured disparities.
@@ -50,7 +52,7 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random);
 
 // Sets the focus. Half of the lenses have a range in focus, which extends from `end` to larger
 // disparities if `in_front` is true, otherwise to smaller disparities.
-void SetFocus(double end, bool in_front, starfocus_lens* lens, test::Random* random);
+void SetFocus(double end, bool in_front, starfocus_params* lens, test::Random* random);
 
 // Sets a random configuration for setup->scene, and a lens whose largest blur radius is
 // approximately `radius`.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests and sets bits of starfocus_config.features.
+// Tests and sets bits of test::Config.features.
 #ifndef STARFOCUS_TESTS_SUPPORT_FEATURES_H_
 #define STARFOCUS_TESTS_SUPPORT_FEATURES_H_
 
 #include <cstdint>
+
+#include "tests/support/config.h"
 
 namespace test {
 

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/image_scene.h"
 #include "tests/support/layered_scene.h"
 
@@ -22,7 +24,7 @@ struct ImageField {
   // Returns the part of the light field that starts at `row`. A depth map with fewer rows than the
   // picture is always passed completely.
   starfocus_light_field Field(int row = 0) const {
-    starfocus_light_field field = {};
+    starfocus_light_field field = starfocus::NewLightField();
     for (size_t k = 0; k < views.size(); ++k) field.views[k] = views[k].In(row);
     field.depth = depth.map;
     if (depth.map.height == converted.height) {
@@ -68,8 +70,8 @@ inline ImageField MakeImageField(const Scene& scene, const std::vector<ImageKind
   return field;
 }
 
-inline starfocus_config ImageConfig(const ImageField& field, double max_blur = 20) {
-  starfocus_config config = ConfigFor(field.converted, max_blur);
+inline test::Config ImageConfig(const ImageField& field, double max_blur = 20) {
+  test::Config config = ConfigFor(field.converted, max_blur);
   config.features |= STARFOCUS_FEATURE_IMAGES;
   return config;
 }
@@ -77,7 +79,7 @@ inline starfocus_config ImageConfig(const ImageField& field, double max_blur = 2
 // Streams a light field of images, with at most `push_rows` rows per push and `pull_rows` rows per
 // pull.
 inline starfocus_status Stream(Engine* engine, const ImageField& field,
-                               const starfocus_params& params, int push_rows, int pull_rows,
+                               const starfocus::Params& params, int push_rows, int pull_rows,
                                ImageMemory* image, starfocus_report* report) {
   starfocus_status status = starfocus_stream_begin(engine->get(), &params);
   const int height = image->height();

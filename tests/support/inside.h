@@ -13,6 +13,8 @@
 #include "lib/engine/prepared.h"
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
+#include "starfocus/experimental.h"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
@@ -31,15 +33,14 @@ using starfocus::Borders;
 
 // BordersOf returns the borders that blocks of a configuration read, for blur radii up to
 // `max_blur` or the configured maximum.
-inline starfocus::Borders BordersOf(const starfocus_config& config, double max_blur) {
+inline starfocus::Borders BordersOf(const test::Config& config, double max_blur) {
   return starfocus::AddBorders(config, max_blur, true);
 }
-inline starfocus::Borders BordersOf(const starfocus_config& config) {
+inline starfocus::Borders BordersOf(const test::Config& config) {
   return starfocus::LargestBorders(config);
 }
 inline starfocus::Borders BordersOf(double max_blur) {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   return BordersOf(config, max_blur);
 }
 
@@ -101,7 +102,7 @@ inline size_t& PoolBytes(starfocus_engine* engine) {
 }
 
 // Returns the size in bytes of the workspace for `config`, or kTooLarge.
-inline size_t WorkspaceBytes(const starfocus_config& config) {
+inline size_t WorkspaceBytes(const starfocus::FullConfig& config) {
   starfocus::EngineState* counted = nullptr;
   return starfocus::LayOut(config, nullptr, &counted);
 }

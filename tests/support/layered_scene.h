@@ -20,7 +20,7 @@ inline Scene LayeredScene(int width, int height, int views, float limit, uint64_
   // The texture moves with the view, so the views are approximately consistent.
   for (int view = 0; view < views; ++view) {
     double u = 0, v = 0;
-    starfocus_view_position(view, &u, &v);
+    starfocus_view_position(view, &u, &v, nullptr);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         for (int c = 0; c < 3; ++c) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/line_scan/line_scan.h"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
@@ -30,7 +31,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
   const auto& slices = *static_cast<starfocus::CompositorScratch*>(
       scratch.renderers[starfocus::kSliceRenderer.index]);
   const auto* const line_scan = static_cast<starfocus::LineScanScratch*>(
-      scratch.renderers[starfocus::kLineScanRenderer.index]);
+      scratch.renderers[starfocus_line_scan_renderer()->renderer.index]);
   return {
       {"engine state", false, &e},
       {"slices: apertures of every N", false, e.tables->apertures[0].apertures},
@@ -65,7 +66,7 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
 
 // Measures the parts of an engine with one worker for `config`. Returns an empty list if a part
 // starts at another address or in another order than PartsOf states.
-inline std::vector<MemoryPart> MeasureParts(const starfocus_config& config) {
+inline std::vector<MemoryPart> MeasureParts(const test::Config& config) {
   Engine memory(config);
   if (memory.status() != STARFOCUS_OK) return {};
   starfocus::EngineState* engine = &StateOf(memory.get());
@@ -110,10 +111,9 @@ inline MemorySum SumOf(const std::vector<MemoryPart>& parts) {
 }
 
 // Returns a configuration as in docs/boards.md, without memory for thin structures.
-inline starfocus_config BoardConfig(int width, int height, int views, int block, double blur,
+inline test::Config BoardConfig(int width, int height, int views, int block, double blur,
                                     int streaming) {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  test::Config config;
   config.width = width;
   config.height = height;
   config.views = views;

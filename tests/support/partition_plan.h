@@ -16,6 +16,7 @@
 #include "lib/optics/psf.h"
 #include "lib/plan/partition.h"
 #include "tests/plan/measured_cells.h"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 
@@ -29,7 +30,6 @@ using starfocus::Cell;
 using starfocus::CellGrid;
 using starfocus::kCellSize;
 using starfocus::kLayerMargin;
-using starfocus::kLineScanRenderer;
 using starfocus::kSliceRenderer;
 using starfocus::kSmallestBlock;
 using starfocus::PartitionCandidate;
@@ -51,7 +51,7 @@ struct Apertures {
   std::vector<starfocus::ViewWeights> all;
 };
 inline const std::vector<starfocus::ViewWeights>& AperturesOf(const Renderer& renderer) {
-  static const Apertures slices(kSliceRenderer), line_scan(kLineScanRenderer);
+  static const Apertures slices(kSliceRenderer), line_scan(starfocus_line_scan_renderer()->renderer);
   return (&renderer == &kSliceRenderer ? slices : line_scan).all;
 }
 
@@ -80,13 +80,12 @@ struct Plan {
     rules.around = BordersOf(2 * limit).cells;
     flags.assign(cells.size(), kPoison);
     gathered = {flags.data(), grid.columns, 0};
-    starfocus_config_init(&config);
     rules.config = &config;
     config.width = width;
     config.height = height;
     config.superblock = superblock;
     rules.max_layer = random->Int(0, 2);
-    Use(random->Int(0, 1) == 1 ? kSliceRenderer : kLineScanRenderer);
+    Use(random->Int(0, 1) == 1 ? kSliceRenderer : starfocus_line_scan_renderer()->renderer);
     rules.demand = static_cast<starfocus::Demand>((width + rules.max_layer) % 4);
     rules.largest_side = superblock;
     config.tuning.n_scale = (2 + 2 * rules.max_layer + IsSlices()) / 4.0;
@@ -153,7 +152,7 @@ struct Plan {
   std::vector<uint8_t> flags;  // For each cell, true if the cell is blurred without views.
   starfocus::GatherMap gathered;
   CellGrid grid;
-  starfocus_config config;
+  starfocus::FullConfig config = test::Config();
   PartitionRules rules = {};
 };
 

@@ -16,8 +16,8 @@ namespace test {
 
 class PreparedMemory {
  public:
-  explicit PreparedMemory(const starfocus_config& config) {
-    REQUIRE(starfocus_prepared_size(&config, &bytes) == STARFOCUS_OK);
+  explicit PreparedMemory(starfocus_engine* engine) {
+    REQUIRE(starfocus_prepared_size(engine, &bytes) == STARFOCUS_OK);
     memory_.assign(bytes + STARFOCUS_ALIGNMENT, kPoison);
   }
   uint8_t* get() {

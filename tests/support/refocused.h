@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
 
 // Refocuses a scene and returns the picture, which is as large as the region of `params`.
-inline Output OutputOf(Engine* engine, const starfocus_params& params, const Scene& scene,
+inline Output OutputOf(Engine* engine, const starfocus::Params& params, const Scene& scene,
                        starfocus_report* report = nullptr,
                        const starfocus_callbacks& callbacks = {}) {
   const starfocus_region& region = params.region;
@@ -25,7 +27,7 @@ inline Output OutputOf(Engine* engine, const starfocus_params& params, const Sce
 }
 
 // Refocuses a scene with a new engine and returns the picture.
-inline Output OutputOf(const starfocus_config& config, const starfocus_params& params,
+inline Output OutputOf(const test::Config& config, const starfocus::Params& params,
                        const Scene& scene, starfocus_report* report = nullptr) {
   Engine engine(config);
   return OutputOf(&engine, params, scene, report);
@@ -33,11 +35,11 @@ inline Output OutputOf(const starfocus_config& config, const starfocus_params& p
 
 struct Refocused {
   std::vector<uint8_t> rgb;  // packed rows
-  starfocus_report report = {};
+  test::Report report;
 };
 
-inline Refocused RefocusScene(const Scene& scene, const starfocus_config& config,
-                              const starfocus_params& params) {
+inline Refocused RefocusScene(const Scene& scene, const test::Config& config,
+                              const starfocus::Params& params) {
   Refocused refocused;
   refocused.rgb = OutputOf(config, params, scene, &refocused.report).bytes;
   return refocused;

@@ -4,6 +4,7 @@
 #define STARFOCUS_TESTS_SUPPORT_RGB_CALLS_H_
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace test {
 
@@ -18,7 +19,7 @@ inline starfocus_status RefocusAfterRgb(starfocus_engine* engine, const starfocu
                                         const starfocus_light_field* field,
                                         const starfocus_previous* previous, uint8_t* out,
                                         size_t stride, starfocus_report* report) {
-  starfocus_params after = *params;
+  starfocus::Params after(*params);
   after.previous = previous;
   return RefocusRgb(engine, &after, field, out, stride, report);
 }
@@ -33,7 +34,7 @@ inline starfocus_status RefocusPreparedRgb(starfocus_engine* engine, const starf
 inline starfocus_status Preview(starfocus_engine* engine, const starfocus_params* params,
                                 const starfocus_prepared* prepared, int32_t shift,
                                 const starfocus_image* out, starfocus_report* report) {
-  starfocus_params reduced = *params;
+  starfocus::Params reduced(*params);
   reduced.preview_shift = shift;
   return starfocus_refocus_prepared(engine, &reduced, prepared, out, report);
 }

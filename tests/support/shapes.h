@@ -7,13 +7,14 @@
 #include <string>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/support/test_scene.h"
 
 namespace test {
 
 // Sets a random shape, with or without a cat's eye. With a probability of one half, a parameter is
 // at an end of its range.
-inline void RandomShape(starfocus_lens* lens, Random* random) {
+inline void RandomShape(starfocus_params* lens, Random* random) {
   const auto often_an_end = [&](double low, double high) {
     const int end = random->Int(0, 3);
     return static_cast<float>(end == 0 ? low : end == 1 ? high : random->Real(low, high));
@@ -28,12 +29,12 @@ inline void RandomShape(starfocus_lens* lens, Random* random) {
 
 // Sets STARFOCUS_FEATURE_SHAPES if the lens requires this feature, and clears this feature
 // otherwise.
-inline void ReserveFor(const starfocus_lens& lens, starfocus_config* config) {
+inline void ReserveFor(const starfocus::Params& lens, starfocus_config* config) {
   const bool needed = lens.shape == STARFOCUS_SHAPE_POLYGON || lens.cats_eye > 0;
   SetFeature(STARFOCUS_FEATURE_SHAPES, needed, &config->features);
 }
 
-inline std::string ShapeText(const starfocus_lens& lens) {
+inline std::string ShapeText(const starfocus::Params& lens) {
   char text[200];
   std::snprintf(text, sizeof(text),
                 "shape %d, blades %d, rotation %.9g, curvature %.9g, inner %.9g, cats_eye %.9g",
@@ -48,7 +49,7 @@ struct NamedShape {
   int shape, blades;
   float rotation, curvature, inner, cats_eye;
 
-  void Set(starfocus_lens* lens) const {
+  void Set(starfocus_params* lens) const {
     lens->shape = shape;
     lens->blades = blades;
     lens->rotation = rotation;

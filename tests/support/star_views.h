@@ -7,12 +7,13 @@
 
 #include "lib/io/input.h"
 #include "lib/optics/view_set.h"
+#include "tests/support/config.h"
 
 namespace test {
 
-inline void SetViews(const starfocus_config& config, starfocus::Input* input) {
+inline void SetViews(const test::Config& config, starfocus::Input* input) {
   starfocus::ViewSet views;
-  starfocus::FindViews(config.views, config.positions, config.problem, &views);
+  starfocus::FindViews(config.views, config.positions, nullptr, &views);
   input->views = config.views;
   input->occlusion_views = starfocus::ChooseOcclusionViews(views);
 }
@@ -28,14 +29,14 @@ inline void SetPixels(int view, const std::vector<uint8_t>& codes, size_t stride
 
 // Sets the views of `input` to the star set of 1, 5, 9 or 17 views.
 inline void SetStar(int views, starfocus::Input* input) {
-  starfocus_config config = {};
+  test::Config config;
   config.views = views;
   SetViews(config, input);
 }
 
 // Sets the views of `input` to the centre view and side views at the positions `sides`.
 inline void SetPositions(const std::vector<starfocus_position>& sides, starfocus::Input* input) {
-  starfocus_config config = {};
+  test::Config config;
   config.views = 1;
   for (const starfocus_position& position : sides) config.positions[config.views++] = position;
   SetViews(config, input);

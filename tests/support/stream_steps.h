@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/support/test_scene.h"
 
 namespace test {

@@ -29,14 +29,14 @@ inline std::pair<int, int> Move(const Symmetry& s, int width, int height, int x,
 // Returns the index of the position that captured view `index` moves to.
 inline int MoveView(const Symmetry& s, int index) {
   double u = 0, v = 0;
-  starfocus_view_position(index, &u, &v);
+  starfocus_view_position(index, &u, &v, nullptr);
   if (s.transpose) std::swap(u, v);
   if (s.mirror_x) u = -u;
   if (s.mirror_y) v = -v;
   int to = 0;
   for (int i = 0; i < STARFOCUS_MAX_VIEWS; ++i) {
     double other_u = 0, other_v = 0;
-    starfocus_view_position(i, &other_u, &other_v);
+    starfocus_view_position(i, &other_u, &other_v, nullptr);
     if (other_u == u && other_v == v) to = i;
   }
   return to;

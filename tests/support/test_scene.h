@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/features.h"
 #include "tests/support/rgb_calls.h"
 
@@ -104,7 +106,7 @@ struct Scene {
   starfocus_position PositionOf(int view) const {
     if (!positions.empty()) return positions[static_cast<size_t>(view)];
     starfocus_position position;
-    starfocus_view_position(view, &position.u, &position.v);
+    starfocus_view_position(view, &position.u, &position.v, nullptr);
     return position;
   }
 
@@ -123,7 +125,7 @@ struct Scene {
 
   // Returns the part of the light field that starts at `row`.
   starfocus_light_field Field(int row = 0) const {
-    starfocus_light_field field = {};
+    starfocus_light_field field = starfocus::NewLightField();
     for (size_t i = 0; i < pictures.size(); ++i) {
       field.views[i] =
           starfocus_image_rgb(pictures[i].data() + static_cast<size_t>(row) * stride, stride);
@@ -223,9 +225,8 @@ inline Scene NearScene(int width, int height, int views, uint64_t seed) {
   return scene;
 }
 
-inline starfocus_config ConfigFor(const Scene& scene, double max_blur = 32) {
-  starfocus_config config;
-  starfocus_config_init(&config);
+inline test::Config ConfigFor(const Scene& scene, double max_blur = 32) {
+  test::Config config;
   config.width = scene.width;
   config.height = scene.height;
   config.views = scene.views();
@@ -260,26 +261,25 @@ inline void RandomViews(Scene* scene, starfocus_config* config, Random* random) 
   std::copy(scene->positions.begin(), scene->positions.end(), config->positions);
 }
 
-inline starfocus_params Params(double focus, double aperture = 1,
+inline starfocus::Params Params(double focus, double aperture = 1,
                                starfocus_mode mode = STARFOCUS_MODE_FRAME,
                                int32_t renderer = STARFOCUS_RENDERER_AUTO) {
-  starfocus_params params;
-  starfocus_params_init(&params);
-  params.renderer = renderer;
-  params.lens.focus = focus;
-  params.lens.aperture = aperture;
-  params.mode = mode;
+  starfocus::Params params;
+  params.study.renderer = renderer;
+  params.focus = focus;
+  params.aperture = aperture;
+  params.study.mode = mode;
   return params;
 }
 
 // An engine in poisoned memory of exactly the required size.
 class Engine {
  public:
-  explicit Engine(const starfocus_config& config) {
-    status_ = starfocus_workspace_size(&config, &bytes_);
+  explicit Engine(const test::Config& config) {
+    status_ = starfocus_workspace_size(&config, &bytes_, nullptr);
     if (status_ != STARFOCUS_OK) return;
     memory_.assign(bytes_ + STARFOCUS_ALIGNMENT, kPoison);
-    status_ = starfocus_init(&config, workspace(), bytes_, &engine_);
+    status_ = starfocus_init(&config, workspace(), bytes_, &engine_, nullptr);
   }
   starfocus_status status() const { return status_; }
   starfocus_engine* get() const { return engine_; }
@@ -369,17 +369,25 @@ inline starfocus_callbacks ToldTo(starfocus_progress progress, void* data = null
   callbacks.progress_data = data;
   return callbacks;
 }
-// Returns callbacks that consist of a block visitor.
-inline starfocus_callbacks VisitedBy(starfocus_block_visitor visitor, void* data = nullptr) {
+// Returns callbacks that consist of an observer, which must stay valid until they are set.
+inline starfocus_callbacks ObservedBy(const starfocus_observer* observer) {
   starfocus_callbacks callbacks = {};
-  callbacks.on_block = visitor;
-  callbacks.on_block_data = data;
+  callbacks.observer = observer;
   return callbacks;
+}
+// Returns an observer that consists of a block visitor.
+inline starfocus_observer Visitor(void (*on_block)(void* data, const starfocus_block* block),
+                                  void* data = nullptr) {
+  starfocus_observer observer;
+  starfocus_observer_init(&observer);
+  observer.on_block = on_block;
+  observer.on_block_data = data;
+  return observer;
 }
 
 // Refocuses a scene. AnyEngine is a type with a function get(), such as Engine.
 template <class AnyEngine>
-starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
+starfocus_status Refocus(AnyEngine* engine, const starfocus::Params& params, const Scene& scene,
                          Output* out, const starfocus_callbacks& callbacks,
                          starfocus_report* report = nullptr) {
   const starfocus_status status = starfocus_set_callbacks(engine->get(), &callbacks);
@@ -389,7 +397,7 @@ starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, cons
 }
 
 template <class AnyEngine>
-starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
+starfocus_status Refocus(AnyEngine* engine, const starfocus::Params& params, const Scene& scene,
                          Output* out, starfocus_runner runner = nullptr,
                          void* runner_data = nullptr, starfocus_report* report = nullptr) {
   return Refocus(engine, params, scene, out, RunBy(runner, runner_data), report);
@@ -398,7 +406,7 @@ starfocus_status Refocus(AnyEngine* engine, const starfocus_params& params, cons
 // Streams a scene with at most `push_rows` rows per push and `pull_rows` rows per pull. Returns
 // STARFOCUS_ERROR_STATE if the engine neither consumes nor returns rows.
 template <class AnyEngine>
-starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
+starfocus_status Stream(AnyEngine* engine, const starfocus::Params& params, const Scene& scene,
                         Output* out, int push_rows, int pull_rows,
                         const starfocus_callbacks& callbacks, starfocus_report* report = nullptr) {
   starfocus_status status = starfocus_set_callbacks(engine->get(), &callbacks);
@@ -424,7 +432,7 @@ starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const
 }
 
 template <class AnyEngine>
-starfocus_status Stream(AnyEngine* engine, const starfocus_params& params, const Scene& scene,
+starfocus_status Stream(AnyEngine* engine, const starfocus::Params& params, const Scene& scene,
                         Output* out, int push_rows, int pull_rows,
                         starfocus_runner runner = nullptr, void* runner_data = nullptr,
                         starfocus_report* report = nullptr) {

@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/prepared_memory.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
 
-inline uint64_t BlocksOf(const starfocus_report& report) {
+inline uint64_t BlocksOf(const test::Report& report) {
   return report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks;
 }
 
@@ -57,12 +59,12 @@ inline std::vector<starfocus_region> RegionsOf(int width, int height) {
 // Checks that all ways to refocus a scene return the bytes of the whole picture. The tested calls
 // use streams, prepared light fields, the next frame of a video, views with gaps between pixels,
 // and regions. Returns the whole picture.
-inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_params params,
+inline Output CheckWays(const Scene& scene, test::Config config, starfocus::Params params,
                         bool many_regions = false) {
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
   Engine engine(config);
   const int width = scene.width, height = scene.height;
-  starfocus_report report = {}, other_report = {};
+  test::Report report, other_report;
   Output whole(width, height, 5), streamed = whole, again = whole, before_out = whole,
                                   after = whole, converted = whole;
   REQUIRE(Refocus(&engine, params, scene, &whole, nullptr, nullptr, &report) == STARFOCUS_OK);
@@ -71,22 +73,24 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
           STARFOCUS_OK);
   CHECK((streamed.bytes == whole.bytes));
   CHECK(other_report.unknown_pixels == report.unknown_pixels);
-  PreparedMemory memory(config);
+  PreparedMemory memory(engine.get());
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   REQUIRE(RefocusPreparedRgb(engine.get(), &params, prepared, again.bytes.data(), again.stride,
                              &other_report) == STARFOCUS_OK);
   CHECK((again.bytes == whole.bytes));
   CHECK(other_report.unknown_pixels == 0);  // starfocus_prepare fills unknown disparities
   other_report.unknown_pixels = report.unknown_pixels;
-  CHECK(std::memcmp(&report, &other_report, sizeof report) == 0);
+  CHECK(report.IsLike(other_report));
 
   Scene before = scene;
   for (int view = 0; view < scene.views(); ++view) before.Pixel(view, width / 2, 0)[1] ^= 9;
   before.Disparity(0, height - 1) = scene.disparity_min;
   REQUIRE(Refocus(&engine, params, before, &before_out) == STARFOCUS_OK);
   starfocus_light_field field = scene.Field();
-  const starfocus_previous previous = {
-      before.Field(), starfocus_image_rgb(before_out.bytes.data(), before_out.stride)};
+  const starfocus_light_field before_field = before.Field();
+  const starfocus_image before_image =
+      starfocus_image_rgb(before_out.bytes.data(), before_out.stride);
+  const starfocus_previous previous = {sizeof previous, &before_field, &before_image};
   REQUIRE(RefocusAfterRgb(engine.get(), &params, &field, &previous, after.bytes.data(),
                           after.stride, nullptr) == STARFOCUS_OK);
   CHECK((after.bytes == whole.bytes));
@@ -114,7 +118,7 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
     CAPTURE(region.height);
     params.region = region;
     Output part(region.width, region.height, 5);
-    starfocus_report part_report = {};
+    test::Report part_report;
     REQUIRE(Refocus(&engine, params, scene, &part, nullptr, nullptr, &part_report) == STARFOCUS_OK);
     CHECK(IsPartOf(part, whole, region));
     CHECK(part.PaddingUntouched());
@@ -128,11 +132,11 @@ inline Output CheckWays(const Scene& scene, starfocus_config config, starfocus_p
 
 // Checks that streams, pushed and pulled in portions of any size, return the bytes and the report
 // of the whole picture.
-inline void CheckStreamed(const Scene& scene, starfocus_config config,
-                          const starfocus_params& params) {
+inline void CheckStreamed(const Scene& scene, test::Config config,
+                          const starfocus::Params& params) {
   Engine whole_engine(config);
   Output whole(scene.width, scene.height, 7);
-  starfocus_report expected = {};
+  test::Report expected;
   REQUIRE(Refocus(&whole_engine, params, scene, &whole, nullptr, nullptr, &expected) ==
           STARFOCUS_OK);
   CHECK(whole.PaddingUntouched());
@@ -147,7 +151,7 @@ inline void CheckStreamed(const Scene& scene, starfocus_config config,
     CAPTURE(chunk[0]);
     CAPTURE(chunk[1]);
     Output out(scene.width, scene.height, 7);
-    starfocus_report report = {};
+    test::Report report;
     REQUIRE(Stream(&engine, params, scene, &out, chunk[0], chunk[1], nullptr, nullptr, &report) ==
             STARFOCUS_OK);
     CHECK((out.bytes == whole.bytes));

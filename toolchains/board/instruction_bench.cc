@@ -58,14 +58,14 @@ constexpr starfocus_timing kTiming = {4000000, 12000, 1500, 1700, 2500, 9000, 0,
 
 int Run(const Case& one, bool reference, int runs) {
   const test::Scene scene = test::IntegerScene(one.width, one.height, one.views, one.depth);
-  starfocus_config config = test::ConfigFor(scene, 16);
+  test::Config config = test::ConfigFor(scene, 16);
   config.tuning.timing = kTiming;
   test::Engine engine(config);
   if (engine.status() != STARFOCUS_OK) return 1;
   if (reference) test::UseKernels(&starfocus::simd::ReferenceKernels(), engine.get());
   test::Output out(one.width, one.height);
-  starfocus_params params = test::Params(one.focus, one.aperture, one.mode);
-  params.renderer = one.renderer;
+  starfocus::Params params = test::Params(one.focus, one.aperture, one.mode);
+  params.study.renderer = one.renderer;
   for (int run = 0; run < runs; ++run) {
     if (test::Refocus(&engine, params, scene, &out) != STARFOCUS_OK) return 1;
   }

@@ -49,9 +49,9 @@ void* RunCalls(void* data) {
   calls->top = FrameAddress();
   starfocus_engine* engine = nullptr;
   size_t needed = 0;
-  calls->status = starfocus_workspace_size(&calls->config, &needed);
+  calls->status = starfocus_workspace_size(&calls->config, &needed, nullptr);
   if (calls->status == STARFOCUS_OK) {
-    calls->status = starfocus_init(&calls->config, calls->workspace, calls->bytes, &engine);
+    calls->status = starfocus_init(&calls->config, calls->workspace, calls->bytes, &engine, nullptr);
   }
   if (calls->status == STARFOCUS_OK &&
       !test::Has(calls->config.features, STARFOCUS_FEATURE_STREAMING)) {
@@ -124,7 +124,7 @@ void PrintStack() {
 
 size_t WorkspaceKilobytes(const starfocus_config& config) {
   size_t bytes = 0;
-  Check(starfocus_workspace_size(&config, &bytes) == STARFOCUS_OK, "starfocus_workspace_size");
+  Check(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK, "starfocus_workspace_size");
   return (bytes + 1023) / 1024;
 }
 

@@ -27,6 +27,6 @@ print(starfocus.__version__, field)"'
 inside sh -c 'apt-get install -y --no-install-recommends gcc libc6-dev pkg-config'
 cp "$(dirname "$0")/../../examples/minimal/minimal.c" "$root/tmp/example.c"
 inside sh -c 'cd /tmp && gcc example.c $(pkg-config --cflags --libs starfocus) -o example && ./example'
-inside sh -c 'apt-get purge -y starfocus starfocus-lab python3-starfocus libstarfocus0 libstarfocus-dev'
+inside sh -c 'apt-get purge -y starfocus starfocus-lab python3-starfocus libstarfocus1 libstarfocus-dev'
 find "$root/usr" "$root/etc" "$root/var/lib/dpkg/info" -name '*starfocus*' | grep . && fail "files remain"
 echo "installed, ran and removed in a bare Debian for $architecture: $(ls "$root"/tmp/*.deb | wc -l) packages"

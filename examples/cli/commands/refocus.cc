@@ -28,6 +28,7 @@
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
 #include "platform/terminal_graphics.h"
+#include "starfocus/experimental.h"
 #include "starfocus/pool.h"
 
 namespace starfocus {
@@ -212,8 +213,8 @@ Error RunOne(const RefocusOptions& options, const PictureOptions& how, const Len
   EngineTask task = one;
   std::vector<starfocus_block> blocks;
   if (!options.map.empty()) {
-    task.callbacks.on_block = CollectBlock;
-    task.callbacks.on_block_data = &blocks;
+    task.observer.on_block = CollectBlock;
+    task.observer.on_block_data = &blocks;
   }
   task.stream = options.stream;
   EngineRun run(task.threads, 1);
@@ -249,7 +250,7 @@ Error RunSweep(const RefocusOptions& options, const PictureOptions& how,
   if (!error) error = run.Start(InputName(options.input.path), task);
   if (!error) error = run.Prepare(InputName(options.input.path), task);
   for (size_t i = 0; i < foci.size() && !error; ++i) {
-    task.params.lens.focus = foci[i];
+    task.params.focus = foci[i];
     std::string out;
     EngineResult result;
     error = run.Refocus(InputName(options.input.path), task).MoveTo(&result);

@@ -20,6 +20,7 @@
 #include "platform/helper/decoder_threads.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 namespace {

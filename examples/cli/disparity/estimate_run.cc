@@ -12,6 +12,7 @@
 #include "platform/progress.h"
 #include "platform/runner.h"
 #include "starfocus/depth.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -67,9 +68,8 @@ struct MadeMap {
   Bytes confidence, coverage;  // Empty if not requested or not found.
 };
 
-starfocus_depth_config ConfigOf(const MapTask& task, Maker* maker) {
-  starfocus_depth_config config;
-  starfocus_depth_config_init(&config);
+starfocus::Config ConfigOf(const MapTask& task, Maker* maker) {
+  starfocus::Config config;
   config.width = task.views[0].width;
   config.height = task.views[0].height;
   config.views = static_cast<int32_t>(task.views.size());
@@ -77,10 +77,6 @@ starfocus_depth_config ConfigOf(const MapTask& task, Maker* maker) {
   config.disparity_min = task.range.min;
   config.disparity_max = task.range.max;
   config.max_workers = maker->pool.workers();
-  config.runner = ThreadRunner::Run;
-  config.runner_data = &maker->pool;
-  config.progress = PictureProgress::Tell;
-  config.progress_data = &maker->progress;
   return config;
 }
 
@@ -88,19 +84,20 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
   const bool repair = task.given != nullptr;
   const Image& centre = task.views[0];
   starfocus_problem problem = {};
-  starfocus_depth_config config = ConfigOf(task, maker);
-  config.problem = &problem;
+  const starfocus::Config config = ConfigOf(task, maker);
+  const starfocus_callbacks callbacks = {ThreadRunner::Run, &maker->pool, PictureProgress::Tell,
+                                         &maker->progress, nullptr};
   size_t bytes = 0;
   MadeMap made = {{centre.width, centre.height, {}}, {}, {}};
-  starfocus_status status = repair ? starfocus_repair_workspace_size(&config, &bytes)
-                                   : starfocus_estimate_workspace_size(&config, &bytes);
+  starfocus_status status =
+      starfocus_map_workspace_size(&config, repair ? 1 : 0, &bytes, &problem);
   if (status == STARFOCUS_ERROR_TOO_LARGE) {
     return OutOfMemory(where, repair ? "repair its disparities" : "estimate its disparities");
   }
   if (status == STARFOCUS_OK) {
     const std::unique_ptr<void, FreeAligned> workspace(
         ::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
-    starfocus_light_field light_field = {};
+    starfocus_light_field light_field = starfocus::NewLightField();
     for (size_t i = 0; i < task.views.size(); ++i) {
       light_field.views[i] = starfocus_image_rgb(task.views[i].row(0), task.views[i].stride());
     }
@@ -120,7 +117,7 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
                                                 task.given->width, task.given->height);
     }
     const auto make = repair ? starfocus_repair_disparity : starfocus_estimate_disparity;
-    status = make(&config, &light_field, &out, workspace.get(), bytes);
+    status = make(&config, &callbacks, &light_field, &out, workspace.get(), bytes, &problem);
     if (out.has_coverage == 0) made.coverage.clear();
   }
   if (status == STARFOCUS_OK) return made;

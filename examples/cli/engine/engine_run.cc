@@ -6,6 +6,7 @@
 #include "platform/clock.h"
 #include "platform/file.h"
 #include "platform/problem.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -31,21 +32,20 @@ EngineRun::EngineRun(int threads, int pictures)
     : runner_(threads), progress_("refocusing", pictures) {}
 
 Error EngineRun::Start(const std::string& where, const EngineTask& task) {
-  starfocus_config config = task.config;
+  starfocus::Config config = task.config;
   config.max_workers = task.threads;
   if (task.stream) config.features |= STARFOCUS_FEATURE_STREAMING;
   starfocus_problem problem = {};
-  config.problem = &problem;
-  const starfocus_status status = engine_.Init(config);
+  const starfocus_status status = engine_.Init(config, &problem);
   size_t bytes = 0;
-  if (status == STARFOCUS_ERROR_MEMORY) starfocus_workspace_size(&config, &bytes);
+  if (status == STARFOCUS_ERROR_MEMORY) starfocus_workspace_size(&config, &bytes, nullptr);
   return Outcome(where, status, &problem, bytes);
 }
 
 Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
   starfocus_status status = SetCallbacks(task, false);
   if (status == STARFOCUS_OK) status = engine_.Prepare(EngineRows(*task.light_field));
-  starfocus_prepared_size(&task.config, &prepared_bytes_);
+  starfocus_prepared_size(engine_.get(), &prepared_bytes_);
   return Outcome(where, status, engine_.problem(), prepared_bytes_);
 }
 
@@ -73,8 +73,9 @@ Error EngineRun::RefocusRows(const std::string& where, const EngineTask& task, R
 
 Result<EngineResult> EngineRun::RefocusAfter(const std::string& where, const EngineTask& task,
                                              const LightField& before, const Image& picture) {
-  const starfocus_previous previous = {
-      EngineRows(before), starfocus_image_rgb(picture.pixels.data(), picture.stride())};
+  const starfocus_light_field rows = EngineRows(before);
+  const starfocus_image image = starfocus_image_rgb(picture.pixels.data(), picture.stride());
+  const starfocus_previous previous = {sizeof previous, &rows, &image};
   EngineResult result;
   result.picture = MakePicture(task);
   if (Error error = Run(where, task, &previous, &result)) return error;
@@ -88,7 +89,8 @@ int EngineRun::Tell(void* self, int32_t rows_done, int32_t rows) {
 }
 
 starfocus_status EngineRun::SetCallbacks(const EngineTask& task, bool is_picture) {
-  starfocus_callbacks callbacks = task.callbacks;
+  starfocus_callbacks callbacks = {};
+  callbacks.observer = &task.observer;
   callbacks.runner = ThreadRunner::Run;
   callbacks.runner_data = &runner_;
   if (is_picture) {
@@ -125,10 +127,11 @@ Error EngineRun::Run(const std::string& where, const EngineTask& task,
   result->workspace_bytes = engine_.workspace_bytes();
   result->prepared_bytes = prepared_bytes_;
   const starfocus_image to = starfocus_image_rgb(out.pixels.data(), out.stride());
-  starfocus_params params = task.params;
+  starfocus::Params params = task.params;
   params.previous = previous;
   starfocus_status status = SetCallbacks(task, true);
   if (status != STARFOCUS_OK) return Outcome(where, status, engine_.problem());
+  result->report.layers = result->layers;
   const double start = Seconds();
   if (task.stream) {
     status = RunStream(task, result);
@@ -137,6 +140,7 @@ Error EngineRun::Run(const std::string& where, const EngineTask& task,
   } else {
     status = engine_.Refocus(params, EngineRows(*task.light_field), to, &result->report);
   }
+  result->report.layers = nullptr;  // the result may be moved
   result->seconds = Seconds() - start;
   return Outcome(where, status, engine_.problem());
 }

@@ -21,16 +21,17 @@ namespace starfocus {
 struct EngineTask {
   const LightField* light_field = nullptr;
   // Complete configuration, including sizes, views, disparity range and max_blur.
-  starfocus_config config;
+  starfocus::Config config;
   Params params;
-  starfocus_callbacks callbacks = {};  // EngineRun sets all callbacks except clock and on_block
+  starfocus_observer observer = {sizeof(starfocus_observer), nullptr, nullptr, nullptr, nullptr};
   int threads = 1;
   bool stream = false;  // true to push and pull rows instead of whole pictures
 };
 
 struct EngineResult {
   Image picture;
-  starfocus_report report = {};
+  starfocus_report report = starfocus::NewReport();
+  starfocus_layer_report layers[STARFOCUS_LAYERS] = {};
   double seconds = 0;  // processing time in the engine, in seconds
   size_t workspace_bytes = 0;
   size_t prepared_bytes = 0;
@@ -68,7 +69,7 @@ class EngineRun {
   ThreadRunner* runner() { return &runner_; }
 
  private:
-  // Sets the engine's callbacks: the callbacks of the task, the runner of the threads and, for a
+  // Sets the engine's callbacks: the observer of the task, the runner of the threads and, for a
   // picture, the progress line.
   starfocus_status SetCallbacks(const EngineTask& task, bool is_picture);
   starfocus_status RunStream(const EngineTask& task, EngineResult* result);

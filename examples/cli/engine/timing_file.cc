@@ -3,6 +3,7 @@
 
 #include "examples/cli/engine/timing_terms.h"
 #include "platform/file.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 namespace {

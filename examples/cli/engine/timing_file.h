@@ -8,6 +8,7 @@
 
 #include "examples/cli/json/json.h"
 #include "platform/result.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

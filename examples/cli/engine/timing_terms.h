@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "lib/plan/renderer.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

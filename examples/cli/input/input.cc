@@ -225,7 +225,7 @@ Error CareForMap(const MapOptions& options, int threads, Capture* capture) {
 
 Error FillHoles(const std::string& where, FloatMap* map) {
   const starfocus_status status =
-      starfocus_fill_disparity(map->values.data(), map->stride(), map->width, map->height);
+      starfocus_fill_disparity(map->values.data(), map->stride(), map->width, map->height, nullptr);
   return status == STARFOCUS_OK ? Error()
                                 : Expected(where, "a map with finite disparities", "none");
 }

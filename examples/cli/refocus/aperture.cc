@@ -8,6 +8,7 @@
 
 #include "examples/cli/input/notes.h"
 #include "examples/command_line/options.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -90,8 +91,8 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
   if (capture.f_stop > 0) aperture.radius = capture.widest / capture.f_stop;
   if (options.aperture) aperture.radius = *options.aperture;
   if (options.widest) aperture.widest = *options.widest;
-  if (options.f_stop && starfocus_aperture_of_f_stop(*options.f_stop, aperture.widest,
-                                                     &aperture.radius) != STARFOCUS_OK) {
+  if (options.f_stop) aperture.radius = aperture.widest / *options.f_stop;
+  if (options.f_stop && *options.f_stop < aperture.widest) {
     return Error::Usage("--f-stop", "an f-stop of at least the widest, " + Short(aperture.widest),
                         Short(*options.f_stop));
   }
@@ -102,7 +103,7 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
 }
 
 double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci,
-                         const starfocus_lens& lens) {
+                         const starfocus::Params& lens) {
   double range = 0;
   for (const double focus : foci) {
     range = std::max(

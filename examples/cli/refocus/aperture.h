@@ -11,6 +11,7 @@
 #include "platform/readers/capture.h"
 #include "platform/result.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 
@@ -37,7 +38,7 @@ Result<ApertureChoice> PlanAperture(const ApertureOptions& options, const Captur
 // Returns the largest distance of a disparity of the map from any of the foci, in pixels. `lens`
 // extends each focus to a range; other fields of `lens` are ignored.
 double FarthestFromFocus(const starfocus_disparity_stats& stats, const std::vector<double>& foci,
-                         const starfocus_lens& lens = {});
+                         const starfocus::Params& lens = {});
 
 // Returns the largest blur radius in pixels of a pixel that counts as in focus: 1/3000 of the
 // picture's diagonal, but at least one pixel. The diameter of the blur is then at most 1/1500 of

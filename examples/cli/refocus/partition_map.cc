@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "examples/cli/pictures/tint.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "platform/image.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

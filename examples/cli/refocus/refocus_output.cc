@@ -66,8 +66,8 @@ Error WriteDepthPhoto(const std::string& path, const PictureOptions& how,
   SharpOriginal photo = {};
   photo.before = &task.light_field->views[0];
   photo.disparity = &task.light_field->disparity;
-  photo.focus = task.params.lens.focus;
-  photo.aperture = task.params.lens.aperture;
+  photo.focus = task.params.focus;
+  photo.aperture = task.params.aperture;
   photo.widest = refocused.widest;
   return WriteFile(path,
                    EncodeDepthPhoto(path, *refocused.picture, photo, how.quality, how.metadata));

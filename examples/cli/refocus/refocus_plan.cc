@@ -12,6 +12,7 @@
 #include "platform/clock.h"
 #include "platform/file.h"
 #include "starfocus/pool.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -81,9 +82,9 @@ std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
   }
   const starfocus_depth_map depth = EngineMap(part);
   double focus = 0;
-  if (starfocus_fill_disparity(part.values.data(), part.stride(), part.width, part.height) !=
+  if (starfocus_fill_disparity(part.values.data(), part.stride(), part.width, part.height, nullptr) !=
           STARFOCUS_OK ||
-      starfocus_focus_at(&depth, part.width, part.height, x - left, y - top, &focus) !=
+      starfocus_focus_at(&depth, part.width, part.height, x - left, y - top, &focus, nullptr) !=
           STARFOCUS_OK) {
     return {};
   }
@@ -271,7 +272,7 @@ Error ChooseFocus(const FloatMap& map, LensPlan* plan) {
   if (Error error = CheckPixel(map.width, map.height, *plan)) return error;
   // starfocus_focus_at cannot fail, because PrepareDisparity has checked the map.
   const starfocus_depth_map depth = EngineMap(map);
-  starfocus_focus_at(&depth, map.width, map.height, plan->x, plan->y, &focus);
+  starfocus_focus_at(&depth, map.width, map.height, plan->x, plan->y, &focus, nullptr);
   plan->foci = {focus};
   return {};
 }
@@ -358,6 +359,7 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
   task.config.disparity_max = stats.max;
   task.config.max_blur = max_blur;
   task.config.superblock = plan.options.superblock;
+  task.config.tuning.line_scan = starfocus_line_scan_renderer();
   task.config.tuning.max_layer = plan.options.max_layer;
   task.config.tuning.deblocking = plan.options.deblocking;
   task.config.tuning.n_scale = plan.options.n_scale;
@@ -365,13 +367,15 @@ EngineTask MakeTask(const LensPlan& plan, const LightField& light_field,
       light_field.is_linear ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
   task.config.transfer = plan.options.transfer.value_or(own);
   task.config.highlights = plan.options.highlights;
-  task.params.mode = plan.options.mode;
-  task.params.renderer = plan.options.renderer;
-  task.params.lens = plan.lens;
-  task.params.lens.focus = plan.foci[0];
-  task.params.lens.aperture = plan.aperture.radius;
+  static_cast<starfocus::Params&>(task.params) = plan.lens;
+  task.params.study.mode = plan.options.mode;
+  task.params.study.renderer = plan.options.renderer;
+  task.params.focus = plan.foci[0];
+  task.params.aperture = plan.aperture.radius;
   task.params.region = plan.region;
-  if (reported) task.callbacks.clock = ThreadNanoseconds;
+  if (reported) {
+    task.observer.clock = [](void*) -> uint64_t { return ThreadNanoseconds(); };
+  }
   task.threads = plan.options.threads;
   return task;
 }

@@ -16,6 +16,7 @@
 #include "examples/command_line/shape.h"
 #include "platform/readers/capture.h"
 #include "platform/result.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -50,7 +51,7 @@ struct LensPlan {
   ApertureChoice aperture;
   starfocus_region region = {};  // All 0: the whole picture.
   Config config;  // Timing, and features that the shape requires; other fields have defaults.
-  starfocus_lens lens = {};  // Shape of the aperture and extent of the focus.
+  starfocus::Params lens;  // Shape of the aperture and extent of the focus.
 };
 
 // Checks the focus, the shape and the timing before a light field is read. The aperture

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/refocus/refocus_report.h"
+#include "starfocus/starfocus.hpp"
 
 #include <utility>
 
@@ -13,15 +14,15 @@ double Share(uint64_t part, uint64_t whole) {
 // Returns the statistics of each layer as JSON. The shares of area and time are fractions of the
 // totals over all layers. Times in seconds are CPU times, summed over the threads. The timing model
 // applies only to blocks that are rendered with views after an analysis of the block's content.
-Json LayersJson(const starfocus_report& report, bool predicted) {
+Json LayersJson(const EngineResult& result, bool predicted) {
   uint64_t pixels = 0, time = 0;
-  for (const starfocus_layer_report& layer : report.layers) {
+  for (const starfocus_layer_report& layer : result.layers) {
     pixels += layer.pixels;
     time += layer.measured_ns;
   }
   Json layers = Json::Array();
   for (int l = 0; l < STARFOCUS_LAYERS; ++l) {
-    const starfocus_layer_report& layer = report.layers[l];
+    const starfocus_layer_report& layer = result.layers[l];
     Json json;
     json.Set("layer", l);
     json.Set("blocks", layer.blocks);
@@ -39,7 +40,7 @@ Json LayersJson(const starfocus_report& report, bool predicted) {
 
 // Returns the number of superblocks of the picture or region.
 uint64_t Superblocks(const EngineTask& task, int side) {
-  const starfocus_config& config = task.config;
+  const starfocus::Config& config = task.config;
   const starfocus_region& region = task.params.region;
   const auto count = [&](int first, int size) {
     return static_cast<uint64_t>((first + size - 1) / side - first / side + 1);
@@ -48,7 +49,7 @@ uint64_t Superblocks(const EngineTask& task, int side) {
   return count(region.x, region.width) * count(region.y, region.height);
 }
 
-Json ShapeJson(const starfocus_lens& lens) {
+Json ShapeJson(const starfocus::Params& lens) {
   constexpr const char* kNames[] = {"fall-off", "disc", "polygon", "ring"};
   Json json;
   json.Set("name", kNames[lens.shape]);
@@ -64,7 +65,7 @@ Json ShapeJson(const starfocus_lens& lens) {
 }
 
 void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) {
-  json->Set("mode", kModeNames[task.params.mode]);
+  json->Set("mode", kModeNames[task.params.study.mode]);
   json->Set("width", task.config.width);
   json->Set("height", task.config.height);
   const starfocus_region& region = task.params.region;
@@ -72,7 +73,7 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
     json->Set("region", Json::Array({region.x, region.y, region.width, region.height}));
   }
   json->Set("views", task.config.views);
-  const starfocus_lens& lens = task.params.lens;
+  const starfocus::Params& lens = task.params;
   json->Set("focus", lens.focus);
   if (lens.focus_nearer > 0 || lens.focus_farther > 0) {
     json->Set("focus_range",
@@ -90,7 +91,7 @@ void AddFigures(const EngineTask& task, const EngineResult& result, Json* json) 
   json->Set("superblock", result.report.superblock);
   json->Set("max_layer", task.config.tuning.max_layer);
   json->Set("deblocking", task.config.tuning.deblocking);
-  json->Set("layers", LayersJson(result.report, task.params.mode == STARFOCUS_MODE_BLOCK));
+  json->Set("layers", LayersJson(result, task.params.study.mode == STARFOCUS_MODE_BLOCK));
   json->Set("copied_pixels", result.report.copied_pixels);
   json->Set("gathered_pixels", result.report.gathered_pixels);
   json->Set("seconds_refocus", result.seconds);

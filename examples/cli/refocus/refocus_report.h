@@ -8,6 +8,7 @@
 
 #include "examples/cli/engine/engine_run.h"
 #include "examples/cli/json/json.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 

@@ -9,6 +9,7 @@
 #include "examples/cli/refocus/aperture.h"
 #include "examples/cli/view/legend.h"
 #include "examples/cli/view/page.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -18,18 +19,18 @@ constexpr uint8_t kFocusColor[3] = {255, 140, 0};
 constexpr int kFocusPercent = 60;  // Share of kFocusColor in the tint of pixels in focus.
 
 // Returns the disparities that a lens does not blur.
-FocusBand BandOf(const starfocus_lens& lens) {
+FocusBand BandOf(const starfocus::Params& lens) {
   return {lens.focus - lens.focus_farther, lens.focus + lens.focus_nearer};
 }
 
 // Returns true if a lens blurs a disparity by at most `radius` pixels.
-bool IsSharp(const starfocus_lens& lens, double disparity, double radius) {
+bool IsSharp(const starfocus::Params& lens, double disparity, double radius) {
   const FocusBand band = BandOf(lens);
   return lens.aperture * std::max(band.far - disparity, disparity - band.near) <= radius;
 }
 
 // Draws the picture in grey, with the pixels in focus tinted. `map` has the size of the picture.
-Image DrawFocus(const Image& picture, const FloatMap& map, const starfocus_lens& lens,
+Image DrawFocus(const Image& picture, const FloatMap& map, const starfocus::Params& lens,
                 double radius) {
   Image drawn = picture;
   for (size_t i = 0; i < map.values.size(); ++i) {
@@ -40,7 +41,7 @@ Image DrawFocus(const Image& picture, const FloatMap& map, const starfocus_lens&
 }
 
 void AddLens(const Refocused& refocused, double radius, Page* page) {
-  const starfocus_lens& lens = refocused.task->params.lens;
+  const starfocus::Params& lens = refocused.task->params;
   const FloatMap& map = refocused.task->light_field->disparity;
   const auto sharp = std::count_if(map.values.begin(), map.values.end(), [&](float disparity) {
     return IsSharp(lens, double(disparity), radius);
@@ -65,7 +66,7 @@ void AddLens(const Refocused& refocused, double radius, Page* page) {
 
 Error WriteComparison(const std::string& path, const Refocused& refocused, const Bytes& icc) {
   const LightField& light_field = *refocused.task->light_field;
-  const starfocus_lens& lens = refocused.task->params.lens;
+  const starfocus::Params& lens = refocused.task->params;
   const Image& before = light_field.views[0];
   const starfocus_disparity_stats stats = MeasureDisparity(light_field.disparity);
   const double radius = SharpRadius(before.width, before.height);

@@ -11,6 +11,7 @@
 #include "examples/cli/refocus/partition_map.h"
 #include "examples/cli/refocus/refocus_plan.h"
 #include "platform/file.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 namespace {
@@ -91,14 +92,14 @@ Error RefocusEach(
   EngineTask task = MakeTask(*plan, light_field, stats, max_blur, false);
   std::vector<starfocus_block> blocks;
   task.threads = threads;
-  task.callbacks.on_block = CollectBlock;
-  task.callbacks.on_block_data = &blocks;
+  task.observer.on_block = CollectBlock;
+  task.observer.on_block_data = &blocks;
   EngineRun run(threads, static_cast<int>(lenses.size()));
   Error error = run.Start(where, task);
   if (!error) error = run.Prepare(where, task);
   for (size_t i = 0; i < lenses.size() && !error; ++i) {
-    task.params.lens.focus = lenses[i].focus;
-    task.params.lens.aperture = lenses[i].aperture;
+    task.params.focus = lenses[i].focus;
+    task.params.aperture = lenses[i].aperture;
     blocks.clear();
     EngineResult result;
     error = run.Refocus(where, task).MoveTo(&result);

@@ -11,6 +11,7 @@
 #include "examples/cli/engine/engine_run.h"
 #include "platform/light_field.h"
 #include "platform/result.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/engine/engine.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus::analysis {
 namespace {
@@ -41,9 +42,8 @@ struct Impulse {
   }
 };
 
-starfocus_config ConfigOf(int side, const EngineProbe& probe) {
-  starfocus_config config;
-  starfocus_config_init(&config);
+starfocus::Config ConfigOf(int side, const EngineProbe& probe) {
+  starfocus::Config config;
   config.width = config.height = side;
   config.views = 1;  // a flat surface has no holes, so side views are never read
   config.disparity_min = static_cast<float>(probe.r < 0 ? -probe.r_max : 0);
@@ -51,6 +51,7 @@ starfocus_config ConfigOf(int side, const EngineProbe& probe) {
   config.max_blur = std::fmax(probe.r_max, 1);
   config.superblock = kBlock;
   config.transfer = STARFOCUS_TRANSFER_NONE;
+  config.tuning.line_scan = starfocus_line_scan_renderer();
   config.tuning.gather = 0;  // disables blur by filtering, to measure the PSF of rendered views
   config.tuning.max_layer = probe.layer;
   config.tuning.timing.block = STARFOCUS_MAX_TIMING;  // makes a single block the cheapest partition
@@ -60,23 +61,22 @@ starfocus_config ConfigOf(int side, const EngineProbe& probe) {
 // Owns an engine and the engine's memory.
 class Engine {
  public:
-  explicit Engine(const starfocus_config& config) {
+  explicit Engine(const starfocus::Config& config) {
     size_t bytes = 0;
-    status_ = starfocus_workspace_size(&config, &bytes);
+    status_ = starfocus_workspace_size(&config, &bytes, nullptr);
     if (status_ != STARFOCUS_OK) return;
     memory_.reset(::operator new (bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
-    status_ = starfocus_init(&config, memory_.get(), bytes, &engine_);
+    status_ = starfocus_init(&config, memory_.get(), bytes, &engine_, nullptr);
   }
   starfocus_status status() const { return status_; }
   const EngineState& state() const { return *reinterpret_cast<const EngineState*>(engine_); }
   const std::vector<uint8_t>& out() const { return out_; }
 
   starfocus_status Refocus(const Impulse& impulse, const EngineProbe& probe) {
-    starfocus_params params;
-    starfocus_params_init(&params);
-    params.mode = probe.mode;
-    params.renderer = probe.renderer;
-    starfocus_light_field field = {};
+    starfocus::Params params;
+    params.study.mode = probe.mode;
+    params.study.renderer = probe.renderer;
+    starfocus_light_field field = starfocus::NewLightField();
     const size_t side = static_cast<size_t>(impulse.side);
     field.views[0] = starfocus_image_rgb(impulse.rgb.data(), 3 * side);
     field.depth = starfocus_depth_float(impulse.disparity.data(), side * sizeof(float),

@@ -5,6 +5,7 @@
 #define STARFOCUS_EXAMPLES_LAB_ANALYSIS_ENGINE_PSF_H_
 
 #include "examples/lab/analysis/sampled_psf.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus::analysis {

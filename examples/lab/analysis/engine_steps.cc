@@ -10,6 +10,7 @@
 #include "examples/lab/analysis/selection.h"
 #include "examples/lab/analysis/star_psf.h"
 #include "examples/lab/analysis/subsampled.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus::analysis {
 

@@ -10,6 +10,7 @@
 #include "lib/optics/rules.h"
 #include "platform/file.h"
 #include "platform/progress.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 namespace {

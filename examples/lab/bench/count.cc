@@ -50,7 +50,7 @@ Field MakeField() {
   }
   for (int i = 0; i < kViews; ++i) {
     double u = 0, v = 0;
-    starfocus_view_position(i, &u, &v);
+    starfocus_view_position(i, &u, &v, nullptr);
     Image view(kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {

@@ -8,6 +8,7 @@
 
 #include "examples/lab/bench/metrics.h"
 #include "platform/image_io.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus::bench {
 namespace {
@@ -74,7 +75,7 @@ Error LoadField(const std::string& folder, Field* field) {
   field->data = std::move(*loaded);
   FloatMap* map = &field->data.disparity;
   const starfocus_status status = starfocus_fill_disparity(
-      map->values.data(), sizeof(float) * size_t(map->width), map->width, map->height);
+      map->values.data(), sizeof(float) * size_t(map->width), map->width, map->height, nullptr);
   if (status != STARFOCUS_OK)
     return Expected(folder, "a disparity map", starfocus_status_string(status));
   Measure(field);
@@ -121,7 +122,7 @@ Field Stretch(const Field& field, double factor, int views) {
 }
 
 starfocus_light_field Rows(const LightField& data, int views) {
-  starfocus_light_field rows = {};
+  starfocus_light_field rows = starfocus::NewLightField();
   for (int i = 0; i < views; ++i) {
     const Image& view = data.views[size_t(i)];
     rows.views[i] = starfocus_image_rgb(view.pixels.data(), view.stride());

@@ -12,6 +12,7 @@
 #include "platform/light_field.h"
 #include "platform/result.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus::bench {
 

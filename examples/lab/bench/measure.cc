@@ -9,6 +9,7 @@
 #include "examples/lab/bench/metrics.h"
 #include "examples/lab/bench/rivals.h"
 #include "examples/lab/bench/timed_engine.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus::bench {
 namespace {
@@ -113,7 +114,7 @@ Row CommonRow(const Group& group, const Entry& entry) {
   return row;
 }
 
-void AddReport(const starfocus_report& report, Row* row) {
+void AddReport(const test::Report& report, Row* row) {
   row->n = report.n;
   row->superblock = report.superblock;
   row->rendered_samples = double(report.rendered_samples);

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "examples/lab/bench/micro.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/integer_scene.h"
 #include "tests/support/test_scene.h"
 
@@ -15,7 +17,7 @@ namespace {
 
 constexpr int kWidth = 384, kHeight = 256, kViews = 5;
 constexpr int kBlur = 16;           // Largest blur radius, pixels.
-constexpr double kHighlights = 16;  // Value of starfocus_config.highlights.
+constexpr double kHighlights = 16;  // Value of starfocus::Config.highlights.
 
 struct Picture {
   const char* name;
@@ -54,11 +56,11 @@ test::Scene SceneOf(const Picture& picture) {
 
 void Refocus(const Picture& picture, benchmark::State& state) {
   const test::Scene scene = SceneOf(picture);
-  starfocus_config config = test::ConfigFor(scene, kBlur);
+  test::Config config = test::ConfigFor(scene, kBlur);
   config.highlights = static_cast<float>(picture.highlights);
   test::Engine engine(config);
   test::Output out(kWidth, kHeight);
-  const starfocus_params params = test::Params(picture.white < 0 ? -1 : 0, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params = test::Params(picture.white < 0 ? -1 : 0, 1, STARFOCUS_MODE_BLOCK);
   for (auto _ : state) {
     if (test::Refocus(&engine, params, scene, &out) != STARFOCUS_OK)
       state.SkipWithError("not refocused");

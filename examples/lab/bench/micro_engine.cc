@@ -12,6 +12,7 @@
 #include "examples/lab/bench/micro.h"
 #include "examples/lab/bench/timed_engine.h"
 #include "lib/line_scan/line_scan.h"
+#include "starfocus/experimental.h"
 #include "tests/support/inside.h"
 
 namespace starfocus::bench {

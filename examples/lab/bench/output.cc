@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/light_field.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus::bench {
 namespace {

@@ -51,7 +51,7 @@ std::vector<uint16_t> DiscShares(int views) {
       double least = 9;
       for (int k = 0; k < views; ++k) {
         double u = 0, v = 0;
-        starfocus_view_position(k, &u, &v);
+        starfocus_view_position(k, &u, &v, nullptr);
         const double distance = std::hypot(u - double(i) / kSteps, v - double(j) / kSteps);
         if (distance < least) least = distance, nearest = k;
       }
@@ -82,7 +82,7 @@ ShiftAndAdd::ShiftAndAdd(const LightField& data, int views, double focus)
 
 void ShiftAndAdd::AddView(const Image& view, int index, int y) {
   double u = 0, v = 0;
-  starfocus_view_position(index, &u, &v);
+  starfocus_view_position(index, &u, &v, nullptr);
   const Shift dx = Split(-u * focus_), dy = Split(-v * focus_);
   const auto row = [&](int n) { return view.row(std::clamp(n, 0, view.height - 1)); };
   const size_t samples = view.stride();

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus::bench {

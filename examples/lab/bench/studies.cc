@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "simd/kernels.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus::bench {
 namespace {

@@ -9,6 +9,7 @@
 #include "examples/lab/bench/field.h"
 #include "examples/lab/bench/measure.h"
 #include "platform/result.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus::bench {
 
@@ -18,7 +19,7 @@ struct Choice {
   std::vector<double> quantiles = {0.1, 0.3, 0.5, 0.7, 0.9};
   std::vector<int> views;        // Sizes of smaller star sets, measured in block mode.
   std::vector<int> max_layers;   // Values of starfocus_tuning.max_layer, measured in block mode.
-  std::vector<int> superblocks;  // Values of starfocus_config.superblock, measured in block mode.
+  std::vector<int> superblocks;  // Values of starfocus::Config.superblock, measured in block mode.
   std::vector<double> n_scales;  // Values of starfocus_tuning.n_scale in block and frame mode.
   bool rules = false;            // True to measure both renderers in block and frame mode.
   // SIMD targets, measured at the middle quantile; "all": all targets.

@@ -6,6 +6,7 @@
 
 #include "platform/file.h"
 #include "simd/kernels.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/support/inside.h"
 #include "tests/support/rgb_calls.h"
 
@@ -35,8 +36,7 @@ int ModeOf(const std::string& name) {
 
 Error Prepare(const Field& field, const Task& task, double focus, double aperture,
               TimedEngine* timed) {
-  starfocus_config config;
-  starfocus_config_init(&config);
+  starfocus::Config config;
   config.width = field.data.width();
   config.height = field.data.height();
   config.views = task.views;
@@ -44,32 +44,35 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
   config.disparity_max = field.high;
   config.max_blur = std::max(1.0, std::ceil(field.LargestBlur(focus, aperture)));
   config.transfer = field.transfer;
+  config.tuning.line_scan = starfocus_line_scan_renderer();
   config.tuning.max_layer = task.max_layer;
   config.superblock = task.superblock;
   config.tuning.n_scale = task.n_scale;
   config.max_workers = task.workers;
   if (task.workers > 1) timed->pool = std::make_unique<ThreadRunner>(task.workers);
-  starfocus_status status = starfocus_workspace_size(&config, &timed->workspace_bytes);
+  starfocus_status status = starfocus_workspace_size(&config, &timed->workspace_bytes, nullptr);
   if (status == STARFOCUS_OK) {
     timed->workspace.reset(
         ::operator new (timed->workspace_bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
     status =
-        starfocus_init(&config, timed->workspace.get(), timed->workspace_bytes, &timed->engine);
+        starfocus_init(&config, timed->workspace.get(), timed->workspace_bytes, &timed->engine, nullptr);
   }
   if (status != STARFOCUS_OK) {
     return Expected(field.name, "a light field that the engine accepts",
                     starfocus_status_string(status));
   }
-  starfocus_params_init(&timed->params);
-  timed->params.mode = ModeOf(task.mode);
-  timed->params.renderer = task.renderer;
-  timed->params.lens.focus = focus;
-  timed->params.lens.aperture = aperture;
+  timed->params.study.mode = ModeOf(task.mode);
+  timed->params.study.renderer = task.renderer;
+  timed->params.focus = focus;
+  timed->params.aperture = aperture;
   timed->picture = Image(config.width, config.height);
   starfocus_callbacks callbacks = {};
   if (timed->pool != nullptr) callbacks.runner = ThreadRunner::Run;
   callbacks.runner_data = timed->pool.get();
-  if (task.timed) callbacks.clock = Nanoseconds;
+  starfocus_observer observer;
+  starfocus_observer_init(&observer);
+  observer.clock = [](void*) -> uint64_t { return Nanoseconds(); };
+  if (task.timed) callbacks.observer = &observer;
   starfocus_set_callbacks(timed->engine, &callbacks);
   return UseTarget(task.target, timed->engine);
 }

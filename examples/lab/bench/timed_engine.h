@@ -13,6 +13,8 @@
 #include "examples/lab/bench/stopwatch.h"
 #include "platform/result.h"
 #include "platform/runner.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 
 namespace starfocus::bench {
 
@@ -27,8 +29,8 @@ struct TimedEngine {
   size_t workspace_bytes = 0;
   starfocus_engine* engine = nullptr;
   std::unique_ptr<ThreadRunner> pool;  // thread pool for several workers; null for one worker
-  starfocus_params params;
-  starfocus_report report = {};
+  starfocus::Params params;
+  test::Report report;
   Image picture;
 };
 

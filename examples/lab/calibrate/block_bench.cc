@@ -4,16 +4,18 @@
 #include <algorithm>
 
 #include "examples/lab/lab_config.h"
+#include "lib/api/validate.h"
 #include "lib/engine/stripe.h"
 #include "lib/io/depth_map.h"
 #include "platform/clock.h"
 #include "platform/file.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
 
-starfocus_config MakeConfig(const LightField& light_field) {
-  starfocus_config config = ConfigOf(light_field);
+starfocus::Config MakeConfig(const LightField& light_field) {
+  starfocus::Config config = ConfigOf(light_field);
   config.superblock = 256;  // Allocates scratch memory for blocks of any size.
   config.tuning.n_scale = STARFOCUS_MAX_N_SCALE;  // Allows apertures for every sampled N.
   return config;
@@ -31,9 +33,8 @@ Error BlockBench::Open(const std::string& where, const LightField& light_field) 
     engine_ = reinterpret_cast<EngineState*>(owner_.get());
     // Create apertures for blocks of any N. The aperture has the default shape, as in
     // BlockBench::Focus.
-    starfocus_params params;
-    starfocus_params_init(&params);
-    SetOpening(ShapeOf(params.lens), engine_->tables);
+    starfocus::Params params;
+    SetOpening(ShapeOf(params), engine_->tables);
     const Demand demand = DemandOf(engine_->tables->opening);
     const int32_t last = LargestN(engine_->config, kSliceRenderer, demand, STARFOCUS_MAX_BLUR);
     status = MakeApertures(kSliceRenderer, last, nullptr, engine_->tables);
@@ -53,7 +54,7 @@ void BlockBench::HoldDisparity() {
   disparity_.resize(map.values.size() + simd::kPadding);
   const Plane<int16_t> disparity = {disparity_.data(), size_t(map.width), 0, 0};
   // Disparities cannot be out of range, because the configuration has the range of the map.
-  const starfocus_config& config = engine_->config;
+  const FullConfig& config = engine_->config;
   const starfocus_depth_map given = EngineMap(map);
   const simd::DepthRule rule =
       RuleOf(given, float(config.disparity_min), float(config.disparity_max));
@@ -92,10 +93,9 @@ void BlockBench::HoldLayer(int layer) {
 }
 
 void BlockBench::Focus(const BlockTask& task) {
-  starfocus_params params;
-  starfocus_params_init(&params);
-  params.lens.focus = task.focus;
-  params.lens.aperture = task.aperture;
+  FullParams params = DefaultParams();
+  params.focus = task.focus;
+  params.aperture = task.aperture;
   SetLens(params, engine_);
 }
 

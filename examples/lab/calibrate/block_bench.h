@@ -11,6 +11,7 @@
 #include "lib/plan/partition.h"
 #include "platform/light_field.h"
 #include "platform/result.h"
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.hpp"
 
 namespace starfocus {

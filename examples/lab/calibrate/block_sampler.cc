@@ -6,6 +6,7 @@
 
 #include "lib/optics/rules.h"
 #include "lib/plan/cells.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/lab/calibrate/timing_fit.h"
+#include "starfocus/experimental.h"
 
 #include <algorithm>
 #include <array>

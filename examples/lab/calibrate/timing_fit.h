@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "examples/cli/engine/timing_terms.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 

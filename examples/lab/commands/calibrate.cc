@@ -14,6 +14,7 @@
 #include "examples/scene/render.h"
 #include "platform/file.h"
 #include "platform/runner.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 namespace {
@@ -34,7 +35,7 @@ LightField Trace(const std::string& name) {
     Progress progress("rendering " + name, int64_t{kHeight} * kViews);
     for (int i = 0; i < kViews; ++i) {
       double u = 0, v = 0;
-      starfocus_view_position(i, &u, &v);
+      starfocus_view_position(i, &u, &v, nullptr);
       light_field.views.push_back(renderer.View(u, v, &progress));
     }
   }

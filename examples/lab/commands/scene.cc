@@ -19,6 +19,7 @@
 #include "platform/text.h"
 #include "platform/writers/png.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -50,7 +51,7 @@ struct SceneOptions {
 struct Plan {
   Scene scene;
   std::vector<Truth> truths;
-  starfocus_lens lens = {};  // lens of the ground-truth pictures, without focus and aperture
+  starfocus::Params lens = {};  // lens of the ground-truth pictures, without focus and aperture
 };
 
 Result<Truth> ParseTruth(const std::string& text) {

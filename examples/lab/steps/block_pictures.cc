@@ -8,6 +8,7 @@
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
 #include "lib/slices/slices.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -99,7 +100,7 @@ class BlockArtist {
   void DrawView() {
     const RightmostView view(engine_.tables->opening);
     const ViewWeights& weights = view.weights();
-    const starfocus_lens& lens = engine_.lens.params.lens;
+    const FullParams& lens = engine_.lens.params;
     const ViewGrid grid =
         MakeViewGrid(weights, grid_.focus, lens.aperture * weights.extent, 0, false);
     RenderJob job = job_;

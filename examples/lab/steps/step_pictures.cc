@@ -47,12 +47,11 @@ class StepRun {
 
  private:
   Result<Image> Refocus(bool gathers, BlockVisit visit) const {
-    starfocus_config config = ConfigOf(light_field_);
+    starfocus::Config config = ConfigOf(light_field_);
     if (!gathers) config.tuning.gather = config.tuning.max_layer = 0;
     starfocus_problem problem = {};
-    config.problem = &problem;
     Engine engine;
-    const starfocus_status status = engine.Init(config);
+    const starfocus_status status = engine.Init(config, &problem);
     if (status != STARFOCUS_OK) return Refused(status, &problem);
     visit.engine = reinterpret_cast<EngineState*>(engine.get());
     return Run(&engine, &visit);
@@ -60,13 +59,15 @@ class StepRun {
 
   Result<Image> Run(Engine* engine, BlockVisit* visit) const {
     starfocus_callbacks callbacks = {};
-    callbacks.on_block = BlockVisit::Draw;
-    callbacks.on_block_data = visit;
+    starfocus_observer observer;
+    starfocus_observer_init(&observer);
+    observer.on_block = BlockVisit::Draw;
+    observer.on_block_data = visit;
+    callbacks.observer = &observer;
     starfocus_status status = engine->SetCallbacks(callbacks);
-    starfocus_params params;
-    starfocus_params_init(&params);
-    params.lens.focus = lens_.focus;
-    params.lens.aperture = lens_.aperture;
+    starfocus::Params params;
+    params.focus = lens_.focus;
+    params.aperture = lens_.aperture;
     Image out(light_field_.width(), light_field_.height());
     if (status == STARFOCUS_OK) {
       status = engine->Refocus(params, EngineRows(light_field_),

@@ -9,14 +9,14 @@
  *
  * // Estimates a map of disparities from -8 to 8 from 5 views. Returns a starfocus_status.
  * int Estimate(const starfocus_light_field* light_field, int width, int height, float* disparity) {
- *   starfocus_depth_config config;
- *   starfocus_depth_config_init(&config);
+ *   starfocus_config config;
+ *   starfocus_config_init(&config);
  *   config.width = width;
  *   config.height = height;
  *   config.disparity_min = -8;
  *   config.disparity_max = 8;
  *   size_t bytes = 0;
- *   starfocus_status status = starfocus_estimate_workspace_size(&config, &bytes);
+ *   starfocus_status status = starfocus_map_workspace_size(&config, 0, &bytes, NULL);
  *   if (status != STARFOCUS_OK) return status;
  *   const size_t blocks = (bytes + STARFOCUS_ALIGNMENT - 1) / STARFOCUS_ALIGNMENT;
  *   void* workspace = aligned_alloc(STARFOCUS_ALIGNMENT, STARFOCUS_ALIGNMENT * blocks);
@@ -24,11 +24,28 @@
  *   starfocus_disparity_output map = {0};
  *   map.disparity = disparity;
  *   map.disparity_stride = sizeof(float) * (size_t)width;
- *   status = starfocus_estimate_disparity(&config, light_field, &map, workspace, bytes);
+ *   status =
+ *       starfocus_estimate_disparity(&config, NULL, light_field, &map, workspace, bytes, NULL);
  *   free(workspace);
  *   return status;
  * }
  * @endcode
+ *
+ * The functions read these fields of starfocus_config: size, width, height, views, positions,
+ * disparity_min, disparity_max, max_workers and the bit STARFOCUS_FEATURE_IMAGES of features.
+ *
+ * The disparity range is searched in steps of half a pixel. In a range wider than 64 pixels, the
+ * steps are one pixel or more. The number of steps is at most 128. Disparities between two steps
+ * are interpolated. An estimate requires disparity_max > disparity_min.
+ *
+ * Without `positions`, the number of views is 5, 9 or 17, or 1 for a repair. With `positions`, 2 to
+ * STARFOCUS_MAX_VIEWS views are estimated; the views of a stereo pair have the positions (0, 0) and
+ * (1, 0). A repair requires the positions of starfocus_view_position.
+ *
+ * With STARFOCUS_FEATURE_IMAGES, views and maps may have any format. They are first converted in
+ * the workspace, which takes 3 more bytes per pixel of each view and, for a repair, 4 more bytes
+ * per pixel of the picture. Without this feature, views are packed RGB, and a map to repair is a
+ * map of starfocus_depth_float in the size of the picture.
  *
  * The bytes of a map depend only on the configuration and the pictures, not on the runner, the
  * number of workers or the SIMD target.
@@ -41,44 +58,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/** Configuration for estimating or repairing a disparity map. Call starfocus_depth_config_init
- *  first. */
-typedef struct starfocus_depth_config {
-  uint32_t size;  /**< Size of the structure in bytes; set by starfocus_depth_config_init. */
-  int32_t width;  /**< Width of the views in pixels, [1, STARFOCUS_MAX_SIZE]. */
-  int32_t height; /**< Height of the views in pixels, [1, STARFOCUS_MAX_SIZE]. */
-  /** Number of views. Without `positions`: 5, 9 or 17 in the order of starfocus_view_position, or 1
-   *  for starfocus_repair_disparity. With `positions`: 2 to STARFOCUS_MAX_VIEWS. Default 5. */
-  int32_t views;
-  /** Smallest disparity, within +-STARFOCUS_MAX_DISPARITY; default NaN, which is rejected: a range
-   *  that is not set is no range. */
-  double disparity_min;
-  /** Largest disparity, disparity_min to STARFOCUS_MAX_DISPARITY; default NaN. The disparity range
-   * is searched in steps of half a pixel. In a disparity range wider than 64 pixels, the steps are
-   *  one pixel or more. The number of steps is at most 128. Disparities between two steps are
-   *  interpolated. */
-  double disparity_max;
-  int32_t max_workers; /**< Number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1. */
-  /** STARFOCUS_FEATURE_IMAGES or 0, the default. Without this feature, views are packed RGB, and a
-   *  map to repair is a map of starfocus_depth_float in the size of the picture. With this feature,
-   *  views and maps may have any format. The function first converts views and maps in the
-   *  workspace. The conversion takes 3 more bytes per pixel of each view and, for a repair, 4 more
-   *  bytes per pixel of the picture. */
-  uint32_t features;
-  starfocus_runner runner; /**< Runs jobs; default null: the calling thread runs them. */
-  void* runner_data;       /**< Passed to `runner`. */
-  /** Receives finished rows of the map after each tile, which takes up to 50 ms; default null.
-   *  After STARFOCUS_ERROR_CANCELLED the outputs and the workspace are unspecified. */
-  starfocus_progress progress;
-  void* progress_data;        /**< Passed to `progress`. */
-  starfocus_problem* problem; /**< Receives the cause of an error of a call; default null. */
-  /** Positions of the views, as in starfocus_config: within [-1, 1], the first (0, 0), and all
-   *  different. The views of a stereo pair have the positions (0, 0) and (1, 0). Default all 0,
-   *  which selects the positions of starfocus_view_position. starfocus_repair_disparity requires
-   *  the positions of starfocus_view_position. */
-  starfocus_position positions[STARFOCUS_MAX_VIEWS];
-} starfocus_depth_config;
 
 /** Output planes of an estimate or repair of a disparity map, and of the functions of
  *  starfocus/matte.h. The planes must not overlap the views, the given map, the workspace or each
@@ -95,29 +74,23 @@ typedef struct starfocus_disparity_output {
                            map; 0 if `coverage` is unspecified. */
 } starfocus_disparity_output;
 
-/** Sets the first `size` bytes of a configuration to the defaults. This function is for bindings;
- *  programs in C and C++ call starfocus_depth_config_init.
- *  @param config configuration; no-op if null
- *  @param size size of the caller's structure in bytes */
-STARFOCUS_API void starfocus_depth_config_init_sized(starfocus_depth_config* config, uint32_t size);
-
-/** Sets a configuration to the defaults.
- *  @param config configuration; no-op if null */
-static inline void starfocus_depth_config_init(starfocus_depth_config* config) {
-  starfocus_depth_config_init_sized(config, (uint32_t)sizeof(starfocus_depth_config));
-}
-
-/** Computes the workspace size of starfocus_estimate_disparity: 5 bytes per pixel of the picture,
- *  plus memory for each worker. If all side views lie on one side of the centre, the workspace
- *  contains 2 more bytes per pixel for each side view. Each worker takes up to 1.2 MB per pixel of
- *  the disparity range. In addition, each worker takes about 10, 20 or 45 MB with 5, 9 or 17 views
- *  at the positions of starfocus_view_position. At other positions, each worker takes up to 14 MB
- *  for each view that moves along both axes.
+/** Computes the workspace size of starfocus_estimate_disparity and starfocus_repair_disparity.
+ *
+ *  An estimate takes 5 bytes per pixel of the picture, plus memory for each worker. If all side
+ *  views lie on one side of the centre, the workspace contains 2 more bytes per pixel for each side
+ *  view. Each worker takes up to 1.2 MB per pixel of the disparity range. In addition, each worker
+ *  takes about 10, 20 or 45 MB with 5, 9 or 17 views at the positions of starfocus_view_position.
+ *  At other positions, each worker takes up to 14 MB for each view that moves along both axes.
+ *
+ *  A repair takes 12 bytes per pixel of the picture, plus about as much memory for each worker.
  *  @param config configuration
+ *  @param repairs 1 for starfocus_repair_disparity, 0 for starfocus_estimate_disparity
  *  @param bytes receives the size in bytes
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, or an error of the configuration */
-STARFOCUS_API starfocus_status
-starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* bytes);
+STARFOCUS_API starfocus_status starfocus_map_workspace_size(const starfocus_config* config,
+                                                            int32_t repairs, size_t* bytes,
+                                                            starfocus_problem* problem);
 
 /** Estimates the disparity of each pixel of the centre view. The result is the disparity at which
  *  the views that see the pixel agree best, smoothed between neighbouring pixels. All disparities
@@ -131,23 +104,19 @@ starfocus_estimate_workspace_size(const starfocus_depth_config* config, size_t* 
  *  background next to one of its edges from all side views. Such pixels get confidence 0 and the
  *  disparity of the adjacent background.
  *  @param config configuration
+ *  @param callbacks runner and progress; null: the calling thread does all work. The progress
+ *         callback receives finished rows of the map after each tile, which takes up to 50 ms
  *  @param light_field views; `depth` is ignored
  *  @param map output planes
  *  @param workspace memory aligned to STARFOCUS_ALIGNMENT
- *  @param bytes size of the workspace, at least starfocus_estimate_workspace_size
+ *  @param bytes size of the workspace, at least starfocus_map_workspace_size
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, an error of the arguments, STARFOCUS_ERROR_CANCELLED or
  *          STARFOCUS_ERROR_RUNNER */
 STARFOCUS_API starfocus_status starfocus_estimate_disparity(
-    const starfocus_depth_config* config, const starfocus_light_field* light_field,
-    starfocus_disparity_output* map, void* workspace, size_t bytes);
-
-/** Computes the workspace size of starfocus_repair_disparity: 12 bytes per pixel of the picture,
- *  plus about as much memory for each worker as starfocus_estimate_disparity uses.
- *  @param config configuration
- *  @param bytes receives the size in bytes
- *  @return STARFOCUS_OK, or an error of the configuration */
-STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_depth_config* config,
-                                                               size_t* bytes);
+    const starfocus_config* config, const starfocus_callbacks* callbacks,
+    const starfocus_light_field* light_field, starfocus_disparity_output* map, void* workspace,
+    size_t bytes, starfocus_problem* problem);
 
 /** Repairs the disparity map of a light field: removes noise, fills unknown values and corrects
  *  edges. Edges of the map are corrected if they are blurred, too coarse, or displaced from the
@@ -169,17 +138,22 @@ STARFOCUS_API starfocus_status starfocus_repair_workspace_size(const starfocus_d
  *  this case, the disparities of the hair are not changed, and their confidence is 255 minus the
  *  change of coverage. Outside hair, coverage is 0 or 255, as the map alone implies.
  *  @param config configuration
+ *  @param callbacks runner and progress; null: the calling thread does all work. The progress
+ *         callback receives finished rows of the map after each tile, which takes up to 50 ms
  *  @param light_field views, and in `depth` the map to repair. The known disparities of the map
  *         must lie in the configured range, which may be wider than the range of the map
  *  @param map output planes
  *  @param workspace memory aligned to STARFOCUS_ALIGNMENT
- *  @param bytes size of the workspace, at least starfocus_repair_workspace_size
+ *  @param bytes size of the workspace, at least starfocus_map_workspace_size
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, an error of the arguments, STARFOCUS_ERROR_DISPARITY,
  *          STARFOCUS_ERROR_ALL_INVALID, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER */
-STARFOCUS_API starfocus_status starfocus_repair_disparity(const starfocus_depth_config* config,
+STARFOCUS_API starfocus_status starfocus_repair_disparity(const starfocus_config* config,
+                                                          const starfocus_callbacks* callbacks,
                                                           const starfocus_light_field* light_field,
                                                           starfocus_disparity_output* map,
-                                                          void* workspace, size_t bytes);
+                                                          void* workspace, size_t bytes,
+                                                          starfocus_problem* problem);
 
 #ifdef __cplusplus
 }

@@ -113,9 +113,8 @@ typedef enum starfocus_depth_meaning {
  *  Disparities are computed in single precision and rounded half up to 1/64 pixel. Disparities must
  *  lie in the configured range; otherwise the call returns STARFOCUS_ERROR_DISPARITY. An infinite
  *  distance is known in float and half maps: its disparity is `offset`. Disparities that are not
- *  finite, and disparities of the invalid value, are unknown: see
- *  STARFOCUS_FEATURE_FILL_UNKNOWN. Unknown values are filled along rows of the picture, not along
- *  rows of the map.
+ *  finite, and disparities of the invalid value, are unknown: see starfocus_unknown. Unknown values
+ *  are filled along rows of the picture, not along rows of the map.
  *
  *  The engine interpolates a smaller map within surfaces, but not across depth edges. For a picture
  *  W pixels wide and a map w values wide, column x of the picture lies at

@@ -19,7 +19,7 @@
  *   out.disparity_stride = 4000 * sizeof(float);
  *   out.coverage = coverage;
  *   out.coverage_stride = 4000;
- *   return starfocus_matte_field(&matte, &depth, 4000, 3000, NULL, &out);
+ *   return starfocus_matte_field(&matte, &depth, 4000, 3000, NULL, &out, NULL);
  * }
  * @endcode
  *
@@ -64,9 +64,11 @@ typedef struct starfocus_matte_stats {
 /** Measures a matte.
  *  @param matte matte
  *  @param stats receives the place of the subject
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, or an error of the arguments */
 STARFOCUS_API starfocus_status starfocus_measure_matte(const starfocus_matte* matte,
-                                                       starfocus_matte_stats* stats);
+                                                       starfocus_matte_stats* stats,
+                                                       starfocus_problem* problem);
 
 /** Disparities of the subject and of the background. Disparities are rounded half up to 1/64
  *  pixel. */
@@ -90,8 +92,8 @@ typedef struct starfocus_matte_depth {
  *  up to twice the size of the matte, B-splines from 8 times the size, and a mixture between these
  *  sizes. B-splines raise the contrast around 1/2 by 30 %, because small mattes show sharp outlines
  *  as wide ones. A matte that is larger than the picture is averaged over the area of each pixel. A
- * matte of the picture's size is not changed. Along each axis, the rule depends on the sizes along
- * this axis.
+ *  matte of the picture's size is not changed. Along each axis, the rule depends on the sizes along
+ *  this axis.
  *  @param matte matte
  *  @param depth disparities of both surfaces
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
@@ -99,12 +101,11 @@ typedef struct starfocus_matte_depth {
  *  @param out receives the region: `disparity`, and `coverage` unless it is null. The pointers
  *         point to the first pixel of the region, not of the picture. The function does not read or
  *         write `confidence`. The planes must not overlap the matte or each other
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, or an error of the arguments */
-STARFOCUS_API starfocus_status starfocus_matte_field(const starfocus_matte* matte,
-                                                     const starfocus_matte_depth* depth,
-                                                     int32_t width, int32_t height,
-                                                     const starfocus_region* region,
-                                                     starfocus_disparity_output* out);
+STARFOCUS_API starfocus_status starfocus_matte_field(
+    const starfocus_matte* matte, const starfocus_matte_depth* depth, int32_t width, int32_t height,
+    const starfocus_region* region, starfocus_disparity_output* out, starfocus_problem* problem);
 
 /** Computes the coverage of a photo that has a matte and a depth map. At the outlines of the
  *  subject, the coverage is the matte. At other edges of the map, the coverage is the coverage that
@@ -125,13 +126,12 @@ STARFOCUS_API starfocus_status starfocus_matte_field(const starfocus_matte* matt
  *  @param out receives the region in `coverage`, which points to the first pixel of the region and
  *         must not overlap the matte or the map. The function does not read or write the other
  *         planes
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, an error of the arguments, STARFOCUS_ERROR_DISPARITY or
  *          STARFOCUS_ERROR_NOT_FINITE */
-STARFOCUS_API starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
-                                                        const starfocus_depth_map* depth,
-                                                        int32_t width, int32_t height,
-                                                        const starfocus_region* region,
-                                                        starfocus_disparity_output* out);
+STARFOCUS_API starfocus_status starfocus_matte_coverage(
+    const starfocus_matte* matte, const starfocus_depth_map* depth, int32_t width, int32_t height,
+    const starfocus_region* region, starfocus_disparity_output* out, starfocus_problem* problem);
 
 #ifdef __cplusplus
 }

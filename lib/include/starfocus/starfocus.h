@@ -25,17 +25,18 @@
  *   config.disparity_min = -8;
  *   config.disparity_max = 8;
  *   starfocus_engine* engine = NULL;
- *   starfocus_status status = starfocus_create(&config, NULL, &engine);
+ *   starfocus_status status = starfocus_create(&config, NULL, &engine, NULL);
  *   if (status != STARFOCUS_OK) return status;
  *
- *   starfocus_light_field light_field = {0};
+ *   starfocus_light_field light_field;
+ *   starfocus_light_field_init(&light_field);
  *   for (int i = 0; i < 5; ++i) light_field.views[i] = starfocus_image_rgb(views[i], stride);
  *   light_field.depth =
  *       starfocus_depth_float(disparity, sizeof(float) * (size_t)width, width, height);
  *   const starfocus_image picture = starfocus_image_rgb(out, stride);
  *   starfocus_params params;
  *   starfocus_params_init(&params);
- *   params.lens.focus = 3.5;
+ *   params.focus = 3.5;
  *   status = starfocus_refocus(engine, &params, &light_field, &picture, NULL);
  *   starfocus_destroy(engine);
  *   return status;
@@ -69,13 +70,18 @@
  * **Errors.** Functions that can fail return a starfocus_status. A function checks all its
  * arguments before it writes any output. The status is the kind of error; a starfocus_problem names
  * the wrong field or argument, its value, and the allowed range. After a call with an engine,
- * starfocus_engine_problem returns the problem. Calls that take a configuration write the problem
- * to starfocus_config.problem, if that pointer is not null.
+ * starfocus_engine_problem returns the problem. Functions without an engine write the problem to
+ * their last argument, unless it is null.
  *
- * **Bindings.** Compare starfocus_abi_version() with STARFOCUS_ABI_VERSION, and the size of each
- * declared structure with starfocus_struct_size(). Within one ABI version, only structures with a
- * field `size` grow, and only at their end. Enumerators are passed as int32_t. Inline functions are
- * not exported: call the functions with the suffix _sized instead.
+ * **Bindings.** Compare the ABI that starfocus_version() reports with STARFOCUS_ABI, and build
+ * structures from starfocus_fields(). Within one ABI, only structures with a field `size` grow, and
+ * only at their end. The structures without this field are frozen. Enumerators are passed as
+ * int32_t. Inline functions are not exported: instead of the init functions, call
+ * starfocus_defaults.
+ *
+ * **Stability.** starfocus/experimental.h contains what may still change: modes and renderers,
+ * tuning with its limits (STARFOCUS_MAX_TIMING, STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE), and
+ * measurements by layer (STARFOCUS_LAYERS). This header contains all other limits.
  */
 #ifndef STARFOCUS_STARFOCUS_H_
 #define STARFOCUS_STARFOCUS_H_
@@ -83,20 +89,66 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "starfocus/callbacks.h"
 #include "starfocus/image.h"
-#include "starfocus/lens.h"
-#include "starfocus/status.h"
-#include "starfocus/tuning.h"
 #include "starfocus/version.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/** Version of the ABI. The version grows when a public structure or the meaning of a function
- *  changes. */
-#define STARFOCUS_ABI_VERSION 3u
+/** Marks the functions that the library exports. */
+#if defined(__GNUC__)
+#define STARFOCUS_API __attribute__((visibility("default")))
+#else
+#define STARFOCUS_API
+#endif
+
+/** Status that an API call returns. */
+typedef enum starfocus_status {
+  STARFOCUS_OK = 0,              /**< Success. */
+  STARFOCUS_ERROR_NULL = 1,      /**< A required pointer is null. */
+  STARFOCUS_ERROR_STRUCTURE = 2, /**< A structure was not initialized by its init function. */
+  STARFOCUS_ERROR_RANGE = 3,     /**< A field or an argument is out of range. */
+  STARFOCUS_ERROR_FEATURE = 4,   /**< The engine lacks a required feature or view. */
+  STARFOCUS_ERROR_STATE = 5,     /**< No stream is active, or only some rows have coverage. */
+  STARFOCUS_ERROR_WORKSPACE = 6, /**< The given memory is too small or not aligned. */
+  STARFOCUS_ERROR_TOO_LARGE = 7, /**< The configuration requires more memory than is addressable. */
+  STARFOCUS_ERROR_MEMORY = 8,    /**< Memory could not be allocated. */
+  STARFOCUS_ERROR_STRIDE = 9,    /**< A stride is smaller than a row, or not aligned. */
+  STARFOCUS_ERROR_OVERLAP = 10,  /**< An output overlaps an input or the workspace. */
+  STARFOCUS_ERROR_BLUR = 11,     /**< The blur radius aperture * |d - focus| exceeds max_blur at
+                                      disparity_min or disparity_max. */
+  STARFOCUS_ERROR_DISPARITY = 12,   /**< A disparity is outside the configured range. */
+  STARFOCUS_ERROR_NOT_FINITE = 13,  /**< A disparity is NaN or infinite. */
+  STARFOCUS_ERROR_ALL_INVALID = 14, /**< The disparity map has no finite value. */
+  STARFOCUS_ERROR_PREPARED = 15,    /**< The prepared light field has another configuration. */
+  STARFOCUS_ERROR_RUNNER = 16,      /**< The runner failed or misused its jobs; the output is
+                                         incomplete. */
+  STARFOCUS_ERROR_CANCELLED = 17    /**< The progress callback cancelled the call; the output is
+                                         incomplete. */
+} starfocus_status;
+
+/** The cause of an error. The strings `field` and `expected` are in static storage and never
+ *  null. */
+typedef struct starfocus_problem {
+  int32_t status;    /**< starfocus_status that the call returned. */
+  int32_t index;     /**< Index of the array element, if `field` contains []; otherwise 0. */
+  const char* field; /**< Wrong field or argument, for example "width" or "views[].strides"; "" if
+                        no single field is wrong. */
+  const char* expected; /**< Allowed values in words, for example "1 to 65535". */
+  double value;         /**< Value that was given; NaN if unknown. */
+  double low;           /**< Smallest allowed value; NaN if there is no range. */
+  double high;          /**< Largest allowed value; NaN if there is no range. */
+  int32_t
+      x; /**< Column of the first wrong disparity in the depth map; -1 if no disparity is wrong. */
+  int32_t y; /**< Row of the same disparity, from the top of the whole map. */
+} starfocus_problem;
+
+/** Describes a status.
+ *  @param status status; any value
+ *  @return a sentence in English, in static storage; never null */
+STARFOCUS_API const char* starfocus_status_string(starfocus_status status);
+
 /** Alignment of workspaces and prepared light fields in bytes: the size of the widest vector
  *  (AVX-512). */
 #define STARFOCUS_ALIGNMENT 64
@@ -108,53 +160,115 @@ extern "C" {
 #define STARFOCUS_MAX_DISPARITY 500.0
 /** Largest blur radius in pixels. */
 #define STARFOCUS_MAX_BLUR 128.0
-/** Number of layers L, which are the picture at full size (L = 0) and two subsampled copies of the
- *  picture. */
-#define STARFOCUS_LAYERS 3
 /** Largest number of workers. */
 #define STARFOCUS_MAX_WORKERS 64
 /** Largest value of starfocus_config.highlights. */
 #define STARFOCUS_MAX_HIGHLIGHTS 64.0
 /** Largest value of starfocus_params.preview_shift. */
 #define STARFOCUS_MAX_PREVIEW 3
+/** Smallest starfocus_params.theta, 0.05 pi. */
+#define STARFOCUS_MIN_THETA 0.15707963267948966
+/** Largest starfocus_params.theta, 0.45 pi. */
+#define STARFOCUS_MAX_THETA 1.413716694115407
+/** Largest absolute starfocus_params.focus. */
+#define STARFOCUS_MAX_FOCUS 1.0e6
+/** Smallest starfocus_params.blades. */
+#define STARFOCUS_MIN_BLADES 3
+/** Largest starfocus_params.blades. */
+#define STARFOCUS_MAX_BLADES 12
+/** Largest starfocus_params.ring_inner. */
+#define STARFOCUS_MAX_RING_INNER 0.9
 
-/** Bits of starfocus_config.features. The workspace reserves memory for the enabled features.
+/** Bits of starfocus_config.features. Each bit reserves memory in the workspace for what it adds.
+ *  Only STARFOCUS_FEATURE_COVERAGE changes pictures; calls that lack another bit are rejected.
  *  @{ */
-/** Enables the paper's renderer, STARFOCUS_RENDERER_LINE_SCAN. */
-#define STARFOCUS_FEATURE_LINE_SCAN 1u
-/** Separates hair and thin structures from the background. */
-#define STARFOCUS_FEATURE_COVERAGE 2u
+/** Separates hair and thin structures from the background; reads starfocus_light_field.coverage. */
+#define STARFOCUS_FEATURE_COVERAGE 1u
 /** Enables the functions starfocus_stream_* and reserves ring buffers of rows. */
-#define STARFOCUS_FEATURE_STREAMING 4u
+#define STARFOCUS_FEATURE_STREAMING 2u
 /** Enables image formats other than packed RGB. Enables depth maps that are smaller than the
  *  picture or have another format than starfocus_depth_float describes. */
-#define STARFOCUS_FEATURE_IMAGES 8u
-/** Fills unknown values of disparity maps (NaN, infinite, or the map's invalid value). An unknown
- *  value between two known values of its row gets the smaller value. At the ends of a row, an
- *  unknown value gets the nearest known value. A row without a known value gets disparity_min.
- *  Without this feature, calls reject unknown values with STARFOCUS_ERROR_NOT_FINITE. Alternatives
- *  are starfocus_repair_disparity, which finds the values from the views, and
- *  starfocus_fill_disparity, which fills a whole map. */
-#define STARFOCUS_FEATURE_FILL_UNKNOWN 16u
+#define STARFOCUS_FEATURE_IMAGES 4u
 /** Enables polygons and cat's eyes, and reserves larger tables. Without this feature, calls reject
  *  polygons and cat's eyes with STARFOCUS_ERROR_FEATURE. */
-#define STARFOCUS_FEATURE_SHAPES 32u
+#define STARFOCUS_FEATURE_SHAPES 8u
 /** @} */
 
-/** Returns the version of the library's ABI.
- *  @return the STARFOCUS_ABI_VERSION that the library was built with */
-STARFOCUS_API uint32_t starfocus_abi_version(void);
+/** Treatment of unknown values of disparity maps: NaN, infinite, or the map's invalid value. */
+typedef enum starfocus_unknown {
+  /** Calls reject unknown values with STARFOCUS_ERROR_NOT_FINITE. Alternatives to filling are
+   *  starfocus_repair_disparity, which finds the values from the views, and
+   *  starfocus_fill_disparity, which fills a whole map. */
+  STARFOCUS_UNKNOWN_REFUSE = 0,
+  /** An unknown value between two known values of its row gets the smaller value. At the ends of a
+   *  row, an unknown value gets the nearest known value. A row without a known value gets
+   *  disparity_min. */
+  STARFOCUS_UNKNOWN_FILL = 1
+} starfocus_unknown;
 
 /** Returns the version of the library.
+ *  @param abi receives the STARFOCUS_ABI that the library was built with; may be null. A program
+ *         whose STARFOCUS_ABI differs must not call other functions
  *  @return the STARFOCUS_VERSION_STRING that the library was built with, for example "0.1.0", in
  *         static storage */
-STARFOCUS_API const char* starfocus_version(void);
+STARFOCUS_API const char* starfocus_version(uint32_t* abi);
 
-/** Returns the size of a public structure in the library. Bindings compare this size with the size
- *  of their declaration.
- *  @param name name of the structure, for example "starfocus_config"
- *  @return size in bytes, or 0 if the name is unknown or null */
-STARFOCUS_API size_t starfocus_struct_size(const char* name);
+/** Sets a structure to its defaults, and its field `size`. This function is for bindings; programs
+ *  in C and C++ call the function of the structure, for example starfocus_config_init.
+ *  @param structure name of a structure with a field `size`, for example "starfocus_config"
+ *  @param to structure; no-op if null
+ *  @param size size in bytes of the structure that the caller knows
+ *  @return STARFOCUS_OK, or STARFOCUS_ERROR_NULL or STARFOCUS_ERROR_RANGE if the name is null or
+ *         unknown */
+STARFOCUS_API starfocus_status starfocus_defaults(const char* structure, void* to, uint32_t size);
+
+/** Function of the engine that runs one job of a set. The runner calls this function once with
+ *  every index in [0, count). An invalid call of this function does nothing, and the API call that
+ *  started the jobs returns STARFOCUS_ERROR_RUNNER.
+ *  @param job_data pointer that the runner received
+ *  @param index index of the job
+ *  @param worker worker in [0, max_workers). Jobs that run at the same time must use different
+ *         workers */
+typedef void (*starfocus_job)(void* job_data, int32_t index, int32_t worker);
+
+/** Runs a set of jobs in any order and returns when all jobs are done. Jobs with small indices take
+ *  the longest time. If the runner returns before all jobs are done, the engine waits for running
+ *  jobs and rejects jobs that start later. In this case, the engine's call returns
+ *  STARFOCUS_ERROR_RUNNER.
+ *  @param runner_data starfocus_callbacks.runner_data
+ *  @param job function to call
+ *  @param job_data first argument of `job`
+ *  @param count number of jobs, > 0
+ *  @return 0 for success; another value makes the engine's call return STARFOCUS_ERROR_RUNNER */
+typedef int (*starfocus_runner)(void* runner_data, starfocus_job job, void* job_data,
+                                int32_t count);
+
+/** Receives the progress of a call and may cancel the call. The engine calls this callback at every
+ *  job and about every 500,000 samples, which take a fraction of a millisecond on a desktop. With a
+ *  runner, any thread that runs a job may call the callback, but only one thread at a time does so.
+ *  The callback must not use the engine or the engine's memory.
+ *
+ *  After cancellation the callback is not called again, and the engine's call returns
+ *  STARFOCUS_ERROR_CANCELLED as soon as all workers have stopped. The output of a cancelled call is
+ *  unspecified, and the engine can be used again. For streams, see starfocus_stream_pull.
+ *  @param data starfocus_callbacks.progress_data
+ *  @param rows_done number of finished rows, which never decreases within a call and ends at
+ *         `rows`. In functions that write a picture, except streams, the first `rows_done` rows of
+ *         the output are complete and do not change again
+ *  @param rows number of all rows
+ *  @return 0 to continue; another value cancels the call */
+typedef int (*starfocus_progress)(void* data, int32_t rows_done, int32_t rows);
+
+/** Callbacks of an engine, or of a call of starfocus/depth.h. Each function may be null. */
+typedef struct starfocus_callbacks {
+  starfocus_runner runner;     /**< Runs jobs; null: the calling thread runs them as worker 0. */
+  void* runner_data;           /**< Passed to `runner`. */
+  starfocus_progress progress; /**< Receives finished rows of the picture, region or preview. */
+  void* progress_data;         /**< Passed to `progress`. */
+  /** Measures an engine (starfocus/experimental.h); may be null. Calls of starfocus/depth.h do not
+   *  read it. */
+  const struct starfocus_observer* observer;
+} starfocus_callbacks;
 
 /** Position of a captured view in units of u. */
 typedef struct starfocus_position {
@@ -198,10 +312,8 @@ typedef struct starfocus_config {
    *  superblocks of 64 pixels. starfocus_report.superblock reports the selected side. */
   int32_t superblock;
   int32_t max_workers; /**< Number of workers, [1, STARFOCUS_MAX_WORKERS]; default 1. */
-  /** Bits STARFOCUS_FEATURE_*; default LINE_SCAN and COVERAGE. Without LINE_SCAN,
-   *  STARFOCUS_RENDERER_AUTO always selects slices, and calls reject STARFOCUS_RENDERER_LINE_SCAN
-   *  with STARFOCUS_ERROR_FEATURE. */
-  uint32_t features;
+  uint32_t features;   /**< Bits STARFOCUS_FEATURE_*; default COVERAGE. */
+  int32_t unknown;     /**< starfocus_unknown; default STARFOCUS_UNKNOWN_REFUSE. */
   /** Largest starfocus_params.preview_shift, [0, STARFOCUS_MAX_PREVIEW]; default 0. With a value s
    *  > 0, starfocus_prepare additionally stores reduced light fields, down to 1 / 2^s of the size.
    *  Previews do not enlarge the workspace. */
@@ -215,25 +327,17 @@ typedef struct starfocus_config {
   double highlights;
   /** Positions of the views, rounded to 1/16384. The first position must be (0, 0), and all
    *  positions must differ. Default all 0, which selects the positions of starfocus_view_position.
-   *  STARFOCUS_RENDERER_LINE_SCAN and starfocus/depth.h require the positions of
-   *  starfocus_view_position. */
+   *  starfocus_repair_disparity and STARFOCUS_RENDERER_LINE_SCAN require these positions. */
   starfocus_position positions[STARFOCUS_MAX_VIEWS];
-  starfocus_tuning tuning; /**< Trade-offs between time and error. */
-  /** Receives the cause of an error of calls that take this configuration; default null. For calls
-   *  with an engine, starfocus_engine_problem returns the cause instead. */
-  starfocus_problem* problem;
+  /** Trade-offs between time and error (starfocus/experimental.h), copied when an engine is made;
+   *  default null, which selects the defaults of starfocus_tuning_init. */
+  const struct starfocus_tuning* tuning;
 } starfocus_config;
-
-/** Sets the first `size` bytes of a configuration to the defaults. This function is for bindings;
- *  programs in C and C++ call starfocus_config_init.
- *  @param config configuration; no-op if null
- *  @param size size in bytes of the structure that the caller knows */
-STARFOCUS_API void starfocus_config_init_sized(starfocus_config* config, uint32_t size);
 
 /** Sets a configuration to the defaults.
  *  @param config configuration; no-op if null */
 static inline void starfocus_config_init(starfocus_config* config) {
-  starfocus_config_init_sized(config, (uint32_t)sizeof(starfocus_config));
+  starfocus_defaults("starfocus_config", config, (uint32_t)sizeof *config);
 }
 
 /** Returns the position of a view in the star-shaped pattern of the paper. Sets of 1, 5 and 9 views
@@ -242,15 +346,18 @@ static inline void starfocus_config_init(starfocus_config* config) {
  *  distance.
  *  @param index index of the view, [0, STARFOCUS_MAX_VIEWS)
  *  @param u,v receive the position
- *  @return 1, or 0 if `index` is out of range or a pointer is null */
-STARFOCUS_API int starfocus_view_position(int32_t index, double* u, double* v);
+ *  @param problem receives the cause of an error; may be null
+ *  @return STARFOCUS_OK, STARFOCUS_ERROR_RANGE or STARFOCUS_ERROR_NULL */
+STARFOCUS_API starfocus_status starfocus_view_position(int32_t index, double* u, double* v,
+                                                       starfocus_problem* problem);
 
 /** Computes the size of the workspace of a configuration.
  *  @param config configuration
  *  @param bytes receives the size in bytes
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_workspace_size(const starfocus_config* config,
-                                                        size_t* bytes);
+                                                        size_t* bytes, starfocus_problem* problem);
 
 /** An engine, which lives in its workspace. */
 typedef struct starfocus_engine starfocus_engine;
@@ -261,9 +368,11 @@ typedef struct starfocus_engine starfocus_engine;
  *  @param workspace memory aligned to STARFOCUS_ALIGNMENT, which must outlive the engine
  *  @param bytes size of the workspace, at least starfocus_workspace_size
  *  @param engine receives the engine, or null on error
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, STARFOCUS_ERROR_WORKSPACE, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_init(const starfocus_config* config, void* workspace,
-                                              size_t bytes, starfocus_engine** engine);
+                                              size_t bytes, starfocus_engine** engine,
+                                              starfocus_problem* problem);
 
 /** Returns the problem that the engine's last call reported. The problem is stored in the
  *  workspace, and the next call with the engine overwrites this problem.
@@ -274,8 +383,9 @@ STARFOCUS_API const starfocus_problem* starfocus_engine_problem(const starfocus_
 /** Sets the callbacks of all later calls with the engine, and replaces earlier callbacks. Callbacks
  *  may be replaced between two calls of a stream. A new engine has no callbacks.
  *  @param engine engine
- *  @param callbacks callbacks, of which the engine keeps a copy
- *  @return STARFOCUS_OK or STARFOCUS_ERROR_NULL */
+ *  @param callbacks callbacks; the engine keeps a copy, also of the observer
+ *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL, or STARFOCUS_ERROR_STRUCTURE if the observer was not
+ *          initialized */
 STARFOCUS_API starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
                                                        const starfocus_callbacks* callbacks);
 
@@ -294,46 +404,17 @@ typedef struct starfocus_allocator {
  *  @param config configuration; the engine keeps a copy
  *  @param allocator allocator; null: malloc and free
  *  @param engine receives the engine, or null on error
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, STARFOCUS_ERROR_MEMORY, STARFOCUS_ERROR_NULL if a function of the
  *  allocator is null, or an error of the configuration */
 STARFOCUS_API starfocus_status starfocus_create(const starfocus_config* config,
                                                 const starfocus_allocator* allocator,
-                                                starfocus_engine** engine);
+                                                starfocus_engine** engine,
+                                                starfocus_problem* problem);
 
 /** Frees an engine that starfocus_create created. No call with the engine may be running.
  *  @param engine engine; no-op for a null pointer and for engines that starfocus_init created */
 STARFOCUS_API void starfocus_destroy(starfocus_engine* engine);
-
-/** Mode of refocusing, which determines the division of the picture into blocks and the number of
- *  rendered views. */
-typedef enum starfocus_mode {
-  /** One N, the number of views along the radius, for the whole picture, by equation (9). */
-  STARFOCUS_MODE_FRAME = 0,
-  /** N = 2 ceil(r_max) for the whole picture: the paper's benchmark of quality. In this mode, the
-   *  slice renderer uses thinner slices than in other modes. */
-  STARFOCUS_MODE_BENCHMARK = 1,
-  /** Blocks of different sizes, each with its own N and layer (section V). The half-band filters of
-   *  layers 1 and 2 overshoot: the light of a pixel may lie outside the range of the surrounding
-   *  light. The overshoot is up to 4 % of this range with slices, and up to 13 % with line scans.
-   *  With shapes other than the default, the overshoot is up to 4 % with slices, and up to 50 %
-   *  with line scans. With STARFOCUS_TRANSFER_SRGB, 4 % of white is the code 56. */
-  STARFOCUS_MODE_BLOCK = 2,
-  /** The centre view, blurred by the point-spread function (4) without other views.
-   *  STARFOCUS_MODE_BLUR takes up to ten times as long as STARFOCUS_MODE_BLOCK. */
-  STARFOCUS_MODE_BLUR = 3
-} starfocus_mode;
-
-/** Method that renders views. */
-typedef enum starfocus_renderer {
-  /** Line scans for STARFOCUS_MODE_FRAME with 5 or more views at the positions of
-   *  starfocus_view_position; otherwise slices. */
-  STARFOCUS_RENDERER_AUTO = 0,
-  /** The paper's line scan (section IV), with views about one pixel apart (9). Requires
-   *  STARFOCUS_FEATURE_LINE_SCAN and the views of starfocus_view_position. */
-  STARFOCUS_RENDERER_LINE_SCAN = 1,
-  /** Slices of the scene, with fewer views: each view stands for a subaperture of the lens. */
-  STARFOCUS_RENDERER_SLICES = 2
-} starfocus_renderer;
 
 /** A rectangle inside the picture, in pixels. If all fields are 0, the region is the whole
  *  picture. */
@@ -344,8 +425,11 @@ typedef struct starfocus_region {
   int32_t height; /**< Number of rows, >= 1. */
 } starfocus_region;
 
-/** A light field. All views have the configured size, but their formats may differ. */
+/** A light field. All views have the configured size, but their formats may differ. Call
+ *  starfocus_light_field_init first, or set `size` to sizeof(starfocus_light_field) and all other
+ *  fields to zero. */
 typedef struct starfocus_light_field {
+  uint32_t size; /**< Size of the structure in bytes; set by starfocus_light_field_init. */
   /** The configured number of views, in the order of starfocus_view_position or
    *  starfocus_config.positions. */
   starfocus_image views[STARFOCUS_MAX_VIEWS];
@@ -359,73 +443,117 @@ typedef struct starfocus_light_field {
   size_t coverage_stride; /**< Bytes from row to row of `coverage`, >= width. */
 } starfocus_light_field;
 
+/** Makes a light field without views, depth and coverage.
+ *  @param light_field light field; no-op if null */
+static inline void starfocus_light_field_init(starfocus_light_field* light_field) {
+  starfocus_defaults("starfocus_light_field", light_field, (uint32_t)sizeof *light_field);
+}
+
 /** The previous frame of a video: its light field and its picture. The light field and the picture
  *  must belong to the current configuration and to the current starfocus_params, except for the
  *  field `previous`. The engine does not check this condition. Where the light field did not
- *  change, the engine copies pixels of the previous picture. */
+ *  change, the engine copies pixels of the previous picture. Call starfocus_previous_init first. */
 typedef struct starfocus_previous {
-  starfocus_light_field light_field; /**< Light field of the previous frame. */
-  starfocus_image out; /**< Picture or region that starfocus_refocus wrote for `light_field`. */
+  uint32_t size; /**< Size of the structure in bytes; set by starfocus_previous_init. */
+  const starfocus_light_field* light_field; /**< Light field of the previous frame. */
+  /** Picture or region that starfocus_refocus wrote for `light_field`. */
+  const starfocus_image* out;
 } starfocus_previous;
 
-/** Parameters of one refocusing. Call starfocus_params_init first. */
+/** Sets both pointers to null.
+ *  @param previous previous frame; no-op if null */
+static inline void starfocus_previous_init(starfocus_previous* previous) {
+  starfocus_defaults("starfocus_previous", previous, (uint32_t)sizeof *previous);
+}
+
+/** Shape of the aperture within the disc of its radius. */
+typedef enum starfocus_shape {
+  STARFOCUS_SHAPE_FALL_OFF = 0, /**< The paper's disc (3), which is darker towards its rim. */
+  STARFOCUS_SHAPE_DISC = 1,     /**< A disc of constant brightness. */
+  STARFOCUS_SHAPE_POLYGON = 2,  /**< A polygon with corners on the rim of the disc, like a diaphragm
+                                   with blades. Requires STARFOCUS_FEATURE_SHAPES. */
+  STARFOCUS_SHAPE_RING = 3      /**< A disc with a hole, like the opening of a mirror lens. */
+} starfocus_shape;
+
+/** Parameters of one refocusing: the lens, and which part of the picture to compute. Call
+ *  starfocus_params_init first. A call reads the structures that `previous` and `study` point to
+ *  only until it returns. The first call after a change of shape, blades, theta, rotation,
+ *  curvature or ring_inner computes tables for the new aperture. Every call checks all fields,
+ *  including the fields that the shape does not use. */
 typedef struct starfocus_params {
-  uint32_t size;    /**< Size of the structure in bytes; set by starfocus_params_init. */
-  int32_t mode;     /**< starfocus_mode; default STARFOCUS_MODE_BLOCK. */
-  int32_t renderer; /**< starfocus_renderer; default STARFOCUS_RENDERER_AUTO. Ignored by
-                         STARFOCUS_MODE_BLUR. */
-  /** Part of the picture to compute. All fields are 0 by default, which streams require. */
-  starfocus_region region;
-  starfocus_lens lens; /**< The lens; see starfocus_lens for its defaults. */
+  uint32_t size; /**< Size of the structure in bytes; set by starfocus_params_init. */
+  int32_t shape; /**< starfocus_shape; default STARFOCUS_SHAPE_FALL_OFF. Polygons and cat's eyes are
+                    slower, because their blur is not gathered (starfocus_tuning.gather). */
+  int32_t blades; /**< Polygon: number of corners, [STARFOCUS_MIN_BLADES, STARFOCUS_MAX_BLADES];
+                       default 5. */
   /** For starfocus_refocus_prepared: the picture has 1 / 2^preview_shift of the full size. Range
    *  [0, starfocus_config.previews]; default 0. */
   int32_t preview_shift;
+  double focus; /**< Disparity in focus (d_t), |focus| <= STARFOCUS_MAX_FOCUS; default 0. */
+  /** Extent of the range in focus on the near side of `focus`. Disparities from focus to focus +
+   *  focus_nearer are sharp. The blur of larger disparities grows with their distance from focus +
+   *  focus_nearer. Range [0, STARFOCUS_MAX_FOCUS - focus]; default 0. */
+  double focus_nearer;
+  /** Extent of the range in focus on the far side of `focus`. Disparities from focus -
+   *  focus_farther to focus are sharp. Range [0, STARFOCUS_MAX_FOCUS + focus]; default 0. */
+  double focus_farther;
+  double aperture; /**< Radius of the aperture (u_t), [0, 1]; at 0 the result is the centre view,
+                      byte for byte; default 1. */
+  double theta; /**< Fall-off: angle of (3) in radians, [STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA];
+                     default 0.26 pi. */
+  double rotation;   /**< Polygon: rotation in degrees, clockwise, [-360, 360]; default 0: a corner
+                          points up. */
+  double curvature;  /**< Polygon: radius of the disc divided by the radius of the edges, [0, 1]; 0,
+                        the default: straight edges; 1: a disc. */
+  double ring_inner; /**< Ring: radius of the hole divided by the radius of the disc, [0,
+                        STARFOCUS_MAX_RING_INNER]; default 0.5. */
+  /** Cat's eye: distance of a second rim from the axis, in radii of the lens, as seen from a corner
+   *  of the picture, [0, 1]. Light passes only inside both rims. The distance of the second rim
+   *  falls to 0 towards the middle of the picture. The cut by the second rim does not darken the
+   *  picture. Values above 0 require STARFOCUS_FEATURE_SHAPES. STARFOCUS_MODE_BLUR ignores
+   *  cats_eye. Default 0. */
+  double cats_eye;
+  /** Part of the picture to compute. All fields are 0 by default, which streams require. */
+  starfocus_region region;
   /** For starfocus_refocus: the previous frame, from which unchanged superblocks are copied. The
    *  output bytes do not depend on `previous`. Both light fields and both pictures must have
    *  formats that do not require STARFOCUS_FEATURE_IMAGES. Default null. */
   const starfocus_previous* previous;
+  /** Mode and renderer (starfocus/experimental.h); default null, which selects
+   *  STARFOCUS_MODE_BLOCK. */
+  const struct starfocus_study* study;
 } starfocus_params;
-
-/** Sets the first `size` bytes of parameters to the defaults. This function is for bindings;
- *  programs in C and C++ call starfocus_params_init.
- *  @param params parameters; no-op if null
- *  @param size size in bytes of the structure that the caller knows */
-STARFOCUS_API void starfocus_params_init_sized(starfocus_params* params, uint32_t size);
 
 /** Sets parameters to the defaults.
  *  @param params parameters; no-op if null */
 static inline void starfocus_params_init(starfocus_params* params) {
-  starfocus_params_init_sized(params, (uint32_t)sizeof(starfocus_params));
+  starfocus_defaults("starfocus_params", params, (uint32_t)sizeof *params);
 }
 
-/** Statistics of the blocks of one layer. */
-typedef struct starfocus_layer_report {
-  uint64_t blocks; /**< Number of blocks. */
-  uint64_t pixels; /**< Number of pixels of the picture that the blocks cover. */
-  uint64_t views;  /**< Number of rendered views, summed over the blocks; a block that is copied or
-                      gathered as a whole counts as 1. */
-  uint64_t rendered_samples; /**< R, G and B samples rendered in all views and slices. */
-  uint64_t predicted_ps;     /**< Time predicted by starfocus_timing, picoseconds. */
-  uint64_t measured_ns; /**< Time measured by starfocus_callbacks.clock, summed over the workers,
-                             nanoseconds; 0 without a clock. */
-} starfocus_layer_report;
-
-/** Statistics of a refocusing. */
+/** Statistics of a refocusing. Call starfocus_report_init first. */
 typedef struct starfocus_report {
-  double r_max; /**< Largest blur radius that the disparity range allows, pixels. */
-  int32_t n;    /**< N, the number of views along the radius of the aperture; the largest N of all
-                   blocks. */
+  uint32_t size; /**< Size of the structure in bytes; set by starfocus_report_init. */
+  int32_t n;     /**< N, the number of views along the radius of the aperture; the largest N of all
+                    blocks. */
   int32_t rendered_views;    /**< Number of rendered views with `n` views along the radius. */
   int32_t superblock;        /**< Side of the superblocks, pixels. */
+  double r_max;              /**< Largest blur radius that the disparity range allows, pixels. */
   uint64_t rendered_samples; /**< R, G and B samples rendered in all views and layers. */
-  /** Statistics of each layer. Frame modes use only layer 0. */
-  starfocus_layer_report layers[STARFOCUS_LAYERS];
-  uint64_t copied_pixels;   /**< Pixels copied from the centre view because no view moves them. */
-  uint64_t gathered_pixels; /**< Pixels blurred without views (starfocus_tuning.gather). */
-  uint64_t reused_blocks;   /**< Superblocks copied from starfocus_params.previous. */
-  uint64_t unknown_pixels;  /**< Number of disparities that STARFOCUS_FEATURE_FILL_UNKNOWN filled in
-                               the rows that were read; 0 for prepared light fields. */
+  uint64_t copied_pixels;    /**< Pixels copied from the centre view because no view moves them. */
+  uint64_t gathered_pixels;  /**< Pixels blurred without views (starfocus_tuning.gather). */
+  uint64_t reused_blocks;    /**< Superblocks copied from starfocus_params.previous. */
+  uint64_t unknown_pixels;   /**< Number of disparities that STARFOCUS_UNKNOWN_FILL filled in
+                                the rows that were read; 0 for prepared light fields. */
+  /** Receives the statistics of each layer (starfocus/experimental.h): STARFOCUS_LAYERS elements,
+   *  of which frame modes use only the first. Default null. */
+  struct starfocus_layer_report* layers;
 } starfocus_report;
+
+/** Sets all statistics to 0.
+ *  @param report statistics; no-op if null */
+static inline void starfocus_report_init(starfocus_report* report) {
+  starfocus_defaults("starfocus_report", report, (uint32_t)sizeof *report);
+}
 
 /** Refocuses a light field. A refocused region is equal, byte for byte, to the corresponding part
  *  of the whole refocused picture. The engine computes only the blocks on which the region depends,
@@ -453,11 +581,10 @@ typedef struct starfocus_prepared starfocus_prepared;
  *  and 2 take about 1.9 bytes per pixel (less with a smaller starfocus_tuning.max_layer). Each
  *  preview takes 3 bytes per pixel of each reduced view, plus 3 bytes per pixel for disparity and
  *  coverage.
- *  @param config configuration
+ *  @param engine engine
  *  @param bytes receives the size in bytes
- *  @return STARFOCUS_OK, or an error of the configuration */
-STARFOCUS_API starfocus_status starfocus_prepared_size(const starfocus_config* config,
-                                                       size_t* bytes);
+ *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL or STARFOCUS_ERROR_TOO_LARGE */
+STARFOCUS_API starfocus_status starfocus_prepared_size(starfocus_engine* engine, size_t* bytes);
 
 /** Converts and checks the disparities of a light field and subsamples its centre view, so that
  *  many refocusings can share the results. Later calls read the views again, so the pixels of the
@@ -572,9 +699,11 @@ typedef struct starfocus_disparity_stats {
  *  disparity_max of this range accept the map.
  *  @param depth map of any format, whose size is [1, STARFOCUS_MAX_SIZE]
  *  @param stats receives the range
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, or an error of the arguments */
 STARFOCUS_API starfocus_status starfocus_measure_disparity(const starfocus_depth_map* depth,
-                                                           starfocus_disparity_stats* stats);
+                                                           starfocus_disparity_stats* stats,
+                                                           starfocus_problem* problem);
 
 /** Fills the values of a disparity map that are NaN or infinite, in place. Between two finite
  *  values of a row, all values are set to the smaller finite value, which belongs to the farther
@@ -584,10 +713,12 @@ STARFOCUS_API starfocus_status starfocus_measure_disparity(const starfocus_depth
  *  @param disparity map, aligned to 4 bytes
  *  @param stride bytes from row to row, a multiple of 4, >= 4 * width
  *  @param width,height size of the map in pixels, [1, STARFOCUS_MAX_SIZE]
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, an error of the arguments, or STARFOCUS_ERROR_ALL_INVALID if no value is
  *          finite */
 STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t stride,
-                                                        int32_t width, int32_t height);
+                                                        int32_t width, int32_t height,
+                                                        starfocus_problem* problem);
 
 /** Finds the focus for a pixel of the picture, for example for a pixel that a user tapped. The
  *  function reads the value of the map that contains the middle of the pixel, and the known values
@@ -599,32 +730,63 @@ STARFOCUS_API starfocus_status starfocus_fill_disparity(float* disparity, size_t
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
  *  @param x,y pixel inside the picture
  *  @param focus receives the disparity to focus at
+ *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, an error of the arguments, or STARFOCUS_ERROR_NOT_FINITE if all 7 x 7
  *          disparities are unknown */
 STARFOCUS_API starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t width,
                                                   int32_t height, int32_t x, int32_t y,
-                                                  double* focus);
+                                                  double* focus, starfocus_problem* problem);
 
 /** Computes the largest aperture that an engine accepts: the aperture at which the largest blur
  *  radius of the configured range of disparities is max_blur, but at most 1.
  *  @param engine engine
- *  @param lens lens, of which the aperture is ignored
- *  @param aperture receives the aperture; may point to lens->aperture
+ *  @param params range in focus; the other fields are ignored
+ *  @param aperture receives the aperture; may point to params->aperture
  *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL, or STARFOCUS_ERROR_RANGE if the focus is out of
  *          range */
 STARFOCUS_API starfocus_status starfocus_largest_aperture(starfocus_engine* engine,
-                                                          const starfocus_lens* lens,
+                                                          const starfocus_params* params,
                                                           double* aperture);
 
-/** Computes the aperture of an f-stop: widest / f_stop.
- *  @param f_stop f-stop of the requested lens, finite, >= widest
- *  @param widest f-stop of a lens with aperture 1, > 0: the focal length divided by the distance
- *         between views (1, 0) and (-1, 0). If widest is 1, f-stops are relative to the lens with
- *         aperture 1
- *  @param aperture receives the aperture
- *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL or STARFOCUS_ERROR_RANGE */
-STARFOCUS_API starfocus_status starfocus_aperture_of_f_stop(double f_stop, double widest,
-                                                            double* aperture);
+/** Size of a plane of a picture, for copies of planes.
+ *  @param image picture, of which format and pixel_stride are read
+ *  @param plane index of the plane, at least 0 and less than the number of planes of the format
+ *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
+ *  @param rows receives the number of rows
+ *  @param row_bytes receives the number of bytes of a row, without padding at its end
+ *  @param problem receives the cause of an error; may be null
+ *  @return STARFOCUS_OK, or an error of the arguments */
+STARFOCUS_API starfocus_status starfocus_plane_size(const starfocus_image* image, int32_t plane,
+                                                    int32_t width, int32_t height, int32_t* rows,
+                                                    size_t* row_bytes, starfocus_problem* problem);
+
+/** Type of a field of a public structure. */
+typedef enum starfocus_field_type {
+  STARFOCUS_FIELD_INT32 = 0,    /**< int32_t, also for enumerations. */
+  STARFOCUS_FIELD_UINT32 = 1,   /**< uint32_t, or size_t with 32 bits. */
+  STARFOCUS_FIELD_INT64 = 2,    /**< int64_t. */
+  STARFOCUS_FIELD_UINT64 = 3,   /**< uint64_t, or size_t with 64 bits. */
+  STARFOCUS_FIELD_DOUBLE = 4,   /**< double. */
+  STARFOCUS_FIELD_POINTER = 5,  /**< A pointer to data or to a function. */
+  STARFOCUS_FIELD_STRUCTURE = 6 /**< A structure by value, whose name is `structure`. */
+} starfocus_field_type;
+
+/** A field of a public structure, in static storage. */
+typedef struct starfocus_field {
+  const char* name;      /**< Name of the field, for example "width". */
+  const char* structure; /**< Name of the nested structure, or null. */
+  uint32_t offset;       /**< Bytes before the field. */
+  uint32_t count;        /**< Number of elements of an array; 1 for a single field. */
+  int32_t type;          /**< starfocus_field_type, of an element for arrays. */
+} starfocus_field;
+
+/** Lists the fields of a public structure, from which bindings build their structures.
+ *  @param structure name of the structure, for example "starfocus_config"
+ *  @param fields receives the first field, in the order of offsets; may be null
+ *  @param count receives the number of fields; may be null
+ *  @return the size of the structure in bytes, or 0 if the name is unknown or null */
+STARFOCUS_API size_t starfocus_fields(const char* structure, const starfocus_field** fields,
+                                      int32_t* count);
 
 /** Returns the SIMD target that the kernels use on this machine.
  *  @return the name of the target, for example "AVX2", in static storage */

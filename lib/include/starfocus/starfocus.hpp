@@ -11,19 +11,66 @@
 #include <new>
 #include <utility>
 
+#include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
 
-/** Configuration with the defaults of starfocus_config_init. */
+/** Configuration with the defaults and a tuning of its own. */
 struct Config : starfocus_config {
-  Config() { starfocus_config_init(this); }
+  Config() {
+    starfocus_config_init(this);
+    starfocus_tuning_init(&tuning);
+    starfocus_config::tuning = &tuning;
+  }
+  Config(const Config& other) : Config() { *this = other; }
+  Config& operator=(const Config& other) {
+    static_cast<starfocus_config&>(*this) = other;
+    tuning = other.tuning;
+    starfocus_config::tuning = &tuning;
+    return *this;
+  }
+
+  starfocus_tuning tuning; /**< Hides the pointer of starfocus_config, which points here. */
 };
 
-/** Parameters with the defaults of starfocus_params_init. */
+/** Parameters with the defaults and a study of their own. */
 struct Params : starfocus_params {
-  Params() { starfocus_params_init(this); }
+  Params() {
+    starfocus_params_init(this);
+    starfocus_study_init(&study);
+    starfocus_params::study = &study;
+  }
+  /** Copies the study, unless it is null. */
+  explicit Params(const starfocus_params& other) : starfocus_params(other) {
+    starfocus_study_init(&study);
+    if (other.study != nullptr) study = *other.study;
+    starfocus_params::study = &study;
+  }
+  Params(const Params& other) : Params(static_cast<const starfocus_params&>(other)) {}
+  Params& operator=(const Params& other) {
+    static_cast<starfocus_params&>(*this) = other;
+    study = other.study;
+    starfocus_params::study = &study;
+    return *this;
+  }
+
+  starfocus_study study; /**< Hides the pointer of starfocus_params, which points here. */
 };
+
+/** Returns a light field without views. */
+inline starfocus_light_field NewLightField() {
+  starfocus_light_field light_field;
+  starfocus_light_field_init(&light_field);
+  return light_field;
+}
+
+/** Returns statistics that are all 0. */
+inline starfocus_report NewReport() {
+  starfocus_report report;
+  starfocus_report_init(&report);
+  return report;
+}
 
 /** An engine and the memory it lives in. Engines are movable. One thread at a time may use an
  *  engine. Before Init, and on an engine that was moved from, all calls except Init return
@@ -33,19 +80,18 @@ class Engine {
   /** Allocates a workspace and creates an engine, which replaces any earlier engine. After an error
    *  the earlier engine remains.
    *  @param config configuration
+   *  @param problem receives the cause of an error; may be null
    *  @return as starfocus_create */
-  starfocus_status Init(const starfocus_config& config) {
+  starfocus_status Init(const starfocus_config& config, starfocus_problem* problem = nullptr) {
     size_t bytes = 0;
-    starfocus_status status = starfocus_workspace_size(&config, &bytes);
+    starfocus_status status = starfocus_workspace_size(&config, &bytes, problem);
     if (status != STARFOCUS_OK) return status;
     Owned<starfocus_engine> fresh(bytes);
     if (fresh.memory == nullptr) return STARFOCUS_ERROR_MEMORY;
-    status = starfocus_init(&config, fresh.memory.get(), bytes, &fresh.handle);
+    status = starfocus_init(&config, fresh.memory.get(), bytes, &fresh.handle, problem);
     if (status != STARFOCUS_OK) return status;
     engine_ = std::move(fresh);
     prepared_ = Owned<starfocus_prepared>();
-    config_ = config;
-    config_.problem = nullptr;  // the caller's structure may not outlive this call
     return STARFOCUS_OK;
   }
 
@@ -62,8 +108,7 @@ class Engine {
     return starfocus_refocus(get(), &params, &light_field, &out, report);
   }
 
-  /** Returns the problem that the last call reported. Only Init reports problems in config.problem
-   *  instead.
+  /** Returns the problem that the last call except Init reported.
    *  @return the problem; null before Init */
   const starfocus_problem* problem() const { return starfocus_engine_problem(engine_.handle); }
 
@@ -76,7 +121,7 @@ class Engine {
     prepared_ = Owned<starfocus_prepared>();
     if (get() == nullptr) return STARFOCUS_ERROR_NULL;
     size_t bytes = 0;
-    starfocus_status status = starfocus_prepared_size(&config_, &bytes);
+    starfocus_status status = starfocus_prepared_size(get(), &bytes);
     if (status != STARFOCUS_OK) return status;
     Owned<starfocus_prepared> fresh(bytes);
     if (fresh.memory == nullptr) return STARFOCUS_ERROR_MEMORY;
@@ -144,7 +189,6 @@ class Engine {
 
   Owned<starfocus_engine> engine_;
   Owned<starfocus_prepared> prepared_;
-  starfocus_config config_ = {};
 };
 
 }  // namespace starfocus

@@ -6,6 +6,9 @@
 #ifndef STARFOCUS_VERSION_H_
 #define STARFOCUS_VERSION_H_
 
+/** Number of the ABI, which grows when a public structure or the meaning of a function changes. The
+ *  build takes the version of the shared library and of its symbols from this line. */
+#define STARFOCUS_ABI 1
 /** First number of the version. */
 #define STARFOCUS_VERSION_MAJOR 0
 /** Second number of the version. */

@@ -25,7 +25,7 @@ from .quality import Quality, evaluate
 from .reader import InputError, LightField, read_light_field, read_pfm, read_picture
 from .refocuser import Prepared, Refocuser
 
-__version__: str = _library.starfocus_version().decode()
+__version__: str = _library.starfocus_version(None).decode()
 
 
 def simd_target() -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import operator
 import weakref
+from ctypes import Structure
 from functools import partial
 from typing import Any, Callable, Collection, List, Optional, Sequence, Tuple, Union
 
@@ -36,11 +37,11 @@ def whole(value: Any, what: str) -> int:
     return number
 
 
-def set_field(structure: ctypes.Structure, name: str, value: Any) -> None:
+def set_field(structure: Structure, name: str, value: Any) -> None:
     """Sets a field of a structure. Raises ValueError for an integer that ctypes would truncate."""
     setattr(structure, name, value)
     stored = getattr(structure, name)
-    if isinstance(stored, ctypes.Structure) and isinstance(value, tuple):
+    if isinstance(stored, Structure) and isinstance(value, tuple):
         for (part, _), number in zip(stored._fields_, value):
             set_field(stored, part, number)
     elif isinstance(stored, int) and stored != value:
@@ -174,7 +175,7 @@ def as_map(disparity: Any) -> Array:
     return map_values(disparity, (np.dtype(np.float32),), "disparity")
 
 
-def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int) -> List[Array]:
+def set_coverage(field: Structure, coverage: Any, height: int, width: int) -> List[Array]:
     """Sets the coverage of a starfocus_light_field, unless it is None.
 
     Returns the arrays that must stay alive while the library may read the light field.
@@ -186,7 +187,7 @@ def set_coverage(field: _abi.LightField, coverage: Any, height: int, width: int)
     return [coverage]
 
 
-def as_image(array: Array) -> _abi.Image:
+def as_image(array: Array) -> Structure:
     """Returns a starfocus_image for an array with rows of R, G, B."""
     image = _abi.Image()
     image.planes[0], image.strides[0] = array.ctypes.data, stride_of(array)
@@ -194,7 +195,7 @@ def as_image(array: Array) -> _abi.Image:
 
 
 def light_field(views: Views, disparity: Any, count: int, height: int,
-                width: int) -> Tuple[_abi.LightField, List[Any]]:
+                width: int) -> Tuple[Structure, List[Any]]:
     """Returns a starfocus_light_field, and the arrays that must stay alive while the library may read it.
 
     The views are arrays or Images. The disparity map is an array, a DepthMap, or None if there is no map. The arrays
@@ -203,7 +204,7 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
     views = as_list(views)
     if len(views) != count:
         raise ValueError(f"views: expected {count}, found {len(views)}")
-    field = _abi.LightField()
+    field = _abi.defaults(_abi.LightField)
     kept: List[Any] = []
     for i, view in enumerate(views):
         if hasattr(view, "as_structure"):
@@ -223,7 +224,7 @@ def light_field(views: Views, disparity: Any, count: int, height: int,
     return field, kept
 
 
-def depth_map(disparity: Any) -> Tuple[_abi.DepthMap, Array]:
+def depth_map(disparity: Any) -> Tuple[Structure, Array]:
     """Returns a starfocus_depth_map for a DepthMap or an array, and the array that must stay alive while it is read."""
     if hasattr(disparity, "as_structure"):
         structure, kept = disparity.as_structure()
@@ -288,11 +289,16 @@ class Watch:
             self._error = error
             return 1
 
-    def check(self, status: int, problem: Optional[_abi.Problem] = None) -> None:
+    def check(self, status: int, problem: Optional[Structure] = None) -> None:
         """Raises the exception of the progress function, if there was one, otherwise the error of the status."""
         if self._error is not None:
             raise self._error
         check(status, problem)
+
+
+def callbacks_of(pool: Pool, watch: Watch) -> Structure:
+    """Returns the starfocus_callbacks of a call."""
+    return _abi.Callbacks(pool.runner, pool.handle, watch.function)
 
 
 def pointer(array: Optional[Array]) -> Optional[ctypes.c_void_p]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Optional
+from ctypes import Structure, byref
+from typing import Any, Optional
 
 from ._abi import Problem, library
 from .constants import Status
@@ -17,7 +18,7 @@ class StarfocusError(Exception):
         field: name of the wrong field or argument; "" if no single one is wrong.
     """
 
-    def __init__(self, status: int, problem: Optional[Problem] = None):
+    def __init__(self, status: int, problem: Optional[Structure] = None):
         text = library.starfocus_status_string(status).decode()
         self.field = ""
         if problem is not None and problem.status == status and problem.field:
@@ -58,11 +59,17 @@ _KINDS = {
 
 
 def out_of_range(field: str, expected: str, found: float) -> ArgumentError:
-    """Returns the error for an argument of a C function that reports no starfocus_problem."""
+    """Returns the error for an argument that the package checks itself."""
     return ArgumentError(Status.RANGE, Problem(Status.RANGE, 0, field.encode(), expected.encode(), found))
 
 
-def check(status: int, problem: Optional[Problem] = None) -> None:
+def check(status: int, problem: Optional[Structure] = None) -> None:
     """Raises the exception for a status, unless it is OK."""
     if status != Status.OK:
         raise _KINDS.get(Status(status), ArgumentError)(status, problem)
+
+
+def call(function: Any, *arguments: Any) -> None:
+    """Calls a function whose last argument is a starfocus_problem. Raises the exception for its status."""
+    problem = Problem()
+    check(function(*arguments, byref(problem)), problem)

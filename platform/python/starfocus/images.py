@@ -2,22 +2,22 @@
 """Pictures and depth maps in the formats of cameras (starfocus_image and starfocus_depth_map)."""
 from __future__ import annotations
 
+from ctypes import Structure, byref, c_int32, c_size_t
 from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _abi
+from ._abi import library
 from ._calls import has_rows, map_values, stride_of, whole
 from ._types import Array, Bytes
 from .constants import DepthMeaning, Format, Matrix, Range
-from .errors import out_of_range
+from .errors import call
 
-_PIXEL_BYTES = {Format.RGB: 3, Format.BGR: 3, Format.RGBX: 4, Format.BGRX: 4}
-_CHROMA_PLANES = {Format.NV12: 1, Format.NV21: 1, Format.I420: 2, Format.YUV_420_888: 2}
+_PLANES = {Format.NV12: 2, Format.NV21: 2, Format.I420: 3, Format.YUV_420_888: 3}
 _DEPTH_TYPES = {np.dtype(np.float32): 0, np.dtype(np.uint16): 1, np.dtype(np.uint8): 2, np.dtype(np.float16): 3}
 _DEPTH16 = 4
-_LARGEST_FLOAT = float(np.finfo(np.float32).max)
 
 
 @dataclass(frozen=True)
@@ -49,19 +49,19 @@ class Image:
             width, height: size in pixels.
             matrix, codes: matrix and code range of YUV formats.
         """
-        sizes = _plane_sizes(form, 0, width, height)
+        sizes = _plane_sizes(_abi.Image(form), width, height)
         return Image(form, [np.empty(size, np.uint8) for size in sizes], matrix, codes)
 
     def as_structure(self, width: int, height: int, what: str,
-                     written: bool = False) -> Tuple[_abi.Image, Sequence[Bytes]]:
+                     written: bool = False) -> Tuple[Structure, Sequence[Bytes]]:
         """Returns the starfocus_image of a picture of this size, and the arrays that it points to.
 
         Raises TypeError or ValueError if a plane has the wrong type, is too small, or cannot be read or written in
         place. `what` names the picture in messages; `written` is True for outputs.
         """
-        form, pixel_stride = Format(self.format), whole(self.pixel_stride, f"{what}, pixel_stride")
-        image = _abi.Image(form, Matrix(self.matrix), Range(self.range), pixel_stride)
-        sizes = _plane_sizes(form, pixel_stride, width, height)
+        pixel_stride = whole(self.pixel_stride, f"{what}, pixel_stride")
+        image = _abi.Image(Format(self.format), Matrix(self.matrix), Range(self.range), pixel_stride)
+        sizes = _plane_sizes(image, width, height)
         planes = tuple(self.planes)
         if len(planes) != len(sizes):
             raise ValueError(f"{what}: expected {len(sizes)} planes, found {len(planes)}")
@@ -96,7 +96,7 @@ class DepthMap:
     invalid: Optional[float] = None
     depth16: bool = False
 
-    def as_structure(self) -> Tuple[_abi.DepthMap, Array]:
+    def as_structure(self) -> Tuple[Structure, Array]:
         """Returns the starfocus_depth_map, and the array that it points to.
 
         Raises TypeError or ValueError if the values have the wrong type or shape.
@@ -104,10 +104,6 @@ class DepthMap:
         values = map_values(self.values, _DEPTH_TYPES, "depth")
         if self.depth16 and values.dtype != np.uint16:
             raise TypeError(f"depth: expected uint16 for depth16, found {values.dtype}")
-        if not abs(self.scale) <= _LARGEST_FLOAT or np.float32(self.scale) == 0:
-            raise out_of_range("depth.scale", "a finite number other than 0", self.scale)
-        if not abs(self.offset) <= _LARGEST_FLOAT:
-            raise out_of_range("depth.offset", "a finite number", self.offset)
         height, width = values.shape
         kind = _DEPTH16 if self.depth16 else _DEPTH_TYPES[values.dtype]
         depth = _abi.DepthMap(values.ctypes.data, stride_of(values), width, height, kind,
@@ -116,14 +112,14 @@ class DepthMap:
         return depth, values
 
 
-def _plane_sizes(form: Format, pixel_stride: int, width: int, height: int) -> Sequence[Tuple[int, int]]:
-    """Returns the number of rows and the bytes per row of each plane of a picture."""
-    pixel = _PIXEL_BYTES.get(form)
-    if pixel:
-        return [(height, (width - 1) * max(pixel_stride, pixel) + pixel)]
-    columns, rows = (width + 1) // 2, (height + 1) // 2
-    chroma = 2 * columns if _CHROMA_PLANES[form] == 1 else (columns - 1) * max(pixel_stride, 1) + 1
-    return [(height, width)] + [(rows, chroma)] * _CHROMA_PLANES[form]
+def _plane_sizes(image: Structure, width: int, height: int) -> Sequence[Tuple[int, int]]:
+    """Returns the number of rows and the bytes per row of each plane of a picture, whose planes are not read."""
+    rows, row_bytes = c_int32(), c_size_t()
+    sizes = []
+    for plane in range(_PLANES.get(image.format, 1)):
+        call(library.starfocus_plane_size, byref(image), plane, width, height, byref(rows), byref(row_bytes))
+        sizes.append((rows.value, row_bytes.value))
+    return sizes
 
 
 def _check_plane(plane: Bytes, rows: int, row_bytes: int, what: str, written: bool) -> None:

@@ -10,11 +10,11 @@ from typing import Any, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 
 from . import _abi
-from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, depth_map, light_field, pointer,
-                     positions_of, set_field, size_of_views, stride_of, whole)
+from ._calls import (Pool, ProgressFunction, Views, Watch, aligned, as_list, as_map, callbacks_of, depth_map,
+                     light_field, pointer, positions_of, set_field, size_of_views, stride_of, whole)
 from ._abi import library
 from ._types import Array, Bytes, Floats
-from .errors import check, out_of_range
+from .errors import call, out_of_range
 from .images import DepthMap
 
 #: A disparity map: an array of floats of shape (height, width), or a DepthMap.
@@ -58,8 +58,7 @@ def view_positions(count: int = 17) -> List[Tuple[float, float]]:
     u, v = ctypes.c_double(), ctypes.c_double()
     positions = []
     for index in range(count):
-        if not library.starfocus_view_position(index, byref(u), byref(v)):
-            raise ValueError(f"view_positions: expected at most {_abi.MAX_VIEWS} views, found {count}")
+        call(library.starfocus_view_position, index, byref(u), byref(v))
         positions.append((u.value, v.value))
     return positions
 
@@ -68,7 +67,7 @@ def measure_disparity(disparity: Disparity) -> DisparityStats:
     """Measures the range of the disparities of an array or a DepthMap."""
     depth, kept = depth_map(disparity)
     stats = _abi.DisparityStats()
-    check(library.starfocus_measure_disparity(byref(depth), byref(stats)))
+    call(library.starfocus_measure_disparity, byref(depth), byref(stats))
     del kept
     return DisparityStats(stats.min, stats.max, stats.invalid)
 
@@ -82,7 +81,7 @@ def fill_disparity(disparity: Array) -> Floats:
     """
     filled = np.array(as_map(disparity), order="C")
     height, width = filled.shape
-    check(library.starfocus_fill_disparity(pointer(filled), stride_of(filled), width, height))
+    call(library.starfocus_fill_disparity, pointer(filled), stride_of(filled), width, height)
     return filled
 
 
@@ -100,14 +99,8 @@ def focus_at(disparity: Disparity, x: int, y: int, size: Optional[Tuple[int, int
     """
     depth, kept = depth_map(disparity)
     width, height = (depth.width, depth.height) if size is None else (whole(length, "size") for length in size)
-    for name, length, least in (("size[0]", width, depth.width), ("size[1]", height, depth.height)):
-        if not least <= length <= _abi.MAX_SIZE:
-            raise out_of_range(name, f"{least}, the size of the map, to {_abi.MAX_SIZE}", length)
-    for name, place, length in (("x", whole(x, "x"), width), ("y", whole(y, "y"), height)):
-        if not 0 <= place < length:
-            raise out_of_range(name, f"0 to {length - 1}", place)
     focus = ctypes.c_double()
-    check(library.starfocus_focus_at(byref(depth), width, height, x, y, byref(focus)))
+    call(library.starfocus_focus_at, byref(depth), width, height, whole(x, "x"), whole(y, "y"), byref(focus))
     del kept
     return focus.value
 
@@ -121,13 +114,11 @@ def aperture_of_f_stop(f_stop: float, widest: float = 1.0) -> float:
 
     Raises ArgumentError for values out of range.
     """
-    aperture = ctypes.c_double()
     if not 0 < widest < math.inf:
         raise out_of_range("widest", "a number above 0", widest)
     if not widest <= f_stop < math.inf:
         raise out_of_range("f_stop", f"a number of at least {widest:.9g}", f_stop)
-    check(library.starfocus_aperture_of_f_stop(f_stop, widest, byref(aperture)))
-    return aperture.value
+    return widest / f_stop
 
 
 def estimate_disparity(views: Views, disparity_min: float, disparity_max: float, *, positions: Any = None,
@@ -145,8 +136,8 @@ def estimate_disparity(views: Views, disparity_min: float, disparity_max: float,
 
     Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape.
     """
-    return _make_map(library.starfocus_estimate_workspace_size, library.starfocus_estimate_disparity, views, None,
-                     (disparity_min, disparity_max), workers, progress, positions)
+    return _make_map(library.starfocus_estimate_disparity, views, None, (disparity_min, disparity_max), workers,
+                     progress, positions)
 
 
 def repair_disparity(views: Views, disparity: Disparity, disparity_min: Optional[float] = None,
@@ -171,35 +162,34 @@ def repair_disparity(views: Views, disparity: Disparity, disparity_min: Optional
     stats = measure_disparity(disparity)
     span = (stats.min if disparity_min is None else disparity_min,
             stats.max if disparity_max is None else disparity_max)
-    return _make_map(library.starfocus_repair_workspace_size, library.starfocus_repair_disparity, views, disparity, span, workers,
-                     progress)
+    return _make_map(library.starfocus_repair_disparity, views, disparity, span, workers, progress)
 
 
-def _make_map(size_of: Any, make: Any, views: Views, given: Optional[Disparity], span: Tuple[float, float],
-              workers: int, progress: Optional[ProgressFunction], positions: Any = None) -> DisparityMap:
+def _make_map(make: Any, views: Views, given: Optional[Disparity], span: Tuple[float, float], workers: int,
+              progress: Optional[ProgressFunction], positions: Any = None) -> DisparityMap:
+    """Calls starfocus_estimate_disparity or starfocus_repair_disparity. `given` is the map to repair, if any."""
     views = as_list(views)
     height, width = size_of_views(views)
     pool, watch, size = Pool(workers), Watch(progress), ctypes.c_size_t()
-    config, problem = _abi.DepthConfig(), _abi.Problem()
-    library.starfocus_depth_config_init_sized(byref(config), ctypes.sizeof(config))
-    config.problem = ctypes.addressof(problem)
+    config, problem = _abi.defaults(_abi.Config), _abi.Problem()
     for name, value in (("width", width), ("height", height), ("views", len(views))):
         set_field(config, name, value)
     if positions is not None:
         config.positions = positions_of(positions, len(views))
     config.disparity_min, config.disparity_max = span
     config.features = _abi.FEATURES["images"] if isinstance(given, DepthMap) else 0
-    config.max_workers, config.progress = pool.workers, watch.function
-    config.runner, config.runner_data = pool.runner, pool.handle
-    check(size_of(byref(config), byref(size)), problem)
+    config.max_workers = pool.workers
+    call(library.starfocus_map_workspace_size, byref(config), given is not None, byref(size))
     field, kept = light_field(views, given, len(views), height, width)
     memory = aligned(size.value)
     disparity, confidence, coverage = (np.empty((height, width), kind) for kind in (np.float32, np.uint8, np.uint8))
-    made = _abi.Map()
+    made = _abi.DisparityOutput()
     for name, plane in (("disparity", disparity), ("confidence", confidence), ("coverage", coverage)):
         setattr(made, name, plane.ctypes.data)
         setattr(made, name + "_stride", stride_of(plane))
-    status = make(byref(config), byref(field), byref(made), pointer(memory), size.value)
+    callbacks = callbacks_of(pool, watch)
+    status = make(byref(config), byref(callbacks), byref(field), byref(made), pointer(memory), size.value,
+                  byref(problem))
     del kept
     watch.check(status, problem)
     return DisparityMap(disparity, confidence, coverage if made.has_coverage else None)

@@ -2,8 +2,7 @@
 """Computes disparity maps and coverage from mattes: the alpha of a subject, as segmentation networks compute it."""
 from __future__ import annotations
 
-import ctypes
-from ctypes import byref
+from ctypes import Structure, byref
 from typing import Any, NamedTuple, Tuple
 
 import numpy as np
@@ -12,7 +11,7 @@ from . import _abi
 from ._abi import library
 from ._calls import depth_map, map_values, stride_of, whole
 from ._types import Array, Bytes, Floats
-from .errors import check, out_of_range
+from .errors import call, out_of_range
 from .maps import Disparity
 
 
@@ -50,7 +49,7 @@ def measure_matte(matte: Array) -> MatteStats:
     """Measures the place of the subject in a matte, an array of uint8 of shape (height, width)."""
     given, kept = _matte(matte)
     stats = _abi.MatteStats()
-    check(library.starfocus_measure_matte(byref(given), byref(stats)))
+    call(library.starfocus_measure_matte, byref(given), byref(stats))
     del kept
     return MatteStats(*(getattr(stats, name) for name in MatteStats._fields))
 
@@ -69,18 +68,12 @@ def matte_field(matte: Array, width: int, height: int, subject: float, backgroun
     Raises ArgumentError for values out of range, and TypeError or ValueError for arrays of a wrong type or shape.
     """
     width, height = _size(width, height)
-    if not -_abi.MAX_DISPARITY <= subject <= _abi.MAX_DISPARITY:
-        raise out_of_range("subject", "-500 to 500", subject)
-    if not -_abi.MAX_DISPARITY <= background <= subject:
-        raise out_of_range("background", f"-500 to subject, {subject:.9g}", background)
-    if (horizon or ground) and not 0 <= horizon < ground <= 1:
-        raise out_of_range("horizon", f"0 to less than ground, {ground:.9g}, which is at most 1", horizon)
     given, kept = _matte(matte)
     disparity, coverage = np.empty((height, width), np.float32), np.empty((height, width), np.uint8)
     out = _output(coverage)
     out.disparity, out.disparity_stride = disparity.ctypes.data, stride_of(disparity)
     depth = _abi.MatteDepth(subject, background, horizon, ground)
-    check(library.starfocus_matte_field(byref(given), byref(depth), width, height, None, byref(out)))
+    call(library.starfocus_matte_field, byref(given), byref(depth), width, height, None, byref(out))
     del kept
     return MatteField(disparity, coverage)
 
@@ -101,12 +94,9 @@ def matte_coverage(matte: Array, disparity: Disparity, width: int, height: int) 
     """
     width, height = _size(width, height)
     depth, kept_map = depth_map(disparity)
-    for name, length, least in (("width", width, depth.width), ("height", height, depth.height)):
-        if length < least:
-            raise out_of_range(name, f"{least}, the size of the map, to {_abi.MAX_SIZE}", length)
     given, kept = _matte(matte)
     coverage = np.empty((height, width), np.uint8)
-    check(library.starfocus_matte_coverage(byref(given), byref(depth), width, height, None, byref(_output(coverage))))
+    call(library.starfocus_matte_coverage, byref(given), byref(depth), width, height, None, byref(_output(coverage)))
     del kept, kept_map
     return coverage
 
@@ -118,14 +108,14 @@ def _size(width: int, height: int) -> Tuple[int, int]:
     return width, height
 
 
-def _matte(matte: Any) -> Tuple[_abi.Matte, Array]:
+def _matte(matte: Any) -> Tuple[Structure, Array]:
     """Returns a starfocus_matte, and the array that must stay alive while it is read."""
     values = map_values(matte, (np.dtype(np.uint8),), "matte")
     height, width = values.shape
     return _abi.Matte(values.ctypes.data, stride_of(values), 1, width, height), values
 
 
-def _output(coverage: Bytes) -> _abi.Map:
-    out = _abi.Map()
+def _output(coverage: Bytes) -> Structure:
+    out = _abi.DisparityOutput()
     out.coverage, out.coverage_stride = coverage.ctypes.data, stride_of(coverage)
     return out

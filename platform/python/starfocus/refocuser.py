@@ -6,19 +6,19 @@ import ctypes
 import math
 import threading
 import weakref
-from ctypes import byref
-from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union, overload
+from ctypes import Structure, byref
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Set, Tuple, Type, Union, overload
 
 import numpy as np
 
 from . import _abi
 from ._calls import (Pool, ProgressFunction, RegionOfPicture, Views, Watch, aligned, as_image, as_list, as_map,
-                     depth_map, light_field, output, part_of, pointer, positions_of, set_coverage, set_field,
-                     size_of_views, whole)
+                     callbacks_of, depth_map, light_field, output, part_of, pointer, positions_of, set_coverage,
+                     set_field, size_of_views, whole)
 from ._abi import library
 from ._types import Array, Bytes
 from .constants import Mode, Renderer, Status
-from .errors import ArgumentError, StarfocusError, check
+from .errors import ArgumentError, StarfocusError, call
 from .images import Image
 from .maps import Disparity, measure_disparity
 
@@ -46,7 +46,7 @@ class Refocuser:
             pass `[(0, 0), (1, 0)]`. None: the positions of `view_positions`.
         config: other fields of starfocus_config and starfocus_tuning with their C names, for example `max_blur`
             (default 32 pixels), `transfer`, `highlights`, or `previews=3` for `Prepared.preview` down to 1/8 of the
-            size. Features are fields with the value 0 or 1: `shapes` for lenses that are polygons or have cat's eyes,
+            size. Keywords with the value 0 or 1: `shapes` for lenses that are polygons or have cat's eyes,
             `images` for formats other than RGB, `streaming` for `stream`, `fill_unknown`, `line_scan` (default 1) and
             `coverage` (default 1).
 
@@ -62,18 +62,20 @@ class Refocuser:
 
     def __init__(self, width: int, height: int, views: int = 5, *, disparity_min: float,
                  disparity_max: float, workers: int = 0, positions: Any = None, **config: Any):
-        self._config = _abi.Config()
-        library.starfocus_config_init_sized(byref(self._config), ctypes.sizeof(self._config))
-        set_below = {"size", "max_workers", "positions", "problem", "tuning"}
-        known = {field[0] for field in _abi.Config._fields_} - set_below
-        tuning = {field[0] for field in _abi.Tuning._fields_}
+        self._config, tuning = _abi.defaults(_abi.Config), _abi.defaults(_abi.Tuning)
+        tuning.line_scan = library.starfocus_line_scan_renderer()
+        known = _names(_abi.Config) - {"size", "max_workers", "positions", "tuning", "unknown"}
         for name, value in {**config, "width": width, "height": height, "views": views,
                             "disparity_min": disparity_min, "disparity_max": disparity_max}.items():
             if name in _abi.FEATURES:
                 bit = _abi.FEATURES[name]
                 self._config.features = self._config.features & ~bit | (bit if value else 0)
-            elif name in tuning:
-                set_field(self._config.tuning, name, value)
+            elif name == "fill_unknown":
+                self._config.unknown = 1 if value else 0
+            elif name == "line_scan":
+                tuning.line_scan = tuning.line_scan if value else None
+            elif name in _names(_abi.Tuning) - {"size"}:
+                set_field(tuning, name, value)
             elif name in known:
                 set_field(self._config, name, value)
             else:
@@ -81,11 +83,9 @@ class Refocuser:
         if positions is not None:
             self._config.positions = positions_of(positions, views)
         self._pool = Pool(workers)
-        self._config.max_workers = self._pool.workers
+        self._config.max_workers, self._config.tuning = self._pool.workers, ctypes.pointer(tuning)
         engine = ctypes.c_void_p()
-        self._problem = _abi.Problem()
-        self._config.problem = ctypes.addressof(self._problem)
-        check(library.starfocus_create(byref(self._config), None, byref(engine)), self._problem)
+        call(library.starfocus_create, byref(self._config), None, byref(engine))
         self._engine = engine.value
         weakref.finalize(self, library.starfocus_destroy, self._engine)
         self._lock = threading.Lock()
@@ -175,7 +175,7 @@ class Refocuser:
             progress: receives the number of finished rows and the number of rows. If `progress` returns a true value,
                 the call is cancelled and raises Cancelled. An exception in `progress` also cancels the call and is
                 raised again.
-            lens: other fields of starfocus_lens with their C names: `focus_nearer`, `focus_farther`, `shape`,
+            lens: other fields of starfocus_params with their C names: `focus_nearer`, `focus_farther`, `shape`,
                 `blades`, `theta`, `rotation`, `curvature`, `ring_inner`, `cats_eye`.
 
         Raises a subclass of StarfocusError, and TypeError or ValueError for arrays of a wrong type or shape. After
@@ -192,11 +192,11 @@ class Refocuser:
 
         Args:
             focus: disparity in focus, in pixels per unit of u.
-            lens: other fields of starfocus_lens, as for `refocus`. `focus_nearer` and `focus_farther` increase the
+            lens: other fields of starfocus_params, as for `refocus`. `focus_nearer` and `focus_farther` increase the
                 result.
         """
         params, aperture = self._params(Mode.BLOCK, Renderer.AUTO, None, focus=focus, **lens), ctypes.c_double()
-        self._run(Watch(None), library.starfocus_largest_aperture, byref(params.lens), byref(aperture))
+        self._run(Watch(None), library.starfocus_largest_aperture, byref(params), byref(aperture))
         return aperture.value
 
     def prepare(self, views: Views, disparity: Disparity, *, coverage: Optional[Array] = None,
@@ -275,7 +275,7 @@ class Refocuser:
         """
         watch = Watch(progress)
         params = self._params(mode, renderer, None, focus=focus, aperture=aperture, **lens)
-        last: List[Any] = []  # structure and arrays of the previous frame, which the engine reads
+        last: List[Any] = []  # arrays of the previous frame, which the engine reads
         for views, disparity, coverage in map(_with_coverage, frames):
             field, kept = light_field([np.array(view) for view in as_list(views)], np.array(as_map(disparity)),
                                       self._config.views, self.height, self.width)
@@ -283,12 +283,13 @@ class Refocuser:
             picture = np.empty((self.height, self.width, 3), np.uint8)
             image = as_image(picture)
             self._call(watch, library.starfocus_refocus, byref(params), byref(field), byref(image))
-            previous = _abi.Previous(field, image)
-            params.previous = ctypes.addressof(previous)
-            last[:] = [previous, picture, kept]
+            previous = _abi.defaults(_abi.Previous)
+            previous.light_field, previous.out = ctypes.pointer(field), ctypes.pointer(image)
+            params.previous = ctypes.pointer(previous)
+            last[:] = [picture, kept]
             yield picture.copy()
 
-    def _picture(self, params: _abi.Params, out: Optional[Picture], size: Tuple[int, int],
+    def _picture(self, params: Structure, out: Optional[Picture], size: Tuple[int, int],
                  progress: Optional[ProgressFunction], function: Any, scene: Any, *, keep: List[Any]) -> Picture:
         """Calls starfocus_refocus or a similar function, and returns its picture.
 
@@ -307,29 +308,30 @@ class Refocuser:
         del keep
         return picture
 
-    def _params(self, mode: Mode, renderer: Renderer, region: Optional[RegionOfPicture], **lens: Any) -> _abi.Params:
-        params = _abi.Params()
-        library.starfocus_params_init_sized(byref(params), ctypes.sizeof(params))
-        set_field(params, "mode", mode)
-        set_field(params, "renderer", renderer)
-        known = {field[0] for field in _abi.Lens._fields_}
+    def _params(self, mode: Mode, renderer: Renderer, region: Optional[RegionOfPicture], **lens: Any) -> Structure:
+        params, study = _abi.defaults(_abi.Params), _abi.defaults(_abi.Study)
+        set_field(study, "mode", mode)
+        set_field(study, "renderer", renderer)
+        params.study = ctypes.pointer(study)
+        known = _names(_abi.Params) - {"size", "preview_shift", "region", "previous", "study"}
         for name, value in lens.items():
             if name not in known:
                 raise TypeError(f"refocus: unknown field of the lens '{name}'")
-            set_field(params.lens, name, value)
+            set_field(params, name, value)
         if region is not None:
             set_field(params, "region", tuple(region))
         return params
 
     def _call(self, watch: Watch, function: Any, *arguments: Any) -> None:
         """Calls the function with the engine, the arguments and a report, and stores the report."""
-        report = _abi.Report()
+        report = _abi.defaults(_abi.Report)
+        report.layers = (_abi.LayerReport * _abi.LAYERS)()
         self._run(watch, function, *arguments, byref(report))
-        self.report = _as_dict(report)
+        self.report = {**_as_dict(report), "layers": [_as_dict(layer) for layer in report.layers[:_abi.LAYERS]]}
 
     def _run(self, watch: Watch, function: Any, *arguments: Any) -> None:
         """Calls the function with the engine and the arguments, and reports its progress to `watch`."""
-        callbacks = _abi.Callbacks(self._pool.runner, self._pool.handle, watch.function)
+        callbacks = callbacks_of(self._pool, watch)
         with self._lock:
             if function is library.starfocus_stream_begin:
                 self._stream = watch
@@ -358,7 +360,7 @@ class Prepared:
         field, self._kept = light_field(views, disparity, config.views, config.height, config.width)
         self._kept += set_coverage(field, coverage, config.height, config.width)
         size = ctypes.c_size_t()
-        check(library.starfocus_prepared_size(byref(config), byref(size)))
+        refocuser._run(Watch(None), library.starfocus_prepared_size, byref(size))
         self._memory = aligned(size.value)
         self._handle = ctypes.c_void_p()
         refocuser._run(Watch(progress), library.starfocus_prepare, byref(field), pointer(self._memory), size.value,
@@ -424,7 +426,7 @@ def _with_coverage(scene: Sequence[Any]) -> Tuple[Views, Array, Optional[Array]]
     return scene[0], scene[1], scene[2] if len(scene) == 3 else None
 
 
-def _skip_rows(field: _abi.LightField, views: int, rows: int) -> None:
+def _skip_rows(field: Structure, views: int, rows: int) -> None:
     """Makes a starfocus_light_field of arrays point to a later row."""
     for view in field.views[:views]:
         view.planes[0] += rows * view.strides[0]
@@ -433,10 +435,11 @@ def _skip_rows(field: _abi.LightField, views: int, rows: int) -> None:
         field.coverage += rows * field.coverage_stride
 
 
-def _as_dict(structure: ctypes.Structure) -> Dict[str, Any]:
-    def plain(value: Any) -> Any:
-        if isinstance(value, ctypes.Structure):
-            return _as_dict(value)
-        return [plain(one) for one in value] if isinstance(value, ctypes.Array) else value
+def _names(kind: Type[Structure]) -> Set[str]:
+    """Returns the names of the fields of a structure."""
+    return {field[0] for field in kind._fields_}
 
-    return {name: plain(getattr(structure, name)) for name, _ in structure._fields_}
+
+def _as_dict(structure: Structure) -> Dict[str, Any]:
+    """Returns the fields of a structure, without `size`."""
+    return {name: getattr(structure, name) for name, _ in structure._fields_ if name != "size"}

@@ -3,7 +3,7 @@
 // runs in a worker, so all calls are asynchronous.
 //
 // createRefocuser gives access to all settings of the engine. Its options, settings and parameters are the fields of
-// starfocus_config, starfocus_params and starfocus_lens in starfocus/starfocus.h, with JavaScript names: max_blur is
+// starfocus_config, starfocus_tuning, starfocus_params and starfocus_study in C, with JavaScript names: max_blur is
 // maxBlur. A field has the same meaning, range and default as in C, and pictures have the same bytes as pictures of the
 // C library. An omitted field has its default.
 

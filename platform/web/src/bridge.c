@@ -5,9 +5,9 @@
  * light field. */
 #include <string.h>
 
-#include "platform/web/src/fields.h"
 #include "platform/web/src/threads.h"
 #include "starfocus/depth.h"
+#include "starfocus/experimental.h"
 #include "starfocus/matte.h"
 #include "starfocus/starfocus.h"
 
@@ -22,12 +22,15 @@
 extern unsigned char __heap_base; /* end of the module's data; defined by the linker */
 
 static char text[64];                    /* field name, written by JavaScript */
-static starfocus_problem problem;        /* problem of the last call with a configuration */
+static starfocus_problem problem;        /* problem of the last call without an engine */
 static const starfocus_problem* refused; /* problem of the last call */
 static starfocus_config wanted;          /* configuration that is being set */
 static starfocus_config config;          /* configuration of the light field and the engine */
 static starfocus_config previous;        /* configuration before the last call of Accept */
+static starfocus_tuning wanted_tuning, tuning,
+    previous_tuning; /* tunings of these configurations */
 static starfocus_params params;
+static starfocus_study study; /* mode and renderer of `params` */
 static starfocus_engine* engine;
 static int32_t workers;
 static uintptr_t top = (uintptr_t)&__heap_base; /* first unused byte */
@@ -73,29 +76,93 @@ static void KeepBlock(void* data, const starfocus_block* block) {
   if (block_count < MAX_BLOCKS) blocks[block_count++] = *block;
 }
 
-/* Sets the callbacks of the engine. `on_block` may be null. No-op without an engine. */
-static void SetCallbacks(starfocus_block_visitor on_block) {
-  const starfocus_callbacks callbacks = {
-      .runner = workers > 1 ? RunOnWorkers : NULL, .progress = Progress, .on_block = on_block};
+static starfocus_callbacks Callbacks(const starfocus_observer* observer) {
+  return (starfocus_callbacks){
+      .runner = workers > 1 ? RunOnWorkers : NULL, .progress = Progress, .observer = observer};
+}
+
+/* Sets the callbacks of the engine. `observer` may be null. No-op without an engine. */
+static void SetCallbacks(const starfocus_observer* observer) {
+  const starfocus_callbacks callbacks = Callbacks(observer);
   starfocus_set_callbacks(engine, &callbacks);
 }
 
 /* Returns the buffer for the name of a field: at most 63 bytes and a terminating 0. */
 EXPORT(text) char* Text(void) { return text; }
 
+/* Returns `value`, or `wrong` if it is not an integer in [low, high]. `wrong` is outside the valid
+ * range of every field, so the library rejects it. */
+static int64_t Whole(double value, int64_t low, int64_t high, int64_t wrong) {
+  if (!(value >= (double)low && value <= (double)high)) return wrong;
+  const int64_t whole = (int64_t)value;
+  return (double)whole == value ? whole : wrong;
+}
+
+/* Returns 0 if a number cannot be stored as this type. */
+static int Store(void* to, int32_t type, double value) {
+  switch (type) {
+    case STARFOCUS_FIELD_INT32:
+      *(int32_t*)to = (int32_t)Whole(value, INT32_MIN, INT32_MAX, INT32_MIN);
+      return 1;
+    case STARFOCUS_FIELD_UINT32:
+      *(uint32_t*)to = (uint32_t)Whole(value, 0, UINT32_MAX, UINT32_MAX);
+      return 1;
+    case STARFOCUS_FIELD_DOUBLE:
+      *(double*)to = value;
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+/* Sets the field `name` of a structure, for example "max_blur" of "starfocus_config" or
+ * "timing.block" of "starfocus_tuning". If `value` does not fit an integer field, the field gets a
+ * value that the library rejects. Returns 1, or 0 if the structure has no number `name`. */
+static int SetField(const char* structure, void* to, const char* name, double value) {
+  const starfocus_field* fields = NULL;
+  int32_t count = 0;
+  starfocus_fields(structure, &fields, &count);
+  for (int32_t i = 0; i < count; ++i) {
+    const size_t length = strlen(fields[i].name);
+    if (strncmp(fields[i].name, name, length) != 0) continue;
+    char* const at = (char*)to + fields[i].offset;
+    if (name[length] == 0) return Store(at, fields[i].type, value);
+    if (name[length] == '.' && fields[i].structure != NULL) {
+      return SetField(fields[i].structure, at, name + length + 1, value);
+    }
+  }
+  return 0;
+}
+
 /* Starts a change of the configuration. The initial values are copied from the last accepted
  * configuration, or are the defaults if no configuration was accepted. */
 EXPORT(begin) void Begin(void) {
   if (workers == 0) {
     starfocus_config_init(&wanted);
-    wanted.problem = &problem;
+    starfocus_tuning_init(&wanted_tuning);
+    wanted_tuning.line_scan = starfocus_line_scan_renderer();
   } else {
     wanted = config;
+    wanted_tuning = tuning;
   }
+  wanted.tuning = &wanted_tuning;
 }
 
-/* Sets the field of starfocus_config that `text` names. Returns 0 if there is no such field. */
-EXPORT(configure) int Configure(double value) { return SetConfigField(&wanted, text, value); }
+/* Sets the field of starfocus_config or starfocus_tuning that `text` names, or `fill_unknown` or
+ * `shapes`. Returns 0 if there is no such field. */
+EXPORT(configure) int Configure(double value) {
+  if (strcmp(text, "fill_unknown") == 0) {
+    wanted.unknown = value != 0 ? STARFOCUS_UNKNOWN_FILL : STARFOCUS_UNKNOWN_REFUSE;
+    return 1;
+  }
+  if (strcmp(text, "shapes") == 0) {
+    wanted.features &= ~STARFOCUS_FEATURE_SHAPES;
+    if (value != 0) wanted.features |= STARFOCUS_FEATURE_SHAPES;
+    return 1;
+  }
+  return SetField("starfocus_config", &wanted, text, value) ||
+         SetField("starfocus_tuning", &wanted_tuning, text, value);
+}
 
 /* Returns the positions of the configuration that is being set: u and v of each view. */
 EXPORT(positions) double* Positions(void) { return &wanted.positions[0].u; }
@@ -106,11 +173,14 @@ EXPORT(accept) starfocus_status Accept(int32_t count) {
   wanted.max_workers = count;
   wanted.features |= STARFOCUS_FEATURE_IMAGES;
   size_t bytes = 0;
-  const starfocus_status status = starfocus_workspace_size(&wanted, &bytes);
+  const starfocus_status status = starfocus_workspace_size(&wanted, &bytes, &problem);
   refused = &problem;
   if (status == STARFOCUS_OK) {
     previous = config;
+    previous_tuning = tuning;
     config = wanted;
+    tuning = wanted_tuning;
+    config.tuning = &tuning;
     workers = count;
     SetHelpers(count - 1);
   }
@@ -118,7 +188,10 @@ EXPORT(accept) starfocus_status Accept(int32_t count) {
 }
 
 /* Restores the configuration before the last call of Accept. */
-EXPORT(restore) void Restore(void) { config = previous; }
+EXPORT(restore) void Restore(void) {
+  config = previous;
+  tuning = previous_tuning;
+}
 
 /* Allocates the stack of a helper. Must be called before the first call of Room. Returns the end of
  * the stack, from which the stack grows downwards, or 0 if there is no memory. */
@@ -171,6 +244,22 @@ static int MakeRoomForMap(int32_t flags) {
   return made.disparity != NULL && levels != NULL;
 }
 
+/* Creates an engine with the current configuration in the memory after the light field. Replaces
+ * the previous engine. */
+EXPORT(make_engine) starfocus_status MakeEngine(void) {
+  size_t bytes = 0;
+  const starfocus_status status = starfocus_workspace_size(&config, &bytes, &problem);
+  refused = &problem;
+  if (status != STARFOCUS_OK) return status;
+  engine = NULL;
+  top = field_end;
+  void* const workspace = Allocate(bytes);
+  if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
+  const starfocus_status created = starfocus_init(&config, workspace, bytes, &engine, &problem);
+  if (created == STARFOCUS_OK) SetCallbacks(NULL);
+  return created;
+}
+
 /* Allocates memory for a light field: views with `pixel_bytes` (3 or 4) bytes per pixel, a depth
  * map, coverage if `flags` contains HAS_COVERAGE, and the results of Repair or Estimate if `flags`
  * contains REPAIR or ESTIMATE. With ESTIMATE, no pictures can be refocused. Frees the previous
@@ -182,10 +271,7 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
   top = stacks_end;
   engine = NULL;
   prepared = NULL;
-  memset(&field, 0, sizeof(field));
-  const starfocus_status status = starfocus_prepared_size(&config, &prepared_bytes);
-  refused = &problem;
-  if (status != STARFOCUS_OK) return status;
+  starfocus_light_field_init(&field);
   if (!MakeRoomForViews(pixel_bytes) || !MakeRoomForDepth(depth_width, depth_height) ||
       ((flags & HAS_COVERAGE) != 0 && !MakeRoomForCoverage()) ||
       ((flags & (REPAIR | ESTIMATE)) != 0 && !MakeRoomForMap(flags))) {
@@ -193,6 +279,12 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
   }
   field_end = top;
   if ((flags & ESTIMATE) != 0) return STARFOCUS_OK;
+  /* A temporary engine tells the size of the prepared light field. */
+  starfocus_status status = MakeEngine();
+  if (status == STARFOCUS_OK) status = starfocus_prepared_size(engine, &prepared_bytes);
+  if (status != STARFOCUS_OK) return status;
+  engine = NULL;
+  top = field_end;
   picture = (uint8_t*)Allocate(4 * (size_t)config.width * (size_t)config.height);
   blocks = (starfocus_block*)Allocate(MAX_BLOCKS * sizeof(starfocus_block));
   prepared_memory = Allocate(prepared_bytes);
@@ -201,39 +293,22 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
                                                                       : STARFOCUS_ERROR_MEMORY;
 }
 
-static starfocus_depth_config MapConfig(void) {
-  starfocus_depth_config map;
-  starfocus_depth_config_init(&map);
-  map.width = config.width;
-  map.height = config.height;
-  map.views = config.views;
-  map.disparity_min = config.disparity_min;
-  map.disparity_max = config.disparity_max;
-  map.max_workers = workers;
-  map.runner = workers > 1 ? RunOnWorkers : NULL;
-  map.progress = Progress;
-  map.problem = &problem;
-  memcpy(map.positions, config.positions, sizeof(map.positions));
-  return map;
-}
-
-/* Makes a map from the views, which are packed RGB, by functions of the library, and replaces the
- * map of the light field. The workspace lies where the engine will be. */
-static starfocus_status MakeMap(starfocus_status (*size_of)(const starfocus_depth_config*, size_t*),
-                                starfocus_status (*make)(const starfocus_depth_config*,
-                                                         const starfocus_light_field*,
-                                                         starfocus_disparity_output*, void*,
-                                                         size_t)) {
-  const starfocus_depth_config map = MapConfig();
+/* Estimates or repairs (`repairs` is 1) a map from the views, which are packed RGB, and replaces
+ * the map of the light field. The workspace lies where the engine will be. */
+static starfocus_status MakeMap(int32_t repairs) {
+  starfocus_config map = config;
+  map.features = 0;
+  const starfocus_callbacks callbacks = Callbacks(NULL);
   size_t bytes = 0;
   refused = &problem;
-  starfocus_status status = size_of(&map, &bytes);
+  starfocus_status status = starfocus_map_workspace_size(&map, repairs, &bytes, &problem);
   if (status != STARFOCUS_OK) return status;
   engine = NULL;
   top = field_end;
   void* const workspace = Allocate(bytes);
   if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
-  status = make(&map, &field, &made, workspace, bytes);
+  status = (repairs ? starfocus_repair_disparity : starfocus_estimate_disparity)(
+      &map, &callbacks, &field, &made, workspace, bytes, &problem);
   if (status == STARFOCUS_OK) MakeDepth(made.disparity, config.width, config.height);
   return status;
 }
@@ -243,8 +318,7 @@ static starfocus_status MakeMap(starfocus_status (*size_of)(const starfocus_dept
 EXPORT(repair) starfocus_status Repair(void) {
   rows_after = config.height; /* of Prepare */
   if (field.coverage != NULL) made.coverage = NULL;
-  const starfocus_status status =
-      MakeMap(starfocus_repair_workspace_size, starfocus_repair_disparity);
+  const starfocus_status status = MakeMap(1);
   rows_after = 0;
   if (status != STARFOCUS_OK) return status;
   rows_before = config.height;
@@ -276,15 +350,15 @@ EXPORT(fill_surfaces) starfocus_status FillSurfaces(double subject, int32_t floo
                                     .coverage = (uint8_t*)field.coverage,
                                     .coverage_stride = field.coverage_stride};
   starfocus_matte_depth depth = {.subject = subject};
-  refused = NULL;
+  refused = &problem;
   if (floor != 0) {
     starfocus_matte_stats stats;
-    const starfocus_status status = starfocus_measure_matte(&matte, &stats);
+    const starfocus_status status = starfocus_measure_matte(&matte, &stats, &problem);
     if (status != STARFOCUS_OK) return status;
     depth.horizon = stats.horizon;
     depth.ground = stats.ground;
   }
-  return starfocus_matte_field(&matte, &depth, config.width, config.height, NULL, &out);
+  return starfocus_matte_field(&matte, &depth, config.width, config.height, NULL, &out, &problem);
 }
 
 /* Computes the coverage of the light field from the matte and the map, which is final. Replaces the
@@ -296,14 +370,13 @@ EXPORT(cover) starfocus_status Cover(void) {
   }
   starfocus_disparity_output out = {.coverage = (uint8_t*)field.coverage,
                                     .coverage_stride = field.coverage_stride};
-  refused = NULL;
-  return starfocus_matte_coverage(&matte, &field.depth, config.width, config.height, NULL, &out);
+  refused = &problem;
+  return starfocus_matte_coverage(&matte, &field.depth, config.width, config.height, NULL, &out,
+                                  &problem);
 }
 
 /* Estimates the depth map of the light field and its confidence. */
-EXPORT(estimate) starfocus_status Estimate(void) {
-  return MakeMap(starfocus_estimate_workspace_size, starfocus_estimate_disparity);
-}
+EXPORT(estimate) starfocus_status Estimate(void) { return MakeMap(0); }
 
 /* Returns the memory of the pixels of a view, of the depth map (view -1), of coverage (view -2) or
  * of the confidence of an estimate (view -3). */
@@ -311,22 +384,6 @@ EXPORT(place) const void* Place(int32_t view) {
   if (view == -3) return made.confidence;
   if (view == -2) return field.coverage;
   return view < 0 ? field.depth.data : field.views[view].planes[0];
-}
-
-/* Creates an engine with the current configuration in the memory after the light field. Replaces
- * the previous engine. */
-EXPORT(make_engine) starfocus_status MakeEngine(void) {
-  size_t bytes = 0;
-  const starfocus_status status = starfocus_workspace_size(&config, &bytes);
-  refused = &problem;
-  if (status != STARFOCUS_OK) return status;
-  engine = NULL;
-  top = field_end;
-  void* const workspace = Allocate(bytes);
-  if (workspace == NULL) return STARFOCUS_ERROR_MEMORY;
-  const starfocus_status created = starfocus_init(&config, workspace, bytes, &engine);
-  if (created == STARFOCUS_OK) SetCallbacks(NULL);
-  return created;
 }
 
 /* Returns the problem of the last call, or null if the last call reports none. */
@@ -345,14 +402,25 @@ EXPORT(aim) void Aim(int32_t number) {
   shared.rows_done = shared.rows = rows_before = rows_after = 0;
   block_count = 0;
   starfocus_params_init(&params);
+  starfocus_study_init(&study);
+  params.study = &study;
   SetCallbacks(NULL);
 }
 
-/* Sets the field of starfocus_params that `text` names. Returns 0 if there is no such field. */
-EXPORT(set) int Set(double value) { return SetParamsField(&params, text, value); }
+/* Sets the field of starfocus_params or starfocus_study that `text` names. Returns 0 if there is no
+ * such field. */
+EXPORT(set) int Set(double value) {
+  return SetField("starfocus_params", &params, text, value) ||
+         SetField("starfocus_study", &study, text, value);
+}
 
 /* Makes the refocusings of the current call record their blocks. */
-EXPORT(watch) void WatchBlocks(void) { SetCallbacks(KeepBlock); }
+EXPORT(watch) void WatchBlocks(void) {
+  starfocus_observer observer;
+  starfocus_observer_init(&observer);
+  observer.on_block = KeepBlock;
+  SetCallbacks(&observer);
+}
 
 /* Returns the number of pixels that represent the range [start, start + size) of the picture at
  * 1 / 2^shift of the size. */
@@ -384,9 +452,9 @@ EXPORT(shared) void* Shared(void) { return &shared; }
 /* Finds the focus for a pixel of the picture, and writes it to `text` as a double. */
 EXPORT(focus_at) starfocus_status FocusAt(int32_t x, int32_t y) {
   double focus = 0;
-  refused = NULL;
+  refused = &problem;
   const starfocus_status status =
-      starfocus_focus_at(&field.depth, config.width, config.height, x, y, &focus);
+      starfocus_focus_at(&field.depth, config.width, config.height, x, y, &focus, &problem);
   memcpy(text, &focus, sizeof(focus));
   return status;
 }
@@ -394,4 +462,4 @@ EXPORT(focus_at) starfocus_status FocusAt(int32_t x, int32_t y) {
 EXPORT(status_string) const char* StatusString(starfocus_status status) {
   return starfocus_status_string(status);
 }
-EXPORT(version) const char* Version(void) { return starfocus_version(); }
+EXPORT(version) const char* Version(void) { return starfocus_version(NULL); }

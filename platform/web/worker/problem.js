@@ -10,16 +10,15 @@ const CODES = {
 };
 const NAMES = {max_workers: 'threads', preview_shift: 'shift'};
 
-/** Returns the name of a C field in starfocus.d.ts: 'lens.ring_inner' becomes 'ringInner'. */
+/** Returns the name of a C field in starfocus.d.ts: 'tuning.n_scale' becomes 'nScale'. */
 function toName(field) {
-  const name = field.replace(/^(lens|tuning)\./, '');
+  const name = field.replace(/^(study|tuning)\./, '');
   return NAMES[name] ?? name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
 }
 
 /** Replaces the C names in the description of a range. */
 function toWords(text) {
-  return text.replace(/\blens\./g, '')
-      .replace(/\ba starfocus_(mode|renderer|shape|transfer)\b/g, 'a value of $1')
+  return text.replace(/\ba starfocus_(mode|renderer|shape|transfer)\b/g, 'a value of $1')
       .replace('STARFOCUS_FEATURE_SHAPES', 'shapes: true')
       .replace('STARFOCUS_MAX_BLUR', '128')
       .replace('STARFOCUS_MAX_TIMING', '100000000')

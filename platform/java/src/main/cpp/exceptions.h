@@ -7,7 +7,7 @@
 
 #include <jni.h>
 
-#include "starfocus/status.h"
+#include "starfocus/starfocus.h"
 
 namespace starfocus {
 

@@ -3,18 +3,48 @@
 
 #include <cstring>
 
+#include "starfocus/starfocus.h"
+
 namespace starfocus {
 namespace {
 
-const char* SignatureOf(FieldType type) {
-  switch (type) {
-    case FieldType::kFloat:
-      return "F";
-    case FieldType::kDouble:
-      return "D";
-    default:
-      return "I";
+// A number of a structure. `offset` is -1 if the structure has no such number.
+struct Number {
+  ptrdiff_t offset;
+  bool is_double;  // double in C and Java; otherwise int32_t and int
+};
+
+// Finds a number by its name in C, where "_" stands before the names of fields of nested
+// structures.
+Number FindNumber(const char* structure, const char* name) {
+  const starfocus_field* field = nullptr;
+  int32_t count = 0;
+  starfocus_fields(structure, &field, &count);
+  for (const starfocus_field* const end = field + count; field != end; ++field) {
+    const size_t length = std::strlen(field->name);
+    if (std::strncmp(field->name, name, length) != 0) continue;
+    if (name[length] == 0) {
+      const bool is_double = field->type == STARFOCUS_FIELD_DOUBLE;
+      const bool is_number = is_double || field->type == STARFOCUS_FIELD_INT32;
+      return {is_number ? ptrdiff_t(field->offset) : -1, is_double};
+    }
+    if (name[length] != '_' || field->structure == nullptr) continue;
+    Number inner = FindNumber(field->structure, name + length + 1);
+    if (inner.offset >= 0) inner.offset += field->offset;
+    return inner;
   }
+  return {-1, false};
+}
+
+// Finds a number by its name in Java.
+Number FindJavaNumber(const char* structure, const char* name) {
+  char text[64] = {};  // the name in C
+  for (size_t k = 0; *name != 0 && k + 2 < sizeof text; ++name) {
+    const bool is_capital = *name >= 'A' && *name <= 'Z';
+    if (is_capital) text[k++] = '_';
+    text[k++] = is_capital ? static_cast<char>(*name - 'A' + 'a') : *name;
+  }
+  return FindNumber(structure, text);
 }
 
 jfieldID Find(JNIEnv* env, jobject object, const char* name, const char* signature) {
@@ -24,59 +54,48 @@ jfieldID Find(JNIEnv* env, jobject object, const char* name, const char* signatu
   return id;
 }
 
-template <class T>
-void Store(void* to, T value) {
-  std::memcpy(to, &value, sizeof value);
-}
-
-template <class T>
-T Load(const void* from) {
-  T value;
-  std::memcpy(&value, from, sizeof value);
-  return value;
+// Calls copy(number, id) for each field. Returns false, with an exception pending, if the object or
+// the structure lacks a field.
+template <class Copy>
+bool ForFields(JNIEnv* env, jobject object, const Fields& fields, const Copy& copy) {
+  for (size_t i = 0; i < fields.count; ++i) {
+    const Number number = FindJavaNumber(fields.structure, fields.names[i]);
+    const char* const signature = number.offset < 0 ? "" : number.is_double ? "D" : "I";
+    const jfieldID id = Find(env, object, fields.names[i], signature);
+    if (id == nullptr) return false;
+    copy(number, id);
+  }
+  return true;
 }
 
 }  // namespace
 
-bool ReadFields(JNIEnv* env, jobject object, const Field* fields, size_t count, void* structure) {
-  for (size_t i = 0; i < count; ++i) {
-    const jfieldID id = Find(env, object, fields[i].name, SignatureOf(fields[i].type));
-    if (id == nullptr) return false;
-    char* const to = static_cast<char*>(structure) + fields[i].offset;
-    switch (fields[i].type) {
-      case FieldType::kInt32:
-        Store(to, static_cast<int32_t>(env->GetIntField(object, id)));
-        break;
-      case FieldType::kFloat:
-        Store(to, env->GetFloatField(object, id));
-        break;
-      case FieldType::kDouble:
-        Store(to, env->GetDoubleField(object, id));
-        break;
+bool ReadFields(JNIEnv* env, jobject object, const Fields& fields, void* structure) {
+  return ForFields(env, object, fields, [&](const Number& number, jfieldID id) {
+    char* const to = static_cast<char*>(structure) + number.offset;
+    if (number.is_double) {
+      const double value = env->GetDoubleField(object, id);
+      std::memcpy(to, &value, sizeof value);
+    } else {
+      const int32_t value = env->GetIntField(object, id);
+      std::memcpy(to, &value, sizeof value);
     }
-  }
-  return true;
+  });
 }
 
-bool WriteFields(JNIEnv* env, const void* structure, const Field* fields, size_t count,
-                 jobject object) {
-  for (size_t i = 0; i < count; ++i) {
-    const jfieldID id = Find(env, object, fields[i].name, SignatureOf(fields[i].type));
-    if (id == nullptr) return false;
-    const char* const from = static_cast<const char*>(structure) + fields[i].offset;
-    switch (fields[i].type) {
-      case FieldType::kInt32:
-        env->SetIntField(object, id, Load<int32_t>(from));
-        break;
-      case FieldType::kFloat:
-        env->SetFloatField(object, id, Load<float>(from));
-        break;
-      case FieldType::kDouble:
-        env->SetDoubleField(object, id, Load<double>(from));
-        break;
+bool WriteFields(JNIEnv* env, const void* structure, const Fields& fields, jobject object) {
+  return ForFields(env, object, fields, [&](const Number& number, jfieldID id) {
+    const char* const from = static_cast<const char*>(structure) + number.offset;
+    if (number.is_double) {
+      double value;
+      std::memcpy(&value, from, sizeof value);
+      env->SetDoubleField(object, id, value);
+    } else {
+      int32_t value;
+      std::memcpy(&value, from, sizeof value);
+      env->SetIntField(object, id, value);
     }
-  }
-  return true;
+  });
 }
 
 int32_t ReadInt(JNIEnv* env, jobject object, const char* name) {

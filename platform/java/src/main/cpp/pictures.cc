@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/java/src/main/cpp/pictures.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -30,21 +29,18 @@ int PlanesOf(int32_t format) {
   }
 }
 
-// Returns the number of rows of a plane, and the number of bytes from the start of a row to the end
-// of its last pixel. The result is valid even for a pixel_stride that the library will reject.
-PlaneSize SizeOf(const starfocus_image& image, int plane, int64_t width, int64_t height) {
-  const int64_t step = std::max(image.pixel_stride, 0);
-  const int planes = PlanesOf(image.format);
-  if (planes == 1) {
-    const bool has_alpha =
-        image.format == STARFOCUS_FORMAT_RGBX || image.format == STARFOCUS_FORMAT_BGRX;
-    const int64_t pixel = has_alpha ? 4 : 3;
-    return {height, (width - 1) * std::max(step, pixel) + pixel};
-  }
-  if (plane == 0) return {height, width};
-  const int64_t columns = (width + 1) / 2;
-  const int64_t row = planes == 2 ? 2 * columns : (columns - 1) * std::max<int64_t>(step, 1) + 1;
-  return {(height + 1) / 2, row};
+// Finds the size of a plane. Returns false, with an exception pending, if the library rejects the
+// format or the pixel_stride.
+bool FindSize(JNIEnv* env, const starfocus_image& image, int plane, int32_t width, int32_t height,
+              PlaneSize* size) {
+  int32_t rows = 0;
+  size_t row_bytes = 0;
+  starfocus_problem problem = {};
+  const starfocus_status status =
+      starfocus_plane_size(&image, plane, width, height, &rows, &row_bytes, &problem);
+  ThrowStatus(env, status, &problem);
+  *size = {rows, static_cast<int64_t>(row_bytes)};
+  return status == STARFOCUS_OK;
 }
 
 // Returns the address of a direct buffer. Returns null, with an exception pending, if the buffer is
@@ -95,23 +91,11 @@ bool ReadPlane(JNIEnv* env, const NamedImage& from, int plane, PlaneSize size,
   return address != nullptr;
 }
 
-constexpr Field kImageFields[] = {
-    {"format", FieldType::kInt32, offsetof(starfocus_image, format)},
-    {"matrix", FieldType::kInt32, offsetof(starfocus_image, matrix)},
-    {"range", FieldType::kInt32, offsetof(starfocus_image, range)},
-    {"pixelStride", FieldType::kInt32, offsetof(starfocus_image, pixel_stride)},
-};
-
-constexpr Field kDepthFields[] = {
-    {"width", FieldType::kInt32, offsetof(starfocus_depth_map, width)},
-    {"height", FieldType::kInt32, offsetof(starfocus_depth_map, height)},
-    {"type", FieldType::kInt32, offsetof(starfocus_depth_map, type)},
-    {"meaning", FieldType::kInt32, offsetof(starfocus_depth_map, meaning)},
-    {"scale", FieldType::kDouble, offsetof(starfocus_depth_map, scale)},
-    {"offset", FieldType::kDouble, offsetof(starfocus_depth_map, offset)},
-    {"hasInvalid", FieldType::kInt32, offsetof(starfocus_depth_map, has_invalid)},
-    {"invalid", FieldType::kDouble, offsetof(starfocus_depth_map, invalid)},
-};
+constexpr const char* kImageNames[] = {"format", "matrix", "range", "pixelStride"};
+constexpr Fields kImage = {"starfocus_image", kImageNames, std::size(kImageNames)};
+constexpr const char* kDepthNames[] = {"width", "height", "type",       "meaning",
+                                       "scale", "offset", "hasInvalid", "invalid"};
+constexpr Fields kDepth = {"starfocus_depth_map", kDepthNames, std::size(kDepthNames)};
 
 int64_t BytesOf(int32_t type) {
   if (type == STARFOCUS_DEPTH_FLOAT) return 4;
@@ -169,7 +153,7 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
     ThrowArgument(env, "%s: expected an image, found null", what);
     return false;
   }
-  if (!ReadFields(env, object, kImageFields, std::size(kImageFields), image)) return false;
+  if (!ReadFields(env, object, kImage, image)) return false;
   const auto planes =
       static_cast<jobjectArray>(ReadObject(env, object, "planes", "[Ljava/nio/ByteBuffer;"));
   if (planes == nullptr) return false;
@@ -179,7 +163,8 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
     return false;
   }
   for (int i = 0; i < expected; ++i) {
-    const PlaneSize size = SizeOf(*image, i, width, height);
+    PlaneSize size;
+    if (!FindSize(env, *image, i, width, height, &size)) return false;
     if (!ReadPlane(env, {object, what, planes}, i, size, image)) return false;
   }
   env->DeleteLocalRef(planes);
@@ -192,7 +177,7 @@ bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map, MapCopy
     ThrowArgument(env, "depth: expected a depth map, found null");
     return false;
   }
-  if (!ReadFields(env, object, kDepthFields, std::size(kDepthFields), map)) return false;
+  if (!ReadFields(env, object, kDepth, map)) return false;
   if (map->width < 1 || map->height < 1) {
     ThrowArgument(env, "depth: expected a width and a height of 1 or more, found %d and %d",
                   map->width, map->height);
@@ -208,7 +193,6 @@ bool ReadDepthMap(JNIEnv* env, jobject object, starfocus_depth_map* map, MapCopy
 
 bool ReadLightField(JNIEnv* env, jobject light_field, const starfocus_config& config,
                     starfocus_light_field* field, MapCopy* copy) {
-  *field = {};
   const auto views =
       static_cast<jobjectArray>(ReadObject(env, light_field, "views", "[Ldev/starfocus/Image;"));
   if (views == nullptr) return false;

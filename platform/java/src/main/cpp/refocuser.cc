@@ -12,7 +12,7 @@
 #include "platform/java/src/main/cpp/fields.h"
 #include "platform/java/src/main/cpp/pictures.h"
 #include "starfocus/pool.h"
-#include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 // A session: an engine, its threads and its prepared light field. Refocuser.java ensures that only
 // one call at a time uses a session, except for the atomic fields.
 struct Session {
-  starfocus_config config = {};
+  Config config;
   starfocus_pool* pool = nullptr;
   starfocus_engine* engine = nullptr;
   void* prepared_memory = nullptr;
@@ -54,40 +54,38 @@ void Begin(Session* session) {
   session->rows_done.store(0, std::memory_order_relaxed);
 }
 
-constexpr Field kConfigFields[] = {
-    {"width", FieldType::kInt32, offsetof(starfocus_config, width)},
-    {"height", FieldType::kInt32, offsetof(starfocus_config, height)},
-    {"views", FieldType::kInt32, offsetof(starfocus_config, views)},
-    {"disparityMin", FieldType::kDouble, offsetof(starfocus_config, disparity_min)},
-    {"disparityMax", FieldType::kDouble, offsetof(starfocus_config, disparity_max)},
-    {"maxBlur", FieldType::kDouble, offsetof(starfocus_config, max_blur)},
-    {"workers", FieldType::kInt32, offsetof(starfocus_config, max_workers)},
-    {"superblock", FieldType::kInt32, offsetof(starfocus_config, superblock)},
-    {"nScale", FieldType::kDouble, offsetof(starfocus_config, tuning.n_scale)},
-    {"transfer", FieldType::kInt32, offsetof(starfocus_config, transfer)},
-    {"highlights", FieldType::kDouble, offsetof(starfocus_config, highlights)},
-    {"previews", FieldType::kInt32, offsetof(starfocus_config, previews)},
-};
+// Fields of Configuration and Parameters, by the C structure that they belong to.
+constexpr const char* kConfigNames[] = {"width",        "height",  "views",      "disparityMin",
+                                        "disparityMax", "maxBlur", "superblock", "transfer",
+                                        "highlights",   "previews"};
+constexpr Fields kConfig = {"starfocus_config", kConfigNames, std::size(kConfigNames)};
+constexpr const char* kTuningNames[] = {"nScale"};
+constexpr Fields kTuning = {"starfocus_tuning", kTuningNames, std::size(kTuningNames)};
+constexpr const char* kParamsNames[] = {"focus",     "focusNearer", "focusFarther", "aperture",
+                                        "shape",     "blades",      "theta",        "rotation",
+                                        "curvature", "ringInner",   "catsEye",      "regionX",
+                                        "regionY",   "regionWidth", "regionHeight"};
+constexpr Fields kParams = {"starfocus_params", kParamsNames, std::size(kParamsNames)};
+constexpr const char* kStudyNames[] = {"mode", "renderer"};
+constexpr Fields kStudy = {"starfocus_study", kStudyNames, std::size(kStudyNames)};
 
-constexpr Field kParamsFields[] = {
-    {"mode", FieldType::kInt32, offsetof(starfocus_params, mode)},
-    {"renderer", FieldType::kInt32, offsetof(starfocus_params, renderer)},
-    {"focus", FieldType::kDouble, offsetof(starfocus_params, lens.focus)},
-    {"focusNearer", FieldType::kDouble, offsetof(starfocus_params, lens.focus_nearer)},
-    {"focusFarther", FieldType::kDouble, offsetof(starfocus_params, lens.focus_farther)},
-    {"aperture", FieldType::kDouble, offsetof(starfocus_params, lens.aperture)},
-    {"shape", FieldType::kInt32, offsetof(starfocus_params, lens.shape)},
-    {"blades", FieldType::kInt32, offsetof(starfocus_params, lens.blades)},
-    {"theta", FieldType::kDouble, offsetof(starfocus_params, lens.theta)},
-    {"rotation", FieldType::kDouble, offsetof(starfocus_params, lens.rotation)},
-    {"curvature", FieldType::kDouble, offsetof(starfocus_params, lens.curvature)},
-    {"ringInner", FieldType::kDouble, offsetof(starfocus_params, lens.ring_inner)},
-    {"catsEye", FieldType::kDouble, offsetof(starfocus_params, lens.cats_eye)},
-    {"regionX", FieldType::kInt32, offsetof(starfocus_params, region.x)},
-    {"regionY", FieldType::kInt32, offsetof(starfocus_params, region.y)},
-    {"regionWidth", FieldType::kInt32, offsetof(starfocus_params, region.width)},
-    {"regionHeight", FieldType::kInt32, offsetof(starfocus_params, region.height)},
-};
+// Reads a Configuration, except for its positions.
+bool ReadConfig(JNIEnv* env, jobject configuration, Config* config) {
+  if (!ReadFields(env, configuration, kConfig, config) ||
+      !ReadFields(env, configuration, kTuning, &config->tuning)) {
+    return false;
+  }
+  config->tuning.line_scan = starfocus_line_scan_renderer();
+  config->max_workers = ReadInt(env, configuration, "workers");
+  if (ReadInt(env, configuration, "fillUnknown") != 0) config->unknown = STARFOCUS_UNKNOWN_FILL;
+  if (ReadInt(env, configuration, "shapes") != 0) config->features |= STARFOCUS_FEATURE_SHAPES;
+  return true;
+}
+
+bool ReadParams(JNIEnv* env, jobject parameters, Params* params) {
+  return ReadFields(env, parameters, kParams, params) &&
+         ReadFields(env, parameters, kStudy, &params->study);
+}
 
 // Reads Configuration.positions, unless this array is null. Returns false, with an exception
 // pending, if the array has the wrong length.
@@ -122,12 +120,11 @@ struct JavaTask {
 
 // Converts the Java arguments of a refocus call to C structures. Returns false, with an exception
 // pending, if the arguments are invalid.
-bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_params* params,
+bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, Params* params,
               starfocus_image* image) {
   const int32_t shift = task.shift;
   const jobject parameters = task.parameters, out = task.out;
-  starfocus_params_init(params);
-  if (!ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), params)) return false;
+  if (!ReadParams(env, parameters, params)) return false;
   params->preview_shift = shift;
   const starfocus_region& region = params->region;
   const bool whole = region.width == 0 && region.height == 0;
@@ -142,15 +139,15 @@ bool ReadTask(JNIEnv* env, Session* session, const JavaTask& task, starfocus_par
 
 // Creates the pool and the engine of a session. The caller must have set the configuration of the
 // session.
-starfocus_status Start(Session* session) {
-  starfocus_config* const config = &session->config;
+starfocus_status Start(Session* session, starfocus_problem* problem) {
+  Config* const config = &session->config;
   config->features |= STARFOCUS_FEATURE_IMAGES;
   if (config->max_workers != 1) {
     session->pool = starfocus_pool_create(config->max_workers);
     if (session->pool == nullptr) return STARFOCUS_ERROR_MEMORY;
     config->max_workers = starfocus_pool_workers(session->pool);
   }
-  const starfocus_status status = starfocus_create(config, nullptr, &session->engine);
+  const starfocus_status status = starfocus_create(config, nullptr, &session->engine, problem);
   if (status != STARFOCUS_OK) return status;
   starfocus_callbacks callbacks = {};
   callbacks.runner = session->pool != nullptr ? starfocus_pool_run : nullptr;
@@ -158,24 +155,6 @@ starfocus_status Start(Session* session) {
   callbacks.progress = Tell;
   callbacks.progress_data = session;
   return starfocus_set_callbacks(session->engine, &callbacks);
-}
-
-// Argument of a function of the C library that reports no starfocus_problem, and its range.
-struct PlaceValue {
-  const char* name;
-  int32_t value, low, high;
-};
-
-// Returns false, with an exception pending that names the argument, if the value is out of range.
-bool CheckRange(JNIEnv* env, const PlaceValue& from) {
-  if (from.value >= from.low && from.value <= from.high) return true;
-  char expected[40];
-  std::snprintf(expected, sizeof expected, "%d to %d", from.low, from.high);
-  const starfocus_problem problem = {
-      STARFOCUS_ERROR_RANGE, 0,  from.name, expected, double(from.value), double(from.low),
-      double(from.high),     -1, -1};
-  ThrowStatus(env, STARFOCUS_ERROR_RANGE, &problem);
-  return false;
 }
 
 // Returns an array of two numbers, or null if an exception is pending.
@@ -191,7 +170,7 @@ jdoubleArray NewPair(JNIEnv* env, double first, double second) {
 // fields.
 starfocus_status Prepare(Session* session, const starfocus_light_field& field) {
   size_t bytes = 0;
-  const starfocus_status status = starfocus_prepared_size(&session->config, &bytes);
+  const starfocus_status status = starfocus_prepared_size(session->engine, &bytes);
   if (status != STARFOCUS_OK) return status;
   if (session->prepared_memory == nullptr &&
       posix_memalign(&session->prepared_memory, STARFOCUS_ALIGNMENT, bytes) != 0) {
@@ -212,17 +191,14 @@ using namespace starfocus;
 
 STARFOCUS_NATIVE(void, initialize__Ldev_starfocus_Configuration_2)
 (JNIEnv* env, jclass, jobject object) {
-  starfocus_config config;
-  starfocus_config_init(&config);
-  config.max_workers = 0;
-  WriteFields(env, &config, kConfigFields, std::size(kConfigFields), object);
+  const Config config;
+  if (WriteFields(env, &config, kConfig, object)) WriteFields(env, &config.tuning, kTuning, object);
 }
 
 STARFOCUS_NATIVE(void, initialize__Ldev_starfocus_Parameters_2)
 (JNIEnv* env, jclass, jobject object) {
-  starfocus_params params;
-  starfocus_params_init(&params);
-  WriteFields(env, &params, kParamsFields, std::size(kParamsFields), object);
+  const Params params;
+  if (WriteFields(env, &params, kParams, object)) WriteFields(env, &params.study, kStudy, object);
 }
 
 STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
@@ -232,19 +208,10 @@ STARFOCUS_NATIVE(jlong, create)(JNIEnv* env, jclass, jobject configuration) {
     return 0;
   }
   auto* const session = new (memory) Session;
-  starfocus_config_init(&session->config);
-  if (ReadFields(env, configuration, kConfigFields, std::size(kConfigFields), &session->config) &&
+  if (ReadConfig(env, configuration, &session->config) &&
       ReadPositions(env, configuration, &session->config)) {
-    if (ReadInt(env, configuration, "fillUnknown") != 0) {
-      session->config.features |= STARFOCUS_FEATURE_FILL_UNKNOWN;
-    }
-    if (ReadInt(env, configuration, "shapes") != 0) {
-      session->config.features |= STARFOCUS_FEATURE_SHAPES;
-    }
     starfocus_problem problem = {};
-    session->config.problem = &problem;
-    const starfocus_status status = Start(session);
-    session->config.problem = nullptr;
+    const starfocus_status status = Start(session, &problem);
     if (status == STARFOCUS_OK) return reinterpret_cast<jlong>(session);
     ThrowStatus(env, status, &problem);
   }
@@ -257,9 +224,9 @@ STARFOCUS_NATIVE(void, destroy)(JNIEnv*, jclass, jlong handle) { End(From(handle
 STARFOCUS_NATIVE(void, refocus)
 (JNIEnv* env, jclass, jlong handle, jobject light_field, jobject parameters, jobject out) {
   Session* const session = From(handle);
-  starfocus_light_field field;
+  starfocus_light_field field = NewLightField();
   MapCopy copy;
-  starfocus_params params;
+  Params params;
   starfocus_image image;
   if (!ReadLightField(env, light_field, session->config, &field, &copy) ||
       !ReadTask(env, session, {0, parameters, out}, &params, &image)) {
@@ -273,7 +240,7 @@ STARFOCUS_NATIVE(void, refocus)
 STARFOCUS_NATIVE(void, prepare)
 (JNIEnv* env, jclass, jlong handle, jobject light_field) {
   Session* const session = From(handle);
-  starfocus_light_field field;
+  starfocus_light_field field = NewLightField();
   session->prepared = nullptr;
   if (ReadLightField(env, light_field, session->config, &field, &session->prepared_map)) {
     ThrowStatus(env, Prepare(session, field), starfocus_engine_problem(session->engine));
@@ -281,21 +248,9 @@ STARFOCUS_NATIVE(void, prepare)
 }
 
 STARFOCUS_NATIVE(void, refocusPrepared)
-(JNIEnv* env, jclass, jlong handle, jobject parameters, jobject out) {
-  Session* const session = From(handle);
-  starfocus_params params;
-  starfocus_image image;
-  if (!ReadTask(env, session, {0, parameters, out}, &params, &image)) return;
-  Begin(session);
-  ThrowStatus(
-      env, starfocus_refocus_prepared(session->engine, &params, session->prepared, &image, nullptr),
-      starfocus_engine_problem(session->engine));
-}
-
-STARFOCUS_NATIVE(void, preview)
 (JNIEnv* env, jclass, jlong handle, jint shift, jobject parameters, jobject out) {
   Session* const session = From(handle);
-  starfocus_params params;
+  Params params;
   starfocus_image image;
   if (!ReadTask(env, session, {shift, parameters, out}, &params, &image)) return;
   Begin(session);
@@ -320,25 +275,19 @@ STARFOCUS_NATIVE(jdouble, focusAt)
   MapCopy copy;
   double focus = 0;
   if (!ReadDepthMap(env, depth, &map, &copy)) return focus;
-  const PlaceValue values[] = {{"width", at[0], map.width, STARFOCUS_MAX_SIZE},
-                               {"height", at[1], map.height, STARFOCUS_MAX_SIZE},
-                               {"x", at[2], 0, at[0] - 1},
-                               {"y", at[3], 0, at[1] - 1}};
-  for (const PlaceValue& value : values) {
-    if (!CheckRange(env, value)) return focus;
-  }
-  ThrowStatus(env, starfocus_focus_at(&map, at[0], at[1], at[2], at[3], &focus));
+  starfocus_problem problem = {};
+  ThrowStatus(env, starfocus_focus_at(&map, at[0], at[1], at[2], at[3], &focus, &problem),
+              &problem);
   return focus;
 }
 
 STARFOCUS_NATIVE(jdouble, largestAperture)
 (JNIEnv* env, jclass, jlong handle, jobject parameters) {
   starfocus_engine* const engine = From(handle)->engine;
-  starfocus_params params;
-  starfocus_params_init(&params);
+  Params params;
   double aperture = 0;
-  if (ReadFields(env, parameters, kParamsFields, std::size(kParamsFields), &params)) {
-    ThrowStatus(env, starfocus_largest_aperture(engine, &params.lens, &aperture),
+  if (ReadParams(env, parameters, &params)) {
+    ThrowStatus(env, starfocus_largest_aperture(engine, &params, &aperture),
                 starfocus_engine_problem(engine));
   }
   return aperture;
@@ -349,18 +298,20 @@ STARFOCUS_NATIVE(jdoubleArray, measureDisparity)(JNIEnv* env, jclass, jobject de
   MapCopy copy;
   starfocus_disparity_stats stats = {};
   if (!ReadDepthMap(env, depth, &map, &copy)) return nullptr;
-  ThrowStatus(env, starfocus_measure_disparity(&map, &stats));
+  starfocus_problem problem = {};
+  ThrowStatus(env, starfocus_measure_disparity(&map, &stats, &problem), &problem);
   return NewPair(env, stats.min, stats.max);
 }
 
 STARFOCUS_NATIVE(jdoubleArray, viewPosition)(JNIEnv* env, jclass, jint index) {
   double u = 0, v = 0;
-  if (!starfocus_view_position(index, &u, &v)) ThrowStatus(env, STARFOCUS_ERROR_RANGE);
+  starfocus_problem problem = {};
+  ThrowStatus(env, starfocus_view_position(index, &u, &v, &problem), &problem);
   return NewPair(env, u, v);
 }
 
 STARFOCUS_NATIVE(jstring, version)(JNIEnv* env, jclass) {
   char text[100];
-  std::snprintf(text, sizeof text, "%s, %s", starfocus_version(), starfocus_simd_target());
+  std::snprintf(text, sizeof text, "%s, %s", starfocus_version(nullptr), starfocus_simd_target());
   return env->NewStringUTF(text);
 }

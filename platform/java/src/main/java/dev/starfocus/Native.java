@@ -25,9 +25,8 @@ final class Native {
 
   static native void prepare(long session, LightField lightField);
 
-  static native void refocusPrepared(long session, Parameters parameters, Image out);
-
-  static native void preview(long session, int shift, Parameters parameters, Image out);
+  /** {@code shift} is 0 for the full size. */
+  static native void refocusPrepared(long session, int shift, Parameters parameters, Image out);
 
   static native void cancel(long session);
 

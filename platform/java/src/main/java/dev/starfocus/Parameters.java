@@ -2,9 +2,9 @@
 package dev.starfocus;
 
 /**
- * Parameters of a refocus call: the fields of the C structures starfocus_params and starfocus_lens.
- * The parameters may be changed between calls. A call throws an exception for values out of range,
- * even in fields that the shape of the lens does not use.
+ * Parameters of a refocus call: the fields of the C structures starfocus_params and
+ * starfocus_study. The parameters may be changed between calls. A call throws an exception for
+ * values out of range, even in fields that the shape of the lens does not use.
  */
 public final class Parameters {
   /**

@@ -76,7 +76,7 @@ public final class Refocuser implements Closeable {
    */
   public synchronized void refocusPrepared(Parameters parameters, Image out) {
     checkPrepared(parameters, out);
-    Native.refocusPrepared(open(), parameters, out);
+    Native.refocusPrepared(open(), 0, parameters, out);
   }
 
   /**
@@ -92,7 +92,7 @@ public final class Refocuser implements Closeable {
    */
   public synchronized void preview(int shift, Parameters parameters, Image out) {
     checkPrepared(parameters, out);
-    Native.preview(open(), shift, parameters, out);
+    Native.refocusPrepared(open(), shift, parameters, out);
   }
 
   /**

@@ -18,7 +18,7 @@ public class StarfocusException extends RuntimeException {
   /**
    * Returns the status of the C call.
    *
-   * @return a value of starfocus_status, which starfocus/status.h defines
+   * @return a value of starfocus_status, which starfocus/starfocus.h defines
    */
   public int status() {
     return status;

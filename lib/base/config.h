@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configurations and parameters inside the library, where all fields are set. The structures of
+// callers may be shorter and may lack a tuning or a study (lib/api/validate.h).
+#ifndef STARFOCUS_LIB_BASE_CONFIG_H_
+#define STARFOCUS_LIB_BASE_CONFIG_H_
+
+#include <cstdint>
+
+#include "starfocus/experimental.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// A configuration with the tuning by value, which hides the caller's pointer.
+struct FullConfig : starfocus_config {
+  starfocus_tuning tuning;
+  starfocus_problem* problem;  // Receives the cause of an error; may be null.
+};
+
+// Parameters with the fields of starfocus_study by value.
+struct FullParams : starfocus_params {
+  int32_t mode, renderer;
+};
+
+// Returns true if a configuration contains the STARFOCUS_FEATURE_ bit `feature`.
+inline bool Has(const starfocus_config& config, uint32_t feature) {
+  return (config.features & feature) != 0;
+}
+
+// Return the limits of disparities in float, the type of the values in depth maps.
+inline float MinDisparity(const starfocus_config& config) {
+  return static_cast<float>(config.disparity_min);
+}
+inline float MaxDisparity(const starfocus_config& config) {
+  return static_cast<float>(config.disparity_max);
+}
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_LIB_BASE_CONFIG_H_
