@@ -43,77 +43,79 @@ inline void FindBeyond(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, int16_
 }
 
 inline void CoverPlaces(const int16_t* HWY_RESTRICT near, const uint8_t* HWY_RESTRICT coverage,
-                        const int16_t* HWY_RESTRICT far, const CoverView& view,
-                        int16_t* HWY_RESTRICT covered) {
+                        const int16_t* HWY_RESTRICT far, int16_t along, int16_t place,
+                        int16_t within, int16_t least, int16_t* HWY_RESTRICT covered) {
   const LanesTag d16;
   const hn::Rebind<uint8_t, LanesTag> d8;
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto nearer = hn::SaturatedSub(hn::LoadU(d16, near + n), hn::LoadU(d16, far + n));
-    const auto moved = hn::MulFixedPoint15(nearer, hn::Set(d16, view.along));
-    const auto beside = hn::SaturatedSub(moved, hn::Set(d16, view.place));
-    const auto covers =
-        hn::And(hn::Gt(nearer, hn::Set(d16, view.least)), IsWithin(beside, view.within));
+    const auto moved = hn::MulFixedPoint15(nearer, hn::Set(d16, along));
+    const auto beside = hn::SaturatedSub(moved, hn::Set(d16, place));
+    const auto covers = hn::And(hn::Gt(nearer, hn::Set(d16, least)), IsWithin(beside, within));
     const auto cover = hn::PromoteTo(d16, hn::LoadU(d8, coverage + n));
     const auto before = hn::LoadU(d16, covered + n);
     hn::StoreU(hn::Max(before, hn::IfThenElseZero(covers, cover)), d16, covered + n);
   }
 }
 
-inline void SumNear(const NearRows& rows, NearSums* sums) {
+inline void SumNear(const int16_t* const light[3], const int16_t* disparity, const int16_t* weight,
+                    ptrdiff_t stride, int16_t step, int16_t sums[4][kSliceLanes]) {
   const LanesTag d16;
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
-    const auto here = hn::LoadU(d16, rows.disparity + n);
+    const auto here = hn::LoadU(d16, disparity + n);
     auto r = hn::Zero(d16), g = r, b = r, weights = r;
     for (int32_t y = -kNearReach; y <= kNearReach; ++y) {
       for (int32_t x = -kNearReach; x <= kNearReach; ++x) {
-        const ptrdiff_t there = static_cast<ptrdiff_t>(n) + y * rows.stride + x;
+        const ptrdiff_t there = static_cast<ptrdiff_t>(n) + y * stride + x;
         const int16_t tap = kNearTaps[y < 0 ? -y : y][x < 0 ? -x : x];
-        const auto beyond = hn::SaturatedSub(hn::LoadU(d16, rows.disparity + there), here);
-        const auto same = IsWithin(beyond, rows.step);
-        const auto weight = hn::IfThenElseZero(
-            same, hn::Mul(hn::LoadU(d16, rows.weight + there), hn::Set(d16, tap)));
-        weights = hn::Add(weights, weight);
-        r = hn::Add(r, hn::MulFixedPoint15(hn::LoadU(d16, rows.light[0] + there), weight));
-        g = hn::Add(g, hn::MulFixedPoint15(hn::LoadU(d16, rows.light[1] + there), weight));
-        b = hn::Add(b, hn::MulFixedPoint15(hn::LoadU(d16, rows.light[2] + there), weight));
+        const auto beyond = hn::SaturatedSub(hn::LoadU(d16, disparity + there), here);
+        const auto same = IsWithin(beyond, step);
+        const auto part =
+            hn::IfThenElseZero(same, hn::Mul(hn::LoadU(d16, weight + there), hn::Set(d16, tap)));
+        weights = hn::Add(weights, part);
+        r = hn::Add(r, hn::MulFixedPoint15(hn::LoadU(d16, light[0] + there), part));
+        g = hn::Add(g, hn::MulFixedPoint15(hn::LoadU(d16, light[1] + there), part));
+        b = hn::Add(b, hn::MulFixedPoint15(hn::LoadU(d16, light[2] + there), part));
       }
     }
-    hn::StoreU(r, d16, sums->light[0] + n);
-    hn::StoreU(g, d16, sums->light[1] + n);
-    hn::StoreU(b, d16, sums->light[2] + n);
-    hn::StoreU(weights, d16, sums->weight + n);
+    hn::StoreU(r, d16, sums[0] + n);
+    hn::StoreU(g, d16, sums[1] + n);
+    hn::StoreU(b, d16, sums[2] + n);
+    hn::StoreU(weights, d16, sums[3] + n);
   }
 }
 
-inline void SumVotes(const VoteRows& rows, VoteSums* HWY_RESTRICT sums) {
+inline void SumVotes(const int16_t* const colours[3], const int16_t* surface, const int16_t* trusts,
+                     const int16_t* middles, ptrdiff_t stride, int32_t reach, int32_t step,
+                     const int16_t* closeness, VoteSums* HWY_RESTRICT sums) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   const auto zero = hn::Zero(d16);
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
-    const auto red = hn::LoadU(d16, rows.colour[0] + n);
-    const auto green = hn::LoadU(d16, rows.colour[1] + n);
-    const auto blue = hn::LoadU(d16, rows.colour[2] + n);
-    const auto middle = hn::LoadU(d16, rows.middle + n);
+    const auto red = hn::LoadU(d16, colours[0] + n);
+    const auto green = hn::LoadU(d16, colours[1] + n);
+    const auto blue = hn::LoadU(d16, colours[2] + n);
+    const auto middle = hn::LoadU(d16, middles + n);
     auto similar_far = hn::Zero(du16), similar_near = similar_far;
     auto weight_all = zero, weight_near = zero;
-    const int16_t* HWY_RESTRICT closeness = rows.closeness;
-    for (int32_t y = -rows.reach; y <= rows.reach; y += rows.step) {
-      const ptrdiff_t row = static_cast<ptrdiff_t>(n) + y * rows.stride;
+    const int16_t* HWY_RESTRICT close = closeness;
+    for (int32_t y = -reach; y <= reach; y += step) {
+      const ptrdiff_t row = static_cast<ptrdiff_t>(n) + y * stride;
       auto all = zero, near = zero;
-      for (int32_t x = -rows.reach; x <= rows.reach; x += rows.step, ++closeness) {
+      for (int32_t x = -reach; x <= reach; x += step, ++close) {
         const ptrdiff_t at = row + x;
-        const auto trust = hn::LoadU(d16, rows.trust + at);
-        const auto r = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[0] + at), red));
-        const auto g = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[1] + at), green));
-        const auto b = hn::Abs(hn::Sub(hn::LoadU(d16, rows.colour[2] + at), blue));
+        const auto trust = hn::LoadU(d16, trusts + at);
+        const auto r = hn::Abs(hn::Sub(hn::LoadU(d16, colours[0] + at), red));
+        const auto g = hn::Abs(hn::Sub(hn::LoadU(d16, colours[1] + at), green));
+        const auto b = hn::Abs(hn::Sub(hn::LoadU(d16, colours[2] + at), blue));
         const auto difference = hn::BitCast(du16, hn::Add(hn::Add(r, g), b));
         const auto wide = hn::SaturatedSub(hn::Set(du16, kWide), difference);
         const auto tight = hn::SaturatedSub(hn::Set(du16, kTight), difference);
         const auto similar = hn::BitCast(d16, hn::Add(hn::ShiftRight<9>(hn::Mul(wide, wide)),
                                                       hn::ShiftRight<2>(hn::Mul(tight, tight))));
-        const auto weight = hn::MulFixedPoint15(trust, hn::Set(d16, *closeness));
+        const auto weight = hn::MulFixedPoint15(trust, hn::Set(d16, *close));
         const auto weighted = hn::Mul(weight, similar);
-        const auto nearer = hn::Gt(hn::LoadU(d16, rows.surface + at), middle);
+        const auto nearer = hn::Gt(hn::LoadU(d16, surface + at), middle);
         all = hn::Add(all, weighted);
         near = hn::Add(near, hn::IfThenElseZero(nearer, weighted));
         weight_all = hn::Add(weight_all, weight);
@@ -131,49 +133,40 @@ inline void SumVotes(const VoteRows& rows, VoteSums* HWY_RESTRICT sums) {
   }
 }
 
-using SmoothTag = hn::CappedTag<int32_t, kSliceLanes>;
-using SmoothVec = hn::Vec<SmoothTag>;
-
-// Sums the disparities and weights of the neighbours for a vector of pixels. The first pixel is n.
-HWY_INLINE void SumSmooth(const SmoothRows& rows, size_t n, SmoothVec& disparity,
-                          SmoothVec& weights) {
-  const SmoothTag d32;
-  const size_t plane = rows.plane;
-  const int32_t* HWY_RESTRICT own = rows.own + n;
-  const auto middle = hn::LoadU(d32, own), sum = hn::LoadU(d32, own + plane);
-  const auto red_green = hn::LoadU(d32, own + 2 * plane);
-  const auto green_blue = hn::LoadU(d32, own + 3 * plane);
-  const auto tolerance = hn::Set(d32, rows.tolerance);
-  const auto most = hn::Set(d32, kMostSmoothWeight), one = hn::Set(d32, 1);
-  for (size_t k = 0; k < rows.count; ++k) {
-    const int32_t* HWY_RESTRICT row = rows.rows[k] + n;
-    for (int32_t x = -rows.radius; x <= rows.radius; x += rows.step) {
-      const int32_t* HWY_RESTRICT other = row + x;
-      const auto d = hn::LoadU(d32, other);
-      const auto brightness = hn::Abs(hn::Sub(sum, hn::LoadU(d32, other + plane)));
-      const auto a = hn::Sub(red_green, hn::LoadU(d32, other + 2 * plane));
-      const auto b = hn::Sub(green_blue, hn::LoadU(d32, other + 3 * plane));
-      const auto hue = hn::Add(hn::Add(hn::Abs(a), hn::Abs(b)), hn::Abs(hn::Add(a, b)));
-      const auto difference = hn::Add(hn::ShiftRight<2>(brightness), hue);
-      const auto far = hn::Gt(hn::Abs(hn::Sub(d, middle)), tolerance);
-      const auto weight = hn::IfThenZeroElse(far, hn::Max(hn::Sub(most, difference), one));
-      disparity = hn::Add(disparity, hn::Mul(weight, d));
-      weights = hn::Add(weights, weight);
-    }
-  }
-}
-
-inline void SmoothDisparity(const SmoothRows& rows, size_t count, int16_t* HWY_RESTRICT smooth) {
-  const SmoothTag d32;
+inline void SmoothDisparity(const int32_t* own, const int32_t* const* rows, size_t height,
+                            size_t plane, int32_t radius, int32_t step, int32_t tolerance,
+                            size_t count, int16_t* HWY_RESTRICT smooth) {
+  const hn::CappedTag<int32_t, kSliceLanes> d32;
   const size_t lanes = hn::Lanes(d32);
-  int32_t disparities[kSliceLanes], weights[kSliceLanes];
+  const auto limit = hn::Set(d32, tolerance);
+  const auto most = hn::Set(d32, kMostSmoothWeight), one = hn::Set(d32, 1);
   for (size_t n = 0; n < count; n += lanes) {
-    auto disparity = hn::Zero(d32), weight = hn::Zero(d32);
-    SumSmooth(rows, n, disparity, weight);
+    const int32_t* HWY_RESTRICT here = own + n;
+    const auto middle = hn::LoadU(d32, here), sum = hn::LoadU(d32, here + plane);
+    const auto red_green = hn::LoadU(d32, here + 2 * plane);
+    const auto green_blue = hn::LoadU(d32, here + 3 * plane);
+    auto disparity = hn::Zero(d32), weights = hn::Zero(d32);
+    for (size_t k = 0; k < height; ++k) {
+      const int32_t* HWY_RESTRICT row = rows[k] + n;
+      for (int32_t x = -radius; x <= radius; x += step) {
+        const int32_t* HWY_RESTRICT other = row + x;
+        const auto d = hn::LoadU(d32, other);
+        const auto brightness = hn::Abs(hn::Sub(sum, hn::LoadU(d32, other + plane)));
+        const auto a = hn::Sub(red_green, hn::LoadU(d32, other + 2 * plane));
+        const auto b = hn::Sub(green_blue, hn::LoadU(d32, other + 3 * plane));
+        const auto hue = hn::Add(hn::Add(hn::Abs(a), hn::Abs(b)), hn::Abs(hn::Add(a, b)));
+        const auto difference = hn::Add(hn::ShiftRight<2>(brightness), hue);
+        const auto far = hn::Gt(hn::Abs(hn::Sub(d, middle)), limit);
+        const auto weight = hn::IfThenZeroElse(far, hn::Max(hn::Sub(most, difference), one));
+        disparity = hn::Add(disparity, hn::Mul(weight, d));
+        weights = hn::Add(weights, weight);
+      }
+    }
+    int32_t disparities[kSliceLanes], sums[kSliceLanes];
     hn::StoreU(disparity, d32, disparities);
-    hn::StoreU(weight, d32, weights);
+    hn::StoreU(weights, d32, sums);
     for (size_t k = 0; k < lanes && n + k < count; ++k) {
-      smooth[n + k] = SmoothMean(disparities[k], weights[k]);
+      smooth[n + k] = SmoothMean(disparities[k], sums[k]);
     }
   }
 }

@@ -38,36 +38,8 @@ struct BeyondOffsets {
 };
 inline constexpr BeyondOffsets kBeyondOffsets;
 
-// Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude far pixels in the
-// view. All disparities must have the same scale; any scale is permitted.
-struct CoverView {
-  int16_t along;  // movement in the view per unit of disparity, 15 fractional bits
-  // Movement in the view that places the near pixel onto the far pixel, in the scale of
-  // disparities.
-  int16_t place;
-  int16_t within;  // Largest deviation from `place` at which the near pixel covers the far pixel.
-  int16_t least;   // A near pixel covers far pixels only if it is nearer by more than `least`.
-};
-
 // Largest distance, in columns and rows, of the pixels that SumNear adds.
 inline constexpr int32_t kNearReach = 2;
-
-// The pixels around a row of kSliceLanes pixels. All pointers point to the first pixel of the row.
-// Rows are `stride` samples apart.
-struct NearRows {
-  const int16_t* light[3];
-  const int16_t* disparity;  // disparity of the near surface
-  // Weight of the pixel in a mean of the near surface's light, [0, 256].
-  const int16_t* weight;
-  ptrdiff_t stride;
-  int16_t step;  // largest difference between the disparities of one surface
-};
-
-// Output of SumNear: sums of light, and sums of weights with 15 fractional bits.
-struct NearSums {
-  int16_t light[3][kSliceLanes];
-  int16_t weight[kSliceLanes];
-};
 
 // Filter coefficients of SumNear, by the distance in columns and rows. The coefficients of all
 // pixels sum to 118, so that with weights of 256 the total is less than 1 (15 fractional bits).
@@ -80,18 +52,6 @@ inline constexpr int32_t kMostVoteSide = 18;
 // the rounded product with 15 fractional bits is the weight of the sample.
 inline constexpr int32_t kMostTrust = 64, kMostCloseness = 16;
 inline constexpr int32_t kClosenessUnit = (1 << 15) / kMostTrust;
-
-// The pixels around a row of kSliceLanes pixels. All pointers, except `closeness`, point to the
-// first pixel of the row. Rows are `stride` samples apart.
-struct VoteRows {
-  const int16_t* colour[3];  // brightness and two differences of colour, [-383, 383]
-  const int16_t* surface;    // disparity
-  const int16_t* trust;      // [0, kMostTrust]
-  const int16_t* middle;     // disparity above which a surface counts as nearer, for each pixel
-  ptrdiff_t stride;
-  int32_t reach, step;       // every step-th column and row from -reach to reach is a sample
-  const int16_t* closeness;  // [0, kMostCloseness * kClosenessUnit], one for each sample, by rows
-};
 
 // Sums over the samples that are farther and nearer than the middle.
 struct VoteSums {
@@ -121,19 +81,6 @@ inline constexpr size_t kMostSmoothRows = 7;
 // Weight of a neighbour of equal colour. The weight of a neighbour decreases with the difference of
 // the colours, down to 1.
 inline constexpr int32_t kMostSmoothWeight = 64;
-
-// A row of pixels (`own`) and the rows over which its pixels are averaged. Each pointer points to
-// the first pixel of a row. `radius` more pixels at both ends of a row must be readable. A row has
-// four planes, which are `plane` elements apart: disparity, and the members sum, red_green and
-// green - blue.
-struct SmoothRows {
-  const int32_t* own;
-  const int32_t* rows[kMostSmoothRows];
-  size_t count;  // number of rows
-  size_t plane;
-  int32_t radius, step;  // Neighbours are in every `step`-th column within `radius`.
-  int32_t tolerance;     // Largest difference of disparities within a surface.
-};
 
 // Returns the mean disparity over the neighbours of a pixel. `disparity` is the sum of the weighted
 // disparities, below 2^27, and `weights` is the sum of the weights, below 2^13. Halves are rounded
@@ -170,58 +117,78 @@ STARFOCUS_REFERENCE void FindBeyond(const int16_t* row, ptrdiff_t stride, int16_
 }
 
 // For each n < kSliceLanes, raises covered[n] to coverage[n] if near pixel n (disparity near[n])
-// occludes far pixel n (disparity far[n]) in the view. CoverPlaces never lowers covered[n].
+// occludes far pixel n (disparity far[n]) in a view. CoverPlaces never lowers covered[n].
+//
+// In the view, pixels move by `along` per unit of disparity (15 fractional bits). All other numbers
+// are in the scale of the disparities, which may be any scale. The near pixel covers the far pixel
+// if it is nearer by more than `least`, and if it moves by `place`, give or take `within`.
 STARFOCUS_REFERENCE void CoverPlaces(const int16_t* near, const uint8_t* coverage,
-                                     const int16_t* far, const CoverView& view, int16_t* covered) {
+                                     const int16_t* far, int16_t along, int16_t place,
+                                     int16_t within, int16_t least, int16_t* covered) {
   for (size_t n = 0; n < kSliceLanes; ++n) {
     const int16_t nearer = Saturated(near[n] - far[n]);
-    const int16_t beside = Saturated(Product15(nearer, view.along) - view.place);
-    const bool covers = nearer > view.least && beside >= -view.within && beside <= view.within;
+    const int16_t beside = Saturated(Product15(nearer, along) - place);
+    const bool covers = nearer > least && beside >= -within && beside <= within;
     if (covers && coverage[n] > covered[n]) covered[n] = coverage[n];
   }
 }
 
-// Sums the light around each pixel n < kSliceLanes. The sum includes the pixels within kNearReach
-// whose near surface is the near surface of pixel n. The light of each pixel is multiplied by the
-// pixel's weight and by a filter coefficient from kNearTaps. Each product is rounded half up.
-STARFOCUS_REFERENCE void SumNear(const NearRows& rows, NearSums* sums) {
-  *sums = {};
+// Sums the light around each pixel n < kSliceLanes of a row. The sum includes the pixels within
+// kNearReach whose near surface is the near surface of pixel n: `disparity`, which is the disparity
+// of the near surface, differs by at most `step`. The light of each pixel is multiplied by the
+// pixel's weight, in [0, 256], and by a filter coefficient from kNearTaps. Each product is rounded
+// half up. sums[c][n] is the sum of colour c, and sums[3][n] the sum of the weights with 15
+// fractional bits. The inputs point to the first pixel of the row; rows are `stride` samples apart.
+STARFOCUS_REFERENCE void SumNear(const int16_t* const light[3], const int16_t* disparity,
+                                 const int16_t* weight, ptrdiff_t stride, int16_t step,
+                                 int16_t sums[4][kSliceLanes]) {
+  for (size_t k = 0; k < 4; ++k) {
+    for (size_t n = 0; n < kSliceLanes; ++n) sums[k][n] = 0;
+  }
   for (int32_t y = -kNearReach; y <= kNearReach; ++y) {
     for (int32_t x = -kNearReach; x <= kNearReach; ++x) {
       const int16_t tap = kNearTaps[std::abs(y)][std::abs(x)];
       for (size_t n = 0; n < kSliceLanes; ++n) {
-        const ptrdiff_t here = static_cast<ptrdiff_t>(n), there = here + y * rows.stride + x;
-        const int16_t beyond = Saturated(rows.disparity[there] - rows.disparity[here]);
-        if (beyond > rows.step || beyond < -rows.step) continue;
-        const int32_t weight = rows.weight[there] * tap;
-        sums->weight[n] = static_cast<int16_t>(sums->weight[n] + weight);
+        const ptrdiff_t here = static_cast<ptrdiff_t>(n), there = here + y * stride + x;
+        const int16_t beyond = Saturated(disparity[there] - disparity[here]);
+        if (beyond > step || beyond < -step) continue;
+        const int32_t part = weight[there] * tap;
+        sums[3][n] = static_cast<int16_t>(sums[3][n] + part);
         for (int c = 0; c < 3; ++c) {
-          const int16_t part = Product15(rows.light[c][there], weight);
-          sums->light[c][n] = static_cast<int16_t>(sums->light[c][n] + part);
+          sums[c][n] = static_cast<int16_t>(sums[c][n] + Product15(light[c][there], part));
         }
       }
     }
   }
 }
 
-// Compares kSliceLanes pixels with the samples around them. The weight of a sample is the product
-// of its trust and its closeness, rounded.
-STARFOCUS_REFERENCE void SumVotes(const VoteRows& rows, VoteSums* sums) {
+// Compares kSliceLanes pixels of a row with the samples around them: the pixels of every step-th
+// column and row, from -reach to reach. `colour` are the planes of brightness and of two
+// differences of colour, in [-383, 383], and `surface` are disparities. A sample counts as nearer
+// if its surface is above middle[n], the disparity given for pixel n. The weight of a sample is the
+// product of its trust, in [0, kMostTrust], and its closeness, rounded. `closeness` has one element
+// for each sample, by rows, in [0, kMostCloseness * kClosenessUnit]. All other inputs point to the
+// first pixel of the row, and rows are `stride` samples apart.
+STARFOCUS_REFERENCE void SumVotes(const int16_t* const colours[3], const int16_t* surface,
+                                  const int16_t* trust, const int16_t* middle, ptrdiff_t stride,
+                                  int32_t reach, int32_t step, const int16_t* closeness,
+                                  VoteSums* sums) {
   *sums = {};
   for (size_t n = 0; n < kSliceLanes; ++n) {
     const ptrdiff_t here = static_cast<ptrdiff_t>(n);
-    const int16_t* closeness = rows.closeness;
-    for (int32_t y = -rows.reach; y <= rows.reach; y += rows.step) {
+    const int16_t* close = closeness;
+    for (int32_t y = -reach; y <= reach; y += step) {
       int32_t similar[2] = {0, 0};
-      for (int32_t x = -rows.reach; x <= rows.reach; x += rows.step) {
-        const ptrdiff_t there = here + y * rows.stride + x;
+      for (int32_t x = -reach; x <= reach; x += step) {
+        const ptrdiff_t there = here + y * stride + x;
         int32_t difference = 0;
-        for (const int16_t* colour : rows.colour)
-          difference += std::abs(colour[there] - colour[here]);
+        for (size_t c = 0; c < 3; ++c) {
+          difference += std::abs(colours[c][there] - colours[c][here]);
+        }
         const int32_t wide = difference < kWide ? kWide - difference : 0;
         const int32_t tight = difference < kTight ? kTight - difference : 0;
-        const int32_t weight = Product15(rows.trust[there], *closeness++);
-        const int side = rows.surface[there] > rows.middle[here] ? 1 : 0;
+        const int32_t weight = Product15(trust[there], *close++);
+        const int side = surface[there] > middle[here] ? 1 : 0;
         similar[side] += weight * ((wide * wide >> 9) + (tight * tight >> 2));
         sums->weight[side][n] = static_cast<uint16_t>(sums->weight[side][n] + weight);
       }
@@ -239,19 +206,24 @@ inline int32_t SmoothWeight(const int32_t* own, const int32_t* other, size_t pla
   return difference < kMostSmoothWeight ? kMostSmoothWeight - difference : 1;
 }
 
-// Sets smooth[n] to the weighted mean disparity over neighbours of pixel n, for n < count. The mean
-// includes pixel n and all neighbours whose disparity differs from the disparity of pixel n by at
-// most `tolerance`.
-STARFOCUS_REFERENCE void SmoothDisparity(const SmoothRows& rows, size_t count, int16_t* smooth) {
+// Sets smooth[n] to the weighted mean disparity over neighbours of pixel n of the row `own`, for
+// n < count. The neighbours are the pixels of the `height` rows `rows`, in every `step`-th column
+// within `radius` columns. The mean includes pixel n and all neighbours whose disparity differs
+// from the disparity of pixel n by at most `tolerance`.
+//
+// A row has four planes, which are `plane` elements apart: disparity, and the sum of red, green and
+// blue, red - green, and green - blue. `radius` more pixels at both ends of a row must be readable.
+STARFOCUS_REFERENCE void SmoothDisparity(const int32_t* own, const int32_t* const* rows,
+                                         size_t height, size_t plane, int32_t radius, int32_t step,
+                                         int32_t tolerance, size_t count, int16_t* smooth) {
   for (size_t n = 0; n < count; ++n) {
-    const int32_t* own = rows.own + n;
+    const int32_t* here = own + n;
     int32_t disparity = 0, weights = 0;
-    for (size_t k = 0; k < rows.count; ++k) {
-      for (int32_t x = -rows.radius; x <= rows.radius; x += rows.step) {
-        const int32_t* other = rows.rows[k] + static_cast<ptrdiff_t>(n) + x;
-        const int32_t apart = *other < *own ? *own - *other : *other - *own;
-        if (apart > rows.tolerance) continue;
-        const int32_t weight = SmoothWeight(own, other, rows.plane);
+    for (size_t k = 0; k < height; ++k) {
+      for (int32_t x = -radius; x <= radius; x += step) {
+        const int32_t* other = rows[k] + static_cast<ptrdiff_t>(n) + x;
+        if (std::abs(*other - *here) > tolerance) continue;
+        const int32_t weight = SmoothWeight(here, other, plane);
         disparity += weight * *other;
         weights += weight;
       }

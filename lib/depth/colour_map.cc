@@ -125,23 +125,18 @@ void SmoothTile(const ColourMap& map, int32_t radius, int32_t step, int32_t tole
                 int16_t* smooth) {
   const int32_t bottom = tile.y + tile.height;
   const auto row_at = [ring](int32_t y) { return ring + y % kSmoothRows * 4 * kSmoothPlane; };
-  simd::SmoothRows rows = {};
-  rows.plane = kSmoothPlane;
-  rows.radius = radius;
-  rows.step = step;
-  rows.tolerance = tolerance;
   int32_t filled = Max(tile.y - radius, 0);
   for (int32_t y = tile.y; y < bottom; ++y) {
     for (; filled <= y + radius && filled < map.setup.height; ++filled) {
       FillPlanes(map, tile.x - radius, tile.width + 2 * radius, filled, row_at(filled));
     }
-    rows.own = row_at(y) + radius;
-    rows.count = 0;
+    const int32_t* rows[simd::kMostSmoothRows];
+    size_t count = 0;
     for (int32_t row = y - radius; row <= y + radius; row += step) {
-      if (row >= 0 && row < map.setup.height) rows.rows[rows.count++] = row_at(row) + radius;
+      if (row >= 0 && row < map.setup.height) rows[count++] = row_at(row) + radius;
     }
-    kernels.SmoothDisparity(rows, static_cast<size_t>(tile.width),
-                            smooth + map.setup.At(tile.x, y));
+    kernels.SmoothDisparity(row_at(y) + radius, rows, count, kSmoothPlane, radius, step, tolerance,
+                            static_cast<size_t>(tile.width), smooth + map.setup.At(tile.x, y));
   }
 }
 

@@ -63,7 +63,7 @@ int32_t NoiseOf(const uint32_t* counts);
 inline constexpr int32_t kMostSmoothRadius = 4;
 
 // A ring buffer of kSmoothRows rows around the row that is being smoothed. Each row consists of the
-// four planes of simd::SmoothRows, kSmoothPlane samples apart.
+// four planes that SmoothDisparity reads, kSmoothPlane samples apart.
 inline constexpr int32_t kSmoothRows = 2 * kMostSmoothRadius + 1;
 inline constexpr int32_t kSmoothPlane = kMostTileSide + 2 * kMostSmoothRadius;
 inline constexpr size_t kSmoothSamples = size_t{kSmoothRows} * 4 * kSmoothPlane;

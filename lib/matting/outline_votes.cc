@@ -133,17 +133,12 @@ void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const
         int16_t middle[kLanes] = {};
         std::copy_n(memory.middle + memory.At(x, y), count, middle);
         const int32_t own = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach + x - area.x;
-        const simd::VoteRows rows = {
-            {block->colour[0] + own, block->colour[1] + own, block->colour[2] + own},
-            block->surface + own,
-            block->trust + own,
-            middle,
-            VoteBlock::kWidth,
-            samples.reach,
-            samples.step,
-            samples.closeness};
+        const int16_t* const colours[] = {block->colour[0] + own, block->colour[1] + own,
+                                          block->colour[2] + own};
         simd::VoteSums sums;
-        picture.kernels->SumVotes(rows, &sums);
+        picture.kernels->SumVotes(colours, block->surface + own, block->trust + own, middle,
+                                  VoteBlock::kWidth, samples.reach, samples.step, samples.closeness,
+                                  &sums);
         for (size_t k = 0; k < wants; ++k) act(memory.At(x, y) + wanted[k], sums, wanted[k]);
       }
     }

@@ -35,15 +35,11 @@ struct NearTile {
   int16_t near[kPlane];
   int16_t weight[kPlane];
 
-  // Sums the near light around each pixel of a row of the tile.
-  void SumRow(const simd::Kernels& kernels, int32_t y, simd::NearSums* sums) const {
+  // Sums the near light around each pixel of a row of the tile (simd::Kernels::SumNear).
+  void SumRow(const simd::Kernels& kernels, int32_t y, int16_t sums[4][simd::kSliceLanes]) const {
     const size_t at = static_cast<size_t>((y + kAround) * kSide + kAround);
-    const simd::NearRows rows = {{light + at, light + kPlane + at, light + 2 * kPlane + at},
-                                 near + at,
-                                 weight + at,
-                                 kSide,
-                                 static_cast<int16_t>(kThinStep)};
-    kernels.SumNear(rows, sums);
+    const int16_t* const colours[] = {light + at, light + kPlane + at, light + 2 * kPlane + at};
+    kernels.SumNear(colours, near + at, weight + at, kSide, static_cast<int16_t>(kThinStep), sums);
   }
 };
 
@@ -107,20 +103,20 @@ void ForEachSplit(const Input& input, const NearTile& tile, int32_t column, int3
   FarTile far;
   PushTile(column, row, map, &far);
   for (int32_t y = 0; y < Min(kCoverageTile, map.height - top); ++y) {
-    simd::NearSums sums;
-    tile.SumRow(*input.kernels, y, &sums);
+    int16_t sums[4][simd::kSliceLanes];
+    tile.SumRow(*input.kernels, y, sums);
     for (int32_t x = 0; x < Min(kCoverageTile, map.width - left); ++x) {
       const size_t to = map.At(left + x, top + y);
       const FarCell& cell = far.cells[y * kCoverageTile + x];
       if (map.alpha[to] == kUnsplit || cell.weight == 0) continue;
       int32_t alpha = map.first[to];
-      const int32_t weight = sums.weight[x];
+      const int32_t weight = sums[3][x];
       if (weight > 0) {
         SplitColours colours;
         colours.near_weight = weight;
         for (int c = 0; c < 3; ++c) {
           const size_t at = static_cast<size_t>(c) * NearTile::kPlane;
-          colours.near[c] = (sums.light[c][x] << 15) / weight;
+          colours.near[c] = (sums[c][x] << 15) / weight;
           colours.far[c] = cell.rgb[c];
           colours.mixed[c] =
               tile.light[at + static_cast<size_t>((y + kAround) * kSide + x + kAround)];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test and benchmark calls of the kernels in simd/matting.h.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
@@ -15,12 +16,6 @@ int Saturated(int value) { return std::clamp(value, -32768, 32767); }
 
 // Returns a * b with 15 fractional bits, rounded half up, computed with real numbers.
 int Product(int a, int b) { return int(std::floor(double(a) * b / 32768 + 0.5)); }
-
-CoverView DrawView(Draw* draw) {
-  const int move = draw->Int(-64, 64);
-  return {int16_t(draw->Int(-16384, 16384)), int16_t(move * 32), int16_t(draw->Int(0, 64)),
-          int16_t(draw->Int(0, 200))};
-}
 
 std::vector<int16_t> Weights(size_t count, Draw* draw) {
   return Filled<int16_t>(count, [&] {
@@ -80,20 +75,23 @@ void CoverPlaces(Draw* draw, KernelCall* call) {
   const int16_t* near = call->Input("near", TwoSurfaces(rows * kSliceLanes, draw));
   const uint8_t* coverage = call->Input("coverage", RandomBytes(rows * kSliceLanes, draw));
   const int16_t* far = call->Input("far", TwoSurfaces(rows * kSliceLanes, draw));
-  const CoverView view = DrawView(draw);
+  const auto place = int16_t(32 * draw->Int(-64, 64));
+  const auto along = int16_t(draw->Int(-16384, 16384));
+  const auto within = int16_t(draw->Int(0, 64)), least = int16_t(draw->Int(0, 200));
   auto* covered = call->Results<int16_t>("covered", rows * kSliceLanes);
   call->Runs([=](const Kernels& kernels) {
     std::fill(covered, covered + rows * kSliceLanes, int16_t{100});
     for (size_t y = 0; y < rows; ++y) {
       const size_t at = y * kSliceLanes;
-      kernels.CoverPlaces(near + at, coverage + at, far + at, view, covered + at);
+      kernels.CoverPlaces(near + at, coverage + at, far + at, along, place, within, least,
+                          covered + at);
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(rows * kSliceLanes, [&](size_t n) {
       const int nearer = Saturated(near[n] - far[n]);
-      const int beside = std::abs(Saturated(Product(nearer, view.along) - view.place));
-      const bool covers = nearer > view.least && beside <= view.within;
+      const int beside = std::abs(Saturated(Product(nearer, along) - place));
+      const bool covers = nearer > least && beside <= within;
       (*met)["covered"] += covers;
       return covered[n] == (covers ? std::max<int>(100, coverage[n]) : 100);
     });
@@ -103,27 +101,25 @@ void CoverPlaces(Draw* draw, KernelCall* call) {
 void SumNear(Draw* draw, KernelCall* call) {
   const size_t rows = draw->Size(1, 3, 16), height = rows + 2 * kNearReach;
   const size_t width = kSliceLanes + 2 * kNearReach, stride = width + draw->Size(0, 5, 0);
-  NearRows first = {};
   const size_t at = kNearReach * stride + kNearReach;
-  for (const int16_t*& light : first.light) {
+  std::array<const int16_t*, 3> lights;
+  for (const int16_t*& light : lights) {
     light = call->Input("light", Light(height * stride, draw)) + at;
   }
-  first.disparity = call->Input("disparity", TwoSurfaces(height * stride, draw)) + at;
-  first.weight = call->Input("weight", Weights(height * stride, draw)) + at;
-  first.stride = ptrdiff_t(stride);
-  first.step = int16_t(draw->Int(0, 400));
-  for (const int16_t* plane :
-       {first.light[0], first.light[1], first.light[2], first.disparity, first.weight}) {
+  const int16_t* disparity = call->Input("disparity", TwoSurfaces(height * stride, draw)) + at;
+  const int16_t* weights = call->Input("weight", Weights(height * stride, draw)) + at;
+  const auto most_step = int16_t(draw->Int(0, 400));
+  for (const int16_t* plane : {lights[0], lights[1], lights[2], disparity, weights}) {
     call->IgnoreRows(plane - at + width, height, stride, stride - width);
   }
-  auto* sums = call->Results<NearSums>("sums", rows);
+  auto* sums = call->Results<int16_t>("sums", rows * 4 * kSliceLanes);
   call->Runs([=](const Kernels& kernels) {
-    NearRows row = first;
     for (size_t y = 0; y < rows; ++y) {
-      kernels.SumNear(row, sums + y);
-      for (const int16_t*& light : row.light) light += stride;
-      row.disparity += stride;
-      row.weight += stride;
+      const size_t row = y * stride;
+      const int16_t* const light[] = {lights[0] + row, lights[1] + row, lights[2] + row};
+      int16_t of_row[4][kSliceLanes];
+      kernels.SumNear(light, disparity + row, weights + row, ptrdiff_t(stride), most_step, of_row);
+      std::copy_n(of_row[0], 4 * kSliceLanes, sums + y * 4 * kSliceLanes);
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
@@ -133,16 +129,18 @@ void SumNear(Draw* draw, KernelCall* call) {
       for (int dy = -kNearReach; dy <= kNearReach; ++dy) {
         for (int dx = -kNearReach; dx <= kNearReach; ++dx) {
           const ptrdiff_t there = ptrdiff_t(here) + dy * ptrdiff_t(stride) + dx;
-          const int step = Saturated(first.disparity[there] - first.disparity[here]);
-          if (std::abs(step) > first.step) continue;
-          const int weight = first.weight[there] * kNearTaps[std::abs(dy)][std::abs(dx)];
+          const int step = Saturated(disparity[there] - disparity[here]);
+          if (std::abs(step) > most_step) continue;
+          const int weight = weights[there] * kNearTaps[std::abs(dy)][std::abs(dx)];
           expected[3] += weight;
-          for (int c = 0; c < 3; ++c) expected[c] += Product(first.light[c][there], weight);
+          for (int c = 0; c < 3; ++c) expected[c] += Product(lights[size_t(c)][there], weight);
           (*met)["same surface"] += dx != 0;
         }
       }
-      bool right = sums[y].weight[n] == expected[3];
-      for (int c = 0; c < 3; ++c) right = right && sums[y].light[c][n] == expected[c];
+      bool right = true;
+      for (size_t c = 0; c < 4; ++c) {
+        right = right && sums[(4 * y + c) * kSliceLanes + n] == expected[c];
+      }
       return right;
     });
   };

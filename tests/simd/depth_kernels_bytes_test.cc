@@ -146,16 +146,11 @@ TEST_CASE("depth kernels: SumVotes weighs similar colours of farther and nearer 
   surface[own - 1] = 50;
   trust[own - 1] = kMostTrust / 2;
   colour[own - 1] = 110;
-  VoteRows rows = {};
-  for (const int16_t*& plane : rows.colour) plane = colour.data() + own;
-  rows.surface = surface.data() + own;
-  rows.trust = trust.data() + own;
-  rows.middle = middle.data();
-  rows.stride = kStride;
-  rows.reach = rows.step = 1;
-  rows.closeness = closeness.data();
+  const int16_t* plane = colour.data() + own;
+  const int16_t* const colours[] = {plane, plane, plane};
   VoteSums sums;
-  ReferenceDepthKernels().SumVotes(rows, &sums);
+  ReferenceDepthKernels().SumVotes(colours, surface.data() + own, trust.data() + own, middle.data(),
+                                   kStride, 1, 1, closeness.data(), &sums);
   CHECK(sums.weight[1][0] == 8);
   CHECK(sums.similar[1][0] == 8 * kMostSimilar / 16);
   CHECK(sums.weight[0][0] == 4);
@@ -170,31 +165,21 @@ TEST_CASE("depth kernels: SmoothDisparity averages noise within a surface") {
   constexpr size_t kPlane = 4;
   const int32_t first[4 * kPlane] = {-104, -100, 900, -90, 90, 90, 90, 690};
   const int32_t second[4 * kPlane] = {-100, -101, -100, -100, 90, 90, 130, 90};
-  SmoothRows rows = {};
-  rows.own = second + 1;
-  rows.rows[0] = first + 1;
-  rows.rows[1] = second + 1;
-  rows.count = 2;
-  rows.plane = kPlane;
-  rows.radius = rows.step = 1;
-  rows.tolerance = 10;
+  const int32_t* const rows[] = {first + 1, second + 1};
+  const auto& kernels = ReferenceDepthKernels();
   int16_t smooth[2];
-  ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
+  kernels.SmoothDisparity(second + 1, rows, 2, kPlane, 1, 1, 10, 2, smooth);
   // In the first expected mean, the values -104, -100, -100 and -101 have weight 64, and the other
   // -100 has weight 54.
   CHECK(smooth[0] == -101);
   // With a tolerance of 9, the value that differs by 10 has no weight. One value of -100 has weight
   // 64, and the values -100, -101 and -100 have weight 54.
-  rows.tolerance = 9;
-  ReferenceDepthKernels().SmoothDisparity(rows, 2, smooth);
+  kernels.SmoothDisparity(second + 1, rows, 2, kPlane, 1, 1, 9, 2, smooth);
   CHECK(smooth[1] == -100);
   // Disparities of pixels with another colour have weight 1.
   const int32_t bright[4 * kPlane] = {-96, -96, -96, -96, 690, 690, 690, 690};
-  rows.rows[0] = bright + 1;
-  rows.rows[1] = second + 2;
-  rows.own = second + 2;
-  rows.radius = 0;
-  ReferenceDepthKernels().SmoothDisparity(rows, 1, smooth);
+  const int32_t* const columns[] = {bright + 1, second + 2};
+  kernels.SmoothDisparity(second + 2, columns, 2, kPlane, 0, 1, 9, 1, smooth);
   CHECK(smooth[0] == -100);
 }
 

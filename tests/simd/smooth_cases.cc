@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 
 #include "simd/matting.h"
 #include "tests/simd/kernel_cases.h"
@@ -31,26 +32,28 @@ std::vector<int32_t> AnyRow(size_t plane, int disparity, int colours, Draw* draw
 
 void SmoothDisparity(Draw* draw, DepthCall* call) {
   const size_t count = draw->Length(1, kLongestRow, kTimedRow);
-  SmoothRows rows = {};
-  rows.radius = draw->timed() ? 3 : draw->Int(0, 4);
-  rows.step = draw->timed() ? 1 : draw->Int(1, 2);
-  if (rows.radius % rows.step != 0) rows.step = 1;
-  rows.tolerance = draw->Int(0, 1023);
-  rows.count = draw->Size(1, int(kMostSmoothRows), int(kMostSmoothRows));
-  const size_t first = size_t(rows.radius);
-  rows.plane = count + 2 * first + draw->Size(0, 9, 0);
+  const int radius = draw->timed() ? 3 : draw->Int(0, 4);
+  const int drawn_step = draw->timed() ? 1 : draw->Int(1, 2);
+  const int step = radius % drawn_step == 0 ? drawn_step : 1;
+  const int tolerance = draw->Int(0, 1023);
+  const size_t height = draw->Size(1, int(kMostSmoothRows), int(kMostSmoothRows));
+  const size_t first = size_t(radius);
+  const size_t plane = count + 2 * first + draw->Size(0, 9, 0);
   const int disparity = draw->Int(-kFarthest, kFarthest), colours = draw->Int(0, 255);
-  for (size_t k = 0; k < rows.count; ++k) {
-    rows.rows[k] =
-        call->Input("row", AnyRow(rows.plane, disparity, colours, draw), kPadding) + first;
+  std::array<const int32_t*, kMostSmoothRows> rows = {};
+  for (size_t k = 0; k < height; ++k) {
+    rows[k] = call->Input("row", AnyRow(plane, disparity, colours, draw), kPadding) + first;
   }
-  rows.own = rows.rows[rows.count / 2];
+  const int32_t* own = rows[height / 2];
   auto* smooth = call->Results<int16_t>("smooth", count);
-  call->Runs([=](const DepthKernels& kernels) { kernels.SmoothDisparity(rows, count, smooth); });
+  call->Runs([=](const DepthKernels& kernels) {
+    kernels.SmoothDisparity(own, rows.data(), height, plane, radius, step, tolerance, count,
+                            smooth);
+  });
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(count, [&](size_t n) {
-      ++(*met)[smooth[n] != rows.own[n] ? "smoothed" : "as it was"];
-      return std::abs(smooth[n] - rows.own[n]) <= rows.tolerance;
+      ++(*met)[smooth[n] != own[n] ? "smoothed" : "as it was"];
+      return std::abs(smooth[n] - own[n]) <= tolerance;
     });
   };
 }

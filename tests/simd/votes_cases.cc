@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+
 #include "simd/matting.h"
 #include "tests/simd/kernel_cases.h"
 
@@ -6,37 +8,39 @@ namespace test::depth_cases {
 
 // Pixels with few or many colours and disparities, so that similar colours are frequent.
 void SumVotes(Draw* draw, DepthCall* call) {
-  VoteRows rows = {};
-  rows.reach = draw->Int(0, 17);
-  rows.step = draw->timed() ? 2 : draw->Int(1, 3);
-  while (2 * rows.reach / rows.step >= kMostVoteSide) ++rows.step;
-  rows.stride = ptrdiff_t(kSliceLanes) + 2 * rows.reach + draw->Int(0, 9);
-  const size_t samples = size_t(rows.stride) * size_t(2 * rows.reach + 1);
-  const size_t own = size_t(rows.stride) * size_t(rows.reach) + size_t(rows.reach);
+  const int reach = draw->Int(0, 17);
+  int step = draw->timed() ? 2 : draw->Int(1, 3);
+  while (2 * reach / step >= kMostVoteSide) ++step;
+  const ptrdiff_t stride = ptrdiff_t(kSliceLanes) + 2 * reach + draw->Int(0, 9);
+  const size_t samples = size_t(stride) * size_t(2 * reach + 1);
+  const size_t own = size_t(stride) * size_t(reach) + size_t(reach);
   const int spread = draw->Int(0, 383), rarity = draw->timed() ? 1 : draw->Int(1, 9);
-  for (const int16_t*& colour : rows.colour) {
+  std::array<const int16_t*, 3> colours;
+  for (const int16_t*& colour : colours) {
     colour =
         call->Input("colour",
                     Filled<int16_t>(samples, [&] { return int16_t(draw->Int(-spread, spread)); })) +
         own;
   }
   const auto disparity = [&] { return int16_t(draw->Int(-100, 100)); };
-  rows.surface = call->Input("surface", Filled<int16_t>(samples, disparity)) + own;
-  rows.trust =
+  const int16_t* surface = call->Input("surface", Filled<int16_t>(samples, disparity)) + own;
+  const int16_t* trust =
       call->Input(
           "trust",
           Filled<int16_t>(
               samples,
               [&] { return int16_t(draw->Int(1, rarity) > 1 ? 0 : draw->Int(0, kMostTrust)); })) +
       own;
-  rows.middle = call->Input("middle", Filled<int16_t>(kSliceLanes, disparity));
-  rows.closeness = call->Input("closeness", Filled<int16_t>(kMostVoteSide * kMostVoteSide, [&] {
-                                 return int16_t(draw->Int(0, kMostCloseness * kClosenessUnit));
-                               }));
+  const int16_t* middle = call->Input("middle", Filled<int16_t>(kSliceLanes, disparity));
+  const int16_t* closeness =
+      call->Input("closeness", Filled<int16_t>(kMostVoteSide * kMostVoteSide, [&] {
+                    return int16_t(draw->Int(0, kMostCloseness * kClosenessUnit));
+                  }));
   auto* sums = call->Results<uint16_t>("sums", 4 * kSliceLanes);
   call->Runs([=](const DepthKernels& kernels) {
     VoteSums votes;
-    kernels.SumVotes(rows, &votes);
+    kernels.SumVotes(colours.data(), surface, trust, middle, stride, reach, step, closeness,
+                     &votes);
     for (size_t n = 0; n < kSliceLanes; ++n) {
       for (size_t side = 0; side < 2; ++side) {
         sums[2 * side * kSliceLanes + n] = votes.similar[side][n];
