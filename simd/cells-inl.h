@@ -203,8 +203,14 @@ using reference::SurroundCells;
 // column do not reach the block.
 class ColumnReach {
  public:
-  ColumnReach(const CellPlanes& planes, int32_t around, const int16_t* margins, int32_t first)
-      : planes_(planes), around_(around), margins_(margins), first_(first) {
+  ColumnReach(const int16_t* cells, size_t plane, size_t stride, int32_t around,
+              const int16_t* margins, int32_t first)
+      : cells_(cells),
+        plane_(plane),
+        stride_(static_cast<ptrdiff_t>(stride)),
+        around_(around),
+        margins_(margins),
+        first_(first) {
     const LanesTag d16;
     const auto column = CountFrom(d16, static_cast<int16_t>(first));
     const auto before = hn::Sub(hn::Set(d16, static_cast<int16_t>(around - 1)), column);
@@ -221,8 +227,7 @@ class ColumnReach {
   // Adds rows [row, end) of cells, which are all above, all below or all level with the block.
   // `from` is the plane of the cells' reach towards the block. If `border` is not null, its side
   // `to` is updated.
-  HWY_INLINE void AddRows(int32_t row, int32_t end, CellPlane from, int16_t (*border)[4],
-                          CellPlane to) {
+  HWY_INLINE void AddRows(int32_t row, int32_t end, int from, int16_t (*border)[4], int to) {
     const LanesTag d16;
     auto y0 = hn::Zero(d16), y1 = y0, y2 = y0;
     const auto whole = hn::Set(d16, kCellPixels);
@@ -231,10 +236,9 @@ class ColumnReach {
     };
     const auto left = hn::MaskFromVec(left_);
     for (; row < end; ++row) {
-      const int16_t* at = planes_.cells + (row - around_) * static_cast<ptrdiff_t>(planes_.stride) +
-                          first_ - around_;
-      const auto load = [&](int plane) HWY_ATTR {
-        return hn::LoadU(d16, at + static_cast<size_t>(plane) * planes_.plane);
+      const int16_t* at = cells_ + (row - around_) * stride_ + first_ - around_;
+      const auto load = [&](int of) HWY_ATTR {
+        return hn::LoadU(d16, at + static_cast<size_t>(of) * plane_);
       };
       const int16_t gap = GapOfRow(row);
       const auto gap_y = hn::Set(d16, gap);
@@ -292,7 +296,9 @@ class ColumnReach {
     Store(hn::And(values, right_), &border[kReachRight]);
   }
 
-  const CellPlanes& planes_;
+  const int16_t* const cells_;
+  const size_t plane_;
+  const ptrdiff_t stride_;
   const int32_t around_;
   const int16_t* const margins_;
   const int32_t first_;
@@ -307,12 +313,12 @@ class ColumnReach {
   LanesVec radius_ = x0_, edge_ = x0_;
 };
 
-inline void ReachBlock(const CellPlanes& planes, int32_t around, const int16_t margins[3],
-                       BlockReach* reach) {
+inline void ReachBlock(const int16_t* cells, size_t plane, size_t stride, int32_t around,
+                       const int16_t margins[3], BlockReach* reach) {
   *reach = {};
   const int32_t side = 2 * around + 2;
   for (int32_t first = 0; first < side; first += static_cast<int32_t>(hn::Lanes(LanesTag()))) {
-    ColumnReach columns(planes, around, margins, first);
+    ColumnReach columns(cells, plane, stride, around, margins, first);
     columns.AddRows(0, around, kReachBottom, reach->border, kReachTop);
     columns.AddRows(around, around + 2, kReachTop, nullptr, kReachTop);
     columns.AddRows(around + 2, side, kReachTop, reach->border, kReachBottom);
@@ -337,23 +343,22 @@ HWY_INLINE int32_t FarthestCells(const int16_t* at, size_t stride, int32_t aroun
   return cells < around ? cells : around;
 }
 
-inline void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
-                          int16_t* HWY_RESTRICT lows, int16_t* HWY_RESTRICT highs,
+inline void SurroundCells(const int16_t* cells, size_t plane, size_t stride, int32_t around,
+                          size_t count, int16_t* HWY_RESTRICT lows, int16_t* HWY_RESTRICT highs,
                           uint16_t* HWY_RESTRICT ranges, int16_t* HWY_RESTRICT edges) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
-  const auto load = [&](const int16_t* at, int plane)
-                        HWY_ATTR { return hn::LoadU(d16, at + plane * planes.plane); };
+  const auto load = [&](const int16_t* at, size_t of)
+                        HWY_ATTR { return hn::LoadU(d16, at + of * plane); };
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
-    const int16_t* cell = planes.cells + n;
+    const int16_t* cell = cells + n;
     const auto own = load(cell, kReachPlane), own_high = load(cell, kHighPlane);
-    const int32_t farthest =
-        FarthestCells(cell + kReachPlane * planes.plane, planes.stride, around);
+    const int32_t farthest = FarthestCells(cell + kReachPlane * plane, stride, around);
     auto low = load(cell, kLowPlane), high = load(cell, kHighPlane), edge = load(cell, kEdgePlane);
     auto widest = hn::BitCast(du16, hn::Sub(high, low));
     for (int32_t y = -farthest; y <= farthest; ++y) {
       for (int32_t x = -farthest; x <= farthest; ++x) {
-        const int16_t* at = cell + y * static_cast<ptrdiff_t>(planes.stride) + x;
+        const int16_t* at = cell + y * static_cast<ptrdiff_t>(stride) + x;
         const int32_t rows = y < 0 ? -y : y, columns = x < 0 ? -x : x;
         const int32_t away = ((rows > columns ? rows : columns) - 1) * kCellPixels;
         const auto first = load(at, kLowPlane), last = load(at, kHighPlane);

@@ -42,7 +42,7 @@ struct CellMeasure {
 inline constexpr int16_t kCellPixels = 8;
 
 // Properties of a cell. Each property has one plane of values. All distances are in pixels.
-enum CellPlane {
+enum {
   kReachLeft,  // largest distance beyond each side to which the cell's pixels are splatted
   kReachRight,
   kReachTop,
@@ -60,13 +60,6 @@ enum CellPlane {
   kLowPlane,     // Lowest and highest disparity of the cell.
   kHighPlane,
   kCellPlanes
-};
-
-// Planes of the cells of a picture. Planes are `plane` samples apart, and rows `stride` samples
-// apart.
-struct CellPlanes {
-  const int16_t* cells;  // pointer to a cell in plane 0
-  size_t plane, stride;
 };
 
 // Describes the pixels that reach a block of 2 x 2 cells.
@@ -145,21 +138,19 @@ inline void AddReach(int value, int16_t* largest) {
   if (value > *largest) *largest = static_cast<int16_t>(value);
 }
 
-// Finds the pixels that reach the block whose first cell is planes.cells. Cells up to `around`
-// cells away are examined. The margin of a layer in pixels is margins[layer]; margins[0] is 0, and
+// Finds the pixels that reach a block; `cells` points to the block's first cell in plane 0. Planes
+// are `plane` samples apart, and rows `stride` samples apart. Cells up to `around` cells away are
+// examined. The margin of a layer in pixels is margins[layer]; margins[0] is 0, and
 // margins increase with the layer. For layers 1 and 2, `border` includes all pixels of every cell
 // whose blur reaches the margin of the layer.
-STARFOCUS_REFERENCE void ReachBlock(const CellPlanes& planes, int32_t around,
-                                    const int16_t margins[3], BlockReach* reach) {
+STARFOCUS_REFERENCE void ReachBlock(const int16_t* cells, size_t plane, size_t stride,
+                                    int32_t around, const int16_t margins[3], BlockReach* reach) {
   *reach = {};
   const int side = 2 * around + 2;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const int16_t* cell =
-          planes.cells + (y - around) * static_cast<ptrdiff_t>(planes.stride) + x - around;
-      const auto value = [&](int plane) -> int {
-        return cell[static_cast<size_t>(plane) * planes.plane];
-      };
+      const int16_t* cell = cells + (y - around) * static_cast<ptrdiff_t>(stride) + x - around;
+      const auto value = [&](int of) -> int { return cell[static_cast<size_t>(of) * plane]; };
       const int gap_x = GapTo(x, around), gap_y = GapTo(y, around);
       // Cells reach the block across their side that faces the block: a cell to the left of the
       // block across its right side.
@@ -187,9 +178,9 @@ STARFOCUS_REFERENCE void ReachBlock(const CellPlanes& planes, int32_t around,
   }
 }
 
-// Examines the surroundings of each of `count` cells of a row; planes.cells is the first cell. The
-// surroundings of a middle cell are the cells that the middle cell's blur may reach, and the cells
-// that may hide the middle cell.
+// Examines the surroundings of each of `count` cells of a row; `cells` points to the first cell, in
+// planes like those of ReachBlock. The surroundings of a middle cell are the cells that the middle
+// cell's blur may reach, and the cells that may hide the middle cell.
 //
 // Let d <= around be the distance of a cell from the middle cell, which is the larger of the
 // distances in columns and rows. The cell belongs to the surroundings if the kReachPlane of the
@@ -201,26 +192,26 @@ STARFOCUS_REFERENCE void ReachBlock(const CellPlanes& planes, int32_t around,
 // For cell n, the kernel writes the lowest and highest disparity of the surroundings, the largest
 // range of disparities within any single surrounding cell, and the largest blur radius at depth
 // edges in the surroundings.
-STARFOCUS_REFERENCE void SurroundCells(const CellPlanes& planes, int32_t around, size_t count,
-                                       int16_t* lows, int16_t* highs, uint16_t* ranges,
-                                       int16_t* edges) {
+STARFOCUS_REFERENCE void SurroundCells(const int16_t* cells, size_t plane, size_t stride,
+                                       int32_t around, size_t count, int16_t* lows, int16_t* highs,
+                                       uint16_t* ranges, int16_t* edges) {
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    const int16_t* cell = planes.cells + n;
+    const int16_t* cell = cells + n;
     int16_t low = INT16_MAX, high = INT16_MIN, edge = 0;
     int widest = 0;
     for (int y = -around; y <= around; ++y) {
       for (int x = -around; x <= around; ++x) {
-        const int16_t* at = cell + y * static_cast<ptrdiff_t>(planes.stride) + x;
+        const int16_t* at = cell + y * static_cast<ptrdiff_t>(stride) + x;
         const int away = std::abs(x) > std::abs(y) ? std::abs(x) : std::abs(y);
-        const int16_t first = at[kLowPlane * planes.plane], last = at[kHighPlane * planes.plane];
-        const bool nearer = last > cell[kHighPlane * planes.plane];
-        const int own = cell[kReachPlane * planes.plane];
-        const int other = nearer ? at[kNearPlane * planes.plane] : 0;
+        const int16_t first = at[kLowPlane * plane], last = at[kHighPlane * plane];
+        const bool nearer = last > cell[kHighPlane * plane];
+        const int own = cell[kReachPlane * plane];
+        const int other = nearer ? at[kNearPlane * plane] : 0;
         if ((away - 1) * kCellPixels >= (own > other ? own : other)) continue;
         low = first < low ? first : low;
         high = last > high ? last : high;
         widest = last - first > widest ? last - first : widest;
-        AddReach(at[kEdgePlane * planes.plane], &edge);
+        AddReach(at[kEdgePlane * plane], &edge);
       }
     }
     lows[n] = low;

@@ -23,8 +23,8 @@ struct DepthRule {
   float low, high;  // Allowed range of disparities, within [-511, 511].
 };
 
-// Flags returned by DepthToDisparity.
-enum DepthFlags : uint32_t { kUnknownDepth = 1, kDepthOutside = 2 };
+// Flags returned by DepthToDisparity: some disparity is unknown, or outside the allowed range.
+inline constexpr uint32_t kUnknownDepth = 1, kDepthOutside = 2;
 
 // Largest difference between neighbouring disparities on one surface. The value is equal to the
 // engine's kSurfaceStep.
@@ -99,7 +99,7 @@ inline float DisparityOf(float z, const DepthRule& rule) {
 
 // Computes the disparity of each z[n] like DisparityOf. Sets out[n] to disparity * 64, rounded half
 // up. If the disparity is NaN, out[n] is kNoSurface. If the disparity lies outside [low, high],
-// out[n] is unspecified. Returns DepthFlags.
+// out[n] is unspecified. Returns kUnknownDepth and kDepthOutside.
 STARFOCUS_REFERENCE uint32_t DepthToDisparity(const float* z, size_t count, const DepthRule& rule,
                                               int16_t* out) {
   uint32_t flags = 0;

@@ -196,7 +196,7 @@ HWY_INLINE MatchVec SeenMean(const uint8_t* const* differences, const uint8_t* c
 }
 
 HWY_INLINE void SeenCost(const uint8_t* const* differences, const uint8_t* const* hidden,
-                         uint8_t label, const ViewSides& sides, size_t count,
+                         uint8_t label, const uint16_t* sides, size_t side_count, size_t count,
                          uint8_t* HWY_RESTRICT cost) {
   const MatchTag du16;
   const auto none = hn::Set(du16, uint16_t{UINT16_MAX});
@@ -204,8 +204,8 @@ HWY_INLINE void SeenCost(const uint8_t* const* differences, const uint8_t* const
   const auto most = hn::Set(du16, uint16_t{kMostDifference * kCostScale});
   for (size_t n = 0; n < count; n += hn::Lanes(du16)) {
     auto least = none;
-    for (size_t side = 0; side < sides.count; ++side) {
-      least = hn::Min(least, SeenMean(differences, hidden, label, sides.masks[side], n));
+    for (size_t side = 0; side < side_count; ++side) {
+      least = hn::Min(least, SeenMean(differences, hidden, label, sides[side], n));
     }
     least = hn::IfThenElse(hn::Eq(least, none), unknown, least);
     StoreNarrow(hn::Min(least, most), cost + n);
@@ -288,12 +288,12 @@ inline void CostLabels(const LabelRow& row, size_t count, size_t places,
       const uint8_t* hidden[kMostMatched] = {};
       if (row.hidden != nullptr) {
         for (size_t k = 0; k < views; ++k) hidden[k] = row.hidden + n + moves[k].hidden;
-        if (row.sides.count == 0) ChangeHidden(row, hidden, label, differences);
+        if (row.side_count == 0) ChangeHidden(row, hidden, label, differences);
       }
       uint8_t* here = costs[l % kSliceLanes];
-      if (row.sides.count > 0) {
+      if (row.side_count > 0) {
         SeenCost(differences, row.hidden == nullptr ? nullptr : hidden, label, row.sides,
-                 kMatchPixels, here);
+                 row.side_count, kMatchPixels, here);
       } else if (row.one_side) {
         LeastSide(differences, row.arms, row.rings, kMatchPixels, here);
       } else {

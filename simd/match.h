@@ -27,12 +27,6 @@ inline constexpr uint8_t kViewEnds = 255;
 // Factor between differences and costs. Costs are in [0, 240].
 inline constexpr int kCostScale = 4;
 
-// Sets of side views. Bit k of a mask is 1 if side view k belongs to the set. Each set has a view.
-struct ViewSides {
-  const uint16_t* masks;
-  size_t count;
-};
-
 // Returns 256 * kCostScale / views, rounded up. The product of this factor and the sum of the
 // differences of `views` views is 256 times the cost. The product is less than 2^16.
 constexpr uint32_t MeanFactor(size_t views) {
@@ -61,9 +55,10 @@ struct LabelRow {
   const uint8_t* hidden;
   size_t labels;  // [1, 254].
   size_t views;   // Number of side views, [1, kMostMatched].
-  // The sides from which SeenCost computes the cost, for views at any positions. If sides.count is
-  // 0, views = arms * rings, and the members below define the cost.
-  ViewSides sides;
+  // The sides from which SeenCost computes the cost, for views at any positions. If there are none,
+  // views = arms * rings, and the members below define the cost.
+  const uint16_t* sides;
+  size_t side_count;
   size_t arms, rings;  // The side views lie on `arms` rays and `rings` rings around the centre.
   bool one_side;       // True to use the views on the best side of a pixel, false to use all views.
   bool ends;           // True if some values of `hidden` may be kViewEnds.
@@ -155,19 +150,20 @@ STARFOCUS_REFERENCE void MeanCost(const uint8_t* const* differences, size_t view
   }
 }
 
-// Computes the cost from the side with the smallest mean difference. The mean of a side includes
-// only the views of the side that see the pixel: view k sees pixel n if hidden[k][n] <= label. If
+// Computes the cost from the side with the smallest mean difference. Bit k of sides[s] is 1 if side
+// view k belongs to side s; each side has a view. The mean of a side includes only the views of the
+// side that see the pixel: view k sees pixel n if hidden[k][n] <= label. If
 // `hidden` is null, all views see all pixels. The cost is the mean times kCostScale, as the sum
 // times MeanFactor. If no view of any side sees a pixel, the difference is kUnknownDifference.
 STARFOCUS_REFERENCE void SeenCost(const uint8_t* const* differences, const uint8_t* const* hidden,
-                                  uint8_t label, const ViewSides& sides, size_t count,
-                                  uint8_t* cost) {
+                                  uint8_t label, const uint16_t* sides, size_t side_count,
+                                  size_t count, uint8_t* cost) {
   for (size_t n = 0; n < count; ++n) {
     uint32_t least = UINT32_MAX;
-    for (size_t side = 0; side < sides.count; ++side) {
+    for (size_t side = 0; side < side_count; ++side) {
       uint32_t sum = 0, seen = 0;
-      for (size_t k = 0; sides.masks[side] >> k != 0; ++k) {
-        if ((sides.masks[side] >> k & 1) == 0) continue;
+      for (size_t k = 0; sides[side] >> k != 0; ++k) {
+        if ((sides[side] >> k & 1) == 0) continue;
         if (hidden != nullptr && hidden[k][n] > label) continue;
         sum += differences[k][n];
         ++seen;
@@ -197,8 +193,9 @@ inline uint8_t CostLabel(const LabelRow& row, size_t n, size_t l) {
     if (row.hidden != nullptr) hidden[k] = row.hidden + n + moves[k].hidden;
   }
   uint8_t cost = 0;
-  if (row.sides.count > 0) {
-    SeenCost(differences, row.hidden == nullptr ? nullptr : hidden, label, row.sides, 1, &cost);
+  if (row.side_count > 0) {
+    SeenCost(differences, row.hidden == nullptr ? nullptr : hidden, label, row.sides,
+             row.side_count, 1, &cost);
     return cost;
   }
   if (row.hidden != nullptr) {

@@ -14,13 +14,6 @@
 
 namespace starfocus::simd {
 
-// Layout of pixels. Pixels are `step` (3 or 4) bytes apart, and begin with R, G, B, or with B, G, R
-// if `blue_first` is true.
-struct PixelOrder {
-  size_t step;
-  bool blue_first;
-};
-
 // Coefficients of a YUV format, as computed by MakeYuvMatrix (lib/io/image.h).
 struct YuvMatrix {
   int16_t black;           // Luma of black: 16 or 0.
@@ -34,26 +27,29 @@ struct YuvMatrix {
 
 namespace reference {
 
-// Converts `count` pixels to R, G, B. The fourth byte of the last pixel is never read.
-STARFOCUS_REFERENCE void PixelsToRgb(const uint8_t* pixels, size_t count, const PixelOrder& order,
-                                     uint8_t* rgb) {
-  const size_t red = order.blue_first ? 2 : 0;
-  for (size_t n = 0; n < count; ++n, pixels += order.step, rgb += 3) {
+// Converts `count` pixels to R, G, B. Pixels are `step` bytes apart, and begin with R, G, B, or
+// with B, G, R if `blue_first` is true. The vector code supports steps of 3 and 4 bytes. The bytes
+// after the colours of the last pixel are never read.
+STARFOCUS_REFERENCE void PixelsToRgb(const uint8_t* pixels, size_t count, size_t step,
+                                     bool blue_first, uint8_t* rgb) {
+  const size_t red = blue_first ? 2 : 0;
+  for (size_t n = 0; n < count; ++n, pixels += step, rgb += 3) {
     rgb[0] = pixels[red];
     rgb[1] = pixels[1];
     rgb[2] = pixels[2 - red];
   }
 }
 
-// Converts `count` pixels from R, G, B. If pixels have a fourth byte, this byte is set to 255.
-STARFOCUS_REFERENCE void RgbToPixels(const uint8_t* rgb, size_t count, const PixelOrder& order,
+// Converts `count` pixels from R, G, B, in the formats of PixelsToRgb. If pixels have a fourth
+// byte, this byte is set to 255.
+STARFOCUS_REFERENCE void RgbToPixels(const uint8_t* rgb, size_t count, size_t step, bool blue_first,
                                      uint8_t* pixels) {
-  const size_t red = order.blue_first ? 2 : 0;
-  for (size_t n = 0; n < count; ++n, pixels += order.step, rgb += 3) {
+  const size_t red = blue_first ? 2 : 0;
+  for (size_t n = 0; n < count; ++n, pixels += step, rgb += 3) {
     pixels[red] = rgb[0];
     pixels[1] = rgb[1];
     pixels[2 - red] = rgb[2];
-    if (order.step == 4) pixels[3] = 255;
+    if (step == 4) pixels[3] = 255;
   }
 }
 

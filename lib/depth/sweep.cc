@@ -51,8 +51,8 @@ void MeasureCosts(const SweptTile& tile, bool one_side) {
   row.views = static_cast<size_t>(setup.side_views);
   const auto all_views = static_cast<uint16_t>((1U << setup.side_views) - 1);
   if (setup.arms == 0) {
-    row.sides = {one_side ? setup.sides : &all_views,
-                 one_side ? static_cast<size_t>(setup.side_count) : 1};
+    row.sides = one_side ? setup.sides : &all_views;
+    row.side_count = one_side ? static_cast<size_t>(setup.side_count) : 1;
   }
   row.arms = static_cast<size_t>(setup.arms);
   row.rings = static_cast<size_t>(setup.rings);

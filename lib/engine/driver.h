@@ -15,7 +15,7 @@ namespace starfocus {
 
 struct Output;
 
-// Returns the status of simd::DepthFlags: STARFOCUS_OK, STARFOCUS_ERROR_NOT_FINITE or
+// Returns the status of flags (simd::kUnknownDepth): STARFOCUS_OK, STARFOCUS_ERROR_NOT_FINITE or
 // STARFOCUS_ERROR_DISPARITY. If both kinds of errors occur, returns STARFOCUS_ERROR_NOT_FINITE.
 starfocus_status CheckFlags(uint32_t flags, const FullConfig& config);
 

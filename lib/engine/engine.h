@@ -80,7 +80,7 @@ struct Counts {
   uint64_t copied_pixels;
   uint64_t gathered_pixels;
   uint64_t unknown_pixels;
-  uint32_t depth_flags;  // simd::DepthFlags of the rows that were read
+  uint32_t depth_flags;  // flags (simd::kUnknownDepth) of the rows that were read
 };
 
 // Scratch memory of one worker. Each renderer leaves the weighted sums of a block in `sums`. The

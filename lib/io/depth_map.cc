@@ -63,7 +63,7 @@ static_assert(simd::kBlendStep == kSurfaceStep,
 constexpr int32_t kPiece = kDepthPiece + 1;
 
 // Converts `count` <= kPiece values of row y of the map, starting at column x. Returns
-// simd::DepthFlags.
+// the flags (simd::kUnknownDepth).
 uint32_t ConvertValues(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x,
                        int32_t y, int32_t count, int16_t* out) {
   const auto values = static_cast<size_t>(count);

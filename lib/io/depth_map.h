@@ -65,11 +65,12 @@ void FillColumns(int32_t width, int32_t map_width, int32_t first_column, int32_t
 // Writes the disparities of a rectangle of the picture in fixed point (kDisparityBits). Unknown
 // disparities are set to kNoSurface. out.Row(y) receives row y, starting with column rect.x.
 // Converts each value of the map at most twice, so a call for several rows takes less time than one
-// call for each row. Returns simd::DepthFlags of the source values.
+// call for each row. Returns the flags (simd::kUnknownDepth) of the source values.
 uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& rect,
                    const Plane<int16_t>& out);
 
-// Returns simd::DepthFlags of the values of the map that ReadDepth reads for whole rows.
+// Returns the flags (simd::kUnknownDepth) of the values of the map that ReadDepth reads for whole
+// rows.
 uint32_t CheckDepth(const simd::ImageKernels& kernels, const DepthSource& depth, const Range& rows);
 
 // Returns true if a disparity is known, that is, neither NaN nor infinite.

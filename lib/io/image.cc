@@ -63,35 +63,18 @@ void ReadYuv(const simd::ImageKernels& kernels, const ImageSource& image, int32_
   }
 }
 
-bool IsPacked(const simd::PixelOrder& order) { return order.step == 3 && !order.blue_first; }
-
-// Fallback for pixel strides that no SIMD kernel supports.
-void WritePixels(const uint8_t* rgb, size_t count, const ImageTarget& image, uint8_t* pixels) {
-  const size_t red = image.blue_first ? 2 : 0;
-  for (size_t n = 0; n < count; ++n, rgb += 3, pixels += image.step) {
-    pixels[red] = rgb[0];
-    pixels[1] = rgb[1];
-    pixels[2 - red] = rgb[2];
-    if (image.has_alpha) pixels[3] = 255;
-  }
-}
-
 }  // namespace
 
 void ReadCodes(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
                int32_t count, uint8_t* rgb) {
+  const auto pixels = static_cast<size_t>(count);
   if (image.is_yuv) {
     ReadYuv(kernels, image, x, y, count, rgb);
-    return;
-  }
-  const uint8_t* pixels = image.Pixel(x, y);
-  const simd::PixelOrder order = {image.step, image.blue_first};
-  if (IsPacked(order)) {
-    std::memcpy(rgb, pixels, 3 * static_cast<size_t>(count));
-  } else if (image.step <= 4) {
-    kernels.PixelsToRgb(pixels, static_cast<size_t>(count), order, rgb);
+  } else if (image.IsPacked()) {
+    std::memcpy(rgb, image.Pixel(x, y), 3 * pixels);
   } else {
-    simd::reference::PixelsToRgb(pixels, static_cast<size_t>(count), order, rgb);
+    const auto convert = image.step <= 4 ? kernels.PixelsToRgb : simd::reference::PixelsToRgb;
+    convert(image.Pixel(x, y), pixels, image.step, image.blue_first, rgb);
   }
 }
 
@@ -100,16 +83,20 @@ void WriteCodes(const simd::ImageKernels& kernels, const uint8_t* rgb, int32_t w
   const auto count = static_cast<size_t>(width);
   if (image.is_yuv) {
     kernels.RgbToLuma(rgb, count, image.Matrix(), image.Luma(0, y));
-    return;
-  }
-  uint8_t* pixels = image.Pixel(0, y);
-  const simd::PixelOrder order = {image.step, image.blue_first};
-  if (IsPacked(order)) {
-    std::memcpy(pixels, rgb, 3 * count);
+  } else if (image.IsPacked()) {
+    std::memcpy(image.Pixel(0, y), rgb, 3 * count);
   } else if (image.step == (image.has_alpha ? 4 : 3)) {
-    kernels.RgbToPixels(rgb, count, order, pixels);
+    kernels.RgbToPixels(rgb, count, image.step, image.blue_first, image.Pixel(0, y));
   } else {
-    WritePixels(rgb, count, image, pixels);
+    // No SIMD kernel supports other pixel strides.
+    const size_t red = image.blue_first ? 2 : 0;
+    for (int32_t x = 0; x < width; ++x, rgb += 3) {
+      uint8_t* const pixel = image.Pixel(x, y);
+      pixel[red] = rgb[0];
+      pixel[1] = rgb[1];
+      pixel[2 - red] = rgb[2];
+      if (image.has_alpha) pixel[3] = 255;
+    }
   }
 }
 

@@ -121,16 +121,15 @@ Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
               const starfocus_light_field& given, int32_t first, InputRings* rings);
 
 // Returns a light field in memory of the library. The planes of `views` have the same geometry.
-Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
-              const Plane<uint8_t>* views, const Plane<int16_t>& disparity,
-              const Plane<uint8_t>& coverage);
+Input InputOf(const FullConfig& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
+              const Plane<int16_t>& disparity, const Plane<uint8_t>& coverage);
 
 // Writes the codes of row y of a view, converted from its image.
 void ReadView(const Input& in, int view, int32_t y, uint8_t* rgb);
 
-// Returns simd::DepthFlags of the values of the map on which `rows` depend. If `out` is not null,
-// also writes the disparities of the rows. If in.fills_unknown, unknown disparities are filled
-// along their row, and their number is added to *unknown.
+// Returns the flags (simd::kUnknownDepth) of the values of the map on which `rows` depend. If `out`
+// is not null, also writes the disparities of the rows. If in.fills_unknown, unknown disparities
+// are filled along their row, and their number is added to *unknown.
 uint32_t ReadMap(const Input& in, const Range& rows, const Plane<int16_t>* out, uint64_t* unknown);
 
 // Copies rows of all views to rings, and rows of coverage and alpha to their rings if these exist.

@@ -116,15 +116,15 @@ Surroundings LoadSurroundings(const CellGrid& grid, const BlurScale& scale, cons
     }
   }
   std::memset(samples + simd::kCellPlanes * plane, 0, 2 * simd::kSliceLanes * sizeof(*samples));
-  const simd::CellPlanes planes = {samples + static_cast<size_t>(around) * (stride + 1), plane,
-                                   stride};
-  return {planes, cells.x, cells.y, cells.width, cells.height, around};
+  const int16_t* const first = samples + static_cast<size_t>(around) * (stride + 1);
+  return {first, plane, stride, cells.x, cells.y, cells.width, cells.height, around};
 }
 
 BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row) {
   simd::BlockReach reach;
-  kernels.ReachBlock(surroundings.At(column, row), surroundings.around, kLayerMargin, &reach);
+  kernels.ReachBlock(surroundings.At(column, row), surroundings.plane, surroundings.stride,
+                     surroundings.around, kLayerMargin, &reach);
   BlockStats stats = {INT32_MAX, INT32_MAX, reach.radius, reach.edge > 0, {}, {}};
   for (int32_t y = row; y < Min(row + 2, grid.rows); ++y) {
     for (int32_t x = column; x < Min(column + 2, grid.columns); ++x) {
@@ -154,7 +154,8 @@ void FindSmooth(const simd::Kernels& kernels, const Surroundings& surroundings,
   int16_t low[kMaxRowCells], high[kMaxRowCells], edge[kMaxRowCells];
   uint16_t widest[kMaxRowCells];
   static_assert(kMaxRowCells % simd::kSliceLanes == 0, "kernels write whole lanes");
-  kernels.SurroundCells(surroundings.At(surroundings.column, row), surroundings.around,
+  kernels.SurroundCells(surroundings.At(surroundings.column, row), surroundings.plane,
+                        surroundings.stride, surroundings.around,
                         static_cast<size_t>(surroundings.columns), low, high, widest, edge);
   for (int32_t k = 0; k < surroundings.columns; ++k) {
     smooth[k] = edge[k] > 0 ? CellKind::kMixed : KindOf(scale, low[k], high[k], widest[k]);

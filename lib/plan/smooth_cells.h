@@ -65,14 +65,13 @@ struct BlockCells {
 // A rectangle of cells and the cells up to `around` cells away, as planes for the SIMD kernels.
 // Cells outside the picture repeat its edge.
 struct Surroundings {
-  simd::CellPlanes planes;  // pointers to the first cell of the rectangle
+  const int16_t* cells;  // first cell of the rectangle in plane 0
+  size_t plane, stride;  // distances between planes and between rows of cells
   int32_t column, row, columns, rows;
   int32_t around;
 
-  simd::CellPlanes At(int32_t of_column, int32_t of_row) const {
-    return {planes.cells + (of_row - row) * static_cast<ptrdiff_t>(planes.stride) +
-                (of_column - column),
-            planes.plane, planes.stride};
+  const int16_t* At(int32_t of_column, int32_t of_row) const {
+    return cells + (of_row - row) * static_cast<ptrdiff_t>(stride) + (of_column - column);
   }
 };
 

@@ -76,14 +76,14 @@ TEST_CASE("depth kernels: SeenCost averages the views that see the pixel, on the
   const uint8_t* differences[] = {values[0], values[1], values[2]};
   const uint16_t masks[] = {3, 4};
   uint8_t cost[2];
-  reference::SeenCost(differences, nullptr, 0, {masks, 2}, 2, cost);
+  reference::SeenCost(differences, nullptr, 0, masks, 2, 2, cost);
   CheckValues("all see", cost, {30, 240});
   // The first view hides labels 0 to 4, and the second view shows the first pixel only.
   const uint8_t behind[3][2] = {{5, 5}, {4, kViewEnds}, {5, 5}};
   const uint8_t* hidden[] = {behind[0], behind[1], behind[2]};
-  reference::SeenCost(differences, hidden, 4, {masks, 2}, 2, cost);
+  reference::SeenCost(differences, hidden, 4, masks, 2, 2, cost);
   CheckValues("hidden", cost, {36, 192});
-  reference::SeenCost(differences, hidden, 5, {masks + 1, 1}, 2, cost);
+  reference::SeenCost(differences, hidden, 5, masks + 1, 1, 2, cost);
   CheckValues("second side", cost, {80, 240});
 }
 

@@ -25,9 +25,10 @@ void CostLabels(Draw* draw, DepthCall* call) {
   row.ends = !draw->timed() && draw->Int(0, 1) == 0;
   // A quarter of the calls have sides of views at any positions. Only small sets have all views.
   static constexpr uint16_t kSides[] = {1, 0x8003, 0xfff0, 0x0ff2};
-  if (!draw->timed() && draw->Rarely(4)) row.sides = {kSides, draw->Size(1, 4, 1)};
-  row.views = row.sides.count == 1 ? draw->Size(1, 16, 1) : row.arms * row.rings;
-  if (row.sides.count > 1) row.views = kMostMatched;
+  row.sides = kSides;
+  row.side_count = !draw->timed() && draw->Rarely(4) ? draw->Size(1, 4, 1) : 0;
+  row.views = row.side_count == 1 ? draw->Size(1, 16, 1) : row.arms * row.rings;
+  if (row.side_count > 1) row.views = kMostMatched;
   const size_t views = row.views;
   // Half of the calls use similar pictures, because the kernel limits large differences.
   const int least = draw->Int(0, 1) == 0 ? 0 : 225;

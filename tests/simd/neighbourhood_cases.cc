@@ -11,10 +11,9 @@ int Reach(int around, Draw* draw) {
   return draw->Int(0, 3) == 0 && !draw->timed() ? draw->Int(1, far) : draw->Int(1, 9);
 }
 
-// Makes planes of columns x rows cells, with a border of `around` cells. The `cells` of the result
-// points to the first cell inside the border.
-CellPlanes MakeCells(size_t columns, size_t rows, size_t around, Draw* draw, KernelCall* call) {
-  const size_t stride = columns + 2 * around, plane = stride * (rows + 2 * around);
+// Makes planes of cells, `plane` apart, whose rows are `stride` apart, with a border of `around`
+// cells. Returns the first cell inside the border.
+const int16_t* MakeCells(size_t plane, size_t stride, size_t around, Draw* draw, KernelCall* call) {
   const int most = draw->Rarely(4) ? 32000 : 300;
   std::vector<int16_t> samples(kCellPlanes * plane);
   for (size_t n = 0; n < plane; ++n) {
@@ -31,7 +30,7 @@ CellPlanes MakeCells(size_t columns, size_t rows, size_t around, Draw* draw, Ker
     set(kHighPlane, draw->Int(low, most));
   }
   const int16_t* cells = call->Input("cells", samples, kPadding);
-  return {cells + around * (stride + 1), plane, stride};
+  return cells + around * (stride + 1);
 }
 
 }  // namespace
@@ -39,13 +38,13 @@ CellPlanes MakeCells(size_t columns, size_t rows, size_t around, Draw* draw, Ker
 void ReachBlock(Draw* draw, KernelCall* call) {
   const size_t blocks = draw->Size(1, 3, 48);  // in one row
   const auto around = int32_t(draw->Length(1, 12, 2));
-  const CellPlanes cells = MakeCells(2 * blocks, 2, size_t(around), draw, call);
+  const size_t stride = 2 * blocks + 2 * size_t(around), plane = stride * (2 + 2 * size_t(around));
+  const int16_t* cells = MakeCells(plane, stride, size_t(around), draw, call);
   auto* reaches = call->Results<BlockReach>("reach", blocks);
   call->Runs([=](const Kernels& kernels) {
     constexpr int16_t kMargins[3] = {0, 4, 12};
     for (size_t block = 0; block < blocks; ++block) {
-      const CellPlanes at = {cells.cells + 2 * block, cells.plane, cells.stride};
-      kernels.ReachBlock(at, around, kMargins, &reaches[block]);
+      kernels.ReachBlock(cells + 2 * block, plane, stride, around, kMargins, &reaches[block]);
     }
   });
 }
@@ -53,13 +52,14 @@ void ReachBlock(Draw* draw, KernelCall* call) {
 void SurroundCells(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 33, 48), whole = SliceSamples(count);
   const auto around = int32_t(draw->Size(1, 8, 2));
-  const CellPlanes cells = MakeCells(count, 1, size_t(around), draw, call);
+  const size_t stride = count + 2 * size_t(around), plane = stride * (1 + 2 * size_t(around));
+  const int16_t* cells = MakeCells(plane, stride, size_t(around), draw, call);
   auto* low = call->Results<int16_t>("low", count, whole - count);
   auto* high = call->Results<int16_t>("high", count, whole - count);
   auto* widest = call->Results<uint16_t>("widest", count, whole - count);
   auto* edge = call->Results<int16_t>("edge", count, whole - count);
   call->Runs([=](const Kernels& kernels) {
-    kernels.SurroundCells(cells, around, count, low, high, widest, edge);
+    kernels.SurroundCells(cells, plane, stride, around, count, low, high, widest, edge);
   });
 }
 

@@ -8,26 +8,30 @@ namespace {
 
 constexpr int kLongestPixels = 2 * 64 + 67;
 
-PixelOrder AnyOrder(Draw* draw) { return {size_t(draw->Int(3, 4)), draw->Int(0, 1) != 0}; }
-
 }  // namespace
 
 void PixelsToRgb(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestPixels, 1024);
-  const PixelOrder order = AnyOrder(draw);
+  const size_t step = draw->Size(3, 4, 3);
+  const bool blue_first = draw->Int(0, 1) != 0;
   // The memory of `pixels` ends with the colours of the last pixel, even if pixels have a fourth
   // byte.
-  const uint8_t* pixels = call->Input("pixels", RandomBytes(order.step * (count - 1) + 3, draw));
+  const uint8_t* pixels = call->Input("pixels", RandomBytes(step * (count - 1) + 3, draw));
   auto* rgb = call->Results<uint8_t>("rgb", 3 * count);
-  call->Runs([=](const ImageKernels& kernels) { kernels.PixelsToRgb(pixels, count, order, rgb); });
+  call->Runs([=](const ImageKernels& kernels) {
+    kernels.PixelsToRgb(pixels, count, step, blue_first, rgb);
+  });
 }
 
 void RgbToPixels(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestPixels, 1024);
-  const PixelOrder order = AnyOrder(draw);
+  const size_t step = draw->Size(3, 4, 3);
+  const bool blue_first = draw->Int(0, 1) != 0;
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
-  auto* pixels = call->Results<uint8_t>("pixels", order.step * count);
-  call->Runs([=](const ImageKernels& kernels) { kernels.RgbToPixels(rgb, count, order, pixels); });
+  auto* pixels = call->Results<uint8_t>("pixels", step * count);
+  call->Runs([=](const ImageKernels& kernels) {
+    kernels.RgbToPixels(rgb, count, step, blue_first, pixels);
+  });
 }
 
 }  // namespace test::image_cases
