@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiles the table of the disparity map kernels for every SIMD target.
-#include "simd/depth_kernels.h"
+#include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/depth_kernels.cc"
@@ -10,7 +10,6 @@
 #include "simd/match-inl.h"
 #include "simd/matting-inl.h"
 #include "simd/paths-inl.h"
-#include "simd/planes-inl.h"
 
 #define STARFOCUS_LIST STARFOCUS_DEPTH_KERNELS
 #include "simd/table-inl.h"

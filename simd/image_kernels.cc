@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiles the table of the picture and depth map conversion kernels for every SIMD target.
-#include "simd/image_kernels.h"
+#include "simd/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/image_kernels.cc"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernel that compares captured views with the centre view. The kernel computes the cost of
-// each label at each pixel of a row. Its building blocks process one label of a row of pixels.
-// Their vector code reads and writes whole groups of kSliceLanes samples.
+// SIMD kernels that match captured views with the centre view. SplitRow and InterpolateRow prepare
+// the planes of the views. CostLabels computes the cost of each label at each pixel of a row. Its
+// building blocks process one label of a row of pixels. Their vector code reads and writes whole
+// groups of kSliceLanes samples.
 #ifndef STARFOCUS_SIMD_MATCH_H_
 #define STARFOCUS_SIMD_MATCH_H_
 
@@ -68,6 +69,31 @@ struct LabelRow {
 };
 
 namespace reference {
+
+inline int InterpolateByte(int a, int b, int part) {
+  return (a * (128 - part) + b * part + 64) >> 7;
+}
+
+// Splits pixels into rows of R, G and B: plane[n] = rgb[3 n], plane[n + stride] = rgb[3 n + 1],
+// plane[n + 2 stride] = rgb[3 n + 2], for n < count. No other elements of `plane` are written.
+STARFOCUS_REFERENCE void SplitRow(const uint8_t* rgb, size_t count, size_t stride, uint8_t* plane) {
+  for (size_t n = 0; n < count; ++n) {
+    for (size_t c = 0; c < 3; ++c) plane[n + c * stride] = rgb[3 * n + c];
+  }
+}
+
+// Sets out[n] to the interpolated sample `across` / 128 of a pixel to the right of sample n, and
+// `down` / 128 of the way from `row` to `next`. `across` and `down` are in [0, 128). Interpolation
+// is bilinear, first down and then across, and rounds half up after each direction. The rows have
+// count + 1 samples. `out` is written in whole groups of kSliceLanes.
+STARFOCUS_REFERENCE void InterpolateRow(const uint8_t* row, const uint8_t* next, int32_t across,
+                                        int32_t down, size_t count, uint8_t* out) {
+  for (size_t n = 0; n < count; ++n) {
+    const int left = InterpolateByte(row[n], next[n], down),
+              right = InterpolateByte(row[n + 1], next[n + 1], down);
+    out[n] = static_cast<uint8_t>(InterpolateByte(left, right, across));
+  }
+}
 
 // Sets difference[n] to the difference between pixel n of the centre view and pixel n of a side
 // view, clamped to kMostDifference. In both views, the planes R, G and B are `plane` samples apart.

@@ -6,8 +6,6 @@
 
 #include <cstring>
 
-#include "simd/depth_kernels.h"
-#include "simd/image_kernels.h"
 #include "simd/kernels.h"
 
 namespace starfocus::simd {

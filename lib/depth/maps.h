@@ -19,7 +19,7 @@
 #include "lib/depth/setup.h"
 #include "lib/depth/thin_cells.h"
 #include "lib/io/depth_map.h"
-#include "simd/depth_kernels.h"
+#include "simd/kernels.h"
 #include "starfocus/depth.h"
 
 namespace starfocus {

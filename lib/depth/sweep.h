@@ -12,7 +12,7 @@
 #include "lib/base/arena.h"
 #include "lib/depth/maps.h"
 #include "lib/depth/setup.h"
-#include "simd/depth_kernels.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 

@@ -9,7 +9,7 @@
 
 #include "lib/base/geometry.h"
 #include "simd/depth_values.h"
-#include "simd/image_kernels.h"
+#include "simd/kernels.h"
 #include "starfocus/image.h"
 #include "starfocus/starfocus.h"
 

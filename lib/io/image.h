@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "lib/base/geometry.h"
-#include "simd/image_kernels.h"
+#include "simd/kernels.h"
 #include "simd/pixels.h"
 #include "starfocus/image.h"
 

@@ -9,7 +9,7 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
-#include "simd/depth_kernels.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 

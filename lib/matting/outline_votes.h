@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "lib/matting/outline_planes.h"
-#include "simd/depth_kernels.h"
+#include "simd/kernels.h"
 
 namespace starfocus {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "simd/depth_kernels.h"
+#include "simd/kernels.h"
 #include "tests/simd/check_kernels.h"
 #include "tests/simd/kernel_cases.h"
 #include "tests/support/simd_targets.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "simd/image_kernels.h"
+#include "simd/kernels.h"
 #include "tests/simd/check_kernels.h"
 #include "tests/simd/kernel_cases.h"
 #include "tests/support/simd_targets.h"

@@ -14,8 +14,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "simd/depth_kernels.h"
-#include "simd/image_kernels.h"
 #include "simd/kernels.h"
 #include "tests/support/test_scene.h"
 

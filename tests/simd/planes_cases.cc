@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "simd/planes.h"
+#include "simd/match.h"
 #include "tests/simd/kernel_cases.h"
 
 namespace test::depth_cases {

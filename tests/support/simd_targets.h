@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "simd/depth_kernels.h"
-#include "simd/image_kernels.h"
 #include "simd/kernels.h"
 
 namespace test {

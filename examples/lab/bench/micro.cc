@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "simd/depth_kernels.h"
 #include "simd/kernels.h"
 #include "tests/simd/kernel_cases.h"
 
