@@ -28,7 +28,7 @@ HWY_INLINE void LookUp(const T* HWY_RESTRICT table, const Index* HWY_RESTRICT in
 
 inline void Decode(const uint8_t* HWY_RESTRICT codes, size_t count, const Encoding& encoding,
                    int16_t* HWY_RESTRICT light) {
-  if (encoding.light != nullptr) return LookUp(encoding.light, codes, count, light);
+  if (encoding.entries != nullptr) return LookUp(encoding.light, codes, count, light);
   const hn::ScalableTag<int16_t> d16;
   const hn::Rebind<uint8_t, decltype(d16)> d8;
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {

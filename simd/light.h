@@ -23,14 +23,13 @@ inline constexpr int kEncodeStep = 8;
 inline constexpr int kEncodeBits = 4;
 inline constexpr size_t kEncodeEntries = kLightWhite / kEncodeStep + 1;
 
-// Conversion between codes and light by tables, or without tables if light is the code itself.
+// Conversion between codes and light by tables. If light is the code itself, `entries` is null, and
+// kernels use no tables: light is code << kLightBits, and the code is the light rounded half up.
 struct Encoding {
-  const int16_t* light;  // Light of each of the 256 codes; null if light is code << kLightBits.
-  const uint16_t*
-      entries;  // kEncodeEntries entries; null if the code is the light rounded half up.
-  // Light of each code in the format of layers (resample.h), rounded half up; null if `light` is
-  // null.
-  const int16_t* samples = nullptr;
+  const int16_t* light;              // Light of each of the 256 codes.
+  const uint16_t* entries;           // kEncodeEntries entries.
+  const int16_t* samples = nullptr;  // Light of each code in the format of layers (resample.h),
+                                     // rounded half up.
 };
 
 namespace reference {
@@ -47,8 +46,8 @@ inline uint8_t CodeOf(int32_t light, const Encoding& encoding) {
 STARFOCUS_REFERENCE void Decode(const uint8_t* codes, size_t count, const Encoding& encoding,
                                 int16_t* light) {
   for (size_t n = 0; n < count; ++n) {
-    light[n] = encoding.light == nullptr ? static_cast<int16_t>(codes[n] << kLightBits)
-                                         : encoding.light[codes[n]];
+    light[n] = encoding.entries == nullptr ? static_cast<int16_t>(codes[n] << kLightBits)
+                                           : encoding.light[codes[n]];
   }
 }
 

@@ -14,8 +14,46 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
+inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, const Encoding& encoding,
+                   uint8_t* HWY_RESTRICT out) {
+  const hn::CappedTag<int16_t, kEncodeSpare> d16;
+  if (encoding.entries != nullptr) {
+    EncodeChunks(count, hn::Lanes(d16), encoding, out, [&](size_t n, int16_t* light) HWY_ATTR {
+      hn::StoreU(hn::ShiftLeft<kLightBits - kLayerBits>(hn::LoadU(d16, in + n)), d16, light);
+    });
+    return;
+  }
+  const hn::Rebind<uint8_t, decltype(d16)> d8;
+  const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
+  const auto one = hn::Set(d16, int16_t{1});
+  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
+    const auto value = hn::LoadU(d16, in + n);
+    const auto odd = hn::And(hn::ShiftRight<kLayerBits>(value), one);
+    const auto sum = hn::Add(value, hn::Add(below_half, odd));
+    hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kLayerBits>(sum)), d8, out + n);
+  });
+  if (!done) reference::Narrow(in, count, encoding, out);
+}
+
+inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count, int shift,
+                        int16_t* HWY_RESTRICT out) {
+  const hn::ScalableTag<uint32_t> d32;
+  const hn::RebindToSigned<decltype(d32)> di32;
+  const hn::Rebind<int16_t, decltype(d32)> d16;
+  const auto half = hn::Set(d32, uint32_t{1} << (shift - kLayerBits - 1));
+  const bool done = ForVectors(count, hn::Lanes(d32), [&](size_t n) HWY_ATTR {
+    const auto sum = hn::Add(hn::LoadU(d32, accumulators + n), half);
+    const auto value = hn::BitCast(di32, hn::ShiftRightSame(sum, shift - kLayerBits));
+    hn::StoreU(hn::DemoteTo(d16, value), d16, out + n);
+  });
+  if (!done) reference::FinishLayer(accumulators, count, shift, out);
+}
+
 #if HWY_TARGET == HWY_SCALAR
 
+using reference::Between;
+using reference::FilterHalfBand;
+using reference::Halve;
 using reference::SplitPhases;
 using reference::WidenPhases;
 
@@ -54,7 +92,7 @@ inline void ShiftPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, int16_t* H
 
 inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, const Encoding& encoding,
                         int16_t* HWY_RESTRICT even, int16_t* HWY_RESTRICT odd) {
-  if (encoding.light == nullptr) {
+  if (encoding.entries == nullptr) {
     ShiftPhases(in, pairs, even, odd);
     return;
   }
@@ -83,46 +121,8 @@ inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* H
   if (pair < pairs) split(pair);
 }
 
-#endif
-
-inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, const Encoding& encoding,
-                   uint8_t* HWY_RESTRICT out) {
-  const hn::CappedTag<int16_t, kEncodeSpare> d16;
-  if (encoding.entries != nullptr) {
-    EncodeChunks(count, hn::Lanes(d16), encoding, out, [&](size_t n, int16_t* light) HWY_ATTR {
-      hn::StoreU(hn::ShiftLeft<kLightBits - kLayerBits>(hn::LoadU(d16, in + n)), d16, light);
-    });
-    return;
-  }
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
-  const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
-  const auto one = hn::Set(d16, int16_t{1});
-  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
-    const auto value = hn::LoadU(d16, in + n);
-    const auto odd = hn::And(hn::ShiftRight<kLayerBits>(value), one);
-    const auto sum = hn::Add(value, hn::Add(below_half, odd));
-    hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kLayerBits>(sum)), d8, out + n);
-  });
-  if (!done) reference::Narrow(in, count, encoding, out);
-}
-
-inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count, int shift,
-                        int16_t* HWY_RESTRICT out) {
-  const hn::ScalableTag<uint32_t> d32;
-  const hn::RebindToSigned<decltype(d32)> di32;
-  const hn::Rebind<int16_t, decltype(d32)> d16;
-  const auto half = hn::Set(d32, uint32_t{1} << (shift - kLayerBits - 1));
-  const bool done = ForVectors(count, hn::Lanes(d32), [&](size_t n) HWY_ATTR {
-    const auto sum = hn::Add(hn::LoadU(d32, accumulators + n), half);
-    const auto value = hn::BitCast(di32, hn::ShiftRightSame(sum, shift - kLayerBits));
-    hn::StoreU(hn::DemoteTo(d16, value), d16, out + n);
-  });
-  if (!done) reference::FinishLayer(accumulators, count, shift, out);
-}
-
 // HalfBandOf computes centre c + near (a + b) + far (d + e) for vectors of samples a to e, rounded
 // and saturated. BetweenOf computes this sum without the term of c.
-#if HWY_TARGET != HWY_SCALAR
 
 using FilterTag = hn::ScalableTag<int16_t>;
 using WideTag = hn::Repartition<int32_t, FilterTag>;
@@ -171,45 +171,6 @@ HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, F
   return EndTaps(low, high);
 }
 
-#else
-
-using WideTag = hn::ScalableTag<int32_t>;
-using FilterTag = hn::Rebind<int16_t, WideTag>;
-using FilterVec = hn::Vec<FilterTag>;
-using WideVec = hn::Vec<WideTag>;
-
-HWY_INLINE WideVec Wide(FilterVec samples) { return hn::PromoteTo(WideTag(), samples); }
-
-HWY_INLINE WideVec Weighed(int32_t tap, WideVec samples) {
-  return hn::Mul(hn::Set(WideTag(), tap), samples);
-}
-
-HWY_INLINE FilterVec EndTaps(WideVec sum) {
-  const auto half = hn::Set(WideTag(), 1 << (kTapBits - 1));
-  return hn::DemoteTo(FilterTag(), hn::ShiftRight<kTapBits>(hn::Add(sum, half)));
-}
-
-HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, FilterVec b,
-                                FilterVec d, FilterVec e) {
-  const auto beside = Weighed(taps.near, hn::Add(Wide(a), Wide(b)));
-  const auto beyond = Weighed(taps.far, hn::Add(Wide(d), Wide(e)));
-  return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
-}
-
-// Takes the sums a + b and d + e, which must fit in 16 bits.
-HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
-  const auto beside = Weighed(taps.near, Wide(ab)), beyond = Weighed(taps.far, Wide(de));
-  return EndTaps(hn::Add(Weighed(taps.centre, Wide(c)), hn::Add(beside, beyond)));
-}
-
-HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, FilterVec d,
-                               FilterVec e) {
-  return EndTaps(hn::Add(Weighed(taps.near, hn::Add(Wide(a), Wide(b))),
-                         Weighed(taps.far, hn::Add(Wide(d), Wide(e)))));
-}
-
-#endif
-
 inline void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
                            int16_t low, int16_t high, int16_t* out) {
   // `taps` is a local copy, because the compiler must assume that writes to `out` change `filter`.
@@ -254,6 +215,8 @@ inline void Between(const int16_t* in, ptrdiff_t step, const HalfBand& filter, s
   });
   if (!done) reference::Between(in, step, filter, count, low, high, out);
 }
+
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd

@@ -64,13 +64,12 @@ struct CodeTables {
 };
 
 constexpr CodeTables kTables;
-constexpr Transfer kSrgb = {
-    kTables.srgb, kTables.srgb_samples, {kTables.srgb, kTables.entries, kTables.srgb_samples}};
-constexpr Transfer kNone = {kTables.same, kTables.same_samples, {nullptr, nullptr}};
+constexpr simd::Encoding kSrgb = {kTables.srgb, kTables.entries, kTables.srgb_samples};
+constexpr simd::Encoding kNone = {kTables.same, nullptr, kTables.same_samples};
 
 }  // namespace
 
-const Transfer& TransferOf(int32_t transfer) {
+const simd::Encoding& TransferOf(int32_t transfer) {
   return transfer == STARFOCUS_TRANSFER_NONE ? kNone : kSrgb;
 }
 

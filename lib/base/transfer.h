@@ -13,18 +13,12 @@ namespace starfocus {
 using simd::kLightBits;
 using simd::kLightWhite;
 
-struct Transfer {
-  const int16_t* light;    // Light of each of the 256 codes.
-  const int16_t* samples;  // Light of each code in the format of layers, simd::kLayerBits.
-  // Conversion in both directions for SIMD kernels, which avoid tables where possible.
-  simd::Encoding encoding;
-};
-
-// Returns the tables of a transfer function. STARFOCUS_TRANSFER_SRGB follows IEC 61966-2-1; with
-// STARFOCUS_TRANSFER_NONE, light is proportional to the code. The light of a code is rounded to the
+// Returns the tables of a transfer function. Their `light` and `samples` are never null.
+// STARFOCUS_TRANSFER_SRGB follows IEC 61966-2-1; with STARFOCUS_TRANSFER_NONE, light is
+// proportional to the code. The light of a code is rounded to the
 // nearest level. The code of a light level is the code that is nearest to the level on the scale of
 // codes.
-const Transfer& TransferOf(int32_t transfer);
+const simd::Encoding& TransferOf(int32_t transfer);
 
 }  // namespace starfocus
 

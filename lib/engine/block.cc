@@ -19,7 +19,7 @@ uint8_t* At(const Plane<uint8_t>& out, const Rect& rect, int32_t row) {
   return out.Row(rect.y + row) + 3 * static_cast<size_t>(rect.x);
 }
 
-const simd::Encoding& EncodingOf(const BlockInputs& in) { return in.input->transfer->encoding; }
+const simd::Encoding& EncodingOf(const BlockInputs& in) { return *in.input->transfer; }
 
 void FinishPicture(const BlockInputs& in, const Rect& rect, int shift, const Plane<uint8_t>& out,
                    const Scratch& scratch) {

@@ -24,7 +24,7 @@ void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t avail
   const auto code = [&](int32_t sum, int bits) {
     const auto mean = static_cast<int16_t>((sum + (1 << bits >> 1)) >> bits);
     uint8_t result;
-    job.kernels->Encode(&mean, 1, job.transfer->encoding, &result);
+    job.kernels->Encode(&mean, 1, *job.transfer, &result);
     return result;
   };
   if (strong && available > 3 && Close(p0, q + 3 * step, job.beta)) {

@@ -40,7 +40,7 @@ struct DeblockJob {
   int32_t width, height;  // Size of the picture.
   int32_t y;              // First row of the stripe.
   int32_t beta;           // Limit beta of equations (16) and (17), in codes.
-  const Transfer* transfer;
+  const simd::Encoding* transfer;
   const simd::Kernels* kernels;
 };
 

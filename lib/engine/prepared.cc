@@ -91,7 +91,7 @@ void AddLight(const int16_t* light, size_t samples, bool is_first, uint32_t* sum
 // Reduces a view to all sizes of previews.
 bool ReduceView(const Prepared& prepared, const EngineState& engine, int view, const Rect& part,
                 Scratch* scratch) {
-  const simd::Encoding& encoding = engine.input.transfer->encoding;
+  const simd::Encoding& encoding = *engine.input.transfer;
   const int32_t previews = prepared.config.previews;
   const size_t samples = 3 * static_cast<size_t>(part.width);
   int16_t* const light = scratch->picture_samples;

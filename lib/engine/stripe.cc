@@ -16,7 +16,7 @@ namespace {
 // kSmallestBlock finished rows.
 starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
   const FullConfig& config = engine->config;
-  const Transfer* transfer = engine->input.transfer;
+  const simd::Encoding* transfer = engine->input.transfer;
   const DeblockJob job = {
       &engine->stripe.map,      out,      config.width,   config.height, stripe.y,
       config.tuning.deblocking, transfer, engine->kernels};

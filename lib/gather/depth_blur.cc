@@ -92,7 +92,7 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
         AddExcess(*job.input, accumulators, samples, bits, out + 3 * begin);
         continue;
       }
-      job.input->kernels->Finish(accumulators, samples, bits, job.input->transfer->encoding,
+      job.input->kernels->Finish(accumulators, samples, bits, *job.input->transfer,
                                  out + 3 * begin);
     }
   }

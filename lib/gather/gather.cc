@@ -211,8 +211,8 @@ class Gather {
     const simd::SampleRows in = RowsOf(part);
     const simd::Disc disc = DiscOf(psf);
     if (job_.cells.layer == 0) {
-      job_.input->kernels->FilterDisc(in, disc, job_.input->transfer->encoding,
-                                      codes_ + FirstOut(part), stride_);
+      job_.input->kernels->FilterDisc(in, disc, *job_.input->transfer, codes_ + FirstOut(part),
+                                      stride_);
     } else {
       job_.input->kernels->FilterDiscLayer(in, disc, samples_ + FirstOut(part), stride_);
     }
@@ -291,7 +291,7 @@ class Gather {
       if (job_.cells.layer > 0) {
         std::memcpy(samples_ + at, moved, count * sizeof(*moved));
       } else {
-        job_.input->kernels->Narrow(moved, count, job_.input->transfer->encoding, codes_ + at);
+        job_.input->kernels->Narrow(moved, count, *job_.input->transfer, codes_ + at);
       }
       at += stride_;
       moved += kCell;

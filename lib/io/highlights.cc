@@ -160,7 +160,7 @@ void AddExcess(const Input& excess, const uint32_t* sums, size_t count, int shif
       const uint64_t sum = static_cast<uint64_t>(excess.transfer->light[codes[n]]) + more;
       light[n - begin] = sum < kLightWhite ? static_cast<int16_t>(sum) : kLightWhite;
     }
-    excess.kernels->Encode(light, end - begin, excess.transfer->encoding, codes + begin);
+    excess.kernels->Encode(light, end - begin, *excess.transfer, codes + begin);
   }
 }
 

@@ -112,7 +112,7 @@ void ReadImageLight(const Input& in, int view, int32_t x, int32_t y, int32_t cou
   for (int32_t p = 0; p < count; p += kPiece) {
     const int32_t some = Min(kPiece, count - p);
     in.kernels->Decode(ReadImageCodes(in, view, x + p, y, some, room),
-                       3 * static_cast<size_t>(some), in.transfer->encoding, rgb + 3 * p);
+                       3 * static_cast<size_t>(some), *in.transfer, rgb + 3 * p);
   }
 }
 
@@ -188,7 +188,7 @@ void ReadPackedLight(const Input& in, int view, int32_t x, int32_t y, int32_t co
     for (int32_t n = 0; n < 3 * count; ++n) rgb[n] = in.transfer->light[codes[n]];
     return;
   }
-  in.kernels->Decode(codes, 3 * static_cast<size_t>(count), in.transfer->encoding, rgb);
+  in.kernels->Decode(codes, 3 * static_cast<size_t>(count), *in.transfer, rgb);
 }
 
 Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
@@ -221,9 +221,8 @@ Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
   return in;
 }
 
-Input InputOf(const FullConfig& config, const simd::Kernels& kernels,
-              const Plane<uint8_t>* views, const Plane<int16_t>& disparity,
-              const Plane<uint8_t>& coverage) {
+Input InputOf(const FullConfig& config, const simd::Kernels& kernels, const Plane<uint8_t>* views,
+              const Plane<int16_t>& disparity, const Plane<uint8_t>& coverage) {
   Input in = EmptyInput(config, kernels);
   for (int view = 0; view < in.views; ++view) {
     in.images[view].planes[0] = views[view].data;

@@ -69,7 +69,7 @@ struct Input {
                                uint8_t* room) = ReadPackedCodes;
   const simd::Kernels* kernels = nullptr;
   const simd::ImageKernels* image_kernels = nullptr;  // Null if no pixel or value is converted.
-  const Transfer* transfer = nullptr;                 // Transfer function of the pictures.
+  const simd::Encoding* transfer = nullptr;           // Transfer function of the pictures.
   int32_t width = 0, height = 0;                      // Size of the pictures.
   int32_t views = 0;               // Number of captured views, including the centre view.
   OcclusionViews occlusion_views;  // Captured views that see behind depth edges.

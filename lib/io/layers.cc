@@ -20,12 +20,11 @@ size_t SamplesOf(const Range& columns) {
 // A row of the centre view, as codes.
 struct CodeRow {
   const uint8_t* codes;
-  const Transfer& transfer;
+  const simd::Encoding& transfer;
 
   void Part(const Kernels& kernels, int32_t first, int32_t pairs, int16_t* even,
             int16_t* odd) const {
-    kernels.WidenPhases(codes + 6 * first, static_cast<size_t>(pairs), transfer.encoding, even,
-                        odd);
+    kernels.WidenPhases(codes + 6 * first, static_cast<size_t>(pairs), transfer, even, odd);
   }
   int16_t Sample(int32_t n) const { return transfer.samples[codes[n]]; }
 };

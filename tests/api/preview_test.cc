@@ -26,7 +26,7 @@ int Ceil(int size, int shift) { return (size + (1 << shift) - 1) >> shift; }
 uint8_t CodeOf(int64_t sum, int64_t count, int32_t transfer) {
   const auto light = static_cast<int16_t>((2 * sum + count) / (2 * count));
   uint8_t code = 0;
-  starfocus::simd::reference::Encode(&light, 1, starfocus::TransferOf(transfer).encoding, &code);
+  starfocus::simd::reference::Encode(&light, 1, starfocus::TransferOf(transfer), &code);
   return code;
 }
 
@@ -102,8 +102,7 @@ starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
 // An engine, and a light field that the engine has prepared.
 class Prepared {
  public:
-  Prepared(const test::Scene& scene, const test::Config& config,
-           starfocus_runner runner = nullptr)
+  Prepared(const test::Scene& scene, const test::Config& config, starfocus_runner runner = nullptr)
       : engine(config), memory(engine.get()), scene_(scene) {
     const starfocus_callbacks callbacks = test::RunBy(runner);
     REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);

@@ -23,14 +23,13 @@ constexpr starfocus_transfer kTransfers[] = {STARFOCUS_TRANSFER_SRGB, STARFOCUS_
 uint8_t CodeOf(int light, starfocus_transfer transfer) {
   const auto level = int16_t(light);
   uint8_t code = 0;
-  starfocus::simd::ReferenceKernels().Encode(&level, 1, starfocus::TransferOf(transfer).encoding,
-                                             &code);
+  starfocus::simd::ReferenceKernels().Encode(&level, 1, starfocus::TransferOf(transfer), &code);
   return code;
 }
 
 TEST_CASE("transfer: the light of every code follows the curve and converts back to the code") {
   for (const starfocus_transfer transfer : kTransfers) {
-    const starfocus::Transfer& tables = starfocus::TransferOf(transfer);
+    const starfocus::simd::Encoding& tables = starfocus::TransferOf(transfer);
     for (int code = 0; code < 256; ++code) {
       CAPTURE(code);
       CHECK(std::fabs(tables.light[code] - 128 * test::LightOf(code, transfer)) <= 0.5001);

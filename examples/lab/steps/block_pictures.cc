@@ -109,7 +109,7 @@ class BlockArtist {
     const size_t samples = 3 * static_cast<size_t>(rect_.width);
     for (int32_t y = 0; y < rect_.height; ++y) {
       engine_.kernels->Finish(engine_.scratch[0].sums + static_cast<size_t>(y) * samples, samples,
-                              kSliceRenderer.sum_bits(weights), input_.transfer->encoding,
+                              kSliceRenderer.sum_bits(weights), *input_.transfer,
                               PixelOf(&pictures_.view, rect_.x, rect_.y + y));
     }
   }
@@ -168,8 +168,8 @@ class BlockArtist {
   }
 
   void Encode(const LightRow& row, int32_t y, Image* picture) const {
-    engine_.kernels->Encode(row.data(), 3 * static_cast<size_t>(rect_.width),
-                            input_.transfer->encoding, PixelOf(picture, rect_.x, rect_.y + y));
+    engine_.kernels->Encode(row.data(), 3 * static_cast<size_t>(rect_.width), *input_.transfer,
+                            PixelOf(picture, rect_.x, rect_.y + y));
   }
 
   // Tints the pixels of each tile by the slices that the compositor makes for this tile.
