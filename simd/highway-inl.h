@@ -125,6 +125,30 @@ HWY_INLINE hn::Vec<D16> DemoteSums(D16 d16, V32 low, V32 high) {
 
 #endif
 
+// Loads bytes as lanes of 16 or 32 bits.
+template <class D>
+HWY_INLINE hn::Vec<D> LoadBytes(D d, const uint8_t* at) {
+  return hn::PromoteTo(d, hn::LoadU(hn::Rebind<uint8_t, D>(), at));
+}
+
+// Stores signed lanes of 16 or 32 bits as bytes, clamped to [0, 255].
+template <class D>
+HWY_INLINE void StoreBytes(D d, hn::Vec<D> values, uint8_t* at) {
+  const hn::Rebind<uint8_t, D> d8;
+  (void)d;
+  hn::StoreU(hn::DemoteTo(d8, values), d8, at);
+}
+
+// Returns reference::ColourDistance of the pixels at `a` and `b`, or 255 if it is larger.
+template <class D8>
+HWY_INLINE hn::Vec<D8> ColourDistance(D8 d8, const uint8_t* a, const uint8_t* b, size_t plane) {
+  const auto apart = [=](size_t at) HWY_ATTR {
+    const auto of_a = hn::LoadU(d8, a + at), of_b = hn::LoadU(d8, b + at);
+    return hn::Or(hn::SaturatedSub(of_a, of_b), hn::SaturatedSub(of_b, of_a));
+  };
+  return hn::SaturatedAdd(hn::SaturatedAdd(apart(0), apart(plane)), apart(2 * plane));
+}
+
 // Rows whose length is not a whole number of vectors are handled in one of three ways:
 // - Rows that are padded to whole groups of kSliceLanes by contract have no remainder.
 // - All other kernels store with ForVectors. The last vector overlaps the previous vector and
@@ -143,6 +167,20 @@ HWY_INLINE bool ForVectors(size_t count, size_t lanes, const Step& step) {
   for (size_t n = 0; n < count - lanes; n += lanes) step(n);
   step(count - lanes);
   return true;
+}
+
+// Splits pixels into planes of R, G and B, `plane` samples apart. If there are fewer pixels than
+// lanes, returns false and writes nothing.
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE bool SplitColours(D d, const T* HWY_RESTRICT rgb, size_t count, size_t plane,
+                             T* HWY_RESTRICT out) {
+  return ForVectors(count, hn::Lanes(d), [&](size_t n) HWY_ATTR {
+    hn::Vec<D> r, g, b;
+    hn::LoadInterleaved3(d, rgb + 3 * n, r, g, b);
+    hn::StoreU(r, d, out + n);
+    hn::StoreU(g, d, out + plane + n);
+    hn::StoreU(b, d, out + 2 * plane + n);
+  });
 }
 
 // A vector holds at most one group, because rows are padded to whole groups only, and because the

@@ -18,14 +18,7 @@ namespace HWY_NAMESPACE {
 
 inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
                   int16_t* HWY_RESTRICT out) {
-  const LanesTag d16;
-  const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
-    LanesVec r, g, b;
-    hn::LoadInterleaved3(d16, rgb + 3 * n, r, g, b);
-    hn::StoreU(r, d16, out + n);
-    hn::StoreU(g, d16, out + plane + n);
-    hn::StoreU(b, d16, out + 2 * plane + n);
-  });
+  const bool done = SplitColours(LanesTag(), rgb, count, plane, out);
   if (!done) reference::Split(rgb, count, plane, out);
 }
 
@@ -33,7 +26,6 @@ inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTR
                       int16_t least_step, int unit_bits, size_t count, int16_t* HWY_RESTRICT moved,
                       int16_t* HWY_RESTRICT behind, uint8_t* HWY_RESTRICT distance) {
   const LanesTag d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   const auto step = hn::Set(d16, least_step);
   const auto unit = hn::Set(d16, static_cast<int16_t>(1 << unit_bits));
@@ -55,7 +47,7 @@ inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTR
     const auto beyond = hn::Gt(moves, hn::Min(depth, farthest));
     const auto hides = hn::AndNot(beyond, hn::Gt(depth, step));
     const auto pixels = hn::Add(hn::ShiftRightSame(moves, unit_bits), one);
-    hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(hides, pixels)), d8, distance + n);
+    StoreBytes(d16, hn::IfThenElseZero(hides, pixels), distance + n);
   }
 }
 
@@ -210,7 +202,6 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
 HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t* distances,
                                uint32_t lanes, int index, StripSides* sides) {
   const LanesTag d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
   const int side = index % 4;
   const ptrdiff_t step = StepOf(row, side);
   const ViewLook* const looks = row.looks[side];
@@ -225,7 +216,7 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t*
   }
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
     const auto column = static_cast<int32_t>(strip + k);
-    const auto distance = hn::PromoteTo(d16, hn::LoadU(d8, distances + k));
+    const auto distance = LoadBytes(d16, distances + k);
     const auto hides = hn::Gt(distance, hn::Zero(d16));
     const auto disparity = hn::LoadU(d16, behind + k);
     const auto high = hn::Set(d16, row.high);

@@ -30,10 +30,8 @@ inline void Decode(const uint8_t* HWY_RESTRICT codes, size_t count, const Encodi
                    int16_t* HWY_RESTRICT light) {
   if (encoding.entries != nullptr) return LookUp(encoding.light, codes, count, light);
   const hn::ScalableTag<int16_t> d16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
-    const auto code = hn::PromoteTo(d16, hn::LoadU(d8, codes + n));
-    hn::StoreU(hn::ShiftLeft<kLightBits>(code), d16, light + n);
+    hn::StoreU(hn::ShiftLeft<kLightBits>(LoadBytes(d16, codes + n)), d16, light + n);
   });
   if (!done) reference::Decode(codes, count, encoding, light);
 }
@@ -50,7 +48,6 @@ inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const E
   // Vectors have at most 8 lanes, because a cell of layer 1 is only 12 samples wide.
   const hn::CappedTag<int16_t, 8> d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
   const size_t lanes = hn::Lanes(d16);
   if (count < lanes) return reference::Encode(light, count, encoding, codes);
   constexpr int kStepBits = 3;
@@ -66,7 +63,7 @@ inline void EncodeChunk(const int16_t* HWY_RESTRICT light, size_t count, const E
     const auto value = hn::BitCast(du16, hn::LoadU(d16, light + n));
     const auto sum = hn::Add(hn::LoadU(du16, entries + n), hn::And(value, rest));
     const auto code = hn::BitCast(d16, hn::ShiftRight<kEncodeBits>(sum));
-    hn::StoreU(hn::DemoteTo(d8, code), d8, codes + n);
+    StoreBytes(d16, code, codes + n);
   });
 }
 
@@ -97,11 +94,10 @@ inline void Encode(const int16_t* HWY_RESTRICT light, size_t count, const Encodi
   }
   const hn::ScalableTag<int16_t> d16;
   const hn::RebindToUnsigned<decltype(d16)> du16;
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
   const auto half = hn::Set(du16, uint16_t{1 << (kLightBits - 1)});
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const auto sum = hn::Add(hn::BitCast(du16, hn::LoadU(d16, light + n)), half);
-    hn::StoreU(hn::DemoteTo(d8, hn::BitCast(d16, hn::ShiftRight<kLightBits>(sum))), d8, codes + n);
+    StoreBytes(d16, hn::BitCast(d16, hn::ShiftRight<kLightBits>(sum)), codes + n);
   });
   if (!done) reference::Encode(light, count, encoding, codes);
 }
@@ -123,10 +119,8 @@ inline void Finish(const uint32_t* HWY_RESTRICT accumulators, size_t count, int 
     });
     return;
   }
-  const hn::Rebind<uint8_t, decltype(d32)> d8;
-  const bool done = ForVectors(count, hn::Lanes(d32), [&](size_t n) HWY_ATTR {
-    hn::StoreU(hn::DemoteTo(d8, rounded(n)), d8, out + n);
-  });
+  const bool done = ForVectors(count, hn::Lanes(d32),
+                               [&](size_t n) HWY_ATTR { StoreBytes(di32, rounded(n), out + n); });
   if (!done) reference::Finish(accumulators, count, shift, encoding, out);
 }
 

@@ -16,27 +16,16 @@ namespace HWY_NAMESPACE {
 
 using MatchTag = hn::RebindToUnsigned<LanesTag>;
 using MatchVec = hn::Vec<MatchTag>;
-using MatchBytes = hn::Rebind<uint8_t, MatchTag>;
-
-HWY_INLINE MatchVec LoadWide(const uint8_t* at) {
-  return hn::PromoteTo(MatchTag(), hn::LoadU(MatchBytes(), at));
-}
 
 HWY_INLINE void StoreNarrow(MatchVec values, uint8_t* at) {
   const hn::RebindToSigned<MatchTag> d16;
-  hn::StoreU(hn::DemoteTo(MatchBytes(), hn::BitCast(d16, values)), MatchBytes(), at);
+  StoreBytes(d16, hn::BitCast(d16, values), at);
 }
 
 inline void SplitRow(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t stride,
                      uint8_t* HWY_RESTRICT plane) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
-  const bool done = ForVectors(count, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
-    auto r = hn::Zero(d8), g = hn::Zero(d8), b = hn::Zero(d8);
-    hn::LoadInterleaved3(d8, rgb + 3 * n, r, g, b);
-    hn::StoreU(r, d8, plane + n);
-    hn::StoreU(g, d8, plane + n + stride);
-    hn::StoreU(b, d8, plane + n + 2 * stride);
-  });
+  const bool done = SplitColours(d8, rgb, count, stride, plane);
   if (!done) reference::SplitRow(rgb, count, stride, plane);
 }
 
@@ -56,11 +45,11 @@ HWY_INLINE void InterpolateMoved(const uint8_t* HWY_RESTRICT row, const uint8_t*
                                  int32_t across, int32_t down, size_t count,
                                  uint8_t* HWY_RESTRICT out) {
   for (size_t n = 0; n < count; n += hn::Lanes(MatchTag())) {
-    auto value = LoadWide(row + n);
-    if (kDown) value = Between(value, LoadWide(next + n), down);
+    auto value = LoadBytes(MatchTag(), row + n);
+    if (kDown) value = Between(value, LoadBytes(MatchTag(), next + n), down);
     if (kAcross) {
-      auto right = LoadWide(row + n + 1);
-      if (kDown) right = Between(right, LoadWide(next + n + 1), down);
+      auto right = LoadBytes(MatchTag(), row + n + 1);
+      if (kDown) right = Between(right, LoadBytes(MatchTag(), next + n + 1), down);
       value = Between(value, right, across);
     }
     StoreNarrow(value, out + n);
@@ -83,21 +72,12 @@ inline void InterpolateRow(const uint8_t* row, const uint8_t* next, int32_t acro
 inline constexpr size_t kMatchPixels = 32;
 using ByteTag = hn::CappedTag<uint8_t, HWY_ARCH_ARM_A64 ? 16 : kMatchPixels>;
 
-HWY_INLINE hn::Vec<ByteTag> ApartAt(const uint8_t* a, const uint8_t* b) {
-  const ByteTag d8;
-  const auto of_a = hn::LoadU(d8, a), of_b = hn::LoadU(d8, b);
-  return hn::Or(hn::SaturatedSub(of_a, of_b), hn::SaturatedSub(of_b, of_a));
-}
-
 HWY_INLINE void MatchView(const uint8_t* centre, const uint8_t* view, size_t plane, size_t count,
                           uint8_t* HWY_RESTRICT difference) {
   const ByteTag d8;
   const auto most = hn::Set(d8, uint8_t{kMostDifference});
   for (size_t n = 0; n < count; n += hn::Lanes(d8)) {
-    const auto red = ApartAt(centre + n, view + n);
-    const auto green = ApartAt(centre + plane + n, view + plane + n);
-    const auto blue = ApartAt(centre + 2 * plane + n, view + 2 * plane + n);
-    const auto sum = hn::SaturatedAdd(hn::SaturatedAdd(red, green), blue);
+    const auto sum = ColourDistance(d8, centre + n, view + n, plane);
     hn::StoreU(hn::Min(sum, most), d8, difference + n);
   }
 }
@@ -149,8 +129,8 @@ HWY_INLINE void LimitHidden(const uint8_t* const* hidden, uint8_t label, size_t 
 
 HWY_INLINE MatchVec ArmAt(const uint8_t* const* differences, size_t arms, size_t rings, size_t k,
                           size_t n) {
-  const auto outer = LoadWide(differences[k] + n);
-  return rings == 1 ? outer : hn::Add(outer, LoadWide(differences[arms + k] + n));
+  const auto outer = LoadBytes(MatchTag(), differences[k] + n);
+  return rings == 1 ? outer : hn::Add(outer, LoadBytes(MatchTag(), differences[arms + k] + n));
 }
 
 // LeastSide for four views: the cost is twice the sum of two differences, which is equal to (3 *
@@ -207,7 +187,8 @@ HWY_INLINE void MeanCost(const uint8_t* const* differences, size_t views, size_t
   const MatchTag du16;
   for (size_t n = 0; n < count; n += hn::Lanes(du16)) {
     auto sum = hn::Zero(du16);
-    for (size_t k = 0; k < views; ++k) sum = hn::Add(sum, LoadWide(differences[k] + n));
+    for (size_t k = 0; k < views; ++k)
+      sum = hn::Add(sum, LoadBytes(MatchTag(), differences[k] + n));
     if (views == 8) sum = hn::ShiftRight<1>(sum);
     if (views == 16) sum = hn::ShiftRight<2>(sum);
     StoreNarrow(sum, cost + n);
@@ -225,13 +206,13 @@ HWY_INLINE MatchVec SeenMean(const uint8_t* const* differences, const uint8_t* c
   for (size_t k = 0; mask >> k != 0; ++k) {
     if ((mask >> k & 1) == 0) continue;
     ++views;
-    const auto difference = LoadWide(differences[k] + n);
+    const auto difference = LoadBytes(MatchTag(), differences[k] + n);
     if (hidden == nullptr) {
       sum = hn::Add(sum, difference);
       seen = hn::Add(seen, one);
       continue;
     }
-    const auto behind = LoadWide(hidden[k] + n);
+    const auto behind = LoadBytes(MatchTag(), hidden[k] + n);
     const auto sees = hn::Eq(hn::Min(behind, last), behind);
     sum = hn::Add(sum, hn::IfThenElseZero(sees, difference));
     seen = hn::Add(seen, hn::IfThenElseZero(sees, one));

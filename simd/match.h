@@ -100,11 +100,7 @@ STARFOCUS_REFERENCE void InterpolateRow(const uint8_t* row, const uint8_t* next,
 STARFOCUS_REFERENCE void MatchView(const uint8_t* centre, const uint8_t* view, size_t plane,
                                    size_t count, uint8_t* difference) {
   for (size_t n = 0; n < count; ++n) {
-    int sum = 0;
-    for (size_t c = 0; c < 3; ++c) {
-      const int apart = view[n + c * plane] - centre[n + c * plane];
-      sum += apart < 0 ? -apart : apart;
-    }
+    const int sum = ColourDistance(centre + n, view + n, plane);
     difference[n] = static_cast<uint8_t>(sum < kMostDifference ? sum : kMostDifference);
   }
 }

@@ -46,13 +46,12 @@ inline void CoverPlaces(const int16_t* HWY_RESTRICT near, const uint8_t* HWY_RES
                         const int16_t* HWY_RESTRICT far, int16_t along, int16_t place,
                         int16_t within, int16_t least, int16_t* HWY_RESTRICT covered) {
   const LanesTag d16;
-  const hn::Rebind<uint8_t, LanesTag> d8;
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto nearer = hn::SaturatedSub(hn::LoadU(d16, near + n), hn::LoadU(d16, far + n));
     const auto moved = hn::MulFixedPoint15(nearer, hn::Set(d16, along));
     const auto beside = hn::SaturatedSub(moved, hn::Set(d16, place));
     const auto covers = hn::And(hn::Gt(nearer, hn::Set(d16, least)), IsWithin(beside, within));
-    const auto cover = hn::PromoteTo(d16, hn::LoadU(d8, coverage + n));
+    const auto cover = LoadBytes(d16, coverage + n);
     const auto before = hn::LoadU(d16, covered + n);
     hn::StoreU(hn::Max(before, hn::IfThenElseZero(covers, cover)), d16, covered + n);
   }

@@ -14,11 +14,6 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-HWY_INLINE LanesVec LoadCost(const uint8_t* at) {
-  const LanesTag d16;
-  return hn::PromoteTo(d16, hn::LoadU(hn::Rebind<uint8_t, LanesTag>(), at));
-}
-
 template <bool kAdds>
 HWY_INLINE void AddPathsOf(const PathRow& row, size_t labels, ptrdiff_t step, size_t count) {
   const LanesTag d16;
@@ -41,7 +36,7 @@ HWY_INLINE void AddPathsOf(const PathRow& row, size_t labels, ptrdiff_t step, si
       const auto sides = hn::Min(hn::LoadU(d16, before + l - 1), hn::LoadU(d16, before + l + 1));
       const auto sloping = hn::Min(hn::SaturatedAdd(sides, slope), jump);
       const auto onward = hn::Min(hn::LoadU(d16, before + l), sloping);
-      return hn::Add(hn::Sub(onward, before_least), LoadCost(cost + l));
+      return hn::Add(hn::Sub(onward, before_least), LoadBytes(d16, cost + l));
     };
     auto least = none;
     size_t l = 0;
@@ -81,13 +76,8 @@ inline void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane
   }
   jumps[kFar] = kLeastJump;
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
-  const auto apart_at = [&](size_t at) HWY_ATTR {
-    const auto a = hn::LoadU(d8, pixels + at), b = hn::LoadU(d8, before + at);
-    return hn::Or(hn::SaturatedSub(a, b), hn::SaturatedSub(b, a));
-  };
   for (size_t n = 0; n < count; n += hn::Lanes(d8)) {
-    const auto two = hn::SaturatedAdd(apart_at(n), apart_at(n + plane));
-    const auto sum = hn::SaturatedAdd(two, apart_at(n + 2 * plane));
+    const auto sum = ColourDistance(d8, pixels + n, before + n, plane);
     HWY_ALIGN uint8_t apart[kSliceLanes];
     hn::Store(hn::Min(sum, hn::Set(d8, uint8_t{kFar})), d8, apart);
     const size_t here = count - n < hn::Lanes(d8) ? count - n : hn::Lanes(d8);
@@ -133,9 +123,7 @@ inline void ChooseLabels(const int16_t* HWY_RESTRICT sum, size_t labels, size_t 
     const size_t best = BestLabel(sum, labels, &least);
     int refined = 0;
     if (best > 0 && best + 1 < labels) {
-      const int left = sum[best - 1] - least, right = sum[best + 1] - least;
-      const int most = left > right ? left : right;
-      if (most > 0) refined = (left - right) * (1 << (kChoiceBits - 1)) / most;
+      refined = reference::Refine(sum[best - 1], least, sum[best + 1]);
     }
     choice[n] = static_cast<int16_t>((static_cast<int>(best) << kChoiceBits) + refined);
     if (margin == nullptr) continue;

@@ -104,11 +104,7 @@ STARFOCUS_REFERENCE void AddPaths(const PathRow& row, size_t labels, ptrdiff_t s
 STARFOCUS_REFERENCE void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane,
                                    size_t count, int16_t* jump) {
   for (size_t n = 0; n < count; ++n) {
-    int apart = 0;
-    for (size_t c = 0; c < 3; ++c) {
-      const int by = pixels[n + c * plane] - before[n + c * plane];
-      apart += by < 0 ? -by : by;
-    }
+    const int apart = ColourDistance(pixels + n, before + n, plane);
     const int cost = kLargestJump * kSimilarColours / (kSimilarColours + apart);
     jump[n] = static_cast<int16_t>(cost > kLeastJump ? cost : kLeastJump);
   }

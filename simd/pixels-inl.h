@@ -108,7 +108,6 @@ inline void YuvToRgb(const uint8_t* HWY_RESTRICT y, const uint8_t* HWY_RESTRICT 
                      uint8_t* HWY_RESTRICT rgb) {
   const YuvCodes d8;
   const YuvPairs d16;
-  const hn::Rebind<uint8_t, YuvPairs> dhalf;
   const auto black = hn::Set(d16, m.black), scale = hn::Set(d16, m.y);
   const auto half = hn::Set(d16, int16_t{32}), grey = hn::Set(d16, int16_t{128});
   const auto luma = [&](hn::Vec<YuvPairs> codes) HWY_ATTR {
@@ -116,7 +115,7 @@ inline void YuvToRgb(const uint8_t* HWY_RESTRICT y, const uint8_t* HWY_RESTRICT 
     return hn::Add(hn::MulFixedPoint15(above, scale), half);
   };
   const auto chroma = [&](const uint8_t* from) HWY_ATTR {
-    return hn::ShiftLeft<8>(hn::Sub(hn::PromoteTo(d16, hn::LoadU(dhalf, from)), grey));
+    return hn::ShiftLeft<8>(hn::Sub(LoadBytes(d16, from), grey));
   };
   const size_t done = ForPairs(count, [&](size_t n) HWY_ATTR {
     const auto codes = hn::LoadU(d8, y + n);
@@ -173,7 +172,6 @@ inline void RgbToChroma(const uint8_t* HWY_RESTRICT upper, const uint8_t* HWY_RE
                         uint8_t* HWY_RESTRICT v) {
   const YuvCodes d8;
   const YuvPairs d16;
-  const hn::Rebind<uint8_t, YuvPairs> dhalf;
   const auto grey = hn::Set(d16, int16_t{128});
   const size_t done = ForPairs(count, [&](size_t n) HWY_ATTR {
     hn::Vec<YuvCodes> r, g, b, below_r, below_g, below_b;
@@ -183,8 +181,8 @@ inline void RgbToChroma(const uint8_t* HWY_RESTRICT upper, const uint8_t* HWY_RE
     const auto sum_b = SumPairs(b, below_b);
     const auto of_u = WeighColours(sum_r, sum_g, sum_b, m.ur, m.ug, m.ub);
     const auto of_v = WeighColours(sum_r, sum_g, sum_b, m.vr, m.vg, m.vb);
-    hn::StoreU(hn::DemoteTo(dhalf, hn::Add(grey, of_u)), dhalf, u + n / 2);
-    hn::StoreU(hn::DemoteTo(dhalf, hn::Add(grey, of_v)), dhalf, v + n / 2);
+    StoreBytes(d16, hn::Add(grey, of_u), u + n / 2);
+    StoreBytes(d16, hn::Add(grey, of_v), v + n / 2);
   });
   reference::RgbToChroma(upper + 3 * done, lower + 3 * done, count - done, m, u + done / 2,
                          v + done / 2);

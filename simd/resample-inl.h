@@ -23,14 +23,13 @@ inline void Narrow(const int16_t* HWY_RESTRICT in, size_t count, const Encoding&
     });
     return;
   }
-  const hn::Rebind<uint8_t, decltype(d16)> d8;
   const auto below_half = hn::Set(d16, int16_t{(1 << (kLayerBits - 1)) - 1});
   const auto one = hn::Set(d16, int16_t{1});
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const auto value = hn::LoadU(d16, in + n);
     const auto odd = hn::And(hn::ShiftRight<kLayerBits>(value), one);
     const auto sum = hn::Add(value, hn::Add(below_half, odd));
-    hn::StoreU(hn::DemoteTo(d8, hn::ShiftRight<kLayerBits>(sum)), d8, out + n);
+    StoreBytes(d16, hn::ShiftRight<kLayerBits>(sum), out + n);
   });
   if (!done) reference::Narrow(in, count, encoding, out);
 }

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 // Begins the definition of a reference, the plain C++ code that defines the result of a kernel. The
 // vector code of every target calls references for rows that are shorter than a vector. References
@@ -34,6 +35,13 @@ inline int16_t Saturated(int32_t value) {
   return static_cast<int16_t>(value < INT16_MIN   ? INT16_MIN
                               : value > INT16_MAX ? INT16_MAX
                                                   : value);
+}
+
+// Returns the difference of two pixels, summed over R, G and B, whose planes are `plane` apart.
+inline int ColourDistance(const uint8_t* a, const uint8_t* b, size_t plane) {
+  int sum = 0;
+  for (size_t c = 0; c < 3; ++c) sum += std::abs(a[c * plane] - b[c * plane]);
+  return sum;
 }
 
 // Returns the mean of two numbers, rounded half up.
