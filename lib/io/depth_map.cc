@@ -93,16 +93,10 @@ uint32_t PlaceOf(int64_t k, int64_t size, int64_t small) {
   return static_cast<uint32_t>(place < 0 ? 0 : place > last ? last : place);
 }
 
-// Position of a row of the picture in the map: index of the map row above, and share of the map row
-// below.
-struct RowPlace {
-  int32_t upper;
-  uint32_t share;
-};
-
-RowPlace RowPlaceOf(const DepthSource& depth, int32_t y) {
-  const uint32_t place = PlaceOf(y, depth.height, depth.map.height);
-  return {static_cast<int32_t>(place >> simd::kColumnBits), place % simd::kColumnOne};
+// Returns the position of row y of the picture in the map: kColumnOne times the index of the map
+// row above, plus the share of the map row below.
+uint32_t PlaceOfRow(const DepthSource& depth, int32_t y) {
+  return PlaceOf(y, depth.height, depth.map.height);
 }
 
 // Interpolates `count` <= kDepthPiece columns of a picture, starting at column x. Keeps the last
@@ -119,13 +113,15 @@ class PieceReader {
     values_ = Min(last + 2, depth.map.width) - left_;
   }
 
-  void Read(const RowPlace& place, int16_t* out) {
-    const int16_t* row = Row(place.upper);
+  // Writes the row of the picture at a position (PlaceOfRow) in the map.
+  void Read(uint32_t place, int16_t* out) {
+    const auto upper = static_cast<int32_t>(place >> simd::kColumnBits);
+    const uint32_t share = place % simd::kColumnOne;
+    const int16_t* row = Row(upper);
     int16_t blended[kRoom];
-    if (place.share != 0) {
+    if (share != 0) {
       // The copy of the last value is blended, too.
-      kernels_.BlendRows(row, Row(place.upper + 1), static_cast<size_t>(values_) + 1, place.share,
-                         blended);
+      kernels_.BlendRows(row, Row(upper + 1), static_cast<size_t>(values_) + 1, share, blended);
       row = blended;
     }
     kernels_.SpreadRow(row, columns_, static_cast<size_t>(count_), static_cast<uint32_t>(left_),
@@ -182,7 +178,7 @@ uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, 
       continue;
     }
     PieceReader piece(kernels, depth, rect.x + x, count);
-    for (int32_t y = rect.y; y < bottom; ++y) piece.Read(RowPlaceOf(depth, y), out.Row(y) + x);
+    for (int32_t y = rect.y; y < bottom; ++y) piece.Read(PlaceOfRow(depth, y), out.Row(y) + x);
     flags |= piece.flags();
   }
   return flags;
@@ -190,10 +186,11 @@ uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, 
 
 uint32_t CheckDepth(const simd::ImageKernels& kernels, const DepthSource& depth,
                     const Range& rows) {
-  const RowPlace first = RowPlaceOf(depth, rows.first), last = RowPlaceOf(depth, rows.last - 1);
-  const int32_t end = last.upper + (last.share != 0 ? 2 : 1);
+  // A row that lies between two map rows depends on both of them.
+  const uint32_t first = PlaceOfRow(depth, rows.first), last = PlaceOfRow(depth, rows.last - 1);
+  const auto end = static_cast<int32_t>((last + simd::kColumnOne - 1) / simd::kColumnOne) + 1;
   uint32_t flags = 0;
-  for (int32_t y = first.upper; y < end; ++y) {
+  for (auto y = static_cast<int32_t>(first / simd::kColumnOne); y < end; ++y) {
     for (int32_t x = 0; x < depth.map.width; x += kPiece) {
       int16_t unused[kPiece];
       flags |= ConvertValues(kernels, depth, x, y, Min(kPiece, depth.map.width - x), unused);

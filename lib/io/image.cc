@@ -22,42 +22,33 @@ bool ArePairs(const ImagePlanes<Byte>& image, int* first) {
   return u + 1 == v || v + 1 == u;
 }
 
-// Up to kPiece consecutive chroma samples, read in place if possible and copied otherwise.
-class ChromaSamples {
- public:
-  ChromaSamples(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
-                int32_t count) {
-    const auto samples = static_cast<size_t>(count);
-    int first = 1;
-    if (image.step == 1) {
-      u_ = image.Chroma(1, x, y);
-      v_ = image.Chroma(2, x, y);
-    } else if (ArePairs(image, &first)) {
-      kernels.SplitPairs(image.Chroma(first, x, y), samples, samples_[first - 1],
-                         samples_[2 - first]);
-    } else {
-      for (int plane = 1; plane <= 2; ++plane) {
-        const uint8_t* from = image.Chroma(plane, x, y);
-        for (size_t k = 0; k < samples; ++k) samples_[plane - 1][k] = from[k * image.step];
-      }
-    }
+// Points samples[0] and samples[1] to `count` <= kPiece consecutive samples of U and V: in place if
+// possible, otherwise copied to `room`.
+void FindChroma(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
+                size_t count, uint8_t room[2][kPiece], const uint8_t* samples[2]) {
+  int first = 1;
+  const bool pairs = ArePairs(image, &first);
+  if (pairs) {
+    kernels.SplitPairs(image.Chroma(first, x, y), count, room[first - 1], room[2 - first]);
   }
-  const uint8_t* u() const { return u_; }
-  const uint8_t* v() const { return v_; }
-
- private:
-  uint8_t samples_[2][kPiece];
-  const uint8_t *u_ = samples_[0], *v_ = samples_[1];
-};
+  for (int k = 0; k < 2; ++k) {
+    const uint8_t* const from = image.Chroma(k + 1, x, y);
+    samples[k] = image.step == 1 ? from : room[k];
+    if (image.step == 1 || pairs) continue;
+    for (size_t n = 0; n < count; ++n) room[k][n] = from[n * image.step];
+  }
+}
 
 void ReadYuv(const simd::ImageKernels& kernels, const ImageSource& image, int32_t x, int32_t y,
              int32_t count, uint8_t* rgb) {
   for (const int32_t end = x + count; x < end;) {
     // If x is odd, convert one pixel first to align with the chroma samples.
     const int32_t piece = x % 2 != 0 ? 1 : Min(2 * kPiece, end - x);
-    const ChromaSamples chroma(kernels, image, x, y, (piece + 1) / 2);
-    kernels.YuvToRgb(image.Luma(x, y), chroma.u(), chroma.v(), static_cast<size_t>(piece),
-                     image.Matrix(), rgb);
+    const auto pixels = static_cast<size_t>(piece);
+    uint8_t room[2][kPiece];
+    const uint8_t* chroma[2];
+    FindChroma(kernels, image, x, y, (pixels + 1) / 2, room, chroma);
+    kernels.YuvToRgb(image.Luma(x, y), chroma[0], chroma[1], pixels, image.Matrix(), rgb);
     x += piece;
     rgb += 3 * piece;
   }

@@ -17,41 +17,19 @@ size_t SamplesOf(const Range& columns) {
   return 3 * static_cast<size_t>(columns.last - columns.first);
 }
 
-// A row of the centre view, as codes.
-struct CodeRow {
-  const uint8_t* codes;
-  const simd::Encoding& transfer;
-
-  void Part(const Kernels& kernels, int32_t first, int32_t pairs, int16_t* even,
-            int16_t* odd) const {
-    kernels.WidenPhases(codes + 6 * first, static_cast<size_t>(pairs), transfer, even, odd);
-  }
-  int16_t Sample(int32_t n) const { return transfer.samples[codes[n]]; }
-};
-
-// A row of samples of a layer.
-struct SampleRow {
-  const int16_t* samples;
-
-  void Part(const Kernels& kernels, int32_t first, int32_t pairs, int16_t* even,
-            int16_t* odd) const {
-    kernels.SplitPhases(samples + 6 * first, static_cast<size_t>(pairs), even, odd);
-  }
-  int16_t Sample(int32_t n) const { return samples[n]; }
-};
-
-// Splits a row of `width` pixels into even and odd pixels. Pixels outside the row repeat the first
-// or last pixel of the row.
-template <class Row>
-void PartLine(const Kernels& kernels, const Row& row, int32_t width, const Range& pairs,
-              const ResampleScratch& phases) {
+// Splits row y of a picture of `width` pixels into even and odd pixels. Pixels outside the row
+// repeat the first or last pixel of the row. split(y, first, pairs, even, odd) splits pairs of
+// pixels inside the row, and sample(y, n) returns sample n of the row.
+template <class Split, class Sample>
+void SplitLine(const Split& split, const Sample& sample, int32_t y, int32_t width,
+               const Range& pairs, const ResampleScratch& phases) {
   const int32_t first = Max(pairs.first, 0), last = Min(pairs.last, width / 2);
   const int32_t left = first - pairs.first, right = last - pairs.first;
-  row.Part(kernels, first, last - first, phases.even + 3 * left, phases.odd + 3 * left);
+  split(y, first, static_cast<size_t>(last - first), phases.even + 3 * left, phases.odd + 3 * left);
   const auto repeat = [&](int32_t pixel, int32_t from, int32_t to) {
     for (int32_t n = 3 * from; n < 3 * to; n += 3) {
       for (int32_t c = 0; c < 3; ++c) {
-        phases.even[n + c] = phases.odd[n + c] = row.Sample(3 * pixel + c);
+        phases.even[n + c] = phases.odd[n + c] = sample(y, 3 * pixel + c);
       }
     }
   };
@@ -59,54 +37,28 @@ void PartLine(const Kernels& kernels, const Row& row, int32_t width, const Range
   repeat(width - 1, right, pairs.last - pairs.first);
 }
 
-// Filters along columns. `half` contains packed rows that start at row 2 * rows.first - 3 of the
-// source. Rows outside the source repeat the edge rows.
-void HalveRows(const Kernels& kernels, const int16_t* half, const Range& columns,
-               const LayerPlane& to) {
+// Subsamples a plane of width x height pixels: first along all rows that `to` depends on, then
+// along columns. Rows outside the plane repeat its edge rows. SplitLine describes `split` and
+// `sample`.
+template <class Split, class Sample>
+void Downsample(const Kernels& kernels, const Split& split, const Sample& sample, int32_t width,
+                int32_t height, const Range& columns, const ResampleScratch& scratch,
+                const LayerPlane& to) {
+  const Range pairs = PairsOf(columns);
   const size_t count = SamplesOf(columns);
-  half += 3 * count;
+  int16_t* half = scratch.half;
+  for (int32_t y = 2 * to.rows.first - 3; y < 2 * to.rows.last + 2; ++y, half += count) {
+    SplitLine(split, sample, Clamp(y, 0, height - 1), width, pairs, scratch);
+    kernels.Halve(scratch.even + 6, scratch.odd + 6, kDownFilter, count, half);
+    CheckAll(ranges::kFilteredAlongX, half, count);
+  }
+  half = scratch.half + 3 * count;
   for (int32_t y = to.rows.first; y < to.rows.last; ++y, half += 2 * count) {
     int16_t* samples = to.samples.Row(y) + 3 * columns.first;
     kernels.FilterHalfBand(half, static_cast<ptrdiff_t>(count), kDownFilter, count, 0, kLayerWhite,
                            samples);
     CheckAll(ranges::kLayerSample, samples, count);
   }
-}
-
-// Subsamples a plane of width x height pixels: first along all rows that `to` depends on, then
-// along columns.
-template <class RowAt>
-void Downsample(const Kernels& kernels, const RowAt& row_at, int32_t width, int32_t height,
-                const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
-  const Range pairs = PairsOf(columns);
-  const size_t count = SamplesOf(columns);
-  int16_t* half = scratch.half;
-  for (int32_t y = 2 * to.rows.first - 3; y < 2 * to.rows.last + 2; ++y, half += count) {
-    PartLine(kernels, row_at(Clamp(y, 0, height - 1)), width, pairs, scratch);
-    kernels.Halve(scratch.even + 6, scratch.odd + 6, kDownFilter, count, half);
-    CheckAll(ranges::kFilteredAlongX, half, count);
-  }
-  HalveRows(kernels, scratch.half, columns, to);
-}
-
-void DownsampleOnce(const Kernels& kernels, const Input& picture, const Range& columns,
-                    const ResampleScratch& scratch, const LayerPlane& to) {
-  const auto row = [&](int32_t y) { return CodeRow{picture.centre.Row(y), *picture.transfer}; };
-  Downsample(kernels, row, picture.width, picture.height, columns, scratch, to);
-}
-
-void DownsampleTwice(const Kernels& kernels, const Input& picture, const Range& columns,
-                     const ResampleScratch& scratch, const LayerPlane& to) {
-  const int32_t width = LayerSize(picture.width, 1);
-  const int32_t height = LayerSize(picture.height, 1);
-  const Range pairs = PairsOf(columns);
-  const Range wanted = {Max(2 * pairs.first, 0), Min(2 * pairs.last, width)};
-  LayerPlane above;
-  above.rows = {Max(2 * to.rows.first - 3, 0), Min(2 * to.rows.last + 2, height)};
-  above.samples = {scratch.above - 3 * wanted.first, SamplesOf(wanted), 0, above.rows.first};
-  DownsampleOnce(kernels, picture, wanted, scratch, above);
-  const auto row = [&](int32_t y) { return SampleRow{above.samples.Row(y)}; };
-  Downsample(kernels, row, width, height, columns, scratch, to);
 }
 
 // Writes `width` pixels alternately from `even` and `odd`. Four samples are copied per pixel, which
@@ -123,17 +75,34 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 
 void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const Range& columns,
                      const ResampleScratch& scratch, const LayerPlane& to) {
-  const auto row = [&](int32_t y) { return SampleRow{from.samples.Row(y)}; };
-  Downsample(kernels, row, from.width, from.height, columns, scratch, to);
+  const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
+    kernels.SplitPhases(from.samples.Row(y) + 6 * first, pairs, even, odd);
+  };
+  const auto sample = [&](int32_t y, int32_t n) { return from.samples.Row(y)[n]; };
+  Downsample(kernels, split, sample, from.width, from.height, columns, scratch, to);
 }
 
 void DownsamplePicture(const Kernels& kernels, const Input& picture, int32_t layer,
                        const Range& columns, const ResampleScratch& scratch, const LayerPlane& to) {
   if (layer == 1) {
-    DownsampleOnce(kernels, picture, columns, scratch, to);
-  } else {
-    DownsampleTwice(kernels, picture, columns, scratch, to);
+    const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
+      kernels.WidenPhases(picture.centre.Row(y) + 6 * first, pairs, *picture.transfer, even, odd);
+    };
+    const auto sample = [&](int32_t y, int32_t n) {
+      return picture.transfer->samples[picture.centre.Row(y)[n]];
+    };
+    Downsample(kernels, split, sample, picture.width, picture.height, columns, scratch, to);
+    return;
   }
+  const Range pairs = PairsOf(columns);
+  LayerPlane one;  // the part of layer 1 on which the columns of layer 2 depend
+  one.width = LayerSize(picture.width, 1);
+  one.height = LayerSize(picture.height, 1);
+  one.rows = {Max(2 * to.rows.first - 3, 0), Min(2 * to.rows.last + 2, one.height)};
+  const Range wanted = {Max(2 * pairs.first, 0), Min(2 * pairs.last, one.width)};
+  one.samples = {scratch.above - 3 * wanted.first, SamplesOf(wanted), 0, one.rows.first};
+  DownsamplePicture(kernels, picture, 1, wanted, scratch, one);
+  DownsampleLayer(kernels, one, columns, scratch, to);
 }
 
 void UpsampleByTwo(const Kernels& kernels, const LayerRect& in, int32_t first,

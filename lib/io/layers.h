@@ -32,9 +32,9 @@ struct LayerPlane {
 
 // Flags of a column of a layer: kNeeded if the current stripe reads the column, and kNeededBefore
 // if the previous stripe read the column.
-enum ColumnNeed : uint8_t { kNeeded = 1, kNeededBefore = 2 };
+inline constexpr uint8_t kNeeded = 1, kNeededBefore = 2;
 
-// Layers 1 and 2 around a stripe, and ColumnNeed for each of their columns of superblocks.
+// Layers 1 and 2 around a stripe, and the flags for each of their columns of superblocks.
 struct StripeLayers {
   LayerPlane planes[STARFOCUS_LAYERS];
   uint8_t* needed[STARFOCUS_LAYERS];
