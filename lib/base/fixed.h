@@ -167,26 +167,10 @@ constexpr int32_t Clamp(int32_t value, int32_t low, int32_t high) {
 }
 
 // Returns the index of the lowest set bit; bits != 0.
-inline int32_t LowestBit(uint32_t bits) {
-#if defined(__GNUC__)
-  return __builtin_ctz(bits);
-#else
-  int32_t index = 0;
-  while ((bits >> index & 1) == 0) ++index;
-  return index;
-#endif
-}
+inline int32_t LowestBit(uint32_t bits) { return __builtin_ctz(bits); }
 
 // Returns the index of the highest set bit; bits != 0.
-inline int32_t HighestBit(uint32_t bits) {
-#if defined(__GNUC__)
-  return 31 - __builtin_clz(bits);
-#else
-  int32_t index = 31;
-  while ((bits >> index & 1) == 0) --index;
-  return index;
-#endif
-}
+inline int32_t HighestBit(uint32_t bits) { return 31 - __builtin_clz(bits); }
 
 // Calls visit(index) for each set bit, in ascending order.
 template <class Visit>

@@ -13,14 +13,11 @@ constexpr double kPi = 3.14159265358979323846;
 // result differs only if the exact value is almost halfway between two integers.
 int32_t Round(double value) { return static_cast<int32_t>(std::floor(value * kOpeningOne + 0.5)); }
 
-struct UnitVector {
-  double sine, cosine;
-};
-
-// Returns the direction of an angle, computed from the tangent of half the angle.
-UnitVector DirectionOf(double angle) {
+// Computes the sine and cosine of an angle from the tangent of half the angle.
+void FindDirection(double angle, double* sine, double* cosine) {
   const double tangent = std::tan(angle / 2), square = tangent * tangent;
-  return {2 * tangent / (1 + square), (1 - square) / (1 + square)};
+  *sine = 2 * tangent / (1 + square);
+  *cosine = (1 - square) / (1 + square);
 }
 
 // Each edge is an arc of radius 1 / `curvature` through two corners on the unit circle. `half` is
@@ -30,16 +27,17 @@ UnitVector DirectionOf(double angle) {
 void SetPolygon(const starfocus_params& lens, ApertureShape* opening) {
   opening->blades = lens.blades;
   const double half = kPi / lens.blades;
-  const double sine = DirectionOf(half).sine, cosine = DirectionOf(half).cosine;
+  double sine = 0, cosine = 0;
+  FindDirection(half, &sine, &cosine);
   const double curvature = lens.curvature, turn = lens.rotation * (kPi / 180);
   const double root = std::sqrt(1 - curvature * curvature * sine * sine);
   opening->bulge = Round(curvature);
   opening->slope = Round(2 * (root - curvature * cosine));
   opening->limit = Round(2 * cosine * root - curvature * (cosine * cosine - sine * sine));
   for (int32_t edge = 0; edge < lens.blades; ++edge) {
-    const UnitVector normal = DirectionOf(turn + (2 * edge + 1) * half);
-    opening->normals[edge][0] = Round(normal.sine);
-    opening->normals[edge][1] = Round(-normal.cosine);
+    FindDirection(turn + (2 * edge + 1) * half, &sine, &cosine);
+    opening->normals[edge][0] = Round(sine);
+    opening->normals[edge][1] = Round(-cosine);
   }
   // Returns true if points at distance `radius` along a normal are inside the polygon. Rounding may
   // make a normal longer than 1 by one unit.

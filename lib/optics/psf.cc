@@ -58,14 +58,10 @@ size_t WeightsOf(bool full, int32_t size) {
   return full ? (2 * n + 1) * (2 * n + 1) : (n + 1) * (n + 2) / 2;
 }
 
-struct Interval {
-  double from, to;
-};
-
-// Returns the part of interval `x`, on the line at y, where light passes through a polygon of
-// radius r. A curved edge limits the interval to the range between the zeros of a quadratic
-// function. A straight edge limits one end of the interval.
-Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interval x) {
+// Reduces the interval [*from, *to] of x, on the line at y, to the part where light passes through
+// a polygon of radius r. A curved edge limits the interval to the range between the zeros of a
+// quadratic function. A straight edge limits one end of the interval.
+void KeepPolygon(const ApertureShape& opening, double y, double r, double* from, double* to) {
   constexpr double kUnit = 1.0 / kOpeningOne;
   const double square = opening.bulge * kUnit;
   for (int32_t edge = 0; edge < opening.blades; ++edge) {
@@ -74,21 +70,23 @@ Interval WithinPolygon(const ApertureShape& opening, double y, double r, Interva
     const double rest = square * y * y + slope * up * y - opening.limit * kUnit * r * r;
     const double half = 0.5 * slope * across;  // square x^2 + 2 half x + rest <= 0
     if (opening.bulge == 0) {
-      if (opening.normals[edge][0] > 0) x.to = Smaller(x.to, -rest / (2 * half));
-      if (opening.normals[edge][0] < 0) x.from = Larger(x.from, -rest / (2 * half));
-      if (opening.normals[edge][0] == 0 && rest > 0) x.to = x.from;
+      if (opening.normals[edge][0] > 0) *to = Smaller(*to, -rest / (2 * half));
+      if (opening.normals[edge][0] < 0) *from = Larger(*from, -rest / (2 * half));
+      if (opening.normals[edge][0] == 0 && rest > 0) *to = *from;
       continue;
     }
     const double discriminant = half * half - square * rest;
-    if (discriminant <= 0) return {0, 0};
+    if (discriminant <= 0) {
+      *to = *from;
+      return;
+    }
     const double root = std::sqrt(discriminant);
     // Avoids cancellation: both zeros are computed without a difference of two similar numbers.
     const double sum = half > 0 ? -half - root : -half + root;
     const double other = sum == 0 ? 0 : rest / sum, zero = sum / square;
-    x.from = Larger(x.from, Smaller(zero, other));
-    x.to = Smaller(x.to, Larger(zero, other));
+    *from = Larger(*from, Smaller(zero, other));
+    *to = Smaller(*to, Larger(zero, other));
   }
-  return x;
 }
 
 // Returns the relative integral over pixel (n, m) of (3), or of an evenly bright opening. r is the
@@ -104,16 +102,16 @@ double DiscIntegral(int32_t n, int32_t m, double r, int32_t lines, const Apertur
   double sum = 0;
   for (int32_t line = 0; line < lines; ++line) {
     const double y = low + (line + 0.5) / lines * (high - low), rim = std::sqrt(square - y * y);
-    Interval x = {Larger(n - 0.5, -rim), Smaller(n + 0.5, rim)};
-    if (kShape == STARFOCUS_SHAPE_POLYGON) x = WithinPolygon(opening, y, r, x);
-    if (x.from >= x.to) continue;
+    double from = Larger(n - 0.5, -rim), to = Smaller(n + 0.5, rim);
+    if (kShape == STARFOCUS_SHAPE_POLYGON) KeepPolygon(opening, y, r, &from, &to);
+    if (from >= to) continue;
     double along = kShape == STARFOCUS_SHAPE_FALL_OFF ? 0 : kPoints;
     for (int32_t point = 0; kShape == STARFOCUS_SHAPE_FALL_OFF && point < kPoints; ++point) {
-      const double at = x.from + (point + 0.5) / kPoints * (x.to - x.from);
+      const double at = from + (point + 0.5) / kPoints * (to - from);
       const double ratio = fall_off / ((at * at + y * y) / square + fall_off);
       along += ratio * ratio;
     }
-    sum += along * (x.to - x.from);
+    sum += along * (to - from);
   }
   return sum * (high - low) / lines;
 }

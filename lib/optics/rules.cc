@@ -48,11 +48,8 @@ constexpr double kSubapertureCoarseRadius = 24.0;
 
 // Smallest blur radii of layer 1 for each Demand, by the paper's rule and by the rule for
 // subapertures. The smallest radii of layer 2 are proportional to the radii of layer 1.
-struct LayerRadii {
-  double paper, subaperture;
-};
-constexpr LayerRadii kLayerRadii[] = {
-    {kLayerRadius, kSubapertureLayerRadius}, {4, 12}, {5, 14}, {6, 16}};
+constexpr double kPaperRadii[] = {kLayerRadius, 4, 5, 6};
+constexpr double kSubapertureRadii[] = {kSubapertureLayerRadius, 12, 14, 16};
 
 }  // namespace
 
@@ -89,13 +86,13 @@ int32_t ScaleViews(int32_t n, double scale) {
 int32_t ViewsOfBenchmark(double r_max) { return 2 * Ceil(r_max); }
 
 int32_t LayerByPaper(double r_min, Demand demand) {
-  const double first = kLayerRadii[static_cast<size_t>(demand)].paper;
+  const double first = kPaperRadii[static_cast<size_t>(demand)];
   if (r_min >= 2 * first) return 2;
   return r_min >= first ? 1 : 0;
 }
 
 int32_t LayerBySubaperture(double r_min, bool depth_edges, Demand demand) {
-  const double first = kLayerRadii[static_cast<size_t>(demand)].subaperture;
+  const double first = kSubapertureRadii[static_cast<size_t>(demand)];
   const double coarse = kSubapertureCoarseRadius * first / kSubapertureLayerRadius;
   if (r_min >= coarse && !depth_edges) return 2;
   return r_min >= first ? 1 : 0;

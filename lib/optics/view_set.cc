@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/optics/view_set.h"
 
+#include <utility>
+
 #include "lib/base/problem.h"
 
 namespace starfocus {
@@ -127,12 +129,8 @@ OcclusionViews ChooseOcclusionViews(const ViewSet& views) {
       OcclusionView view = {static_cast<int8_t>(k), views.at[k]};
       for (int place = 0; place < kOcclusionViews; ++place) {
         if (on[place].view != 0 && !rating.Before(best[place])) continue;
-        const Rating next = best[place];
-        const OcclusionView moved = on[place];
-        best[place] = rating;
-        on[place] = view;
-        rating = next;
-        view = moved;
+        std::swap(rating, best[place]);
+        std::swap(view, on[place]);
         if (view.view == 0) break;
       }
     }

@@ -142,11 +142,10 @@ void WeighSubapertures(const ApertureShape& opening, uint16_t* weights, ViewWeig
   Clear(*aperture, weights);
   const int32_t radius = aperture->radius;
   if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) {
-    Weigh(
-        false,
-        [&](int32_t i, int32_t j) { return LightOfSubaperture(i, j, radius, opening.fall_off); },
-        weights, aperture);
-    return;
+    const auto light = [&](int32_t i, int32_t j) {
+      return LightOfSubaperture(i, j, radius, opening.fall_off);
+    };
+    return Weigh(false, light, weights, aperture);
   }
   ForEachWeight(*aperture, false, [&](int32_t i, int32_t j, int32_t) {
     const uint32_t open = opening.shape == STARFOCUS_SHAPE_POLYGON
@@ -189,13 +188,6 @@ uint32_t PassingPoints(int32_t i, int32_t j, int32_t lens, const ApertureShape& 
   return inside == 0 ? 0 : kAll * both / inside;
 }
 
-// Computes the weights for N = 0, where all light comes from the centre view.
-void WeighCentre(uint16_t* weights, ViewWeights* aperture) {
-  Clear(*aperture, weights);
-  Weigh(
-      false, [](int32_t, int32_t) { return uint64_t{1} << 20; }, weights, aperture);
-}
-
 }  // namespace
 
 ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* weights) {
@@ -204,20 +196,17 @@ ViewWeights MakeViewWeights(int32_t n, const ApertureShape& opening, uint16_t* w
   aperture.most = n * n;
   aperture.radius = kSubapertureUnits * n;
   aperture.full = !opening.IsSymmetric();
-  if (n == 0) {
-    WeighCentre(weights, &aperture);
-  } else if (opening.shape == STARFOCUS_SHAPE_FALL_OFF) {
-    Clear(aperture, weights);
-    const uint64_t n_square = static_cast<uint64_t>(n) * static_cast<uint64_t>(n);
-    Weigh(
-        false,
-        [&](int32_t i, int32_t j) {
-          return Relative(static_cast<uint64_t>(i * i + j * j), n_square, opening.fall_off);
-        },
-        weights, &aperture);
-  } else {
+  if (n > 0 && opening.shape != STARFOCUS_SHAPE_FALL_OFF) {
     WeighSubapertures(opening, weights, &aperture);
+    return aperture;
   }
+  Clear(aperture, weights);
+  const uint64_t n_square = static_cast<uint64_t>(n) * static_cast<uint64_t>(n);
+  const auto light = [&](int32_t i, int32_t j) {
+    if (n == 0) return uint64_t{1} << 20;  // all light comes from the centre view
+    return Relative(static_cast<uint64_t>(i * i + j * j), n_square, opening.fall_off);
+  };
+  Weigh(false, light, weights, &aperture);
   return aperture;
 }
 
