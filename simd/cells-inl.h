@@ -19,6 +19,8 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 using reference::MeasureCell;
+using reference::ReachBlock;
+using reference::SurroundCells;
 
 #else
 
@@ -186,17 +188,6 @@ inline void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
   if (MeasureSlopes(rows, here, all_but_first, limits, measure)) return;
   MeasureSteps(rows, here, all_but_first, limits, measure);
 }
-
-#endif
-
-// The vector code stores vectors in structs, and therefore requires vectors whose size is known at
-// compile time.
-#if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
-
-using reference::ReachBlock;
-using reference::SurroundCells;
-
-#else
 
 // Finds how far the blur of cells extends towards a block, for a vector of columns of cells. Lane k
 // stands for column first + k; column 0 is `around` cells before the block. Lanes after the last

@@ -25,18 +25,20 @@ inline void FindBeyond(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, int16_
                        int16_t* HWY_RESTRICT beyond, int16_t* HWY_RESTRICT square) {
   const LanesTag d16;
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
-    const auto here = hn::LoadU(d16, row + n), zero = hn::Zero(d16);
-    auto found = here, distance = zero;
-    for (int32_t k = 0; k < BeyondOffsets::kCount; ++k) {
-      const auto there =
-          hn::LoadU(d16, row + n + kBeyondOffsets.y[k] * stride + kBeyondOffsets.x[k]);
-      const auto own = hn::Set(d16, int16_t{kBeyondOffsets.square[k]});
-      const auto larger = hn::And(hn::Eq(distance, own), hn::Gt(there, found));
-      const auto better = hn::Or(hn::Eq(distance, zero), larger);
-      const auto takes = hn::AndNot(IsWithin(hn::SaturatedSub(there, here), step), better);
-      found = hn::IfThenElse(takes, there, found);
-      distance = hn::IfThenElse(takes, own, distance);
+    const auto here = hn::LoadU(d16, row + n), none = hn::Set(d16, int16_t{INT16_MAX});
+    auto found = here, distance = none;
+    for (int32_t y = -kBeyondReach; y <= kBeyondReach; ++y) {
+      for (int32_t x = -kBeyondReach; x <= kBeyondReach; ++x) {
+        const auto there = hn::LoadU(d16, row + n + y * stride + x);
+        const auto own = hn::Set(d16, static_cast<int16_t>(x * x + y * y));
+        const auto larger = hn::And(hn::Eq(distance, own), hn::Gt(there, found));
+        const auto better = hn::Or(hn::Gt(distance, own), larger);
+        const auto takes = hn::AndNot(IsWithin(hn::SaturatedSub(there, here), step), better);
+        found = hn::IfThenElse(takes, there, found);
+        distance = hn::IfThenElse(takes, own, distance);
+      }
     }
+    distance = hn::IfThenZeroElse(hn::Eq(distance, none), distance);
     hn::StoreU(found, d16, beyond + n);
     hn::StoreU(distance, d16, square + n);
   }

@@ -17,27 +17,6 @@ namespace starfocus::simd {
 // Largest distance, in columns and rows, of the pixels that FindBeyond compares.
 inline constexpr int32_t kBeyondReach = 3;
 
-// Columns, rows and squared distances of these pixels, the nearest first.
-struct BeyondOffsets {
-  static constexpr int32_t kCount = (2 * kBeyondReach + 1) * (2 * kBeyondReach + 1) - 1;
-  int8_t x[kCount] = {}, y[kCount] = {}, square[kCount] = {};
-
-  constexpr BeyondOffsets() {
-    int32_t count = 0;
-    for (int32_t distance = 1; distance <= 2 * kBeyondReach * kBeyondReach; ++distance) {
-      for (int32_t row = -kBeyondReach; row <= kBeyondReach; ++row) {
-        for (int32_t column = -kBeyondReach; column <= kBeyondReach; ++column) {
-          if (column * column + row * row != distance) continue;
-          x[count] = static_cast<int8_t>(column);
-          y[count] = static_cast<int8_t>(row);
-          square[count++] = static_cast<int8_t>(distance);
-        }
-      }
-    }
-  }
-};
-inline constexpr BeyondOffsets kBeyondOffsets;
-
 // Largest distance, in columns and rows, of the pixels that SumNear adds.
 inline constexpr int32_t kNearReach = 2;
 

@@ -59,11 +59,8 @@ HWY_INLINE void AddPathsOf(const PathRow& row, size_t labels, ptrdiff_t step, si
 }
 
 inline void AddPaths(const PathRow& row, size_t labels, ptrdiff_t step, size_t count) {
-  if (row.adds) {
-    AddPathsOf<true>(row, labels, step, count);
-  } else {
-    AddPathsOf<false>(row, labels, step, count);
-  }
+  if (row.adds) return AddPathsOf<true>(row, labels, step, count);
+  AddPathsOf<false>(row, labels, step, count);
 }
 
 inline void FindJumps(const uint8_t* pixels, const uint8_t* before, size_t plane, size_t count,
@@ -139,38 +136,27 @@ HWY_INLINE hn::Vec<PriorTag> WayFrom(const uint8_t* from, uint8_t way) {
   return hn::SaturatedAdd(hn::LoadU(d8, from), hn::Set(d8, way));
 }
 
-// If a diagonal neighbour is missing, an adjacent neighbour with a lower step cost takes its place,
-// which does not change the result.
-template <bool kBefore>
-HWY_INLINE void SpreadPriorOf(uint8_t* first, const uint8_t* first_before, size_t places,
-                              ptrdiff_t step, size_t count) {
+// If a neighbour is missing, another pixel with a lower step cost takes its place, which does not
+// change the result: a missing diagonal neighbour is replaced by the adjacent one, and a missing
+// row by the pixel itself.
+inline void SpreadPrior(uint8_t* first, const uint8_t* before, size_t places, ptrdiff_t step,
+                        size_t count) {
   const PriorTag d8;
   const ptrdiff_t next = step * static_cast<ptrdiff_t>(places);
   for (size_t k = 0; k < count; ++k) {
     const ptrdiff_t at = static_cast<ptrdiff_t>(k) * next;
     uint8_t* prior = first + at;
     const uint8_t* beside = k > 0 ? prior - next : prior;
-    const uint8_t* before = kBefore ? first_before + at : nullptr;
-    const uint8_t* behind = kBefore && k > 0 ? before - next : before;
-    const uint8_t* ahead = kBefore && k + 1 < count ? before + next : before;
+    const uint8_t* above = before != nullptr ? before + at : prior;
+    const uint8_t* behind = before != nullptr && k > 0 ? above - next : above;
+    const uint8_t* ahead = before != nullptr && k + 1 < count ? above + next : above;
     for (size_t l = 0; l < places; l += hn::Lanes(d8)) {
+      const auto diagonal = hn::Min(hn::LoadU(d8, behind + l), hn::LoadU(d8, ahead + l));
       auto least = hn::Min(hn::LoadU(d8, prior + l), WayFrom(beside + l, kBesideCost));
-      if (kBefore) {
-        const auto diagonal = hn::Min(hn::LoadU(d8, behind + l), hn::LoadU(d8, ahead + l));
-        least = hn::Min(least, WayFrom(before + l, kBesideCost));
-        least = hn::Min(least, hn::SaturatedAdd(diagonal, hn::Set(d8, kDiagonalCost)));
-      }
+      least = hn::Min(least, WayFrom(above + l, kBesideCost));
+      least = hn::Min(least, hn::SaturatedAdd(diagonal, hn::Set(d8, kDiagonalCost)));
       hn::StoreU(least, d8, prior + l);
     }
-  }
-}
-
-inline void SpreadPrior(uint8_t* prior, const uint8_t* before, size_t places, ptrdiff_t step,
-                        size_t count) {
-  if (before != nullptr) {
-    SpreadPriorOf<true>(prior, before, places, step, count);
-  } else {
-    SpreadPriorOf<false>(prior, before, places, step, count);
   }
 }
 

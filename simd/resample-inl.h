@@ -120,13 +120,12 @@ inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* H
   if (pair < pairs) split(pair);
 }
 
-// HalfBandOf computes centre c + near (a + b) + far (d + e) for vectors of samples a to e, rounded
-// and saturated. BetweenOf computes this sum without the term of c.
-
 using FilterTag = hn::ScalableTag<int16_t>;
 using WideTag = hn::Repartition<int32_t, FilterTag>;
 using FilterVec = hn::Vec<FilterTag>;
 using WideVec = hn::Vec<WideTag>;
+
+HWY_INLINE FilterVec LoadSamples(const int16_t* at) { return hn::LoadU(FilterTag(), at); }
 
 // Initialises the sums to the centre sample times its tap, plus one half, so that the final shift
 // by kTapBits rounds.
@@ -145,42 +144,21 @@ HWY_INLINE FilterVec EndTaps(WideVec low, WideVec high) {
   return DemoteSums(FilterTag(), hn::ShiftRight<kTapBits>(low), hn::ShiftRight<kTapBits>(high));
 }
 
-HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec a, FilterVec b,
-                                FilterVec d, FilterVec e) {
-  WideVec low, high;
-  BeginTaps(c, taps.centre, low, high);
-  AddWeighed(a, b, taps.near, taps.near, low, high);
-  AddWeighed(d, e, taps.far, taps.far, low, high);
-  return EndTaps(low, high);
-}
-
-// Takes the sums a + b and d + e, which must fit in 16 bits.
-HWY_INLINE FilterVec HalfBandOf(const HalfBand& taps, FilterVec c, FilterVec ab, FilterVec de) {
-  WideVec low, high;
-  BeginTaps(c, taps.centre, low, high);
-  AddWeighed(ab, de, taps.near, taps.far, low, high);
-  return EndTaps(low, high);
-}
-
-HWY_INLINE FilterVec BetweenOf(const HalfBand& taps, FilterVec a, FilterVec b, FilterVec d,
-                               FilterVec e) {
-  WideVec low = hn::Set(WideTag(), 1 << (kTapBits - 1)), high = low;
-  AddWeighed(a, b, taps.near, taps.near, low, high);
-  AddWeighed(d, e, taps.far, taps.far, low, high);
-  return EndTaps(low, high);
-}
-
 inline void FilterHalfBand(const int16_t* in, ptrdiff_t step, const HalfBand& filter, size_t count,
                            int16_t low, int16_t high, int16_t* out) {
   // `taps` is a local copy, because the compiler must assume that writes to `out` change `filter`.
   const HalfBand taps = filter;
   const FilterTag d16;
   const auto least = hn::Set(d16, low), most = hn::Set(d16, high);
-  const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = in + n;
-    const auto value = HalfBandOf(taps, load(at), load(at - step), load(at + step),
-                                  load(at - 3 * step), load(at + 3 * step));
+    WideVec low_sums, high_sums;
+    BeginTaps(LoadSamples(at), taps.centre, low_sums, high_sums);
+    AddWeighed(LoadSamples(at - step), LoadSamples(at + step), taps.near, taps.near, low_sums,
+               high_sums);
+    AddWeighed(LoadSamples(at - 3 * step), LoadSamples(at + 3 * step), taps.far, taps.far, low_sums,
+               high_sums);
+    const auto value = EndTaps(low_sums, high_sums);
     hn::StoreU(hn::Min(hn::Max(value, least), most), d16, out + n);
   });
   if (!done) reference::FilterHalfBand(in, step, filter, count, low, high, out);
@@ -190,12 +168,15 @@ inline void Halve(const int16_t* HWY_RESTRICT even, const int16_t* HWY_RESTRICT 
                   const HalfBand& filter, size_t count, int16_t* HWY_RESTRICT out) {
   const HalfBand taps = filter;
   const FilterTag d16;
-  const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = odd + n;
-    const auto beside = hn::Add(load(at - 3), load(at));
-    const auto beyond = hn::Add(load(at - 6), load(at + 3));
-    hn::StoreU(HalfBandOf(taps, load(even + n), beside, beyond), d16, out + n);
+    // The sums of two samples fit in 16 bits.
+    const auto beside = hn::Add(LoadSamples(at - 3), LoadSamples(at));
+    const auto beyond = hn::Add(LoadSamples(at - 6), LoadSamples(at + 3));
+    WideVec low, high;
+    BeginTaps(LoadSamples(even + n), taps.centre, low, high);
+    AddWeighed(beside, beyond, taps.near, taps.far, low, high);
+    hn::StoreU(EndTaps(low, high), d16, out + n);
   });
   if (!done) reference::Halve(even, odd, filter, count, out);
 }
@@ -205,11 +186,13 @@ inline void Between(const int16_t* in, ptrdiff_t step, const HalfBand& filter, s
   const HalfBand taps = filter;
   const FilterTag d16;
   const auto least = hn::Set(d16, low), most = hn::Set(d16, high);
-  const auto load = [&](const int16_t* at) HWY_ATTR { return hn::LoadU(d16, at); };
   const bool done = ForVectors(count, hn::Lanes(d16), [&](size_t n) HWY_ATTR {
     const int16_t* at = in + n;
-    const auto value =
-        BetweenOf(taps, load(at), load(at + step), load(at - step), load(at + 2 * step));
+    WideVec low_sums = hn::Set(WideTag(), 1 << (kTapBits - 1)), high_sums = low_sums;
+    AddWeighed(LoadSamples(at), LoadSamples(at + step), taps.near, taps.near, low_sums, high_sums);
+    AddWeighed(LoadSamples(at - step), LoadSamples(at + 2 * step), taps.far, taps.far, low_sums,
+               high_sums);
+    const auto value = EndTaps(low_sums, high_sums);
     hn::StoreU(hn::Min(hn::Max(value, least), most), d16, out + n);
   });
   if (!done) reference::Between(in, step, filter, count, low, high, out);
