@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in cells.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_CELLS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_CELLS_INL_H_
-#undef STARFOCUS_SIMD_CELLS_INL_H_
-#else
-#define STARFOCUS_SIMD_CELLS_INL_H_
-#endif
-
 #include "simd/cells.h"
 #include "simd/highway-inl.h"
 
@@ -374,5 +367,3 @@ inline void SurroundCells(const int16_t* cells, size_t plane, size_t stride, int
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in composite.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_COMPOSITE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_COMPOSITE_INL_H_
-#undef STARFOCUS_SIMD_COMPOSITE_INL_H_
-#else
-#define STARFOCUS_SIMD_COMPOSITE_INL_H_
-#endif
-
 #include <type_traits>
 
 #include "simd/composite.h"
@@ -459,5 +452,3 @@ inline void FinishComposite(const uint32_t* sums, size_t plane, const int16_t* c
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in depth_values.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_DEPTH_VALUES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_DEPTH_VALUES_INL_H_
-#undef STARFOCUS_SIMD_DEPTH_VALUES_INL_H_
-#else
-#define STARFOCUS_SIMD_DEPTH_VALUES_INL_H_
-#endif
-
 #include "simd/depth_values.h"
 #include "simd/highway-inl.h"
 
@@ -190,5 +183,3 @@ inline void SpreadRow(const int16_t* HWY_RESTRICT row, const uint32_t* HWY_RESTR
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in disparities.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_DISPARITIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_DISPARITIES_INL_H_
-#undef STARFOCUS_SIMD_DISPARITIES_INL_H_
-#else
-#define STARFOCUS_SIMD_DISPARITIES_INL_H_
-#endif
-
 #include "simd/disparities.h"
 #include "simd/highway-inl.h"
 
@@ -81,5 +74,3 @@ inline void FindWithin(const int16_t* HWY_RESTRICT disparity, size_t stride, siz
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

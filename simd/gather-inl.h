@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in gather.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_GATHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_GATHER_INL_H_
-#undef STARFOCUS_SIMD_GATHER_INL_H_
-#else
-#define STARFOCUS_SIMD_GATHER_INL_H_
-#endif
-
 #include <cstring>
 
 #include "simd/gather.h"
@@ -347,5 +340,3 @@ inline void MoveSamples(const SampleRows& in, const HalfMove& move, int16_t* HWY
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

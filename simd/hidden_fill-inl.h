@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in hidden_fill.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_HIDDEN_FILL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_HIDDEN_FILL_INL_H_
-#undef STARFOCUS_SIMD_HIDDEN_FILL_INL_H_
-#else
-#define STARFOCUS_SIMD_HIDDEN_FILL_INL_H_
-#endif
-
 #include "simd/hidden_fill.h"
 #include "simd/highway-inl.h"
 
@@ -168,5 +161,3 @@ inline void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* 
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

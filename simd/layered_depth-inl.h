@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in layered_depth.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
-#undef STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
-#else
-#define STARFOCUS_SIMD_LAYERED_DEPTH_INL_H_
-#endif
-
 #include <initializer_list>
 
 #include "simd/highway-inl.h"
@@ -473,5 +466,3 @@ inline void ColourCopies(const int16_t* HWY_RESTRICT row, ptrdiff_t stride,
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in match.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_MATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_MATCH_INL_H_
-#undef STARFOCUS_SIMD_MATCH_INL_H_
-#else
-#define STARFOCUS_SIMD_MATCH_INL_H_
-#endif
-
 #include "simd/highway-inl.h"
 #include "simd/match.h"
 
@@ -340,5 +333,3 @@ inline void CostLabels(const LabelRow& row, size_t count, size_t places,
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

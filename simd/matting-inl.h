@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in matting.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_MATTING_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_MATTING_INL_H_
-#undef STARFOCUS_SIMD_MATTING_INL_H_
-#else
-#define STARFOCUS_SIMD_MATTING_INL_H_
-#endif
-
 #include "simd/highway-inl.h"
 #include "simd/matting.h"
 
@@ -175,5 +168,3 @@ inline void SmoothDisparity(const int32_t* own, const int32_t* const* rows, size
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

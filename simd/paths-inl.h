@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in paths.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_PATHS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_PATHS_INL_H_
-#undef STARFOCUS_SIMD_PATHS_INL_H_
-#else
-#define STARFOCUS_SIMD_PATHS_INL_H_
-#endif
-
 #include "simd/highway-inl.h"
 #include "simd/paths.h"
 
@@ -170,5 +163,3 @@ inline void AddPrior(const uint8_t* HWY_RESTRICT prior, size_t count, uint8_t* H
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

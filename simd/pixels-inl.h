@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in pixels.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_PIXELS_INL_H_
-#undef STARFOCUS_SIMD_PIXELS_INL_H_
-#else
-#define STARFOCUS_SIMD_PIXELS_INL_H_
-#endif
-
 #include "simd/highway-inl.h"
 #include "simd/pixels.h"
 
@@ -214,5 +207,3 @@ inline void JoinPairs(const uint8_t* HWY_RESTRICT first, const uint8_t* HWY_REST
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in resample.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_RESAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_RESAMPLE_INL_H_
-#undef STARFOCUS_SIMD_RESAMPLE_INL_H_
-#else
-#define STARFOCUS_SIMD_RESAMPLE_INL_H_
-#endif
-
 #include "simd/light-inl.h"
 #include "simd/resample.h"
 
@@ -203,5 +196,3 @@ inline void Between(const int16_t* in, ptrdiff_t step, const HalfBand& filter, s
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in runs.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_RUNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_RUNS_INL_H_
-#undef STARFOCUS_SIMD_RUNS_INL_H_
-#else
-#define STARFOCUS_SIMD_RUNS_INL_H_
-#endif
-
 #include "simd/highway-inl.h"
 #include "simd/runs.h"
 
@@ -73,5 +66,3 @@ inline void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, si
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

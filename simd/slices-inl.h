@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in slices.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_SLICES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_SLICES_INL_H_
-#undef STARFOCUS_SIMD_SLICES_INL_H_
-#else
-#define STARFOCUS_SIMD_SLICES_INL_H_
-#endif
-
 #include "simd/highway-inl.h"
 #include "simd/slices.h"
 
@@ -177,5 +170,3 @@ inline void SpreadSlice(const int16_t* HWY_RESTRICT in, ptrdiff_t step, const Sl
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in spans.h. This file is included once per SIMD target.
-#if defined(STARFOCUS_SIMD_SPANS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STARFOCUS_SIMD_SPANS_INL_H_
-#undef STARFOCUS_SIMD_SPANS_INL_H_
-#else
-#define STARFOCUS_SIMD_SPANS_INL_H_
-#endif
-
 #include <cstring>
 
 #include "simd/highway-inl.h"
@@ -97,5 +90,3 @@ inline void Blend(const Span* HWY_RESTRICT spans, size_t count, int16_t* HWY_RES
 }  // namespace HWY_NAMESPACE
 }  // namespace starfocus::simd
 HWY_AFTER_NAMESPACE();
-
-#endif
