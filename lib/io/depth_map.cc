@@ -99,60 +99,44 @@ uint32_t PlaceOfRow(const DepthSource& depth, int32_t y) {
   return PlaceOf(y, depth.height, depth.map.height);
 }
 
-// Interpolates `count` <= kDepthPiece columns of a picture, starting at column x. Keeps the last
-// two converted rows of the map, which neighbouring rows of the picture share.
-class PieceReader {
- public:
-  PieceReader(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x, int32_t count)
-      : kernels_(kernels),
-        depth_(depth),
-        columns_(depth.columns + (x - depth.first_column)),
-        count_(count),
-        left_(static_cast<int32_t>(columns_[0] >> simd::kColumnBits)) {
-    const auto last = static_cast<int32_t>(columns_[count - 1] >> simd::kColumnBits);
-    values_ = Min(last + 2, depth.map.width) - left_;
-  }
-
-  // Writes the row of the picture at a position (PlaceOfRow) in the map.
-  void Read(uint32_t place, int16_t* out) {
+// Interpolates `count` <= kDepthPiece columns of the rows of a picture, starting at column x. Keeps
+// the last two converted rows of the map, which neighbouring rows of the picture share.
+uint32_t ReadPiece(const simd::ImageKernels& kernels, const DepthSource& depth, int32_t x,
+                   int32_t count, const Range& rows, const Plane<int16_t>& out) {
+  const uint32_t* const columns = depth.columns + (x - depth.first_column);
+  const auto left = static_cast<int32_t>(columns[0] >> simd::kColumnBits);
+  const auto last = static_cast<int32_t>(columns[count - 1] >> simd::kColumnBits);
+  const int32_t values = Min(last + 2, depth.map.width) - left;
+  // Room for the values, a copy of the last value, and what SpreadRow may read.
+  constexpr int32_t kRoom = kPiece + 1 + simd::kSpreadSpare;
+  int16_t converted[2][kRoom], blended[kRoom];
+  int32_t held[2] = {-1, -1};
+  uint32_t flags = 0;
+  // Returns the converted values of a row of the map, followed by a copy of the last value. The
+  // result is valid until another row with the same parity is read.
+  const auto row_at = [&](int32_t y) {
+    int16_t* const row = converted[y % 2];
+    if (held[y % 2] != y) {
+      held[y % 2] = y;
+      flags |= ConvertValues(kernels, depth, left, y, values, row);
+      row[values] = row[values - 1];
+    }
+    return row;
+  };
+  for (int32_t y = rows.first; y < rows.last; ++y) {
+    const uint32_t place = PlaceOfRow(depth, y), share = place % simd::kColumnOne;
     const auto upper = static_cast<int32_t>(place >> simd::kColumnBits);
-    const uint32_t share = place % simd::kColumnOne;
-    const int16_t* row = Row(upper);
-    int16_t blended[kRoom];
+    const int16_t* row = row_at(upper);
     if (share != 0) {
       // The copy of the last value is blended, too.
-      kernels_.BlendRows(row, Row(upper + 1), static_cast<size_t>(values_) + 1, share, blended);
+      kernels.BlendRows(row, row_at(upper + 1), static_cast<size_t>(values) + 1, share, blended);
       row = blended;
     }
-    kernels_.SpreadRow(row, columns_, static_cast<size_t>(count_), static_cast<uint32_t>(left_),
-                       out);
+    kernels.SpreadRow(row, columns, static_cast<size_t>(count), static_cast<uint32_t>(left),
+                      out.Row(y));
   }
-
-  uint32_t flags() const { return flags_; }
-
- private:
-  // Number of values, a copy of the last value, and what SpreadRow may read.
-  static constexpr int32_t kRoom = kPiece + 1 + simd::kSpreadSpare;
-
-  // Returns the converted values of row y of the map, followed by a copy of the last value. The
-  // result is valid until another row with the same parity is read.
-  const int16_t* Row(int32_t y) {
-    int16_t* const row = rows_[y % 2];
-    if (held_[y % 2] == y) return row;
-    held_[y % 2] = y;
-    flags_ |= ConvertValues(kernels_, depth_, left_, y, values_, row);
-    row[values_] = row[values_ - 1];
-    return row;
-  }
-
-  const simd::ImageKernels& kernels_;
-  const DepthSource& depth_;
-  const uint32_t* const columns_;
-  const int32_t count_, left_;
-  int32_t values_, held_[2] = {-1, -1};
-  int16_t rows_[2][kRoom];
-  uint32_t flags_ = 0;
-};
+  return flags;
+}
 
 bool HasPictureSize(const DepthSource& depth) {
   return depth.map.width == depth.width && depth.map.height == depth.height;
@@ -167,19 +151,19 @@ void FillColumns(int32_t width, int32_t map_width, int32_t first_column, int32_t
 
 uint32_t ReadDepth(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& rect,
                    const Plane<int16_t>& out) {
-  const int32_t bottom = rect.y + rect.height;
+  const Range rows = {rect.y, rect.y + rect.height};
   uint32_t flags = 0;
   for (int32_t x = 0; x < rect.width; x += kDepthPiece) {
     const int32_t count = Min(kDepthPiece, rect.width - x);
-    if (HasPictureSize(depth)) {
-      for (int32_t y = rect.y; y < bottom; ++y) {
-        flags |= ConvertValues(kernels, depth, rect.x + x, y, count, out.Row(y) + x);
-      }
+    Plane<int16_t> piece = out;
+    piece.data += x;
+    if (!HasPictureSize(depth)) {
+      flags |= ReadPiece(kernels, depth, rect.x + x, count, rows, piece);
       continue;
     }
-    PieceReader piece(kernels, depth, rect.x + x, count);
-    for (int32_t y = rect.y; y < bottom; ++y) piece.Read(PlaceOfRow(depth, y), out.Row(y) + x);
-    flags |= piece.flags();
+    for (int32_t y = rows.first; y < rows.last; ++y) {
+      flags |= ConvertValues(kernels, depth, rect.x + x, y, count, piece.Row(y));
+    }
   }
   return flags;
 }

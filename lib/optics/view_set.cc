@@ -28,31 +28,28 @@ int16_t Converted(double coordinate) {
 // this axis is at least kTooFarBeside times its distance along the axis.
 constexpr int32_t kTooFarBeside = 8;
 
-// Rates how well a view sees behind edges on a side.
-struct Rating {
-  int32_t along, across;  // distance of the view along the side's axis, and distance from this axis
-  ViewPosition at;
+// Return the distance of a view along the axis of a side, and its distance from this axis.
+int32_t Along(const ViewPosition& at, const int8_t* side) {
+  return at.u * side[0] + at.v * side[1];
+}
+int32_t Across(const ViewPosition& at, const int8_t* side) {
+  return Abs(at.u * side[1] - at.v * side[0]);
+}
 
-  bool Helps() const { return across < kTooFarBeside * along; }
-  // True if the view lies closer to the direction of this side than to the direction of any other
-  // side.
-  bool Own() const { return across < along; }
-  // Returns twice the distance of the view along the axis of the side, minus its distance from this
-  // axis.
-  int32_t Merit() const { return 2 * along - across; }
+// Returns true if a view lies closer to the direction of a side than to that of any other side.
+bool IsOwn(const ViewPosition& at, const int8_t* side) {
+  return Across(at, side) < Along(at, side);
+}
 
-  // True if this view is better than `other`. The ranking of views does not depend on the order in
-  // which they were captured.
-  bool Before(const Rating& other) const {
-    if (Own() != other.Own()) return Own();
-    if (Merit() != other.Merit()) return Merit() > other.Merit();
-    if (across != other.across) return across < other.across;
-    return at.u != other.at.u ? at.u < other.at.u : at.v < other.at.v;
-  }
-};
-
-Rating Rate(const ViewPosition& at, const int8_t* side) {
-  return {at.u * side[0] + at.v * side[1], Abs(at.u * side[1] - at.v * side[0]), at};
+// Returns true if view `a` sees better behind edges on a side than view `b`. The ranking of views
+// does not depend on the order in which they were captured.
+bool IsBetter(const ViewPosition& a, const ViewPosition& b, const int8_t* side) {
+  if (IsOwn(a, side) != IsOwn(b, side)) return IsOwn(a, side);
+  const int32_t across_a = Across(a, side), across_b = Across(b, side);
+  const int32_t merit_a = 2 * Along(a, side) - across_a, merit_b = 2 * Along(b, side) - across_b;
+  if (merit_a != merit_b) return merit_a > merit_b;
+  if (across_a != across_b) return across_a < across_b;
+  return a.u != b.u ? a.u < b.u : a.v < b.v;
 }
 
 }  // namespace
@@ -120,22 +117,20 @@ bool SameViews(const FullConfig& a, const FullConfig& b) {
 
 OcclusionViews ChooseOcclusionViews(const ViewSet& views) {
   OcclusionViews occlusion_views;
-  for (int side = 0; side < kSideCount; ++side) {
-    Rating best[kOcclusionViews] = {};
-    OcclusionView* const on = occlusion_views.on[side];
+  for (int index = 0; index < kSideCount; ++index) {
+    const int8_t* const side = kSides[index];
+    OcclusionView* const on = occlusion_views.on[index];
     for (int32_t k = 1; k < views.count; ++k) {
-      Rating rating = Rate(views.at[k], kSides[side]);
-      if (!rating.Helps()) continue;
       OcclusionView view = {static_cast<int8_t>(k), views.at[k]};
-      for (int place = 0; place < kOcclusionViews; ++place) {
-        if (on[place].view != 0 && !rating.Before(best[place])) continue;
-        std::swap(rating, best[place]);
-        std::swap(view, on[place]);
-        if (view.view == 0) break;
+      if (Across(view.at, side) >= kTooFarBeside * Along(view.at, side)) continue;
+      for (int place = 0; place < kOcclusionViews && view.view != 0; ++place) {
+        if (on[place].view == 0 || IsBetter(view.at, on[place].at, side)) {
+          std::swap(view, on[place]);
+        }
       }
     }
     for (int place = 1; place < kOcclusionViews; ++place) {
-      if (best[place].Own() != best[0].Own()) on[place] = {};
+      if (IsOwn(on[place].at, side) != IsOwn(on[0].at, side)) on[place] = {};
     }
   }
   return occlusion_views;
