@@ -121,15 +121,16 @@ starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
   Checker check = Enter(engine);
   check.NotNull(callbacks, "callbacks");
   if (!check.passed()) return check.status();
-  const starfocus_observer* const observer = callbacks->observer;
-  if (observer != nullptr && !check.Size(*observer, "callbacks.observer.size")) {
-    return check.status();
+  starfocus_observer observer = {};
+  if (callbacks->observer != nullptr) {
+    check.Read(*callbacks->observer, "callbacks.observer.size", &observer);
   }
+  if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   e.jobs->runner = callbacks->runner;
   e.jobs->runner_data = callbacks->runner_data;
   e.jobs->call_progress.SetProgress(callbacks->progress, callbacks->progress_data);
-  e.observer = observer != nullptr ? *observer : starfocus_observer{};
+  e.observer = observer;
   return STARFOCUS_OK;
 }
 

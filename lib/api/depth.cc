@@ -88,7 +88,7 @@ size_t SizeOf(const FullConfig& config, bool repairs, Checker* check) {
 struct DepthCall {
   const FullConfig* config;
   const starfocus_callbacks* callbacks;
-  const starfocus_light_field* light_field;
+  starfocus_light_field* light_field;  // Copy with all fields.
   void* workspace;
   size_t bytes;
 };
@@ -136,13 +136,12 @@ starfocus_status Watched(const DepthCall& call, const SweepSetup& setup, Arena* 
   CallProgress* const call_progress = &jobs->call_progress;
   call_progress->SetProgress(callbacks.progress, callbacks.progress_data);
   call_progress->Begin(0, config.height);
-  starfocus_light_field field = *call.light_field;
   starfocus_status status = STARFOCUS_OK;
   if (Converts(config)) {
     const ConvertedMemory memory = TakeConverted(config, setup.repairs, arena);
-    status = ConvertField(config, memory, setup.columns * setup.rows, jobs, &field);
+    status = ConvertField(config, memory, setup.columns * setup.rows, jobs, call.light_field);
   }
-  if (status == STARFOCUS_OK) status = make(field);
+  if (status == STARFOCUS_OK) status = make(*call.light_field);
   if (status != STARFOCUS_OK) return status;
   call_progress->SetRows(config.height);
   return call_progress->Ask() ? STARFOCUS_OK : STARFOCUS_ERROR_CANCELLED;
@@ -186,15 +185,19 @@ starfocus_status SweepViews(const DepthCall& call, bool repairs, const MapOutput
 }
 
 // Checks the arguments, then estimates or repairs the map.
-starfocus_status RunCall(const starfocus_config* config, DepthCall call, bool repairs,
-                         starfocus_disparity_output* map, starfocus_problem* problem) {
+starfocus_status RunCall(const starfocus_config* config, const starfocus_callbacks* callbacks,
+                         const starfocus_light_field* light_field, starfocus_disparity_output* map,
+                         void* workspace, size_t bytes, bool repairs, starfocus_problem* problem) {
   FullConfig full;
+  starfocus_light_field field = {};
   Checker check = Enter(config, problem, &full);
-  check.NotNull(call.light_field, "light_field");
+  check.NotNull(light_field, "light_field");
   check.NotNull(map, "map");
-  check.NotNull(call.workspace, "workspace");
-  call.config = &full;
-  if (check.passed()) CheckCall(call, repairs, *map, &check);
+  check.NotNull(workspace, "workspace");
+  if (check.passed()) check.Read(*light_field, "light_field.size", &field);
+  if (!check.passed()) return check.status();
+  const DepthCall call = {&full, callbacks, &field, workspace, bytes};
+  CheckCall(call, repairs, *map, &check);
   if (!check.passed()) return check.status();
   map->has_coverage = 0;
   const MapOutput output = {{map->disparity, map->disparity_stride / sizeof(float)},
@@ -227,7 +230,7 @@ starfocus_status starfocus_estimate_disparity(const starfocus_config* config,
                                               const starfocus_light_field* light_field,
                                               starfocus_disparity_output* map, void* workspace,
                                               size_t bytes, starfocus_problem* problem) {
-  return RunCall(config, {nullptr, callbacks, light_field, workspace, bytes}, false, map, problem);
+  return RunCall(config, callbacks, light_field, map, workspace, bytes, false, problem);
 }
 
 starfocus_status starfocus_repair_disparity(const starfocus_config* config,
@@ -235,5 +238,5 @@ starfocus_status starfocus_repair_disparity(const starfocus_config* config,
                                             const starfocus_light_field* light_field,
                                             starfocus_disparity_output* map, void* workspace,
                                             size_t bytes, starfocus_problem* problem) {
-  return RunCall(config, {nullptr, callbacks, light_field, workspace, bytes}, true, map, problem);
+  return RunCall(config, callbacks, light_field, map, workspace, bytes, true, problem);
 }

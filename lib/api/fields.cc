@@ -2,6 +2,7 @@
 // C API: the fields of public structures, from which bindings build their structures, and the
 // defaults of structures with a field `size`.
 #include <cstddef>
+#include <cstring>
 #include <type_traits>
 
 #include "lib/api/validate.h"
@@ -112,7 +113,8 @@ constexpr starfocus_field kReport[] = {
     FIELD(report, rendered_views), FIELD(report, superblock),
     FIELD(report, r_max),          FIELD(report, rendered_samples),
     FIELD(report, copied_pixels),  FIELD(report, gathered_pixels),
-    FIELD(report, reused_blocks),  FIELD(report, unknown_pixels), FIELD(report, layers),
+    FIELD(report, reused_blocks),  FIELD(report, unknown_pixels),
+    FIELD(report, layers),
 };
 constexpr starfocus_field kDisparityStats[] = {
     FIELD(disparity_stats, min),
@@ -229,8 +231,13 @@ size_t starfocus_fields(const char* structure, const starfocus_field** fields, i
 starfocus_status starfocus_defaults(const char* structure, void* to, uint32_t size) {
   if (structure == nullptr) return STARFOCUS_ERROR_NULL;
   const auto is = [&](const char* name) { return AreEqual(structure, name); };
-  const auto set = [&](const auto& defaults) {
-    InitSized(defaults, size, static_cast<std::decay_t<decltype(defaults)>*>(to));
+  // Writes the defaults to the part of the caller's structure that the library knows, and zeros to
+  // the rest.
+  const auto set = [&](auto defaults) {
+    if (to == nullptr || size < sizeof size) return STARFOCUS_OK;
+    defaults.size = size;
+    if (size > sizeof defaults) std::memset(to, 0, size);
+    std::memcpy(to, &defaults, size < sizeof defaults ? size : sizeof defaults);
     return STARFOCUS_OK;
   };
   const FullConfig config = DefaultConfig();

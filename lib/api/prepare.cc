@@ -87,12 +87,14 @@ starfocus_status starfocus_prepare(starfocus_engine* engine,
   check.NotNull(prepared, "prepared");
   if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  CheckLightField(e.config, *light_field, &check);
+  starfocus_light_field field = {};
+  check.Read(*light_field, "light_field.size", &field);
+  CheckLightField(e.config, field, &check);
   if (!check.passed()) return check.status();
   const bool allocates = memory == nullptr && e.allocator.allocate != nullptr;
   Prepared* made = nullptr;
-  const starfocus_status status = allocates ? PrepareAllocated(*light_field, &e, &made)
-                                            : PrepareIn(memory, bytes, *light_field, &e, &made);
+  const starfocus_status status =
+      allocates ? PrepareAllocated(field, &e, &made) : PrepareIn(memory, bytes, field, &e, &made);
   if (status == STARFOCUS_OK) *prepared = reinterpret_cast<starfocus_prepared*>(made);
   return status;
 }

@@ -13,12 +13,14 @@
 namespace starfocus {
 namespace {
 
-// Prepares the engine for comparing the current light field with the previous light field.
+// Prepares the engine for comparing its input, the light field `now`, with the previous light
+// field.
 void CompareWith(const starfocus_previous& previous, const starfocus_light_field* now, int32_t mode,
                  EngineState* engine) {
   const FullConfig& config = engine->config;
   FrameDiff& changes = engine->stripe.changes;
   changes.active = true;
+  changes.covers = engine->input.given_coverage.data != nullptr;
   changes.before = previous.light_field;
   changes.picture = previous.out;
   changes.now = now;
@@ -58,15 +60,15 @@ Extents MemoryOf(const EngineState& engine, const Prepared* prepared) {
 
 // Runs a refocusing. Before this call, the caller must set the engine's input and check
 // all arguments except the values of the map. `previous` and `now` are the previous frame and the
-// current light field of a video; `previous` is null if frames are not compared.
+// current light field of a video; previous.light_field is null if frames are not compared.
 starfocus_status RunCall(const FullParams& params, const Output& out,
-                         const starfocus_previous* previous, const starfocus_light_field* now,
+                         const starfocus_previous& previous, const starfocus_light_field* now,
                          EngineState* engine, starfocus_report* report) {
   engine->stream.active = false;
   engine->jobs->call_progress.Begin(0, RegionOf(engine->config, params).height);
   Checker check(engine->config.problem);
   if (check.Add(SetLens(params, engine)) != STARFOCUS_OK) return check.status();
-  if (previous != nullptr) CompareWith(*previous, now, params.mode, engine);
+  if (previous.light_field != nullptr) CompareWith(previous, now, params.mode, engine);
   check.Add(RefocusRows(out, engine));
   if (check.passed()) WriteReport(*engine, report);
   return check.status();
@@ -104,8 +106,8 @@ starfocus_status RefocusPreview(const FullParams& params, const Prepared& prepar
   const ReducedField& field = prepared.reduced[shift];
   reduced.input = InputOf(reduced.config, *reduced.kernels, field.views, field.disparity,
                           prepared.covers ? field.coverage : Plane<uint8_t>());
-  return RunCall(ReducedParams(params, rect), OutputOf(out, rect, reduced.odd_row), nullptr,
-                 nullptr, &reduced, report);
+  return RunCall(ReducedParams(params, rect), OutputOf(out, rect, reduced.odd_row), {}, nullptr,
+                 &reduced, report);
 }
 
 // Fields of params.previous that checks of light fields and pictures may reject.
@@ -159,18 +161,21 @@ void CheckFieldInPlace(const FullConfig& config, const starfocus_light_field& fi
   CheckInPlace(field.depth, config.width, config.height, check);
 }
 
-// Checks the previous frame. Frames can be compared only if both frames are read in place.
-void CheckPrevious(const FullConfig& config, const starfocus_previous& previous,
-                   const starfocus_light_field& light_field, const starfocus_image& out,
-                   const Rect& rect, Checker* check) {
-  CheckFieldInPlace(config, light_field, check);
-  if (!check->passed() || !check->Size(previous, "previous.size")) return;
-  check->NotNull(previous.light_field, "previous.light_field");
-  check->NotNull(previous.out, "previous.out");
+// Checks the previous frame, and copies it and its light field to *previous and *field. Frames can
+// be compared only if both frames are read in place.
+void CheckPrevious(const EngineState& engine, const FullParams& params, const starfocus_image& out,
+                   starfocus_previous* previous, starfocus_light_field* field, Checker* check) {
+  const FullConfig& config = engine.config;
+  const Rect rect = RegionOf(config, params);
   if (!check->passed()) return;
-  CheckLightField(config, *previous.light_field, check);
-  CheckFieldInPlace(config, *previous.light_field, check);
-  CheckOutput(config, *previous.out, rect.width, rect.height, check);
+  check->Read(*params.previous, "previous.size", previous);
+  check->NotNull(previous->light_field, "previous.light_field");
+  check->NotNull(previous->out, "previous.out");
+  if (!check->passed()) return;
+  check->Read(*previous->light_field, "light_field.size", field);
+  CheckLightField(config, *field, check);
+  CheckFieldInPlace(config, *field, check);
+  CheckOutput(config, *previous->out, rect.width, rect.height, check);
   if (!check->passed()) {
     NamePrevious(config.problem);
     return;
@@ -180,60 +185,57 @@ void CheckPrevious(const FullConfig& config, const starfocus_previous& previous,
                 {"STARFOCUS_FORMAT_RGB without gaps, for out and previous.out"});
   };
   need(out, "out.format");
-  need(*previous.out, "previous.out.format");
+  need(*previous->out, "previous.out.format");
 }
 
-// Checks the arguments of an API call that refocuses. `prepared` may be null. Not inlined, so that
-// address ranges and inputs, which are large, are not on the stack while the picture is refocused.
-[[gnu::noinline]] void CheckRefocus(const FullParams& params,
-                                    const starfocus_light_field& light_field,
-                                    const Prepared* prepared, const starfocus_image& out,
-                                    const EngineState& engine, Checker* check) {
-  const FullConfig& config = engine.config;
-  const starfocus_previous* const previous = params.previous;
+// Checks the arguments of an API call that refocuses, and makes the engine read the light field,
+// whose disparities and layers may be prepared. Sets *previous to the frame to compare, if there is
+// one. `prepared` may be null. Not inlined, so that light fields, address ranges and inputs, which
+// are large, are not on the stack while the picture is refocused.
+[[gnu::noinline]] void TakeArguments(const FullParams& params, const starfocus_light_field& given,
+                                     const Prepared* prepared, const starfocus_image& out,
+                                     EngineState* engine, starfocus_previous* previous,
+                                     Checker* check) {
+  const FullConfig& config = engine->config;
+  starfocus_light_field field = {}, before = {};
+  check->Read(given, "light_field.size", &field);
   CheckCall(config, params, prepared, check);
-  CheckLightField(config, light_field, check);
+  CheckLightField(config, field, check);
   if (!check->passed()) return;
   const Rect rect = RegionOf(config, params);
   CheckOutput(config, out, rect.width, rect.height, check);
-  if (previous != nullptr) CheckPrevious(config, *previous, light_field, out, rect, check);
+  if (params.previous != nullptr) {
+    CheckFieldInPlace(config, field, check);
+    CheckPrevious(*engine, params, out, previous, &before, check);
+  }
   if (!check->passed()) return;
-  Extents read = MemoryOf(engine, prepared);
-  AddLightField(config, light_field, &read);
-  if (previous != nullptr) {
-    AddLightField(config, *previous->light_field, &read);
+  Extents read = MemoryOf(*engine, prepared);
+  AddLightField(config, field, &read);
+  if (params.previous != nullptr) {
+    AddLightField(config, before, &read);
     AddImage(*previous->out, rect.width, rect.height, &read);
   }
   CheckOutputApart(out, rect.width, rect.height, read, check);
-}
-
-// Makes the engine read a light field, whose disparities and layers may be prepared. Not inlined,
-// for the same reason as CheckRefocus.
-[[gnu::noinline]] void SetInput(const starfocus_light_field& light_field, const Prepared* prepared,
-                                EngineState* engine) {
-  engine->input = InputOf(engine->config, *engine->kernels, light_field, 0, &engine->rings);
+  if (!check->passed()) return;
+  // Two frames can be compared if both light fields have coverage, or if both lack coverage.
+  if ((before.coverage == nullptr) != (field.coverage == nullptr)) *previous = {};
+  engine->input = InputOf(config, *engine->kernels, field, 0, &engine->rings);
   if (prepared != nullptr) UsePrepared(*prepared, &engine->input);
 }
 
 starfocus_status Refocus(const FullParams& params, const starfocus_light_field& light_field,
                          const Prepared* prepared, const starfocus_image& to, EngineState* engine,
                          starfocus_report* report) {
-  const FullConfig& config = engine->config;
-  Checker check(config.problem);
-  CheckRefocus(params, light_field, prepared, to, *engine, &check);
+  Checker check(engine->config.problem);
+  starfocus_previous previous = {};
+  TakeArguments(params, light_field, prepared, to, engine, &previous, &check);
   if (!check.passed()) return check.status();
-  SetInput(light_field, prepared, engine);
   const Input& in = engine->input;
-  Output out = OutputOf(to, RegionOf(config, params), engine->odd_row);
+  Output out = OutputOf(to, RegionOf(engine->config, params), engine->odd_row);
   out.alpha = AlphaOf(in.images[0]);
   out.alpha_step = in.images[0].step;
-  // Two frames can be compared if both light fields have coverage, or if both lack coverage.
-  const starfocus_previous* const previous = params.previous;
-  const bool comparable = previous != nullptr && (previous->light_field->coverage == nullptr) ==
-                                                     (light_field.coverage == nullptr);
-  const starfocus_status status =
-      RunCall(params, out, comparable ? previous : nullptr, &light_field, engine, report);
-  return TellPlace(status, light_field.depth, 0, config.problem);
+  const starfocus_status status = RunCall(params, out, previous, &light_field, engine, report);
+  return TellPlace(status, in.map.map, 0, engine->config.problem);
 }
 
 }  // namespace
@@ -249,7 +251,7 @@ starfocus_status starfocus_refocus(starfocus_engine* engine, const starfocus_par
   check.NotNull(params, "params");
   check.NotNull(light_field, "light_field");
   check.NotNull(out, "out");
-  if (report != nullptr) check.Size(*report, "report.size");
+  CheckReport(report, &check);
   ReadParams(params, &full, &check);
   if (!check.passed()) return check.status();
   check.In({"preview_shift", double(full.preview_shift)},
@@ -268,7 +270,7 @@ starfocus_status starfocus_refocus_prepared(starfocus_engine* engine,
   check.NotNull(params, "params");
   check.NotNull(prepared, "prepared");
   check.NotNull(out, "out");
-  if (report != nullptr) check.Size(*report, "report.size");
+  CheckReport(report, &check);
   ReadParams(params, &full, &check);
   if (!check.passed()) return check.status();
   auto& e = *reinterpret_cast<EngineState*>(engine);

@@ -181,11 +181,13 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
   check.NotNull(consumed, "consumed");
   if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  CheckPush(e, *light_field, rows, &check);
+  starfocus_light_field field = {};
+  check.Read(*light_field, "light_field.size", &field);
+  CheckPush(e, field, rows, &check);
   if (!check.passed()) return check.status();
-  const Input from = InputOf(e.config, *e.kernels, *light_field, e.stream.pushed, &e.rings);
-  const int32_t unit = AnyYuv(e.config, *light_field) ? 2 : 1;
-  starfocus_depth_map map = light_field->depth;
+  const Input from = InputOf(e.config, *e.kernels, field, e.stream.pushed, &e.rings);
+  const int32_t unit = AnyYuv(e.config, field) ? 2 : 1;
+  starfocus_depth_map map = field.depth;
   int32_t first = 0;
   if (map.height == e.config.height) {  // The map begins at the next row of the stream.
     first = e.stream.pushed;
@@ -201,7 +203,7 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   Checker check = Enter(engine);
   check.NotNull(out, "out");
   check.NotNull(written, "written");
-  if (report != nullptr) check.Size(*report, "report.size");
+  CheckReport(report, &check);
   if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   CheckCount(e, rows, INT32_MAX, &check);

@@ -74,24 +74,26 @@ Checker Enter(const starfocus_config* config, starfocus_problem* problem, FullCo
   Checker check = Enter(problem);
   check.NotNull(config, "config");
   if (!check.passed()) return check;
-  check.Need(ReadSized<starfocus_config>(*config, full), STARFOCUS_ERROR_STRUCTURE,
-             {"config.size", double(config->size)}, {"the value set by starfocus_config_init"});
+  check.Read<starfocus_config>(*config, "config.size", full);
   const starfocus_tuning* const tuning = full->starfocus_config::tuning;
-  if (!check.passed() || tuning == nullptr) return check;
-  check.Need(ReadSized(*tuning, &full->tuning), STARFOCUS_ERROR_STRUCTURE,
-             {"tuning.size", double(tuning->size)}, {"the value set by starfocus_tuning_init"});
+  if (check.passed() && tuning != nullptr) check.Read(*tuning, "tuning.size", &full->tuning);
   return check;
 }
 
 void ReadParams(const starfocus_params* params, FullParams* full, Checker* check) {
   if (!check->passed()) return;
   *full = DefaultParams();
-  check->Need(ReadSized<starfocus_params>(*params, full), STARFOCUS_ERROR_STRUCTURE,
-              {"params.size", double(params->size)}, {"the value set by starfocus_params_init"});
+  check->Read<starfocus_params>(*params, "params.size", full);
   if (!check->passed() || full->study == nullptr) return;
-  if (!check->Size(*full->study, "study.size")) return;
-  full->mode = full->study->mode;
-  full->renderer = full->study->renderer;
+  starfocus_study study = {0, full->mode, full->renderer};
+  check->Read(*full->study, "study.size", &study);
+  full->mode = study.mode;
+  full->renderer = study.renderer;
+}
+
+void CheckReport(const starfocus_report* report, Checker* check) {
+  starfocus_report ignored;
+  if (report != nullptr) check->Read(*report, "report.size", &ignored);
 }
 
 void CheckPicture(const FullConfig& config, Checker* check) {
@@ -276,7 +278,7 @@ void NeedInPlace(const starfocus_image& image, const ImageNames& names, int32_t 
 
 void CheckViews(const starfocus_light_field& light_field, int32_t count, int32_t width,
                 int32_t height, Checker* check) {
-  if (!check->passed() || !check->Size(light_field, "light_field.size")) return;
+  if (!check->passed()) return;
   for (int32_t view = 0; view < count; ++view) {
     CheckImage(light_field.views[view], width, height, kViewNames, view, check);
   }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks all arguments of the C API. All checks run before a call writes any output. Structures
-// whose first field is their size are copied first, because the caller's header may be older than
-// the library.
+// whose first field is their size are copied over their defaults before they are read
+// (Checker::Read).
 #ifndef STARFOCUS_LIB_API_VALIDATE_H_
 #define STARFOCUS_LIB_API_VALIDATE_H_
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "lib/base/config.h"
 #include "lib/base/geometry.h"
@@ -15,28 +14,6 @@
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
-
-// Writes the defaults to the part of the caller's structure that the library knows, writes zeros to
-// the rest, and sets the field `size`.
-template <class Structure>
-void InitSized(Structure defaults, uint32_t size, Structure* given) {
-  if (given == nullptr || size < sizeof size) return;
-  defaults.size = size;
-  if (size > sizeof defaults) std::memset(static_cast<void*>(given), 0, size);
-  std::memcpy(static_cast<void*>(given), &defaults,
-              size < sizeof defaults ? size : sizeof defaults);
-}
-
-// Copies the caller's structure to *full. The caller's structure may lack newer fields, so *full
-// must contain the defaults. Returns false if the structure was not initialised, or was initialised
-// by a newer header.
-template <class Structure>
-bool ReadSized(const Structure& given, Structure* full) {
-  const uint32_t size = given.size;
-  if (size <= sizeof size || size > sizeof(Structure)) return false;
-  std::memcpy(static_cast<void*>(full), &given, size);
-  return true;
-}
 
 // Returns true if two strings are equal. The engine does not use the strings of the C library.
 bool AreEqual(const char* a, const char* b);
@@ -55,6 +32,9 @@ Checker Enter(starfocus_engine* engine);
 
 // Fills *full from `params` and its study.
 void ReadParams(const starfocus_params* params, FullParams* full, Checker* check);
+
+// Checks that a report, which may be null, was initialised.
+void CheckReport(const starfocus_report* report, Checker* check);
 
 // Checks the fields of a configuration that engines and estimates of maps have in common.
 void CheckPicture(const FullConfig& config, Checker* check);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "lib/base/geometry.h"
 #include "starfocus/starfocus.h"
@@ -49,14 +50,15 @@ class Checker {
   void In(const FieldValue& field, const Allowed& allowed);
   void Stride(bool good, const char* name, size_t stride, int32_t index = 0);
   void NotNull(const void* pointer, const char* name, int32_t index = 0);
-  // Rejects structures that were not initialised by their init function. `name` names their field
-  // `size`. All structures that are checked by this function still have the size of their first
-  // version; once one grows, shorter ones must be copied. Returns passed().
+  // Copies the caller's structure over the defaults in *full. The structure may lack the last
+  // fields, because the caller's header may be older than the library. Rejects structures that were
+  // not initialised, or were initialised by a newer header. `name` names their field `size`.
   template <class Structure>
-  bool Size(const Structure& given, const char* name) {
-    Need(given.size == sizeof(Structure), STARFOCUS_ERROR_STRUCTURE, {name, double(given.size)},
-         {"the value set by the init function", double(sizeof(Structure))});
-    return passed();
+  void Read(const Structure& given, const char* name, Structure* full) {
+    const uint32_t size = given.size;
+    Need(size > sizeof size && size <= sizeof(Structure), STARFOCUS_ERROR_STRUCTURE,
+         {name, double(size)}, {"the value set by the init function"});
+    if (passed()) std::memcpy(static_cast<void*>(full), &given, size);
   }
   // Checks that an output does not overlap the address ranges in `read`.
   void Apart(const Extent& out, const Extents& read, const char* name);

@@ -214,7 +214,6 @@ starfocus_status SetLens(const FullParams& params, EngineState* engine) {
       MakeLens(engine->config, params, &engine->jobs->call_progress, engine->tables, &engine->lens);
   if (status != STARFOCUS_OK) return status;
   engine->report = FullReport();
-  engine->report.size = sizeof(starfocus_report);
   engine->report.r_max = engine->lens.r_max;
   engine->report.superblock = engine->config.superblock;
   DropCounts(engine);
@@ -239,9 +238,14 @@ void DropCounts(EngineState* engine) {
 
 void WriteReport(const EngineState& engine, starfocus_report* report) {
   if (report == nullptr) return;
-  starfocus_layer_report* const layers = report->layers;
-  *report = engine.report;
-  report->layers = layers;
+  const uint32_t size = report->size;
+  starfocus_report full = {};
+  std::memcpy(&full, report, size);
+  starfocus_layer_report* const layers = full.layers;
+  full = engine.report;
+  full.size = size;
+  full.layers = layers;
+  std::memcpy(report, &full, size);
   if (layers != nullptr) std::memcpy(layers, engine.report.layers, sizeof engine.report.layers);
 }
 

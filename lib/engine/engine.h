@@ -33,6 +33,8 @@ namespace starfocus {
 // affect these stripes have been compared.
 struct FrameDiff {
   bool active = false;  // true if `before` points to the previous light field
+  bool covers;          // True if both light fields have coverage; false if none has.
+  // Light fields of the caller, which may end before the coverage if `covers` is false.
   const starfocus_light_field *before, *now;
   const starfocus_image* picture;  // Previous picture, packed RGB: source of unchanged pixels.
   int32_t views;                   // Number of views to compare.
@@ -197,7 +199,8 @@ starfocus_status SetLens(const FullParams& params, EngineState* engine);
 void TakeCounts(EngineState* engine);
 void DropCounts(EngineState* engine);
 
-// Writes the statistics of the last refocusing to *report, unless it is null.
+// Writes the statistics of the last refocusing to *report, unless it is null. Writes only the first
+// report->size bytes, because the caller's header may be older than the library.
 void WriteReport(const EngineState& engine, starfocus_report* report);
 
 // Discards the state of the previous stripe, so that the next stripe reuses no data.

@@ -82,12 +82,11 @@ void CompareMaps(const FrameDiff& changes, int32_t y) {
              });
 }
 
-// Compares row y of the coverage. If one light field has coverage, the other light field has
-// coverage as well.
+// Compares row y of the coverage, if the light fields have coverage.
 void CompareCoverage(const FrameDiff& changes, int32_t y) {
+  if (!changes.covers) return;
   const auto row = static_cast<size_t>(y);
   const starfocus_light_field &a = *changes.before, &b = *changes.now;
-  if (a.coverage == nullptr || b.coverage == nullptr) return;
   CompareRow(changes,
              {a.coverage + row * a.coverage_stride, b.coverage + row * b.coverage_stride, 1}, y,
              changes.centre_reach, [](int32_t*, int32_t*) {});

@@ -23,10 +23,10 @@ struct Row {
   void (*spoil)(Call*);
 };
 
-constexpr starfocus_status kNull = STARFOCUS_ERROR_NULL, kStructure = STARFOCUS_ERROR_STRUCTURE, kRange = STARFOCUS_ERROR_RANGE,
-                           kStride = STARFOCUS_ERROR_STRIDE, kOverlap = STARFOCUS_ERROR_OVERLAP,
-                           kFeature = STARFOCUS_ERROR_FEATURE, kOk = STARFOCUS_OK,
-                           kWorkspace = STARFOCUS_ERROR_WORKSPACE,
+constexpr starfocus_status kNull = STARFOCUS_ERROR_NULL, kStructure = STARFOCUS_ERROR_STRUCTURE,
+                           kRange = STARFOCUS_ERROR_RANGE, kStride = STARFOCUS_ERROR_STRIDE,
+                           kOverlap = STARFOCUS_ERROR_OVERLAP, kFeature = STARFOCUS_ERROR_FEATURE,
+                           kOk = STARFOCUS_OK, kWorkspace = STARFOCUS_ERROR_WORKSPACE,
                            kOther = STARFOCUS_ERROR_PREPARED;
 
 void PutOut(Call* c, const void* to) {
@@ -72,11 +72,11 @@ const Row kPictures[] = {
     {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, c->f.scene.disparity.data()); }},
     {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, &c->f.scene.disparity.back()); }},
 
-    {kAfter, "previous.size", kStructure, [](Call* c) { c->before.size = 8; }},
+    {kAfter, "previous.size", kStructure, [](Call* c) { c->before.size = 0; }},
     {kAfter, "previous.light_field", kNull, [](Call* c) { c->before.light_field = nullptr; }},
     {kAfter, "previous.out", kNull, [](Call* c) { c->before.out = nullptr; }},
     {kAfter, "previous.light_field.size", kStructure, [](Call* c) { c->field_before.size = 0; }},
-    {kTakesField, "light_field.size", kStructure, [](Call* c) { c->field.size -= 8; }},
+    {kTakesField, "light_field.size", kStructure, [](Call* c) { c->field.size = 0; }},
     {kRefocus | kAfter | kPrepared | kPreview | kPull, "report.size", kStructure,
      [](Call* c) { c->report.size = 0; }},
     {kAfter, "previous.out.planes", kNull, [](Call* c) { c->out_before.planes[0] = nullptr; }},
