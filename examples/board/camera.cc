@@ -37,8 +37,8 @@ Error Camera::Load(const std::string& folder, starfocus_mode mode) {
   config.max_blur = std::max(1.0, std::ceil(apertures_[0] * range));
   config.max_workers = runner_.workers();
   starfocus_problem problem = {};
-  config.problem = &problem;
-  status = engine_.Init(config);
+  status = engine_.Init(config, &problem);
+  starfocus_workspace_size(&config, &workspace_bytes_, nullptr);
   if (status == STARFOCUS_OK) {
     starfocus_callbacks callbacks = {};
     callbacks.runner = ThreadRunner::Run;

@@ -28,7 +28,7 @@ class Camera {
   // Returns the selectable apertures, the widest first. STARFOCUS_MAX_BLUR limits the widest
   // aperture.
   const std::vector<double>& apertures() const { return apertures_; }
-  size_t workspace_bytes() const { return engine_.workspace_bytes(); }
+  size_t workspace_bytes() const { return workspace_bytes_; }
 
   // Refocuses into picture().
   starfocus_status Take(double focus, double aperture);
@@ -40,6 +40,7 @@ class Camera {
   starfocus_disparity_stats stats_ = {};
   std::vector<double> apertures_;
   Engine engine_;
+  size_t workspace_bytes_ = 0;
   starfocus_mode mode_ = STARFOCUS_MODE_FRAME;
   Image picture_;
 };

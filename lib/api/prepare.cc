@@ -69,11 +69,13 @@ starfocus_status PrepareAllocated(const starfocus_light_field& light_field, Engi
 
 using namespace starfocus;
 
-starfocus_status starfocus_prepared_size(starfocus_engine* engine, size_t* bytes) {
-  Checker check = Enter(engine);
+starfocus_status starfocus_prepared_size(const starfocus_config* config, size_t* bytes,
+                                         starfocus_problem* problem) {
+  FullConfig full;
+  Checker check = Enter(config, problem, &full);
   check.NotNull(bytes, "bytes");
-  if (!check.passed()) return check.status();
-  const size_t needed = SizeOf(reinterpret_cast<EngineState*>(engine)->config, &check);
+  CheckConfig(full, &check);
+  const size_t needed = SizeOf(full, &check);
   if (check.passed()) *bytes = needed;
   return check.status();
 }

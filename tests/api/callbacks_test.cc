@@ -79,7 +79,7 @@ TEST_CASE("callbacks: the engine calls the set functions until other functions a
     REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
     CHECK(f.calls.Take());
   }
-  test::PreparedMemory memory(engine.get());
+  test::PreparedMemory memory(engine);
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), f.field);
   CHECK(f.calls.runner > 0);
   CHECK(f.calls.progress > 0);

@@ -185,7 +185,7 @@ TEST_CASE("prepare: without memory, the allocator of the engine provides the mem
   // The memory of the engine stays, and `counter` provides the memory of prepared light fields.
   workspace.next = &counter;
   size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(engine, &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_prepared_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
   const starfocus_light_field field = f.scene.Field();
   starfocus_prepared* prepared = nullptr;
   REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
@@ -246,7 +246,7 @@ TEST_CASE("prepare: an engine in memory of the caller requires memory of the cal
   CHECK(starfocus_prepare(engine.get(), &field, nullptr, 0, &prepared) == STARFOCUS_ERROR_NULL);
   CHECK(std::string(starfocus_engine_problem(engine.get())->field) == "memory");
   CHECK(prepared == nullptr);
-  test::PreparedMemory memory(engine.get());
+  test::PreparedMemory memory(engine);
   prepared = memory.Prepare(engine.get(), field);
   starfocus_destroy_prepared(prepared);
   starfocus_destroy_prepared(nullptr);

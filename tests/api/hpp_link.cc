@@ -91,7 +91,7 @@ struct Field {
   bool IsEmpty(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
     int32_t rows = 0;
-    return engine->get() == nullptr && engine->workspace_bytes() == 0 &&
+    return engine->get() == nullptr &&
            engine->Refocus(params, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
                STARFOCUS_ERROR_NULL &&
            engine->Prepare(field) == STARFOCUS_ERROR_NULL &&
@@ -111,7 +111,7 @@ bool EveryCall() {
   starfocus::Config bad;
   bad.width = -1;
   if (engine.Init(bad) != STARFOCUS_ERROR_RANGE || !f.IsEmpty(&engine)) return false;
-  if (engine.Init(f.config) != STARFOCUS_OK || engine.workspace_bytes() == 0) return false;
+  if (engine.Init(f.config) != STARFOCUS_OK) return false;
   return f.Refocuses(&engine) && engine.Prepare(f.field) == STARFOCUS_OK &&
          f.RefocusesPrepared(&engine) && f.RefocusesPreview(&engine) && f.RefocusesAfter(&engine) &&
          f.Streams(&engine);

@@ -200,7 +200,7 @@ TEST_CASE(
     test::Config config = test::ImageConfig(field, 20);
     config.superblock = side;
     test::Engine engine(config);
-    test::PreparedMemory memory(engine.get()), other(engine.get());
+    test::PreparedMemory memory(engine), other(engine);
     const starfocus_prepared* got = memory.Prepare(engine.get(), field.Field());
     const starfocus_prepared* expected = other.Prepare(engine.get(), field.converted.Field());
     const auto& a = *reinterpret_cast<const starfocus::Prepared*>(got);
@@ -221,7 +221,7 @@ TEST_CASE(
   const ImageField field = FieldOf(scene, STARFOCUS_FORMAT_NV12, false, &random);
   const test::Config config = test::ImageConfig(field, 20);
   test::Engine engine(config);
-  test::PreparedMemory memory(engine.get()), other(engine.get());
+  test::PreparedMemory memory(engine), other(engine);
   const starfocus_prepared* of_images = memory.Prepare(engine.get(), field.Field());
   const starfocus_prepared* of_pictures = other.Prepare(engine.get(), field.converted.Field());
   const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);

@@ -56,7 +56,7 @@ void CheckSame(const ImageField& field, test::Config config, const starfocus::Pa
   CHECK((got == field.Converted(expected, kind, r.x, r.y)));
   CHECK(report.unknown_pixels == expected_report.unknown_pixels);
   CHECK(report.n == expected_report.n);
-  test::PreparedMemory memory(engine.get()), other(engine.get());
+  test::PreparedMemory memory(engine), other(engine);
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), images);
   ImageMemory again(width, height, kind);
   const starfocus_image to = again.Out();

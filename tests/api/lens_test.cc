@@ -132,7 +132,7 @@ TEST_CASE("lens: engines share a prepared light field, each with different lense
   const test::Config config = Config(scene);
   test::Engine first(config), second(config);
   size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(first.get(), &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_prepared_size(&config, &bytes, nullptr) == STARFOCUS_OK);
   std::vector<uint8_t> memory(bytes + STARFOCUS_ALIGNMENT);
   uint8_t* const aligned = memory.data() + STARFOCUS_ALIGNMENT -
                            reinterpret_cast<uintptr_t>(memory.data()) % STARFOCUS_ALIGNMENT;

@@ -108,7 +108,7 @@ TEST_CASE("older: light fields without coverage can be compared, prepared, pushe
   CHECK(f.Refocus(&after, field.get(), &report) == f.expected);
   CHECK(report.reused_blocks == 2);
 
-  test::PreparedMemory memory(f.engine.get());
+  test::PreparedMemory memory(f.engine);
   starfocus_prepared* prepared = memory.Prepare(f.engine.get(), *field.get());
   CHECK(starfocus_refocus_prepared(f.engine.get(), &f.params, prepared, &f.image, nullptr) ==
         STARFOCUS_OK);

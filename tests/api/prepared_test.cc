@@ -25,7 +25,7 @@ TEST_CASE(
   const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
   test::Config config = test::ConfigFor(scene, 20);
   test::Engine maker(config);
-  test::PreparedMemory memory(maker.get());
+  test::PreparedMemory memory(maker);
   const starfocus_prepared* prepared = memory.Prepare(maker.get(), scene.Field());
   config.max_workers = 3;
   config.features |= STARFOCUS_FEATURE_STREAMING;
@@ -54,7 +54,7 @@ TEST_CASE("prepared: refocusing does not read the map again, and previews read n
   test::Config config = test::ConfigFor(scene, 20);
   config.previews = 1;
   test::Engine engine(config);
-  test::PreparedMemory memory(engine.get());
+  test::PreparedMemory memory(engine);
   const starfocus::Params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
   const test::Output expected = test::OutputOf(&engine, params, scene);
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
@@ -79,16 +79,20 @@ TEST_CASE("prepared: the memory has the documented size") {
   const test::Scene scene = test::LayeredScene(1000, 800, 5, 7, 11);
   test::Config config = test::ConfigFor(scene, 20);
   const double pixels = 1000.0 * 800;
-  CHECK(double(test::PreparedMemory(test::Engine(config).get()).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
+  CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(3.89).epsilon(0.01));
   config.tuning.max_layer = 0;
-  CHECK(double(test::PreparedMemory(test::Engine(config).get()).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
+  CHECK(double(test::PreparedMemory(config).bytes) / pixels == doctest::Approx(2).epsilon(0.01));
 }
 
-TEST_CASE("prepared: the size query rejects null pointers") {
-  test::Engine engine(test::ConfigFor(test::LayeredScene(50, 40, 5, 3, 12), 8));
+TEST_CASE("prepared: the size query rejects null pointers and wrong configurations") {
+  test::Config config = test::ConfigFor(test::LayeredScene(50, 40, 5, 3, 12), 8);
   size_t bytes = 4711;
-  CHECK(starfocus_prepared_size(nullptr, &bytes) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_prepared_size(engine.get(), nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_prepared_size(nullptr, &bytes, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_prepared_size(&config, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
+  config.previews = STARFOCUS_MAX_PREVIEW + 1;
+  starfocus_problem problem = {};
+  CHECK(starfocus_prepared_size(&config, &bytes, &problem) == STARFOCUS_ERROR_RANGE);
+  CHECK(std::strcmp(problem.field, "previews") == 0);
   CHECK(bytes == 4711);
 }
 
@@ -96,7 +100,7 @@ TEST_CASE("prepared: engines of another configuration reject a prepared light fi
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
   const test::Config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
-  test::PreparedMemory memory(engine.get());
+  test::PreparedMemory memory(engine);
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   test::Output out(50, 40);
   const starfocus::Params params = test::Params(1);
@@ -124,7 +128,7 @@ TEST_CASE("prepared: a bad map is rejected before anything is written") {
   test::Scene scene = test::LayeredScene(50, 90, 5, 3, 12);
   const test::Config config = test::ConfigFor(scene, 8);
   test::Engine engine(config);
-  test::PreparedMemory memory(engine.get());
+  test::PreparedMemory memory(engine);
   const std::vector<uint8_t> before(memory.get(), memory.get() + memory.bytes);
   for (const int row : {0, 40, 89}) {
     CAPTURE(row);

@@ -103,7 +103,7 @@ starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
 class Prepared {
  public:
   Prepared(const test::Scene& scene, const test::Config& config, starfocus_runner runner = nullptr)
-      : engine(config), memory(engine.get()), scene_(scene) {
+      : engine(config), memory(engine), scene_(scene) {
     const starfocus_callbacks callbacks = test::RunBy(runner);
     REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
     field_ = memory.Prepare(engine.get(), scene.Field());
@@ -274,7 +274,7 @@ TEST_CASE("preview: the memory has the documented size") {
   constexpr double kExpected[] = {3.89, 8.40, 9.52, 9.81};
   for (int previews = 0; previews <= 3; ++previews) {
     config.previews = previews;
-    const size_t bytes = test::PreparedMemory(test::Engine(config).get()).bytes;
+    const size_t bytes = test::PreparedMemory(config).bytes;
     CHECK(double(bytes) / (800.0 * 640) == doctest::Approx(kExpected[previews]).epsilon(0.01));
   }
 }

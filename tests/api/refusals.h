@@ -63,7 +63,7 @@ struct Fixture {
   starfocus_light_field field = images ? image.Field() : scene.Field();
   test::Config config = MakeConfig(STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES);
   test::Engine engine{config}, plain{MakeConfig(STARFOCUS_FEATURE_STREAMING)};
-  test::PreparedMemory memory{engine.get()}, free{engine.get()};
+  test::PreparedMemory memory{engine}, free{engine};
   starfocus_prepared* prepared = memory.Prepare(engine.get(), field);
   test::ImageMemory blank{width, kHeight, image.views[images ? 2 : 0].kind()};
 };

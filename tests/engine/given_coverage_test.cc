@@ -386,7 +386,7 @@ TEST_CASE("given coverage: each preview pixel has the mean coverage of 2x2 pixel
   config.max_blur = 4 * kNear;
   config.previews = 1;
   test::Engine engine(config);
-  test::PreparedMemory memory(engine.get());
+  test::PreparedMemory memory(engine);
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), doubled.Field());
   starfocus::Params params = ThroughDisc(2 * kFar);
   test::Output preview(kWidth, kHeight);

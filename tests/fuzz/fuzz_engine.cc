@@ -291,7 +291,7 @@ void Refocus(starfocus_engine* engine, const test::Config& config,
     return;
   }
   size_t bytes = 0;
-  if (starfocus_prepared_size(engine, &bytes) != STARFOCUS_OK) std::abort();
+  if (starfocus_prepared_size(&config, &bytes, nullptr) != STARFOCUS_OK) std::abort();
   void* memory = nullptr;
   if (posix_memalign(&memory, STARFOCUS_ALIGNMENT, bytes) != 0) return;
   const std::unique_ptr<void, void (*)(void*)> owner(memory, std::free);

@@ -274,7 +274,7 @@ TEST_CASE("preparing a light field and refocusing regions make no heap call") {
   const test::Config config = test::ConfigFor(scene, 16);
   test::Engine holder(config), memory(config);
   size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(holder.get(), &bytes) == STARFOCUS_OK);
+  REQUIRE(starfocus_prepared_size(&config, &bytes, nullptr) == STARFOCUS_OK);
   REQUIRE(bytes <= memory.bytes());  // the memory of this engine holds the prepared light field
   starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   params.region = {30, 20, 50, 50};

@@ -80,7 +80,7 @@ struct Picture {
     if (setup.kernels != nullptr) test::UseKernels(setup.kernels, engine->get());
     if (setup.used) Use();
     REQUIRE(test::Refocus(engine.get(), params, before, &previous) == STARFOCUS_OK);
-    memory = std::make_unique<test::PreparedMemory>(engine->get());
+    memory = std::make_unique<test::PreparedMemory>(*engine);
     REQUIRE(Prepare(scene.Field(), &prepared) == STARFOCUS_OK);
   }
   void Use() {

@@ -145,7 +145,7 @@ std::string Prepared(const Asked& asked, test::Random* random) {
   if (random->Int(0, 1) == 0) config.previews = random->Int(1, STARFOCUS_MAX_PREVIEW);
   Rig maker(config, RandomVariant(random)), rig(asked.setup.config, RandomVariant(random));
   size_t bytes = 0;
-  starfocus_status status = starfocus_prepared_size(maker.get(), &bytes);
+  starfocus_status status = starfocus_prepared_size(&config, &bytes, nullptr);
   if (status != STARFOCUS_OK) return starfocus_status_string(status);
   const Memory memory(bytes, random->Int(0, 255), random);
   starfocus_prepared* prepared = nullptr;

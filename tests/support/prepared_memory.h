@@ -16,8 +16,9 @@ namespace test {
 
 class PreparedMemory {
  public:
-  explicit PreparedMemory(starfocus_engine* engine) {
-    REQUIRE(starfocus_prepared_size(engine, &bytes) == STARFOCUS_OK);
+  explicit PreparedMemory(const Engine& engine) : PreparedMemory(engine.config()) {}
+  explicit PreparedMemory(const starfocus_config& config) {
+    REQUIRE(starfocus_prepared_size(&config, &bytes, nullptr) == STARFOCUS_OK);
     memory_.assign(bytes + STARFOCUS_ALIGNMENT, kPoison);
   }
   uint8_t* get() {

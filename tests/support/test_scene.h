@@ -275,7 +275,7 @@ inline starfocus::Params Params(double focus, double aperture = 1,
 // An engine in poisoned memory of exactly the required size.
 class Engine {
  public:
-  explicit Engine(const test::Config& config) {
+  explicit Engine(const test::Config& config) : config_(config) {
     status_ = starfocus_workspace_size(&config, &bytes_, nullptr);
     if (status_ != STARFOCUS_OK) return;
     memory_.assign(bytes_ + STARFOCUS_ALIGNMENT, kPoison);
@@ -283,6 +283,7 @@ class Engine {
   }
   starfocus_status status() const { return status_; }
   starfocus_engine* get() const { return engine_; }
+  const test::Config& config() const { return config_; }
   size_t bytes() const { return bytes_; }
   uint8_t* workspace() {
     const uintptr_t address = reinterpret_cast<uintptr_t>(memory_.data());
@@ -291,6 +292,7 @@ class Engine {
   }
 
  private:
+  test::Config config_;
   std::vector<uint8_t> memory_;
   size_t bytes_ = 0;
   starfocus_engine* engine_ = nullptr;

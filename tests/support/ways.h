@@ -73,7 +73,7 @@ inline Output CheckWays(const Scene& scene, test::Config config, starfocus::Para
           STARFOCUS_OK);
   CHECK((streamed.bytes == whole.bytes));
   CHECK(other_report.unknown_pixels == report.unknown_pixels);
-  PreparedMemory memory(engine.get());
+  PreparedMemory memory(engine);
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   REQUIRE(RefocusPreparedRgb(engine.get(), &params, prepared, again.bytes.data(), again.stride,
                              &other_report) == STARFOCUS_OK);

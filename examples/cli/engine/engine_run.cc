@@ -37,15 +37,14 @@ Error EngineRun::Start(const std::string& where, const EngineTask& task) {
   if (task.stream) config.features |= STARFOCUS_FEATURE_STREAMING;
   starfocus_problem problem = {};
   const starfocus_status status = engine_.Init(config, &problem);
-  size_t bytes = 0;
-  if (status == STARFOCUS_ERROR_MEMORY) starfocus_workspace_size(&config, &bytes, nullptr);
-  return Outcome(where, status, &problem, bytes);
+  starfocus_workspace_size(&config, &workspace_bytes_, nullptr);
+  return Outcome(where, status, &problem, workspace_bytes_);
 }
 
 Error EngineRun::Prepare(const std::string& where, const EngineTask& task) {
   starfocus_status status = SetCallbacks(task, false);
   if (status == STARFOCUS_OK) status = engine_.Prepare(EngineRows(*task.light_field));
-  starfocus_prepared_size(engine_.get(), &prepared_bytes_);
+  starfocus_prepared_size(&task.config, &prepared_bytes_, nullptr);
   return Outcome(where, status, engine_.problem(), prepared_bytes_);
 }
 
@@ -124,7 +123,7 @@ starfocus_status EngineRun::RunStream(const EngineTask& task, EngineResult* resu
 Error EngineRun::Run(const std::string& where, const EngineTask& task,
                      const starfocus_previous* previous, EngineResult* result) {
   Image& out = result->picture;
-  result->workspace_bytes = engine_.workspace_bytes();
+  result->workspace_bytes = workspace_bytes_;
   result->prepared_bytes = prepared_bytes_;
   const starfocus_image to = starfocus_image_rgb(out.pixels.data(), out.stride());
   starfocus::Params params = task.params;

@@ -82,6 +82,7 @@ class EngineRun {
   PictureProgress progress_;
   RowGate* rows_ = nullptr;  // receives the finished rows of the current picture; may be null
   Engine engine_;
+  size_t workspace_bytes_ = 0;
   size_t prepared_bytes_ = 0;  // size of the prepared light field; 0 if no light field is prepared
 };
 

@@ -577,14 +577,16 @@ STARFOCUS_API starfocus_status starfocus_refocus(starfocus_engine* engine,
 /** A light field that was converted for refocusing with any lens. */
 typedef struct starfocus_prepared starfocus_prepared;
 
-/** Computes the size of a prepared light field. Disparities take 2 bytes per pixel, and layers 1
- *  and 2 take about 1.9 bytes per pixel (less with a smaller starfocus_tuning.max_layer). Each
- *  preview takes 3 bytes per pixel of each reduced view, plus 3 bytes per pixel for disparity and
- *  coverage.
- *  @param engine engine
+/** Computes the size of a prepared light field, which depends only on width, height, views,
+ *  features, previews and starfocus_tuning.max_layer. Disparities take 2 bytes per pixel, and
+ *  layers 1 and 2 take about 1.9 bytes per pixel (less with a smaller max_layer). Each preview
+ *  takes 3 bytes per pixel of each reduced view, plus 3 bytes per pixel for disparity and coverage.
+ *  @param config configuration of the engine that prepares the light field
  *  @param bytes receives the size in bytes
- *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL or STARFOCUS_ERROR_TOO_LARGE */
-STARFOCUS_API starfocus_status starfocus_prepared_size(starfocus_engine* engine, size_t* bytes);
+ *  @param problem receives the cause of an error; may be null
+ *  @return STARFOCUS_OK, or an error of the configuration */
+STARFOCUS_API starfocus_status starfocus_prepared_size(const starfocus_config* config,
+                                                       size_t* bytes, starfocus_problem* problem);
 
 /** Converts and checks the disparities of a light field and subsamples its centre view, so that
  *  many refocusings can share the results. Later calls read the views again, so the pixels of the

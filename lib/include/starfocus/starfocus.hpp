@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <memory>
 #include <new>
-#include <utility>
 
 #include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
@@ -72,26 +71,23 @@ inline starfocus_report NewReport() {
   return report;
 }
 
-/** An engine and the memory it lives in. Engines are movable. One thread at a time may use an
- *  engine. Before Init, and on an engine that was moved from, all calls except Init return
- *  STARFOCUS_ERROR_NULL. */
+/** An engine and its prepared light field, in memory of operator new. Engines are movable. One
+ *  thread at a time may use an engine. Before Init, and on an engine that was moved from, all calls
+ *  except Init return STARFOCUS_ERROR_NULL. */
 class Engine {
  public:
-  /** Allocates a workspace and creates an engine, which replaces any earlier engine. After an error
-   *  the earlier engine remains.
+  /** Creates an engine, which replaces any earlier engine. After an error the earlier engine
+   *  remains.
    *  @param config configuration
    *  @param problem receives the cause of an error; may be null
    *  @return as starfocus_create */
   starfocus_status Init(const starfocus_config& config, starfocus_problem* problem = nullptr) {
-    size_t bytes = 0;
-    starfocus_status status = starfocus_workspace_size(&config, &bytes, problem);
+    const starfocus_allocator allocator = {nullptr, Allocate, Release};
+    starfocus_engine* made = nullptr;
+    const starfocus_status status = starfocus_create(&config, &allocator, &made, problem);
     if (status != STARFOCUS_OK) return status;
-    Owned<starfocus_engine> fresh(bytes);
-    if (fresh.memory == nullptr) return STARFOCUS_ERROR_MEMORY;
-    status = starfocus_init(&config, fresh.memory.get(), bytes, &fresh.handle, problem);
-    if (status != STARFOCUS_OK) return status;
-    engine_ = std::move(fresh);
-    prepared_ = Owned<starfocus_prepared>();
+    prepared_.reset();
+    engine_.reset(made);
     return STARFOCUS_OK;
   }
 
@@ -110,30 +106,24 @@ class Engine {
 
   /** Returns the problem that the last call except Init reported.
    *  @return the problem; null before Init */
-  const starfocus_problem* problem() const { return starfocus_engine_problem(engine_.handle); }
+  const starfocus_problem* problem() const { return starfocus_engine_problem(get()); }
 
-  /** Allocates memory and prepares a light field in this memory. Frees any earlier prepared light
-   *  field first. After an error no prepared light field exists, and RefocusPrepared returns
-   *  STARFOCUS_ERROR_NULL.
+  /** Prepares a light field. Frees any earlier prepared light field first. After an error no
+   *  prepared light field exists, and RefocusPrepared returns STARFOCUS_ERROR_NULL.
    *  @param light_field light field, whose pixels must stay unchanged until the last refocusing
-   *  @return as starfocus_prepare, or STARFOCUS_ERROR_MEMORY */
+   *  @return as starfocus_prepare */
   starfocus_status Prepare(const starfocus_light_field& light_field) {
-    prepared_ = Owned<starfocus_prepared>();
-    if (get() == nullptr) return STARFOCUS_ERROR_NULL;
-    size_t bytes = 0;
-    starfocus_status status = starfocus_prepared_size(get(), &bytes);
-    if (status != STARFOCUS_OK) return status;
-    Owned<starfocus_prepared> fresh(bytes);
-    if (fresh.memory == nullptr) return STARFOCUS_ERROR_MEMORY;
-    status = starfocus_prepare(get(), &light_field, fresh.memory.get(), bytes, &fresh.handle);
-    if (status == STARFOCUS_OK) prepared_ = std::move(fresh);
+    prepared_.reset();
+    starfocus_prepared* made = nullptr;
+    const starfocus_status status = starfocus_prepare(get(), &light_field, nullptr, 0, &made);
+    prepared_.reset(made);
     return status;
   }
 
   /** Calls starfocus_refocus_prepared. */
   starfocus_status RefocusPrepared(const starfocus_params& params, const starfocus_image& out,
                                    starfocus_report* report = nullptr) {
-    return starfocus_refocus_prepared(get(), &params, prepared_.handle, &out, report);
+    return starfocus_refocus_prepared(get(), &params, prepared_.get(), &out, report);
   }
 
   /** Calls starfocus_stream_begin. */
@@ -153,42 +143,25 @@ class Engine {
   }
 
   /** Returns the engine, for functions of the C API; null before Init. */
-  starfocus_engine* get() const { return engine_.handle; }
-  /** Returns the size of the workspace in bytes. */
-  size_t workspace_bytes() const { return engine_.bytes; }
+  starfocus_engine* get() const { return engine_.get(); }
 
  private:
+  static void* Allocate(void*, size_t bytes, size_t alignment) {
+    return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
+  }
+  static void Release(void*, void* memory, size_t) {
+    ::operator delete(memory, std::align_val_t(STARFOCUS_ALIGNMENT));
+  }
   // Doxygen 1.9.4 links to a list of private structures that it does not write.
   /// @cond
-  struct Free {
-    void operator()(void* memory) const {
-      ::operator delete(memory, std::align_val_t(STARFOCUS_ALIGNMENT));
-    }
-  };
-
-  // A handle and the memory that contains its object. A moved-from object is empty.
-  template <class Handle>
-  struct Owned {
-    Owned() = default;
-    explicit Owned(size_t size)
-        : memory(::operator new(size, std::align_val_t(STARFOCUS_ALIGNMENT), std::nothrow)),
-          bytes(size) {}
-    Owned(Owned&& other) noexcept { *this = std::move(other); }
-    Owned& operator=(Owned&& other) noexcept {
-      memory = std::move(other.memory);
-      handle = std::exchange(other.handle, nullptr);
-      bytes = std::exchange(other.bytes, 0);
-      return *this;
-    }
-
-    std::unique_ptr<void, Free> memory;
-    Handle* handle = nullptr;
-    size_t bytes = 0;
+  struct Destroy {
+    void operator()(starfocus_engine* engine) const { starfocus_destroy(engine); }
+    void operator()(starfocus_prepared* prepared) const { starfocus_destroy_prepared(prepared); }
   };
   /// @endcond
 
-  Owned<starfocus_engine> engine_;
-  Owned<starfocus_prepared> prepared_;
+  std::unique_ptr<starfocus_engine, Destroy> engine_;
+  std::unique_ptr<starfocus_prepared, Destroy> prepared_;
 };
 
 }  // namespace starfocus

@@ -93,7 +93,7 @@ _CALLS = {
     "starfocus_defaults": (c_char_p, c_void_p, c_uint32),
     "starfocus_create": (POINTER(Config), c_void_p, POINTER(c_void_p), POINTER(Problem)),
     "starfocus_set_callbacks": (c_void_p, POINTER(Callbacks)),
-    "starfocus_prepared_size": (c_void_p, POINTER(c_size_t)),
+    "starfocus_prepared_size": (POINTER(Config), POINTER(c_size_t), POINTER(Problem)),
     "starfocus_refocus": (c_void_p, POINTER(Params), POINTER(LightField), POINTER(Image), POINTER(Report)),
     "starfocus_prepare": (c_void_p, POINTER(LightField), c_void_p, c_size_t, POINTER(c_void_p)),
     "starfocus_largest_aperture": (c_void_p, POINTER(Params), POINTER(c_double)),

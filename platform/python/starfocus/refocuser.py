@@ -360,7 +360,7 @@ class Prepared:
         field, self._kept = light_field(views, disparity, config.views, config.height, config.width)
         self._kept += set_coverage(field, coverage, config.height, config.width)
         size = ctypes.c_size_t()
-        refocuser._run(Watch(None), library.starfocus_prepared_size, byref(size))
+        call(library.starfocus_prepared_size, byref(config), byref(size))
         self._memory = aligned(size.value)
         self._handle = ctypes.c_void_p()
         refocuser._run(Watch(progress), library.starfocus_prepare, byref(field), pointer(self._memory), size.value,

@@ -279,12 +279,9 @@ starfocus_status Room(int32_t pixel_bytes, int32_t depth_width, int32_t depth_he
   }
   field_end = top;
   if ((flags & ESTIMATE) != 0) return STARFOCUS_OK;
-  /* A temporary engine tells the size of the prepared light field. */
-  starfocus_status status = MakeEngine();
-  if (status == STARFOCUS_OK) status = starfocus_prepared_size(engine, &prepared_bytes);
+  refused = &problem;
+  const starfocus_status status = starfocus_prepared_size(&config, &prepared_bytes, &problem);
   if (status != STARFOCUS_OK) return status;
-  engine = NULL;
-  top = field_end;
   picture = (uint8_t*)Allocate(4 * (size_t)config.width * (size_t)config.height);
   blocks = (starfocus_block*)Allocate(MAX_BLOCKS * sizeof(starfocus_block));
   prepared_memory = Allocate(prepared_bytes);

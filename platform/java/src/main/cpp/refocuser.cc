@@ -23,7 +23,6 @@ struct Session {
   Config config;
   starfocus_pool* pool = nullptr;
   starfocus_engine* engine = nullptr;
-  void* prepared_memory = nullptr;
   starfocus_prepared* prepared = nullptr;
   MapCopy prepared_map;
   std::atomic<int> cancelled{0}, rows_done{0};
@@ -32,7 +31,7 @@ struct Session {
 // Frees a session. The function End calls free() instead of `delete`, because libstarfocus_jni must
 // not depend on the C++ run time.
 void End(Session* session) {
-  std::free(session->prepared_memory);
+  starfocus_destroy_prepared(session->prepared);
   starfocus_destroy(session->engine);
   starfocus_pool_destroy(session->pool);
   session->~Session();
@@ -166,21 +165,6 @@ jdoubleArray NewPair(JNIEnv* env, double first, double second) {
   return array;
 }
 
-// Prepares a light field. The first call of a session allocates the memory for prepared light
-// fields.
-starfocus_status Prepare(Session* session, const starfocus_light_field& field) {
-  size_t bytes = 0;
-  const starfocus_status status = starfocus_prepared_size(session->engine, &bytes);
-  if (status != STARFOCUS_OK) return status;
-  if (session->prepared_memory == nullptr &&
-      posix_memalign(&session->prepared_memory, STARFOCUS_ALIGNMENT, bytes) != 0) {
-    return STARFOCUS_ERROR_MEMORY;
-  }
-  Begin(session);
-  return starfocus_prepare(session->engine, &field, session->prepared_memory, bytes,
-                           &session->prepared);
-}
-
 }  // namespace
 }  // namespace starfocus
 
@@ -241,10 +225,12 @@ STARFOCUS_NATIVE(void, prepare)
 (JNIEnv* env, jclass, jlong handle, jobject light_field) {
   Session* const session = From(handle);
   starfocus_light_field field = NewLightField();
+  starfocus_destroy_prepared(session->prepared);
   session->prepared = nullptr;
-  if (ReadLightField(env, light_field, session->config, &field, &session->prepared_map)) {
-    ThrowStatus(env, Prepare(session, field), starfocus_engine_problem(session->engine));
-  }
+  if (!ReadLightField(env, light_field, session->config, &field, &session->prepared_map)) return;
+  Begin(session);
+  ThrowStatus(env, starfocus_prepare(session->engine, &field, nullptr, 0, &session->prepared),
+              starfocus_engine_problem(session->engine));
 }
 
 STARFOCUS_NATIVE(void, refocusPrepared)
