@@ -106,11 +106,6 @@ struct Scratch {
   CancelToken cancel;
 };
 
-// Stripe of superblocks: rows [y, y + height) of the picture.
-struct Stripe {
-  int32_t y, height;
-};
-
 // Blocks of a stripe. Planning stores the blocks of each superblock in a separate part of `blocks`.
 // After planning, the blocks to refocus are moved to the start of `blocks`.
 struct StripePlan {

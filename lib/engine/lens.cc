@@ -173,9 +173,8 @@ starfocus_status MakeLens(const FullConfig& config, const FullParams& params,
   if (status != STARFOCUS_OK) return status;
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
   lens->aperture = FrameWeights(config, *tables, *lens);
-  const FullParams& given = params;
-  const FocusRange focus = MakeFocusRange(given.focus, given.focus_nearer, given.focus_farther);
-  const ViewGrid grid = MakeViewGrid(lens->aperture, focus, given.aperture, 0, false);
+  const FocusRange focus = MakeFocusRange(params.focus, params.focus_nearer, params.focus_farther);
+  const ViewGrid grid = MakeViewGrid(lens->aperture, focus, params.aperture, 0, false);
   lens->scale = {grid.focus, grid.step};
   if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, call_progress, tables);
   if (params.mode == STARFOCUS_MODE_BLUR)

@@ -113,38 +113,44 @@ bool ReduceView(const Prepared& prepared, const EngineState& engine, int view, c
   return true;
 }
 
-// Converts an end of the disparity range to fixed point (kDisparityBits).
-int16_t ConvertedEnd(const EngineState& engine, float end) {
-  int16_t converted = 0;
-  engine.kernels->ConvertDisparity(&end, 1, end, end, &converted);
-  return converted;
+// Calls reduce(x, y, right, bottom) for each square of 2^shift pixels, or its part inside `part`.
+template <class Reduce>
+bool ForSquares(const Rect& part, int shift, int64_t cost, Scratch* scratch, const Reduce& reduce) {
+  const int32_t side = 1 << shift, right = part.x + part.width, bottom = part.y + part.height;
+  for (int32_t y = part.y; y < bottom; y += side) {
+    if (!scratch->cancel.Spend(cost * side * part.width)) return false;
+    for (int32_t x = part.x; x < right; x += side) {
+      reduce(x, y, Min(x + side, right), Min(y + side, bottom));
+    }
+  }
+  return true;
 }
 
 // Reduces the map to 1/2^shift of its size.
 bool ReduceMap(const Prepared& prepared, const EngineState& engine, int shift, const Rect& part,
                Scratch* scratch) {
   const FullConfig reduced = ReducedConfig(engine.config, shift);
+  const auto converted = [&](float end) {
+    int16_t disparity = 0;
+    engine.kernels->ConvertDisparity(&end, 1, end, end, &disparity);
+    return disparity;
+  };
   // A rounded disparity may exceed the disparity range by one unit of fixed point, so the result is
   // clamped.
-  const int16_t low = ConvertedEnd(engine, MinDisparity(reduced));
-  const int16_t high = ConvertedEnd(engine, MaxDisparity(reduced));
-  const int32_t side = 1 << shift, right = part.x + part.width, bottom = part.y + part.height;
-  for (int32_t y = part.y; y < bottom; y += side) {
-    if (!scratch->cancel.Spend(int64_t{4} * side * part.width)) return false;
-    int16_t* const out = prepared.reduced[shift].disparity.Row(y >> shift);
-    for (int32_t x = part.x; x < right; x += side) {
-      int16_t values[1 << (2 * STARFOCUS_MAX_PREVIEW)] = {};
-      int32_t count = 0;
-      for (int32_t row = y; row < Min(y + side, bottom); ++row) {
-        const int16_t* from = prepared.disparity.Row(row);
-        for (int32_t k = x; k < Min(x + side, right); ++k) values[count++] = from[k];
-      }
-      // Converted to pixels of the reduced picture, rounded half up.
-      const int32_t median = (MedianOf(values, count) + (side >> 1)) >> shift;
-      out[x >> shift] = static_cast<int16_t>(Clamp(median, low, high));
+  const int16_t low = converted(MinDisparity(reduced)), high = converted(MaxDisparity(reduced));
+  const auto reduce = [&](int32_t x, int32_t y, int32_t right, int32_t bottom) {
+    int16_t values[1 << (2 * STARFOCUS_MAX_PREVIEW)] = {};
+    int32_t count = 0;
+    for (int32_t row = y; row < bottom; ++row) {
+      const int16_t* from = prepared.disparity.Row(row);
+      for (int32_t k = x; k < right; ++k) values[count++] = from[k];
     }
-  }
-  return true;
+    // Converted to pixels of the reduced picture, rounded half up.
+    const int32_t median = (MedianOf(values, count) + (1 << shift >> 1)) >> shift;
+    prepared.reduced[shift].disparity.Row(y >> shift)[x >> shift] =
+        static_cast<int16_t>(Clamp(median, low, high));
+  };
+  return ForSquares(part, shift, 4, scratch, reduce);
 }
 
 // Reduces the coverage to 1/2^shift of its size.
@@ -153,18 +159,15 @@ bool ReduceCoverage(const Prepared& prepared, const EngineState& engine, int shi
   const Plane<const uint8_t>& given = engine.input.given_coverage;
   const Plane<uint8_t>& coverage = prepared.reduced[shift].coverage;
   if (given.data == nullptr || coverage.data == nullptr) return true;
-  const int32_t side = 1 << shift, right = part.x + part.width, bottom = part.y + part.height;
-  for (int32_t y = part.y; y < bottom; y += side) {
-    if (!scratch->cancel.Spend(int64_t{side} * part.width)) return false;
-    for (int32_t x = part.x; x < right; x += side) {
-      int32_t sum = 0, count = 0;
-      for (int32_t row = y; row < Min(y + side, bottom); ++row) {
-        for (int32_t k = x; k < Min(x + side, right); ++k, ++count) sum += given.Row(row)[k];
-      }
-      coverage.Row(y >> shift)[x >> shift] = static_cast<uint8_t>((sum + count / 2) / count);
+  const auto reduce = [&](int32_t x, int32_t y, int32_t right, int32_t bottom) {
+    int32_t sum = 0;
+    const int32_t count = (right - x) * (bottom - y);
+    for (int32_t row = y; row < bottom; ++row) {
+      for (int32_t k = x; k < right; ++k) sum += given.Row(row)[k];
     }
-  }
-  return true;
+    coverage.Row(y >> shift)[x >> shift] = static_cast<uint8_t>((sum + count / 2) / count);
+  };
+  return ForSquares(part, shift, 1, scratch, reduce);
 }
 
 // Reduces the rows of a stripe of the engine's input to all sizes of previews.

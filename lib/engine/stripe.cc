@@ -14,63 +14,58 @@ namespace {
 // Deblocks the boundaries between blocks of different layers: first boundaries between rows, with
 // one job per column of superblocks, then boundaries between columns, with one job per
 // kSmallestBlock finished rows.
-starfocus_status Deblock(const Stripe& stripe, const Plane<uint8_t>& out, EngineState* engine) {
+starfocus_status Deblock(const Range& stripe, const Plane<uint8_t>& out, EngineState* engine) {
   const FullConfig& config = engine->config;
-  const simd::Encoding* transfer = engine->input.transfer;
-  const DeblockJob job = {
-      &engine->stripe.map,      out,      config.width,   config.height, stripe.y,
-      config.tuning.deblocking, transfer, engine->kernels};
+  const DeblockJob job = {&engine->stripe.map,    out,
+                          config.width,           config.height,
+                          stripe.first,           config.tuning.deblocking,
+                          engine->input.transfer, engine->kernels};
   const int32_t smallest = config.superblock / kSmallestBlock;
   const starfocus_status status =
       ForEach(Columns(config), engine->jobs, [&](int32_t column, int32_t) {
         DeblockRows(job, column * smallest, Min((column + 1) * smallest, job.map->columns));
       });
-  const Range finished = {Max(0, stripe.y - kDeblockRows), FinishedRows(config, stripe.y)};
-  const int32_t rows = finished.last - finished.first;
-  if (status != STARFOCUS_OK || rows <= 0) return status;
-  const int32_t jobs = (rows + kSmallestBlock - 1) / kSmallestBlock;
+  const Range finished = {Max(0, stripe.first - kDeblockRows), FinishedRows(config, stripe.first)};
+  if (status != STARFOCUS_OK || finished.count() <= 0) return status;
+  const int32_t jobs = (finished.count() + kSmallestBlock - 1) / kSmallestBlock;
   return ForEach(jobs, engine->jobs, [&](int32_t index, int32_t) {
     const int32_t first = finished.first + index * kSmallestBlock;
     DeblockColumns(job, first, Min(first + kSmallestBlock, finished.last));
   });
 }
 
-// Computes the coverage of the rows that the blocks of the stripe read. Only the slice renderer
-// uses coverage.
-starfocus_status FindCoverage(const Stripe& stripe, EngineState* engine) {
+// Finds the coverage and the rims of the rows that the blocks of the stripe read. Only the slice
+// renderer uses them.
+starfocus_status FindMixedPixels(const Range& stripe, EngineState* engine) {
+  const FullConfig& config = engine->config;
   const Lens& lens = engine->lens;
-  CoverageMap* const map = &engine->stripe.coverage;
-  const bool finds = Has(engine->config, STARFOCUS_FEATURE_COVERAGE) && lens.renderer->gathers &&
-                     lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
-  engine->input.coverage = finds ? map : nullptr;
-  if (!finds) return STARFOCUS_OK;
-  const int32_t border = lens.borders.matting;
-  const Range rows = {stripe.y - border, stripe.y + stripe.height + border};
-  return FindCoverage(engine->config, engine->input, rows, engine->jobs, map);
+  StripeState& state = engine->stripe;
+  const bool uses =
+      lens.renderer->gathers && lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
+  const bool covers = uses && Has(config, STARFOCUS_FEATURE_COVERAGE);
+  const bool has_rims = uses && HasRims(config);
+  const auto around = [&](int32_t border) {
+    return Range{stripe.first - border, stripe.last + border};
+  };
+  engine->input.coverage = covers ? &state.coverage : nullptr;
+  starfocus_status status = STARFOCUS_OK;
+  if (covers) {
+    status = FindCoverage(config, engine->input, around(lens.borders.matting), engine->jobs,
+                          &state.coverage);
+  }
+  engine->input.rims = has_rims ? &state.rims : nullptr;
+  if (!has_rims || status != STARFOCUS_OK) return status;
+  return FindRims(config, engine->input, around(lens.borders.layer[0]), engine->jobs, &state.rims);
 }
 
-// Finds the rims of the rows that the blocks of the stripe read.
-starfocus_status FindRims(const Stripe& stripe, EngineState* engine) {
-  const Lens& lens = engine->lens;
-  RimMap* const map = &engine->stripe.rims;
-  const bool finds = HasRims(engine->config) && lens.renderer->gathers &&
-                     lens.params.mode != STARFOCUS_MODE_BLUR && !IsPinhole(lens);
-  engine->input.rims = finds ? map : nullptr;
-  if (!finds) return STARFOCUS_OK;
-  const int32_t border = lens.borders.layer[0];
-  const Range rows = {stripe.y - border, stripe.y + stripe.height + border};
-  return FindRims(engine->config, engine->input, rows, engine->jobs, map);
-}
-
-starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
+starfocus_status RefocusPhases(const Range& stripe, const Plane<uint8_t>& out,
                                EngineState* engine) {
   const FullConfig& config = engine->config;
   const Lens& lens = engine->lens;
-  starfocus_status status = FindCoverage(stripe, engine);
-  if (status == STARFOCUS_OK) status = FindRims(stripe, engine);
+  starfocus_status status = FindMixedPixels(stripe, engine);
   if (status == STARFOCUS_OK) status = PlanStripe(stripe, engine);
   if (status == STARFOCUS_OK && IsBlockMode(lens) && !engine->input.has_layers) {
-    PlaceLayers({stripe.y, stripe.y + stripe.height}, lens.borders, engine);
+    PlaceLayers(stripe, lens.borders, engine);
     status = FillLayers(kAllLayers, nullptr, engine);
   }
   if (status != STARFOCUS_OK) return status;
@@ -79,7 +74,6 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
   // the other workers are already idle.
   std::sort(plan.blocks, plan.blocks + plan.used,
             [](const Block& a, const Block& b) { return a.cost > b.cost; });
-  const BlockInputs in = InputsOf(*engine);
   if (plan.used > 0) {
     status = ForEach(plan.used, engine->jobs, [&](int32_t index, int32_t worker) {
       const Block& block = plan.blocks[index];
@@ -87,36 +81,14 @@ starfocus_status RefocusPhases(const Stripe& stripe, const Plane<uint8_t>& out,
       // Counts the samples that every block reads and filters. Renderers count the samples of
       // rendered views separately.
       if (!scratch.cancel.Spend(3 * int64_t{block.rect.width} * block.rect.height)) return;
-      RefocusBlock(in, block, out, &scratch);
+      RefocusBlock(*engine, block, out, &scratch);
     });
   }
   if (status != STARFOCUS_OK || !IsDeblocking(config, lens)) return status;
   return Deblock(stripe, out, engine);
 }
 
-// Keeps the state of a finished stripe that the next stripe reuses.
-void KeepStripe(EngineState* engine) {
-  TakeCounts(engine);
-  const LayerMap& map = engine->stripe.map;
-  std::memcpy(map.layers, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
-}
-
-// Restores the state that the engine had before a stripe failed. A retry recomputes the data that
-// the failed stripe shares with the previous stripe.
-void WithdrawStripe(const FullReport& report, EngineState* engine) {
-  engine->report = report;
-  DropCounts(engine);
-  engine->stripe.plan.all_measured = false;
-  ForgetLayers(engine->config, &engine->layers);
-}
-
 }  // namespace
-
-BlockInputs InputsOf(const EngineState& engine) {
-  return {&engine.config,  engine.tables,        &engine.lens,
-          &engine.input,   &engine.stripe.cells, &engine.stripe.plan.gathered,
-          &engine.observer};
-}
 
 int32_t FinishedRows(const FullConfig& config, int32_t y) {
   const int32_t end = y + config.superblock;
@@ -130,7 +102,7 @@ Plane<uint8_t> BufferRows(const EngineState& engine, int32_t y) {
 starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   const RedZones zones(*engine);
   const FullConfig& config = engine->config;
-  const Stripe stripe = {y, Min(config.superblock, config.height - y)};
+  const Range stripe = {y, Min(y + config.superblock, config.height)};
   const Plane<uint8_t> rows = BufferRows(*engine, y);
   uint8_t* const ends = rows.Row(y + config.superblock - kDeblockRows);
   uint8_t* const last_rows = engine->stripe.last_rows;
@@ -147,10 +119,18 @@ starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
   }
   const starfocus_status status = RefocusPhases(stripe, rows, engine);
   if (status != STARFOCUS_OK) {
-    WithdrawStripe(report, engine);
+    // Restores the state that the engine had before the stripe. A retry recomputes the data that
+    // the failed stripe shares with the previous stripe.
+    engine->report = report;
+    DropCounts(engine);
+    engine->stripe.plan.all_measured = false;
+    ForgetLayers(config, &engine->layers);
     return status;
   }
-  KeepStripe(engine);
+  TakeCounts(engine);
+  // The next stripe deblocks its boundary with the last blocks of this stripe.
+  const LayerMap& map = engine->stripe.map;
+  std::memcpy(map.layers, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));
   if (last_rows != nullptr) std::memcpy(last_rows, ends, bytes);
   return STARFOCUS_OK;
 }

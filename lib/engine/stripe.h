@@ -19,23 +19,12 @@
 
 namespace starfocus {
 
-// Inputs that the blocks of a stripe share.
-struct BlockInputs {
-  const FullConfig* config;
-  const Tables* tables;
-  const Lens* lens;
-  const Input* input;
-  const CellGrid* cells;
-  const GatherMap* gathered;
-  const starfocus_observer* observer;
-};
-
 // Returns the grid of the views that the block is rendered from. `weights` is memory for the
 // weights of an aperture with a cat's eye: FullApertureSize(N) elements.
-ViewGrid ViewGridOf(const BlockInputs& in, const Block& block, uint16_t* weights);
+ViewGrid ViewGridOf(const EngineState& engine, const Block& block, uint16_t* weights);
 
 // Writes the rectangle of the block to `out` and adds the block to scratch->counts.
-void RefocusBlock(const BlockInputs& in, const Block& block, const Plane<uint8_t>& out,
+void RefocusBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                   Scratch* scratch);
 
 // Clears the marks of the columns to subsample, for a new stripe. Keeps the old marks as the marks
@@ -63,15 +52,12 @@ starfocus_status FillLayers(const Range& layers, const LayerPlane* layer_one, En
 
 // Marks the columns of superblocks to refocus, and the columns whose cells must be measured to plan
 // these superblocks. Returns false if no column has to be refocused.
-bool ChooseColumns(const Stripe& rows, EngineState* engine);
+bool ChooseColumns(const Range& rows, EngineState* engine);
 
 // Measures cells, splits superblocks, and drops blocks that do not affect the requested pixels.
 // Reports the remaining blocks to the caller's visitor. Returns STARFOCUS_OK,
 // STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
-starfocus_status PlanStripe(const Stripe& rows, EngineState* engine);
-
-// Returns the inputs of the blocks of a stripe.
-BlockInputs InputsOf(const EngineState& engine);
+starfocus_status PlanStripe(const Range& rows, EngineState* engine);
 
 // Returns the number of output rows that are final after the stripe at row y.
 int32_t FinishedRows(const FullConfig& config, int32_t y);

@@ -105,11 +105,11 @@ bool IsNew(const EngineState& engine, const Rect& rect) {
 
 // Moves the grid of cells to the stripe and its surroundings. Returns the first row of cells to
 // measure; the cells above this row were measured for the previous stripe.
-int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
+int32_t PlaceCells(const Range& rows, const Lens& lens, StripeState* state) {
   CellGrid& cells = state->cells;
   StripePlan& plan = state->plan;
-  const int32_t first = Max(0, stripe.y / kCellSize - lens.borders.cells);
-  const int32_t last = (stripe.y + stripe.height - 1) / kCellSize;
+  const int32_t first = Max(0, rows.first / kCellSize - lens.borders.cells);
+  const int32_t last = (rows.last - 1) / kCellSize;
   const bool all = std::memchr(plan.measured, 0, static_cast<size_t>(plan.columns)) == nullptr;
   int32_t known = first;
   if (plan.all_measured && all && cells.last_row > first) {
@@ -124,19 +124,19 @@ int32_t PlaceCells(const Stripe& stripe, const Lens& lens, StripeState* state) {
   return known;
 }
 
-void MapBlock(const Stripe& stripe, const Block& block, const LayerMap& map) {
+void MapBlock(const Range& rows, const Block& block, const LayerMap& map) {
   const Rect& rect = block.rect;
   for (int32_t y = rect.y; y < rect.y + rect.height; y += kSmallestBlock) {
     for (int32_t x = rect.x; x < rect.x + rect.width; x += kSmallestBlock) {
-      map.At(x / kSmallestBlock, (y - stripe.y) / kSmallestBlock) =
+      map.At(x / kSmallestBlock, (y - rows.first) / kSmallestBlock) =
           static_cast<uint8_t>(block.layer);
     }
   }
 }
 
 // Sets all smallest blocks of the map to kNoLayer, which remains where no block covers the map.
-void ClearMap(const Stripe& stripe, LayerMap* map) {
-  map->rows = (stripe.height + kSmallestBlock - 1) / kSmallestBlock;
+void ClearMap(const Range& rows, LayerMap* map) {
+  map->rows = (rows.count() + kSmallestBlock - 1) / kSmallestBlock;
   std::memset(&map->At(0, 0), kNoLayer,
               static_cast<size_t>(map->columns) * static_cast<size_t>(map->rows));
 }
@@ -157,12 +157,12 @@ void ReportBlock(const Block& block, EngineState* engine) {
 
 // Keeps the blocks that affect the requested pixels, and derives the inputs of the later phases
 // from these blocks.
-void ReadPlan(const Stripe& stripe, EngineState* engine) {
+void ReadPlan(const Range& rows, EngineState* engine) {
   const FullConfig& config = engine->config;
   StripeLayers& layers = engine->layers;
   StripePlan& plan = engine->stripe.plan;
   plan.used = 0;
-  ClearMap(stripe, &engine->stripe.map);
+  ClearMap(rows, &engine->stripe.map);
   ClearLayerColumns(config, &layers);
   for (int32_t column = 0; column < plan.columns; ++column) {
     const Block* const planned = plan.BlocksOf(column);
@@ -170,7 +170,7 @@ void ReadPlan(const Stripe& stripe, EngineState* engine) {
       if (!IsInRegion(*engine, planned[k].rect) || !IsNew(*engine, planned[k].rect)) continue;
       const Block& block = plan.blocks[plan.used++] = planned[k];
       MarkLayerColumns(config, block, &layers);
-      MapBlock(stripe, block, engine->stripe.map);
+      MapBlock(rows, block, engine->stripe.map);
       ReportBlock(block, engine);
     }
   }
@@ -200,13 +200,13 @@ void TakePlan(const FullConfig& config, Arena* arena, StripeState* stripe) {
                                             static_cast<size_t>(side / kSmallestBlock + 1));
 }
 
-bool ChooseColumns(const Stripe& rows, EngineState* engine) {
+bool ChooseColumns(const Range& rows, EngineState* engine) {
   const StripePlan& plan = engine->stripe.plan;
   const int32_t side = plan.side;
   std::memset(plan.measured, 0, static_cast<size_t>(plan.columns));
   bool any = false;
   for (int32_t column = 0; column < plan.columns; ++column) {
-    const Rect block = {column * side, rows.y, side, rows.height};
+    const Rect block = {column * side, rows.first, side, rows.count()};
     const bool inside = IsInRegion(*engine, block), wanted = inside && IsNew(*engine, block);
     plan.wanted[column] = wanted ? 1 : 0;
     if (inside && !wanted) ++engine->report.reused_blocks;
@@ -220,11 +220,11 @@ bool ChooseColumns(const Stripe& rows, EngineState* engine) {
   return any;
 }
 
-starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
+starfocus_status PlanStripe(const Range& rows, EngineState* engine) {
   const Lens& lens = engine->lens;
   StripePlan& plan = engine->stripe.plan;
   if (IsPartitioned(lens)) {
-    plan.gathered.first_row = rows.y / kCellSize;
+    plan.gathered.first_row = rows.first / kCellSize;
     const CellGrid& cells = engine->stripe.cells;
     const int32_t first_row = PlaceCells(rows, lens, &engine->stripe);
     const auto measure = [&](int32_t column, int32_t) {
@@ -241,7 +241,7 @@ starfocus_status PlanStripe(const Stripe& rows, EngineState* engine) {
   }
   const auto divide = [&](int32_t column, int32_t worker) {
     const int32_t x = column * plan.side;
-    const Rect superblock = {x, rows.y, Min(plan.side, engine->config.width - x), rows.height};
+    const Rect superblock = {x, rows.first, Min(plan.side, engine->config.width - x), rows.count()};
     plan.counts[column] =
         plan.wanted[column] == 0
             ? 0

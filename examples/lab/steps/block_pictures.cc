@@ -72,7 +72,7 @@ class BlockArtist {
         input_(engine_.input),
         memory_(
             static_cast<CompositorScratch*>(engine_.scratch[0].renderers[kSliceRenderer.index])),
-        grid_(ViewGridOf(InputsOf(engine_), planned_.block, engine_.scratch[0].aperture_weights)),
+        grid_(ViewGridOf(engine_, planned_.block, engine_.scratch[0].aperture_weights)),
         job_{&input_, 0, &grid_, rect_, planned_.block.border, nullptr, nullptr, engine_.lens.r_max,
              false},
         pictures_(*pictures) {}
