@@ -79,7 +79,7 @@ size_t SizeOf(const FullConfig& config, bool repairs, Checker* check) {
   } else {
     TakeEstimate(setup, config.max_workers, &arena);
   }
-  if (Converts(config)) TakeConverted(config, repairs, &arena);
+  if (Converts(config)) ConvertField(config, setup, &arena, nullptr, nullptr);
   if (arena.Bytes() == kTooLarge) check->Add(STARFOCUS_ERROR_TOO_LARGE);
   return arena.Bytes();
 }
@@ -93,30 +93,22 @@ struct DepthCall {
   size_t bytes;
 };
 
-void CheckStrides(const FullConfig& config, const starfocus_disparity_output& map, Checker* check) {
-  const auto width = static_cast<size_t>(config.width);
-  check->Stride(
-      map.confidence == nullptr || ValidStride(map.confidence_stride, width, config.height),
-      "map.confidence_stride", map.confidence_stride);
-  check->Stride(map.coverage == nullptr || ValidStride(map.coverage_stride, width, config.height),
-                "map.coverage_stride", map.coverage_stride);
-}
-
 // Checks all arguments of an API call that estimates or repairs a map.
 void CheckCall(const DepthCall& call, bool repairs, const starfocus_disparity_output& map,
                Checker* check) {
-  const size_t needed = SizeOf(*call.config, repairs, check);
-  CheckMemory("workspace", call.workspace, call.bytes, needed, check);
-  if (!check->passed()) return;
   const FullConfig& config = *call.config;
   const starfocus_light_field& light_field = *call.light_field;
   const int32_t width = config.width, height = config.height;
+  const size_t needed = SizeOf(config, repairs, check);
+  CheckMemory("workspace", call.workspace, call.bytes, needed, check);
+  if (!check->passed()) return;
   CheckViews(light_field, config.views, width, height, check);
   if (!Converts(config)) CheckInPlace(light_field, config.views, check);
   CheckMap(map.disparity, map.disparity_stride, width, height, check);
   if (repairs) CheckDepthMap(light_field.depth, width, height, check);
   if (repairs && !Converts(config)) CheckInPlace(light_field.depth, width, height, check);
-  CheckStrides(config, map, check);
+  CheckBytes(map.confidence, map.confidence_stride, width, height, "map.confidence_stride", check);
+  CheckBytes(map.coverage, map.coverage_stride, width, height, "map.coverage_stride", check);
   if (!check->passed()) return;
   const auto begin = reinterpret_cast<uintptr_t>(call.workspace);
   CheckOverlap(config, light_field, repairs, map, {begin, begin + needed}, check);
@@ -129,18 +121,15 @@ template <class Make>
 starfocus_status Watched(const DepthCall& call, const SweepSetup& setup, Arena* arena, Jobs* jobs,
                          const Make& make) {
   const FullConfig& config = *call.config;
-  const starfocus_callbacks none = {};
-  const starfocus_callbacks& callbacks = call.callbacks != nullptr ? *call.callbacks : none;
-  jobs->runner = callbacks.runner;
-  jobs->runner_data = callbacks.runner_data;
   CallProgress* const call_progress = &jobs->call_progress;
-  call_progress->SetProgress(callbacks.progress, callbacks.progress_data);
+  if (call.callbacks != nullptr) {
+    jobs->runner = call.callbacks->runner;
+    jobs->runner_data = call.callbacks->runner_data;
+    call_progress->SetProgress(call.callbacks->progress, call.callbacks->progress_data);
+  }
   call_progress->Begin(0, config.height);
   starfocus_status status = STARFOCUS_OK;
-  if (Converts(config)) {
-    const ConvertedMemory memory = TakeConverted(config, setup.repairs, arena);
-    status = ConvertField(config, memory, setup.columns * setup.rows, jobs, call.light_field);
-  }
+  if (Converts(config)) status = ConvertField(config, setup, arena, jobs, call.light_field);
   if (status == STARFOCUS_OK) status = make(*call.light_field);
   if (status != STARFOCUS_OK) return status;
   call_progress->SetRows(config.height);

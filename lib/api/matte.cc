@@ -55,20 +55,11 @@ Extent ExtentOfCoverage(const Rect& area, const starfocus_disparity_output& out)
   return ExtentOf(out.coverage, out.coverage_stride, area.height, static_cast<size_t>(area.width));
 }
 
-// Checks the stride of the coverage of `area`. A null plane of coverage is valid.
-void CheckCoverage(const Rect& area, const starfocus_disparity_output& out, Checker* check) {
-  check->Stride(out.coverage == nullptr ||
-                    ValidStride(out.coverage_stride, static_cast<size_t>(area.width), area.height),
-                "coverage_stride", out.coverage_stride);
-}
-
 // Finds the part of a picture of width x height that `region` selects. A null region selects the
 // whole picture.
 void FindArea(const starfocus_region* region, int32_t width, int32_t height, Rect* area,
               Checker* check) {
-  const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check->In({"width", double(width)}, size);
-  check->In({"height", double(height)}, size);
+  CheckSize(width, height, check);
   *area = {0, 0, width, height};
   if (region == nullptr || IsWhole(*region)) return;
   *area = {region->x, region->y, region->width, region->height};
@@ -95,42 +86,24 @@ int32_t CountRows(const starfocus_matte& matte, int32_t y, int32_t step, int64_t
   return rows;
 }
 
-// Disparities of the background by row, in 1/64 pixel.
-class Background {
- public:
-  Background(const starfocus_matte_depth& depth, int32_t height)
-      : far_(RoundDisparity(depth.background)),
-        near_(RoundDisparity(depth.subject)),
-        height_(height),
-        begin_(Fraction(depth.horizon)),
-        length_(LengthOf(depth)) {}
+int32_t RoundDisparity(double disparity) {
+  return static_cast<int32_t>(std::floor(disparity * (1 << kDisparityBits) + 0.5));
+}
 
-  int32_t subject() const { return near_; }
-  int32_t At(int32_t y) const {
-    if (length_ == 0) return far_;
-    const int64_t middle = ((2 * int64_t{y} + 1) << (kFractionBits - 1)) / height_;
-    const int64_t way = middle <= begin_             ? 0
-                        : middle >= begin_ + length_ ? length_
-                                                     : middle - begin_;
-    return far_ + static_cast<int32_t>(((near_ - far_) * way + length_ / 2) / length_);
-  }
-
- private:
-  static constexpr int kFractionBits = 24;  // of positions as fractions of the height
-  static int32_t RoundDisparity(double disparity) {
-    return static_cast<int32_t>(std::floor(disparity * (1 << kDisparityBits) + 0.5));
-  }
-  static int64_t Fraction(double part) {
+// Returns the disparity of the background in row y of a picture, in 1/64 pixel.
+int32_t BackgroundAt(const starfocus_matte_depth& depth, int32_t y, int32_t height) {
+  constexpr int kFractionBits = 24;  // of positions as fractions of the height
+  const auto fraction = [](double part) {
     return static_cast<int64_t>(part * (1 << kFractionBits) + 0.5);
-  }
-  static int64_t LengthOf(const starfocus_matte_depth& depth) {
-    const int64_t length = Fraction(depth.ground) - Fraction(depth.horizon);
-    return depth.ground > 0 && length == 0 ? 1 : length;
-  }
-
-  const int32_t far_, near_, height_;
-  const int64_t begin_, length_;  // length_ is 0 without a floor
-};
+  };
+  const int32_t far = RoundDisparity(depth.background), near = RoundDisparity(depth.subject);
+  if (depth.ground <= 0) return far;  // without a floor
+  const int64_t begin = fraction(depth.horizon), length = fraction(depth.ground) - begin;
+  const int64_t middle = ((2 * int64_t{y} + 1) << (kFractionBits - 1)) / height;
+  if (middle <= begin) return far;
+  if (middle >= begin + length) return near;
+  return far + static_cast<int32_t>(((near - far) * (middle - begin) + length / 2) / length);
+}
 
 }  // namespace
 }  // namespace starfocus
@@ -192,7 +165,8 @@ starfocus_status starfocus_matte_field(const starfocus_matte* matte,
   Rect area;
   FindArea(region, width, height, &area, &check);
   CheckMap(out->disparity, out->disparity_stride, area.width, area.height, &check);
-  CheckCoverage(area, *out, &check);
+  CheckBytes(out->coverage, out->coverage_stride, area.width, area.height, "coverage_stride",
+             &check);
   if (!check.passed()) return check.status();
   Extents taken;
   taken.Add(ExtentOfMatte(*matte));
@@ -202,9 +176,8 @@ starfocus_status starfocus_matte_field(const starfocus_matte* matte,
   taken.Add(map_memory);
   if (out->coverage != nullptr) check.Apart(ExtentOfCoverage(area, *out), taken, "out");
   if (!check.passed()) return check.status();
-  const Background background(*depth, height);
   constexpr float kUnit = 1.0f / (1 << kDisparityBits);
-  const auto subject = static_cast<float>(background.subject()) * kUnit;
+  const auto subject = static_cast<float>(RoundDisparity(depth->subject)) * kUnit;
   for (int32_t x = 0; x < area.width; x += kMattePiece) {
     const int32_t count = Min(kMattePiece, area.width - x);
     MatteRows rows(*matte, width, height, area.x + x, count);
@@ -212,7 +185,7 @@ starfocus_status starfocus_matte_field(const starfocus_matte* matte,
       uint8_t alpha[kMattePiece];
       rows.Read(area.y + y, alpha);
       const auto row = static_cast<size_t>(y);
-      const auto behind = static_cast<float>(background.At(area.y + y)) * kUnit;
+      const auto behind = static_cast<float>(BackgroundAt(*depth, area.y + y, height)) * kUnit;
       float* const map = out->disparity + row * (out->disparity_stride / sizeof(float)) + x;
       for (int32_t k = 0; k < count; ++k) map[k] = alpha[k] >= kSubject ? subject : behind;
       if (out->coverage == nullptr) continue;
@@ -239,7 +212,8 @@ starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
   Rect area;
   FindArea(region, width, height, &area, &check);
   check.NotNull(out->coverage, "coverage");
-  CheckCoverage(area, *out, &check);
+  CheckBytes(out->coverage, out->coverage_stride, area.width, area.height, "coverage_stride",
+             &check);
   if (!check.passed()) return check.status();
   Extents read;
   read.Add(ExtentOfMatte(*matte));

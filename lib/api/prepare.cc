@@ -17,32 +17,22 @@ size_t SizeOf(const FullConfig& config, Checker* check) {
   return needed;
 }
 
-// Checks the memory for a prepared light field, which must not overlap the light field or the
-// workspace.
-starfocus_status CheckPreparedMemory(const EngineState& engine, const void* memory, size_t bytes,
-                                     const starfocus_light_field& light_field) {
-  Checker check(engine.config.problem);
-  const size_t needed = SizeOf(engine.config, &check);
-  CheckMemory("memory", memory, bytes, needed, &check);
-  Extents read;
-  AddLightField(engine.config, light_field, &read);
-  read.Add(Workspace(engine));
-  check.Apart(ExtentOf(memory, 0, 1, needed), read, "memory");
-  return check.status();
-}
-
-// Prepares a light field, which CheckLightField has accepted, in `memory`.
+// Prepares a light field, which CheckLightField has accepted, in `memory`, which must not overlap
+// the light field or the workspace.
 starfocus_status PrepareIn(void* memory, size_t bytes, const starfocus_light_field& light_field,
                            EngineState* engine, Prepared** prepared) {
-  const starfocus_status fits = CheckPreparedMemory(*engine, memory, bytes, light_field);
-  if (fits != STARFOCUS_OK) return fits;
+  Checker check(&engine->problem);
+  const size_t needed = SizeOf(engine->config, &check);
+  CheckMemory("memory", memory, bytes, needed, &check);
+  Extents read;
+  AddLightField(engine->config, light_field, &read);
+  read.Add(Workspace(*engine));
+  check.Apart(ExtentOf(memory, 0, 1, needed), read, "memory");
+  if (!check.passed()) return check.status();
   engine->input = InputOf(engine->config, *engine->kernels, light_field, 0, &engine->rings);
-  const starfocus_status status = Prepare(memory, engine, prepared);
-  if (status != STARFOCUS_OK) {
-    return TellPlace(Checker(&engine->problem).Add(status), light_field.depth, 0, &engine->problem);
-  }
-  (*prepared)->light_field = light_field;
-  return STARFOCUS_OK;
+  check.Add(Prepare(memory, engine, prepared));
+  if (check.passed()) (*prepared)->light_field = light_field;
+  return TellPlace(check.status(), light_field.depth, 0, &engine->problem);
 }
 
 // Prepares a light field in memory from the allocator of the engine.

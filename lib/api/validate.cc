@@ -32,15 +32,17 @@ void CheckLens(const FullConfig& config, const starfocus_params& lens, Checker* 
 }
 
 void CheckTiming(const starfocus_timing& timing, Checker* check) {
-  const Allowed allowed = {"at most STARFOCUS_MAX_TIMING", 0, STARFOCUS_MAX_TIMING};
-  check->In({"tuning.timing.block", double(timing.block)}, allowed);
-  check->In({"tuning.timing.field", double(timing.field)}, allowed);
-  check->In({"tuning.timing.a", double(timing.a)}, allowed);
-  check->In({"tuning.timing.b", double(timing.b)}, allowed);
-  check->In({"tuning.timing.c", double(timing.c)}, allowed);
-  check->In({"tuning.timing.upsample", double(timing.upsample)}, allowed);
-  check->In({"tuning.timing.span", double(timing.span)}, allowed);
-  check->In({"tuning.timing.hole", double(timing.hole)}, allowed);
+  const FieldValue fields[] = {{"tuning.timing.block", double(timing.block)},
+                               {"tuning.timing.field", double(timing.field)},
+                               {"tuning.timing.a", double(timing.a)},
+                               {"tuning.timing.b", double(timing.b)},
+                               {"tuning.timing.c", double(timing.c)},
+                               {"tuning.timing.upsample", double(timing.upsample)},
+                               {"tuning.timing.span", double(timing.span)},
+                               {"tuning.timing.hole", double(timing.hole)}};
+  for (const FieldValue& field : fields) {
+    check->In(field, {"at most STARFOCUS_MAX_TIMING", 0, STARFOCUS_MAX_TIMING});
+  }
 }
 
 void CheckTuning(const starfocus_tuning& tuning, Checker* check) {
@@ -96,10 +98,14 @@ void CheckReport(const starfocus_report* report, Checker* check) {
   if (report != nullptr) check->Read(*report, "report.size", &ignored);
 }
 
-void CheckPicture(const FullConfig& config, Checker* check) {
+void CheckSize(int32_t width, int32_t height, Checker* check) {
   const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check->In({"width", double(config.width)}, size);
-  check->In({"height", double(config.height)}, size);
+  check->In({"width", double(width)}, size);
+  check->In({"height", double(height)}, size);
+}
+
+void CheckPicture(const FullConfig& config, Checker* check) {
+  CheckSize(config.width, config.height, check);
   const Allowed disparity = STARFOCUS_FROM_TO(-STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY);
   check->In({"disparity_min", config.disparity_min}, disparity);
   check->In({"disparity_max", config.disparity_max}, disparity);
@@ -168,9 +174,7 @@ void CheckMemory(const char* name, const void* memory, size_t bytes, size_t need
 void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height,
               Checker* check) {
   check->NotNull(disparity, "disparity");
-  const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check->In({"width", double(width)}, size);
-  check->In({"height", double(height)}, size);
+  CheckSize(width, height, check);
   if (!check->passed()) return;
   const bool aligned =
       stride % sizeof(float) == 0 && reinterpret_cast<uintptr_t>(disparity) % alignof(float) == 0;
@@ -181,6 +185,12 @@ void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t heig
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {
   return stride >= row_bytes &&
          (rows <= 1 || stride <= (PTRDIFF_MAX - row_bytes) / static_cast<size_t>(rows - 1));
+}
+
+void CheckBytes(const uint8_t* plane, size_t stride, int32_t width, int32_t height,
+                const char* name, Checker* check) {
+  check->Stride(plane == nullptr || ValidStride(stride, static_cast<size_t>(width), height), name,
+                stride);
 }
 
 void CheckRegion(const starfocus_region& region, int32_t width, int32_t height, Checker* check) {
@@ -306,9 +316,7 @@ void CheckDepthMap(const starfocus_depth_map& map, int32_t width, int32_t height
 }
 
 void CheckLoneMap(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check) {
-  const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check->In({"width", double(width)}, size);
-  check->In({"height", double(height)}, size);
+  CheckSize(width, height, check);
   CheckDepthMap(map, width, height, check);
 }
 
@@ -329,9 +337,8 @@ void CheckLightField(const FullConfig& config, const starfocus_light_field& ligh
                      Checker* check) {
   const int32_t width = config.width, height = config.height;
   CheckViews(light_field, config.views, width, height, check);
-  check->Stride(light_field.coverage == nullptr ||
-                    ValidStride(light_field.coverage_stride, static_cast<size_t>(width), height),
-                "coverage_stride", light_field.coverage_stride);
+  CheckBytes(light_field.coverage, light_field.coverage_stride, width, height, "coverage_stride",
+             check);
   CheckDepthMap(light_field.depth, width, height, check);
   if (Has(config, STARFOCUS_FEATURE_IMAGES)) return;
   CheckInPlace(light_field, config.views, check);
@@ -405,9 +412,7 @@ starfocus_status starfocus_plane_size(const starfocus_image* image, int32_t plan
   check.NotNull(image, "image");
   check.NotNull(rows, "rows");
   check.NotNull(row_bytes, "row_bytes");
-  const Allowed size = STARFOCUS_FROM_TO(1, STARFOCUS_MAX_SIZE);
-  check.In({"width", double(width)}, size);
-  check.In({"height", double(height)}, size);
+  CheckSize(width, height, &check);
   if (!check.passed()) return check.status();
   CheckLayout(*image, kImageNames, 0, &check);
   if (!check.passed()) return check.status();

@@ -36,6 +36,9 @@ void ReadParams(const starfocus_params* params, FullParams* full, Checker* check
 // Checks that a report, which may be null, was initialised.
 void CheckReport(const starfocus_report* report, Checker* check);
 
+// Checks the size of a picture.
+void CheckSize(int32_t width, int32_t height, Checker* check);
+
 // Checks the fields of a configuration that engines and estimates of maps have in common.
 void CheckPicture(const FullConfig& config, Checker* check);
 
@@ -54,6 +57,10 @@ void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t heig
 
 // Returns true if a stride is at least `row_bytes` and all rows are addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);
+
+// Checks the stride of a plane of bytes, whose field is `name`. The plane may be null.
+void CheckBytes(const uint8_t* plane, size_t stride, int32_t width, int32_t height,
+                const char* name, Checker* check);
 
 // Checks that all fields of a region are 0, or that the region lies inside a picture of
 // width x height.

@@ -61,45 +61,38 @@ void ConvertRows(const simd::ImageKernels& kernels, const DepthSource& map, int3
 
 }  // namespace
 
-ConvertedMemory TakeConverted(const FullConfig& config, bool has_map, Arena* arena) {
-  const auto width = static_cast<size_t>(config.width), height = static_cast<size_t>(config.height);
-  ConvertedMemory memory = {};
-  for (int32_t k = 0; k < config.views; ++k) {
-    memory.views[k] = arena->Take<uint8_t>(3 * width, height);
-  }
-  if (has_map) memory.disparity = arena->Take<float>(width, height);
-  if (has_map) memory.columns = arena->Take<uint32_t>(width);
-  return memory;
-}
-
-starfocus_status ConvertField(const FullConfig& config, const ConvertedMemory& memory,
-                              int32_t most_jobs, Jobs* jobs, starfocus_light_field* field) {
+starfocus_status ConvertField(const FullConfig& config, const SweepSetup& setup, Arena* arena,
+                              Jobs* jobs, starfocus_light_field* field) {
   const simd::ImageKernels& kernels = simd::BestImageKernels();
   const int32_t width = config.width, height = config.height;
-  const size_t stride = 3 * static_cast<size_t>(width);
+  const int32_t most_jobs = setup.columns * setup.rows;
+  const auto columns = static_cast<size_t>(width), rows = static_cast<size_t>(height);
+  const size_t stride = 3 * columns;
   for (int32_t k = 0; k < config.views; ++k) {
-    if (IsInPlace(field->views[k])) continue;
+    uint8_t* const rgb = arena->Take<uint8_t>(stride, rows);
+    if (rgb == nullptr || IsInPlace(field->views[k])) continue;
     const ImageSource image = PlanesOf<const uint8_t>(field->views[k]);
-    uint8_t* const rgb = memory.views[k];
     const starfocus_status status =
-        ForGroups(width, height, most_jobs, jobs, [&](const Range& rows) {
-          for (int32_t y = rows.first; y < rows.last; ++y) {
+        ForGroups(width, height, most_jobs, jobs, [&](const Range& group) {
+          for (int32_t y = group.first; y < group.last; ++y) {
             ReadCodes(kernels, image, 0, y, width, rgb + static_cast<size_t>(y) * stride);
           }
         });
     if (status != STARFOCUS_OK) return status;
     field->views[k] = starfocus_image_rgb(rgb, stride);
   }
+  if (!setup.repairs) return STARFOCUS_OK;
+  float* const disparity = arena->Take<float>(columns, rows);
+  uint32_t* const places = arena->Take<uint32_t>(columns);
+  if (disparity == nullptr || IsInPlace(field->depth, width, height)) return STARFOCUS_OK;
   starfocus_depth_map& map = field->depth;
-  if (memory.disparity == nullptr || IsInPlace(map, width, height)) return STARFOCUS_OK;
-  FillColumns(width, map.width, 0, width, memory.columns);
+  FillColumns(width, map.width, 0, width, places);
   const simd::DepthRule rule = RuleOf(map, MinDisparity(config), MaxDisparity(config));
-  const DepthSource source = {map, rule, width, height, memory.columns};
-  const starfocus_status status = ForGroups(width, height, most_jobs, jobs, [&](const Range& rows) {
-    ConvertRows(kernels, source, width, rows, memory.disparity);
-  });
-  map = starfocus_depth_float(memory.disparity, sizeof(float) * static_cast<size_t>(width), width,
-                              height);
+  const DepthSource source = {map, rule, width, height, places};
+  const starfocus_status status =
+      ForGroups(width, height, most_jobs, jobs,
+                [&](const Range& group) { ConvertRows(kernels, source, width, group, disparity); });
+  map = starfocus_depth_float(disparity, sizeof(float) * columns, width, height);
   return status;
 }
 

@@ -71,7 +71,7 @@ struct TileMemory;
 struct EstimateMemory {
   Jobs* jobs;
   // Disparities of the whole picture after the first sweep, which ignores occlusion, in fixed point
-  // (kDisparityBits). After the sweeps, a repair stores the result of EvenOut in `first`.
+  // (kDisparityBits). After the sweeps, a repair stores the results of EvenedAt in `first`.
   int16_t* first;
   int16_t* second;     // Disparities after the second sweep, which omits hidden views.
   uint8_t* certainty;  // Certainty of the second sweep.
@@ -104,20 +104,13 @@ inline int16_t* SideMap(const SweepSetup& setup, const EstimateMemory& memory, i
 // Takes the memory of an estimate or repair.
 EstimateMemory TakeEstimate(const SweepSetup& setup, int32_t max_workers, Arena* arena);
 
-// Memory of a converted light field.
-struct ConvertedMemory {
-  uint8_t* views[STARFOCUS_MAX_VIEWS];
-  float* disparity;   // Null: the light field has no map.
-  uint32_t* columns;  // Positions in the map of the columns of the picture (FillColumns).
-};
-ConvertedMemory TakeConverted(const FullConfig& config, bool has_map, Arena* arena);
-
-// Replaces the views of *field, and its map if memory.disparity is not null, by converted copies.
-// Images and maps that are read in place are not copied. Disparities are rounded to 1/64 pixel and
-// limited to the configured range; unknown disparities are NaN. A set has at most `most_jobs` jobs.
+// Replaces the views of *field and, for a repair, its map by converted copies in memory of `arena`.
+// If the arena only counts, changes nothing; `jobs` and `field` may then be null. Images and maps
+// that are read in place are not copied. Disparities are rounded to 1/64 pixel and limited to the
+// configured range; unknown disparities are NaN. A set has at most one job per tile of the setup.
 // Returns STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
-starfocus_status ConvertField(const FullConfig& config, const ConvertedMemory& memory,
-                              int32_t most_jobs, Jobs* jobs, starfocus_light_field* field);
+starfocus_status ConvertField(const FullConfig& config, const SweepSetup& setup, Arena* arena,
+                              Jobs* jobs, starfocus_light_field* field);
 
 // Estimates the disparity map of the centre view and writes the map to `output`. Returns
 // STARFOCUS_OK, STARFOCUS_ERROR_CANCELLED or STARFOCUS_ERROR_RUNNER.
