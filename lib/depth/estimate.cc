@@ -65,13 +65,11 @@ int32_t Apart(const uint8_t* a, const uint8_t* b) {
 void FindRange(const SweepSetup& setup, const int16_t* map, const Rect& around, int32_t* low,
                int32_t* high) {
   int32_t least = INT16_MAX, most = INT16_MIN;
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const int16_t* disparity = map + setup.At(0, row);
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      least = Min(least, disparity[column]);
-      most = Max(most, disparity[column]);
-    }
-  }
+  ForPixels(around, [&](int32_t x, int32_t y) {
+    const int32_t disparity = map[setup.At(x, y)];
+    least = Min(least, disparity);
+    most = Max(most, disparity);
+  });
   *low = least;
   *high = most;
 }
@@ -140,13 +138,11 @@ void MakeSideReference(const SweepSetup& setup, const starfocus_light_field& lig
 // Copies memory.second to memory.first for the pixels of `tile`. Pixels that no side view shows
 // are set to kNoSurface.
 void FindUnseen(const SweepSetup& setup, const Rect& tile, const EstimateMemory& memory) {
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = setup.At(x, y);
-      const int16_t d = memory.second[at];
-      memory.first[at] = IsSeen(setup, memory, x, y, d) ? d : simd::kNoSurface;
-    }
-  }
+  ForPixels(tile, [&](int32_t x, int32_t y) {
+    const size_t at = setup.At(x, y);
+    const int16_t d = memory.second[at];
+    memory.first[at] = IsSeen(setup, memory, x, y, d) ? d : simd::kNoSurface;
+  });
 }
 
 // Sets each pixel of `tile` that is kNoSurface in memory.first to the disparity of the adjacent
@@ -154,29 +150,25 @@ void FindUnseen(const SweepSetup& setup, const Rect& tile, const EstimateMemory&
 // directions. Writes the disparities to memory.second and sets the certainty to 0. Pixels without
 // known pixels nearby keep their disparity.
 void FillUnseen(const SweepSetup& setup, const Rect& tile, const EstimateMemory& memory) {
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = setup.At(x, y);
-      if (memory.first[at] != simd::kNoSurface) continue;
-      memory.certainty[at] = 0;
-      const int16_t far = FarBeside(setup, memory.first, x, y);
-      if (far != simd::kNoSurface) memory.second[at] = far;
-    }
-  }
+  ForPixels(tile, [&](int32_t x, int32_t y) {
+    const size_t at = setup.At(x, y);
+    if (memory.first[at] != simd::kNoSurface) return;
+    memory.certainty[at] = 0;
+    const int16_t far = FarBeside(setup, memory.first, x, y);
+    if (far != simd::kNoSurface) memory.second[at] = far;
+  });
 }
 
 // Writes a tile of the result. Pixels that WithoutStray changes get confidence 0.
 void WriteTile(const SweepSetup& setup, const Plane<const uint8_t>& centre, const Rect& tile,
                const EstimateMemory& memory, const MapOutput& output) {
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = setup.At(x, y);
-      const int32_t d = WithoutStray(setup, centre, memory.second, x, y);
-      output.Write(x, y, d);
-      const bool overruled = std::abs(d - memory.second[at]) > 1 << kDisparityBits;
-      output.WriteConfidence(x, y, overruled ? uint8_t{0} : memory.certainty[at]);
-    }
-  }
+  ForPixels(tile, [&](int32_t x, int32_t y) {
+    const size_t at = setup.At(x, y);
+    const int32_t d = WithoutStray(setup, centre, memory.second, x, y);
+    output.Write(x, y, d);
+    const bool overruled = std::abs(d - memory.second[at]) > 1 << kDisparityBits;
+    output.WriteConfidence(x, y, overruled ? uint8_t{0} : memory.certainty[at]);
+  });
 }
 
 }  // namespace
@@ -192,15 +184,11 @@ int16_t WithoutStray(const SweepSetup& setup, const Plane<const uint8_t>& centre
   if (low >= own - kStray && high <= own + kStray) return own;
   const uint8_t* here = centre.Row(y) + 3 * x;
   Votes votes;
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const uint8_t* rgb = centre.Row(row);
-    const int16_t* disparity = map + setup.At(0, row);
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const int32_t halvings = Apart(here, rgb + 3 * column) / kHalving;
-      const int32_t vote = halvings < 7 ? kVote >> halvings : 0;
-      if (vote > 0) votes.Add(disparity[column], vote);
-    }
-  }
+  ForPixels(around, [&](int32_t column, int32_t row) {
+    const int32_t halvings = Apart(here, centre.Row(row) + 3 * column) / kHalving;
+    const int32_t vote = halvings < 7 ? kVote >> halvings : 0;
+    if (vote > 0) votes.Add(map[setup.At(column, row)], vote);
+  });
   const int16_t median = votes.Median(low, high);
   return std::abs(own - median) > kStray ? median : own;
 }
@@ -264,16 +252,17 @@ starfocus_status Estimate(const SweepSetup& setup, const starfocus_light_field& 
     MakeSideReference(setup, light_field, k, &side_setup, &side_field);
     const Sweep of_side = {side_setup, side_field, kernels, memory};
     run.Run([&](int32_t index, int32_t worker) {
-      SweepOneSide(of_side, index, worker, SideMap(setup, memory, k));
+      SweepTile(of_side, true, index, worker, SideMap(setup, memory, k), nullptr);
     });
   }
   if (!one_sided) {
-    run.Run(
-        [&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory.first); });
+    run.Run([&](int32_t index, int32_t worker) {
+      SweepTile(sweep, true, index, worker, memory.first, nullptr);
+    });
   }
   run.Run([&](int32_t index, int32_t worker) {
-    SweepAllViews(sweep, index, worker,
-                  output.confidence.data == nullptr ? nullptr : memory.certainty);
+    SweepTile(sweep, false, index, worker, memory.second,
+              output.confidence.data == nullptr ? nullptr : memory.certainty);
   });
   if (one_sided) {
     run.Run([&](int32_t index, int32_t) { FindUnseen(setup, TileOf(setup, index), memory); });

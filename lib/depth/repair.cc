@@ -48,18 +48,16 @@ int32_t MeanOfSurface(const SweepSetup& setup, const EstimateMemory& memory, int
                       int32_t own) {
   const Rect around = Widened(setup, {x, y, 1, 1}, kMeanRadius);
   int32_t trusted_sum = 0, trusted = 0, sum = 0, count = 0;
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = setup.At(column, row);
-      if (std::abs(memory.second[at] - own) > kSameSurface) continue;
-      sum += memory.second[at];
-      ++count;
-      const int32_t d = memory.trusted[at];
-      if (d == simd::kNoSurface || std::abs(d - own) > kSameSurface) continue;
-      trusted_sum += d;
-      ++trusted;
-    }
-  }
+  ForPixels(around, [&](int32_t column, int32_t row) {
+    const size_t at = setup.At(column, row);
+    if (std::abs(memory.second[at] - own) > kSameSurface) return;
+    sum += memory.second[at];
+    ++count;
+    const int32_t d = memory.trusted[at];
+    if (d == simd::kNoSurface || std::abs(d - own) > kSameSurface) return;
+    trusted_sum += d;
+    ++trusted;
+  });
   return trusted > 0 ? MeanOf(trusted_sum, trusted) : MeanOf(sum, count);
 }
 
@@ -68,31 +66,26 @@ int32_t MeanOfSurface(const SweepSetup& setup, const EstimateMemory& memory, int
 bool IsRough(const SweepSetup& setup, const EstimateMemory& memory, int32_t x, int32_t y) {
   const Rect around = Widened(setup, {x, y, 1, 1}, kMeanRadius);
   int32_t smooth = 0;
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      smooth += memory.trusted[setup.At(column, row)] != simd::kNoSurface;
-    }
-  }
+  ForPixels(around, [&](int32_t column, int32_t row) {
+    smooth += memory.trusted[setup.At(column, row)] != simd::kNoSurface;
+  });
   return 4 * smooth < around.width * around.height;
 }
 
-// Writes the disparity of each pixel of a tile. If memory.second agrees with the given disparity,
-// the given disparity is written. Otherwise, the mean of the surrounding trusted pixels that are on
-// the surface of memory.second is written. If no trusted pixel is on this surface, the mean of
-// memory.second over the surface is written. Stray pixels are removed with the help of the colours
-// of the centre view.
-void EvenOut(const SweepSetup& setup, const Plane<const uint8_t>& centre, const Rect& tile,
-             const EstimateMemory& memory, int16_t* evened) {
-  ForSwept(setup, memory.swept, tile, [&](int32_t x, int32_t y) {
-    const size_t at = setup.At(x, y);
-    const int32_t given = memory.given[at], trusted = memory.trusted[at];
-    evened[at] = static_cast<int16_t>(given);
-    if (trusted != simd::kNoSurface && std::abs(trusted - memory.second[at]) <= kSame) return;
-    const int32_t own = WithoutStray(setup, centre, memory.second, x, y);
-    const int32_t mean = MeanOfSurface(setup, memory, x, y, own);
-    if (given != simd::kNoSurface && std::abs(given - mean) <= kSame) return;
-    evened[at] = static_cast<int16_t>(mean);
-  });
+// Returns the disparity of pixel (x, y) according to both sweeps. If memory.second agrees with the
+// given disparity, the result is the given disparity. Otherwise, the result is the mean of the
+// surrounding trusted pixels that are on the surface of memory.second. If no trusted pixel is on
+// this surface, the result is the mean of memory.second over the surface. Stray pixels are removed
+// with the help of the colours of the centre view.
+int16_t EvenedAt(const SweepSetup& setup, const Plane<const uint8_t>& centre,
+                 const EstimateMemory& memory, int32_t x, int32_t y) {
+  const size_t at = setup.At(x, y);
+  const int16_t given = memory.given[at], trusted = memory.trusted[at];
+  if (trusted != simd::kNoSurface && std::abs(trusted - memory.second[at]) <= kSame) return given;
+  const int32_t own = WithoutStray(setup, centre, memory.second, x, y);
+  const int32_t mean = MeanOfSurface(setup, memory, x, y, own);
+  const bool same = given != simd::kNoSurface && std::abs(given - mean) <= kSame;
+  return same ? given : static_cast<int16_t>(mean);
 }
 
 // Returns true if memory.first and the given map are on different surfaces at pixel `at`, or if the
@@ -100,18 +93,6 @@ void EvenOut(const SweepSetup& setup, const Plane<const uint8_t>& centre, const 
 bool Differs(const EstimateMemory& memory, size_t at) {
   return memory.given[at] == simd::kNoSurface ||
          std::abs(memory.first[at] - memory.given[at]) > kPixel / 2;
-}
-
-// Counts the edge pixels of a tile, and the pixels whose given disparity the repair contradicts.
-// Requires the result of EvenOut for the tile.
-TileCount CountTile(const SweepSetup& setup, const Rect& tile, const EstimateMemory& memory) {
-  TileCount count = {};
-  ForSwept(setup, memory.swept, tile, [&](int32_t x, int32_t y) {
-    const size_t at = setup.At(x, y);
-    count.rough += memory.trusted[at] == simd::kNoSurface;
-    count.differs += Differs(memory, at);
-  });
-  return count;
 }
 
 // Returns the repaired disparity of pixel (x, y), which is the disparity in memory.first or the
@@ -130,12 +111,10 @@ int16_t RepairedAt(const SweepSetup& setup, const EstimateMemory& memory, int32_
   if (IsRough(setup, memory, x, y)) return found;
   const Rect around = Widened(setup, {x, y, 1, 1}, kEvidenceRadius);
   int32_t evidence = 0;
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      const size_t at = setup.At(column, row);
-      if (Differs(memory, at)) evidence += memory.given_cost[at] - memory.found_cost[at];
-    }
-  }
+  ForPixels(around, [&](int32_t column, int32_t row) {
+    const size_t at = setup.At(column, row);
+    if (Differs(memory, at)) evidence += memory.given_cost[at] - memory.found_cost[at];
+  });
   return evidence >= least_evidence ? found : given;
 }
 
@@ -173,24 +152,22 @@ int16_t PartedAt(const EstimateMemory& memory, size_t at, int16_t nearest) {
   return clear ? found : near;
 }
 
-// Writes the result of EvenOut to memory.first, whose previous content is no longer used, and
-// counts the edge pixels of the tile.
+// Writes the results of EvenedAt to memory.first, whose previous content is no longer used, and
+// counts the edge pixels of the tile and the pixels whose given disparity the repair contradicts.
 void ValueTile(const SweepSetup& setup, const Plane<const uint8_t>& centre, int32_t index,
                const EstimateMemory& memory) {
   const Rect tile = TileOf(setup, index);
-  EvenOut(setup, centre, tile, memory, memory.first);
-  memory.counts[index] = CountTile(setup, tile, memory);
+  TileCount count = {};
+  ForSwept(setup, memory.swept, tile, [&](int32_t x, int32_t y) {
+    const size_t at = setup.At(x, y);
+    memory.first[at] = EvenedAt(setup, centre, memory, x, y);
+    count.rough += memory.trusted[at] == simd::kNoSurface;
+    count.differs += Differs(memory, at);
+  });
+  memory.counts[index] = count;
   const ThinGrid grid = GridOf(setup);
   CountBeside(grid, memory.given, tile, index, memory.given_cells);
   CountBeside(grid, memory.first, tile, index, memory.found_cells);
-}
-
-// Returns how much evidence a change of the map requires according to the counts of all tiles, and
-// finds the cells that contain thin structures such as hair.
-int32_t JudgeMaps(const SweepSetup& setup, const EstimateMemory& memory) {
-  FindThin(GridOf(setup), kThinGiven, memory.given_cells);
-  FindThin(GridOf(setup), kThinFound, memory.found_cells);
-  return LeastEvidence(memory.counts, setup.columns * setup.rows, kRightEvidence, kWrongEvidence);
 }
 
 void WritePixel(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
@@ -277,16 +254,21 @@ starfocus_status Repair(const SweepSetup& setup, const starfocus_light_field& li
   run.Run([&](int32_t index, int32_t worker) {
     FindSwept(setup, TileOf(setup, index), memory.workers[worker].cost, memory);
   });
-  run.Run([&](int32_t index, int32_t worker) { SweepOneSide(sweep, index, worker, memory.first); });
   run.Run([&](int32_t index, int32_t worker) {
-    SweepAllViews(sweep, index, worker, rates ? memory.certainty : nullptr);
+    SweepTile(sweep, true, index, worker, memory.first, nullptr);
+  });
+  run.Run([&](int32_t index, int32_t worker) {
+    SweepTile(sweep, false, index, worker, memory.second, rates ? memory.certainty : nullptr);
   });
   run.Run([&](int32_t index, int32_t) {
     ValueTile(setup, centre, index, memory);
     if (rates) RateUnswept(setup, centre, TileOf(setup, index), memory);
   });
   if (run.status() != STARFOCUS_OK) return run.status();
-  const int32_t least_evidence = JudgeMaps(setup, memory);
+  FindThin(GridOf(setup), kThinGiven, memory.given_cells);
+  FindThin(GridOf(setup), kThinFound, memory.found_cells);
+  const int32_t least_evidence =
+      LeastEvidence(memory.counts, setup.columns * setup.rows, kRightEvidence, kWrongEvidence);
   run.Run([&](int32_t index, int32_t) {
     WriteTile(setup, light_field, index, memory, least_evidence, output);
   });

@@ -121,6 +121,14 @@ Rect RegionOf(const SweepSetup& setup, int32_t index);
 // Returns the rectangle enlarged by `margin` on all sides and clipped to the picture.
 Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin);
 
+// Calls act(x, y) for each pixel of a rectangle, row by row.
+template <class Act>
+void ForPixels(const Rect& rect, const Act& act) {
+  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
+    for (int32_t x = rect.x; x < rect.x + rect.width; ++x) act(x, y);
+  }
+}
+
 // Returns -position * d in pixels with `fraction_bits` fractional bits, by default in 1/128 pixel.
 // Halves are rounded away from zero.
 inline int32_t MoveBy(int32_t position, int32_t d, int32_t fraction_bits = 7) {

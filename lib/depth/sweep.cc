@@ -259,8 +259,29 @@ void WeighEvidence(const SweptTile& tile, const Rect& tile_rect, const EstimateM
   });
 }
 
-// Sweeps tile `index`. If `one_side` is true, uses the views on one side of each pixel, otherwise
-// the views that see the pixel.
+}  // namespace
+
+TileMemory TakeTileMemory(const SweepSetup& setup, const Rect& region, Arena* arena) {
+  const auto width = static_cast<size_t>(region.width);
+  const size_t area = width * static_cast<size_t>(region.height);
+  const auto labels = static_cast<size_t>(setup.labels), places = simd::PathLabels(labels);
+  TileMemory tile = {};
+  tile.views = TakeTileViews(setup, region, arena);
+  tile.cost = arena->Take<uint8_t>(area, places);
+  tile.prior = setup.repairs ? arena->Take<uint8_t>(area, places) : nullptr;
+  tile.sum = arena->Take<int16_t>(area, places);
+  for (int k = 0; k < 2; ++k) {
+    int16_t* path = arena->Take<int16_t>((width + 2) * places + 1);
+    tile.path[k] = path == nullptr ? nullptr : path + places + 1;
+    int16_t* least = arena->Take<int16_t>(width + 2);
+    tile.least[k] = least == nullptr ? nullptr : least + 1;
+  }
+  tile.jump = arena->Take<int16_t>(width);
+  tile.moves = arena->Take<simd::ViewMove>(labels, static_cast<size_t>(setup.side_views));
+  tile.choice = arena->Take<int16_t>(width);
+  return tile;
+}
+
 void SweepTile(const Sweep& sweep, bool one_side, int32_t index, int32_t worker, int16_t* disparity,
                uint8_t* certainty) {
   const SweepSetup setup = one_side && sweep.setup.repairs ? CoarseSetup(sweep.setup) : sweep.setup;
@@ -286,37 +307,6 @@ void SweepTile(const Sweep& sweep, bool one_side, int32_t index, int32_t worker,
   AddAllPaths(tile);
   ChooseDisparities(tile, tile_rect, disparity, certainty);
   if (setup.repairs && !one_side) WeighEvidence(tile, tile_rect, memory);
-}
-
-}  // namespace
-
-TileMemory TakeTileMemory(const SweepSetup& setup, const Rect& region, Arena* arena) {
-  const auto width = static_cast<size_t>(region.width);
-  const size_t area = width * static_cast<size_t>(region.height);
-  const auto labels = static_cast<size_t>(setup.labels), places = simd::PathLabels(labels);
-  TileMemory tile = {};
-  tile.views = TakeTileViews(setup, region, arena);
-  tile.cost = arena->Take<uint8_t>(area, places);
-  tile.prior = setup.repairs ? arena->Take<uint8_t>(area, places) : nullptr;
-  tile.sum = arena->Take<int16_t>(area, places);
-  for (int k = 0; k < 2; ++k) {
-    int16_t* path = arena->Take<int16_t>((width + 2) * places + 1);
-    tile.path[k] = path == nullptr ? nullptr : path + places + 1;
-    int16_t* least = arena->Take<int16_t>(width + 2);
-    tile.least[k] = least == nullptr ? nullptr : least + 1;
-  }
-  tile.jump = arena->Take<int16_t>(width);
-  tile.moves = arena->Take<simd::ViewMove>(labels, static_cast<size_t>(setup.side_views));
-  tile.choice = arena->Take<int16_t>(width);
-  return tile;
-}
-
-void SweepOneSide(const Sweep& sweep, int32_t index, int32_t worker, int16_t* disparity) {
-  SweepTile(sweep, true, index, worker, disparity, nullptr);
-}
-
-void SweepAllViews(const Sweep& sweep, int32_t index, int32_t worker, uint8_t* certainty) {
-  SweepTile(sweep, false, index, worker, sweep.memory.second, certainty);
 }
 
 }  // namespace starfocus

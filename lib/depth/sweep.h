@@ -91,13 +91,13 @@ struct Sweep {
   const EstimateMemory& memory;
 };
 
-// Fills `disparity`, a map of the whole picture, for tile `index` from the views on one side of
-// each pixel.
-void SweepOneSide(const Sweep& sweep, int32_t index, int32_t worker, int16_t* disparity);
-// Fills memory.second, `certainty` unless it is null, and, for a repair, the costs for tile
-// `index`. Uses the views that see each pixel according to memory.side_maps if the views lie on
-// one side, otherwise according to memory.first.
-void SweepAllViews(const Sweep& sweep, int32_t index, int32_t worker, uint8_t* certainty);
+// Fills `disparity`, a map of the whole picture, and `certainty`, unless it is null, for tile
+// `index`. If `one_side` is true, uses the views on one side of each pixel. Otherwise, uses the
+// views that see the pixel, according to memory.side_maps if the views lie on one side, or else
+// according to memory.first; `disparity` must then be memory.second, and a repair also gets the
+// costs of the tile.
+void SweepTile(const Sweep& sweep, bool one_side, int32_t index, int32_t worker, int16_t* disparity,
+               uint8_t* certainty);
 
 }  // namespace starfocus
 

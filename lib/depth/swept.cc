@@ -96,10 +96,9 @@ int32_t Apart(const uint8_t* a, const uint8_t* b) {
 bool IsGainsaid(const SweepSetup& setup, const uint8_t* doubt, int32_t x, int32_t y) {
   const Rect around = Widened(setup, {x, y, 1, 1}, kMisfitRadius);
   int32_t misfits = 0;
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    const uint8_t* from = doubt + setup.At(0, row);
-    for (int32_t k = around.x; k < around.x + around.width; ++k) misfits += from[k] == kMisfit;
-  }
+  ForPixels(around, [&](int32_t column, int32_t row) {
+    misfits += doubt[setup.At(column, row)] == kMisfit;
+  });
   return misfits >= kLeastMisfits;
 }
 
