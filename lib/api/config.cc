@@ -4,7 +4,6 @@
 #include "lib/engine/engine.h"
 #include "starfocus/depth.h"
 #include "starfocus/matte.h"
-#include "starfocus/starfocus.h"
 
 using namespace starfocus;
 
@@ -21,6 +20,16 @@ FullConfig Choose(const FullConfig& config) {
   FullConfig chosen = config;
   if (chosen.superblock == 0) chosen.superblock = config.width < kWide ? 64 : 128;
   return chosen;
+}
+
+// Returns the number of bytes of the workspace of a configuration.
+size_t WorkspaceSize(const FullConfig& config, Checker* check) {
+  CheckConfig(config, check);
+  if (!check->passed()) return 0;
+  EngineState* counted = nullptr;
+  const size_t needed = LayOut(Choose(config), nullptr, &counted);
+  if (needed == kTooLarge) check->Add(STARFOCUS_ERROR_TOO_LARGE);
+  return needed;
 }
 
 }  // namespace
@@ -71,22 +80,6 @@ starfocus_status starfocus_view_position(int32_t index, double* u, double* v,
   *v = position.v / static_cast<double>(kViewOne);
   return STARFOCUS_OK;
 }
-
-namespace starfocus {
-namespace {
-
-// Returns the number of bytes of the workspace of a configuration.
-size_t WorkspaceSize(const FullConfig& config, Checker* check) {
-  CheckConfig(config, check);
-  if (!check->passed()) return 0;
-  EngineState* counted = nullptr;
-  const size_t needed = LayOut(Choose(config), nullptr, &counted);
-  if (needed == kTooLarge) check->Add(STARFOCUS_ERROR_TOO_LARGE);
-  return needed;
-}
-
-}  // namespace
-}  // namespace starfocus
 
 starfocus_status starfocus_workspace_size(const starfocus_config* config, size_t* bytes,
                                           starfocus_problem* problem) {

@@ -2,12 +2,10 @@
 // C API: creates and destroys engines in memory from an allocator. Only this file calls malloc and
 // free. Therefore, statically linked programs that provide the memory themselves do not contain the
 // heap functions.
-#include <cstdint>
 #include <cstdlib>
 
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
-#include "starfocus/starfocus.h"
 
 using namespace starfocus;
 

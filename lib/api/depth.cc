@@ -3,7 +3,6 @@
 #include "starfocus/depth.h"
 
 #include "lib/api/validate.h"
-#include "lib/base/config.h"
 #include "lib/depth/colour_repair.h"
 #include "lib/depth/maps.h"
 #include "lib/optics/view_set.h"
@@ -103,10 +102,9 @@ void CheckCall(const DepthCall& call, bool repairs, const starfocus_disparity_ou
   CheckMemory("workspace", call.workspace, call.bytes, needed, check);
   if (!check->passed()) return;
   CheckViews(light_field, config.views, width, height, check);
-  if (!Converts(config)) CheckInPlace(light_field, config.views, check);
   CheckMap(map.disparity, map.disparity_stride, width, height, check);
   if (repairs) CheckDepthMap(light_field.depth, width, height, check);
-  if (repairs && !Converts(config)) CheckInPlace(light_field.depth, width, height, check);
+  if (!Converts(config)) CheckInPlace(config, light_field, repairs, check);
   CheckBytes(map.confidence, map.confidence_stride, width, height, "map.confidence_stride", check);
   CheckBytes(map.coverage, map.coverage_stride, width, height, "map.coverage_stride", check);
   if (!check->passed()) return;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: the fields of public structures, from which bindings build their structures, and the
 // defaults of structures with a field `size`.
-#include <cstddef>
 #include <cstring>
 #include <type_traits>
 

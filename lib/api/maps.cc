@@ -9,7 +9,6 @@
 #include "lib/engine/engine.h"
 #include "lib/engine/lens.h"
 #include "lib/io/depth_map.h"
-#include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
@@ -34,80 +33,41 @@ constexpr int32_t kSide = 2 * kAround + 1;
 // pixels.
 constexpr double kNear = kSurfaceStep / 2.0 / (1 << kDisparityBits);
 
-// The value of a map that contains the middle of the tapped pixel, and the values around it.
-struct Place {
-  const starfocus_depth_map& map;
-  int32_t x, y;
-
-  // Calls act(disparity) for each known disparity up to `reach` values away, row by row.
-  template <class Act>
-  void ForKnown(int32_t reach, const Act& act) const {
-    const int32_t left = Max(0, x - reach), right = Min(map.width - 1, x + reach);
-    for (int32_t row = Max(0, y - reach); row <= Min(map.height - 1, y + reach); ++row) {
-      float disparities[kSide];
-      const int32_t count = right + 1 - left;
-      ReadDisparities(map, left, row, count, disparities);
-      for (int32_t k = 0; k < count; ++k) {
-        if (IsFinite(disparities[k])) act(disparities[k]);
-      }
+// Calls act(disparity) for each known disparity up to `reach` values from value (x, y) of a map,
+// row by row.
+template <class Act>
+void ForKnown(const starfocus_depth_map& map, int32_t x, int32_t y, int32_t reach, const Act& act) {
+  const int32_t left = Max(0, x - reach), count = Min(map.width - 1, x + reach) + 1 - left;
+  for (int32_t row = Max(0, y - reach); row <= Min(map.height - 1, y + reach); ++row) {
+    float disparities[kSide];
+    ReadDisparities(map, left, row, count, disparities);
+    for (int32_t k = 0; k < count; ++k) {
+      if (IsFinite(disparities[k])) act(disparities[k]);
     }
   }
-  // Returns the disparity at the place; NaN if the disparity is unknown.
-  double Own() const {
-    float disparity;
-    ReadDisparities(map, x, y, 1, &disparity);
-    return disparity;
-  }
-};
+}
 
-// Known disparities around a place, in ascending order.
-struct Sorted {
-  float values[kSide * kSide];
-  int32_t count = 0;
-
-  void Insert(float value) {
-    int32_t k = count++;
-    for (; k > 0 && values[k - 1] > value; --k) values[k] = values[k - 1];
-    values[k] = value;
-  }
-};
-
-// Returns the range of the sorted values within kNear of `disparity`. At least one value must be
-// within kNear of `disparity`.
-Range RangeNear(const Sorted& sorted, double disparity) {
+// Returns the range of `count` values in ascending order that lie within kNear of `disparity`. At
+// least one value must be within kNear of `disparity`.
+Range RangeNear(const float* values, int32_t count, double disparity) {
   Range part = {0, 0};
-  while (part.first + 1 < sorted.count && sorted.values[part.first] < disparity - kNear) {
-    ++part.first;
-  }
+  while (part.first + 1 < count && values[part.first] < disparity - kNear) ++part.first;
   part.last = part.first + 1;
-  while (part.last < sorted.count && sorted.values[part.last] <= disparity + kNear) ++part.last;
+  while (part.last < count && values[part.last] <= disparity + kNear) ++part.last;
   return part;
-}
-
-double Median(const Sorted& sorted, const Range& part) {
-  const float* middle = sorted.values + part.first + part.count() / 2;
-  return part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
-}
-
-// Returns true if the place is known and a neighbour is on the same surface. The result is true for
-// a pixel of a wire one pixel wide, but false for a single wrong pixel.
-bool HasNeighbour(const Place& place, double disparity) {
-  int32_t near = 0;
-  place.ForKnown(1, [&](double value) { near += std::fabs(value - disparity) <= kNear ? 1 : 0; });
-  return near > 1;  // the place itself is near
 }
 
 // Returns the disparity that has the most other disparities within kNear. If several disparities
 // have equally many others within kNear, returns the smallest of these disparities.
-double MostCommon(const Sorted& sorted) {
+double MostCommon(const float* values, int32_t count) {
   int32_t most = 0, best = 0;
-  for (int32_t k = 0; k < sorted.count; ++k) {
-    const int32_t count = RangeNear(sorted, sorted.values[k]).count();
-    if (count <= most) continue;
-    most = count;
+  for (int32_t k = 0; k < count; ++k) {
+    const int32_t near = RangeNear(values, count, values[k]).count();
+    if (near <= most) continue;
+    most = near;
     best = k;
   }
-  return sorted.values[best];
+  return values[best];
 }
 
 // Returns the value of a line of `values` values that contains the middle of pixel k, where the
@@ -185,17 +145,29 @@ starfocus_status starfocus_focus_at(const starfocus_depth_map* depth, int32_t wi
   check.In({"x", double(x)}, {"inside the picture", 0, width - 1.0});
   check.In({"y", double(y)}, {"inside the picture", 0, height - 1.0});
   if (!check.passed()) return check.status();
-  const Place place = {*depth, ValueOf(x, width, depth->width), ValueOf(y, height, depth->height)};
-  Sorted sorted;
-  place.ForKnown(kAround, [&](float disparity) { sorted.Insert(disparity); });
-  check.Need(sorted.count > 0, STARFOCUS_ERROR_NOT_FINITE, {"depth"},
+  const int32_t column = ValueOf(x, width, depth->width), row = ValueOf(y, height, depth->height);
+  float known[kSide * kSide];  // known disparities around the pixel, in ascending order
+  int32_t count = 0;
+  ForKnown(*depth, column, row, kAround, [&](float disparity) {
+    int32_t k = count++;
+    for (; k > 0 && known[k - 1] > disparity; --k) known[k] = known[k - 1];
+    known[k] = disparity;
+  });
+  check.Need(count > 0, STARFOCUS_ERROR_NOT_FINITE, {"depth"},
              {"a finite disparity near the pixel"});
   if (!check.passed()) return check.status();
-  const double own = place.Own();
-  double surface = HasNeighbour(place, own) ? own : MostCommon(sorted);
+  float own;  // NaN if the disparity of the pixel is unknown
+  ReadDisparities(*depth, column, row, 1, &own);
+  // A pixel of a wire one pixel wide has a neighbour on its surface, a single wrong pixel has none.
+  int32_t near = 0;  // includes the pixel itself
+  ForKnown(*depth, column, row, 1,
+           [&](double disparity) { near += std::fabs(disparity - own) <= kNear ? 1 : 0; });
+  double surface = near > 1 ? double{own} : MostCommon(known, count);
   // Taking the median twice makes the focus less dependent on the noise of the tapped pixel.
   for (int round = 0; round < 2; ++round) {
-    surface = Median(sorted, RangeNear(sorted, surface));
+    const Range part = RangeNear(known, count, surface);
+    const float* const middle = known + part.first + part.count() / 2;
+    surface = part.count() % 2 != 0 ? double{middle[0]} : (double{middle[-1]} + middle[0]) / 2;
   }
   *focus = surface;
   return STARFOCUS_OK;

@@ -3,7 +3,6 @@
 #include "lib/api/validate.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/prepared.h"
-#include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
@@ -35,25 +34,6 @@ starfocus_status PrepareIn(void* memory, size_t bytes, const starfocus_light_fie
   return TellPlace(check.status(), light_field.depth, 0, &engine->problem);
 }
 
-// Prepares a light field in memory from the allocator of the engine.
-starfocus_status PrepareAllocated(const starfocus_light_field& light_field, EngineState* engine,
-                                  Prepared** prepared) {
-  const starfocus_allocator& allocator = engine->allocator;
-  Checker check(&engine->problem);
-  const size_t bytes = SizeOf(engine->config, &check);
-  if (!check.passed()) return check.status();
-  void* const memory = allocator.allocate(allocator.data, bytes, STARFOCUS_ALIGNMENT);
-  if (memory == nullptr) return check.Add(STARFOCUS_ERROR_MEMORY);
-  const starfocus_status status = PrepareIn(memory, bytes, light_field, engine, prepared);
-  if (status == STARFOCUS_OK) {
-    (*prepared)->allocator = allocator;
-    (*prepared)->bytes = bytes;
-  } else {
-    allocator.release(allocator.data, memory, bytes);
-  }
-  return status;
-}
-
 }  // namespace
 }  // namespace starfocus
 
@@ -83,12 +63,25 @@ starfocus_status starfocus_prepare(starfocus_engine* engine,
   check.Read(*light_field, "light_field.size", &field);
   CheckLightField(e.config, field, &check);
   if (!check.passed()) return check.status();
-  const bool allocates = memory == nullptr && e.allocator.allocate != nullptr;
+  const starfocus_allocator& allocator = e.allocator;
+  const bool allocates = memory == nullptr && allocator.allocate != nullptr;
+  if (allocates) {
+    bytes = SizeOf(e.config, &check);
+    if (check.passed()) memory = allocator.allocate(allocator.data, bytes, STARFOCUS_ALIGNMENT);
+    if (memory == nullptr) return check.Add(STARFOCUS_ERROR_MEMORY);
+  }
   Prepared* made = nullptr;
-  const starfocus_status status =
-      allocates ? PrepareAllocated(field, &e, &made) : PrepareIn(memory, bytes, field, &e, &made);
-  if (status == STARFOCUS_OK) *prepared = reinterpret_cast<starfocus_prepared*>(made);
-  return status;
+  const starfocus_status status = PrepareIn(memory, bytes, field, &e, &made);
+  if (status != STARFOCUS_OK) {
+    if (allocates) allocator.release(allocator.data, memory, bytes);
+    return status;
+  }
+  if (allocates) {
+    made->allocator = allocator;
+    made->bytes = bytes;
+  }
+  *prepared = reinterpret_cast<starfocus_prepared*>(made);
+  return STARFOCUS_OK;
 }
 
 void starfocus_destroy_prepared(starfocus_prepared* prepared) {

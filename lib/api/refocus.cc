@@ -1,40 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: refocuses whole pictures, regions and previews.
 #include "lib/api/validate.h"
-#include "lib/base/config.h"
-#include "lib/base/geometry.h"
-#include "lib/base/problem.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/prepared.h"
 #include "lib/io/output.h"
-#include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
-
-// Prepares the engine for comparing its input, the light field `now`, with the previous light
-// field.
-void CompareWith(const starfocus_previous& previous, const starfocus_light_field* now, int32_t mode,
-                 EngineState* engine) {
-  const FullConfig& config = engine->config;
-  FrameDiff& changes = engine->stripe.changes;
-  changes.active = true;
-  changes.covers = engine->input.given_coverage.data != nullptr;
-  changes.before = previous.light_field;
-  changes.picture = previous.out;
-  changes.now = now;
-  // STARFOCUS_MODE_BLUR reads only the centre view.
-  changes.views = mode == STARFOCUS_MODE_BLUR ? 1 : config.views;
-  changes.fills = config.unknown == STARFOCUS_UNKNOWN_FILL;
-  changes.width = config.width;
-  changes.height = config.height;
-  changes.side = config.superblock;
-  const Borders& borders = engine->lens.borders;
-  changes.side_reach = borders.views;
-  changes.centre_reach = borders.highlights > 0 ? borders.views : borders.centre;
-  StartFrameDiff(StripeRows(*engine).first, &changes);
-}
 
 // Checks `params` and the prepared light field, which may be null, against the configuration of
 // the engine.
@@ -68,7 +41,7 @@ starfocus_status RunCall(const FullParams& params, const Output& out,
   engine->jobs->call_progress.Begin(0, RegionOf(engine->config, params).height);
   Checker check(engine->config.problem);
   if (check.Add(SetLens(params, engine)) != STARFOCUS_OK) return check.status();
-  if (previous.light_field != nullptr) CompareWith(previous, now, params.mode, engine);
+  if (previous.light_field != nullptr) StartFrameDiff(previous, now, engine);
   check.Add(RefocusRows(out, engine));
   if (check.passed()) WriteReport(*engine, report);
   return check.status();
@@ -155,12 +128,6 @@ void NamePrevious(starfocus_problem* problem) {
   }
 }
 
-void CheckFieldInPlace(const FullConfig& config, const starfocus_light_field& field,
-                       Checker* check) {
-  CheckInPlace(field, config.views, check);
-  CheckInPlace(field.depth, config.width, config.height, check);
-}
-
 // Checks the previous frame, and copies it and its light field to *previous and *field. Frames can
 // be compared only if both frames are read in place.
 void CheckPrevious(const EngineState& engine, const FullParams& params, const starfocus_image& out,
@@ -174,7 +141,7 @@ void CheckPrevious(const EngineState& engine, const FullParams& params, const st
   if (!check->passed()) return;
   check->Read(*previous->light_field, "light_field.size", field);
   CheckLightField(config, *field, check);
-  CheckFieldInPlace(config, *field, check);
+  CheckInPlace(config, *field, true, check);
   CheckOutput(config, *previous->out, rect.width, rect.height, check);
   if (!check->passed()) {
     NamePrevious(config.problem);
@@ -205,7 +172,7 @@ void CheckPrevious(const EngineState& engine, const FullParams& params, const st
   const Rect rect = RegionOf(config, params);
   CheckOutput(config, out, rect.width, rect.height, check);
   if (params.previous != nullptr) {
-    CheckFieldInPlace(config, field, check);
+    CheckInPlace(config, field, true, check);
     CheckPrevious(*engine, params, out, previous, &before, check);
   }
   if (!check->passed()) return;

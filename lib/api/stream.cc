@@ -2,12 +2,10 @@
 // C API: streams. The caller pushes input rows, which are stored in ring buffers, and pulls
 // finished rows.
 #include "lib/api/validate.h"
-#include "lib/base/config.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/stripe.h"
 #include "lib/io/output.h"
-#include "starfocus/starfocus.h"
 
 namespace starfocus {
 namespace {
@@ -39,28 +37,6 @@ bool AnyYuv(const FullConfig& config, const starfocus_light_field& light_field) 
     if (IsYuv(light_field.views[view].format)) return true;
   }
   return false;
-}
-
-void CheckPush(const EngineState& engine, const starfocus_light_field& light_field, int32_t rows,
-               Checker* check) {
-  const FullConfig& config = engine.config;
-  const int32_t pushed = engine.stream.pushed;
-  CheckCount(engine, rows, config.height - pushed, check);
-  CheckLightField(config, light_field, check);
-  if (!check->passed()) return;
-  CheckPairs(config, AnyYuv(config, light_field), pushed, rows, check);
-}
-
-// Checks a pull of `rows` rows. `rows` must not exceed the number of remaining rows.
-void CheckPull(const EngineState& engine, const starfocus_image& out, int32_t rows,
-               Checker* check) {
-  const FullConfig& config = engine.config;
-  CheckOutput(config, out, config.width, config.height, check);
-  CheckPairs(config, IsYuv(out.format), engine.stream.written, rows, check);
-  if (!check->passed() || rows == 0) return;
-  Extents memory;
-  memory.Add(Workspace(engine));
-  CheckOutputApart(out, config.width, rows, memory, check);
 }
 
 // Copies `rows` of a light field to the rings, unless a value of the map is invalid.
@@ -183,7 +159,10 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   starfocus_light_field field = {};
   check.Read(*light_field, "light_field.size", &field);
-  CheckPush(e, field, rows, &check);
+  CheckCount(e, rows, e.config.height - e.stream.pushed, &check);
+  CheckLightField(e.config, field, &check);
+  if (!check.passed()) return check.status();
+  CheckPairs(e.config, AnyYuv(e.config, field), e.stream.pushed, rows, &check);
   if (!check.passed()) return check.status();
   const Input from = InputOf(e.config, *e.kernels, field, e.stream.pushed, &e.rings);
   const int32_t unit = AnyYuv(e.config, field) ? 2 : 1;
@@ -209,7 +188,13 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   CheckCount(e, rows, INT32_MAX, &check);
   const int32_t first = e.stream.written, left = e.config.height - first;
   const int32_t most = Min(rows, left);
-  CheckPull(e, *out, most, &check);
+  CheckOutput(e.config, *out, e.config.width, e.config.height, &check);
+  CheckPairs(e.config, IsYuv(out->format), first, most, &check);
+  if (check.passed() && most > 0) {
+    Extents memory;
+    memory.Add(Workspace(e));
+    CheckOutputApart(*out, e.config.width, most, memory, &check);
+  }
   if (!check.passed()) return check.status();
   const Plane<uint8_t>& alpha = e.rings.alpha;
   Output output = OutputOf(*out, {0, first, e.config.width, left}, e.odd_row);

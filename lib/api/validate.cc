@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/api/validate.h"
 
-#include "lib/base/config.h"
 #include "lib/engine/engine.h"
 #include "lib/io/depth_map.h"
 #include "lib/io/image.h"
@@ -320,15 +319,14 @@ void CheckLoneMap(const starfocus_depth_map& map, int32_t width, int32_t height,
   CheckDepthMap(map, width, height, check);
 }
 
-void CheckInPlace(const starfocus_light_field& light_field, int32_t count, Checker* check) {
-  for (int32_t view = 0; view < count; ++view) {
+void CheckInPlace(const FullConfig& config, const starfocus_light_field& light_field, bool has_map,
+                  Checker* check) {
+  for (int32_t view = 0; view < config.views; ++view) {
     NeedInPlace(light_field.views[view], kViewNames, view, check);
   }
-}
-
-void CheckInPlace(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check) {
   check->Need(
-      IsInPlace(map, width, height), STARFOCUS_ERROR_FEATURE, {"depth"},
+      !has_map || IsInPlace(light_field.depth, config.width, config.height),
+      STARFOCUS_ERROR_FEATURE, {"depth"},
       {"a map of starfocus_depth_float in the size of the picture, or STARFOCUS_FEATURE_IMAGES "
        "in config.features"});
 }
@@ -340,9 +338,7 @@ void CheckLightField(const FullConfig& config, const starfocus_light_field& ligh
   CheckBytes(light_field.coverage, light_field.coverage_stride, width, height, "coverage_stride",
              check);
   CheckDepthMap(light_field.depth, width, height, check);
-  if (Has(config, STARFOCUS_FEATURE_IMAGES)) return;
-  CheckInPlace(light_field, config.views, check);
-  CheckInPlace(light_field.depth, width, height, check);
+  if (!Has(config, STARFOCUS_FEATURE_IMAGES)) CheckInPlace(config, light_field, true, check);
 }
 
 void AddDepthMap(const starfocus_depth_map& map, Extents* extents) {

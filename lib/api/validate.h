@@ -76,11 +76,10 @@ void CheckDepthMap(const starfocus_depth_map& map, int32_t width, int32_t height
 // Checks a depth map and the size of its picture, which no configuration has checked.
 void CheckLoneMap(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check);
 
-// Checks that `count` views have formats that are read in place.
-void CheckInPlace(const starfocus_light_field& light_field, int32_t count, Checker* check);
-
-// Checks that a depth map has a format that is read in place.
-void CheckInPlace(const starfocus_depth_map& map, int32_t width, int32_t height, Checker* check);
+// Checks that the views of a light field and, if `has_map` is true, its map have formats that are
+// read in place.
+void CheckInPlace(const FullConfig& config, const starfocus_light_field& light_field, bool has_map,
+                  Checker* check);
 
 // Checks a light field for an engine of `config`.
 void CheckLightField(const FullConfig& config, const starfocus_light_field& light_field,

@@ -3,10 +3,8 @@
 // repair.
 #include <limits>
 
-#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/depth/maps.h"
-#include "lib/io/depth_map.h"
 #include "lib/io/image.h"
 
 namespace starfocus {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/base/config.h"
 namespace starfocus {
 namespace {
 

@@ -40,27 +40,18 @@ void FilterLine(const DeblockJob& job, uint8_t* q, ptrdiff_t step, int32_t avail
   }
 }
 
-// A boundary along `count` pixels that are `along` bytes apart and start at `at`. Pixels across the
-// boundary are `across` bytes apart. `room` is the number of pixels from `at`, perpendicular to the
-// boundary, that are inside the picture.
-struct BoundaryLine {
-  uint8_t* at;
-  int32_t count;
-  ptrdiff_t along, across;
-  int32_t room;
-};
-
-// Filters a boundary between blocks of layers `before` and `after`.
-void FilterBoundary(const DeblockJob& job, const BoundaryLine& line, int32_t before,
-                    int32_t after) {
+// Filters a boundary between blocks of layers `before` and `after`, along `count` pixels that are
+// `along` bytes apart and start at `at`. Pixels across the boundary are `across` bytes apart.
+// `room` is the number of pixels from `at`, perpendicular to the boundary, that are inside the
+// picture.
+void FilterBoundary(const DeblockJob& job, int32_t before, int32_t after, uint8_t* at,
+                    int32_t count, ptrdiff_t along, ptrdiff_t across, int32_t room) {
   const bool lower_after = before > after;
-  uint8_t* q = lower_after ? line.at : line.at - line.across;
-  const ptrdiff_t step = lower_after ? line.across : -line.across;
-  const int32_t available = lower_after ? line.room : kSmallestBlock;
+  uint8_t* q = lower_after ? at : at - across;
+  const ptrdiff_t step = lower_after ? across : -across;
+  const int32_t available = lower_after ? room : kSmallestBlock;
   const bool strong = Max(before, after) == 2;
-  for (int32_t k = 0; k < line.count; ++k, q += line.along) {
-    FilterLine(job, q, step, available, strong);
-  }
+  for (int32_t k = 0; k < count; ++k, q += along) FilterLine(job, q, step, available, strong);
 }
 
 }  // namespace
@@ -73,10 +64,9 @@ void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end) {
       const int32_t before = map.At(column, row - 1), after = map.At(column, row);
       if (!Meet(before, after)) continue;
       const int32_t x = column * kSmallestBlock;
-      const BoundaryLine line = {job.out.Row(y) + 3 * x, Min(kSmallestBlock, job.width - x), 3,
-                                 static_cast<ptrdiff_t>(job.out.stride),
-                                 Min(kSmallestBlock, job.height - y)};
-      FilterBoundary(job, line, before, after);
+      FilterBoundary(job, before, after, job.out.Row(y) + 3 * x, Min(kSmallestBlock, job.width - x),
+                     3, static_cast<ptrdiff_t>(job.out.stride),
+                     Min(kSmallestBlock, job.height - y));
     }
   }
 }
@@ -89,9 +79,8 @@ void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last) {
       const int32_t before = map.At(column - 1, row), after = map.At(column, row);
       if (!Meet(before, after)) continue;
       const int32_t x = column * kSmallestBlock;
-      const BoundaryLine line = {job.out.Row(y) + 3 * x, 1, 0, 3,
-                                 Min(kSmallestBlock, job.width - x)};
-      FilterBoundary(job, line, before, after);
+      FilterBoundary(job, before, after, job.out.Row(y) + 3 * x, 1, 0, 3,
+                     Min(kSmallestBlock, job.width - x));
     }
   }
 }

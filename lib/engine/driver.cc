@@ -3,10 +3,8 @@
 
 #include <cstring>
 
-#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/base/problem.h"
-#include "lib/engine/engine.h"
 #include "lib/engine/stripe.h"
 #include "lib/io/output.h"
 #include "simd/depth_values.h"
@@ -23,10 +21,10 @@ void StoreChanged(const Output& out, const Plane<uint8_t>& from, int32_t y,
                   const EngineState& engine) {
   const Rect& rect = out.rect;
   const FrameDiff& changes = engine.stripe.changes;
-  const int32_t side = changes.side, reach = engine.lens.borders.joined;
+  const int32_t side = engine.config.superblock, reach = engine.lens.borders.joined;
   std::memcpy(out.image.Pixel(0, y - rect.y), RowsOf(*changes.picture, rect.y).Row(y),
               3 * static_cast<size_t>(rect.width));
-  for (int32_t x = 0; x < changes.width; x += side) {
+  for (int32_t x = 0; x < engine.config.width; x += side) {
     if (!HasChanged(changes, {x, y - reach, side, 1 + 2 * reach})) continue;
     CopyColumns(out, from, y, Max(x - reach, rect.x), Min(x + side + reach, rect.x + rect.width));
   }
@@ -34,7 +32,7 @@ void StoreChanged(const Output& out, const Plane<uint8_t>& from, int32_t y,
 
 starfocus_status Store(const Output& out, const Range& rows, const Plane<uint8_t>& from,
                        EngineState* engine) {
-  if (!engine->stripe.changes.active) {
+  if (engine->stripe.changes.before == nullptr) {
     return StoreRows(out, rows, from, MaxJobs(engine->config), engine->jobs);
   }
   for (int32_t y = rows.first; y < rows.last; ++y) StoreChanged(out, from, y, *engine);
@@ -100,7 +98,7 @@ starfocus_status RefocusRows(const Output& out, EngineState* engine) {
   CallProgress& call_progress = engine->jobs->call_progress;
   const auto refocus = [&](int32_t y, const Range& read) {
     starfocus_status status = ReadRows(read, &engine->rings.disparity, engine);
-    if (status == STARFOCUS_OK && engine->stripe.changes.active) {
+    if (status == STARFOCUS_OK && engine->stripe.changes.before != nullptr) {
       status = CompareRows(y, &engine->scratch[0].cancel, &engine->stripe.changes);
     }
     if (status == STARFOCUS_OK) status = RefocusStripe(engine, y);

@@ -4,12 +4,7 @@
 #include <cstring>
 #include <new>
 
-#include "lib/base/config.h"
-#include "lib/engine/lens.h"
-#include "lib/io/block_pixels.h"
-#include "lib/matting/coverage.h"
 #include "lib/optics/rules.h"
-#include "lib/plan/partition.h"
 
 namespace starfocus {
 
@@ -129,7 +124,7 @@ void TakePicture(const FullConfig& config, Arena* arena, EngineState* engine) {
   TakeCoverage(config, borders.matting, arena, &engine->stripe.coverage);
   TakeRims(config, borders.layer[0], arena, &engine->stripe.rims);
   TakePlan(config, arena, &engine->stripe);
-  TakeFrameDiff(Columns(config), config.superblock, borders.views, arena, &engine->stripe.changes);
+  TakeFrameDiff(config, borders.views, arena, &engine->stripe.changes);
 }
 
 #ifdef STARFOCUS_RED_ZONES
@@ -217,7 +212,7 @@ starfocus_status SetLens(const FullParams& params, EngineState* engine) {
   engine->report.r_max = engine->lens.r_max;
   engine->report.superblock = engine->config.superblock;
   DropCounts(engine);
-  engine->stripe.changes.active = false;
+  engine->stripe.changes.before = nullptr;
   ForgetStripe(&engine->stripe);
   ForgetLayers(engine->config, &engine->layers);
   return STARFOCUS_OK;

@@ -32,36 +32,31 @@ namespace starfocus {
 // affects the region. The flags of a stripe and its neighbours are complete when all rows that
 // affect these stripes have been compared.
 struct FrameDiff {
-  bool active = false;  // true if `before` points to the previous light field
-  bool covers;          // True if both light fields have coverage; false if none has.
+  const FullConfig* config;
   // Light fields of the caller, which may end before the coverage if `covers` is false.
-  const starfocus_light_field *before, *now;
+  const starfocus_light_field* before = nullptr;  // Null: light fields are not compared.
+  const starfocus_light_field* now;
   const starfocus_image* picture;  // Previous picture, packed RGB: source of unchanged pixels.
+  bool covers;                     // True if both light fields have coverage; false if none has.
   int32_t views;                   // Number of views to compare.
-  int32_t width, height, side;     // Size of the picture, and side of a superblock, in pixels.
-  int32_t columns;                 // Number of columns of superblocks.
   // Number of pixels around a block, in the centre view and in side views, on which the block may
   // depend.
   int32_t centre_reach, side_reach;
-  bool fills;     // True if unknown disparities are filled along their row.
   int32_t rows;   // Number of rows compared so far.
   int32_t known;  // Number of stripes whose flags are initialised.
-  // Ring of stripes with one flag per column: 1 if the superblock changed.
+  // Ring of stripes with one flag per column of superblocks: 1 if the superblock changed.
   uint8_t* flags = nullptr;
   int32_t stripes = 0;  // number of stripes in the ring
 
   uint8_t* Flags(int32_t stripe) const {
-    return flags + static_cast<size_t>(stripe % stripes) * static_cast<size_t>(columns);
+    return flags + static_cast<size_t>(stripe % stripes) * static_cast<size_t>(Columns(*config));
   }
 };
 
-// Allocates the flags of `columns` columns of superblocks. Input rows are compared up to `reach`
-// rows below the next stripe. The compared rows flag stripes that start up to `reach` rows farther
-// down. The ring of flags also keeps the flags of the previous stripe.
-void TakeFrameDiff(int32_t columns, int32_t side, int32_t reach, Arena* arena, FrameDiff* changes);
-
-// Restarts the comparison at the stripe that starts at row y.
-void StartFrameDiff(int32_t y, FrameDiff* changes);
+// Allocates the flags. Input rows are compared up to `reach` rows below the next stripe. The
+// compared rows flag stripes that start up to `reach` rows farther down. The ring of flags also
+// keeps the flags of the previous stripe.
+void TakeFrameDiff(const FullConfig& config, int32_t reach, Arena* arena, FrameDiff* changes);
 
 // Compares all rows that affect blocks of the stripe at row y, of the previous stripe, or of the
 // next stripe. Returns STARFOCUS_OK or STARFOCUS_ERROR_CANCELLED.
@@ -184,6 +179,11 @@ struct EngineState {
   // The following member is valid for one stripe.
   StripeState stripe;
 };
+
+// Starts to compare the engine's input, the light field `now` of the caller, with the previous
+// frame. The lens must be set.
+void StartFrameDiff(const starfocus_previous& previous, const starfocus_light_field* now,
+                    EngineState* engine);
 
 // Sets up the lens for `params` and discards the state of the previous refocusing. Reports progress
 // through the workers' CallProgress. Returns STARFOCUS_ERROR_BLUR, STARFOCUS_ERROR_CANCELLED or

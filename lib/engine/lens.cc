@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/engine/lens.h"
 
-#include <cstdint>
 #include <cstring>
 
-#include "lib/base/config.h"
 #include "lib/base/problem.h"
-#include "lib/optics/psf.h"
-#include "lib/optics/rules.h"
 #include "lib/optics/view_grid.h"
 #include "lib/optics/view_set.h"
 

@@ -3,7 +3,6 @@
 
 #include <new>
 
-#include "lib/base/config.h"
 #include "lib/base/fixed.h"
 #include "lib/engine/driver.h"
 #include "lib/engine/stripe.h"

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "lib/base/config.h"
-#include "lib/engine/engine.h"
 #include "lib/matting/coverage.h"
 
 namespace starfocus {

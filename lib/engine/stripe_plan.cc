@@ -99,8 +99,9 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
 bool IsNew(const EngineState& engine, const Rect& rect) {
   const int32_t reach = 2 * engine.lens.borders.joined;
   const FrameDiff& changes = engine.stripe.changes;
-  return !changes.active || HasChanged(changes, {rect.x - reach, rect.y - reach,
-                                                 rect.width + 2 * reach, rect.height + 2 * reach});
+  return changes.before == nullptr ||
+         HasChanged(changes, {rect.x - reach, rect.y - reach, rect.width + 2 * reach,
+                              rect.height + 2 * reach});
 }
 
 // Moves the grid of cells to the stripe and its surroundings. Returns the first row of cells to
