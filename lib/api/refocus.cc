@@ -85,13 +85,9 @@ starfocus_status RefocusPreview(const FullParams& params, const Prepared& prepar
 
 // Fields of params.previous that checks of light fields and pictures may reject.
 constexpr const char* kPreviousFields[] = {
+    STARFOCUS_IMAGE_FIELDS("previous.light_field.views[]."),
+    STARFOCUS_IMAGE_FIELDS("previous.out."),
     "previous.light_field.size",
-    "previous.light_field.views[].format",
-    "previous.light_field.views[].matrix",
-    "previous.light_field.views[].range",
-    "previous.light_field.views[].pixel_stride",
-    "previous.light_field.views[].planes",
-    "previous.light_field.views[].strides",
     "previous.light_field.coverage_stride",
     "previous.light_field.depth",
     "previous.light_field.depth.data",
@@ -103,12 +99,6 @@ constexpr const char* kPreviousFields[] = {
     "previous.light_field.depth.width",
     "previous.light_field.depth.height",
     "previous.light_field.depth.stride",
-    "previous.out.format",
-    "previous.out.matrix",
-    "previous.out.range",
-    "previous.out.pixel_stride",
-    "previous.out.planes",
-    "previous.out.strides",
 };
 
 // Returns true if `name` is `field` of a structure, such as "previous.out.format" of "out.format".

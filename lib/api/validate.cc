@@ -236,12 +236,9 @@ struct ImageNames {
   const char *format, *matrix, *range, *pixel_stride, *planes, *strides;
 };
 
-constexpr ImageNames kViewNames = {"views[].format",       "views[].matrix", "views[].range",
-                                   "views[].pixel_stride", "views[].planes", "views[].strides"};
-constexpr ImageNames kOutNames = {"out.format",       "out.matrix", "out.range",
-                                  "out.pixel_stride", "out.planes", "out.strides"};
-constexpr ImageNames kImageNames = {"format",       "matrix", "range",
-                                    "pixel_stride", "planes", "strides"};
+constexpr ImageNames kViewNames = {STARFOCUS_IMAGE_FIELDS("views[].")};
+constexpr ImageNames kOutNames = {STARFOCUS_IMAGE_FIELDS("out.")};
+constexpr ImageNames kImageNames = {STARFOCUS_IMAGE_FIELDS("")};
 
 // Checks the format and the pixel_stride of an image.
 void CheckLayout(const starfocus_image& image, const ImageNames& names, int32_t index,

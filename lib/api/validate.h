@@ -15,6 +15,11 @@
 
 namespace starfocus {
 
+// Names of the fields of an image, for error messages.
+#define STARFOCUS_IMAGE_FIELDS(prefix)                                                      \
+  prefix "format", prefix "matrix", prefix "range", prefix "pixel_stride", prefix "planes", \
+      prefix "strides"
+
 // Returns true if two strings are equal. The engine does not use the strings of the C library.
 bool AreEqual(const char* a, const char* b);
 
