@@ -174,8 +174,7 @@ void RefocusViews(const EngineState& engine, const Block& block, const Plane<uin
   const auto blur = [&](const Input& input) {
     const BlurJob job = {&input,     engine.lens.scale, engine.tables->psfs,
                          block.rect, block.border.left, &scratch->cancel};
-    BlurRectangle(job, scratch->field_rgb, scratch->sums, scratch->spans, At(out, block.rect, 0),
-                  out.stride);
+    BlurRectangle(job, scratch->field_rgb, scratch->sums, At(out, block.rect, 0), out.stride);
   };
   blur(engine.input);
   if (block.has_highlights) {

@@ -35,7 +35,6 @@ void TakeUpsampling(const FullConfig& config, size_t extended, Arena* arena, Scr
     const size_t stride = RgbStride(static_cast<int32_t>(extended));
     scratch->field_rgb = arena->Take<int16_t>(extended * stride);
     scratch->field_disparity = arena->Take<int16_t>(extended * extended);
-    scratch->spans = TakeSpans(extended, arena);
   };
   const auto upsample = [&] {
     scratch->upsample.line = arena->Take<int16_t>(3 * half);

@@ -14,7 +14,6 @@
 #include "lib/base/jobs.h"
 #include "lib/engine/deblock.h"
 #include "lib/engine/lens.h"
-#include "lib/gather/span_list.h"
 #include "lib/io/block_pixels.h"
 #include "lib/io/highlights.h"
 #include "lib/io/input.h"
@@ -89,7 +88,6 @@ struct Scratch {
   uint16_t* aperture_weights;  // With cat's eyes: view weights of a block, for up to the largest N.
   LampRuns* lamp_runs;         // Cache of runs of highlights, if highlights are enabled.
   int16_t *field_rgb, *field_disparity;  // Pixels of a block that is blurred without views.
-  SpanMemory spans;                      // Spans of a block that is blurred by depth.
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;          // Samples of the rendered rectangle.

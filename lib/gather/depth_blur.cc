@@ -25,46 +25,46 @@ void LoadPixels(const BlurJob& job, int16_t* rgb) {
   }
 }
 
-// Adds the spans of a PSF with weights `weight(n, m)` for `count` pixels of the same radius. Each
-// span uses two adjacent weights.
-template <class Weight>
-void AddRun(int32_t size, const Weight& weight, const int16_t* at, size_t stride, int32_t count,
-            SpanList* list) {
-  const uint32_t samples = 3 * static_cast<uint32_t>(count);
-  for (int32_t m = -size; m <= size; ++m) {
+// Adds `count` pixels of the same radius to the sums, weighted by a PSF that is rotated by half a
+// turn if `side` is -1. `at` is the first pixel, in rows `stride` samples apart. Each span uses two
+// adjacent weights. kFull is Psf::full. `psf` is a copy, so that the compiler keeps its members in
+// registers while the loops write spans.
+template <bool kFull>
+void AddPsf(const simd::Kernels& kernels, Psf psf, int32_t side, const int16_t* at, size_t stride,
+            int32_t count, uint32_t* sums) {
+  constexpr size_t kAtOnce = 64;
+  const auto weight = [&](int32_t n, int32_t m) {
+    return kFull ? psf.Weight(side * n, side * m) : psf.OctantWeight(n, m);
+  };
+  simd::Span spans[kAtOnce];
+  size_t used = 0;
+  for (int32_t m = -psf.size; m <= psf.size; ++m) {
     const int16_t* row = at + static_cast<ptrdiff_t>(m) * static_cast<ptrdiff_t>(stride);
-    for (int32_t n = -size; n <= size; n += 2) {
-      const uint32_t first = weight(n, m), next = n < size ? weight(n + 1, m) : 0;
+    for (int32_t n = -psf.size; n <= psf.size; n += 2) {
+      const uint32_t first = weight(n, m);
+      const uint32_t next = n < psf.size ? weight(n + 1, m) : 0;
       if (first + next == 0) continue;
-      list->Add({row + 3 * static_cast<ptrdiff_t>(n), 0, samples, static_cast<uint16_t>(first),
-                 static_cast<uint16_t>(next), 3});
+      if (used == kAtOnce) {
+        kernels.Accumulate(spans, used, sums);
+        used = 0;
+      }
+      spans[used++] = {row + 3 * static_cast<ptrdiff_t>(n), 0,
+                       3 * static_cast<uint32_t>(count),    static_cast<uint16_t>(first),
+                       static_cast<uint16_t>(next),         3};
     }
   }
-}
-
-// Adds a PSF to the list, rotated by half a turn if `side` is -1.
-void AddPsf(const Psf& psf, int32_t side, const int16_t* at, size_t stride, int32_t count,
-            SpanList* list) {
-  if (psf.full) {
-    AddRun(
-        psf.size, [&](int32_t n, int32_t m) { return psf.Weight(side * n, side * m); }, at, stride,
-        count, list);
-  } else {
-    AddRun(
-        psf.size, [&](int32_t n, int32_t m) { return psf.OctantWeight(n, m); }, at, stride, count,
-        list);
-  }
+  kernels.Accumulate(spans, used, sums);
 }
 
 }  // namespace
 
-void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
-                   const SpanMemory& spans, uint8_t* out, size_t out_stride) {
+void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, uint8_t* out,
+                   size_t out_stride) {
   LoadPixels(job, rgb);
   const Rect& rect = job.rect;
   const size_t stride = 3 * static_cast<size_t>(rect.width + 2 * job.border);
-  SpanList list(*job.input->kernels, spans, accumulators);
   const bool turns = job.psfs_of_radius[0].full;
+  const auto add_psf = turns ? AddPsf<true> : AddPsf<false>;
   for (int32_t y = 0; y < rect.height; ++y, out += out_stride) {
     const int16_t* disparity = job.input->disparity.Row(rect.y + y) + rect.x;
     const int16_t* row =
@@ -84,8 +84,7 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
       const int64_t points = (2 * psf.size + 1) * (2 * psf.size + 1);
       if (!GoesOn(job.cancel, points * static_cast<int64_t>(samples))) return;
       std::memset(accumulators, 0, samples * sizeof(uint32_t));
-      AddPsf(psf, side, row + 3 * begin, stride, x - begin, &list);
-      list.Flush();
+      add_psf(*job.input->kernels, psf, side, row + 3 * begin, stride, x - begin, accumulators);
       const int bits = psf.sum_bits + kLightBits;
       CheckSums(accumulators, samples, bits);
       if (job.input->captured != nullptr) {

@@ -9,7 +9,6 @@
 #include <cstdint>
 
 #include "lib/base/jobs.h"
-#include "lib/gather/span_list.h"
 #include "lib/io/input.h"
 #include "lib/optics/psf.h"
 #include "lib/plan/cells.h"
@@ -28,8 +27,8 @@ struct BlurJob {
 // Blurs job.rect into `out`, which starts at the first pixel of the rectangle. Scratch memory:
 // `rgb` holds the light of the extended rectangle in packed rows, `accumulators` 3 * rect.width
 // sums.
-void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators,
-                   const SpanMemory& spans, uint8_t* out, size_t out_stride);
+void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, uint8_t* out,
+                   size_t out_stride);
 
 }  // namespace starfocus
 
