@@ -16,7 +16,6 @@
 #include "simd/light-inl.h"
 #include "simd/matting-inl.h"
 #include "simd/resample-inl.h"
-#include "simd/runs-inl.h"
 #include "simd/slices-inl.h"
 #include "simd/spans-inl.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of SIMD kernels. A table holds one pointer per kernel of a list, for one SIMD target.
-// There are three tables, in units of their own, and a program links only the tables that it uses.
+// There are four tables, in units of their own, and a program links only the tables that it uses.
 // `simd/table-inl.h` compiles a table for every target of `simd/targets.h`.
 //
 // Each kernel family x has two files. `x.h` contains the contracts, and beside each contract the
@@ -20,12 +20,12 @@
 #include "simd/hidden_fill.h"
 #include "simd/layered_depth.h"
 #include "simd/light.h"
+#include "simd/line_scan.h"
 #include "simd/match.h"
 #include "simd/matting.h"
 #include "simd/paths.h"
 #include "simd/pixels.h"
 #include "simd/resample.h"
-#include "simd/runs.h"
 #include "simd/samples.h"
 #include "simd/slices.h"
 #include "simd/spans.h"
@@ -58,7 +58,6 @@
 // cases lack a kernel of this list.
 #define STARFOCUS_KERNELS(KERNEL) \
   KERNEL(Accumulate)              \
-  KERNEL(Blend)                   \
   KERNEL(Decode)                  \
   KERNEL(Encode)                  \
   KERNEL(Finish)                  \
@@ -89,7 +88,6 @@
   KERNEL(ShiftSlice)              \
   KERNEL(Composite)               \
   KERNEL(FinishComposite)         \
-  KERNEL(FindRuns)                \
   KERNEL(MeasureCell)             \
   KERNEL(ReachBlock)              \
   KERNEL(SurroundCells)           \
@@ -132,11 +130,18 @@
   KERNEL(BlendRows)                     \
   KERNEL(SpreadRow)
 
+// List of the kernels of the line scan, which a program without the renderer of the paper does not
+// link.
+#define STARFOCUS_LINE_SCAN_KERNELS(KERNEL) \
+  KERNEL(FindRuns)                          \
+  KERNEL(Blend)
+
 namespace starfocus::simd {
 
 STARFOCUS_DECLARE_TABLE(Kernels, STARFOCUS_KERNELS)
 STARFOCUS_DECLARE_TABLE(DepthKernels, STARFOCUS_DEPTH_KERNELS)
 STARFOCUS_DECLARE_TABLE(ImageKernels, STARFOCUS_IMAGE_KERNELS)
+STARFOCUS_DECLARE_TABLE(LineScanKernels, STARFOCUS_LINE_SCAN_KERNELS)
 
 // Returns the table of the target with this name, or null if there is no such target. The
 // restrictions of KernelsOfTarget apply to FindKernels as well.

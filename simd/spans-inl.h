@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector code of the functions in spans.h. This file is included once per SIMD target.
-#include <cstring>
-
 #include "simd/highway-inl.h"
 #include "simd/spans.h"
 
@@ -51,38 +49,6 @@ inline void Accumulate(const Span* HWY_RESTRICT spans, size_t count,
         const auto b = keep(hn::PromoteTo(d32, hn::LoadU(d16, neighbour + n)));
         return WeighPair(d32, a, b, weight, neighbour_weight);
       });
-    }
-  }
-}
-
-HWY_INLINE void BlendSpan(const Span& span, int16_t* HWY_RESTRICT line) {
-  const hn::ScalableTag<int16_t> d16;
-  const auto weight =
-      hn::Set(d16, static_cast<int16_t>(span.neighbour_weight << (15 - kBlendBits)));
-  const int16_t* HWY_RESTRICT source = span.source;
-  const int16_t* HWY_RESTRICT neighbour = source + span.neighbour_offset;
-  int16_t* HWY_RESTRICT target = line + span.target;
-  const auto blended = [&](size_t n) HWY_ATTR {
-    const auto value = hn::LoadU(d16, source + n);
-    const auto more = hn::Sub(hn::LoadU(d16, neighbour + n), value);
-    return hn::Add(value, hn::MulFixedPoint15(more, weight));
-  };
-  const bool done = ForVectors(span.samples, hn::Lanes(d16),
-                               [&](size_t n) HWY_ATTR { hn::StoreU(blended(n), d16, target + n); });
-  if (done) return;
-  // Processes a span that is shorter than a vector, as most spans of line scans are. For spans
-  // shorter than a vector, the reference would be slower than vector code.
-  int16_t whole[HWY_MAX_BYTES / sizeof(int16_t)];
-  hn::StoreU(blended(0), d16, whole);
-  std::memcpy(target, whole, span.samples * sizeof(*target));
-}
-
-inline void Blend(const Span* HWY_RESTRICT spans, size_t count, int16_t* HWY_RESTRICT line) {
-  for (size_t i = 0; i < count; ++i) {
-    if (spans[i].neighbour_weight == 0) {
-      std::memcpy(line + spans[i].target, spans[i].source, spans[i].samples * sizeof(*line));
-    } else {
-      BlendSpan(spans[i], line);
     }
   }
 }

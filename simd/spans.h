@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that move spans of samples by a fraction of a pixel. The kernels compute weighted
-// sums of two samples of the source, and add or store the results.
+// SIMD kernel that moves spans of samples by a fraction of a pixel. The kernel computes weighted
+// sums of two samples of the source, and adds the results.
 #ifndef STARFOCUS_SIMD_SPANS_H_
 #define STARFOCUS_SIMD_SPANS_H_
 
@@ -25,9 +25,6 @@ struct Span {
   int32_t neighbour_offset;
 };
 
-// Fractional bits of the weights of Blend.
-inline constexpr int kBlendBits = 14;
-
 namespace reference {
 
 // SourceOf returns sample n of the source, and NeighbourOf the neighbour of sample n.
@@ -45,30 +42,11 @@ inline uint32_t SpanValue(const Span& span, uint32_t n) {
   return value;
 }
 
-inline int16_t BlendValue(const Span& span, uint32_t n) {
-  const int32_t value = SourceOf(span, n);
-  if (span.neighbour_weight == 0) return static_cast<int16_t>(value);
-  const int32_t weight = span.neighbour_weight << (15 - kBlendBits);
-  return static_cast<int16_t>(value + Product15(NeighbourOf(span, n) - value, weight));
-}
-
 // Adds value n of each span to accumulators[target + n]. Sums must not exceed 2^32 - 1.
 STARFOCUS_REFERENCE void Accumulate(const Span* spans, size_t count, uint32_t* accumulators) {
   for (size_t i = 0; i < count; ++i) {
     for (uint32_t n = 0; n < spans[i].samples; ++n) {
       accumulators[spans[i].target + n] += SpanValue(spans[i], n);
-    }
-  }
-}
-
-// Stores value n of each span in line[target + n]. The two weights of a span sum to 2^kBlendBits,
-// and the neighbour's weight is at most half of this sum. The weighted difference between neighbour
-// and sample is rounded half up. Sources must not overlap the line. Samples of the line outside the
-// spans are not written.
-STARFOCUS_REFERENCE void Blend(const Span* spans, size_t count, int16_t* line) {
-  for (size_t i = 0; i < count; ++i) {
-    for (uint32_t n = 0; n < spans[i].samples; ++n) {
-      line[spans[i].target + n] = BlendValue(spans[i], n);
     }
   }
 }

@@ -47,6 +47,7 @@ const Table* TableOfTarget(const Table& (*best)(), size_t index) {
 STARFOCUS_DEFINE_TABLES(Kernels, STARFOCUS_KERNELS)
 STARFOCUS_DEFINE_TABLES(DepthKernels, STARFOCUS_DEPTH_KERNELS)
 STARFOCUS_DEFINE_TABLES(ImageKernels, STARFOCUS_IMAGE_KERNELS)
+STARFOCUS_DEFINE_TABLES(LineScanKernels, STARFOCUS_LINE_SCAN_KERNELS)
 
 const Kernels* FindKernels(const char* name) {
   const Kernels* kernels = nullptr;

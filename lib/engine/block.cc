@@ -198,8 +198,8 @@ ViewGrid ViewGridOf(const EngineState& engine, const Block& block, uint16_t* wei
                         ShiftOfRim(opening, block.rect, engine.config.width, engine.config.height),
                         weights)
           : whole;
-  ViewGrid grid = MakeViewGrid(rendered, lens.scale.focus, lens.params.aperture * rendered.extent,
-                               block.layer, engine.config.views == 17);
+  ViewGrid grid =
+      MakeViewGrid(rendered, lens.scale.focus, lens.params.aperture * rendered.extent, block.layer);
   if (pinhole) grid.step = 0;
   return grid;
 }

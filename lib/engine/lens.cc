@@ -170,7 +170,7 @@ starfocus_status MakeLens(const FullConfig& config, const FullParams& params,
   lens->apertures = tables->apertures[lens->renderer->index].apertures;
   lens->aperture = FrameWeights(config, *tables, *lens);
   const FocusRange focus = MakeFocusRange(params.focus, params.focus_nearer, params.focus_farther);
-  const ViewGrid grid = MakeViewGrid(lens->aperture, focus, params.aperture, 0, false);
+  const ViewGrid grid = MakeViewGrid(lens->aperture, focus, params.aperture, 0);
   lens->scale = {grid.focus, grid.step};
   if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, call_progress, tables);
   if (params.mode == STARFOCUS_MODE_BLUR)

@@ -10,9 +10,9 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
-#include "lib/gather/span_list.h"
 #include "lib/optics/view_grid.h"
 #include "lib/plan/renderer.h"
+#include "simd/kernels.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -42,11 +42,25 @@ constexpr size_t RunMarkWords(size_t length, size_t lines) {
 }
 constexpr size_t RunMiddles(size_t length, size_t lines) { return length * RunMarkStride(lines); }
 
-// Splits adjacent lines into runs whose disparities vary by at most grid.spread, greedily in scan
+// Spread of a run, which is a sequence of adjacent pixels: largest difference between the shifts of
+// the pixels, in pixels (kShiftBits). Rendering a run with one shift misplaces the pixels of the
+// run by at most half the spread, in any view. Halving the spread brings no improvement
+// (docs/constants.md).
+inline constexpr int32_t kRunSpread = kShiftOne / 4;
+
+// Returns the largest disparity range of a run, kDisparityBits. A run covers a range of at most
+// kRunSpread / (u_t / 2^layer), and ends at every depth edge.
+int16_t RunRange(const ViewGrid& grid);
+
+// Returns the largest |i| of the views whose holes are filled from the captured views at half
+// distance, if the light field has `views` views.
+int32_t HalfViews(const ViewGrid& grid, int32_t views);
+
+// Splits adjacent lines into runs whose disparities vary by at most `range`, greedily in scan
 // order. Position q of line k is disparity[q * step + k]; `length` is in [1, 65535]. Sets
 // marks->stride. The arrays of `marks` must have room for the lines, and the disparities must be
 // followed by simd::kPadding bytes.
-void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const int16_t* disparity,
+void MarkRuns(const simd::LineScanKernels& kernels, int16_t range, const int16_t* disparity,
               ptrdiff_t step, int32_t length, int32_t lines, Direction direction,
               simd::RunMarks* marks);
 
@@ -367,6 +381,7 @@ void ScanLine(const Line& line, Direction direction, const Range& part, const Ra
 // and R the largest side of a rectangle without border. The comments of the members state the
 // number of elements of each buffer. Each buffer is followed by simd::kPadding bytes.
 struct LineScanScratch : RendererScratch {
+  const simd::LineScanKernels* kernels;
   // Light of the field and of the transposed field: E rows of RgbStride(E) each.
   int16_t* field_rgb[2];
   int16_t* field_disparity[2];  // Disparities of both fields: E^2 each.
@@ -383,8 +398,11 @@ struct LineScanScratch : RendererScratch {
   int16_t* columns_rgb;   // Light of the type A view, one line per column: R rows of RgbStride(E).
   uint32_t* column_sums;  // Sums of the pass over rows, in column order: 3 R^2.
   uint32_t* line_accumulators;  // Accumulators of one line: 3 E.
-  SpanMemory spans;
+  simd::Span* spans;            // Spans of a SpanList: kSpanCapacity.
+  int16_t* holes;               // Colours of holes that these spans show: hole_samples.
+  size_t hole_samples;          // 6 E, at least the samples of one line.
 };
+inline constexpr size_t kSpanCapacity = 512;
 
 }  // namespace starfocus
 

@@ -8,14 +8,28 @@
 
 namespace starfocus {
 
-void MarkRuns(const simd::Kernels& kernels, const ViewGrid& grid, const int16_t* disparity,
+int16_t RunRange(const ViewGrid& grid) {
+  constexpr int64_t kSpread = int64_t{kRunSpread} << (kStepBits + kDisparityBits - kShiftBits);
+  // The step is 0 if no view moves a pixel, so that any range is right.
+  const int64_t range = grid.step == 0 ? kSurfaceStep : kSpread / grid.step;
+  return static_cast<int16_t>(range < kSurfaceStep ? range : kSurfaceStep);
+}
+
+int32_t HalfViews(const ViewGrid& grid, int32_t views) {
+  int32_t half = 0;
+  if (views != 17) return half;
+  while (half < grid.n() && 2 * (half + 1) * grid.radius <= grid.n()) ++half;
+  return half;
+}
+
+void MarkRuns(const simd::LineScanKernels& kernels, int16_t range, const int16_t* disparity,
               ptrdiff_t step, int32_t length, int32_t lines, Direction direction,
               simd::RunMarks* marks) {
   marks->stride = RunMarkStride(static_cast<size_t>(lines));
   const bool mirrored = direction == Direction::kLeftToRight;
   kernels.FindRuns(disparity + (mirrored ? 0 : (length - 1) * step), mirrored ? step : -step,
-                   static_cast<size_t>(length), static_cast<size_t>(lines),
-                   static_cast<int16_t>(grid.spread), kSurfaceStep, *marks);
+                   static_cast<size_t>(length), static_cast<size_t>(lines), range, kSurfaceStep,
+                   *marks);
 }
 
 int32_t ReadRuns(const simd::RunMarks& marks, int32_t k, int32_t length, const ViewGrid& grid,
@@ -85,7 +99,7 @@ void HoleFiller::Fill(int32_t begin, int32_t end, int32_t disparity, const int16
     for (int32_t p = begin; p < end; ++p, out += 3) std::memcpy(out, colour, 3 * sizeof(*out));
     return;
   }
-  const bool half = Max(i, j) <= grid.half_views;
+  const bool half = Max(i, j) <= half_views;
   // Displacements of the surface relative to its position in the rendered view, kShiftBits: in the
   // centre view along each axis, and from there to the captured view.
   const int32_t along = u == 0 ? 0 : grid.Shift(moves[i], disparity);

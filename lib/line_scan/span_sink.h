@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 
-#include "lib/gather/span_list.h"
 #include "lib/io/input.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/optics/view_grid.h"
@@ -23,8 +22,9 @@ struct HoleFiller {
   bool transposed;       // true: lines run down the picture
   // The rendered view is (u * i, v * j), and the captured view (u, v) fills its holes. The
   // coordinates u and v are -1, 0 or 1. Their unit is the distance of the outermost views from the
-  // centre, or half of this distance if i and j are at most grid.half_views.
+  // centre, or half of this distance if i and j are at most half_views (HalfViews).
   int u, v;
+  int32_t half_views;
   int32_t i, j;
   // Position of pixel 0 of the line in the picture, and distance between neighbouring pixels.
   int32_t x, y, dx, dy;
@@ -36,6 +36,54 @@ struct HoleFiller {
   // visible background `colour`. With only the centre view, the background colour is repeated.
   void Fill(int32_t begin, int32_t end, int32_t disparity, const int16_t* colour,
             int16_t* out) const;
+};
+
+// Buffer of spans for a SIMD kernel, so that one call processes many views of a line.
+class SpanList {
+ public:
+  // Creates a list that adds spans to accumulators.
+  SpanList(const simd::Kernels& kernels, const LineScanScratch& scratch, uint32_t* accumulators)
+      : kernels_(&kernels), scratch_(scratch), spans_(scratch.spans), accumulators_(accumulators) {}
+  // Creates a list that blends spans into a line.
+  SpanList(const LineScanScratch& scratch, int16_t* line)
+      : scratch_(scratch), spans_(scratch.spans), line_(line) {}
+
+  // Returns the next span, which the caller must fill in.
+  simd::Span* Next() {
+    if (count_ == kSpanCapacity) Flush();
+    return spans_ + count_++;
+  }
+  void Add(const simd::Span& span) { *Next() = span; }
+
+  // Returns memory for the colours of one span of a hole. The next span that the caller adds must
+  // be the span of the hole. `samples` is at most pixel_capacity.
+  int16_t* Pixels(size_t samples) {
+    if (used_ + samples > scratch_.hole_samples || count_ == kSpanCapacity) Flush();
+    int16_t* pixels = scratch_.holes + used_;
+    used_ += samples;
+    return pixels;
+  }
+
+  void Flush() {
+    if (count_ != 0) {
+      if (accumulators_ != nullptr) {
+        kernels_->Accumulate(spans_, count_, accumulators_);
+      } else {
+        scratch_.kernels->Blend(spans_, count_, line_);
+      }
+    }
+    count_ = 0;
+    used_ = 0;
+  }
+
+ private:
+  const simd::Kernels* const kernels_ = nullptr;  // only to accumulate
+  const LineScanScratch& scratch_;
+  simd::Span* const spans_;
+  uint32_t* const accumulators_ = nullptr;
+  int16_t* const line_ = nullptr;
+  size_t count_ = 0;
+  size_t used_ = 0;
 };
 
 // Sink of LineScan. The sink calls holes.Fill(begin, end, disparity, colour, out) to write the

@@ -92,7 +92,12 @@ DiagonalLine GetDiagonal(const BlockPixels& field, bool anti, int32_t index) {
 class Star {
  public:
   Star(const RenderJob& job, LineScanScratch* scratch, uint32_t* sums)
-      : job_(job), grid_(*job.grid), scratch_(scratch), sums_(sums) {}
+      : job_(job),
+        grid_(*job.grid),
+        run_range_(RunRange(grid_)),
+        half_views_(HalfViews(grid_, job.input->views)),
+        scratch_(scratch),
+        sums_(sums) {}
 
   void Refocus() {
     BlockPixels rows = MakeField(0);
@@ -126,18 +131,27 @@ class Star {
   }
 
   SpanList Accumulating(uint32_t* accumulators) const {
-    return SpanList(*job_.input->kernels, scratch_->spans, accumulators);
-  }
-  SpanList Blending(int16_t* line) const {
-    return SpanList(*job_.input->kernels, scratch_->spans, line);
+    return SpanList(*job_.input->kernels, *scratch_, accumulators);
   }
 
   // Returns the filler of holes of a line of view (u * i, v * j). Pixel 0 of the line is pixel (x,
   // y) of the picture in the orientation of the field.
   HoleFiller HolesOf(const BlockPixels& field, int u, int v, int32_t x, int32_t y, int32_t dx,
                      int32_t dy) const {
-    return {*job_.input, field.layer, grid_, scratch_->moves, field.transposed, u, v, 0, 0, x,
-            y,           dx,          dy};
+    return {*job_.input,
+            field.layer,
+            grid_,
+            scratch_->moves,
+            field.transposed,
+            u,
+            v,
+            half_views_,
+            0,
+            0,
+            x,
+            y,
+            dx,
+            dy};
   }
 
   // Adds `pixels` pixels of a line, all with weight `weight`.
@@ -179,8 +193,8 @@ class Star {
   }
 
   void FindAllRuns(const BlockPixels& field, const BlockPixels& other, Direction direction) {
-    MarkRuns(*job_.input->kernels, grid_, other.disparity, other.width, field.width, field.height,
-             direction, &scratch_->marks);
+    MarkRuns(*scratch_->kernels, run_range_, other.disparity, other.width, field.width,
+             field.height, direction, &scratch_->marks);
     for (int32_t row = 0; row < field.height; ++row) {
       scratch_->run_counts[row] = ReadRuns(scratch_->marks, row, field.width, grid_,
                                            scratch_->moves[1], RunsOf(field, row));
@@ -216,7 +230,7 @@ class Star {
     const int32_t width = field.inner.width, height = rows.last - rows.first;
     for (int32_t row = 0; row < height; row += kStripRows) {
       const int32_t count = Min(kStripRows, height - row);
-      SpanList list = Blending(scratch_->strip_rgb);
+      SpanList list(*scratch_, scratch_->strip_rgb);
       for (int32_t k = 0; k < count; ++k) {
         RenderRow(field, sign, i, rows.first + row + k, static_cast<uint32_t>(k * width),
                   scratch_->view_disparity + (row + k) * width, &list);
@@ -248,7 +262,7 @@ class Star {
     for (const int across : {1, -1}) {
       if (across < 0 && last == 0) continue;
       if (last > 0) {
-        MarkRuns(*job_.input->kernels, grid_, scratch_->view_disparity, width, height, width,
+        MarkRuns(*scratch_->kernels, run_range_, scratch_->view_disparity, width, height, width,
                  DirectionOf(across), &scratch_->marks);
       }
       HoleFiller holes =
@@ -326,7 +340,7 @@ class Star {
     std::memset(sums, 0, 3 * static_cast<size_t>(part.last - part.first) * sizeof(uint32_t));
     SpanList list = Accumulating(sums);
     for (const int sign : {1, -1}) {
-      MarkRuns(*job_.input->kernels, grid_, disparity, 1, at.length, 1, DirectionOf(sign),
+      MarkRuns(*scratch_->kernels, run_range_, disparity, 1, at.length, 1, DirectionOf(sign),
                &scratch_->marks);
       const int32_t count =
           ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1], scratch_->line_runs);
@@ -367,6 +381,8 @@ class Star {
 
   const RenderJob& job_;
   const ViewGrid& grid_;
+  const int16_t run_range_;
+  const int32_t half_views_;
   LineScanScratch* scratch_;
   uint32_t* sums_;
 };
@@ -429,7 +445,10 @@ void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena*
   scratch.view_disparity = arena->Take<int16_t>(rectangle * extended);
   scratch.columns_rgb = arena->Take<int16_t>(rectangle * rgb_stride);
   scratch.line_accumulators = arena->Take<uint32_t>(3 * extended);
-  scratch.spans = TakeSpans(extended, arena);
+  scratch.spans = arena->Take<simd::Span>(kSpanCapacity);
+  scratch.hole_samples = 6 * extended;
+  scratch.holes = arena->Take<int16_t>(scratch.hole_samples);
+  scratch.kernels = &simd::BestLineScanKernels();
 }
 
 // Largest shift t that leaves a pixel unchanged, in kShiftBits. The pixel stays in place and its

@@ -48,9 +48,7 @@ struct ViewGrid {
   int64_t step = 0;      // Position of the view at the rim, in pixels of the layer per unit of
                          // disparity: u_t / 2^layer, kStepBits.
   int layer = 0;         // Layer L.
-  // Views with |i| <= half_views fill holes from the captured views at half distance.
-  int32_t half_views = 0;
-  int32_t spread = 0;  // largest disparity range of pixels that share one shift, kDisparityBits
+  double radius = 0;     // Position of the view at the rim, u_t.
 
   // Index of the outermost view along an axis.
   int32_t n() const { return aperture.last; }
@@ -68,32 +66,17 @@ struct ViewGrid {
   }
 };
 
-// Spread of a run, which is a sequence of adjacent pixels: largest difference between the shifts of
-// the pixels, in pixels (kShiftBits). Rendering a run with one shift misplaces the pixels of the
-// run by at most half the spread, in any view. Halving the spread brings no improvement
-// (docs/constants.md).
-inline constexpr int32_t kRunSpread = kShiftOne / 4;
-
-// Returns the grid for aperture radius u_t in (0, 1] and focus d_t.
-inline ViewGrid MakeViewGrid(const ViewWeights& aperture, const FocusRange& focus,
-                             double aperture_radius, int layer, bool has_half_views) {
+// Returns the grid for `radius` u_t in (0, 1] and focus d_t.
+inline ViewGrid MakeViewGrid(const ViewWeights& aperture, const FocusRange& focus, double radius,
+                             int layer) {
   ViewGrid grid;
   grid.aperture = aperture;
   grid.focus = focus;
-  const double step = aperture_radius * (int64_t{1} << kStepBits);
+  const double step = radius * (int64_t{1} << kStepBits);
   grid.step = RoundShift(static_cast<int64_t>(step) << 1, 1 + layer);
   if (grid.step < 1) grid.step = 1;
   grid.layer = layer;
-  if (has_half_views) {
-    while (grid.half_views < grid.n() && 2 * (grid.half_views + 1) * aperture_radius <= grid.n()) {
-      ++grid.half_views;
-    }
-  }
-  // A run covers a disparity range of at most spread / (u_t / 2^layer), and ends at every depth
-  // edge.
-  const int64_t spread =
-      (int64_t{kRunSpread} << (kStepBits + kDisparityBits - kShiftBits)) / grid.step;
-  grid.spread = static_cast<int32_t>(spread < kSurfaceStep ? spread : kSurfaceStep);
+  grid.radius = radius;
   return grid;
 }
 

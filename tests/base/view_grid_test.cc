@@ -16,10 +16,10 @@ namespace {
 
 using starfocus::ViewGrid;
 
-ViewGrid MakeGrid(int n, double focus, double aperture, int layer = 0, bool half = false) {
+ViewGrid MakeGrid(int n, double focus, double aperture, int layer = 0) {
   starfocus::ViewWeights views;
   views.n = views.last = n;
-  return starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, layer, half);
+  return starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, layer);
 }
 
 TEST_CASE("view grid: the focus is rounded to 1/64, half up") {
@@ -109,37 +109,6 @@ TEST_CASE("view grid: shifts are rounded half up, and pixels in focus do not mov
   CHECK(fine.Shift(fine.Move(1), 127) == 0);
   CHECK(fine.Shift(fine.Move(3), 129) == 2);
   CHECK(fine.Shift(fine.Move(3), 127) == -1);
-}
-
-TEST_CASE(
-    "view grid: rendered views up to 0.5 from the centre use captured views at half distance") {
-  CHECK(MakeGrid(8, 0, 1, 0, true).half_views == 4);
-  CHECK(MakeGrid(7, 0, 1, 0, true).half_views == 3);
-  CHECK(MakeGrid(1, 0, 1, 0, true).half_views == 0);
-  CHECK(MakeGrid(8, 0, 0.5, 0, true).half_views == 8);
-  CHECK(MakeGrid(8, 0, 0.51, 0, true).half_views == 7);
-  CHECK(MakeGrid(10, 0, 0.75, 0, true).half_views == 6);
-  CHECK(MakeGrid(8, 0, 1, 0, false).half_views == 0);
-  CHECK(MakeGrid(0, 0, 1, 0, true).half_views == 0);
-}
-
-// All pixels of a run are shifted equally. The spread of the run's disparities is limited, so that
-// each pixel is at most 1/8 of a pixel from its exact position.
-TEST_CASE("view grid: the spread of a run displaces pixels by at most an eighth of a pixel") {
-  for (const double aperture : {1.0, 0.9, 0.5, 0.3, 0.2, 0.01, 1e-7}) {
-    for (const int layer : {0, 1, 2}) {
-      const ViewGrid grid = MakeGrid(9, 0, aperture, layer);
-      CAPTURES(aperture, layer);
-      const double spread = grid.spread / 64.0, u = aperture / (1 << layer);
-      CHECK(grid.spread >= 1);
-      CHECK(grid.spread <= starfocus::kSurfaceStep);
-      CHECK(spread / 2 * u <= 0.125 + 1e-6);
-      // With a spread of one more unit, a pixel would be displaced by more than 1/8 of a pixel.
-      const bool largest =
-          grid.spread == starfocus::kSurfaceStep || (spread + 1.0 / 64) / 2 * u > 0.125 - 1e-6;
-      CHECK(largest);
-    }
-  }
 }
 
 }  // namespace

@@ -17,11 +17,9 @@ using Depths = std::vector<int16_t>;
 
 // Returns the runs of adjacent lines of equal length. The pixels of a line are stored `step`
 // elements apart; `step` is at least the number of lines.
-inline std::vector<std::vector<starfocus::Run>> FindRuns(const starfocus::simd::Kernels& kernels,
-                                                         const std::vector<Depths>& lines,
-                                                         const starfocus::ViewGrid& grid,
-                                                         starfocus::Direction direction,
-                                                         size_t step) {
+inline std::vector<std::vector<starfocus::Run>> FindRuns(
+    const starfocus::simd::LineScanKernels& kernels, const std::vector<Depths>& lines,
+    const starfocus::ViewGrid& grid, int range, starfocus::Direction direction, size_t step) {
   const size_t length = lines[0].size();
   std::vector<int16_t> disparity(length * step + starfocus::simd::kPadding / sizeof(int16_t));
   for (size_t k = 0; k < lines.size(); ++k) {
@@ -31,8 +29,8 @@ inline std::vector<std::vector<starfocus::Run>> FindRuns(const starfocus::simd::
   std::vector<uint16_t> edges = starts;
   std::vector<int16_t> middles(starfocus::RunMiddles(length, lines.size()), 0x5A5A);
   starfocus::simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
-  MarkRuns(kernels, grid, disparity.data(), ptrdiff_t(step), int32_t(length), int32_t(lines.size()),
-           direction, &marks);
+  MarkRuns(kernels, int16_t(range), disparity.data(), ptrdiff_t(step), int32_t(length),
+           int32_t(lines.size()), direction, &marks);
   std::vector<std::vector<starfocus::Run>> found;
   for (size_t k = 0; k < lines.size(); ++k) {
     std::vector<starfocus::Run> runs(length);
@@ -47,8 +45,8 @@ inline std::vector<std::vector<starfocus::Run>> FindRuns(const starfocus::simd::
 }
 
 inline std::vector<starfocus::Run> FindRuns(const Depths& line, const starfocus::ViewGrid& grid,
-                                            starfocus::Direction direction) {
-  return FindRuns(starfocus::simd::BestKernels(), {line}, grid, direction, 1)[0];
+                                            int range, starfocus::Direction direction) {
+  return FindRuns(starfocus::simd::BestLineScanKernels(), {line}, grid, range, direction, 1)[0];
 }
 
 }  // namespace test

@@ -81,12 +81,13 @@ struct Recorder {
 inline ViewGrid MakeGrid(int n, double focus, double aperture) {
   starfocus::ViewWeights views;
   views.n = views.last = n;
-  return starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0, false);
+  return starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0);
 }
 
 inline Recorder Record(const Depths& line, const ViewGrid& grid, int view, Direction direction,
                        int begin, int end) {
-  const std::vector<starfocus::Run> runs = test::FindRuns(line, grid, direction);
+  const std::vector<starfocus::Run> runs =
+      test::FindRuns(line, grid, starfocus::RunRange(grid), direction);
   // Stores the disparities `step` elements apart, as in a column of a picture.
   const int step = 1 + int(line.size()) % 3, length = int(line.size());
   Depths spaced(line.size() * size_t(step));

@@ -94,7 +94,7 @@ bool IsSound(const Shown& shown, const RandomView& r) {
       return std::abs(step) <= kSurfaceStep && shown.weight > 0 && shown.weight <= 128;
     // The disparities of pixels differ from the middle of their run by up to half the spread.
     case Kind::kMix:
-      return std::abs(step) > kSurfaceStep - r.grid.spread && shown.weight > 0 &&
+      return std::abs(step) > kSurfaceStep - starfocus::RunRange(r.grid) && shown.weight > 0 &&
              shown.weight <= 128;
     case Kind::kHole:
       return step > kSurfaceStep && shown.weight > 0 && shown.weight < 256;

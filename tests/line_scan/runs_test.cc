@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the runs of constant disparity in hand-made and random lines.
+// Tests the runs of constant disparity in hand-made and random lines, and the values that they
+// derive from the grid of views.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -29,18 +30,15 @@ bool operator==(const Found& a, const Found& b) {
 using Runs = std::vector<Found>;
 
 // Makes a lens with n views and the given focus.
-ViewGrid MakeGrid(int n, double focus, int spread, double aperture = 1) {
+ViewGrid MakeGrid(int n, double focus, double aperture = 1, int layer = 0) {
   starfocus::ViewWeights views;
   views.n = views.last = n;
-  ViewGrid grid =
-      starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0, false);
-  grid.spread = spread;
-  return grid;
+  return starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, layer);
 }
 
 Runs Find(const Depths& line, Direction direction, int spread) {
   Runs found;
-  for (const Run& run : test::FindRuns(line, MakeGrid(1, 0, spread, 0.2), direction)) {
+  for (const Run& run : test::FindRuns(line, MakeGrid(1, 0, 0.2), spread, direction)) {
     found.push_back({run.begin, run.surface_end, run.disparity});
   }
   return found;
@@ -92,22 +90,22 @@ TEST_CASE("runs: alternating extremes give runs of one pixel") {
 TEST_CASE("runs: the width of a subaperture is the distance that its run moves from view to view") {
   // The disparities differ from the focus by 2 and 3 pixels. With N = 4, neighbouring views move by
   // 0.5 and 0.75 pixels.
-  const ViewGrid grid = MakeGrid(4, 1, 16);
+  const ViewGrid grid = MakeGrid(4, 1);
   const std::vector<Run> runs =
-      test::FindRuns({-128, -128, 192, 192}, grid, Direction::kRightToLeft);
+      test::FindRuns({-128, -128, 192, 192}, grid, 16, Direction::kRightToLeft);
   REQUIRE(runs.size() == 2);
   CHECK(runs[0].subaperture == 128);
   CHECK(runs[1].subaperture == 192);
 }
 
 // Checks the runs of a line whose pixels are in scan order for kRightToLeft.
-void CheckLine(const Depths& line, const ViewGrid& grid, const std::vector<Run>& runs) {
+void CheckLine(const Depths& line, const ViewGrid& grid, int spread, const std::vector<Run>& runs) {
   int end = int(line.size()), surface_end = end;
   for (const Run& run : runs) {
     REQUIRE(run.begin < end);
     const auto range = std::minmax_element(line.begin() + run.begin, line.begin() + end);
     const int low = *range.first, high = *range.second;
-    CHECK(high - low <= grid.spread);
+    CHECK(high - low <= spread);
     CHECK(run.disparity == (low + high) >> 1);
     if (end < int(line.size()) &&
         std::abs(line[size_t(end)] - line[size_t(end - 1)]) > kSurfaceStep) {
@@ -117,7 +115,7 @@ void CheckLine(const Depths& line, const ViewGrid& grid, const std::vector<Run>&
     CHECK(run.subaperture == std::abs(grid.Shift(grid.Move(1), run.disparity)));
     if (run.begin > 0) {  // with one more pixel, the run would exceed the spread
       const int next = line[size_t(run.begin - 1)];
-      CHECK(std::max(high, next) - std::min(low, next) > grid.spread);
+      CHECK(std::max(high, next) - std::min(low, next) > spread);
     }
     end = run.begin;
   }
@@ -144,15 +142,48 @@ TEST_CASE("runs: random lines are covered by the longest runs that the spread al
       lines.push_back(RandomLine(length, &random));
       mirrored.push_back({lines.back().rbegin(), lines.back().rend()});
     }
-    const ViewGrid grid = MakeGrid(random.Int(1, 9), random.Real(-3, 3), random.Int(0, 96));
+    const ViewGrid grid = MakeGrid(random.Int(1, 9), random.Real(-3, 3));
+    const int spread = random.Int(0, 96);
     const size_t step = size_t(count + random.Int(0, 5));
-    for (const starfocus::simd::Kernels* kernels : test::SimdTargets()) {
-      const auto runs = test::FindRuns(*kernels, lines, grid, Direction::kRightToLeft, step);
-      const auto left = test::FindRuns(*kernels, mirrored, grid, Direction::kLeftToRight, step);
+    for (const starfocus::simd::LineScanKernels* kernels : test::LineScanTargets()) {
+      const auto runs =
+          test::FindRuns(*kernels, lines, grid, spread, Direction::kRightToLeft, step);
+      const auto left =
+          test::FindRuns(*kernels, mirrored, grid, spread, Direction::kLeftToRight, step);
       for (size_t k = 0; k < lines.size(); ++k) {
-        CheckLine(lines[k], grid, runs[k]);
-        CheckLine(lines[k], grid, left[k]);
+        CheckLine(lines[k], grid, spread, runs[k]);
+        CheckLine(lines[k], grid, spread, left[k]);
       }
+    }
+  }
+}
+
+TEST_CASE("runs: rendered views up to 0.5 from the centre use captured views at half distance") {
+  CHECK(HalfViews(MakeGrid(8, 0, 1), 17) == 4);
+  CHECK(HalfViews(MakeGrid(7, 0, 1), 17) == 3);
+  CHECK(HalfViews(MakeGrid(1, 0, 1), 17) == 0);
+  CHECK(HalfViews(MakeGrid(8, 0, 0.5), 17) == 8);
+  CHECK(HalfViews(MakeGrid(8, 0, 0.51), 17) == 7);
+  CHECK(HalfViews(MakeGrid(10, 0, 0.75), 17) == 6);
+  CHECK(HalfViews(MakeGrid(8, 0, 1), 9) == 0);
+  CHECK(HalfViews(MakeGrid(0, 0, 1), 17) == 0);
+}
+
+// All pixels of a run are shifted equally. The spread of the run's disparities is limited, so that
+// each pixel is at most 1/8 of a pixel from its exact position.
+TEST_CASE("runs: the spread of a run displaces pixels by at most an eighth of a pixel") {
+  for (const double aperture : {1.0, 0.9, 0.5, 0.3, 0.2, 0.01, 1e-7}) {
+    for (const int layer : {0, 1, 2}) {
+      const ViewGrid grid = MakeGrid(9, 0, aperture, layer);
+      CAPTURES(aperture, layer);
+      const int range = RunRange(grid);
+      const double spread = range / 64.0, u = aperture / (1 << layer);
+      CHECK(range >= 1);
+      CHECK(range <= kSurfaceStep);
+      CHECK(spread / 2 * u <= 0.125 + 1e-6);
+      // With a spread of one more unit, a pixel would be displaced by more than 1/8 of a pixel.
+      const bool largest = range == kSurfaceStep || (spread + 1.0 / 64) / 2 * u > 0.125 - 1e-6;
+      CHECK(largest);
     }
   }
 }

@@ -52,13 +52,17 @@ struct Drawing {
   template <class Draw>
   void Run(uint32_t weight, const Draw& draw) {
     const starfocus::Line line = {rgb.data(), depths.data(), 1, kLength, nullptr, 0};
-    std::vector<Span> spans(4);
+    std::vector<Span> spans(starfocus::kSpanCapacity);
     std::vector<int16_t> pixels(3 * kLength);
-    const starfocus::SpanMemory memory = {spans.data(), spans.size(), pixels.data(), pixels.size()};
-    const starfocus::simd::Kernels& kernels = starfocus::simd::ReferenceKernels();
+    starfocus::LineScanScratch scratch = {};
+    scratch.kernels = &ReferenceLineScanKernels();
+    scratch.spans = spans.data();
+    scratch.holes = pixels.data();
+    scratch.hole_samples = pixels.size();
     const bool blends = weight == kBlendOne;
-    starfocus::SpanList list = blends ? starfocus::SpanList(kernels, memory, line_.data())
-                                      : starfocus::SpanList(kernels, memory, sums.data());
+    starfocus::SpanList list = blends
+                                   ? starfocus::SpanList(scratch, line_.data())
+                                   : starfocus::SpanList(ReferenceKernels(), scratch, sums.data());
     starfocus::SpanSink<GrayHoles> sink(line, kBegin, 0, weight,
                                         blends ? disparity.data() : nullptr, holes, &list);
     draw(&sink);

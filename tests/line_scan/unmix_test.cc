@@ -63,7 +63,7 @@ struct Scene {
     starfocus::ViewWeights aperture;
     aperture.n = aperture.last = 4;
     field.layer = layer;
-    const ViewGrid grid = starfocus::MakeViewGrid(aperture, {}, 1, 0, false);
+    const ViewGrid grid = starfocus::MakeViewGrid(aperture, {}, 1, 0);
     starfocus::UnmixEdges(starfocus::simd::BestKernels(), input, grid, &field);
     std::vector<int> greys;
     for (int x = 0; x < kSize; ++x)

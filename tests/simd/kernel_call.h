@@ -182,7 +182,8 @@ class CallMemory {
   std::vector<Region> regions_;
 };
 
-// A call to a kernel in a table of type `Table` (Kernels, DepthKernels or ImageKernels).
+// A call to a kernel in a table of type `Table` (Kernels, DepthKernels, ImageKernels or
+// LineScanKernels).
 template <class Table>
 class CallOf : public CallMemory {
  public:
@@ -214,6 +215,7 @@ class CallOf : public CallMemory {
 using KernelCall = CallOf<starfocus::simd::Kernels>;
 using DepthCall = CallOf<starfocus::simd::DepthKernels>;
 using ImageCall = CallOf<starfocus::simd::ImageKernels>;
+using LineScanCall = CallOf<starfocus::simd::LineScanKernels>;
 
 }  // namespace test
 

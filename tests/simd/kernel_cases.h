@@ -15,7 +15,7 @@ struct CaseOf {
   void (*make)(Draw* draw, Call* call);
 };
 
-// Each case is defined in the file of its family, such as spans_cases.cc. A kernel without a case
+// Each case is defined in the file of its family, such as cells_cases.cc. A kernel without a case
 // causes a linker error.
 #define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, Call* call);
 #define STARFOCUS_LIST_CASE(Kernel) {#Kernel, Kernel},
@@ -37,6 +37,12 @@ using Call = ImageCall;
 STARFOCUS_IMAGE_KERNELS(STARFOCUS_DECLARE_CASE)
 inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_CASE)};
 }  // namespace image_cases
+namespace line_scan_cases {
+using namespace starfocus::simd;
+using Call = LineScanCall;
+STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_DECLARE_CASE)
+inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_LIST_CASE)};
+}  // namespace line_scan_cases
 #undef STARFOCUS_DECLARE_CASE
 #undef STARFOCUS_LIST_CASE
 

@@ -24,7 +24,7 @@ TEST_CASE(
   const int16_t source[] = {10, 20, 30, 40, 50, 60, 70, 80, 32640};
   const Span blend = {source + 3, 1, 3, 12288, 4096, 3};
   int16_t line[5] = {1, 1, 1, 1, 1};
-  ReferenceKernels().Blend(&blend, 1, line);
+  ReferenceLineScanKernels().Blend(&blend, 1, line);
   // The first blended sample is (3 * 40 + 70) / 4 = 47.5, rounded half up.
   CheckValues("blend", line, {1, 48, 58, 8205, 1});
   const Span span = {source + 3, 1, 3, 192, 64, 3};
@@ -109,8 +109,8 @@ TEST_CASE("kernel definitions: FindRuns and MeasureCell return values computed b
   const int16_t lines[5][2] = {{40, -32000}, {11, 32000}, {0, 31995}, {5, 31990}, {-5, 31989}};
   uint16_t starts[2 * kRunLanes], edges[2 * kRunLanes];
   int16_t middles[17 * kRunLanes];
-  ReferenceKernels().FindRuns(lines[4], -2, 5, 2, 10, 10,
-                              RunMarks{starts, edges, middles, kRunLanes});
+  ReferenceLineScanKernels().FindRuns(lines[4], -2, 5, 2, 10, 10,
+                                      RunMarks{starts, edges, middles, kRunLanes});
   CheckValues("starts", starts, {0b11000, 0b11000});
   CheckValues("edges", edges, {0b11000, 0b10000});
   const int expected[5][2] = {{-5, 31989}, {0, 31989}, {0, 31992}, {11, 32000}, {40, -32000}};
@@ -120,7 +120,8 @@ TEST_CASE("kernel definitions: FindRuns and MeasureCell return values computed b
 
   int16_t line[17] = {};
   line[15] = 20, line[16] = 40;
-  ReferenceKernels().FindRuns(line, 1, 17, 1, 10, 10, RunMarks{starts, edges, middles, kRunLanes});
+  ReferenceLineScanKernels().FindRuns(line, 1, 17, 1, 10, 10,
+                                      RunMarks{starts, edges, middles, kRunLanes});
   for (const uint16_t* words : {starts, edges}) {
     CHECK(words[0] == 1 << 15);
     CHECK(words[kRunLanes] == 1);

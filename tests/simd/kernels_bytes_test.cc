@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "simd/kernels.h"
@@ -38,41 +39,53 @@ TEST_CASE("kernels: ListTargets throws if no SIMD target runs on this machine") 
 TEST_CASE("kernels: every target returns the bits of the reference and writes nothing else") {
   test::CheckKernels<test::KernelCall>(test::kernel_cases::kAll, ReferenceKernels(),
                                        test::SimdTargets());
+  CHECK(test::LineScanTargets()[0] == &BestLineScanKernels());
+  test::CheckKernels<test::LineScanCall>(test::line_scan_cases::kAll, ReferenceLineScanKernels(),
+                                         test::LineScanTargets());
+}
+
+const Kernels& ReferenceOf(const Kernels*) { return ReferenceKernels(); }
+const LineScanKernels& ReferenceOf(const LineScanKernels*) { return ReferenceLineScanKernels(); }
+
+template <class Table, class Cases>
+void CheckTimedCalls(const Cases& cases, const std::vector<const Table*>& targets) {
+  for (const auto& one : cases) {
+    test::Draw draw = test::Draw::ForBench();
+    test::CallOf<Table> call(&draw);
+    one.make(&draw, &call);
+    test::Met met;
+    const std::string wrong = call.Check(ReferenceOf(targets[0]), targets, &met);
+    CHECK_MESSAGE(wrong.empty(), (one.kernel + (": " + wrong)));
+  }
 }
 
 TEST_CASE("kernels: the timed calls of the benchmark return correct results") {
-  for (const auto& one : test::kernel_cases::kAll) {
-    test::Draw draw = test::Draw::ForBench();
-    test::KernelCall call(&draw);
-    one.make(&draw, &call);
-    test::Met met;
-    const std::string wrong = call.Check(ReferenceKernels(), test::SimdTargets(), &met);
-    CHECK_MESSAGE(wrong.empty(), (one.kernel + (": " + wrong)));
-  }
+  CheckTimedCalls(test::kernel_cases::kAll, test::SimdTargets());
+  CheckTimedCalls(test::line_scan_cases::kAll, test::LineScanTargets());
 }
 
 // Replaces one kernel of a table by a function that counts calls.
 template <auto kKernel>
 struct Counted;
-template <class Result, class... Args, Result (*Kernels::*kKernel)(Args...)>
+template <class TableType, class Result, class... Args, Result (*TableType::*kKernel)(Args...)>
 struct Counted<kKernel> {
   static inline int calls = 0;
 
   static Result Call(Args... args) {
     ++calls;
-    return (ReferenceKernels().*kKernel)(args...);
+    return (ReferenceOf(static_cast<TableType*>(nullptr)).*kKernel)(args...);
   }
-  static Kernels Table() {
-    Kernels kernels = ReferenceKernels();
+  static TableType Table() {
+    TableType kernels = ReferenceOf(static_cast<TableType*>(nullptr));
     kernels.*kKernel = Call;
     return kernels;
   }
 };
 
 TEST_CASE("kernels: each case calls the kernel that it is named after") {
-  const auto check = [](const auto& one, const Kernels& table, const int* calls) {
+  const auto check = [](const auto& one, const auto& table, const int* calls) {
     test::Draw draw = test::Draw::ForBench();
-    test::KernelCall call(&draw);
+    test::CallOf<std::decay_t<decltype(table)>> call(&draw);
     one.make(&draw, &call);
     call.run(table);
     CHECK_MESSAGE(*calls > 0, std::string(one.kernel));
@@ -81,6 +94,12 @@ TEST_CASE("kernels: each case calls the kernel that it is named after") {
 #define STARFOCUS_COUNT_CALLS(Kernel) \
   check(*one++, Counted<&Kernels::Kernel>::Table(), &Counted<&Kernels::Kernel>::calls);
   STARFOCUS_KERNELS(STARFOCUS_COUNT_CALLS)
+#undef STARFOCUS_COUNT_CALLS
+  const auto* of_lines = test::line_scan_cases::kAll;
+#define STARFOCUS_COUNT_CALLS(Kernel)                            \
+  check(*of_lines++, Counted<&LineScanKernels::Kernel>::Table(), \
+        &Counted<&LineScanKernels::Kernel>::calls);
+  STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_COUNT_CALLS)
 #undef STARFOCUS_COUNT_CALLS
 }
 

@@ -27,7 +27,7 @@ struct Views {
 // Returns the number of pixels by which the slice of `disparity` exceeds a rectangle.
 int ReachOf(const Views& views, double focus, double aperture, int disparity) {
   const starfocus::ViewGrid grid = starfocus::MakeViewGrid(
-      views.aperture, starfocus::MakeFocusRange(focus), aperture * views.aperture.extent, 0, false);
+      views.aperture, starfocus::MakeFocusRange(focus), aperture * views.aperture.extent, 0);
   starfocus::SlicePlane placed;
   starfocus::PlaceSlice(grid, int16_t(disparity), {0, 0, 64, 64}, &placed);
   return placed.reach;
@@ -69,7 +69,7 @@ TEST_CASE("slice planes: pixels inside a slice are not integrated over pixels a 
   for (const int n : {3, 4, 5}) {
     const Views views(n);
     const starfocus::ViewGrid grid = starfocus::MakeViewGrid(
-        views.aperture, starfocus::MakeFocusRange(focus), views.aperture.extent, 0, false);
+        views.aperture, starfocus::MakeFocusRange(focus), views.aperture.extent, 0);
     for (int blur = 1; blur <= 90; ++blur) {
       for (const int side : {-1, 1}) {
         const auto disparity = int16_t(64 * focus + side * blur);

@@ -56,8 +56,7 @@ struct Scene {
                          const SliceRule& rule = Ample(starfocus::kSlices)) {
     starfocus::ViewWeights views;
     views.n = views.last = 4;
-    const auto grid =
-        starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0, false);
+    const auto grid = starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0);
     const auto range = std::minmax_element(planes[0].begin(), planes[0].end());
     surfaces.low = *range.first;
     surfaces.high = *range.second;

@@ -6,15 +6,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "lib/engine/deblock.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/prepared.h"
 #include "lib/engine/stripe.h"
+#include "lib/line_scan/line_scan.h"
 #include "lib/slices/compositor.h"
 #include "starfocus/experimental.h"
 #include "tests/support/config.h"
+#include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
 namespace test {
@@ -23,10 +26,28 @@ inline starfocus::EngineState& StateOf(starfocus_engine* engine) {
   return *reinterpret_cast<starfocus::EngineState*>(engine);
 }
 
-// Makes an engine use the given kernels instead of the best kernels of the machine. starfocus_init
-// resets the kernels.
+// Returns the kernels of the line scan that belong to the SIMD target of `kernels`.
+inline const starfocus::simd::LineScanKernels* LineScanKernelsOf(
+    const starfocus::simd::Kernels& kernels) {
+  using namespace starfocus::simd;
+  static const std::vector<const LineScanKernels*> targets = LineScanTargets();
+  for (const LineScanKernels* found : targets) {
+    if (std::strcmp(found->name, kernels.name) == 0) return found;
+  }
+  return &ReferenceLineScanKernels();
+}
+
+// Makes an engine use the given kernels instead of the best kernels of the machine, and their SIMD
+// target for the line scan. starfocus_init resets the kernels.
 inline void UseKernels(const starfocus::simd::Kernels* kernels, starfocus_engine* engine) {
-  StateOf(engine).kernels = kernels;
+  starfocus::EngineState& state = StateOf(engine);
+  state.kernels = kernels;
+  for (int32_t k = 0; k < state.config.max_workers; ++k) {
+    starfocus::RendererScratch* const memory =
+        state.scratch[k].renderers[starfocus::kMaxRenderers - 1];
+    if (memory == nullptr) continue;
+    static_cast<starfocus::LineScanScratch*>(memory)->kernels = LineScanKernelsOf(*kernels);
+  }
 }
 
 using starfocus::Borders;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simd/kernels.h"
+#include "simd/kernels.h"
 
 namespace test {
 
@@ -29,6 +30,9 @@ inline std::vector<const starfocus::simd::DepthKernels*> DepthTargets() {
 }
 inline std::vector<const starfocus::simd::ImageKernels*> ImageTargets() {
   return ListTargets(starfocus::simd::ImageKernelsOfTarget);
+}
+inline std::vector<const starfocus::simd::LineScanKernels*> LineScanTargets() {
+  return ListTargets(starfocus::simd::LineScanKernelsOfTarget);
 }
 
 }  // namespace test

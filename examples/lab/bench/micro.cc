@@ -13,11 +13,12 @@
 
 #include "simd/kernels.h"
 #include "tests/simd/kernel_cases.h"
+#include "tests/support/simd_targets.h"
 
 namespace {
 
-using starfocus::simd::DepthKernels;
 using starfocus::simd::Kernels;
+using starfocus::simd::LineScanKernels;
 
 template <class Case, class Table>
 void Register(const Case& one, const Table* kernels) {
@@ -30,6 +31,14 @@ void Register(const Case& one, const Table* kernels) {
     for (auto _ : state) benchmark::DoNotOptimize(call.run(*kernels));
     state.SetBytesProcessed(int64_t(state.iterations()) * int64_t(call.Bytes()));
   });
+}
+
+template <class Cases, class Table>
+void RegisterAll(const Cases& cases, std::vector<const Table*> tables, const Table& reference) {
+  tables.push_back(&reference);
+  for (const auto& one : cases) {
+    for (const Table* kernels : tables) Register(one, kernels);
+  }
 }
 
 // Registers a benchmark of memcpy. Half of the counted bytes are read, and half are written.
@@ -53,24 +62,18 @@ void RegisterCopies() {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  std::vector<const Kernels*> tables;
-  while (const Kernels* kernels = starfocus::simd::KernelsOfTarget(tables.size())) {
-    tables.push_back(kernels);
+  for (const Kernels* kernels : test::SimdTargets()) {
     starfocus::bench::RegisterWholePictures(kernels->name);
   }
-  tables.push_back(&starfocus::simd::ReferenceKernels());
-  for (const auto& one : test::kernel_cases::kAll) {
-    for (const Kernels* kernels : tables) Register(one, kernels);
+  RegisterAll(test::kernel_cases::kAll, test::SimdTargets(), starfocus::simd::ReferenceKernels());
+  RegisterAll(test::depth_cases::kAll, test::DepthTargets(),
+              starfocus::simd::ReferenceDepthKernels());
+  RegisterAll(test::line_scan_cases::kAll, test::LineScanTargets(),
+              starfocus::simd::ReferenceLineScanKernels());
+  for (const LineScanKernels* kernels : test::LineScanTargets()) {
+    starfocus::bench::RegisterLineScan(kernels);
   }
-  std::vector<const DepthKernels*> depth_tables;
-  while (const auto* kernels = starfocus::simd::DepthKernelsOfTarget(depth_tables.size())) {
-    depth_tables.push_back(kernels);
-  }
-  depth_tables.push_back(&starfocus::simd::ReferenceDepthKernels());
-  for (const auto& one : test::depth_cases::kAll) {
-    for (const DepthKernels* kernels : depth_tables) Register(one, kernels);
-  }
-  for (const Kernels* kernels : tables) starfocus::bench::RegisterLineScan(kernels);
+  starfocus::bench::RegisterLineScan(&starfocus::simd::ReferenceLineScanKernels());
   starfocus::bench::RegisterDeblocking();
   starfocus::bench::RegisterBounds();
   RegisterCopies();

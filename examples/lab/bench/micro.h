@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "simd/kernels.h"
+#include "simd/line_scan.h"
 
 namespace starfocus::bench {
 
@@ -13,7 +13,7 @@ namespace starfocus::bench {
 void RegisterDeblocking();
 
 // Registers the benchmark of the line scan, including the search for runs.
-void RegisterLineScan(const simd::Kernels* kernels);
+void RegisterLineScan(const simd::LineScanKernels* kernels);
 
 // Registers benchmarks that refocus small pictures with one view in the modes blur, frame and
 // block.

@@ -45,7 +45,7 @@ int16_t DisparityAt(int x) { return int16_t((x / kSurface * 5 % 9 - 4) * 64 + x 
 
 // Scans one line for all views on the horizontal axis, including the search for runs. Counts the
 // bytes of disparities that are read, once per view. The scan does not copy any pixels.
-void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
+void ScanLines(const simd::LineScanKernels& kernels, benchmark::State& state) {
   std::vector<int16_t> rgb(3 * kPixels, 128);
   std::vector<int16_t> disparity(kPixels + simd::kPadding);
   for (int x = 0; x < kPixels; ++x) disparity[size_t(x)] = DisparityAt(x);
@@ -55,12 +55,12 @@ void ScanLines(const simd::Kernels& kernels, benchmark::State& state) {
   simd::RunMarks marks = {starts.data(), edges.data(), middles.data(), 0};
   ViewWeights aperture;
   aperture.n = kViewNumber;
-  const ViewGrid grid = MakeViewGrid(aperture, {}, 1, 0, false);
+  const ViewGrid grid = MakeViewGrid(aperture, {}, 1, 0);
   Line line = {rgb.data(), disparity.data(), 1, kPixels, runs.data(), 0};
   for (auto _ : state) {
     Ignore ignore;
     for (const Direction direction : {Direction::kRightToLeft, Direction::kLeftToRight}) {
-      MarkRuns(kernels, grid, disparity.data(), 1, kPixels, 1, direction, &marks);
+      MarkRuns(kernels, RunRange(grid), disparity.data(), 1, kPixels, 1, direction, &marks);
       line.run_count = ReadRuns(marks, 0, kPixels, grid, grid.Move(1), runs.data());
       ScanLine(line, direction, {0, kPixels}, {1, kViewNumber + 1}, grid, &ignore,
                [&](int32_t i) { return grid.Move(i); });
@@ -140,7 +140,7 @@ void WholePicture(const std::string& mode, const std::string& target, benchmark:
 
 void RegisterDeblocking() { benchmark::RegisterBenchmark("deblock", Deblock); }
 
-void RegisterLineScan(const simd::Kernels* kernels) {
+void RegisterLineScan(const simd::LineScanKernels* kernels) {
   const std::string name = std::string("line_scan/") + kernels->name;
   benchmark::RegisterBenchmark(name.c_str(),
                                [kernels](benchmark::State& state) { ScanLines(*kernels, state); });

@@ -101,8 +101,7 @@ class BlockArtist {
     const RightmostView view(engine_.tables->opening);
     const ViewWeights& weights = view.weights();
     const FullParams& lens = engine_.lens.params;
-    const ViewGrid grid =
-        MakeViewGrid(weights, grid_.focus, lens.aperture * weights.extent, 0, false);
+    const ViewGrid grid = MakeViewGrid(weights, grid_.focus, lens.aperture * weights.extent, 0);
     RenderJob job = job_;
     job.grid = &grid;
     Render(job);

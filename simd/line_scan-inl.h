@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector code of the functions in runs.h. This file is included once per SIMD target.
+// Vector code of the functions in line_scan.h. This file is included once per SIMD target.
+#include <cstring>
+
 #include "simd/highway-inl.h"
-#include "simd/runs.h"
+#include "simd/line_scan.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
@@ -60,6 +62,38 @@ inline void FindRuns(const int16_t* disparity, ptrdiff_t step, size_t length, si
     of_vector.edges += line;
     of_vector.middles += line;
     FindRunsOfVector(d16, disparity + line, step, length, spread, edge, of_vector);
+  }
+}
+
+HWY_INLINE void BlendSpan(const Span& span, int16_t* HWY_RESTRICT line) {
+  const hn::ScalableTag<int16_t> d16;
+  const auto weight =
+      hn::Set(d16, static_cast<int16_t>(span.neighbour_weight << (15 - kBlendBits)));
+  const int16_t* HWY_RESTRICT source = span.source;
+  const int16_t* HWY_RESTRICT neighbour = source + span.neighbour_offset;
+  int16_t* HWY_RESTRICT target = line + span.target;
+  const auto blended = [&](size_t n) HWY_ATTR {
+    const auto value = hn::LoadU(d16, source + n);
+    const auto more = hn::Sub(hn::LoadU(d16, neighbour + n), value);
+    return hn::Add(value, hn::MulFixedPoint15(more, weight));
+  };
+  const bool done = ForVectors(span.samples, hn::Lanes(d16),
+                               [&](size_t n) HWY_ATTR { hn::StoreU(blended(n), d16, target + n); });
+  if (done) return;
+  // Processes a span that is shorter than a vector, as most spans of line scans are. For spans
+  // shorter than a vector, the reference would be slower than vector code.
+  int16_t whole[HWY_MAX_BYTES / sizeof(int16_t)];
+  hn::StoreU(blended(0), d16, whole);
+  std::memcpy(target, whole, span.samples * sizeof(*target));
+}
+
+inline void Blend(const Span* HWY_RESTRICT spans, size_t count, int16_t* HWY_RESTRICT line) {
+  for (size_t i = 0; i < count; ++i) {
+    if (spans[i].neighbour_weight == 0) {
+      std::memcpy(line + spans[i].target, spans[i].source, spans[i].samples * sizeof(*line));
+    } else {
+      BlendSpan(spans[i], line);
+    }
   }
 }
 

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernel of the line scan. The kernel splits lines of disparities into runs of pixels that
-// move together.
-#ifndef STARFOCUS_SIMD_RUNS_H_
-#define STARFOCUS_SIMD_RUNS_H_
+// SIMD kernels of the line scan. FindRuns splits lines of disparities into runs of pixels that move
+// together, and Blend moves spans of such pixels by a fraction of a pixel. The kernels have a table
+// of their own, so that a program without the line scan does not link them.
+#ifndef STARFOCUS_SIMD_LINE_SCAN_H_
+#define STARFOCUS_SIMD_LINE_SCAN_H_
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 
 #include "simd/samples.h"
+#include "simd/spans.h"
 
 namespace starfocus::simd {
 
@@ -24,6 +26,9 @@ struct RunMarks {
   int16_t* middles;  // middles[q * stride + k]: middle of the run up to position q (FindRuns)
   size_t stride;
 };
+
+// Fractional bits of the weights of Blend.
+inline constexpr int kBlendBits = 14;
 
 namespace reference {
 
@@ -66,7 +71,27 @@ STARFOCUS_REFERENCE void FindRuns(const int16_t* disparity, ptrdiff_t step, size
   }
 }
 
+inline int16_t BlendValue(const Span& span, uint32_t n) {
+  const int32_t value = SourceOf(span, n);
+  if (span.neighbour_weight == 0) return static_cast<int16_t>(value);
+  const int32_t weight = span.neighbour_weight << (15 - kBlendBits);
+  return static_cast<int16_t>(value + Product15(NeighbourOf(span, n) - value, weight));
+}
+
+// Stores value n of each span in line[target + n]. The two weights of a span sum to 2^kBlendBits,
+// and the neighbour's weight is at most half of this sum. The weighted difference between neighbour
+// and sample is rounded half up. Sources must not overlap the line. Samples of the line outside the
+// spans are not written.
+STARFOCUS_REFERENCE void Blend(const Span* spans, size_t count, int16_t* line) {
+  for (size_t i = 0; i < count; ++i) {
+    for (uint32_t n = 0; n < spans[i].samples; ++n) {
+      line[spans[i].target + n] = BlendValue(spans[i], n);
+    }
+  }
+}
+
 }  // namespace reference
+
 }  // namespace starfocus::simd
 
-#endif  // STARFOCUS_SIMD_RUNS_H_
+#endif  // STARFOCUS_SIMD_LINE_SCAN_H_
