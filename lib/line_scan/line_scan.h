@@ -385,9 +385,8 @@ struct LineScanScratch : RendererScratch {
   // Light of the field and of the transposed field: E rows of RgbStride(E) each.
   int16_t* field_rgb[2];
   int16_t* field_disparity[2];  // Disparities of both fields: E^2 each.
-  int16_t* diagonal_rgb;        // Light of all diagonal lines: 3 E^2.
-  int16_t* diagonal_disparity;  // Disparities of all diagonal lines: E^2.
-  uint32_t* diagonal_offsets;   // Number of pixels before each diagonal line: 2 E.
+  int16_t* diagonal_rgb;        // Light of a diagonal line: 3 E.
+  int16_t* diagonal_disparity;  // Disparities of this line: E.
   int64_t* moves;               // ViewGrid::Move of views 0 to N along an axis: N + 1.
   simd::RunMarks marks;         // Marks of the runs of E lines with E positions each.
   Run* runs;                    // Runs of all lines of a field: E^2.

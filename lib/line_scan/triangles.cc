@@ -70,9 +70,6 @@ void TransposeDisparity(const BlockPixels& from, BlockPixels* to) {
   }
 }
 
-// Number of diagonals of a field in one direction.
-int32_t DiagonalCount(const BlockPixels& field) { return field.width + field.height - 1; }
-
 // Start and length of a diagonal in pixels. From pixel to pixel of the diagonal, x increases by 1,
 // and y increases by 1, or decreases by 1 if `anti`.
 struct DiagonalLine {
@@ -293,49 +290,37 @@ class Star {
     list.Flush();
   }
 
-  // Copies all diagonals of a field in one direction to the scratch memory.
-  void LoadDiagonals(const BlockPixels& field, bool anti) {
-    uint32_t offset = 0;
-    const ptrdiff_t step = anti ? 1 - ptrdiff_t{field.width} : 1 + ptrdiff_t{field.width};
-    const auto stride = static_cast<ptrdiff_t>(RgbStride(field.width));
-    const ptrdiff_t rgb_step = anti ? 3 - stride : 3 + stride;
-    for (int32_t index = 0; index < DiagonalCount(field); ++index) {
-      const DiagonalLine line = GetDiagonal(field, anti, index);
-      scratch_->diagonal_offsets[index] = offset;
-      const int16_t* from = field.Rgb(line.x, line.y);
-      const int16_t* from_disparity = field.Disparity(line.x, line.y);
-      for (int32_t t = 0; t < line.length; ++t, ++offset) {
-        std::memcpy(scratch_->diagonal_rgb + 3 * size_t{offset}, from, 3 * sizeof(*from));
-        scratch_->diagonal_disparity[offset] = *from_disparity;
-        from += rgb_step;
-        from_disparity += step;
-      }
-    }
-  }
-
   // Adds the type B views on one diagonal of the aperture, inside the disc.
   void TypeB(const BlockPixels& field, bool anti) {
     const int32_t last = LastOnDiagonal(grid_.n());
     if (last == 0) return;
-    LoadDiagonals(field, anti);
     const Rect& inner = field.inner;
-    for (int32_t index = 0; index < DiagonalCount(field); ++index) {
+    for (int32_t index = 0; index < field.width + field.height - 1; ++index) {
       const DiagonalLine at = GetDiagonal(field, anti, index);
       const int32_t top = anti ? at.y - (inner.y + inner.height - 1) : inner.y - at.y;
       const int32_t begin = Max(Max(0, inner.x - at.x), top);
       const int32_t end = Min(Min(at.length, inner.x + inner.width - at.x), top + inner.height);
       if (begin >= end) continue;
       if (!GoesOn(job_.cancel, 6 * int64_t{at.length} * last)) return;
-      AddDiagonal(field, anti, index, {begin, end}, last);
+      LoadDiagonal(field, anti, at);
+      AddDiagonal(field, anti, at, {begin, end}, last);
     }
   }
 
-  // Adds the type B views of the pixels `part` of a diagonal.
-  void AddDiagonal(const BlockPixels& field, bool anti, int32_t index, const Range& part,
+  // Copies a diagonal of a field to the scratch memory.
+  void LoadDiagonal(const BlockPixels& field, bool anti, const DiagonalLine& at) {
+    const int32_t down = anti ? -1 : 1;
+    for (int32_t t = 0; t < at.length; ++t) {
+      const int32_t x = at.x + t, y = at.y + down * t;
+      std::memcpy(scratch_->diagonal_rgb + 3 * t, field.Rgb(x, y), 3 * sizeof(int16_t));
+      scratch_->diagonal_disparity[t] = *field.Disparity(x, y);
+    }
+  }
+
+  // Adds the type B views of the pixels `part` of a loaded diagonal.
+  void AddDiagonal(const BlockPixels& field, bool anti, const DiagonalLine& at, const Range& part,
                    int32_t last) {
-    const DiagonalLine at = GetDiagonal(field, anti, index);
-    const size_t offset = scratch_->diagonal_offsets[index];
-    const int16_t* const disparity = scratch_->diagonal_disparity + offset;
+    const int16_t* const disparity = scratch_->diagonal_disparity;
     uint32_t* sums = scratch_->line_accumulators;
     std::memset(sums, 0, 3 * static_cast<size_t>(part.last - part.first) * sizeof(uint32_t));
     SpanList list = Accumulating(sums);
@@ -344,8 +329,8 @@ class Star {
                &scratch_->marks);
       const int32_t count =
           ReadRuns(scratch_->marks, 0, at.length, grid_, scratch_->moves[1], scratch_->line_runs);
-      const Line line = {
-          scratch_->diagonal_rgb + 3 * offset, disparity, 1, at.length, scratch_->line_runs, count};
+      const Line line = {scratch_->diagonal_rgb, disparity, 1, at.length,
+                         scratch_->line_runs,    count};
       const int across = anti ? -sign : sign;
       HoleFiller holes =
           HolesOf(field, sign, across, field.x + at.x, field.y + at.y, 1, anti ? -1 : 1);
@@ -431,9 +416,8 @@ void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena*
     scratch.field_disparity[k] = arena->Take<int16_t>(area);
   }
   scratch.column_sums = arena->Take<uint32_t>(3 * rectangle * rectangle);
-  scratch.diagonal_rgb = arena->Take<int16_t>(3 * area);
-  scratch.diagonal_disparity = arena->Take<int16_t>(area);
-  scratch.diagonal_offsets = arena->Take<uint32_t>(2 * extended);
+  scratch.diagonal_rgb = arena->Take<int16_t>(3 * extended);
+  scratch.diagonal_disparity = arena->Take<int16_t>(extended);
   scratch.moves = arena->Take<int64_t>(max_n + 1);
   scratch.marks.starts = arena->Take<uint16_t>(RunMarkWords(extended, extended));
   scratch.marks.edges = arena->Take<uint16_t>(RunMarkWords(extended, extended));
