@@ -35,8 +35,8 @@ inline constexpr int8_t kCoveredNear = -1;
 
 // A slice in a strip. The four planes are `plane` samples apart. A row has kSliceLanes samples.
 struct StripSlice {
-  const int16_t* samples;  // First row of the slice that the centre view shows.
-  const int8_t* near;  // Marks of the slice's rows; element 0 is the mark of the row at `samples`.
+  int16_t* samples;  // First row of the slice that the centre view shows.
+  int8_t* near;      // Marks of the slice's rows; element 0 is the mark of the row at `samples`.
   size_t plane;
 };
 

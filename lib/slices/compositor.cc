@@ -192,7 +192,7 @@ void FindStack(const RenderJob& job, const Rect& tile, const CompositorScratch& 
   const Rect in_surfaces = {stack->inner.x + tile.x, stack->inner.y + tile.y, tile.width,
                             tile.height};
   stack->count = FindSlices(*job.input->kernels, scratch.surfaces, *job.grid, SliceRuleOf(job),
-                            in_surfaces, stack->slices, &stack->bands);
+                            in_surfaces, stack->slices, stack->bands);
   FindOffsets(*job.grid, stack->slices, stack->count, scratch.offsets);
   stack->offsets = scratch.offsets;
 }

@@ -78,8 +78,8 @@ struct SliceStack {
   Rect inner;  // rectangle to refocus, which contains the tile, in pixels of the surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  SurfaceBands bands;  // Disparity range of all surfaces in each band of kBandRows rows.
-  const simd::SliceOffset* offsets;  // One offset per slice, for each column -N to N of views.
+  simd::DisparityRange bands[kMaxBands];  // Disparities of all surfaces in each band.
+  const simd::SliceOffset* offsets;       // One offset per slice, for each column -N to N of views.
 
   // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in
   // all views (j, i).

@@ -19,102 +19,6 @@ void ClearStrip(int16_t* disparity) {
   for (int32_t k = 0; k < kStripColumns; ++k) disparity[k] = kNoSurface;
 }
 
-// Colours of hidden pixels of a strip.
-class HiddenColours {
- public:
-  int16_t rgb[3 * kStripColumns + simd::kPadding / sizeof(int16_t)] = {};
-
-  HiddenColours(const Input& input, const BlockPixels& field) : input_(input), field_(field) {}
-
-  // Reads the colour of each pixel k of a strip for which bit k of `pixels` is set. Pixel 0 of the
-  // strip is pixel (x, y) of the field. `disparity` and `source` belong to the pixels of the strip,
-  // in the format of LookBehind. Adjacent pixels behind one edge are read together.
-  void Read(int32_t x, int32_t y, const int16_t* disparity, const uint16_t* source,
-            uint32_t pixels) {
-    x_ = x;
-    y_ = y;
-    disparity_ = disparity;
-    source_ = source;
-    while (pixels != 0) {
-      const int32_t first = LowestBit(pixels);
-      pixels &= ~uint32_t{0} << ReadFrom(first);
-    }
-  }
-
-  // Returns true if the colour of any pixel was repeated because no view shows the pixel.
-  bool Repeats() const { return repeats_; }
-
- private:
-  // Reads pixel k and the following pixels that have the same disparity and source. Returns the
-  // index of the first pixel that was not read.
-  int32_t ReadFrom(int32_t k) {
-    const uint32_t source = source_[k], sides = source & 15;
-    if ((sides & (sides - 1)) != 0) {
-      ReadMean(k);
-      return k + 1;
-    }
-    int32_t end = k + 1;
-    while (end < kStripColumns && source_[end] == source && disparity_[end] == disparity_[k]) {
-      ++end;
-    }
-    ReadSide(k, end - k, LowestBit(sides), rgb + 3 * k);
-    return end;
-  }
-
-  // Sets the colour of pixel k to the mean of the colours that the sources on several sides
-  // provide.
-  void ReadMean(int32_t k) {
-    int32_t sums[3] = {0, 0, 0}, count = 0;
-    ForEachBit(source_[k] & 15, [&](int32_t side) {
-      int16_t shown[3];
-      ReadSide(k, 1, side, shown);
-      for (int c = 0; c < 3; ++c) sums[c] += shown[c];
-      ++count;
-    });
-    for (int c = 0; c < 3; ++c) {
-      rgb[3 * k + c] = static_cast<int16_t>((sums[c] + count / 2) / count);
-    }
-  }
-
-  // Reads the colours of pixels [k, k + count), which all have the same disparity and source.
-  void ReadSide(int32_t k, int32_t count, int32_t side, int16_t* to) {
-    const int dx = kSides[side][0], dy = kSides[side][1];
-    const uint32_t source = source_[k];
-    const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
-    if (distance != 0) {
-      repeats_ = true;
-      std::memcpy(to, field_.Rgb(x_ + k + dx * distance, y_ + dy * distance),
-                  3 * static_cast<size_t>(count) * sizeof(*to));
-      return;
-    }
-    const OcclusionView& look = LookOf(side, source);
-    const int16_t disparity = disparity_[k];
-    const CapturedLine line = {(field_.x + x_ + k) * kShiftOne - Moved(look.at.u, disparity),
-                               (field_.y + y_) * kShiftOne - Moved(look.at.v, disparity), 1, 0};
-    ReadCaptured(input_, field_.layer, look.view, line, count, to);
-  }
-
-  // Returns the movement along one axis of a point of `disparity` from the centre view to a view at
-  // `position`. The movement is in pixels of the layer with kShiftBits.
-  int32_t Moved(int32_t position, int32_t disparity) const {
-    return ScaledByView(position, disparity,
-                        kViewBits + kDisparityBits - kShiftBits + field_.layer);
-  }
-
-  // Returns the view on side `side` that shows a hidden pixel whose source is `source`. The result
-  // is meaningless if no view shows the hidden pixel.
-  const OcclusionView& LookOf(int32_t side, uint32_t source) const {
-    return input_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
-  }
-
-  const Input& input_;
-  const BlockPixels& field_;
-  int32_t x_ = 0, y_ = 0;  // position of the strip that is read
-  const int16_t* disparity_ = nullptr;
-  const uint16_t* source_ = nullptr;
-  bool repeats_ = false;
-};
-
 // Converts a view to the input format of the SIMD kernel LookBehind.
 simd::ViewLook ViewLookOf(const OcclusionView& look, int unit_bits) {
   const bool down = Abs(look.at.v) > Abs(look.at.u);
@@ -133,9 +37,10 @@ class SurfaceFinder {
   SurfaceFinder(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
                 LayeredDepth* surfaces)
       : kernels_(kernels),
+        input_(input),
+        field_(field),
         layer_(field.layer),
         surfaces_(*surfaces),
-        colours_(input, field),
         unit_(int32_t{1} << (kDisparityBits + layer_)),
         step_(kDepthEdge << layer_) {
     for (int side = 0; side < kSideCount; ++side) {
@@ -155,8 +60,8 @@ class SurfaceFinder {
     for (int32_t y = 1; y < height; ++y) FindEdgesOfColumns(y, y - 1, 3);
     // FindCopies reads the corner above the first pixel of row 1, which gets no copy.
     surfaces_.disparity[0][-1] = surfaces_.disparity[0][0];
+    surfaces_.repeats = false;
     for (int32_t y = 0; y < height; ++y) FindRow(y);
-    surfaces_.repeats = colours_.Repeats();
   }
 
  private:
@@ -321,22 +226,71 @@ class SurfaceFinder {
     }
   }
 
-  // Sets the colour of each pixel k of a strip for which bit k of `found` is set.
+  // Sets the colour of each pixel k of a strip for which bit k of `found` is set. Adjacent pixels
+  // behind one edge, which have the same disparity and source, are read together.
   void SetColours(int32_t x, int32_t y, int behind, uint32_t found) {
     const size_t at = surfaces_.At(x, y);
-    colours_.Read(x, y, surfaces_.disparity[behind] + at, surfaces_.sources[behind - 1] + at,
-                  found);
-    kernels_.Split(colours_.rgb, kStripColumns, surfaces_.plane, surfaces_.rgb[behind] + at);
+    const int16_t* const disparity = surfaces_.disparity[behind] + at;
+    const uint16_t* const sources = surfaces_.sources[behind - 1] + at;
+    for (int32_t k = 0, end = 0; found != 0; found &= ~uint32_t{0} << end) {
+      k = LowestBit(found);
+      end = k + 1;
+      const uint32_t source = sources[k], sides = source & 15;
+      if ((sides & (sides - 1)) != 0) {
+        ReadMean(x + k, y, disparity[k], source, strip_ + 3 * k);
+        continue;
+      }
+      while (end < kStripColumns && sources[end] == source && disparity[end] == disparity[k]) ++end;
+      ReadSide(x + k, y, end - k, disparity[k], source, LowestBit(sides), strip_ + 3 * k);
+    }
+    kernels_.Split(strip_, kStripColumns, surfaces_.plane, surfaces_.rgb[behind] + at);
+  }
+
+  // Reads the mean of the colours that the sources of a hidden pixel on several sides provide.
+  void ReadMean(int32_t x, int32_t y, int16_t disparity, uint32_t source, int16_t* to) {
+    int32_t sums[3] = {0, 0, 0}, count = 0;
+    ForEachBit(source & 15, [&](int32_t side) {
+      int16_t shown[3];
+      ReadSide(x, y, 1, disparity, source, side, shown);
+      for (int c = 0; c < 3; ++c) sums[c] += shown[c];
+      ++count;
+    });
+    for (int c = 0; c < 3; ++c) to[c] = static_cast<int16_t>((sums[c] + count / 2) / count);
+  }
+
+  // Reads the colours of `count` hidden pixels from (x, y) of the field on, which all have this
+  // disparity and source (the format of LookBehind).
+  void ReadSide(int32_t x, int32_t y, int32_t count, int16_t disparity, uint32_t source,
+                int32_t side, int16_t* to) {
+    const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
+    if (distance != 0) {  // no view shows the pixels
+      surfaces_.repeats = true;
+      std::memcpy(to, field_.Rgb(x + kSides[side][0] * distance, y + kSides[side][1] * distance),
+                  3 * static_cast<size_t>(count) * sizeof(*to));
+      return;
+    }
+    const OcclusionView& look =
+        input_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
+    // Returns the movement along one axis from the centre view to a view at `position`, in pixels
+    // of the layer with kShiftBits.
+    const auto moved = [&](int32_t position) {
+      return ScaledByView(position, disparity, kViewBits + kDisparityBits - kShiftBits + layer_);
+    };
+    const CapturedLine line = {(field_.x + x) * kShiftOne - moved(look.at.u),
+                               (field_.y + y) * kShiftOne - moved(look.at.v), 1, 0};
+    ReadCaptured(input_, layer_, look.view, line, count, to);
   }
 
   const simd::Kernels& kernels_;
+  const Input& input_;
+  const BlockPixels& field_;
   const int layer_;
   LayeredDepth& surfaces_;
-  HiddenColours colours_;
   // disparity of a point that moves by one pixel of the layer in a view at distance 1
   const int32_t unit_;
   const int32_t step_;  // largest step between pixels that is not a depth edge
   simd::ViewLook looks_[kSideCount][kOcclusionViews];
+  int16_t strip_[3 * kStripColumns + simd::kPadding / sizeof(int16_t)] = {};  // colours of a strip
 };
 
 // Smallest difference of disparity (kDisparityBits) between the near surface and a hidden surface

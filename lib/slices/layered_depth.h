@@ -59,17 +59,11 @@ struct LayeredDepth {
   }
 };
 
-// Number of rows in a band. SurfaceBands holds one range of disparities for each band.
+// Number of rows in a band, and largest number of bands of the surfaces. For each band, FindSlices
+// finds the range of the disparities of all surfaces around a tile.
 inline constexpr int32_t kBandRows = 8;
-
-// Range of the disparities of all surfaces in each band around a tile.
-struct SurfaceBands {
-  static constexpr int32_t kMost = kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
-  simd::DisparityRange ranges[kMost];
-
-  const simd::DisparityRange& At(int32_t row) const { return ranges[row / kBandRows]; }
-  simd::DisparityRange& At(int32_t row) { return ranges[row / kBandRows]; }
-};
+inline constexpr int32_t kMaxBands =
+    kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
 
 // Finds the surfaces of a field. The caller sets the pointers of `surfaces` to sufficient memory.
 //

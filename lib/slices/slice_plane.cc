@@ -85,73 +85,46 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture, int32_t scale) {
   return SliceOffset::Of(whole, {before(inside), edge, 0, 0});
 }
 
-// Weights of the views at a distance of 0 to N columns or rows from the middle view.
-struct ViewsAcross {
-  uint32_t weights[kMaxViewsAlongRadius + 1] = {};
-  uint64_t total = 0;
-
-  explicit ViewsAcross(const ViewGrid& grid) {
-    for (int32_t i = -grid.n(); i <= grid.n(); ++i) {
-      for (int32_t j = -grid.n(); j <= grid.n(); ++j) {
-        weights[Abs(i)] += grid.aperture.Weight(i, j);
-      }
-    }
-    for (int32_t i = 0; i <= grid.n(); ++i) total += weights[i];
+// Returns the scale of the shifts inside a slice whose subapertures are narrower than a pixel. The
+// views at a distance of 0 to N columns or rows from the middle view have these `weights` and
+// absolute `shifts` (kShiftBits). Pixels are integrals over pixels, and the nearer pixel of
+// ShareInside is another integral. As for the PSFs of lib/optics/psf.cc, the variance of the shown
+// pixels along an axis exceeds the variance of the subapertures by a quarter of the latter, and by
+// at most 1/24 of a pixel. Shifts beyond one pixel are not enlarged.
+int32_t InnerScale(const uint32_t* weights, const int32_t* shifts, int32_t n) {
+  const auto square = [](int32_t shift) {
+    return static_cast<uint64_t>(shift) * static_cast<uint64_t>(shift);
+  };
+  // The wanted variance times the weight of all views, with 16 fractional bits.
+  uint64_t total = 0, exact = 0;
+  for (int32_t i = 0; i <= n; ++i) {
+    total += weights[i];
+    exact += weights[i] * square(shifts[i]);
   }
-};
-
-// Scale of the shifts inside a slice whose subapertures are narrower than a pixel. Pixels are
-// integrals over pixels, and the nearer pixel of ShareInside is another integral. As for the PSFs
-// of lib/optics/psf.cc, the variance of the shown pixels along an axis exceeds the variance of the
-// subapertures by a quarter of the latter, and by at most 1/24 of a pixel. Shifts beyond one pixel
-// are not enlarged.
-class InnerScale {
- public:
-  // `shifts` has the absolute shifts of the views 0 to N (kShiftBits).
-  InnerScale(const ViewsAcross& views, const int32_t* shifts, int32_t n)
-      : views_(views), shifts_(shifts), n_(n) {}
-
-  int32_t Find() const {
-    int32_t low = 0, high = kScaleOne * Max(shifts_[n_], kShiftOne) / Max(shifts_[n_], 1);
-    const uint64_t wanted = Wanted();
-    if (Squares(high) <= wanted) return high;
-    constexpr int kBisections = 12;
-    for (int k = 0; k < kBisections; ++k) {
-      const int32_t middle = (low + high) / 2;
-      (Squares(middle) < wanted ? low : high) = middle;
-    }
-    return high;
-  }
-
- private:
-  // Returns the wanted variance times the weight of all views, with 16 fractional bits.
-  uint64_t Wanted() const {
-    const auto square = [](int32_t shift) {
-      return static_cast<uint64_t>(shift) * static_cast<uint64_t>(shift);
-    };
-    uint64_t exact = views_.total * square(shifts_[1]) / 12;
-    for (int32_t i = 1; i <= n_; ++i) exact += views_.weights[i] * square(shifts_[i]);
-    const uint64_t most = views_.total * square(kShiftOne) / 24;
-    return exact + (exact / 4 < most ? exact / 4 : most);
-  }
-
+  exact += total * square(shifts[1]) / 12;
+  const uint64_t most = total * square(kShiftOne) / 24;
+  const uint64_t wanted = exact + (exact / 4 < most ? exact / 4 : most);
   // Returns the sum of the weighted squares of the distances from which views show pixels, with 16
   // fractional bits.
-  uint64_t Squares(int32_t scale) const {
+  const auto squares = [&](int32_t scale) {
     uint64_t sum = 0;
-    for (int32_t i = 1; i <= n_; ++i) {
-      const int32_t moved = shifts_[i] * scale, whole = moved >> kScaledBits;
-      const int32_t share = ShareInside(moved & ((1 << kScaledBits) - 1), shifts_[1] * scale);
-      sum += uint64_t{views_.weights[i]} *
+    for (int32_t i = 1; i <= n; ++i) {
+      const int32_t moved = shifts[i] * scale, whole = moved >> kScaledBits;
+      const int32_t share = ShareInside(moved & ((1 << kScaledBits) - 1), shifts[1] * scale);
+      sum += uint64_t{weights[i]} *
              static_cast<uint64_t>(whole * whole * kFractionOne + (2 * whole + 1) * share);
     }
     return sum << 1;
+  };
+  int32_t low = 0, high = kScaleOne * Max(shifts[n], kShiftOne) / Max(shifts[n], 1);
+  if (squares(high) <= wanted) return high;
+  constexpr int kBisections = 12;
+  for (int k = 0; k < kBisections; ++k) {
+    const int32_t middle = (low + high) / 2;
+    (squares(middle) < wanted ? low : high) = middle;
   }
-
-  const ViewsAcross& views_;
-  const int32_t* const shifts_;
-  const int32_t n_;
-};
+  return high;
+}
 
 // Clears the samples after the first `width` samples of each plane of a row; at least kStripColumns
 // samples follow. The last two groups overlap, so that every call of memset has one constant length
@@ -240,13 +213,16 @@ void Spread(const simd::Kernels& kernels, int16_t* filtered, const SlicePlane& p
 
 void FindOffsets(const ViewGrid& grid, const Slice* slices, int32_t count, SliceOffset* offsets) {
   const int32_t n = grid.n();
-  const ViewsAcross views(grid);
+  uint32_t weights[kMaxViewsAlongRadius + 1] = {};
+  for (int32_t i = -n; i <= n; ++i) {
+    for (int32_t j = -n; j <= n; ++j) weights[Abs(i)] += grid.aperture.Weight(i, j);
+  }
   int32_t shifts[kMaxViewsAlongRadius + 1];
   for (int32_t k = 0; k < count; ++k) {
     const int16_t disparity = slices[k].disparity;
     for (int32_t i = 0; i <= n; ++i) shifts[i] = Abs(grid.Shift(grid.Move(i), disparity));
     const int32_t subaperture = shifts[1];
-    const int32_t scale = subaperture < kShiftOne ? InnerScale(views, shifts, n).Find() : kScaleOne;
+    const int32_t scale = subaperture < kShiftOne ? InnerScale(weights, shifts, n) : kScaleOne;
     const bool is_near = grid.focus.Distance(disparity) > 0;
     for (int32_t i = -n; i <= n; ++i) {
       const int32_t shift = (i > 0) == is_near ? shifts[Abs(i)] : -shifts[Abs(i)];
@@ -263,14 +239,14 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
 }
 
 void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const SurfaceBands& bands, const Slice& slice, const Rect& rect, int16_t* filtered,
-               const SlicePlane& placed) {
+               const simd::DisparityRange* bands, const Slice& slice, const Rect& rect,
+               int16_t* filtered, const SlicePlane& placed) {
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
   int16_t* samples = placed.samples;
   for (int32_t row = 0; row < placed.rows; ++row, samples += 4 * placed.plane) {
     const int32_t from = Clamp(y + row, 0, surfaces.height - 1);
-    const simd::DisparityRange& range = bands.At(from);
+    const simd::DisparityRange& range = bands[from / kBandRows];
     if (range.high < slice.low || range.low > slice.overlap) {
       std::memset(samples, 0, 4 * placed.plane * sizeof(*samples));
       placed.cover[row] = {0, 0};
@@ -280,43 +256,6 @@ void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
     }
   }
   if (placed.subaperture > kBoxSubaperture) Spread(kernels, filtered, placed);
-}
-
-void PlaceStrip(const SlicePlane& placed, int32_t x, const Range& seen, ShiftedSlice* shifted) {
-  const uint64_t strips = StripsOf(placed, x);
-  const int32_t top = seen.first, last_row = seen.last + 2 * placed.reach;
-  const auto empty = [&](int32_t row) { return (placed.cover[row].some & strips) == 0; };
-  int32_t first = top, end = last_row;
-  while (first < end && empty(first)) ++first;
-  while (end > first && empty(end - 1)) --end;
-  shifted->filled = {first, end};
-  shifted->plane = (static_cast<size_t>(placed.rows) + simd::kRowsAhead) * simd::kSliceLanes;
-  const auto clear = [&](int32_t from, int32_t to) {
-    const size_t at = static_cast<size_t>(from), rows = static_cast<size_t>(to - from);
-    std::memset(shifted->near + at, simd::kNothingNear, rows);
-    for (size_t c = 0; c < 4; ++c) {
-      std::memset(shifted->samples + c * shifted->plane + at * simd::kSliceLanes, 0,
-                  rows * simd::kSliceLanes * sizeof(*shifted->samples));
-    }
-  };
-  // ShiftSlice does not write the empty rows, but the compositor reads the empty rows and
-  // kRowsAhead rows after the last row.
-  clear(top, first);
-  clear(end, last_row + static_cast<int32_t>(simd::kRowsAhead));
-}
-
-void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed, const SliceOffset& offset,
-                int32_t x, const Range& rows, const ShiftedSlice& shifted) {
-  const int32_t first = Max(rows.first, shifted.filled.first);
-  const int32_t end = Min(rows.last, shifted.filled.last);
-  if (first >= end) return;
-  const auto row = static_cast<size_t>(first), count = static_cast<size_t>(end - first);
-  int8_t* near = shifted.near + row;
-  // Resets the marks of rows, which still hold the values of the previous column of views.
-  std::memset(near - simd::kRowsAhead, simd::kNothingNear, count + simd::kRowsAhead);
-  const int16_t* from = placed.samples + row * 4 * placed.plane;
-  kernels.ShiftSlice(from + x + placed.reach + offset.whole, placed.plane, offset.fraction, count,
-                     shifted.plane, shifted.samples + row * simd::kSliceLanes, near);
 }
 
 }  // namespace starfocus

@@ -126,18 +126,6 @@ struct SlicePlane {
 constexpr size_t PlaneSamples(size_t width, size_t reach) {
   return simd::SliceSamples(simd::SliceSamples(width) + 2 * reach) + simd::kSliceLanes;
 }
-// Returns the number of samples of a slice, including the samples that filters read before and
-// after the slice.
-constexpr size_t SliceSize(size_t width, size_t height, size_t reach) {
-  return 4 * (height + 2 * reach) * PlaneSamples(width, reach) + 2 * simd::kSliceLanes;
-}
-
-// Returns the number of rows of a slice in a strip, including the rows that are read after the last
-// row.
-constexpr size_t ShiftedRows(size_t height, size_t reach) {
-  return height + 2 * reach + simd::kRowsAhead;
-}
-
 // Returns the size in bytes of one SliceCover for each of `rows` rows, rounded up to keep the
 // alignment of the samples that follow.
 constexpr size_t CoverBytes(size_t rows) {
@@ -145,16 +133,22 @@ constexpr size_t CoverBytes(size_t rows) {
   return (rows + kAligned - 1) / kAligned * kAligned * sizeof(simd::SliceCover);
 }
 
-// Returns the size in bytes of a slice, including one SliceCover per row.
-constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
-  return SliceSize(width, height, reach) * sizeof(int16_t) + CoverBytes(height + 2 * reach);
-}
 // Returns the size in bytes of the buffer that holds one filtered plane of a slice.
 constexpr size_t FilteredBytes(size_t width, size_t height, size_t reach) {
   return (height + 2 * reach) * PlaneSamples(width, reach) * sizeof(int16_t);
 }
+
+// Returns the size in bytes of a slice, including one SliceCover per row, and the samples that
+// filters read before and after the slice.
+constexpr size_t SliceBytes(size_t width, size_t height, size_t reach) {
+  return 4 * FilteredBytes(width, height, reach) + 2 * simd::kSliceLanes * sizeof(int16_t) +
+         CoverBytes(height + 2 * reach);
+}
+
+// Returns the size in bytes of a slice in a strip, including its marks, and the rows that are read
+// after the last row.
 constexpr size_t StripBytes(size_t height, size_t reach) {
-  return ShiftedRows(height, reach) * (4 * simd::kSliceLanes * sizeof(int16_t) + 1);
+  return (height + 2 * reach + simd::kRowsAhead) * (4 * simd::kSliceLanes * sizeof(int16_t) + 1);
 }
 
 // Finds the position of each slice in each view. `offsets` has `count` elements, one per slice, for
@@ -171,18 +165,8 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
 // that contain no disparity of the slice. The caller sets the pointers `samples` and `cover` of
 // `placed`.
 void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const SurfaceBands& bands, const Slice& slice, const Rect& rect, int16_t* filtered,
-               const SlicePlane& placed);
-
-// A slice in a strip of kSliceLanes columns, shifted for one column of views. The four planes are
-// `plane` samples apart. Each row has a mark (simd::kNothingNear); kRowsAhead further marks precede
-// the mark of the first row.
-struct ShiftedSlice {
-  int16_t* samples = nullptr;
-  int8_t* near = nullptr;
-  size_t plane = 0;
-  Range filled = {0, 0};  // range of rows outside which the slice is empty in all views
-};
+               const simd::DisparityRange* bands, const Slice& slice, const Rect& rect,
+               int16_t* filtered, const SlicePlane& placed);
 
 // Returns the strips of a slice's row that some view shows in the strip at column `x` of the
 // rectangle. Bit k of the result stands for strip k of the row, as in SliceCover.
@@ -191,16 +175,6 @@ constexpr uint64_t StripsOf(const SlicePlane& placed, int32_t x) {
                 last = (x + simd::kStripColumns - 1 + 2 * placed.reach) / simd::kStripColumns;
   return (uint64_t{2} << last) - (uint64_t{1} << first);
 }
-
-// Finds the rows of the slice that are not empty in the strip at column `x` of the rectangle.
-// `seen` are the rows of the rectangle that show the slice. Clears the empty rows that the
-// compositor reads. The caller sets the pointers of `shifted`.
-void PlaceStrip(const SlicePlane& placed, int32_t x, const Range& seen, ShiftedSlice* shifted);
-
-// Writes the non-empty rows of the range `rows` to the strip, shifted by `offset` along the row.
-void ShiftSlice(const simd::Kernels& kernels, const SlicePlane& placed,
-                const simd::SliceOffset& offset, int32_t x, const Range& rows,
-                const ShiftedSlice& shifted);
 
 }  // namespace starfocus
 

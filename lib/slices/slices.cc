@@ -15,13 +15,13 @@ constexpr int kOverlapParts = 10;
 class SliceFinder {
  public:
   SliceFinder(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-              const SliceRule& rule, const Rect& tile, SurfaceBands* bands)
+              const SliceRule& rule, const Rect& tile, simd::DisparityRange* bands)
       : kernels_(kernels),
         surfaces_(surfaces),
         grid_(grid),
         rule_(rule),
         tile_(tile),
-        bands_(*bands) {
+        bands_(bands) {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
     range_ = static_cast<int32_t>(Limited((int64_t{rule.range} << kBits) / step));
@@ -75,7 +75,7 @@ class SliceFinder {
     const int32_t last = around_.y + around_.height;
     for (int32_t y = around_.y, end; y < last; y = end) {
       end = y + 1;
-      if (surface == 0 && y % kBandRows == 0) bands_.At(y) = {INT16_MAX, INT16_MIN};
+      if (surface == 0 && y % kBandRows == 0) bands_[y / kBandRows] = {INT16_MAX, INT16_MIN};
       if (!has(y)) continue;
       while (end % kBandRows != 0 && end < last && has(end)) ++end;
       MarkRows(surface, y, end);
@@ -94,7 +94,7 @@ class SliceFinder {
                         static_cast<size_t>(around_.width), ranges);
     for (int32_t x = 0; x < around_.width; x += simd::kStripColumns) {
       const simd::DisparityRange& range = ranges[x / simd::kStripColumns];
-      Widen(range, &bands_.At(y));
+      Widen(range, &bands_[y / kBandRows]);
       const Rect pixels = {around_.x + x, y, Min(simd::kStripColumns, around_.width - x), end - y};
       const int32_t least = surfaces_.least_blur[Beyond(pixels)];
       if (least == 0) {
@@ -198,7 +198,7 @@ class SliceFinder {
   const ViewGrid& grid_;
   const SliceRule& rule_;
   const Rect& tile_;
-  SurfaceBands& bands_;
+  simd::DisparityRange* const bands_;
   int32_t range_;         // SliceRule::range, converted to a range of disparities.
   Rect around_;           // Region to search, in pixels of the surfaces.
   int32_t bin_bits_ = 0;  // log2 of the number of disparities in a bin.
@@ -208,7 +208,8 @@ class SliceFinder {
 }  // namespace
 
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-                   const SliceRule& rule, const Rect& tile, Slice* slices, SurfaceBands* bands) {
+                   const SliceRule& rule, const Rect& tile, Slice* slices,
+                   simd::DisparityRange* bands) {
   return SliceFinder(kernels, surfaces, grid, rule, tile, bands).Find(slices);
 }
 

@@ -20,10 +20,11 @@ inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
 // Finds the slices of a tile, ordered from the nearest to the farthest. The slices hold all pixels
 // of the surfaces that may splat into the tile, which is in pixels of the surfaces. Also finds the
-// range of disparities in each band of the surfaces, for FillSlice. Returns the number of slices,
-// at most rule.most.
+// range of disparities in each of the kMaxBands bands of the surfaces, for FillSlice. Returns the
+// number of slices, at most rule.most.
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-                   const SliceRule& rule, const Rect& tile, Slice* slices, SurfaceBands* bands);
+                   const SliceRule& rule, const Rect& tile, Slice* slices,
+                   simd::DisparityRange* bands);
 
 }  // namespace starfocus
 

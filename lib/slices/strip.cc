@@ -144,26 +144,52 @@ class Strip {
   }
 
   // Allocates memory of the strip for the slices that are visible in the cell pairs. The marks
-  // `near` of all slices are stored after the samples of all slices.
+  // `near` of all slices are stored after the samples of all slices, and kRowsAhead further marks
+  // precede the mark of the first row.
   void PlaceSlices(int16_t* samples) {
     size_t rows = 0;
-    for (int32_t n = 0; n < seen_; ++n) {
-      rows += static_cast<size_t>(planes_[seen_slices_[n]].rows) + simd::kRowsAhead;
-    }
+    for (int32_t n = 0; n < seen_; ++n) rows += RowsOf(planes_[seen_slices_[n]]);
     int8_t* near =
-        reinterpret_cast<int8_t*>(samples + 4 * rows * simd::kStripColumns) + simd::kRowsAhead;
+        reinterpret_cast<int8_t*>(samples + 4 * rows * simd::kSliceLanes) + simd::kRowsAhead;
     for (int32_t n = 0; n < seen_; ++n) {
       const int32_t k = seen_slices_[n];
       const SlicePlane& placed = planes_[k];
-      ShiftedSlice& shifted = shifted_[k];
-      shifted.samples = samples;
-      shifted.near = near;
-      PlaceStrip(placed, first_->x, rows_[k], &shifted);
-      shown_[k] = {samples + placed.reach * simd::kStripColumns, near + placed.reach,
-                   shifted.plane};
-      samples += 4 * shifted.plane;
-      near += shifted.plane / simd::kStripColumns;
+      const size_t plane = RowsOf(placed) * simd::kSliceLanes;
+      shown_[k] = {samples + placed.reach * simd::kStripColumns, near + placed.reach, plane};
+      FindFilled(k);
+      samples += 4 * plane;
+      near += RowsOf(placed);
     }
+  }
+
+  static size_t RowsOf(const SlicePlane& placed) {
+    return static_cast<size_t>(placed.rows) + simd::kRowsAhead;
+  }
+
+  // Finds the rows of slice k that are not empty in the strip. Clears the empty rows, which
+  // MoveSlice does not write, and kRowsAhead rows after the last row, because the kernel reads
+  // them.
+  void FindFilled(int32_t k) {
+    const SlicePlane& placed = planes_[k];
+    const uint64_t strips = StripsOf(placed, first_->x);
+    const int32_t top = rows_[k].first - placed.reach, last = rows_[k].last + placed.reach;
+    const auto empty = [&](int32_t row) {
+      return (placed.cover[row + placed.reach].some & strips) == 0;
+    };
+    int32_t first = top, end = last;
+    while (first < end && empty(first)) ++first;
+    while (end > first && empty(end - 1)) --end;
+    filled_[k] = {first, end};
+    const auto clear = [&](int32_t from, int32_t to) {
+      const auto rows = static_cast<size_t>(to - from);
+      std::memset(shown_[k].near + from, simd::kNothingNear, rows);
+      int16_t* row = shown_[k].samples + from * simd::kStripColumns;
+      for (size_t c = 0; c < 4; ++c, row += shown_[k].plane) {
+        std::memset(row, 0, rows * simd::kSliceLanes * sizeof(*row));
+      }
+    };
+    clear(top, first);
+    clear(end, last + kRowsAhead);
   }
 
   // Adds all views (i, j) of column i.
@@ -186,15 +212,24 @@ class Strip {
     }
   }
 
-  // Shifts slice k for column i of views and writes the result to the strip. Only the rows that
-  // views (i, -last) to (i, last) show are written.
+  // Shifts slice k for column i of views, and writes the rows that views (i, -last) to (i, last)
+  // show to the strip, except for empty rows.
   void MoveSlice(int32_t k, int32_t i, int32_t last) {
     const SlicePlane& placed = planes_[k];
-    const Range& seen = rows_[k];
     const int32_t a = stack_.Offset(k, -last).whole, b = stack_.Offset(k, last).whole;
-    const Range rows = {seen.first + placed.reach + Min(a, b),
-                        Min(seen.last + placed.reach + Max(a, b) + kRowsAhead, placed.rows)};
-    ShiftSlice(kernels_, placed, stack_.Offset(k, i), first_->x, rows, shifted_[k]);
+    const int32_t first = Max(rows_[k].first + Min(a, b), filled_[k].first);
+    const int32_t end = Min(rows_[k].last + Max(a, b) + kRowsAhead, filled_[k].last);
+    if (first >= end) return;
+    const auto rows = static_cast<size_t>(end - first);
+    int8_t* near = shown_[k].near + first;
+    // Resets the marks of rows, which still hold the values of the previous column of views.
+    std::memset(near - kRowsAhead, simd::kNothingNear, rows + simd::kRowsAhead);
+    const simd::SliceOffset& offset = stack_.Offset(k, i);
+    const int16_t* from =
+        placed.samples + static_cast<size_t>(first + placed.reach) * 4 * placed.plane;
+    kernels_.ShiftSlice(from + first_->x + placed.reach + offset.whole, placed.plane,
+                        offset.fraction, rows, shown_[k].plane,
+                        shown_[k].samples + first * simd::kStripColumns, near);
   }
 
   // Adds views (i, first) to (i, last).
@@ -234,9 +269,9 @@ class Strip {
   int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
-  Range rows_[kMaxSlices];  // For each slice, the rows of the cell pairs that show the slice.
-  ShiftedSlice shifted_[kMaxSlices];    // The slices shifted for the current column of views.
-  simd::StripSlice shown_[kMaxSlices];  // `shifted_` in the format of the SIMD kernel.
+  Range rows_[kMaxSlices];    // For each slice, the rows of the cell pairs that show the slice.
+  Range filled_[kMaxSlices];  // For each slice, the rows outside which it is empty in all views.
+  simd::StripSlice shown_[kMaxSlices];  // The slices, shifted for the current column of views.
 };
 
 }  // namespace

@@ -120,8 +120,7 @@ TEST_CASE("slice planes: a hidden pixel is found at any position in a group of p
       surfaces.disparity[k] = disparities[k];
       surfaces.rgb[k] = rgb.data();
     }
-    starfocus::SurfaceBands bands;
-    bands.At(0) = {-640, 0};
+    const starfocus::simd::DisparityRange bands[] = {{-640, 0}};
     starfocus::SlicePlane placed;
     placed.reach = placed.subaperture = 0;
     placed.rows = 1;

@@ -32,7 +32,7 @@ struct Scene {
   std::vector<uint8_t> bins = std::vector<uint8_t>(starfocus::kSliceBins);
   std::vector<int32_t> least = std::vector<int32_t>(kSize);
   starfocus::LayeredDepth surfaces;
-  starfocus::SurfaceBands bands;
+  starfocus::simd::DisparityRange bands[starfocus::kMaxBands];
 
   Scene() {
     surfaces.width = surfaces.height = surfaces.stride = kSize;
@@ -62,7 +62,7 @@ struct Scene {
     surfaces.high = *range.second;
     std::vector<Slice> slices(kMaxSlices);
     const int count = starfocus::FindSlices(starfocus::simd::BestKernels(), surfaces, grid, rule,
-                                            {24, 24, 16, 16}, slices.data(), &bands);
+                                            {24, 24, 16, 16}, slices.data(), bands);
     REQUIRE(count > 0);
     REQUIRE(count <= rule.most);
     slices.resize(size_t(count));
@@ -99,8 +99,8 @@ TEST_CASE("slices: the range of a band of rows includes the disparities of all s
   for (int band = 1; band < 7; ++band) {
     CAPTURE(band);
     for (const int row : {8 * band, 8 * band + 7}) {
-      CHECK(scene.bands.At(row).low == expected[band][0]);
-      CHECK(scene.bands.At(row).high == expected[band][1]);
+      CHECK(scene.bands[row / starfocus::kBandRows].low == expected[band][0]);
+      CHECK(scene.bands[row / starfocus::kBandRows].high == expected[band][1]);
     }
   }
 }
