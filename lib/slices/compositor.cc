@@ -135,7 +135,7 @@ class TilePart {
       std::memcpy(centre, CentreRow(accumulators_ + at - left, job_.rect.width) + left,
                   3 * columns * sizeof(*centre));
       job_.input->kernels->FinishComposite(SumsOfRow(scratch_.sums, row), simd::kSliceLanes, centre,
-                                           stack_.weights.least_covered, kCompositeBits, columns,
+                                           stack_.least_covered, kCompositeBits, columns,
                                            accumulators_ + at);
     }
   }
@@ -261,7 +261,7 @@ uint64_t CompositeRectangle(const RenderJob& given, RendererScratch* scratch,
   RenderJob job = given;
   job.grid = &grid;
   stack.grid = &grid;
-  stack.weights = ScaleWeights(grid.aperture);
+  ScaleWeights(&stack);
   uint64_t pixels = 0;
   Rect tile = {0, 0, 0, 0};
   for (; tile.y < job.rect.height; tile.y += tile.height) {

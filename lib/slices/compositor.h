@@ -20,61 +20,16 @@
 
 namespace starfocus {
 
-// Largest number of views of a column that are summed together in 16 bits. If more views were
-// summed together, each weight would be smaller, and the products of small weights and faint light
-// would round to zero.
-inline constexpr int32_t kGroupViews = 16;
-
-// Weights of views in the units of the SIMD kernels: aperture weights times scale / 2^16. If the
-// weights of a group exceed the limit of the SIMD kernels, the compositor adds the group in several
-// shares.
-struct ScaledWeights {
-  const ViewWeights* aperture;
-  uint64_t scale;    // Factor of the aperture weights, times 2^16 (21 bits).
-  uint32_t largest;  // Largest weight of the aperture.
-  // Smallest sum of coverage from which a colour is computed. If a colour were computed from a
-  // smaller sum of coverage, rounding errors of the colour would be visible.
-  uint32_t least_covered;
-
-  // Returns share `share` of the weight, which is divided into `shares` equal shares.
-  int16_t Weight(int32_t i, int32_t j, int extra_bits, uint32_t share, uint32_t shares) const {
-    const uint64_t weight = (aperture->Weight(i, j) * (scale << extra_bits)) >> 16;
-    return static_cast<int16_t>(weight * (share + 1) / shares - weight * share / shares);
-  }
-
-  // Returns the number of equal shares into which the weights of views (i, first) to (i, last) must
-  // be divided.
-  uint32_t Shares(int32_t i, int32_t first, int32_t last) const;
-
-  // Returns the largest j <= last for which all weights of views (i, first) to (i, j) have the same
-  // magnitude. The magnitude of a weight is the number of times that the weight can be multiplied
-  // by sixteen without exceeding the largest weight. In apertures with a steep fall-off, outer
-  // views weigh much less than the middle view. If the compositor summed outer views together with
-  // the middle view, the products of outer weights with faint light would round to zero.
-  int32_t LastAlike(int32_t i, int32_t first, int32_t last) const;
-
-  // Returns the number of bits by which the scaled weights of views (i, first) to (i, last) are
-  // shifted left. If a whole column fits in one group, the result is 0 unless the weight of view
-  // (i, first) is at most 1/16 of the largest weight of the aperture.
-  int ExtraBits(int32_t i, int32_t first, int32_t last) const;
-
-  // Returns the largest j for which the aperture has a view (i, j).
-  int32_t LastAcross(int32_t i) const {
-    int32_t j = aperture->last;
-    while (i * i + j * j > aperture->most) --j;
-    return j;
-  }
-};
-
-// Scales the weights of an aperture so that each group's weights sum to at most kGroupSum and each
-// weight is at most kGroupSum / 4. For apertures with a steep fall-off, the limits kGroupSum and
-// kGroupSum / 4 are multiplied by the number of shares, which is at most kMostShares.
-ScaledWeights ScaleWeights(const ViewWeights& aperture);
-
 // The stack of slices of a tile, ordered from the nearest to the farthest.
 struct SliceStack {
   const ViewGrid* grid;
-  ScaledWeights weights;
+  // The weights of views in the units of the SIMD kernels are aperture weights times weight_scale /
+  // 2^16.
+  uint64_t weight_scale;    // 21 bits
+  uint32_t largest_weight;  // largest weight of the aperture
+  // Smallest sum of coverage from which a colour is computed. If a colour were computed from a
+  // smaller sum of coverage, rounding errors of the colour would be visible.
+  uint32_t least_covered;
   Rect inner;  // rectangle to refocus, which contains the tile, in pixels of the surfaces
   int32_t count;
   Slice slices[kMaxSlices];
@@ -87,6 +42,12 @@ struct SliceStack {
     return offsets[(i + grid->n()) * count + k];
   }
 };
+
+// Scales the weights of the stack's aperture so that the weights of each group of views sum to at
+// most kGroupSum and each weight is at most kGroupSum / 4. For apertures with a steep fall-off,
+// both limits are multiplied by the number of portions in which the compositor adds a group, which
+// is at most kMostPortions.
+void ScaleWeights(SliceStack* stack);
 
 // Two adjacent cells (squares of up to 8x8 pixels), with the slices that are visible in these
 // cells.

@@ -13,6 +13,11 @@ namespace {
 // little coverage (docs/constants.md).
 constexpr uint32_t kLeastShare = 4;
 
+// Largest number of views of a column that are summed together in 16 bits. If more views were
+// summed together, each weight would be smaller, and the products of small weights and faint light
+// would round to zero.
+constexpr int32_t kGroupViews = 16;
+
 // Largest sum of the weights of a group of views. The rest of the 16-bit range is for two errors:
 // the rounding in each slice, and a contribution that exceeds the weight of its view by up to a
 // ninth.
@@ -21,11 +26,11 @@ constexpr uint32_t kGroupSum = 58000;
 // Limits for apertures with a steep fall-off (theta of at least 0.3 pi), in which the largest
 // weight of a view is more than kSteep times the mean weight. ScaleWeights multiplies the weights
 // of these apertures until the mean weight is at least kLeastMean, but by a factor of at most
-// kMostShares. Each product of a weight and a light value is rounded, so smaller weights would
+// kMostPortions. Each product of a weight and a light value is rounded, so smaller weights would
 // change the 8-bit codes of dark pixels.
 constexpr uint64_t kSteep = 3;
 constexpr uint64_t kLeastMean = 2 * kGroupSum / kGroupViews;
-constexpr uint64_t kMostShares = 32;
+constexpr uint64_t kMostPortions = 32;
 
 // Returns the sum of the weights of views (i, first) to (i, last) or four times the largest of
 // these weights, whichever is larger.
@@ -53,54 +58,41 @@ int RankOf(uint32_t weight, uint32_t largest) {
   return rank;
 }
 
-}  // namespace
-
-uint32_t ScaledWeights::Shares(int32_t i, int32_t first, int32_t last) const {
-  const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
-  return sum <= kGroupSum ? 1 : static_cast<uint32_t>((sum + kGroupSum - 1) / kGroupSum);
-}
-
-int32_t ScaledWeights::LastAlike(int32_t i, int32_t first, int32_t last) const {
-  const int rank = RankOf(aperture->Weight(i, first), largest);
-  int32_t j = first;
-  while (j < last && RankOf(aperture->Weight(i, j + 1), largest) == rank) ++j;
+// Returns the largest j for which the aperture has a view (i, j).
+int32_t LastAcross(const ViewWeights& aperture, int32_t i) {
+  int32_t j = aperture.last;
+  while (i * i + j * j > aperture.most) --j;
   return j;
 }
 
-int ScaledWeights::ExtraBits(int32_t i, int32_t first, int32_t last) const {
-  const uint64_t sum = (GroupSum(*aperture, i, first, last) * scale) >> 16;
-  int bits = 0;
-  while (bits < kMostExtraBits && sum << (bits + 1) <= kGroupSum) ++bits;
-  const bool large = RankOf(aperture->Weight(i, first), largest) == 0;
-  return 2 * aperture->last < kGroupViews && large ? 0 : bits;
-}
+}  // namespace
 
-ScaledWeights ScaleWeights(const ViewWeights& aperture) {
-  ScaledWeights weights = {&aperture, 0, 0, 0};
-  uint32_t largest = 0;
+void ScaleWeights(SliceStack* stack) {
+  const ViewWeights& aperture = stack->grid->aperture;
+  uint32_t largest_sum = 0;
   uint64_t views = 0;
+  stack->largest_weight = 0;
   // The weights of columns -i and i are equal, except in full apertures.
   for (int32_t i = aperture.full ? -aperture.last : 0; i <= aperture.last; ++i) {
-    const int32_t last = weights.LastAcross(Abs(i));
+    const int32_t last = LastAcross(aperture, i);
     for (int32_t j = -last; j <= last; ++j) {
       const uint32_t weight = aperture.Weight(i, j);
-      weights.largest = weight > weights.largest ? weight : weights.largest;
+      stack->largest_weight = weight > stack->largest_weight ? weight : stack->largest_weight;
       if (weight > 0) views += aperture.full || i == 0 ? 1 : 2;
     }
     for (int32_t first = -last; first <= last; first += kGroupViews) {
       const uint32_t sum = GroupSum(aperture, i, first, Min(first + kGroupViews - 1, last));
-      largest = sum > largest ? sum : largest;
+      largest_sum = sum > largest_sum ? sum : largest_sum;
     }
   }
-  weights.scale = (uint64_t{kGroupSum} << 16) / largest;
-  if (weights.largest * views > kSteep << aperture.sum_bits) {
-    const uint64_t sum = (weights.scale << aperture.sum_bits) >> 16;
-    const uint64_t shares = (views * kLeastMean + sum - 1) / sum;
-    weights.scale *= shares < kMostShares ? shares : kMostShares;
+  uint64_t scale = (uint64_t{kGroupSum} << 16) / largest_sum;
+  if (stack->largest_weight * views > kSteep << aperture.sum_bits) {
+    const uint64_t sum = (scale << aperture.sum_bits) >> 16;
+    const uint64_t portions = (views * kLeastMean + sum - 1) / sum;
+    scale *= portions < kMostPortions ? portions : kMostPortions;
   }
-  weights.least_covered =
-      static_cast<uint32_t>(((weights.scale << aperture.sum_bits) >> 16) / kLeastShare);
-  return weights;
+  stack->weight_scale = scale;
+  stack->least_covered = static_cast<uint32_t>(((scale << aperture.sum_bits) >> 16) / kLeastShare);
 }
 
 namespace {
@@ -111,14 +103,20 @@ class Strip {
  public:
   Strip(const simd::Kernels& kernels, const SliceStack& stack, const SlicePlane* planes,
         const CellPair* first, const CellPair* end, uint32_t* sums)
-      : kernels_(kernels), stack_(stack), planes_(planes), first_(first), end_(end), sums_(sums) {}
+      : kernels_(kernels),
+        stack_(stack),
+        aperture_(stack.grid->aperture),
+        planes_(planes),
+        first_(first),
+        end_(end),
+        sums_(sums) {}
 
   // Composites one column of views at a time.
   void Composite(int16_t* memory, CancelToken* cancel) {
     FindRows();
     PlaceSlices(memory);
     for (int32_t i = -stack_.grid->n(); i <= stack_.grid->n(); ++i) {
-      if (!GoesOn(cancel, samples_ * (2 * stack_.weights.LastAcross(Abs(i)) + 1))) return;
+      if (!GoesOn(cancel, samples_ * (2 * LastAcross(aperture_, i) + 1))) return;
       AddColumn(i);
     }
   }
@@ -194,21 +192,11 @@ class Strip {
 
   // Adds all views (i, j) of column i.
   void AddColumn(int32_t i) {
-    const int32_t last = stack_.weights.LastAcross(Abs(i));
+    const int32_t last = LastAcross(aperture_, i);
     for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
-    // Skips views of weight 0 at both ends of the column.
-    const ViewWeights& aperture = *stack_.weights.aperture;
-    int32_t begin = -last, end = last;
-    while (begin <= end && aperture.Weight(i, begin) == 0) ++begin;
-    while (begin <= end && aperture.Weight(i, end) == 0) --end;
-    for (int32_t group = -last; group <= end; group += kGroupViews) {
-      const int32_t most = Min(group + kGroupViews - 1, end);
-      for (int32_t first = Max(group, begin); first <= most;) {
-        const int32_t alike = stack_.weights.LastAlike(i, first, most);
-        if (aperture.Weight(i, first) != 0)
-          AddGroup(i, first, alike);  // views with weight 0 add no light
-        first = alike + 1;
-      }
+    for (int32_t begin = -last; begin <= last; begin += kGroupViews) {
+      const int32_t most = Min(begin + kGroupViews - 1, last);
+      for (int32_t first = begin; first <= most;) first = AddGroup(i, first, most);
     }
   }
 
@@ -232,24 +220,46 @@ class Strip {
                         shown_[k].samples + first * simd::kStripColumns, near);
   }
 
-  // Adds views (i, first) to (i, last).
-  void AddGroup(int32_t i, int32_t first, int32_t last) {
-    const uint32_t shares = stack_.weights.Shares(i, first, last);
-    const int extra_bits = stack_.weights.ExtraBits(i, first, last);
-    for (uint32_t share = 0; share < shares; ++share) {
-      for (int32_t j = first; j <= last; ++j) {
-        weights_[j - first] = stack_.weights.Weight(i, j, extra_bits, share, shares);
-      }
-      AddShare(first, last, extra_bits);
+  // Adds the views (i, first) to (i, j) for the largest j <= most for which all weights have the
+  // rank of the first (RankOf). In apertures with a steep fall-off, outer views weigh much less
+  // than the middle view. If outer views were summed together with the middle view, the products of
+  // outer weights with faint light would round to zero. Returns j + 1.
+  int32_t AddGroup(int32_t i, int32_t first, int32_t most) {
+    const auto rank_of = [&](int32_t j) {
+      return RankOf(aperture_.Weight(i, j), stack_.largest_weight);
+    };
+    const int rank = rank_of(first);
+    int32_t end = first + 1;
+    while (end <= most && rank_of(end) == rank) ++end;
+    if (rank == kNoLight) return end;
+    const uint64_t sum = (GroupSum(aperture_, i, first, end - 1) * stack_.weight_scale) >> 16;
+    // The weights are divided into equal portions, none of which exceeds the limit of the kernel.
+    const uint64_t portions = sum <= kGroupSum ? 1 : (sum + kGroupSum - 1) / kGroupSum;
+    // Small weights get extra fractional bits, unless a whole column fits in one group and the
+    // first weight is more than 1/16 of the largest weight.
+    const bool is_small = rank > 0 || 2 * aperture_.last >= kGroupViews;
+    int extra_bits = 0;
+    while (is_small && extra_bits < kMostExtraBits && sum << (extra_bits + 1) <= kGroupSum) {
+      ++extra_bits;
     }
+    for (uint64_t portion = 0; portion < portions; ++portion) {
+      for (int32_t j = first; j < end; ++j) {
+        const uint64_t weight =
+            (aperture_.Weight(i, j) * (stack_.weight_scale << extra_bits)) >> 16;
+        weights_[j - first] =
+            static_cast<int16_t>(weight * (portion + 1) / portions - weight * portion / portions);
+      }
+      AddViews({first, end}, extra_bits);
+    }
+    return end;
   }
 
-  // Adds views (i, first) to (i, last) with the weights `weights_`.
-  void AddShare(int32_t first, int32_t last, int extra_bits) {
+  // Adds the views [rows.first, rows.last) of a column with the weights `weights_`.
+  void AddViews(const Range& rows, int extra_bits) {
     for (const CellPair* pair = first_; pair < end_; ++pair) {
       const simd::SliceViews views = {weights_,
-                                      &stack_.Offset(0, first),
-                                      static_cast<size_t>(last + 1 - first),
+                                      &stack_.Offset(0, rows.first),
+                                      static_cast<size_t>(rows.last - rows.first),
                                       shown_,
                                       static_cast<size_t>(stack_.count),
                                       pair->shown,
@@ -262,6 +272,7 @@ class Strip {
 
   const simd::Kernels& kernels_;
   const SliceStack& stack_;
+  const ViewWeights& aperture_;
   const SlicePlane* const planes_;
   const CellPair *const first_, *const end_;
   uint32_t* const sums_;
