@@ -70,9 +70,13 @@ struct DiscTaps {
   Tap taps[(kMaxDisc + 1) * (kMaxDisc / 2 + 1)];
   size_t count = 0;
   int32_t rows = 0;  // number of rows of the quarter, up to the last row with a nonzero weight
+  // The sums of a disc are divided by 2^bits and multiplied by 2^whole.
+  const int bits, second_bits, whole;
 
-  // Creates a `Tap` for each pair of columns in which either disc has a nonzero weight.
-  DiscTaps(const Disc& disc, const Disc& second) {
+  // Creates a `Tap` for each pair of columns in which either disc has a nonzero weight. Rounding
+  // removes the `dropped` lowest bits of the light.
+  DiscTaps(const Disc& disc, const Disc& second, int dropped, int restored)
+      : bits(disc.bits + dropped), second_bits(second.bits + dropped), whole(restored) {
     constexpr auto kRow = static_cast<int32_t>(DiscMeans::kStride);
     constexpr auto kPixel = static_cast<int32_t>(DiscMeans::kPixel);
     for (int32_t y = 0; y <= disc.size || y <= second.size; ++y) {
@@ -114,11 +118,6 @@ struct DiscTaps {
   }
 };
 
-// Scale of the sums of a disc. Sums are divided by 2^bits and multiplied by 2^whole.
-struct DiscScale {
-  int bits, whole;
-};
-
 // Filters `count` samples with a disc: multiplies the means by the weights of the disc and adds the
 // products. If kTwo is true, also computes sums weighted by a second disc. `light` and
 // `second_light` need spare room, because vectors write past the last sample.
@@ -126,12 +125,10 @@ struct DiscScale {
 
 template <bool kTwo>
 inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
-                        const DiscScale& scale, int16_t* HWY_RESTRICT light,
-                        const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
+                        int16_t* HWY_RESTRICT light, int16_t* HWY_RESTRICT second_light) {
   constexpr ptrdiff_t kPixel = DiscMeans::kPixel;
-  const auto finish = [](uint32_t sum, const DiscScale& by) {
-    const uint32_t half = uint32_t{1} << (by.bits - 1);
-    return static_cast<int16_t>((sum + half) >> by.bits << by.whole);
+  const auto finish = [&](uint32_t sum, int bits) {
+    return static_cast<int16_t>((sum + (uint32_t{1} << (bits - 1))) >> bits << disc.whole);
   };
   for (size_t n = 0; n < count; ++n) {
     const uint16_t* at = means + n;
@@ -144,44 +141,41 @@ inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means
       sum += first * tap.weights[0] + next * tap.weights[1];
       if (kTwo) second_sum += first * tap.second_weights[0] + next * tap.second_weights[1];
     }
-    light[n] = finish(sum, scale);
-    if (kTwo) second_light[n] = finish(second_sum, second_scale);
+    light[n] = finish(sum, disc.bits);
+    if (kTwo) second_light[n] = finish(second_sum, disc.second_bits);
   }
 }
 
 #else
 
-// Operations on a vector of means and on the sums of its products. The sums occupy two vectors,
-// which DemoteSums joins.
-struct DiscSums {
-  static constexpr hn::ScalableTag<uint16_t> d16{};
-  static constexpr hn::RebindToSigned<decltype(d16)> di16{};
-  static constexpr hn::Repartition<uint32_t, decltype(d16)> d32{};
-  static constexpr hn::RebindToSigned<decltype(d32)> di32{};
-  using V16 = hn::Vec<decltype(d16)>;
-  using V32 = hn::Vec<decltype(di32)>;
+using MeansTag = hn::ScalableTag<uint16_t>;
+using LightTag = hn::RebindToSigned<MeansTag>;
+// The sums of the products of a vector of means occupy two vectors, which DemoteSums joins.
+using SumsTag = hn::Repartition<int32_t, LightTag>;
 
-  // Returns the means of the samples on the right and on the left, which mirror each other.
-  static HWY_INLINE V16 Mean(const uint16_t* right, const uint16_t* left) {
-    return hn::AverageRound(hn::LoadU(d16, right), hn::LoadU(d16, left));
-  }
+// Returns the means of the samples on the right and on the left, which mirror each other.
+HWY_INLINE hn::Vec<LightTag> MeansOf(const uint16_t* right, const uint16_t* left) {
+  const MeansTag d16;
+  return hn::BitCast(LightTag(), hn::AverageRound(hn::LoadU(d16, right), hn::LoadU(d16, left)));
+}
 
-  // Multiplies two vectors of means by two weights and adds the products to the sums.
-  static HWY_INLINE void Add(V16 first, V16 second, const uint16_t* weights, V32& low, V32& high) {
-    AddWeighed(hn::BitCast(di16, first), hn::BitCast(di16, second), weights[0], weights[1], low,
-               high);
-  }
+// Multiplies two vectors of means by two weights and adds the products to the sums.
+HWY_INLINE void AddMeans(hn::Vec<LightTag> first, hn::Vec<LightTag> second, const uint16_t* weights,
+                         hn::Vec<SumsTag>& low, hn::Vec<SumsTag>& high) {
+  AddWeighed(first, second, weights[0], weights[1], low, high);
+}
 
-  static HWY_INLINE void Store(V32 low, V32 high, const DiscScale& scale, int16_t* light) {
-    const auto half = hn::Set(d32, uint32_t{1} << (scale.bits - 1));
-    const auto value = [&](V32 sums) HWY_ATTR {
-      const auto sum = hn::Add(hn::BitCast(d32, sums), half);
-      return hn::BitCast(di32, hn::ShiftRightSame(sum, scale.bits));
-    };
-    const auto both = DemoteSums(di16, value(low), value(high));
-    hn::StoreU(hn::ShiftLeftSame(both, scale.whole), di16, light);
-  }
-};
+HWY_INLINE void StoreSums(hn::Vec<SumsTag> low, hn::Vec<SumsTag> high, int bits, int whole,
+                          int16_t* light) {
+  const hn::RebindToUnsigned<SumsTag> d32;
+  const auto half = hn::Set(d32, uint32_t{1} << (bits - 1));
+  const auto value = [&](hn::Vec<SumsTag> sums) HWY_ATTR {
+    const auto sum = hn::Add(hn::BitCast(d32, sums), half);
+    return hn::BitCast(SumsTag(), hn::ShiftRightSame(sum, bits));
+  };
+  const auto both = DemoteSums(LightTag(), value(low), value(high));
+  hn::StoreU(hn::ShiftLeftSame(both, whole), LightTag(), light);
+}
 
 // Second result that FilterMeansVector computes together with the first result, so that both share
 // loads of means or weights.
@@ -190,85 +184,58 @@ enum class Beside { kNothing, kNextVector, kSecondDisc };
 // Filters a vector of means. The function is not inlined, to keep WebAssembly modules small.
 template <Beside kBeside>
 HWY_NOINLINE void FilterMeansVector(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means,
-                                    const DiscScale& scale, int16_t* HWY_RESTRICT light,
-                                    const DiscScale& other_scale,
+                                    int16_t* HWY_RESTRICT light,
                                     int16_t* HWY_RESTRICT other_light) {
-  const size_t lanes = hn::Lanes(DiscSums::d16);
+  const size_t lanes = hn::Lanes(MeansTag());
   constexpr ptrdiff_t kPixel = DiscMeans::kPixel;
-  auto low = hn::Zero(DiscSums::di32), high = low, other_low = low, other_high = low;
+  auto low = hn::Zero(SumsTag()), high = low, other_low = low, other_high = low;
   for (size_t k = 0; k < disc.count; ++k) {
     const DiscTaps::Tap& tap = disc.taps[k];
     const uint16_t *right = means + tap.right, *left = means + tap.left;
-    const auto first = DiscSums::Mean(right, left);
-    const auto next = DiscSums::Mean(right + kPixel, left - kPixel);
-    DiscSums::Add(first, next, tap.weights, low, high);
+    const auto first = MeansOf(right, left), next = MeansOf(right + kPixel, left - kPixel);
+    AddMeans(first, next, tap.weights, low, high);
     if (kBeside == Beside::kNextVector) {
       right += lanes;
       left += lanes;
-      DiscSums::Add(DiscSums::Mean(right, left), DiscSums::Mean(right + kPixel, left - kPixel),
-                    tap.weights, other_low, other_high);
+      AddMeans(MeansOf(right, left), MeansOf(right + kPixel, left - kPixel), tap.weights, other_low,
+               other_high);
     } else if (kBeside == Beside::kSecondDisc) {
-      DiscSums::Add(first, next, tap.second_weights, other_low, other_high);
+      AddMeans(first, next, tap.second_weights, other_low, other_high);
     }
   }
-  DiscSums::Store(low, high, scale, light);
-  if (kBeside != Beside::kNothing) {
-    DiscSums::Store(other_low, other_high, other_scale, other_light);
-  }
+  StoreSums(low, high, disc.bits, disc.whole, light);
+  if (kBeside == Beside::kNothing) return;
+  const int other_bits = kBeside == Beside::kSecondDisc ? disc.second_bits : disc.bits;
+  StoreSums(other_low, other_high, other_bits, disc.whole, other_light);
 }
 
 template <bool kTwo>
 inline void FilterMeans(const DiscTaps& disc, const uint16_t* HWY_RESTRICT means, size_t count,
-                        const DiscScale& scale, int16_t* HWY_RESTRICT light,
-                        const DiscScale& second_scale, int16_t* HWY_RESTRICT second_light) {
-  const size_t lanes = hn::Lanes(DiscSums::d16);
+                        int16_t* HWY_RESTRICT light, int16_t* HWY_RESTRICT second_light) {
+  const size_t lanes = hn::Lanes(hn::ScalableTag<uint16_t>());
   size_t n = 0;
   if (kTwo) {
     for (; n < count; n += lanes) {
-      FilterMeansVector<Beside::kSecondDisc>(disc, means + n, scale, light + n, second_scale,
-                                             second_light + n);
+      FilterMeansVector<Beside::kSecondDisc>(disc, means + n, light + n, second_light + n);
     }
     return;
   }
   for (; n + lanes < count; n += 2 * lanes) {
-    FilterMeansVector<Beside::kNextVector>(disc, means + n, scale, light + n, scale,
-                                           light + n + lanes);
+    FilterMeansVector<Beside::kNextVector>(disc, means + n, light + n, light + n + lanes);
   }
-  if (n < count) {
-    FilterMeansVector<Beside::kNothing>(disc, means + n, scale, light + n, scale, nullptr);
-  }
+  if (n < count) FilterMeansVector<Beside::kNothing>(disc, means + n, light + n, nullptr);
 }
 
 #endif
 
-// Destination of the filtered light: 8-bit codes, or samples of a layer if `codes` is null.
-struct DiscOutput {
-  uint8_t* codes;
-  int16_t* samples;
-  size_t stride;
-  Encoding encoding;
-  DiscScale scale;
-
-  void Store(const int16_t* light, size_t count, size_t at) const {
-    if (codes == nullptr) {
-      std::memcpy(samples + at, light, count * sizeof(*light));
-    } else {
-      Encode(light, count, encoding, codes + at);
-    }
-  }
-};
-
-inline DiscOutput SamplesOf(const Disc& disc, int16_t* samples, size_t stride) {
-  return {nullptr, samples, stride, {nullptr, nullptr}, {disc.bits + kLightBits - kLayerBits, 0}};
-}
-
 // Filters rows of samples in chunks. If kTwo is true, also filters the rows with a second, smaller
-// disc.
-template <bool kTwo>
-inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& smaller,
-                       const DiscOutput& out, const DiscOutput& second_out) {
+// disc. store(light, second_light, count, row, begin) stores `count` samples of a row from sample
+// `begin` on.
+template <bool kTwo, class Store>
+inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& smaller, int dropped,
+                       int whole, const Store& store) {
   const Disc none = {-1, 0, nullptr};
-  const DiscTaps taps(disc, kTwo ? smaller : none);
+  const DiscTaps taps(disc, kTwo ? smaller : none, dropped, whole);
   DiscMeans means;
   constexpr size_t kLight = kDiscChunk + HWY_MAX_BYTES;
   int16_t light[kLight], second_light[kTwo ? kLight : 1];
@@ -276,10 +243,8 @@ inline void FilterRows(const SampleRows& in, const Disc& disc, const Disc& small
     const size_t chunk = in.count - begin < kDiscChunk ? in.count - begin : kDiscChunk;
     for (size_t row = 0; row < in.rows; ++row) {
       means.Fill(in.samples + row * in.stride + begin, in.stride, disc, taps.rows, chunk);
-      FilterMeans<kTwo>(taps, means.First(disc), chunk, out.scale, light, second_out.scale,
-                        second_light);
-      out.Store(light, chunk, row * out.stride + begin);
-      if (kTwo) second_out.Store(second_light, chunk, row * second_out.stride + begin);
+      FilterMeans<kTwo>(taps, means.First(disc), chunk, light, second_light);
+      store(light, second_light, chunk, row, begin);
     }
   }
 }
@@ -288,22 +253,31 @@ inline void FilterDisc(const SampleRows& in, const Disc& disc, const Encoding& e
                        uint8_t* HWY_RESTRICT out, size_t out_stride) {
   // Number of fractional bits of the light that rounding removes before the light is encoded.
   const int whole = encoding.entries == nullptr ? kLightBits : 0;
-  const DiscOutput codes = {out, nullptr, out_stride, encoding, {disc.bits + whole, whole}};
-  FilterRows<false>(in, disc, disc, codes, codes);
+  FilterRows<false>(
+      in, disc, disc, whole, whole,
+      [&](const int16_t* light, const int16_t*, size_t count, size_t row, size_t begin)
+          HWY_ATTR { Encode(light, count, encoding, out + row * out_stride + begin); });
 }
 
 inline void FilterDiscLayer(const SampleRows& in, const Disc& disc, int16_t* HWY_RESTRICT out,
                             size_t out_stride) {
-  const DiscOutput samples = SamplesOf(disc, out, out_stride);
-  FilterRows<false>(in, disc, disc, samples, samples);
+  FilterRows<false>(
+      in, disc, disc, kLightBits - kLayerBits, 0,
+      [&](const int16_t* light, const int16_t*, size_t count, size_t row, size_t begin) {
+        std::memcpy(out + row * out_stride + begin, light, count * sizeof(*light));
+      });
 }
 
 inline void FilterTwoDiscs(const SampleRows& in, const Disc& less, const Disc& more,
                            int16_t* HWY_RESTRICT out_less, int16_t* HWY_RESTRICT out_more,
                            size_t out_stride) {
-  const DiscOutput first = SamplesOf(more, out_more, out_stride);
-  const DiscOutput second = SamplesOf(less, out_less, out_stride);
-  FilterRows<true>(in, more, less, first, second);
+  FilterRows<true>(
+      in, more, less, kLightBits - kLayerBits, 0,
+      [&](const int16_t* light, const int16_t* less_light, size_t count, size_t row, size_t begin) {
+        const size_t at = row * out_stride + begin;
+        std::memcpy(out_more + at, light, count * sizeof(*light));
+        std::memcpy(out_less + at, less_light, count * sizeof(*light));
+      });
 }
 
 inline void MixSamples(const int16_t* HWY_RESTRICT less, const int16_t* HWY_RESTRICT more,
