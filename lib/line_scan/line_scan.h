@@ -13,7 +13,6 @@
 #include "lib/optics/view_grid.h"
 #include "lib/plan/renderer.h"
 #include "simd/kernels.h"
-#include "simd/kernels.h"
 
 namespace starfocus {
 

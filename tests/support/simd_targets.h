@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "simd/kernels.h"
-#include "simd/kernels.h"
 
 namespace test {
 
