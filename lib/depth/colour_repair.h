@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Repairs the disparity map of a single view using the colours of the view. The paper repairs maps
 // with a bilateral weighted median (VII-A). Here, noise is reduced by averaging disparities within
-// surfaces, and outlines of the map follow the outlines of the picture (lib/matting/outlines.h).
+// surfaces, and outlines of the map follow the outlines of the picture (lib/depth/outlines.h).
 #ifndef STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 #define STARFOCUS_LIB_DEPTH_COLOUR_REPAIR_H_
 
 #include <cstdint>
 
 #include "lib/depth/maps.h"
+#include "lib/depth/outlines.h"
 #include "lib/matting/hair_coverage.h"
-#include "lib/matting/outlines.h"
 
 namespace starfocus {
 

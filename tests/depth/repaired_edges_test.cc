@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lib/base/fixed.h"
-#include "lib/matting/outlines.h"
+#include "lib/depth/outlines.h"
 
 namespace repaired_edges_test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/matting/outline_votes.h"
+#include "lib/depth/outline_votes.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/matting/outlines.h"
+#include "lib/depth/outlines.h"
 
 #include <algorithm>
 
 #include "lib/base/fixed.h"
-#include "lib/matting/outline_votes.h"
+#include "lib/depth/outline_votes.h"
 
 namespace starfocus {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "lib/base/fixed.h"
-#include "lib/matting/outline_votes.h"
+#include "lib/depth/outline_votes.h"
 
 namespace starfocus {
 namespace {

@@ -10,14 +10,14 @@
 // of the picture as far as colours explain the votes. Pixels that change their side, and pixels on
 // ramps, take the disparity of the nearest clean pixels of their side. In hard maps, whose outlines
 // are steps between neighbours, a second pass with a narrow band corrects what remains.
-#ifndef STARFOCUS_LIB_MATTING_OUTLINES_H_
-#define STARFOCUS_LIB_MATTING_OUTLINES_H_
+#ifndef STARFOCUS_LIB_DEPTH_OUTLINES_H_
+#define STARFOCUS_LIB_DEPTH_OUTLINES_H_
 
 #include <cstdint>
 
 #include "lib/base/arena.h"
 #include "lib/base/jobs.h"
-#include "lib/matting/outline_planes.h"
+#include "lib/depth/outline_planes.h"
 
 namespace starfocus {
 
@@ -34,4 +34,4 @@ const int16_t* FollowOutlines(const OutlinePicture& picture, const OutlineMemory
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_MATTING_OUTLINES_H_
+#endif  // STARFOCUS_LIB_DEPTH_OUTLINES_H_

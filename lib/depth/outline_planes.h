@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The planes and the picture from which the outlines of a map are found (outlines.h), and the
 // widths of one pass of the search.
-#ifndef STARFOCUS_LIB_MATTING_OUTLINE_PLANES_H_
-#define STARFOCUS_LIB_MATTING_OUTLINE_PLANES_H_
+#ifndef STARFOCUS_LIB_DEPTH_OUTLINE_PLANES_H_
+#define STARFOCUS_LIB_DEPTH_OUTLINE_PLANES_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -112,4 +112,4 @@ struct OutlinePass {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_MATTING_OUTLINE_PLANES_H_
+#endif  // STARFOCUS_LIB_DEPTH_OUTLINE_PLANES_H_

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides on which side of an outline the pixels of its band lie (outlines.h). The functions
 // process one tile, and each needs the results of the previous one for the pixels around the tile.
-#ifndef STARFOCUS_LIB_MATTING_OUTLINE_VOTES_H_
-#define STARFOCUS_LIB_MATTING_OUTLINE_VOTES_H_
+#ifndef STARFOCUS_LIB_DEPTH_OUTLINE_VOTES_H_
+#define STARFOCUS_LIB_DEPTH_OUTLINE_VOTES_H_
 
 #include <cstdint>
 #include <cstring>
 
-#include "lib/matting/outline_planes.h"
+#include "lib/depth/outline_planes.h"
 #include "simd/kernels.h"
 
 namespace starfocus {
@@ -98,4 +98,4 @@ void TakeDisparities(const OutlineMemory& memory, const OutlinePass& pass, const
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_LIB_MATTING_OUTLINE_VOTES_H_
+#endif  // STARFOCUS_LIB_DEPTH_OUTLINE_VOTES_H_
