@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lib/base/fixed.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -23,6 +24,25 @@ struct Border {
 constexpr Rect Extended(const Rect& rect, const Border& border) {
   return {rect.x - border.left, rect.y - border.top, border.left + rect.width + border.right,
           border.top + rect.height + border.bottom};
+}
+
+// Returns the part of a rectangle in a picture of width x height pixels.
+constexpr Rect Clipped(const Rect& rect, int32_t width, int32_t height) {
+  const int32_t left = Max(rect.x, 0), top = Max(rect.y, 0);
+  return {left, top, Min(rect.x + rect.width, width) - left,
+          Min(rect.y + rect.height, height) - top};
+}
+
+constexpr bool Contains(const Rect& rect, int32_t x, int32_t y) {
+  return x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height;
+}
+
+// Calls act(x, y) for each pixel of a rectangle, row by row.
+template <class Act>
+void ForPixels(const Rect& rect, const Act& act) {
+  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
+    for (int32_t x = rect.x; x < rect.x + rect.width; ++x) act(x, y);
+  }
 }
 
 // Rows, columns or other indices in [first, last).

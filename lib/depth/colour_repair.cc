@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/base/fixed.h"
-#include "lib/depth/colour_map.h"
+#include "lib/io/image.h"
 
 namespace starfocus {
 namespace {
@@ -13,109 +12,218 @@ namespace {
 // Number of phases, without the phases of FindHairCoverage.
 constexpr int32_t kPhases = 7 + kOutlinePhases;
 
-// Converts the given map to fixed point (memory.outlines.given) and returns its noise.
-int32_t ReadMap(const ColourMap& given, const ColourMemory& memory, Sequence* run) {
-  const SweepSetup& setup = given.setup;
-  const auto rows = [&](int32_t index) {
-    return PartOf({0, setup.height}, index, setup.columns * setup.rows);
-  };
-  run->Run([&](int32_t index, int32_t) {
-    ReadRows(setup, given.light_field, rows(index), memory.outlines.given);
-  });
-  if (run->status() != STARFOCUS_OK) return 0;
-  FillUnknownRows(setup, memory.outlines.given);
-  const int32_t workers = memory.jobs->max_workers;
-  for (int32_t k = 0; k < workers; ++k) std::fill_n(memory.workers[k].noise, kNoiseCounts, 0U);
-  run->Run([&](int32_t index, int32_t worker) {
-    CountNoise(setup, given.disparity, rows(index), memory.workers[worker].noise);
-  });
-  uint32_t* all = memory.workers[0].noise;
-  for (int32_t k = 1; k < workers; ++k) {
-    for (int32_t n = 0; n < kNoiseCounts; ++n) all[n] += memory.workers[k].noise[n];
-  }
-  return NoiseOf(all);
+constexpr int16_t kUnknown = INT16_MIN;
+// Largest standard deviation of noise that is invisible in a refocused picture, in fixed point
+// (kDisparityBits).
+constexpr int32_t kLeastNoise = 6;
+// Number of differences that CountNoise counts apart. The last one stands for all larger ones.
+constexpr int32_t kNoiseCounts = 1024;
+
+// A ring buffer of kSmoothRows rows around the row that is being smoothed. Each row consists of the
+// four planes that SmoothDisparity reads, kSmoothPlane samples apart.
+constexpr int32_t kMostSmoothRadius = 4, kSmoothRows = 2 * kMostSmoothRadius + 1;
+constexpr int32_t kSmoothPlane = kMostTileSide + 2 * kMostSmoothRadius;
+constexpr int32_t kSmoothSamples = kSmoothRows * 4 * kSmoothPlane;
+// Disparity of pixels outside the picture, which differs from all other disparities by more than
+// any tolerance.
+constexpr int32_t kOutside = INT32_MIN / 2;
+constexpr uint8_t kBlack[3] = {};
+
+// Converts a disparity to fixed point (kDisparityBits). Halves are rounded away from zero.
+int16_t ToFixed(float disparity) {
+  const float scaled = disparity * (1 << kDisparityBits);
+  return static_cast<int16_t>(scaled < 0 ? scaled - 0.5F : scaled + 0.5F);
 }
 
-// Smooths the map in two passes, unless it is not noisy.
-void SmoothMap(const ColourMap& given, int32_t noise, const simd::DepthKernels& kernels,
-               const ColourMemory& memory, Sequence* run) {
-  if (noise == 0) {
-    run->Skip();
-    run->Skip();
-    return;
+// Calls fill(k, before, after) for each unknown element k of a line, unless all are unknown. The
+// elements `before` and `after` are the nearest known ones on both sides, or twice the nearer one.
+template <class IsKnown, class Fill>
+void FillNearest(int32_t length, const IsKnown& is_known, const Fill& fill) {
+  int32_t last = -1;
+  for (int32_t next = 0; next <= length; ++next) {
+    if (next < length && !is_known(next)) continue;
+    if (last < 0 && next == length) return;
+    for (int32_t k = last + 1; k < next; ++k) {
+      const int32_t before = last < 0 ? INT32_MAX : k - last;
+      const int32_t after = next == length ? INT32_MAX : next - k;
+      fill(k, before <= after ? last : next, after <= before ? next : last);
+    }
+    last = next;
   }
-  const SweepSetup& setup = given.setup;
-  // The first pass averages disparities within three standard deviations, which reduces the noise
-  // to a third.
-  run->Run([&](int32_t index, int32_t worker) {
-    SmoothTile(given, 3, 1, 3 * noise, TileOf(setup, index), kernels, memory.workers[worker].ring,
-               memory.outlines.repaired);
-  });
-  const ColourMap half = {setup, given.light_field, memory.outlines.repaired};
-  run->Run([&](int32_t index, int32_t worker) {
-    SmoothTile(half, 4, 2, 3 * noise / 2, TileOf(setup, index), kernels,
-               memory.workers[worker].ring, memory.outlines.given);
-  });
 }
 
-// Writes the repaired map of a tile. A disparity that is as in the given map is copied exactly.
-void WriteTile(const ColourMap& map, const MapOutput& output, const OutlineMemory& outlines,
-               const int16_t* repaired, const Rect& tile) {
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    const float* given = GivenAt(map.light_field, y);
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const size_t at = map.setup.At(x, y);
-      const bool known = std::isfinite(given[x]);
-      const int32_t vote = Abs(outlines.vote[at]);
-      const int32_t confidence = outlines.distance[at] != 0 ? 2 * vote : UINT8_MAX;
-      output.WriteConfidence(x, y, static_cast<uint8_t>(confidence));
-      if (known && repaired[at] == ToFixed(given[x])) {
-        output.disparity.Row(y)[x] = given[x];
-      } else {
-        output.Write(x, y, repaired[at]);
+// A repair: its input, its output and its memory.
+class ColourRepair {
+ public:
+  ColourRepair(const SweepSetup& setup, const starfocus_light_field& light_field,
+               const simd::DepthKernels& kernels, const MapOutput& output,
+               const ColourMemory& memory)
+      : setup_(setup),
+        light_field_(light_field),
+        kernels_(kernels),
+        rgb_(RowsOf(light_field.views[0])),
+        output_(output),
+        memory_(memory) {}
+
+  starfocus_status Run(bool* has_coverage) const {
+    const bool covers = output_.coverage.data != nullptr;
+    Sequence run(memory_.jobs, kPhases + (covers ? kHairPhases : 0), setup_.columns * setup_.rows);
+    const int32_t noise = ReadMap(&run);
+    int16_t* const given = memory_.outlines.given;
+    const HairPicture hair = {setup_.width,
+                              setup_.height,
+                              rgb_,
+                              {given, static_cast<size_t>(setup_.width), 0, 0},
+                              output_.coverage};
+    *has_coverage = covers && FindHairCoverage(hair, memory_.hair, &run);
+    // The first pass averages disparities within three standard deviations, which reduces the noise
+    // to a third.
+    Smooth(given, noise, 3, 1, 3 * noise, memory_.outlines.repaired, &run);
+    Smooth(memory_.outlines.repaired, noise, 4, 2, 3 * noise / 2, given, &run);
+    run.Run([&](int32_t index, int32_t) {
+      CountBeside(GridOf(setup_), given, TileOf(setup_, index), index, memory_.thin);
+    });
+    if (run.status() != STARFOCUS_OK) return run.status();
+    FindThin(GridOf(setup_), kThinGiven, memory_.thin);
+    const int16_t* repaired =
+        FollowOutlines(light_field_, kernels_, memory_.thin,
+                       *has_coverage ? &memory_.hair : nullptr, memory_.outlines, &run);
+    run.Run([&](int32_t index, int32_t) { WriteTile(repaired, TileOf(setup_, index)); });
+    if (*has_coverage) {
+      run.Run([&](int32_t index, int32_t) { CompleteTile(TileOf(setup_, index)); });
+    } else {
+      run.Skip();
+    }
+    return run.status();
+  }
+
+ private:
+  // Converts the given map to fixed point (memory.outlines.given) and returns its noise.
+  int32_t ReadMap(Sequence* run) const {
+    const auto rows = [&](int32_t index) {
+      return PartOf({0, setup_.height}, index, run->count());
+    };
+    run->Run([&](int32_t index, int32_t) {
+      ReadRows(setup_, light_field_, rows(index), memory_.outlines.given);
+    });
+    if (run->status() != STARFOCUS_OK) return 0;
+    FillUnknownRows(setup_, memory_.outlines.given);
+    const int32_t counts = memory_.outlines.workers * kNoiseCounts;
+    std::fill_n(memory_.noise, counts, 0U);
+    run->Run([&](int32_t index, int32_t worker) {
+      CountNoise(rows(index), memory_.noise + worker * kNoiseCounts);
+    });
+    for (int32_t k = kNoiseCounts; k < counts; ++k) {
+      memory_.noise[k % kNoiseCounts] += memory_.noise[k];
+    }
+    return NoiseOf(memory_.noise);
+  }
+
+  // Adds the pixels of `rows`, except the pixels at the edges of the picture, to the numbers of
+  // pixels by the absolute difference between four times the pixel's disparity and the sum of the
+  // disparities of its neighbours.
+  void CountNoise(const Range& rows, uint32_t* counts) const {
+    const ptrdiff_t width = setup_.width;
+    for (int32_t y = Max(rows.first, 1); y < Min(rows.last, setup_.height - 1); ++y) {
+      const int16_t* d = memory_.outlines.given + setup_.At(1, y);
+      for (ptrdiff_t x = 1; x + 1 < width; ++x, ++d) {
+        const int32_t others = *(d - 1) + *(d + 1) + *(d - width) + *(d + width);
+        ++counts[Min(Abs(others - 4 * *d), kNoiseCounts - 1)];
       }
     }
   }
-}
 
-// The parts of a map that are kept: thin structure and hair.
-struct Kept {
-  const SweepSetup* setup;
-  const starfocus_light_field* light_field;
-  const ColourMemory* memory;
-  bool has_hair;
+  // Returns the standard deviation of the map's noise in kDisparityBits from the numbers of
+  // CountNoise, or 0 if the noise is invisible. The deviation is computed from the median
+  // difference between a pixel and the mean of its neighbours. Edges do not affect the median.
+  static int32_t NoiseOf(const uint32_t* counts) {
+    size_t total = 0;
+    for (int32_t k = 0; k < kNoiseCounts; ++k) total += counts[k];
+    int32_t median = 0;
+    for (size_t below = counts[0]; 2 * below < total; below += counts[median]) ++median;
+    // For normally distributed noise, the median is 0.6745 * sqrt(20), or approximately 3, standard
+    // deviations.
+    const int32_t deviation = median / 3;
+    return deviation > kLeastNoise ? deviation : 0;
+  }
 
-  static Rect Tile(const void* data, int32_t index) {
-    return TileOf(*static_cast<const Kept*>(data)->setup, index);
-  }
-  static bool Known(const void* data, int32_t x, int32_t y) {
-    return std::isfinite(GivenAt(*static_cast<const Kept*>(data)->light_field, y)[x]);
-  }
-  static void Keep(const void* data, int32_t index, int8_t* side) {
-    const Kept& kept = *static_cast<const Kept*>(data);
-    const ColourMemory& memory = *kept.memory;
-    ForCells(GridOf(*kept.setup), index, [&](const Rect& cell, int32_t number) {
-      if (memory.thin.thin[number] == 0 && !(kept.has_hair && HasHair(memory.hair, cell))) return;
-      for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-        std::fill_n(side + kept.setup->At(cell.x, y), cell.width, int8_t{0});
+  // Smooths `from` into `to`, unless the map is not noisy. A pixel is averaged with every `step`-th
+  // neighbour within `radius` pixels, at most kMostSmoothRadius, whose disparity differs by at most
+  // `tolerance` (kDisparityBits). Neighbours of similar colour have the largest weights.
+  void Smooth(const int16_t* from, int32_t noise, int32_t radius, int32_t step, int32_t tolerance,
+              int16_t* to, Sequence* run) const {
+    if (noise == 0) return run->Skip();
+    run->Run([&](int32_t index, int32_t worker) {
+      const Rect tile = TileOf(setup_, index);
+      int32_t* const ring = memory_.rings + ptrdiff_t{worker} * kSmoothSamples;
+      const auto row_at = [ring](int32_t y) { return ring + y % kSmoothRows * 4 * kSmoothPlane; };
+      int32_t filled = Max(tile.y - radius, 0);
+      for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+        for (; filled <= y + radius && filled < setup_.height; ++filled) {
+          FillPlanes(from, tile.x - radius, tile.width + 2 * radius, filled, row_at(filled));
+        }
+        const int32_t* rows[simd::kMostSmoothRows];
+        size_t count = 0;
+        for (int32_t row = y - radius; row <= y + radius; row += step) {
+          if (row >= 0 && row < setup_.height) rows[count++] = row_at(row) + radius;
+        }
+        kernels_.SmoothDisparity(row_at(y) + radius, rows, count, kSmoothPlane, radius, step, tolerance,
+                                 static_cast<size_t>(tile.width), to + setup_.At(tile.x, y));
       }
     });
   }
-};
 
-// Completes the coverage of a tile, whose disparities have been written to the output.
-void CompleteTile(const MapOutput& output, const HairMemory& hair, const Rect& tile) {
-  int16_t disparity[kMostTileSide];
-  for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int32_t k = 0; k < tile.width; ++k) {
-      disparity[k] = ToFixed(output.disparity.Row(y)[tile.x + k]);
+  // Fills columns [first, first + count) of the planes of row y. Columns may lie outside the
+  // picture.
+  void FillPlanes(const int16_t* map, int32_t first, int32_t count, int32_t y, int32_t* row) const {
+    for (int32_t k = 0; k < count; ++k) {
+      const int32_t x = first + k;
+      const bool inside = x >= 0 && x < setup_.width;
+      const uint8_t* colour = inside ? rgb_.Row(y) + 3 * ptrdiff_t{x} : kBlack;
+      row[k] = inside ? map[setup_.At(x, y)] : kOutside;
+      row[k + kSmoothPlane] = colour[0] + colour[1] + colour[2];
+      row[k + 2 * kSmoothPlane] = colour[0] - colour[1];
+      row[k + 3 * kSmoothPlane] = colour[1] - colour[2];
     }
-    uint8_t* const confidence =
-        output.confidence.data == nullptr ? nullptr : output.confidence.Row(y) + tile.x;
-    CompleteCoverage(hair, {tile.x, tile.x + tile.width}, y, disparity,
-                     output.coverage.Row(y) + tile.x, confidence);
   }
-}
+
+  // Writes the repaired map of a tile. A disparity that is as in the given map is copied exactly.
+  void WriteTile(const int16_t* repaired, const Rect& tile) const {
+    ForPixels(tile, [&](int32_t x, int32_t y) {
+      const size_t at = setup_.At(x, y);
+      const float given = GivenAt(light_field_, y)[x];
+      const int32_t vote = Abs(memory_.outlines.vote[at]);
+      const int32_t confidence = memory_.outlines.distance[at] != 0 ? 2 * vote : UINT8_MAX;
+      output_.WriteConfidence(x, y, static_cast<uint8_t>(confidence));
+      if (std::isfinite(given) && repaired[at] == ToFixed(given)) {
+        output_.disparity.Row(y)[x] = given;
+      } else {
+        output_.Write(x, y, repaired[at]);
+      }
+    });
+  }
+
+  // Completes the coverage of a tile, whose disparities have been written to the output.
+  void CompleteTile(const Rect& tile) const {
+    int16_t disparity[kMostTileSide];
+    for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
+      for (int32_t k = 0; k < tile.width; ++k) {
+        disparity[k] = ToFixed(output_.disparity.Row(y)[tile.x + k]);
+      }
+      uint8_t* const confidence =
+          output_.confidence.data == nullptr ? nullptr : output_.confidence.Row(y) + tile.x;
+      CompleteCoverage(memory_.hair, {tile.x, tile.x + tile.width}, y, disparity,
+                       output_.coverage.Row(y) + tile.x, confidence);
+    }
+  }
+
+  const SweepSetup& setup_;
+  const starfocus_light_field& light_field_;
+  const simd::DepthKernels& kernels_;
+  const Plane<const uint8_t> rgb_;
+  const MapOutput& output_;
+  const ColourMemory& memory_;
+};
 
 }  // namespace
 
@@ -126,51 +234,44 @@ ColourMemory TakeColourRepair(const SweepSetup& setup, int32_t max_workers, Aren
   memory.hair = TakeHairMemory(setup.width, setup.height, arena);
   TakeHairColours(setup.width, setup.height, arena, &memory.hair);
   memory.thin = TakeThinCells(GridOf(setup), arena);
-  memory.outlines = TakeOutlines(setup.width, setup.height, max_workers, arena);
-  memory.workers = arena->Take<ColourWorker>(workers);
-  for (size_t worker = 0; worker < workers; ++worker) {
-    const ColourWorker of_worker = {arena->Take<int32_t>(kSmoothSamples),
-                                    arena->Take<uint32_t>(kNoiseCounts)};
-    if (memory.workers != nullptr) memory.workers[worker] = of_worker;
-  }
+  memory.outlines = TakeOutlines(setup, max_workers, arena);
+  memory.rings = arena->Take<int32_t>(kSmoothSamples, workers);
+  memory.noise = arena->Take<uint32_t>(kNoiseCounts, workers);
   return memory;
+}
+
+void ReadRows(const SweepSetup& setup, const starfocus_light_field& light_field, const Range& rows,
+              int16_t* disparity) {
+  for (int32_t y = rows.first; y < rows.last; ++y) {
+    int16_t* row = disparity + setup.At(0, y);
+    const float* given = GivenAt(light_field, y);
+    bool complete = true;
+    for (int32_t x = 0; x < setup.width; ++x) {
+      const bool known = std::isfinite(given[x]);
+      row[x] = known ? ToFixed(given[x]) : kUnknown;
+      complete &= known;
+    }
+    if (complete) continue;
+    FillNearest(
+        setup.width, [&](int32_t x) { return row[x] != kUnknown; },
+        [&](int32_t x, int32_t a, int32_t b) { row[x] = std::min(row[a], row[b]); });
+  }
+}
+
+void FillUnknownRows(const SweepSetup& setup, int16_t* disparity) {
+  FillNearest(
+      setup.height, [&](int32_t y) { return disparity[setup.At(0, y)] != kUnknown; },
+      [&](int32_t y, int32_t a, int32_t b) {
+        const int16_t *above = disparity + setup.At(0, a), *below = disparity + setup.At(0, b);
+        std::transform(above, above + setup.width, below, disparity + setup.At(0, y),
+                       [](int16_t left, int16_t right) { return std::min(left, right); });
+      });
 }
 
 starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
                                 const ColourMemory& memory, bool* has_coverage) {
-  const ColourMap map = {setup, light_field, memory.outlines.given};
-  const bool covers = output.coverage.data != nullptr;
-  const int32_t tiles = setup.columns * setup.rows;
-  Sequence run(memory.jobs, kPhases + (covers ? kHairPhases : 0), tiles);
-  const int32_t noise = ReadMap(map, memory, &run);
-  const Plane<const uint8_t> rgb = RowsOf(light_field.views[0]);
-  const HairPicture hair = {setup.width,
-                            setup.height,
-                            rgb,
-                            {memory.outlines.given, static_cast<size_t>(setup.width), 0, 0},
-                            output.coverage};
-  *has_coverage = covers && FindHairCoverage(hair, memory.hair, &run);
-  SmoothMap(map, noise, kernels, memory, &run);
-  run.Run([&](int32_t index, int32_t) {
-    CountBeside(GridOf(setup), map.disparity, TileOf(setup, index), index, memory.thin);
-  });
-  if (run.status() != STARFOCUS_OK) return run.status();
-  FindThin(GridOf(setup), kThinGiven, memory.thin);
-  const Kept kept = {&setup, &light_field, &memory, *has_coverage};
-  const OutlinePicture picture = {&kernels,   rgb,        tiles,       memory.jobs->max_workers,
-                                  Kept::Tile, Kept::Keep, Kept::Known, &kept};
-  const int16_t* repaired = FollowOutlines(picture, memory.outlines, &run);
-  run.Run([&](int32_t index, int32_t) {
-    WriteTile(map, output, memory.outlines, repaired, TileOf(setup, index));
-  });
-  if (*has_coverage) {
-    run.Run(
-        [&](int32_t index, int32_t) { CompleteTile(output, memory.hair, TileOf(setup, index)); });
-  } else {
-    run.Skip();
-  }
-  return run.status();
+  return ColourRepair(setup, light_field, kernels, output, memory).Run(has_coverage);
 }
 
 }  // namespace starfocus

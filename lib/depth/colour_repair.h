@@ -13,23 +13,29 @@
 
 namespace starfocus {
 
-// Scratch memory of a worker.
-struct ColourWorker {
-  int32_t* ring;    // SmoothTile
-  uint32_t* noise;  // CountNoise of the rows that the worker has counted
-};
-
 struct ColourMemory {
   Jobs* jobs;
   OutlineMemory outlines;
   ThinCells thin;  // Thin structure of the map, whose disparities are kept.
   HairMemory hair;
-  ColourWorker* workers;
+  int32_t* rings;   // rows that are smoothed, of all workers
+  uint32_t* noise;  // numbers of differences that the workers have counted
 };
 
 // Takes the memory of a repair by colour. TakeColourRepair and RepairByColour read only the size
-// and the tiles of `setup`.
+// and the tiles of `setup`, which must outlive the memory.
 ColourMemory TakeColourRepair(const SweepSetup& setup, int32_t max_workers, Arena* arena);
+
+// Converts rows of light_field.depth to fixed point (kDisparityBits). A pixel that is not finite
+// gets the disparity of the nearest finite pixel in its row. If two finite pixels are equally near,
+// the smaller disparity is copied. Rows without a finite pixel remain unknown.
+void ReadRows(const SweepSetup& setup, const starfocus_light_field& light_field, const Range& rows,
+              int16_t* disparity);
+
+// Copies rows without a finite pixel from the nearest row with a finite pixel. If two rows are
+// equally near, the smaller disparities are copied. At least one row must have a finite pixel. Call
+// FillUnknownRows after ReadRows has read all rows.
+void FillUnknownRows(const SweepSetup& setup, int16_t* disparity);
 
 // Repairs light_field.depth using the colours of the centre view, and writes the result to
 // `output`. At least one pixel of light_field.depth must be finite.

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/outline_votes.h"
-
+// Decides on which side of an outline the pixels of its band lie.
 #include <algorithm>
 
-#include "lib/base/fixed.h"
+#include "lib/depth/outlines.h"
 
 namespace starfocus {
 namespace {
 
-constexpr int32_t kPixel = 1 << kDisparityBits;
 // Largest absolute vote and side.
 constexpr int32_t kSure = 127;
 
-// A vote compares a pixel with every second pixel and row (up to every fourth in wide bands) within
-// band + kVoteReach pixels. The weight of a sample is the product of its trust, its closeness and
-// its similarity.
+// A vote compares a pixel with every second pixel and row within band + kVoteReach pixels; beyond
+// kFineReach pixels with every third, and beyond kCoarseReach with every fourth. The weight of a
+// sample is the product of its trust, its closeness and its similarity.
+constexpr int32_t kFineReach = 13, kCoarseReach = 15;
 constexpr int32_t kRidgeTrust = 32;
 // Squared distance in pixels at which the closeness is a half.
 constexpr int32_t kFallOff = 100;
@@ -37,21 +36,6 @@ constexpr int32_t kSurePrior = 64;
 constexpr int32_t kShiftRadius = 4;
 // Weight of no displacement against displacements, in units of gains and weights of cells.
 constexpr int32_t kStill = 1;
-
-// Trust of a pixel by the absolute value of its distance.
-struct Trust {
-  uint8_t of[128];
-
-  explicit Trust(const OutlinePass& pass) {
-    const int32_t end = kDistance * pass.band, first = pass.trusted * end;
-    of[0] = simd::kMostTrust;
-    for (int32_t k = 1; k < 128; ++k) {
-      const int32_t trust =
-          Clamp(simd::kMostTrust * (10 * k - first) / (10 * end - first), 0, simd::kMostTrust);
-      of[k] = static_cast<uint8_t>((k & 1) != 0 ? Max(trust, kRidgeTrust) : trust);
-    }
-  }
-};
 
 // Where the samples around a pixel are, and how much closeness they have.
 struct Samples {
@@ -93,17 +77,18 @@ void FillColours(const uint8_t* rgb, int32_t count, int32_t at, const simd::Dept
 }
 
 // Writes the planes of the pixels around `area`, with the trust and the surface of
-// sample(x, y, at, &trust), which returns the surface. Pixels outside the picture have no trust.
+// sample(at, &trust), which returns the surface. Pixels outside the picture have no trust.
 template <class Sample>
-void FillBlock(const OutlinePicture& picture, const OutlineMemory& memory, const Rect& area,
-               int32_t reach, const Sample& sample, VoteBlock* block) {
-  const Rect around = memory.Widened(area, reach);
+void FillBlock(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
+               const simd::DepthKernels& kernels, const Rect& area, int32_t reach,
+               const Sample& sample, VoteBlock* block) {
+  const Rect around = Widened(*pass.setup, area, reach);
   std::fill_n(block->trust, VoteBlock::kWidth * VoteBlock::kWidth, int16_t{0});
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
     const int32_t row = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach - area.x;
-    FillColours(picture.Pixel(around.x, y), around.width, row + around.x, *picture.kernels, block);
+    FillColours(rgb.Row(y) + 3 * ptrdiff_t{around.x}, around.width, row + around.x, kernels, block);
     for (int32_t x = around.x; x < around.x + around.width; ++x) {
-      block->surface[row + x] = sample(memory.At(x, y), block->trust + row + x);
+      block->surface[row + x] = sample(pass.At(x, y), block->trust + row + x);
     }
   }
 }
@@ -112,34 +97,33 @@ void FillBlock(const OutlinePicture& picture, const OutlineMemory& memory, const
 // needs(x, y, at, lane) returns true, and which lies in lane `lane`. The function `needs` is called
 // for the pixels of all lanes first.
 template <class Sample, class Needs, class Act>
-void SumAround(const OutlinePicture& picture, const OutlineMemory& memory, const Rect& tile,
-               const Samples& samples, VoteBlock* block, const Sample& sample, const Needs& needs,
-               const Act& act) {
+void SumAround(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
+               const simd::DepthKernels& kernels, const Rect& tile, const Samples& samples,
+               VoteBlock* block, const Sample& sample, const Needs& needs, const Act& act) {
   constexpr auto kLanes = static_cast<int32_t>(simd::kSliceLanes);
   const auto visit = [&](const Rect& area) {
-    if (!HasBand(memory, area)) return;
-    FillBlock(picture, memory, area, samples.reach, sample, block);
+    if (!HasBand(pass, area)) return;
+    FillBlock(pass, rgb, kernels, area, samples.reach, sample, block);
     for (int32_t y = area.y; y < area.y + area.height; ++y) {
       for (int32_t x = area.x; x < area.x + area.width; x += kLanes) {
         const int32_t count = Min(kLanes, area.x + area.width - x);
         const Rect row = {x, y, count, 1};
-        if (!HasBand(memory, row)) continue;
+        if (!HasBand(pass, row)) continue;
         size_t wanted[kLanes], wants = 0;
-        ForBand(memory, row, [&](int32_t column, int32_t, size_t at) {
+        ForBand(pass, row, [&](int32_t column, int32_t, size_t at) {
           const auto lane = static_cast<size_t>(column - x);
           if (needs(column, y, at, lane)) wanted[wants++] = lane;
         });
         if (wants == 0) continue;
         int16_t middle[kLanes] = {};
-        std::copy_n(memory.middle + memory.At(x, y), count, middle);
+        std::copy_n(pass.middle + pass.At(x, y), count, middle);
         const int32_t own = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach + x - area.x;
         const int16_t* const colours[] = {block->colour[0] + own, block->colour[1] + own,
                                           block->colour[2] + own};
         simd::VoteSums sums;
-        picture.kernels->SumVotes(colours, block->surface + own, block->trust + own, middle,
-                                  VoteBlock::kWidth, samples.reach, samples.step, samples.closeness,
-                                  &sums);
-        for (size_t k = 0; k < wants; ++k) act(memory.At(x, y) + wanted[k], sums, wanted[k]);
+        kernels.SumVotes(colours, block->surface + own, block->trust + own, middle, VoteBlock::kWidth,
+                         samples.reach, samples.step, samples.closeness, &sums);
+        for (size_t k = 0; k < wants; ++k) act(pass.At(x, y) + wanted[k], sums, wanted[k]);
       }
     }
   };
@@ -183,35 +167,42 @@ int32_t SmoothShift(const OutlineMemory& memory, int32_t column, int32_t row) {
 
 }  // namespace
 
-void VoteByColour(const OutlinePicture& picture, const OutlineMemory& memory,
-                  const OutlinePass& pass, const int16_t* map, const Rect& tile, VoteBlock* block) {
-  const Trust trust(pass);
+void VoteByColour(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
+                  const simd::DepthKernels& kernels, const Rect& tile, VoteBlock* block) {
+  // Trust by the absolute value of the distance.
+  const int32_t end = kDistance * pass.band, first = pass.trusted * end;
+  int16_t trust[128] = {simd::kMostTrust};
+  for (int32_t k = 1; k < 128; ++k) {
+    const int32_t least = (k & 1) != 0 ? kRidgeTrust : 0;
+    trust[k] = static_cast<int16_t>(
+        Clamp(simd::kMostTrust * (10 * k - first) / (10 * end - first), least, simd::kMostTrust));
+  }
   const Samples samples(pass, false);
   SumAround(
-      picture, memory, tile, samples, block,
+      pass, rgb, kernels, tile, samples, block,
       [&](size_t at, int16_t* trusted) {
-        *trusted = trust.of[Abs(memory.distance[at])];
-        return map[at];
+        *trusted = trust[Abs(pass.distance[at])];
+        return pass.map[at];
       },
       [](int32_t, int32_t, size_t, size_t) { return true; },
       [&](size_t at, const simd::VoteSums& sums, size_t lane) {
         const int32_t weight = sums.weight[0][lane] + sums.weight[1][lane];
         const bool dense = 100 * weight < kLeastTrusted * samples.sum;
-        memory.vote[at] = dense ? int8_t{0} : VoteOf(sums, lane, 1, 1);
+        pass.vote[at] = dense ? int8_t{0} : VoteOf(sums, lane, 1, 1);
       });
 }
 
-void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const Rect& tile) {
+void ShiftOutlines(const OutlinePass& pass, const Rect& tile) {
   // bins[k] is the sum of the votes k - kZero pixels from the outline, rounded.
   constexpr int32_t kZero = kMostBand + 1, kBins = 2 * kZero + 1;
-  ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
+  ForShiftCells(pass, tile, [&](int32_t number, const Rect& cell, bool begins) {
     if (!begins) return;
-    memory.gain[number] = 0;
-    if (!HasBand(memory, cell)) return;
+    pass.gain[number] = 0;
+    if (!HasBand(pass, cell)) return;
     int32_t bins[kBins] = {}, count = 0, farther = 0;
-    ForBand(memory, memory.Widened(cell, kShiftRadius), [&](int32_t, int32_t, size_t at) {
-      bins[kZero + ((memory.distance[at] + 2) >> 2)] += memory.vote[at];
-      farther -= memory.vote[at];
+    ForBand(pass, Widened(*pass.setup, cell, kShiftRadius), [&](int32_t, int32_t, size_t at) {
+      bins[kZero + ((pass.distance[at] + 2) >> 2)] += pass.vote[at];
+      farther -= pass.vote[at];
       ++count;
     });
     // The agreement of an outline at k - kZero - 1/2: its nearer side begins with bin k.
@@ -228,18 +219,18 @@ void ShiftOutlines(const OutlineMemory& memory, const OutlinePass& pass, const R
     }
     const int32_t gain = best - unmoved;
     const bool clear = 256 * gain > pass.clear * kSure * count;
-    memory.shift[number] = static_cast<int8_t>(clear ? -kDistance * best_at : 0);
-    memory.gain[number] = static_cast<uint8_t>(clear ? Min(255, 255 * gain / (kSure * count)) : 0);
+    pass.shift[number] = static_cast<int8_t>(clear ? -kDistance * best_at : 0);
+    pass.gain[number] = static_cast<uint8_t>(clear ? Min(255, 255 * gain / (kSure * count)) : 0);
   });
 }
 
-void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
-               const int16_t* map, const Rect& tile, VoteBlock* block) {
+void VoteAgain(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
+               const simd::DepthKernels& kernels, const Rect& tile, VoteBlock* block) {
   const Samples samples(pass, true);
-  const ShiftCells columns = memory.Columns(), rows = memory.Rows();
+  const ShiftCells columns = pass.Columns(), rows = pass.Rows();
   // The displacement of each column of cells of the tile, and the row of cells for which it holds.
-  int32_t shifts[kMostOutlineTile], shift_rows[kMostOutlineTile];
-  std::fill_n(shift_rows, kMostOutlineTile, -1);
+  int32_t shifts[kMostTileSide], shift_rows[kMostTileSide];
+  std::fill_n(shift_rows, kMostTileSide, -1);
   const int32_t first_column = columns.Of(tile.x);
   int32_t priors[simd::kSliceLanes];  // negative for the farther side
   uint8_t trust[kSure + 1];
@@ -247,25 +238,26 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
     trust[k] = static_cast<uint8_t>(k * k * simd::kMostTrust / (kSure * kSure));
   }
   SumAround(
-      picture, memory, tile, samples, block,
+      pass, rgb, kernels, tile, samples, block,
       [&](size_t at, int16_t* trusted) {
         *trusted = simd::kMostTrust;
-        const int32_t distance = memory.distance[at], vote = memory.vote[at];
-        if (distance == 0) return map[at];
+        const int32_t distance = pass.distance[at], vote = pass.vote[at];
+        if (distance == 0) return pass.map[at];
         *trusted = trust[Abs(vote)];
         // A pixel on the other side shows a surface as far beyond the middle.
-        if ((vote > 0) == (distance > 0)) return map[at];
-        return static_cast<int16_t>(Clamp(2 * memory.middle[at] - map[at], INT16_MIN, INT16_MAX));
+        if ((vote > 0) == (distance > 0)) return pass.map[at];
+        return static_cast<int16_t>(
+            Clamp(2 * pass.middle[at] - pass.map[at], INT16_MIN, INT16_MAX));
       },
       [&](int32_t x, int32_t y, size_t at, size_t lane) {
-        const int32_t vote = memory.vote[at];
-        memory.side[at] = 0;
+        const int32_t vote = pass.vote[at];
+        pass.side[at] = 0;
         if (vote == 0) return false;
         const int32_t column = columns.Of(x), row = rows.Of(y), cell = column - first_column;
-        if (shift_rows[cell] != row) shifts[cell] = SmoothShift(memory, column, row);
+        if (shift_rows[cell] != row) shifts[cell] = SmoothShift(pass, column, row);
         shift_rows[cell] = row;
-        const int32_t moved = memory.distance[at] + shifts[cell];
-        const bool near = moved > 0 || (moved == 0 && memory.distance[at] > 0);
+        const int32_t moved = pass.distance[at] + shifts[cell];
+        const bool near = moved > 0 || (moved == 0 && pass.distance[at] > 0);
         const int32_t beyond = Max(2 * Abs(moved) - kDistance / 2, 0);  // in 1/(2 kDistance) pixel
         const int32_t prior =
             Min(1 + kPrior * beyond * beyond / (4 * kDistance * kDistance), kMostPrior);
@@ -274,11 +266,11 @@ void VoteAgain(const OutlinePicture& picture, const OutlineMemory& memory, const
             prior * (kSure + Abs(vote)) < kSurePrior * (kSure + 1 - Abs(vote))) {
           return true;
         }
-        memory.side[at] = near ? kSure : -kSure;
+        pass.side[at] = near ? kSure : -kSure;
         return false;
       },
       [&](size_t at, const simd::VoteSums& sums, size_t lane) {
-        memory.side[at] = VoteOf(sums, lane, Max(-priors[lane], 1), Max(priors[lane], 1));
+        pass.side[at] = VoteOf(sums, lane, Max(-priors[lane], 1), Max(priors[lane], 1));
       });
 }
 

@@ -2,9 +2,10 @@
 #include "lib/depth/outlines.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "lib/base/fixed.h"
-#include "lib/depth/outline_votes.h"
+#include "lib/depth/maps.h"
+#include "lib/io/image.h"
 
 namespace starfocus {
 
@@ -13,11 +14,6 @@ namespace {
 constexpr int32_t kPixel = 1 << kDisparityBits;
 // Smallest step of an outline of a soft map. In hard maps, it is kSurfaceStep.
 constexpr int32_t kLeastStep = 2 * kPixel;
-// The distances of a tile depend on the outlines up to kMargin pixels around it.
-constexpr int32_t kMargin = kMostBand + 2;
-constexpr size_t kMostTall = kMostRegion + 2 * kMostOutlineRadius;
-// Widths of ramps that are counted apart, in 1/kDistance pixel. The last one includes all wider.
-constexpr int32_t kRampCounts = kDistance * 25;
 // Percentage of the pixels next to the outlines of a hard map that change their side, from which
 // the map is assumed to be wrong. In exact maps it is 3 to 10, and 17 among wires with few colours;
 // in wrong maps 21 to 50.
@@ -27,39 +23,6 @@ constexpr int64_t kWrongPercent = 18;
 // their cell. In exact maps it is at most 11 of 97 % of all cells; in displaced maps about 45.
 constexpr int64_t kDisplacedPercent = 35;
 constexpr int32_t kRightReach = 8;
-
-}  // namespace
-
-struct OutlineCounts {
-  uint32_t ramps[kRampCounts];
-  uint32_t beside, changes;  // Pixels next to outlines, and those of them that change their side.
-  bool wrong;                // true if a part of the map is wrong
-};
-
-struct DistancePlanes {
-  int32_t outlines[kMostRegion * kMostRegion];
-  int16_t extremes[2][kMostTall * kMostRegion];  // lowest and highest disparities of windows
-};
-
-// Each phase uses one of these.
-union OutlineScratch {
-  DistancePlanes distances;
-  VoteBlock block;
-  SidePlanes sides;
-};
-
-namespace {
-
-// Lowest and highest disparities of the windows of a row of pixels.
-struct Extremes {
-  int16_t *low, *high;
-
-  // Joins each window with that of the same pixel of `other`, which may begin `shift` later.
-  void Join(const Extremes& one, const Extremes& other, int32_t shift, int32_t count) const {
-    for (int32_t k = 0; k < count; ++k) low[k] = std::min(one.low[k], other.low[k + shift]);
-    for (int32_t k = 0; k < count; ++k) high[k] = std::max(one.high[k], other.high[k + shift]);
-  }
-};
 
 // Calls join(size, shift) so that windows of one pixel become windows of `most` pixels: each window
 // is joined with the one `shift` pixels later, which makes it `size` pixels long.
@@ -72,96 +35,81 @@ void GrowWindows(int32_t most, const Join& join) {
   }
 }
 
-// Fills scratch->distances.extremes with the lowest and highest disparity in the window of each
-// pixel of `rect`.
-void FindExtremes(const OutlineMemory& memory, const int16_t* map, const Rect& rect, int32_t radius,
-                  OutlineScratch* scratch) {
-  const int32_t side = 2 * radius + 1, wide = rect.width + 2 * radius;
-  const int32_t tall = rect.height + 2 * radius;
-  const auto line = [&](int32_t y) {
-    return Extremes{scratch->distances.extremes[0] + ptrdiff_t{y} * rect.width,
-                    scratch->distances.extremes[1] + ptrdiff_t{y} * rect.width};
-  };
-  int16_t buffers[2][2][kMostTall];
-  for (int32_t y = 0; y < tall; ++y) {
-    Extremes from = {buffers[0][0], buffers[0][1]}, to = {buffers[1][0], buffers[1][1]};
-    std::fill_n(from.low, wide, INT16_MAX);
-    std::fill_n(from.high, wide, INT16_MIN);
-    const int32_t row = rect.y - radius + y, left = rect.x - radius;
-    if (row >= 0 && row < memory.height) {
-      const int32_t first = Max(left, 0), end = Min(left + wide, memory.width);
-      for (int16_t* plane : {from.low, from.high}) {
-        std::copy_n(map + memory.At(first, row), end - first, plane + first - left);
-      }
+// Writes to `out` the reduction by `join` of the window around each pixel of `rect`. Pixels outside
+// the picture count as `outside`. `out` also has rows for the windows' pixels below `rect`.
+template <class Join>
+void JoinWindows(const OutlinePass& pass, const Rect& rect, int32_t radius, int16_t outside,
+                 const Join& join, int16_t* out) {
+  const Rect all = Extended(rect, {radius, radius, radius, radius});
+  const Rect inside = Clipped(all, pass.setup->width, pass.setup->height);
+  const int32_t side = 2 * radius + 1;
+  const auto line = [&](int32_t y) { return out + ptrdiff_t{y} * rect.width; };
+  for (int32_t y = 0; y < all.height; ++y) {
+    int16_t buffers[2][kMostRegion + 2 * kMostOutlineRadius];
+    int16_t *from = buffers[0], *to = buffers[1];
+    std::fill_n(from, all.width, outside);
+    if (Contains(inside, inside.x, all.y + y)) {
+      std::copy_n(pass.map + pass.At(inside.x, all.y + y), inside.width, from + inside.x - all.x);
     }
     GrowWindows(side, [&](int32_t size, int32_t shift) {
-      const Extremes out = size == side ? line(y) : to;
-      out.Join(from, from, shift, wide - size + 1);
+      if (size == side) to = line(y);
+      for (int32_t k = 0; k + size <= all.width; ++k) to[k] = join(from[k], from[k + shift]);
       std::swap(from, to);
     });
   }
   GrowWindows(side, [&](int32_t size, int32_t shift) {
-    for (int32_t y = 0; y + size <= tall; ++y) {
-      line(y).Join(line(y), line(y + shift), 0, rect.width);
+    for (int32_t y = 0; y + size <= all.height; ++y) {
+      for (int32_t k = 0; k < rect.width; ++k) line(y)[k] = join(line(y)[k], line(y + shift)[k]);
     }
   });
 }
 
+// Finds the lowest and highest disparity in the window of each pixel of `rect`.
+void FindExtremes(const OutlinePass& pass, const Rect& rect, int32_t radius,
+                  OutlineScratch* scratch) {
+  const auto least = [](int16_t a, int16_t b) { return std::min(a, b); };
+  const auto most = [](int16_t a, int16_t b) { return std::max(a, b); };
+  JoinWindows(pass, rect, radius, INT16_MAX, least, scratch->distances.low);
+  JoinWindows(pass, rect, radius, INT16_MIN, most, scratch->distances.high);
+}
+
 // Returns the largest difference to a neighbour on the other side of `middle`, or 0.
-int32_t StepAcross(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y,
-                   int32_t middle) {
-  const int16_t* own = map + memory.At(x, y);
-  const bool near = *own > middle;
+int32_t StepAcross(const OutlinePass& pass, int32_t x, int32_t y, int32_t middle) {
+  const int32_t own = pass.map[pass.At(x, y)];
   int32_t step = 0;
-  // The neighbours of pixels at the border are clamped to the picture.
-  for (const int16_t* other :
-       {x > 0 ? own - 1 : own, x + 1 < memory.width ? own + 1 : own,
-        y > 0 ? own - memory.width : own, y + 1 < memory.height ? own + memory.width : own}) {
-    if ((*other > middle) != near) step = Max(step, Abs(*other - *own));
-  }
+  ForBeside(pass, x, y, [&](int32_t other, int32_t, int32_t) {
+    if ((other > middle) != (own > middle)) step = Max(step, Abs(other - own));
+  });
   return step;
 }
 
 // Returns true if the map around a pixel is hardly steeper than a plane with the range of the
 // window.
-bool IsSlanted(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y, int32_t range,
-               int32_t radius) {
-  const Rect around = memory.Widened({x, y, 1, 1}, 2);
+bool IsSlanted(const OutlinePass& pass, int32_t x, int32_t y, int32_t range, int32_t radius) {
   int32_t low = INT16_MAX, high = INT16_MIN;
-  for (int32_t row = around.y; row < around.y + around.height; ++row) {
-    for (int32_t column = around.x; column < around.x + around.width; ++column) {
-      low = Min(low, map[memory.At(column, row)]);
-      high = Max(high, map[memory.At(column, row)]);
-    }
-  }
+  ForPixels(Widened(*pass.setup, {x, y, 1, 1}, 2), [&](int32_t column, int32_t row) {
+    low = Min(low, pass.map[pass.At(column, row)]);
+    high = Max(high, pass.map[pass.At(column, row)]);
+  });
   return (high - low) * 5 * radius <= 12 * range;
 }
 
 // Counts the widths of the map's ramps at the outlines of a tile, at every second pixel of each row
 // and column, like the white fields of a chessboard. The width is the range of the
 // window, divided by the largest step.
-void CountRamps(const OutlineMemory& memory, const Rect& tile, OutlineScratch* scratch,
+void CountRamps(const OutlinePass& pass, const Rect& tile, OutlineScratch* scratch,
                 OutlineCounts* counts) {
-  const int16_t* map = memory.given;
-  FindExtremes(memory, map, tile, kMostOutlineRadius, scratch);
-  for (int32_t y = 0; y < tile.height; ++y) {
-    for (int32_t x = 0; x < tile.width; ++x) {
-      const int32_t column = tile.x + x, row = tile.y + y;
-      // Counted from the nearest border, so that mirrored maps have mirrored fields.
-      const int32_t field =
-          Min(column, memory.width - 1 - column) + Min(row, memory.height - 1 - row);
-      if (field % 2 != 0) continue;
-      const int32_t k = y * tile.width + x,
-                    range = scratch->distances.extremes[1][k] - scratch->distances.extremes[0][k];
-      if (range <= kLeastStep) continue;
-      const int32_t middle =
-          (scratch->distances.extremes[1][k] + scratch->distances.extremes[0][k]) >> 1;
-      const int32_t step = StepAcross(memory, map, column, row, middle);
-      if (step == 0) continue;
-      if (IsSlanted(memory, map, column, row, range, kMostOutlineRadius)) continue;
-      ++counts->ramps[Min(kDistance * range / step, kRampCounts - 1)];
-    }
-  }
+  FindExtremes(pass, tile, kMostOutlineRadius, scratch);
+  const int16_t *low = scratch->distances.low, *high = scratch->distances.high;
+  ForPixels(tile, [&](int32_t x, int32_t y) {
+    const int32_t least = *low++, range = *high++ - least;
+    // Counted from the nearest border, so that mirrored maps have mirrored fields.
+    const int32_t field = Min(x, pass.setup->width - 1 - x) + Min(y, pass.setup->height - 1 - y);
+    if (field % 2 != 0 || range <= kLeastStep) return;
+    const int32_t step = StepAcross(pass, x, y, least + (range >> 1));
+    if (step == 0 || IsSlanted(pass, x, y, range, kMostOutlineRadius)) return;
+    ++counts->ramps[Min(kDistance * range / step, kRampCounts - 1)];
+  });
 }
 
 // Distances to outlines and the middles of their surfaces, in one number: of equally near outlines,
@@ -176,10 +124,10 @@ int32_t MiddleOf(int32_t number) { return INT16_MAX - (number & UINT16_MAX); }
 
 // Returns the middle of the largest step between a pixel of a hard map and a neighbour, or
 // INT32_MIN if there is no outline.
-int32_t MiddleOfStep(const OutlineMemory& memory, const int16_t* map, int32_t x, int32_t y) {
-  const int32_t own = map[memory.At(x, y)];
+int32_t MiddleOfStep(const OutlinePass& pass, int32_t x, int32_t y) {
+  const int32_t own = pass.map[pass.At(x, y)];
   int32_t step = kSurfaceStep, middle = INT32_MIN;
-  ForBeside(memory, map, x, y, [&](int32_t other, int32_t, int32_t) {
+  ForBeside(pass, x, y, [&](int32_t other, int32_t, int32_t) {
     const int32_t size = Abs(other - own), between = (own + other) >> 1;
     if (size < step || size <= kSurfaceStep) return;
     middle = size > step ? between : Max(middle, between);
@@ -189,27 +137,23 @@ int32_t MiddleOfStep(const OutlineMemory& memory, const int16_t* map, int32_t x,
 }
 
 // Finds the pixels beside outlines in a region, and the middles of their two surfaces.
-void FindCrossings(const OutlineMemory& memory, const OutlinePass& pass, const int16_t* map,
-                   const Rect& region, OutlineScratch* scratch) {
-  if (!pass.IsHard()) FindExtremes(memory, map, region, pass.radius, scratch);
-  for (int32_t y = 0; y < region.height; ++y) {
-    for (int32_t x = 0; x < region.width; ++x) {
-      const int32_t k = y * region.width + x, column = region.x + x, row = region.y + y;
-      int32_t middle = INT32_MIN;
-      if (pass.IsHard()) {
-        middle = MiddleOfStep(memory, map, column, row);
-      } else {
-        const int32_t low = scratch->distances.extremes[0][k],
-                      range = scratch->distances.extremes[1][k] - low;
-        const int32_t between = low + (range >> 1);
-        const bool crosses = range > kLeastStep &&
-                             StepAcross(memory, map, column, row, between) > 0 &&
-                             !IsSlanted(memory, map, column, row, range, pass.radius);
-        if (crosses) middle = between;
-      }
-      scratch->distances.outlines[k] = middle == INT32_MIN ? kFar : NumberOf(kDistance / 2, middle);
-    }
+void FindCrossings(const OutlinePass& pass, const Rect& region, OutlineScratch* scratch) {
+  int32_t* out = scratch->distances.outlines;
+  const auto write = [&](int32_t middle) {
+    *out++ = middle == INT32_MIN ? kFar : NumberOf(kDistance / 2, middle);
+  };
+  if (pass.IsHard()) {
+    ForPixels(region, [&](int32_t x, int32_t y) { write(MiddleOfStep(pass, x, y)); });
+    return;
   }
+  FindExtremes(pass, region, pass.radius, scratch);
+  const int16_t *low = scratch->distances.low, *high = scratch->distances.high;
+  ForPixels(region, [&](int32_t x, int32_t y) {
+    const int32_t least = *low++, range = *high++ - least, middle = least + (range >> 1);
+    const bool crosses = range > kLeastStep && StepAcross(pass, x, y, middle) > 0 &&
+                         !IsSlanted(pass, x, y, range, pass.radius);
+    write(crosses ? middle : INT32_MIN);
+  });
 }
 
 // Extends distances and middles by a chamfer transform with steps of 1 and 1.5 pixels.
@@ -239,78 +183,68 @@ void ExtendDistances(const Rect& region, int32_t* outlines) {
 }
 
 // Writes the middles and the signed distances of a tile.
-void MeasureDistances(const OutlineMemory& memory, const OutlinePass& pass, const int16_t* map,
-                      const Rect& tile, OutlineScratch* scratch) {
-  const Rect region = memory.Widened(tile, pass.band + 2);
-  FindCrossings(memory, pass, map, region, scratch);
+void MeasureDistances(const OutlinePass& pass, const Rect& tile, OutlineScratch* scratch) {
+  const Rect region = Widened(*pass.setup, tile, pass.band + 2);
+  FindCrossings(pass, region, scratch);
   ExtendDistances(region, scratch->distances.outlines);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-    std::fill_n(memory.distance + memory.At(tile.x, y), tile.width, int8_t{0});
-    std::fill_n(memory.side + memory.At(tile.x, y), tile.width, int8_t{0});
-    for (int32_t x = tile.x; x < tile.x + tile.width; ++x) {
-      const int32_t* own =
-          scratch->distances.outlines + (y - region.y) * region.width + x - region.x;
+    std::fill_n(pass.distance + pass.At(tile.x, y), tile.width, int8_t{0});
+    std::fill_n(pass.side + pass.At(tile.x, y), tile.width, int8_t{0});
+    const int32_t* own =
+        scratch->distances.outlines + (y - region.y) * region.width + tile.x - region.x;
+    for (int32_t x = tile.x; x < tile.x + tile.width; ++x, ++own) {
       const int32_t to_outline = DistanceOf(*own), middle = MiddleOf(*own);
       if (to_outline > kDistance * pass.band + 2) continue;
-      const size_t at = memory.At(x, y);
-      const bool near = map[at] > middle;
+      const size_t at = pass.At(x, y);
+      const bool near = pass.map[at] > middle;
       int32_t ridge = 1;
-      ForBeside(memory, map, x, y, [&](int32_t other, int32_t dx, int32_t dy) {
+      ForBeside(pass, x, y, [&](int32_t other, int32_t dx, int32_t dy) {
         const bool farther = DistanceOf(own[dy * region.width + dx]) > to_outline;
         if (farther && (other > middle) == near) ridge = 0;
       });
       const int32_t distance = to_outline + ridge;
-      memory.middle[at] = static_cast<int16_t>(middle);
-      memory.distance[at] = static_cast<int8_t>(near ? distance : -distance);
+      pass.middle[at] = static_cast<int16_t>(middle);
+      pass.distance[at] = static_cast<int8_t>(near ? distance : -distance);
     }
   }
 }
 
-// Returns the first pass from the widths of the ramps that all workers have counted. The width of
-// the band follows from the median.
-OutlinePass FirstPass(const OutlineCounts* counts, int32_t workers) {
-  const auto count = [&](int32_t ramp) {
-    uint32_t sum = 0;
-    for (int32_t k = 0; k < workers; ++k) sum += counts[k].ramps[ramp];
-    return sum;
-  };
-  uint32_t total = 0, below = 0;
-  for (int32_t ramp = 0; ramp < kRampCounts; ++ramp) total += count(ramp);
-  OutlinePass pass = {kDistance, 0, 6, 5, 60};
-  for (int32_t ramp = 0; ramp < kRampCounts && 2 * below < total; ++ramp) {
-    below += count(ramp);
-    pass.ramp = ramp;
+// Sets the widths of the first pass from the widths of the ramps that all workers have counted. The
+// width of the band follows from the median.
+void SetWidths(OutlinePass* pass) {
+  uint32_t ramps[kRampCounts] = {}, total = 0, below = 0;
+  for (int32_t ramp = 0; ramp < kRampCounts; ++ramp) {
+    for (int32_t k = 0; k < pass->workers; ++k) ramps[ramp] += pass->counts[k].ramps[ramp];
+    total += ramps[ramp];
   }
-  if (pass.IsHard()) return pass;
-  pass.radius = Clamp(pass.ramp / (2 * kDistance) + 3, 4, kMostOutlineRadius);
-  pass.band = Clamp((13 * pass.ramp + 10 * kDistance) / (10 * kDistance), 5, kMostBand);
-  pass.trusted = 4;
-  pass.clear = 51;
-  return pass;
+  for (int32_t ramp = 0; ramp < kRampCounts && 2 * below < total; ++ramp) {
+    below += ramps[ramp];
+    pass->ramp = ramp;
+  }
+  if (pass->IsHard()) return;
+  pass->radius = Clamp(pass->ramp / (2 * kDistance) + 3, 4, kMostOutlineRadius);
+  pass->band = Clamp((13 * pass->ramp + 10 * kDistance) / (10 * kDistance), 5, kMostBand);
+  pass->trusted = 4;
+  pass->clear = 51;
 }
-
-// The edges of the result of the first pass are steps that are hardly off. In soft maps, a second
-// pass hardly improves results, and leaves more single pixels.
-constexpr OutlinePass kSecondPass = {kDistance, 0, 3, 5, 8};
 
 constexpr int32_t kPassPhases = 7;
 
 // Counts the pixels next to the outlines in the cells of a tile, and those that change their side.
-void CountChanges(const OutlineMemory& memory, const Rect& tile, OutlineCounts* counts) {
-  ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
+void CountChanges(const OutlinePass& pass, const Rect& tile, OutlineCounts* counts) {
+  ForShiftCells(pass, tile, [&](int32_t number, const Rect& cell, bool begins) {
     if (!begins) return;
-    uint8_t beside = 0, changes = 0, displaced = 0;
-    ForBand(memory, cell, [&](int32_t, int32_t, size_t at) {
-      if (memory.side[at] == 0 || Abs(memory.distance[at]) >= kDistance) return;
+    uint8_t beside = 0, displaced = 0;
+    ForBand(pass, cell, [&](int32_t, int32_t, size_t at) {
+      if (pass.side[at] == 0 || Abs(pass.distance[at]) >= kDistance) return;
       ++beside;
-      if ((memory.side[at] > 0) == (memory.distance[at] > 0)) return;
-      ++changes;
-      if (memory.shift[number] * memory.side[at] > 0) ++displaced;
+      if ((pass.side[at] > 0) == (pass.distance[at] > 0)) return;
+      ++counts->changes;
+      if (pass.shift[number] * pass.side[at] > 0) ++displaced;
     });
-    memory.beside[number] = beside;
-    memory.displaced[number] = displaced;
+    pass.beside[number] = beside;
+    pass.displaced[number] = displaced;
     counts->beside += beside;
-    counts->changes += changes;
   });
 }
 
@@ -331,102 +265,116 @@ bool IsRight(const OutlineMemory& memory, int32_t number, int64_t beside, int64_
          100 * near_displaced < kDisplacedPercent * near_beside;
 }
 
-// Keeps the known disparities of a tile where the map is right. If `decides` is true, writes
-// memory.is_right.
-void KeepRight(const OutlinePicture& picture, const OutlineMemory& memory, bool decides,
-               const Rect& tile, OutlineCounts* counts) {
+// Keeps the known disparities of a tile where the map is right. The first pass writes
+// pass.is_right.
+void KeepRight(const OutlinePass& pass, const starfocus_light_field& light_field, const Rect& tile,
+               OutlineCounts* counts) {
+  const bool decides = pass.map == pass.given;
   int64_t beside = 0, changes = 0;
-  for (int32_t k = 0; k < picture.max_workers; ++k) {
-    beside += memory.counts[k].beside;
-    changes += memory.counts[k].changes;
+  for (int32_t k = 0; k < pass.workers; ++k) {
+    beside += pass.counts[k].beside;
+    changes += pass.counts[k].changes;
   }
-  ForShiftCells(memory, tile, [&](int32_t number, const Rect& cell, bool begins) {
-    if (!HasBand(memory, cell)) return;
+  ForShiftCells(pass, tile, [&](int32_t number, const Rect& cell, bool begins) {
+    if (!HasBand(pass, cell)) return;
     const bool right =
-        decides ? IsRight(memory, number, beside, changes) : memory.is_right[number] != 0;
-    if (decides && begins) memory.is_right[number] = right ? 1 : 0;
+        decides ? IsRight(pass, number, beside, changes) : pass.is_right[number] != 0;
+    if (decides && begins) pass.is_right[number] = right ? 1 : 0;
     counts->wrong |= !right;
     if (!right) return;
-    ForBand(memory, cell, [&](int32_t x, int32_t y, size_t at) {
-      const bool inside =
-          x >= tile.x && y >= tile.y && x < tile.x + tile.width && y < tile.y + tile.height;
-      if (!inside || memory.side[at] == 0 || !picture.known(picture.data, x, y)) return;
-      if ((memory.side[at] > 0) != (memory.distance[at] > 0)) memory.vote[at] = 0;
-      memory.side[at] = 0;
+    ForBand(pass, cell, [&](int32_t x, int32_t y, size_t at) {
+      if (!Contains(tile, x, y) || pass.side[at] == 0) return;
+      if (!std::isfinite(GivenAt(light_field, y)[x])) return;
+      if ((pass.side[at] > 0) != (pass.distance[at] > 0)) pass.vote[at] = 0;
+      pass.side[at] = 0;
     });
   });
 }
 
-// Runs a pass that reads `map` and writes `repaired`. If the map was hard, it is kept where it is
-// right, which the first pass decides.
-void RunPass(const OutlinePicture& picture, const OutlineMemory& memory, const OutlinePass& pass,
-             bool was_hard, const int16_t* map, int16_t* repaired, Sequence* run) {
-  run->Run([&](int32_t index, int32_t worker) {
-    MeasureDistances(memory, pass, map, picture.Tile(index), memory.scratch + worker);
-  });
-  run->Run([&](int32_t index, int32_t worker) {
-    VoteByColour(picture, memory, pass, map, picture.Tile(index), &memory.scratch[worker].block);
-  });
-  run->Run([&](int32_t index, int32_t) { ShiftOutlines(memory, pass, picture.Tile(index)); });
-  run->Run([&](int32_t index, int32_t worker) {
-    VoteAgain(picture, memory, pass, map, picture.Tile(index), &memory.scratch[worker].block);
-    picture.keep(picture.data, index, memory.side);
-  });
-  if (was_hard) {
-    const bool decides = map == memory.given;
-    run->Run([&](int32_t index, int32_t worker) {
-      CountChanges(memory, picture.Tile(index), memory.counts + worker);
-    });
-    run->Run([&](int32_t index, int32_t worker) {
-      KeepRight(picture, memory, decides, picture.Tile(index), memory.counts + worker);
-    });
-  } else {
-    run->Skip();
-    run->Skip();
-  }
-  run->Run([&](int32_t index, int32_t worker) {
-    const Rect tile = picture.Tile(index);
-    TakeDisparities(memory, pass, map, tile, &memory.scratch[worker].sides, repaired);
+// Sets pass.side to 0 in the cells of a tile that have thin structure or hair.
+void KeepParts(const OutlinePass& pass, const ThinCells& thin, const HairMemory* hair,
+               int32_t index) {
+  ForCells(GridOf(*pass.setup), index, [&](const Rect& cell, int32_t number) {
+    if (thin.thin[number] == 0 && (hair == nullptr || !HasHair(*hair, cell))) return;
+    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
+      std::fill_n(pass.side + pass.At(cell.x, y), cell.width, int8_t{0});
+    }
   });
 }
 
 }  // namespace
 
-OutlineMemory TakeOutlines(int32_t width, int32_t height, int32_t max_workers, Arena* arena) {
-  const auto columns = static_cast<size_t>(width), rows = static_cast<size_t>(height);
+OutlineMemory TakeOutlines(const SweepSetup& setup, int32_t max_workers, Arena* arena) {
+  const size_t pixels = setup.At(0, setup.height);
   OutlineMemory memory = {};
-  memory.width = width;
-  memory.height = height;
+  memory.setup = &setup;
+  memory.workers = max_workers;
   for (int16_t** plane : {&memory.given, &memory.repaired, &memory.middle}) {
-    *plane = arena->Take<int16_t>(columns, rows);
+    *plane = arena->Take<int16_t>(pixels);
   }
   for (int8_t** plane : {&memory.distance, &memory.vote, &memory.side}) {
-    *plane = arena->Take<int8_t>(columns, rows);
+    *plane = arena->Take<int8_t>(pixels);
   }
-  const auto across = static_cast<size_t>(memory.Columns().Count());
-  const auto down = static_cast<size_t>(memory.Rows().Count());
-  memory.shift = arena->Take<int8_t>(across, down);
-  memory.gain = arena->Take<uint8_t>(across, down);
-  for (uint8_t** plane : {&memory.beside, &memory.displaced, &memory.is_right}) {
-    *plane = arena->Take<uint8_t>(across, down);
+  const int32_t cells = memory.Columns().Count() * memory.Rows().Count();
+  memory.shift = arena->Take<int8_t>(static_cast<size_t>(cells));
+  for (uint8_t** plane : {&memory.gain, &memory.beside, &memory.displaced, &memory.is_right}) {
+    *plane = arena->Take<uint8_t>(static_cast<size_t>(cells));
   }
   memory.counts = arena->Take<OutlineCounts>(static_cast<size_t>(max_workers));
   memory.scratch = arena->Take<OutlineScratch>(static_cast<size_t>(max_workers));
   return memory;
 }
 
-const int16_t* FollowOutlines(const OutlinePicture& picture, const OutlineMemory& memory,
-                              Sequence* run) {
-  std::fill_n(memory.counts, picture.max_workers, OutlineCounts{});
-  run->Run([&](int32_t index, int32_t worker) {
-    CountRamps(memory, picture.Tile(index), memory.scratch + worker, memory.counts + worker);
+const int16_t* FollowOutlines(const starfocus_light_field& light_field,
+                              const simd::DepthKernels& kernels, const ThinCells& thin,
+                              const HairMemory* hair, const OutlineMemory& memory, Sequence* run) {
+  const Plane<const uint8_t> rgb = RowsOf(light_field.views[0]);
+  // Calls work(tile, worker, index) for each tile.
+  const auto phase = [&](const auto& work) {
+    run->Run(
+        [&](int32_t index, int32_t worker) { work(TileOf(*memory.setup, index), worker, index); });
+  };
+  // If the map was hard, it is kept where it is right.
+  const auto run_pass = [&](const OutlinePass& pass, bool was_hard) {
+    phase([&](const Rect& tile, int32_t worker, int32_t) {
+      MeasureDistances(pass, tile, pass.scratch + worker);
+    });
+    phase([&](const Rect& tile, int32_t worker, int32_t) {
+      VoteByColour(pass, rgb, kernels, tile, &pass.scratch[worker].block);
+    });
+    phase([&](const Rect& tile, int32_t, int32_t) { ShiftOutlines(pass, tile); });
+    phase([&](const Rect& tile, int32_t worker, int32_t index) {
+      VoteAgain(pass, rgb, kernels, tile, &pass.scratch[worker].block);
+      KeepParts(pass, thin, hair, index);
+    });
+    if (was_hard) {
+      phase([&](const Rect& tile, int32_t worker, int32_t) {
+        CountChanges(pass, tile, pass.counts + worker);
+      });
+      phase([&](const Rect& tile, int32_t worker, int32_t) {
+        KeepRight(pass, light_field, tile, pass.counts + worker);
+      });
+    } else {
+      run->Skip();
+      run->Skip();
+    }
+    phase([&](const Rect& tile, int32_t worker, int32_t) {
+      TakeDisparities(pass, tile, &pass.scratch[worker].sides);
+    });
+  };
+  std::fill_n(memory.counts, memory.workers, OutlineCounts{});
+  OutlinePass pass = {memory, memory.given, memory.repaired, kDistance, 0, 6, 5, 60};
+  phase([&](const Rect& tile, int32_t worker, int32_t) {
+    CountRamps(pass, tile, pass.scratch + worker, pass.counts + worker);
   });
-  const OutlinePass pass = FirstPass(memory.counts, picture.max_workers);
-  RunPass(picture, memory, pass, pass.IsHard(), memory.given, memory.repaired, run);
+  SetWidths(&pass);
+  run_pass(pass, pass.IsHard());
   bool again = false;
-  for (int32_t k = 0; k < picture.max_workers; ++k) again |= memory.counts[k].wrong;
+  for (int32_t k = 0; k < memory.workers; ++k) again |= memory.counts[k].wrong;
   if (again) {
-    RunPass(picture, memory, kSecondPass, true, memory.repaired, memory.given, run);
+    // The edges of the result of the first pass are steps that are hardly off. In soft maps, a
+    // second pass hardly improves results, and leaves more single pixels.
+    run_pass({memory, memory.repaired, memory.given, kDistance, 0, 3, 5, 8}, true);
     return memory.given;
   }
   for (int32_t k = 0; k < kPassPhases; ++k) run->Skip();

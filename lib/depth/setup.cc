@@ -134,12 +134,4 @@ Rect RegionOf(const SweepSetup& setup, int32_t index) {
   return Widened(setup, TileOf(setup, index), setup.repairs ? kRepairMargin : kTileMargin);
 }
 
-Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin) {
-  const int32_t left = rect.x > margin ? rect.x - margin : 0;
-  const int32_t top = rect.y > margin ? rect.y - margin : 0;
-  const int32_t right = rect.x + rect.width + margin, bottom = rect.y + rect.height + margin;
-  return {left, top, (right < setup.width ? right : setup.width) - left,
-          (bottom < setup.height ? bottom : setup.height) - top};
-}
-
 }  // namespace starfocus

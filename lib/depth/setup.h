@@ -119,7 +119,9 @@ Rect TileOf(const SweepSetup& setup, int32_t index);
 // the setup.
 Rect RegionOf(const SweepSetup& setup, int32_t index);
 // Returns the rectangle enlarged by `margin` on all sides and clipped to the picture.
-Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin);
+inline Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin) {
+  return Clipped(Extended(rect, {margin, margin, margin, margin}), setup.width, setup.height);
+}
 
 // Calls act(x, y) for each pixel of a rectangle, row by row.
 template <class Act>

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "lib/base/fixed.h"
-#include "lib/depth/colour_map.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"

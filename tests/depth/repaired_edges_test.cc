@@ -11,6 +11,8 @@
 
 #include "lib/base/fixed.h"
 #include "lib/depth/outlines.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 
 namespace repaired_edges_test {
 namespace {
@@ -36,34 +38,35 @@ struct Scene {
     }
   }
 
-  // Returns the repaired map, from tiles of `side` x `side` pixels.
-  std::vector<int16_t> Repaired(int side) {
+  // Returns the repaired map, from columns x rows tiles; both numbers are odd.
+  std::vector<int16_t> Repaired(int columns = 1, int rows = 1) {
+    starfocus::SweepSetup setup = {};
+    setup.width = kWidth, setup.height = kHeight;
+    setup.columns = columns, setup.rows = rows;
+    const size_t tiles = size_t(columns * rows);
+    starfocus::OutlineMemory outlines;
+    starfocus::ThinCells thin;
+    const auto take = [&](starfocus::Arena* arena) {
+      outlines = starfocus::TakeOutlines(setup, 1, arena);
+      thin = starfocus::TakeThinCells(GridOf(setup), arena);
+    };
     starfocus::Arena count(nullptr);
-    starfocus::TakeOutlines(kWidth, kHeight, 1, &count);
-    std::vector<uint8_t> memory(count.Bytes() + STARFOCUS_ALIGNMENT);
-    const size_t off = STARFOCUS_ALIGNMENT - size_t(memory.data()) % STARFOCUS_ALIGNMENT;
-    starfocus::Arena arena(memory.data() + off);
-    const starfocus::OutlineMemory outlines = starfocus::TakeOutlines(kWidth, kHeight, 1, &arena);
+    take(&count);
+    const test::Memory memory(count.Bytes());
+    starfocus::Arena arena(memory.data);
+    take(&arena);
     std::copy(map.begin(), map.end(), outlines.given);
-    const int columns = (kWidth + side - 1) / side, tiles = columns * ((kHeight + side - 1) / side);
-    const starfocus::OutlinePicture picture = {
-        &starfocus::simd::ReferenceDepthKernels(),
-        {rgb.data(), 3 * kWidth},
-        tiles,
-        1,
-        [](const void* data, int32_t index) {
-          const int size = *static_cast<const int*>(data), across = (kWidth + size - 1) / size;
-          const int x = index % across * size, y = index / across * size;
-          return starfocus::Rect{x, y, std::min(size, kWidth - x), std::min(size, kHeight - y)};
-        },
-        [](const void*, int32_t, int8_t*) {},
-        [](const void*, int32_t, int32_t) { return true; },
-        &side};
-    std::vector<std::atomic<uint32_t>> progress(starfocus::ProgressWords(size_t(tiles)));
+    std::fill_n(thin.thin, GridOf(setup).Cells(), uint8_t{0});
+    const std::vector<float> known(map.begin(), map.end());
+    starfocus_light_field field = starfocus::NewLightField();
+    field.views[0] = starfocus_image_rgb(rgb.data(), 3 * kWidth);
+    field.depth = starfocus_depth_float(known.data(), kWidth * sizeof(float), kWidth, kHeight);
+    std::vector<std::atomic<uint32_t>> progress(starfocus::ProgressWords(tiles));
     starfocus::Jobs jobs;
     jobs.progress = progress.data();
-    starfocus::Sequence run(&jobs, starfocus::kOutlinePhases, tiles);
-    const int16_t* repaired = starfocus::FollowOutlines(picture, outlines, &run);
+    starfocus::Sequence run(&jobs, starfocus::kOutlinePhases, int32_t(tiles));
+    const int16_t* repaired = starfocus::FollowOutlines(
+        field, starfocus::simd::ReferenceDepthKernels(), thin, nullptr, outlines, &run);
     CHECK(run.status() == STARFOCUS_OK);
     return {repaired, repaired + map.size()};
   }
@@ -83,14 +86,14 @@ TEST_CASE("repaired edges: outlines that are off by three pixels move to the edg
   for (const int off : {-3, 3}) {
     Scene scene([&](int x, int) { return x < kWidth / 2 + off ? kNear : kFar; });
     CHECK(Wrong(scene.map) == 3 * kHeight);
-    CHECK(Wrong(scene.Repaired(kWidth)) == 0);
+    CHECK(Wrong(scene.Repaired()) == 0);
   }
 }
 
 TEST_CASE("repaired edges: displaced rows move back") {
   Scene scene([](int x, int y) { return x < kWidth / 2 + (y * 7 + y / 3) % 5 - 2 ? kNear : kFar; });
   CHECK(Wrong(scene.map) > 60);
-  CHECK(Wrong(scene.Repaired(kWidth)) <= 2);
+  CHECK(Wrong(scene.Repaired()) <= 2);
 }
 
 TEST_CASE("repaired edges: a ramp becomes a step at the edge of the picture") {
@@ -99,7 +102,7 @@ TEST_CASE("repaired edges: a ramp becomes a step at the edge of the picture") {
     return int(std::lround(kNear * (1 - share)));
   });
   CHECK(Wrong(scene.map) > 5 * kHeight);
-  CHECK(Wrong(scene.Repaired(kWidth)) == 0);
+  CHECK(Wrong(scene.Repaired()) == 0);
 }
 
 TEST_CASE("repaired edges: a thin structure of a soft map has one disparity") {
@@ -112,7 +115,7 @@ TEST_CASE("repaired edges: a thin structure of a soft map has one disparity") {
       std::fill_n(&scene.rgb[3 * size_t(y * kWidth + x)], 3, code);
     }
   }
-  const std::vector<int16_t> repaired = scene.Repaired(kWidth);
+  const std::vector<int16_t> repaired = scene.Repaired();
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const int16_t right = std::abs(x - kMiddle) <= 1 ? kNear : kFar;
@@ -123,7 +126,7 @@ TEST_CASE("repaired edges: a thin structure of a soft map has one disparity") {
 
 TEST_CASE("repaired edges: a right map is left alone") {
   Scene scene([](int x, int) { return x < kWidth / 2 ? kNear : kFar; });
-  CHECK(scene.Repaired(kWidth) == scene.map);
+  CHECK(scene.Repaired() == scene.map);
 }
 
 TEST_CASE("repaired edges: a displaced part of a right map moves, and the rest is left alone") {
@@ -132,7 +135,7 @@ TEST_CASE("repaired edges: a displaced part of a right map moves, and the rest i
   for (size_t at = 0; at < scene.map.size(); ++at) {
     if (at % kWidth < 8) scene.map[at] = 2 * kNear;
   }
-  const std::vector<int16_t> repaired = scene.Repaired(kWidth);
+  const std::vector<int16_t> repaired = scene.Repaired();
   int wrong = 0;
   for (size_t at = 0; at < repaired.size(); ++at) {
     const size_t x = at % kWidth;
@@ -146,7 +149,7 @@ TEST_CASE("repaired edges: a pixel of a hard map does not keep the rest of a ram
   Scene scene([](int x, int) {
     return x < kWidth / 2 - 4 ? kNear : x < kWidth / 2 - 3 ? kNear - kNear / 12 : kFar;
   });
-  CHECK(Wrong(scene.Repaired(kWidth)) == 0);
+  CHECK(Wrong(scene.Repaired()) == 0);
 }
 
 TEST_CASE("repaired edges: results do not depend on tiles") {
@@ -154,8 +157,10 @@ TEST_CASE("repaired edges: results do not depend on tiles") {
     const double middle = kWidth / 2 + 3 * std::sin(y * 0.3);
     return int(std::lround(kNear * std::clamp((middle + 3 - x) / 6, 0.0, 1.0)));
   });
-  const std::vector<int16_t> whole = scene.Repaired(kWidth);
-  for (const int side : {16, 31, 64}) CHECK(scene.Repaired(side) == whole);
+  const std::vector<int16_t> whole = scene.Repaired();
+  CHECK(scene.Repaired(7, 5) == whole);
+  CHECK(scene.Repaired(3, 3) == whole);
+  CHECK(scene.Repaired(1, 3) == whole);
 }
 
 }  // namespace
