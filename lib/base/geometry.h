@@ -33,6 +33,11 @@ constexpr Rect Clipped(const Rect& rect, int32_t width, int32_t height) {
           Min(rect.y + rect.height, height) - top};
 }
 
+// Returns the square of the pixels that are at most `reach` columns and rows away from (x, y).
+constexpr Rect Around(int32_t x, int32_t y, int32_t reach) {
+  return {x - reach, y - reach, 2 * reach + 1, 2 * reach + 1};
+}
+
 constexpr bool Contains(const Rect& rect, int32_t x, int32_t y) {
   return x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height;
 }

@@ -70,12 +70,9 @@ class ColourRepair {
     Sequence run(memory_.jobs, kPhases + (covers ? kHairPhases : 0), setup_.columns * setup_.rows);
     const int32_t noise = ReadMap(&run);
     int16_t* const given = memory_.outlines.given;
-    const HairPicture hair = {setup_.width,
-                              setup_.height,
-                              rgb_,
-                              {given, static_cast<size_t>(setup_.width), 0, 0},
-                              output_.coverage};
-    *has_coverage = covers && FindHairCoverage(hair, memory_.hair, &run);
+    *has_coverage =
+        covers && FindHairCoverage(rgb_, {given, static_cast<size_t>(setup_.width), 0, 0},
+                                   output_.coverage, memory_.hair, &run);
     // The first pass averages disparities within three standard deviations, which reduces the noise
     // to a third.
     Smooth(given, noise, 3, 1, 3 * noise, memory_.outlines.repaired, &run);
@@ -232,7 +229,6 @@ ColourMemory TakeColourRepair(const SweepSetup& setup, int32_t max_workers, Aren
   ColourMemory memory = {};
   memory.jobs = TakeJobs(setup, max_workers, arena);
   memory.hair = TakeHairMemory(setup.width, setup.height, arena);
-  TakeHairColours(setup.width, setup.height, arena, &memory.hair);
   memory.thin = TakeThinCells(GridOf(setup), arena);
   memory.outlines = TakeOutlines(setup, max_workers, arena);
   memory.rings = arena->Take<int32_t>(kSmoothSamples, workers);

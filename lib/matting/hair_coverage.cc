@@ -3,28 +3,9 @@
 
 #include <algorithm>
 
-#include "lib/base/fixed.h"
+#include "lib/matting/colour.h"
 
 namespace starfocus {
-
-// Votes of the pixels of a block in cells inside and outside outlines, where it does not matter if
-// outlines are off by a few pixels.
-struct HairVotes {
-  // Number of pixels of inside cells; of those that differ less from the background colour than a
-  // third of the contrast; of those that have nearly the background colour.
-  int32_t inside, far, same;
-  // Sum of coverage, sum of squares, and sum of squared differences from the mean of the pixel's
-  // cell; the coverage is in units of 1/256.
-  int32_t sum, squares, fine;
-  // Number of pixels of outside cells; sum of their coverage, in units of 1/256.
-  int32_t outside, beyond;
-  // To what degree the colours in and around the block are those of hair, 0 to 256.
-  int32_t found;
-};
-
-HairVotes& HairMemory::VotesAt(int32_t column, int32_t row) const {
-  return votes[BlockAt(column, row)];
-}
 
 namespace {
 
@@ -60,57 +41,27 @@ void Interpolate(int32_t columns, int32_t rows, int32_t x, int32_t y, const Add&
 // Interpolates the colour of a level at the centre of sample (x, y). Cells have sides of kSide
 // samples.
 template <int32_t kSide>
-void ColourOfLevel(const ColourLevel& level, int32_t x, int32_t y, int32_t* rgb) {
+void ColourOfLevel(const ColourPyramid& pyramid, int level, int32_t x, int32_t y, int32_t* rgb) {
   std::fill_n(rgb, 3, 2 * kSide * kSide);
-  Interpolate<kSide>(level.columns, level.rows, x, y,
+  Interpolate<kSide>(pyramid.Columns(level), pyramid.Rows(level), x, y,
                      [&](int32_t column, int32_t row, int32_t weight) {
-                       const ColourMean& mean = level.At(column, row);
+                       const ColourMean& mean = pyramid.At(level, column, row);
                        for (int c = 0; c < 3; ++c) rgb[c] += weight * mean.rgb[c];
                      });
   for (int c = 0; c < 3; ++c) rgb[c] /= 4 * kSide * kSide;
 }
 
-// Weighted sum of the colours of pixels or cells. Weights are at most kFull for a pixel or cell
-// whose colour is fully known, so that sums of 16 pixels fit in 46 bits.
-struct ColourSum {
-  static constexpr int64_t kFull = int64_t{1} << 28;
-  static constexpr int64_t kUnit = kFull / kFullyKnown;  // weight 1 of a ColourMean
-  int64_t sums[3] = {}, weight = 0;
+// Weights of a pixel or cell in a ColourSum: kFull if its colour is fully known, so that sums of 16
+// pixels fit in 46 bits, and kUnit for the weight 1 of a ColourMean.
+constexpr int64_t kFull = int64_t{1} << 28, kUnit = kFull / kFullyKnown;
 
-  template <class Colour>
-  void Add(const Colour* rgb, int64_t by) {
-    for (int c = 0; c < 3; ++c) sums[c] += by * rgb[c];
-    weight += by;
-  }
-  ColourMean Mean() const {
-    ColourMean mean = {};
-    if (weight == 0) return mean;
-    for (int c = 0; c < 3; ++c) {
-      mean.rgb[c] = static_cast<uint16_t>((sums[c] + weight / 2) / weight);
-    }
-    // A mean of faint colours has the weight 1, so that it counts where no other colour is known.
-    mean.weight =
-        static_cast<uint16_t>(std::min<int64_t>((weight + kUnit - 1) / kUnit, kFullyKnown));
-    return mean;
-  }
-};
-
-// Picture and memory of the phases of FindHairCoverage. Each phase processes rows of blocks.
-struct Search {
-  const HairPicture& picture;
-  const HairMemory& memory;
-};
-
-// Calls act(column, row, at) for all cells of the rows of blocks.
-template <class Act>
-void ForCells(const Search& search, const Range& blocks, const Act& act) {
-  const HairMemory& memory = search.memory;
-  for (int32_t row = kHairBlock * blocks.first; row < Min(kHairBlock * blocks.last, memory.rows);
-       ++row) {
-    for (int32_t column = 0; column < memory.columns; ++column) {
-      act(column, row, memory.At(column, row));
-    }
-  }
+ColourMean MeanOf(const ColourSum<int64_t>& sum) {
+  ColourMean mean;
+  for (int c = 0; c < 3; ++c) mean.rgb[c] = static_cast<uint16_t>(sum.Mean(c));
+  // A mean of faint colours has the weight 1, so that it counts where no other colour is known.
+  mean.weight =
+      static_cast<uint16_t>(std::min<int64_t>((sum.weight + kUnit - 1) / kUnit, kFullyKnown));
+  return mean;
 }
 
 // One pixel of a cell.
@@ -124,58 +75,6 @@ struct CellPixel {
 // Returns true for half of the pixels of a cell, in a pattern that is the same in a mirrored cell.
 bool IsSample(const CellPixel& pixel) {
   return ((pixel.x ^ pixel.x >> 1 ^ pixel.y ^ pixel.y >> 1) & 1) == 0;
-}
-
-// Calls act(pixel) for all pixels of a cell.
-template <class Act>
-void ForPixels(const Search& search, int32_t column, int32_t row, const Act& act) {
-  const HairPicture& picture = search.picture;
-  const size_t at = search.memory.At(column, row);
-  const int32_t right = Min((column + 1) * kHairCell, picture.width);
-  const int32_t bottom = Min((row + 1) * kHairCell, picture.height);
-  for (int32_t y = row * kHairCell; y < bottom; ++y) {
-    for (int32_t x = column * kHairCell; x < right; ++x) {
-      const bool is_near = search.memory.IsNear(at, picture.disparity.Row(y)[x]);
-      CellPixel pixel = {x, y, is_near, picture.coverage.Row(y) + x, {}};
-      const uint8_t* rgb = picture.rgb.Row(y) + 3 * ptrdiff_t{x};
-      for (int c = 0; c < 3; ++c) pixel.rgb[c] = rgb[c] << kMeanBits;
-      act(pixel);
-    }
-  }
-}
-
-// Returns true if a cell within `reach` of cell (column, row) has pixels of the nearer surface of
-// an edge or, if `near` is false, of the farther surface.
-bool HasWithin(const HairMemory& memory, int32_t column, int32_t row, int32_t reach, bool near) {
-  const int32_t right = Min(column + reach, memory.columns - 1);
-  const int32_t bottom = Min(row + reach, memory.rows - 1);
-  for (int32_t y = Max(row - reach, 0); y <= bottom; ++y) {
-    for (int32_t x = Max(column - reach, 0); x <= right; ++x) {
-      const size_t at = memory.At(x, y);
-      if (!memory.HasEdge(at)) continue;
-      if (near ? memory.IsNear(at, memory.greatest[at]) : !memory.IsNear(at, memory.least[at])) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-// Measures the range of the disparities of each cell.
-void MeasureCells(const Search& search, const Range& blocks) {
-  const HairPicture& picture = search.picture;
-  ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
-    const int32_t left = column * kHairCell, right = Min(left + kHairCell, picture.width);
-    int16_t least = INT16_MAX, greatest = INT16_MIN;
-    for (int32_t y = row * kHairCell; y < Min((row + 1) * kHairCell, picture.height); ++y) {
-      for (int32_t x = left; x < right; ++x) {
-        least = std::min(least, picture.disparity.Row(y)[x]);
-        greatest = std::max(greatest, picture.disparity.Row(y)[x]);
-      }
-    }
-    search.memory.low[at] = search.memory.least[at] = least;
-    search.memory.high[at] = search.memory.greatest[at] = greatest;
-  });
 }
 
 // Replaces each of `count` values, which are `stride` values apart, with the reduction by `join`
@@ -193,57 +92,11 @@ void JoinAround(int32_t count, int32_t stride, const Join& join, int16_t* values
   }
 }
 
-// Computes `low` and `high` from the ranges of the cells. Returns true.
-bool JoinCells(const HairMemory& memory) {
-  const auto least = [](int16_t a, int16_t b) { return std::min(a, b); };
-  const auto most = [](int16_t a, int16_t b) { return std::max(a, b); };
-  for (int32_t row = 0; row < memory.rows; ++row) {
-    JoinAround(memory.columns, 1, least, memory.low + memory.At(0, row));
-    JoinAround(memory.columns, 1, most, memory.high + memory.At(0, row));
-  }
-  for (int32_t column = 0; column < memory.columns; ++column) {
-    JoinAround(memory.rows, memory.columns, least, memory.low + column);
-    JoinAround(memory.rows, memory.columns, most, memory.high + column);
-  }
-  return true;
-}
-
-// Computes background colours for the first pass, from far cells.
-void PullFar(const Search& search, const Range& blocks) {
-  ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
-    ColourSum sum;
-    if (search.memory.HasEdge(at) && !HasWithin(search.memory, column, row, kBeside, true)) {
-      ForPixels(search, column, row,
-                [&](const CellPixel& pixel) { sum.Add(pixel.rgb, ColourSum::kFull); });
-    }
-    search.memory.far.levels[0].At(column, row) = sum.Mean();
-  });
-}
-
 // Returns the squared difference of two colours, in squared codes.
 int32_t SquaredDifference(const int32_t* a, const int32_t* b) {
   int32_t sum = 0;
   for (int c = 0; c < 3; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
   return sum >> (2 * kMeanBits);
-}
-
-// Computes foreground colours for the first pass, from near pixels weighted by the eighth power of
-// their contrast to the background. A contrast of 181 codes has the full weight.
-void PullNear(const Search& search, const Range& blocks) {
-  ForCells(search, blocks, [&](int32_t column, int32_t row, size_t) {
-    ColourSum sum;
-    if (HasWithin(search.memory, column, row, 0, true)) {
-      ForPixels(search, column, row, [&](const CellPixel& pixel) {
-        if (!pixel.is_near || !IsSample(pixel)) return;
-        int32_t far[3];
-        ColourAt(search.memory.far, pixel.x, pixel.y, far);
-        const int64_t contrast = SquaredDifference(far, pixel.rgb) / 16;
-        const int64_t fourth = contrast * contrast / 256;
-        sum.Add(pixel.rgb, std::min(fourth * fourth, ColourSum::kFull));
-      });
-    }
-    search.memory.near.levels[0].At(column, row) = sum.Mean();
-  });
 }
 
 constexpr int32_t kWhole = 256;
@@ -267,141 +120,9 @@ struct Unmixed {
   int32_t beside, contrast;  // squared differences of pixel and foreground from the background
 };
 
-// Finds the position of a pixel's colour on the line from the background colour to the foreground
-// colour. Without contrast, the share is the one that the map implies. `own` is the share of the
-// pixel's own colour in the background colour, as a fraction of kWhole.
-Unmixed Unmix(const HairMemory& memory, const CellPixel& pixel, int32_t own) {
-  int32_t far[3], near[3];
-  ColourAt(memory.far, pixel.x, pixel.y, far);
-  ColourAt(memory.near, pixel.x, pixel.y, near);
-  for (int c = 0; c < 3; ++c) {
-    far[c] = (own * pixel.rgb[c] + (kWhole - own) * far[c] + kWhole / 2) / kWhole;
-  }
-  const int32_t given = pixel.is_near ? kWhole : 0;
-  const int32_t beside = SquaredDifference(far, pixel.rgb);
-  const int32_t contrast = SquaredDifference(far, near);
-  const int32_t known = Clamp(contrast - kLeastContrast, 0, kLeastContrast);
-  if (known == 0) return {given, beside, contrast};
-  // By the law of cosines, the position is (beside + contrast - distance to `near`) / 2 contrast.
-  const int32_t twice = beside + contrast - SquaredDifference(near, pixel.rgb);
-  const int32_t share = Clamp(twice, 0, 2 * contrast) * (kWhole / 2) / contrast;
-  return {given + (share - given) * known / kLeastContrast, beside, contrast};
-}
-
-// Counts the pixels of an inside cell.
-void CountInside(const Search& search, int32_t column, int32_t row, HairVotes* votes) {
-  int32_t count = 0, sum = 0, squares = 0;
-  ForPixels(search, column, row, [&](const CellPixel& pixel) {
-    if (!IsSample(pixel)) return;
-    const Unmixed unmixed = Unmix(search.memory, pixel, 0);
-    ++count;
-    sum += unmixed.share;
-    squares += unmixed.share * unmixed.share;
-    const bool clear = unmixed.contrast > kClearContrast;
-    votes->far += clear && 9 * unmixed.beside < unmixed.contrast ? 1 : 0;
-    votes->same += unmixed.beside < kSame ? 1 : 0;
-  });
-  votes->inside += count;
-  votes->sum += sum;
-  votes->squares += squares;
-  votes->fine += squares - sum * sum / Max(count, 1);
-}
-
-void CountVotes(const Search& search, const Range& blocks) {
-  const HairMemory& memory = search.memory;
-  for (int32_t row = blocks.first; row < blocks.last; ++row) {
-    std::fill_n(&memory.VotesAt(0, row), memory.block_columns, HairVotes{});
-  }
-  ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
-    memory.hair[at] = 0;
-    if (!memory.HasEdge(at)) return;
-    const bool near = HasWithin(memory, column, row, kBeside, true);
-    if (near == HasWithin(memory, column, row, kBeside, false)) return;
-    if (!HasWithin(memory, column, row, kMostInside, !near)) return;
-    HairVotes* const votes = &memory.VotesAt(column / kHairBlock, row / kHairBlock);
-    if (near) return CountInside(search, column, row, votes);
-    ForPixels(search, column, row, [&](const CellPixel& pixel) {
-      if (!IsSample(pixel)) return;
-      ++votes->outside;
-      votes->beyond += Unmix(memory, pixel, 0).share;
-    });
-  });
-}
-
-// Calls act(votes, weight) for the blocks that are at most `reach` blocks away. The weight
-// decreases with the distance, from (reach + 1)^2 to 1.
-template <class Act>
-void ForBlocksAround(const HairMemory& memory, int32_t column, int32_t row, int32_t reach,
-                     const Act& act) {
-  for (int32_t y = Max(row - reach, 0); y <= Min(row + reach, memory.block_rows - 1); ++y) {
-    for (int32_t x = Max(column - reach, 0); x <= Min(column + reach, memory.block_columns - 1);
-         ++x) {
-      act(memory.VotesAt(x, y), (reach + 1 - Abs(x - column)) * (reach + 1 - Abs(y - row)));
-    }
-  }
-}
-
 // Returns 0 up to `low`, 256 from `high` on, and values between.
 int32_t Fade(int64_t value, int32_t low, int32_t high) {
   return Clamp(256 * (static_cast<int32_t>(value) - low) / (high - low), 0, 256);
-}
-
-// Decides to what degree the colours in and around a block are those of hair, 0 to 256. They are if
-// three shares are large: the share of pixels that look like background; the share of pixels that
-// have nearly its colour, which surfaces that happen to resemble the background rarely have; and
-// the part of the variance of the coverage that lies within cells, because shading varies slowly.
-// They are not if pixels outside look like foreground: the foreground colour is then one of a
-// pattern of the background, which the map covers by mistake. All limits lie between the values of
-// scenes with hair and those of scenes and photographs without (docs/lab-notebook.md).
-int32_t FindHair(const HairMemory& memory, int32_t column, int32_t row) {
-  // 2048 votes against hair decide where there are few pixels.
-  int64_t inside = 2048, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;
-  ForBlocksAround(memory, column, row, 3, [&](const HairVotes& votes, int32_t weight) {
-    const int64_t sum = votes.sum;
-    inside += weight * votes.inside;
-    far += weight * votes.far;
-    same += weight * votes.same;
-    if (votes.inside > 0) coarse += weight * (votes.squares - sum * sum / votes.inside);
-    fine += weight * votes.fine;
-    outside += weight * votes.outside;
-    beyond += weight * votes.beyond;
-  });
-  // Product of both shares of colours, in units of 1/16384.
-  const int64_t colours = (far << 14) / inside * same / inside;
-  // Strands as wide as a cell are less fine, but many pixels between them have equal colours.
-  const int64_t fineness = 1024 * fine / coarse + std::min<int64_t>(colours / 16, 120);
-  const int32_t like = Fade(colours, 50, 70) * Fade(fineness, 652, 678) / 256;
-  return like * (256 - Fade(1024 * beyond / (kWhole * outside), 36, 48)) / 256;
-}
-
-// Decides which cells show hair. Hair extends to the blocks around those with the colours of hair,
-// because its tips have few pixels inside outlines. Between the centres of blocks, the degree is
-// interpolated. Returns true if any block has hair.
-bool FillHair(const Search& search) {
-  const HairMemory& memory = search.memory;
-  bool any = false;
-  for (int32_t row = 0; row < memory.block_rows; ++row) {
-    for (int32_t column = 0; column < memory.block_columns; ++column) {
-      const int32_t found = FindHair(memory, column, row);
-      memory.VotesAt(column, row).found = found;
-      any = any || found >= kHairy;
-    }
-  }
-  if (!any) return false;
-  ForCells(search, {0, memory.block_rows}, [&](int32_t column, int32_t row, size_t at) {
-    if (!memory.HasEdge(at)) return;
-    int32_t hair = 0;
-    Interpolate<kHairBlock>(
-        memory.block_columns, memory.block_rows, column, row,
-        [&](int32_t x, int32_t y, int32_t weight) {
-          int32_t most = 0;
-          ForBlocksAround(memory, x, y, 1,
-                          [&](const HairVotes& votes, int32_t) { most = Max(most, votes.found); });
-          hair += weight * most;
-        });
-    memory.hair[at] = static_cast<uint8_t>(Min(hair / (4 * kHairBlock * kHairBlock), UINT8_MAX));
-  });
-  return true;
 }
 
 // Returns the share `to` where `hair` is 255, the share `from` where it is 0, and mixtures between.
@@ -409,102 +130,334 @@ int32_t Faded(int32_t from, int32_t to, uint8_t hair) {
   return from + (to - from) * ShareOf(hair) / kWhole;
 }
 
-// Writes the coverage of cells with hair. In the second pass (kAgain), the background colour of a
-// pixel is mixed with the pixel's own colour. The share of the pixel's own colour increases as the
-// coverage from the first pass decreases.
-template <bool kAgain>
-void UnmixCells(const Search& search, const Range& blocks) {
-  const HairMemory& memory = search.memory;
-  ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
-    if (memory.hair[at] == 0) return;
-    ForPixels(search, column, row, [&](const CellPixel& pixel) {
-      const int32_t own = kAgain ? FourthPower(kWhole - ShareOf(*pixel.coverage)) : 0;
-      const int32_t texture = pixel.is_near ? 0 : kTexture;
-      const int32_t unmixed = Unmix(memory, pixel, own).share;
-      const int32_t share = Max(0, unmixed - texture) * kWhole / (kWhole - texture);
-      *pixel.coverage = static_cast<uint8_t>((share * UINT8_MAX + kWhole / 2) / kWhole);
-    });
-  });
-}
+// The phases of FindHairCoverage. Each phase processes rows of blocks.
+class HairSearch {
+ public:
+  HairSearch(const Plane<const uint8_t>& rgb, const Plane<const int16_t>& disparity,
+             const Plane<uint8_t>& coverage, const HairMemory& memory)
+      : rgb_(rgb), disparity_(disparity), coverage_(coverage), memory_(memory) {}
 
-// Computes foreground and background colours for the second pass, from all pixels weighted by the
-// coverage of the first pass.
-void PullBoth(const Search& search, const Range& blocks) {
-  const HairMemory& memory = search.memory;
-  ForCells(search, blocks, [&](int32_t column, int32_t row, size_t at) {
-    ColourSum near, far;
-    if (memory.HasEdge(at)) {
-      ForPixels(search, column, row, [&](const CellPixel& pixel) {
-        const int32_t given = pixel.is_near ? kWhole : 0;
-        // The coverage of cells without hair has not been written.
-        const int32_t found = memory.hair[at] == 0 ? given : ShareOf(*pixel.coverage);
-        const int32_t share = Faded(given, found, memory.hair[at]);
-        near.Add(pixel.rgb, ColourSum::kUnit * FourthPower(share));
-        far.Add(pixel.rgb, ColourSum::kUnit * FourthPower(kWhole - share));
+  // Measures the range of the disparities of each cell.
+  void MeasureCells(const Range& blocks) const {
+    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+      int16_t least = INT16_MAX, greatest = INT16_MIN;
+      ForPixels(CellAt(column, row), [&](int32_t x, int32_t y) {
+        least = std::min(least, disparity_.Row(y)[x]);
+        greatest = std::max(greatest, disparity_.Row(y)[x]);
       });
+      memory_.low[at] = memory_.least[at] = least;
+      memory_.high[at] = memory_.greatest[at] = greatest;
+    });
+  }
+
+  // Computes `low` and `high` from the ranges of the cells. Returns true.
+  bool JoinCells() const {
+    const auto least = [](int16_t a, int16_t b) { return std::min(a, b); };
+    const auto most = [](int16_t a, int16_t b) { return std::max(a, b); };
+    for (int32_t row = 0; row < memory_.rows; ++row) {
+      JoinAround(memory_.columns, 1, least, memory_.low + memory_.At(0, row));
+      JoinAround(memory_.columns, 1, most, memory_.high + memory_.At(0, row));
     }
-    memory.near.levels[0].At(column, row) = near.Mean();
-    memory.far.levels[0].At(column, row) = far.Mean();
-  });
-}
+    for (int32_t column = 0; column < memory_.columns; ++column) {
+      JoinAround(memory_.rows, memory_.columns, least, memory_.low + column);
+      JoinAround(memory_.rows, memory_.columns, most, memory_.high + column);
+    }
+    return true;
+  }
+
+  // Computes background colours for the first pass, from far cells.
+  void PullFar(const Range& blocks) const {
+    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+      ColourSum<int64_t> sum;
+      if (memory_.HasEdge(at) && !HasWithin(column, row, kBeside, true)) {
+        ForCell(column, row, [&](const CellPixel& pixel) { sum.Add(pixel.rgb, kFull); });
+      }
+      memory_.far.At(0, column, row) = MeanOf(sum);
+    });
+  }
+
+  // Computes foreground colours for the first pass, from near pixels weighted by the eighth power
+  // of their contrast to the background. A contrast of 181 codes has the full weight.
+  void PullNear(const Range& blocks) const {
+    ForCells(blocks, [&](int32_t column, int32_t row, size_t) {
+      ColourSum<int64_t> sum;
+      if (HasWithin(column, row, 0, true)) {
+        ForCell(column, row, [&](const CellPixel& pixel) {
+          if (!pixel.is_near || !IsSample(pixel)) return;
+          int32_t far[3];
+          ColourAt(memory_.far, pixel.x, pixel.y, far);
+          const int64_t contrast = SquaredDifference(far, pixel.rgb) / 16;
+          const int64_t fourth = contrast * contrast / 256;
+          sum.Add(pixel.rgb, std::min(fourth * fourth, kFull));
+        });
+      }
+      memory_.near.At(0, column, row) = MeanOf(sum);
+    });
+  }
+
+  void CountVotes(const Range& blocks) const {
+    std::fill(&memory_.VotesAt(0, blocks.first), &memory_.VotesAt(0, blocks.last), HairVotes{});
+    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+      memory_.hair[at] = 0;
+      if (!memory_.HasEdge(at)) return;
+      const bool near = HasWithin(column, row, kBeside, true);
+      if (near == HasWithin(column, row, kBeside, false)) return;
+      if (!HasWithin(column, row, kMostInside, !near)) return;
+      HairVotes* const votes = &memory_.VotesAt(column / kHairBlock, row / kHairBlock);
+      if (near) return CountInside(column, row, votes);
+      ForCell(column, row, [&](const CellPixel& pixel) {
+        if (!IsSample(pixel)) return;
+        ++votes->outside;
+        votes->beyond += Unmix(pixel, 0).share;
+      });
+    });
+  }
+
+  // Decides which cells show hair. Hair extends to the blocks around those with the colours of
+  // hair, because its tips have few pixels inside outlines. Between the centres of blocks, the
+  // degree is interpolated. Returns true if any block has hair.
+  bool FillHair() const {
+    bool any = false;
+    ForPixels({0, 0, memory_.block_columns, memory_.block_rows}, [&](int32_t column, int32_t row) {
+      const int32_t found = FindHair(column, row);
+      memory_.VotesAt(column, row).found = found;
+      any = any || found >= kHairy;
+    });
+    if (!any) return false;
+    ForCells({0, memory_.block_rows}, [&](int32_t column, int32_t row, size_t at) {
+      if (!memory_.HasEdge(at)) return;
+      int32_t hair = 0;
+      Interpolate<kHairBlock>(memory_.block_columns, memory_.block_rows, column, row,
+                              [&](int32_t x, int32_t y, int32_t weight) {
+                                int32_t most = 0;
+                                ForBlocksAround(x, y, 1, [&](const HairVotes& votes, int32_t) {
+                                  most = Max(most, votes.found);
+                                });
+                                hair += weight * most;
+                              });
+      memory_.hair[at] = static_cast<uint8_t>(Min(hair / (4 * kHairBlock * kHairBlock), UINT8_MAX));
+    });
+    return true;
+  }
+
+  // Writes the coverage of cells with hair. In the second pass (kAgain), the background colour of a
+  // pixel is mixed with the pixel's own colour. The share of the pixel's own colour increases as
+  // the coverage from the first pass decreases.
+  template <bool kAgain>
+  void UnmixCells(const Range& blocks) const {
+    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+      if (memory_.hair[at] == 0) return;
+      ForCell(column, row, [&](const CellPixel& pixel) {
+        const int32_t own = kAgain ? FourthPower(kWhole - ShareOf(*pixel.coverage)) : 0;
+        const int32_t texture = pixel.is_near ? 0 : kTexture;
+        const int32_t unmixed = Unmix(pixel, own).share;
+        const int32_t share = Max(0, unmixed - texture) * kWhole / (kWhole - texture);
+        *pixel.coverage = static_cast<uint8_t>((share * UINT8_MAX + kWhole / 2) / kWhole);
+      });
+    });
+  }
+
+  // Computes foreground and background colours for the second pass, from all pixels weighted by the
+  // coverage of the first pass.
+  void PullBoth(const Range& blocks) const {
+    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+      ColourSum<int64_t> near, far;
+      if (memory_.HasEdge(at)) {
+        ForCell(column, row, [&](const CellPixel& pixel) {
+          const int32_t given = pixel.is_near ? kWhole : 0;
+          // The coverage of cells without hair has not been written.
+          const int32_t found = memory_.hair[at] == 0 ? given : ShareOf(*pixel.coverage);
+          const int32_t share = Faded(given, found, memory_.hair[at]);
+          near.Add(pixel.rgb, kUnit * FourthPower(share));
+          far.Add(pixel.rgb, kUnit * FourthPower(kWhole - share));
+        });
+      }
+      memory_.near.At(0, column, row) = MeanOf(near);
+      memory_.far.At(0, column, row) = MeanOf(far);
+    });
+  }
+
+ private:
+  // Calls act(column, row, at) for all cells of the rows of blocks.
+  template <class Act>
+  void ForCells(const Range& blocks, const Act& act) const {
+    const int32_t first = kHairBlock * blocks.first;
+    const int32_t last = Min(kHairBlock * blocks.last, memory_.rows);
+    ForPixels({0, first, memory_.columns, last - first},
+              [&](int32_t column, int32_t row) { act(column, row, memory_.At(column, row)); });
+  }
+
+  Rect CellAt(int32_t column, int32_t row) const {
+    return Clipped({column * kHairCell, row * kHairCell, kHairCell, kHairCell}, memory_.width,
+                   memory_.height);
+  }
+
+  // Calls act(pixel) for all pixels of a cell.
+  template <class Act>
+  void ForCell(int32_t column, int32_t row, const Act& act) const {
+    const size_t at = memory_.At(column, row);
+    ForPixels(CellAt(column, row), [&](int32_t x, int32_t y) {
+      const bool is_near = memory_.IsNear(at, disparity_.Row(y)[x]);
+      CellPixel pixel = {x, y, is_near, coverage_.Row(y) + x, {}};
+      const uint8_t* rgb = rgb_.Row(y) + 3 * ptrdiff_t{x};
+      for (int c = 0; c < 3; ++c) pixel.rgb[c] = rgb[c] << kMeanBits;
+      act(pixel);
+    });
+  }
+
+  // Returns true if a cell within `reach` of cell (column, row) has pixels of the nearer surface of
+  // an edge or, if `near` is false, of the farther surface.
+  bool HasWithin(int32_t column, int32_t row, int32_t reach, bool near) const {
+    const Rect around = Clipped(Around(column, row, reach), memory_.columns, memory_.rows);
+    for (int32_t y = around.y; y < around.y + around.height; ++y) {
+      for (int32_t x = around.x; x < around.x + around.width; ++x) {
+        const size_t at = memory_.At(x, y);
+        if (!memory_.HasEdge(at)) continue;
+        if (near ? memory_.IsNear(at, memory_.greatest[at])
+                 : !memory_.IsNear(at, memory_.least[at])) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  // Finds the position of a pixel's colour on the line from the background colour to the foreground
+  // colour. Without contrast, the share is the one that the map implies. `own` is the share of the
+  // pixel's own colour in the background colour, as a fraction of kWhole.
+  Unmixed Unmix(const CellPixel& pixel, int32_t own) const {
+    int32_t far[3], near[3];
+    ColourAt(memory_.far, pixel.x, pixel.y, far);
+    ColourAt(memory_.near, pixel.x, pixel.y, near);
+    for (int c = 0; c < 3; ++c) {
+      far[c] = (own * pixel.rgb[c] + (kWhole - own) * far[c] + kWhole / 2) / kWhole;
+    }
+    const int32_t given = pixel.is_near ? kWhole : 0;
+    const int32_t beside = SquaredDifference(far, pixel.rgb);
+    const int32_t contrast = SquaredDifference(far, near);
+    const int32_t known = Clamp(contrast - kLeastContrast, 0, kLeastContrast);
+    if (known == 0) return {given, beside, contrast};
+    // By the law of cosines, the position is (beside + contrast - distance to `near`) / 2 contrast.
+    const int32_t twice = beside + contrast - SquaredDifference(near, pixel.rgb);
+    const int32_t share = Clamp(twice, 0, 2 * contrast) * (kWhole / 2) / contrast;
+    return {given + (share - given) * known / kLeastContrast, beside, contrast};
+  }
+
+  // Counts the pixels of an inside cell.
+  void CountInside(int32_t column, int32_t row, HairVotes* votes) const {
+    int32_t count = 0, sum = 0, squares = 0;
+    ForCell(column, row, [&](const CellPixel& pixel) {
+      if (!IsSample(pixel)) return;
+      const Unmixed unmixed = Unmix(pixel, 0);
+      ++count;
+      sum += unmixed.share;
+      squares += unmixed.share * unmixed.share;
+      const bool clear = unmixed.contrast > kClearContrast;
+      votes->far += clear && 9 * unmixed.beside < unmixed.contrast ? 1 : 0;
+      votes->same += unmixed.beside < kSame ? 1 : 0;
+    });
+    votes->inside += count;
+    votes->sum += sum;
+    votes->squares += squares;
+    votes->fine += squares - sum * sum / Max(count, 1);
+  }
+
+  // Calls act(votes, weight) for the blocks that are at most `reach` blocks away. The weight
+  // decreases with the distance, from (reach + 1)^2 to 1.
+  template <class Act>
+  void ForBlocksAround(int32_t column, int32_t row, int32_t reach, const Act& act) const {
+    ForPixels(Clipped(Around(column, row, reach), memory_.block_columns, memory_.block_rows),
+              [&](int32_t x, int32_t y) {
+                act(memory_.VotesAt(x, y),
+                    (reach + 1 - Abs(x - column)) * (reach + 1 - Abs(y - row)));
+              });
+  }
+
+  // Decides to what degree the colours in and around a block are those of hair, 0 to 256. They are
+  // if three shares are large: the share of pixels that look like background; the share of pixels
+  // that have nearly its colour, which surfaces that happen to resemble the background rarely have;
+  // and the part of the variance of the coverage that lies within cells, because shading varies
+  // slowly. They are not if pixels outside look like foreground: the foreground colour is then one
+  // of a pattern of the background, which the map covers by mistake. All limits lie between the
+  // values of scenes with hair and those of scenes and photographs without (docs/lab-notebook.md).
+  int32_t FindHair(int32_t column, int32_t row) const {
+    // 2048 votes against hair decide where there are few pixels.
+    int64_t inside = 2048, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;
+    ForBlocksAround(column, row, 3, [&](const HairVotes& votes, int32_t weight) {
+      const int64_t sum = votes.sum;
+      inside += weight * votes.inside;
+      far += weight * votes.far;
+      same += weight * votes.same;
+      if (votes.inside > 0) coarse += weight * (votes.squares - sum * sum / votes.inside);
+      fine += weight * votes.fine;
+      outside += weight * votes.outside;
+      beyond += weight * votes.beyond;
+    });
+    // Product of both shares of colours, in units of 1/16384.
+    const int64_t colours = (far << 14) / inside * same / inside;
+    // Strands as wide as a cell are less fine, but many pixels between them have equal colours.
+    const int64_t fineness = 1024 * fine / coarse + std::min<int64_t>(colours / 16, 120);
+    const int32_t like = Fade(colours, 50, 70) * Fade(fineness, 652, 678) / 256;
+    return like * (256 - Fade(1024 * beyond / (kWhole * outside), 36, 48)) / 256;
+  }
+
+  const Plane<const uint8_t> rgb_;
+  const Plane<const int16_t> disparity_;
+  const Plane<uint8_t> coverage_;
+  const HairMemory& memory_;
+};
 
 }  // namespace
 
 ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena) {
   ColourPyramid pyramid = {};
-  int32_t columns = (width + kHairCell - 1) / kHairCell;
-  int32_t rows = (height + kHairCell - 1) / kHairCell;
-  for (bool is_last = false; !is_last; ++pyramid.count) {
-    auto* means = arena->Take<ColourMean>(static_cast<size_t>(columns), static_cast<size_t>(rows));
-    pyramid.levels[pyramid.count] = {columns, rows, means};
-    is_last = columns == 1 && rows == 1;
-    columns = (columns + 1) / 2;
-    rows = (rows + 1) / 2;
+  pyramid.columns = (width + kHairCell - 1) / kHairCell;
+  pyramid.rows = (height + kHairCell - 1) / kHairCell;
+  int32_t cells = 0;
+  for (int32_t k = 0; cells != 1; pyramid.count = ++k) {
+    cells = pyramid.Columns(k) * pyramid.Rows(k);
+    pyramid.levels[k] = arena->Take<ColourMean>(static_cast<size_t>(cells));
   }
   return pyramid;
 }
 
 bool CarryOnColours(const ColourPyramid& pyramid) {
   const int32_t last = pyramid.count - 1;
-  for (int32_t k = 0; k < last; ++k) {
-    const ColourLevel &from = pyramid.levels[k], &to = pyramid.levels[k + 1];
-    for (int32_t n = 0; n < to.columns * to.rows; ++n) {
-      const int32_t x = n % to.columns * 2, y = n / to.columns * 2;
-      ColourSum sum;
-      for (int32_t row = y; row < Min(y + 2, from.rows); ++row) {
-        for (int32_t column = x; column < Min(x + 2, from.columns); ++column) {
-          const ColourMean& mean = from.At(column, row);
-          sum.Add(mean.rgb, ColourSum::kUnit * mean.weight);
-        }
-      }
-      to.means[n] = sum.Mean();
-    }
+  for (int32_t k = 1; k <= last; ++k) {
+    const int32_t columns = pyramid.Columns(k - 1), rows = pyramid.Rows(k - 1);
+    ForPixels({0, 0, pyramid.Columns(k), pyramid.Rows(k)}, [&](int32_t x, int32_t y) {
+      ColourSum<int64_t> sum;
+      ForPixels(Clipped({2 * x, 2 * y, 2, 2}, columns, rows), [&](int32_t column, int32_t row) {
+        const ColourMean& mean = pyramid.At(k - 1, column, row);
+        sum.Add(mean.rgb, kUnit * mean.weight);
+      });
+      pyramid.At(k, x, y) = MeanOf(sum);
+    });
   }
   for (int32_t k = last - 1; k >= 0; --k) {
-    const ColourLevel &level = pyramid.levels[k], &above = pyramid.levels[k + 1];
-    for (int32_t y = 0; y < level.rows; ++y) {
-      for (int32_t x = 0; x < level.columns; ++x) {
-        ColourMean& cell = level.At(x, y);
-        const int32_t known = cell.weight;
-        int32_t around[3];
-        ColourOfLevel<2>(above, x, y, around);
-        for (int c = 0; c < 3; ++c) {
-          const int32_t mixed = known * cell.rgb[c] + (kFullyKnown - known) * around[c];
-          cell.rgb[c] = static_cast<uint16_t>((mixed + kFullyKnown / 2) >> kKnownBits);
-        }
+    ForPixels({0, 0, pyramid.Columns(k), pyramid.Rows(k)}, [&](int32_t x, int32_t y) {
+      ColourMean& cell = pyramid.At(k, x, y);
+      const int32_t known = cell.weight;
+      int32_t around[3];
+      ColourOfLevel<2>(pyramid, k + 1, x, y, around);
+      for (int c = 0; c < 3; ++c) {
+        const int32_t mixed = known * cell.rgb[c] + (kFullyKnown - known) * around[c];
+        cell.rgb[c] = static_cast<uint16_t>((mixed + kFullyKnown / 2) >> kKnownBits);
       }
-    }
+    });
   }
-  return pyramid.levels[last].At(0, 0).weight != 0;
+  return pyramid.At(last, 0, 0).weight != 0;
 }
 
 void ColourAt(const ColourPyramid& pyramid, int32_t x, int32_t y, int32_t* rgb) {
-  ColourOfLevel<kHairCell>(pyramid.levels[0], x, y, rgb);
+  ColourOfLevel<kHairCell>(pyramid, 0, x, y, rgb);
 }
 
 HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena) {
   const auto divided = [](int32_t size, int32_t by) { return (size + by - 1) / by; };
   HairMemory memory = {};
+  memory.width = width;
+  memory.height = height;
   memory.columns = divided(width, kHairCell);
   memory.rows = divided(height, kHairCell);
   memory.block_columns = divided(memory.columns, kHairBlock);
@@ -514,35 +467,35 @@ HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena) {
     *range = arena->Take<int16_t>(cells);
   }
   memory.hair = arena->Take<uint8_t>(cells);
+  memory.far = TakeColourPyramid(width, height, arena);
+  memory.near = TakeColourPyramid(width, height, arena);
+  memory.votes =
+      arena->Take<HairVotes>(static_cast<size_t>(memory.block_columns * memory.block_rows));
   return memory;
 }
 
-void TakeHairColours(int32_t width, int32_t height, Arena* arena, HairMemory* memory) {
-  memory->far = TakeColourPyramid(width, height, arena);
-  memory->near = TakeColourPyramid(width, height, arena);
-  memory->votes = arena->Take<HairVotes>(memory->BlockAt(0, memory->block_rows));
-}
-
-bool FindHairCoverage(const HairPicture& picture, const HairMemory& memory, Sequence* run) {
-  const Search search = {picture, memory};
+bool FindHairCoverage(const Plane<const uint8_t>& rgb, const Plane<const int16_t>& disparity,
+                      const Plane<uint8_t>& coverage, const HairMemory& memory, Sequence* run) {
+  const HairSearch search(rgb, disparity, coverage, memory);
   bool found = true;
   // Runs a phase of the search. When the phase has finished all cells, `conclude` processes the
   // results for the whole picture. The search ends if `conclude` returns false.
-  const auto phase = [&](void (*work)(const Search&, const Range&), const auto& conclude) {
+  const auto phase = [&](void (HairSearch::*work)(const Range&) const, const auto& conclude) {
     if (!found) return run->Skip();
     run->Run([&](int32_t index, int32_t) {
-      work(search, PartOf({0, search.memory.block_rows}, index, run->count()));
+      (search.*work)(PartOf({0, memory.block_rows}, index, run->count()));
     });
     found = run->status() == STARFOCUS_OK && conclude();
   };
   const auto always = [] { return true; };
-  phase(MeasureCells, [&] { return JoinCells(memory); });
-  phase(PullFar, [&] { return CarryOnColours(memory.far); });
-  phase(PullNear, [&] { return CarryOnColours(memory.near); });
-  phase(CountVotes, [&] { return FillHair(search); });
-  phase(UnmixCells<false>, always);
-  phase(PullBoth, [&] { return CarryOnColours(memory.far) && CarryOnColours(memory.near); });
-  phase(UnmixCells<true>, always);
+  phase(&HairSearch::MeasureCells, [&] { return search.JoinCells(); });
+  phase(&HairSearch::PullFar, [&] { return CarryOnColours(memory.far); });
+  phase(&HairSearch::PullNear, [&] { return CarryOnColours(memory.near); });
+  phase(&HairSearch::CountVotes, [&] { return search.FillHair(); });
+  phase(&HairSearch::UnmixCells<false>, always);
+  phase(&HairSearch::PullBoth,
+        [&] { return CarryOnColours(memory.far) && CarryOnColours(memory.near); });
+  phase(&HairSearch::UnmixCells<true>, always);
   return found;
 }
 

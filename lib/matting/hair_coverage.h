@@ -31,50 +31,51 @@ struct ColourMean {
   uint16_t weight;  // Weight of the mean, [0, kFullyKnown].
 };
 
-struct ColourLevel {
-  int32_t columns, rows;
-  ColourMean* means;
-
-  ColourMean& At(int32_t x, int32_t y) const {
-    return means[static_cast<size_t>(y) * static_cast<size_t>(columns) + static_cast<size_t>(x)];
-  }
-};
-
 // Extends the colours of a surface from pixels that show the surface to pixels that do not (the
-// pull-push algorithm). levels[0] contains the cells of the picture. Each cell of a higher level
+// pull-push algorithm). Level 0 contains the cells of the picture. Each cell of a higher level
 // contains the weighted mean of 2x2 cells of the level below, and the last level a single cell.
 struct ColourPyramid {
   static constexpr int kMostLevels = 16;
-  int32_t count;
-  ColourLevel levels[kMostLevels];
+  int32_t columns, rows, count;  // cells of level 0; number of levels
+  ColourMean* levels[kMostLevels];
+
+  int32_t Columns(int level) const { return ((columns - 1) >> level) + 1; }
+  int32_t Rows(int level) const { return ((rows - 1) >> level) + 1; }
+  ColourMean& At(int level, int32_t x, int32_t y) const {
+    return levels[level][ptrdiff_t{y} * Columns(level) + x];
+  }
 };
+// Takes the pyramid of a picture of width x height pixels.
 ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena);
 
-// Pulls the means of levels[0] up to the single cell and pushes the means down again, which fills
-// in cells of low weight. Returns false if all weights are 0.
+// Pulls the means of level 0 up to the single cell and pushes the means down again, which fills in
+// cells of low weight. Returns false if all weights are 0.
 bool CarryOnColours(const ColourPyramid& pyramid);
 
-// Interpolates the colour of pixel (x, y) bilinearly from levels[0], in fixed point (kMeanBits).
+// Interpolates the colour of pixel (x, y) bilinearly from level 0, in fixed point (kMeanBits).
 void ColourAt(const ColourPyramid& pyramid, int32_t x, int32_t y, int32_t* rgb);
 
-// A picture and its map.
-struct HairPicture {
-  int32_t width, height;
-  Plane<const uint8_t> rgb;        // R, G, B of each pixel
-  Plane<const int16_t> disparity;  // kDisparityBits
-  Plane<uint8_t> coverage;         // output
+// Votes of the pixels of a block in cells inside and outside outlines, where it does not matter if
+// outlines are off by a few pixels.
+struct HairVotes {
+  // Number of pixels of inside cells; of those that differ less from the background colour than a
+  // third of the contrast; of those that have nearly the background colour.
+  int32_t inside, far, same;
+  // Sum of coverage, sum of squares, and sum of squared differences from the mean of the pixel's
+  // cell; the coverage is in units of 1/256.
+  int32_t sum, squares, fine;
+  // Number of pixels of outside cells; sum of their coverage, in units of 1/256.
+  int32_t outside, beyond;
+  // To what degree the colours in and around the block are those of hair, 0 to 256.
+  int32_t found;
 };
 
-// Votes of the pixels of a block on whether the block shows hair.
-struct HairVotes;
-
-// Memory of the search in cells and blocks.
+// Memory of the search in cells and blocks of a picture of width x height pixels.
 struct HairMemory {
-  int32_t columns, rows, block_columns, block_rows;
+  int32_t width, height, columns, rows, block_columns, block_rows;
   int16_t *least, *greatest;  // Range of the disparities of each cell.
   int16_t *low, *high;        // Range of the disparities of all cells at most 10 cells away.
   uint8_t* hair;              // To what degree each cell shows hair, 0 to 255.
-  // FindHairCoverage alone uses the following.
   ColourPyramid far, near;
   HairVotes* votes;  // One element for each block.
 
@@ -84,10 +85,9 @@ struct HairMemory {
   size_t At(int32_t column, int32_t row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
   }
-  size_t BlockAt(int32_t column, int32_t row) const {
-    return static_cast<size_t>(row * block_columns + column);
+  HairVotes& VotesAt(int32_t column, int32_t row) const {
+    return votes[row * block_columns + column];
   }
-  HairVotes& VotesAt(int32_t column, int32_t row) const;
   // Returns true if there are two surfaces within 10 cells.
   bool HasEdge(size_t cell) const { return high[cell] - low[cell] > kEdgeStep; }
   // Returns true if the disparity belongs to the nearer of the two surfaces around a cell.
@@ -95,18 +95,15 @@ struct HairMemory {
     return HasEdge(cell) && 2 * disparity > low[cell] + high[cell];
   }
 };
-
-// Takes the memory of a search in a picture of width x height pixels. TakeHairColours takes the
-// part that FindHairCoverage alone uses.
 HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena);
-void TakeHairColours(int32_t width, int32_t height, Arena* arena, HairMemory* memory);
 
 // Number of phases that FindHairCoverage runs or skips.
 inline constexpr int32_t kHairPhases = 7;
 
-// Finds the cells with hair and writes the coverage of their pixels. Returns true if any cell has
-// hair, and false after an error.
-bool FindHairCoverage(const HairPicture& picture, const HairMemory& memory, Sequence* run);
+// Finds the cells with hair from the R, G and B of each pixel and the map (kDisparityBits), and
+// writes the coverage of their pixels. Returns true if any cell has hair, and false after an error.
+bool FindHairCoverage(const Plane<const uint8_t>& rgb, const Plane<const int16_t>& disparity,
+                      const Plane<uint8_t>& coverage, const HairMemory& memory, Sequence* run);
 
 // Returns true if any cell that overlaps the rectangle has hair.
 bool HasHair(const HairMemory& memory, const Rect& rect);

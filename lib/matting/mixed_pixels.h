@@ -11,6 +11,7 @@
 #include "lib/base/fixed.h"
 #include "lib/io/block_pixels.h"
 #include "lib/io/input.h"
+#include "lib/matting/colour.h"
 #include "lib/matting/coverage.h"
 #include "lib/matting/rims.h"
 #include "lib/optics/view_grid.h"
@@ -21,38 +22,6 @@ namespace starfocus {
 // Width in pixels of the border around a field that is read to separate the field's boundary
 // pixels.
 inline constexpr int32_t kMixedPixelBorder = 1;
-
-// Linear light of the samples R, G and B of a pixel.
-struct Colour {
-  int16_t rgb[3];
-
-  int32_t operator[](int c) const { return rgb[c]; }
-};
-
-// Position of a mixed colour relative to the line from the far to the near colour: the product of
-// near - far and mixed - far, and the squares of near - far (contrast) and of mixed - far. Colours
-// are in units of white / 255.
-struct ColourLine {
-  int64_t along = 0, contrast = 0, distance = 0;
-};
-
-// Compares colours with kBits fractional bits. Halves are rounded away from 0, so that inverted
-// colours have the same result.
-template <int kBits, class Rgb>
-ColourLine ColourLineOf(const Rgb& near, const Rgb& far, const Rgb& mixed) {
-  const auto difference = [](int32_t a, int32_t b) {
-    const int64_t size = RoundShift(Abs(a - b), kLightBits - kBits);
-    return a < b ? -size : size;
-  };
-  ColourLine line;
-  for (int c = 0; c < 3; ++c) {
-    const int64_t whole = difference(near[c], far[c]), part = difference(mixed[c], far[c]);
-    line.along += part * whole;
-    line.contrast += whole * whole;
-    line.distance += part * part;
-  }
-  return line;
-}
 
 // Reads the centre view of a picture, or, with a field, of the field's layer. At layer 0, light is
 // copied from the field if possible, because reading the picture is slower. Pixels outside the

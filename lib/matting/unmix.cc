@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstring>
 
+#include "lib/matting/colour.h"
 #include "lib/matting/coverage_tile.h"
-#include "lib/matting/mixed_pixels.h"
 
 namespace starfocus {
 namespace {

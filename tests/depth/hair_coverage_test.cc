@@ -45,7 +45,8 @@ Found Repair(const Portrait& portrait, bool covers = true) {
   starfocus_disparity_output map = {
       found.map.data(), row, found.confidence.data(), width, nullptr, width, -1};
   if (covers) map.coverage = found.coverage.data();
-  found.status = starfocus_repair_disparity(&config, nullptr, &field, &map, memory.data, bytes, nullptr);
+  found.status =
+      starfocus_repair_disparity(&config, nullptr, &field, &map, memory.data, bytes, nullptr);
   found.has_coverage = map.has_coverage;
   return found;
 }
@@ -180,8 +181,8 @@ struct PyramidOf {
   PyramidOf(int width, int height) : memory(SizeOf(width, height)) {
     starfocus::Arena arena(memory.data);
     pyramid = starfocus::TakeColourPyramid(width, height, &arena);
-    for (int y = 0; y < pyramid.levels[0].rows; ++y) {
-      for (int x = 0; x < pyramid.levels[0].columns; ++x) pyramid.levels[0].At(x, y) = {};
+    for (int y = 0; y < pyramid.rows; ++y) {
+      for (int x = 0; x < pyramid.columns; ++x) pyramid.At(0, x, y) = {};
     }
   }
   static size_t SizeOf(int width, int height) {
@@ -199,19 +200,19 @@ TEST_CASE("colour pyramid: known colours stay, and unknown colours are interpola
   const starfocus::ColourPyramid& pyramid = made.pyramid;
   CHECK_FALSE(starfocus::CarryOnColours(pyramid));
   const starfocus::ColourMean left = {{64, 640, 6400}, 256}, right = {{6400, 640, 64}, 256};
-  for (int y = 0; y < pyramid.levels[0].rows; ++y) {
-    pyramid.levels[0].At(0, y) = left;
-    pyramid.levels[0].At(25, y) = right;
+  for (int y = 0; y < pyramid.rows; ++y) {
+    pyramid.At(0, 0, y) = left;
+    pyramid.At(0, 25, y) = right;
   }
   REQUIRE(starfocus::CarryOnColours(pyramid));
-  for (int y = 0; y < pyramid.levels[0].rows; ++y) {
+  for (int y = 0; y < pyramid.rows; ++y) {
     for (int x = 0; x <= 25; ++x) {
-      const starfocus::ColourMean& mean = pyramid.levels[0].At(x, y);
+      const starfocus::ColourMean& mean = pyramid.At(0, x, y);
       if (x == 0) CHECK(mean.rgb[0] == 64);
       if (x == 25) CHECK(mean.rgb[0] == 6400);
       CHECK(std::abs(mean.rgb[1] - 640) <= 2);
       CHECK(std::abs(mean.rgb[0] + mean.rgb[2] - 6464) <= 4);
-      if (x > 0) CHECK(mean.rgb[0] >= pyramid.levels[0].At(x - 1, y).rgb[0]);
+      if (x > 0) CHECK(mean.rgb[0] >= pyramid.At(0, x - 1, y).rgb[0]);
     }
   }
 }
@@ -220,8 +221,8 @@ TEST_CASE("colour pyramid: interpolation of a linear gradient is exact") {
   PyramidOf made(40, 40);
   for (int y = 0; y < 10; ++y) {
     for (int x = 0; x < 10; ++x) {
-      made.pyramid.levels[0].At(x, y) = {{uint16_t(800 * x), uint16_t(800 * y), 16320},
-                                         starfocus::kFullyKnown};
+      made.pyramid.At(0, x, y) = {{uint16_t(800 * x), uint16_t(800 * y), 16320},
+                                  starfocus::kFullyKnown};
     }
   }
   for (int y = 28; y < 32; ++y) {
