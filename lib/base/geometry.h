@@ -50,6 +50,17 @@ void ForPixels(const Rect& rect, const Act& act) {
   }
 }
 
+// Returns true if test(x, y) is true for a pixel of a rectangle.
+template <class Test>
+bool AnyPixel(const Rect& rect, const Test& test) {
+  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
+    for (int32_t x = rect.x; x < rect.x + rect.width; ++x) {
+      if (test(x, y)) return true;
+    }
+  }
+  return false;
+}
+
 // Rows, columns or other indices in [first, last).
 struct Range {
   int32_t first, last;

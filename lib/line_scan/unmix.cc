@@ -36,7 +36,7 @@ class Unmixer {
       const int32_t strength = StrengthOf(Radius(near), Radius(disparity));
       if (strength <= 0) continue;
       const Mixture mixture =
-          FindMixture(centre_, {x, y, side, disparity, near, kSurfaceStep}, kPaperContrastFade);
+          FindMixture(centre_, x, y, side, disparity, near, kSurfaceStep, kPaperContrastFade);
       const int64_t weight = int64_t{mixture.share} * AmountOf(mixture.share, strength);
       for (int c = 0; c < 3; ++c) sums[c] += weight * (mixture.far[c] - mixed[c]);
       shares += mixture.share;

@@ -130,12 +130,8 @@ struct CoverageMap {
   }
   // Returns true if `mark` is set in any tile within `reach` tiles of the tile at (column, row).
   bool AnyAround(int32_t column, int32_t row, int32_t reach, uint8_t CoverageTile::*mark) const {
-    for (int32_t y = row - reach; y <= row + reach; ++y) {
-      for (int32_t x = column - reach; x <= column + reach; ++x) {
-        if (HasTile(x, y) && Tile(x, y).*mark != 0) return true;
-      }
-    }
-    return false;
+    return AnyPixel(Clipped(Around(column, row, reach), columns, Rows()),
+                    [&](int32_t x, int32_t y) { return Tile(x, y).*mark != 0; });
   }
   // Returns true if the passes process the tile at (column, row).
   bool IsStarted(int32_t column, int32_t row) const {

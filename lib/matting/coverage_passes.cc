@@ -38,9 +38,7 @@ int32_t TilesAhead(const FullConfig& config, int pass) {
   }
 }
 
-int32_t TilesOfSuperblock(const FullConfig& config) {
-  return config.superblock / kCoverageTile;
-}
+int32_t TilesOfSuperblock(const FullConfig& config) { return config.superblock / kCoverageTile; }
 
 // Largest number of rows of tiles that must stay in memory, from the pass that writes a row to the
 // last pass that reads the row.

@@ -308,18 +308,13 @@ class HairSearch {
   // Returns true if a cell within `reach` of cell (column, row) has pixels of the nearer surface of
   // an edge or, if `near` is false, of the farther surface.
   bool HasWithin(int32_t column, int32_t row, int32_t reach, bool near) const {
-    const Rect around = Clipped(Around(column, row, reach), memory_.columns, memory_.rows);
-    for (int32_t y = around.y; y < around.y + around.height; ++y) {
-      for (int32_t x = around.x; x < around.x + around.width; ++x) {
-        const size_t at = memory_.At(x, y);
-        if (!memory_.HasEdge(at)) continue;
-        if (near ? memory_.IsNear(at, memory_.greatest[at])
-                 : !memory_.IsNear(at, memory_.least[at])) {
-          return true;
-        }
-      }
-    }
-    return false;
+    return AnyPixel(Clipped(Around(column, row, reach), memory_.columns, memory_.rows),
+                    [&](int32_t x, int32_t y) {
+                      const size_t at = memory_.At(x, y);
+                      if (!memory_.HasEdge(at)) return false;
+                      return near ? memory_.IsNear(at, memory_.greatest[at])
+                                  : !memory_.IsNear(at, memory_.least[at]);
+                    });
   }
 
   // Finds the position of a pixel's colour on the line from the background colour to the foreground
@@ -500,12 +495,11 @@ bool FindHairCoverage(const Plane<const uint8_t>& rgb, const Plane<const int16_t
 }
 
 bool HasHair(const HairMemory& memory, const Rect& rect) {
-  for (int32_t y = rect.y / kHairCell; y <= (rect.y + rect.height - 1) / kHairCell; ++y) {
-    for (int32_t x = rect.x / kHairCell; x <= (rect.x + rect.width - 1) / kHairCell; ++x) {
-      if (memory.hair[memory.At(x, y)] >= kHairy) return true;
-    }
-  }
-  return false;
+  const int32_t left = rect.x / kHairCell, top = rect.y / kHairCell;
+  const int32_t right = (rect.x + rect.width - 1) / kHairCell;
+  const int32_t bottom = (rect.y + rect.height - 1) / kHairCell;
+  return AnyPixel({left, top, right - left + 1, bottom - top + 1},
+                  [&](int32_t x, int32_t y) { return memory.hair[memory.At(x, y)] >= kHairy; });
 }
 
 void CompleteCoverage(const HairMemory& memory, const Range& columns, int32_t y,

@@ -22,74 +22,28 @@ constexpr int kPureParts = 16;
 
 int64_t Limited(int64_t fade) { return fade < 0 ? 0 : fade > kShareOne ? kShareOne : fade; }
 
-// How a pixel is divided: the share of the nearer surface, and the weight with which the far colour
-// that was read replaces the colour of the pixel. Both have kShareBits.
-struct Division {
-  int32_t share = 0, weight = 0;
-};
-
-// Divides a pixel by the position of its colour relative to the line from `far` to `near`.
-//
-// Noise must not decide whether a pixel is split. At each limit, the share and the weight therefore
-// fade to 0 instead of stopping abruptly: from a contrast of kLeastContrast plus `contrast_fade`
-// down to kLeastContrast, for shares from 13/20 to 19/20, and from 1/4 to 3/2 of the tolerated
-// squared distance from the line. The far surface covers the centre of the pixel, so a larger share
-// means that `far` is wrong. For shares below 1 / kPureParts, the weight also falls to 0, because
-// the far colour differs from the colour of the pixel by the distance from the line.
-Division DivisionOf(const BoundaryColours& colours, int32_t contrast_fade) {
-  const ColourLine line = ColourLineOf<kColourBits>(colours.near, colours.far, colours.mixed);
-  const int64_t along = line.along, contrast = line.contrast;
-  if (contrast <= kLeastContrast || along <= 0 || 20 * along >= 19 * contrast) return {};
-  // The distance from the line and its limit are multiplied by `contrast`.
-  const int64_t beside = kContrastParts * (line.distance * contrast - along * along);
-  const int64_t limit = contrast * (kContrastParts * kNoise + contrast);
-  if (2 * (beside >> kShareBits) >= 3 * (limit >> kShareBits)) return {};
-  const int64_t share = along * kShareOne / contrast;
-  const int64_t clear =
-      Limited((contrast - kLeastContrast) * kShareOne / (contrast_fade * kSquareOne));
-  const int64_t inside = Limited((6 * kShareOne - 4 * (beside / (limit >> kShareBits))) / 5);
-  const int64_t most = Limited((19 * kShareOne - 20 * share) / 6);
-  const int64_t fade = (clear * inside >> kShareBits) * most >> kShareBits;
-  return {static_cast<int32_t>(share * fade >> kShareBits),
-          static_cast<int32_t>(Limited(kPureParts * share) * fade >> kShareBits)};
-}
-
 // Reads the colours of a boundary pixel and of the two surfaces beside the edge. The captured view
 // on the side away from the nearer surface shows the far surface, because the nearer surface is
 // shifted away from the pixel. Without such a view, the far colour is the colour of the next pixel
 // away from the nearer surface, or, if that pixel is on another surface, the mixed colour, which
 // gives a share of 0.
-BoundaryColours ReadColours(const CentreView& centre, const BoundaryPixel& pixel) {
-  const int32_t x = pixel.x, y = pixel.y;
-  const int dx = kSides[pixel.side][0], dy = kSides[pixel.side][1];
-  const int32_t beyond = centre.Disparity(x + 2 * dx, y + 2 * dy);
-  const int pure = Abs(beyond - pixel.near) <= pixel.step ? 2 : 1;
+BoundaryColours ReadColours(const CentreView& centre, int32_t x, int32_t y, int side,
+                            int32_t disparity, int32_t near, int32_t step) {
+  const int dx = kSides[side][0], dy = kSides[side][1];
+  const int pure = Abs(centre.Disparity(x + 2 * dx, y + 2 * dy) - near) <= step ? 2 : 1;
   BoundaryColours colours;
   colours.mixed = colours.far = centre.ColourAt(x, y);
   colours.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  const OcclusionView& look = centre.input().occlusion_views.Last(pixel.side ^ 1);
+  const OcclusionView& look = centre.input().occlusion_views.Last(side ^ 1);
   if (look.view != 0) {
     const int bits = kViewBits + kDisparityBits - kShiftBits + centre.layer();
-    const CapturedLine line = {x * kShiftOne - ScaledByView(look.at.u, pixel.disparity, bits),
-                               y * kShiftOne - ScaledByView(look.at.v, pixel.disparity, bits), 1,
-                               0};
+    const CapturedLine line = {x * kShiftOne - ScaledByView(look.at.u, disparity, bits),
+                               y * kShiftOne - ScaledByView(look.at.v, disparity, bits), 1, 0};
     ReadCaptured(centre.input(), centre.layer(), look.view, line, 1, colours.far.rgb);
-  } else if (Abs(centre.Disparity(x - dx, y - dy) - pixel.disparity) <= pixel.step) {
+  } else if (Abs(centre.Disparity(x - dx, y - dy) - disparity) <= step) {
     colours.far = centre.ColourAt(x - dx, y - dy);
   }
   return colours;
-}
-
-// Returns a mixture whose far colour changes from the colour of the pixel to the far colour that
-// was read as the weight increases.
-Mixture MixtureOf(const Division& division, const BoundaryColours& colours) {
-  Mixture mixture = {division.share, colours.near, colours.mixed};
-  for (int c = 0; c < 3; ++c) {
-    const int32_t change = colours.far[c] - colours.mixed[c];
-    mixture.far.rgb[c] = static_cast<int16_t>(
-        colours.mixed[c] + RoundShift(int64_t{division.weight} * change, kShareBits));
-  }
-  return mixture;
 }
 
 // A mixture is split only if its two surfaces move by more than kLeastMove relative to each other
@@ -97,37 +51,33 @@ Mixture MixtureOf(const Division& division, const BoundaryColours& colours) {
 // limit of two pixels lost 0.2 dB (docs/constants.md).
 constexpr int32_t kLeastMove = kShiftOne;
 
-// Sums of a boundary pixel's mixtures with the nearer surfaces on all sides, each mixture weighted
-// by its share.
-struct MixtureSum {
-  int32_t shares = 0, most = 0, nearest = INT16_MIN;
-  int32_t near[3] = {0, 0, 0}, far[3] = {0, 0, 0};
-
-  void Add(const Mixture& mixture) {
-    if (mixture.share == 0) return;
-    shares += mixture.share;
-    most = Max(most, mixture.share);
-    for (int c = 0; c < 3; ++c) {
-      near[c] += mixture.share * mixture.near[c];
-      far[c] += mixture.share * mixture.far[c];
-    }
+Colour MeanOf(const ColourSum<int32_t>& sum) {
+  Colour mean;
+  for (int c = 0; c < 3; ++c) {
+    mean.rgb[c] = static_cast<int16_t>(Checked(ranges::kUnmixed, sum.Mean(c)));
   }
-  Colour Mean(const int32_t (&sums)[3]) const {
-    Colour mean;
-    for (int c = 0; c < 3; ++c) {
-      mean.rgb[c] =
-          static_cast<int16_t>(Checked(ranges::kUnmixed, (sums[c] + shares / 2) / shares));
-    }
-    return mean;
-  }
-};
+  return mean;
+}
 
 // Returns the light of the surface that covers the rest of a mixture, if `surface` covers `part` of
 // the mixture.
 int16_t RestOf(int32_t mixed, int32_t surface, int32_t part) {
   const int32_t rest = kWhole - part;
-  const int32_t light = (mixed * kWhole - part * surface + rest / 2) / rest;
-  return static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
+  return LimitedLight((mixed * kWhole - part * surface + rest / 2) / rest);
+}
+
+// Widens a range of colours so that it contains a colour.
+void Widen(const int16_t* rgb, int32_t* low, int32_t* high) {
+  for (int c = 0; c < 3; ++c) {
+    low[c] = Min(low[c], rgb[c]);
+    high[c] = Max(high[c], rgb[c]);
+  }
+}
+
+void LimitTo(const int32_t* low, const int32_t* high, Colour* colour) {
+  for (int c = 0; c < 3; ++c) {
+    colour->rgb[c] = static_cast<int16_t>(Clamp(colour->rgb[c], low[c], high[c]));
+  }
 }
 
 // Returns the smallest share of a near surface whose light is neither negative nor brighter than
@@ -142,61 +92,6 @@ int32_t LeastShare(const Colour& mixed, const Colour& far) {
   return least;
 }
 
-// Returns true if a pixel of the field has a far surface that is not hidden.
-bool IsPartial(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y) {
-  const bool in_field = x >= Max(0, field.x) && x < Min(field.x + field.width, map.width) &&
-                        y >= Max(0, field.y) && y < Min(field.y + field.height, map.height);
-  return in_field && map.Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
-         map.alpha[map.At(x, y)] < kLeastWhole;
-}
-
-// Limits a colour of the far surface at pixel (x, y) to the range of the far colour of the map and
-// of pixels around that the near surface does not cover.
-void LimitToFar(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y,
-                Colour* far) {
-  constexpr int32_t kAround = 6;
-  Colour low, high;
-  std::memcpy(low.rgb, map.FarAt(x, y).rgb, sizeof(low.rgb));
-  high = low;
-  for (int32_t row = y - kAround; row <= y + kAround; ++row) {
-    for (int32_t column = x - kAround; column <= x + kAround; ++column) {
-      if (!IsPartial(map, field, column, row) || map.alpha[map.At(column, row)] != 0) continue;
-      const int16_t* const rgb = field.Rgb(column - field.x, row - field.y);
-      for (int c = 0; c < 3; ++c) {
-        low.rgb[c] = static_cast<int16_t>(Min(low[c], rgb[c]));
-        high.rgb[c] = static_cast<int16_t>(Max(high[c], rgb[c]));
-      }
-    }
-  }
-  for (int c = 0; c < 3; ++c) {
-    far->rgb[c] = static_cast<int16_t>(Clamp(far->rgb[c], low[c], high[c]));
-  }
-}
-
-// Returns true if a pixel lies inside its near surface, so that slices on both sides of a step
-// within the surface must overlap. Otherwise, the far surface would show between the slices. With
-// given coverage, the near surface must cover the pixel and its eight neighbours.
-bool IsInside(const CoverageMap& map, const BlockPixels& field, int32_t x, int32_t y) {
-  for (int32_t row = y - 1; row <= y + 1; ++row) {
-    for (int32_t column = x - 1; column <= x + 1; ++column) {
-      if (IsPartial(map, field, column, row)) return false;
-    }
-  }
-  return true;
-}
-
-// Returns true if a pixel and its eight neighbours belong to one surface of the disparity map.
-bool IsOneSurface(const CentreView& centre, int32_t x, int32_t y) {
-  const int32_t here = centre.Disparity(x, y);
-  for (int32_t dy = -1; dy <= 1; ++dy) {
-    for (int32_t dx = -1; dx <= 1; ++dx) {
-      const int32_t most = (Abs(dx) + Abs(dy)) * kDepthEdge;
-      if (Abs(centre.Disparity(x + dx, y + dy) - here) > most) return false;
-    }
-  }
-  return true;
-}
-
 // Returns true if the disparity map shows the near surface at a split pixel.
 bool ShowsNear(const Input& input, const FarCell& far, int32_t x, int32_t y) {
   return input.disparity.Row(y)[x] > far.disparity;
@@ -207,20 +102,50 @@ bool ShowsNear(const Input& input, const FarCell& far, int32_t x, int32_t y) {
 CentreView::CentreView(const Input& input, const BlockPixels* field)
     : input_(input), field_(field), layer_(field != nullptr ? field->layer : 0) {
   if (field == nullptr) return;
-  const int32_t left = Max(field->x, 0), top = Max(field->y, 0);
-  copied_ = {left, top, Min(field->x + field->width, input.width) - left,
-             Min(field->y + field->height, input.height) - top};
+  copied_ = Clipped({field->x, field->y, field->width, field->height}, input.width, input.height);
 }
 
-Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel, int32_t contrast_fade) {
-  const BoundaryColours colours = ReadColours(centre, pixel);
+Mixture FindMixture(const CentreView& centre, int32_t x, int32_t y, int side, int32_t disparity,
+                    int32_t near, int32_t step, int32_t contrast_fade) {
+  const BoundaryColours shown = ReadColours(centre, x, y, side, disparity, near, step);
   const Input* const captured = centre.input().captured;
-  if (captured == nullptr || centre.layer() > 0) return Unmix(colours, contrast_fade);
-  return MixtureOf(DivisionOf(ReadColours(CentreView(*captured), pixel), contrast_fade), colours);
+  if (captured == nullptr || centre.layer() > 0) return Unmix(shown, contrast_fade, shown);
+  return Unmix(ReadColours(CentreView(*captured), x, y, side, disparity, near, step), contrast_fade,
+               shown);
 }
 
-Mixture Unmix(const BoundaryColours& colours, int32_t contrast_fade) {
-  return MixtureOf(DivisionOf(colours, contrast_fade), colours);
+// A pixel is separated by the position of its colour relative to the line from `far` to `near`.
+//
+// Noise must not decide whether a pixel is split. At each limit, the share and the weight of the
+// far colour, which replaces the colour of the pixel, therefore fade to 0 instead of stopping
+// abruptly: from a contrast of kLeastContrast plus `contrast_fade` down to kLeastContrast, for
+// shares from 13/20 to 19/20, and from 1/4 to 3/2 of the tolerated squared distance from the line.
+// The far surface covers the centre of the pixel, so a larger share means that `far` is wrong. For
+// shares below 1 / kPureParts, the weight also falls to 0, because the far colour differs from the
+// colour of the pixel by the distance from the line.
+Mixture Unmix(const BoundaryColours& light, int32_t contrast_fade, const BoundaryColours& shown) {
+  const ColourLine line = ColourLineOf<kColourBits>(light.near, light.far, light.mixed);
+  const int64_t along = line.along, contrast = line.contrast;
+  Mixture mixture = {0, shown.near, shown.mixed};
+  if (contrast <= kLeastContrast || along <= 0 || 20 * along >= 19 * contrast) return mixture;
+  // The distance from the line and its limit are multiplied by `contrast`.
+  const int64_t beside = kContrastParts * (line.distance * contrast - along * along);
+  const int64_t limit = contrast * (kContrastParts * kNoise + contrast);
+  if (2 * (beside >> kShareBits) >= 3 * (limit >> kShareBits)) return mixture;
+  const int64_t share = along * kShareOne / contrast;
+  const int64_t clear =
+      Limited((contrast - kLeastContrast) * kShareOne / (contrast_fade * kSquareOne));
+  const int64_t inside = Limited((6 * kShareOne - 4 * (beside / (limit >> kShareBits))) / 5);
+  const int64_t most = Limited((19 * kShareOne - 20 * share) / 6);
+  const int64_t fade = (clear * inside >> kShareBits) * most >> kShareBits;
+  const int64_t weight = Limited(kPureParts * share) * fade >> kShareBits;
+  mixture.share = static_cast<int32_t>(share * fade >> kShareBits);
+  for (int c = 0; c < 3; ++c) {
+    const int32_t change = shown.far[c] - shown.mixed[c];
+    mixture.far.rgb[c] =
+        static_cast<int16_t>(shown.mixed[c] + RoundShift(weight * change, kShareBits));
+  }
+  return mixture;
 }
 
 PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field)
@@ -232,37 +157,79 @@ PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const Blo
       step_(static_cast<int16_t>(kDepthEdge << field.layer)),
       rim_(grid.Move(grid.n())) {}
 
+bool PixelSplitter::MoveApart(int32_t near, int32_t far) const {
+  return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;
+}
+
 bool PixelSplitter::IsInMap(int32_t x, int32_t y) const {
   if (map_ == nullptr || map_->Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) return false;
   return !HasGiven(centre_.input()) || map_->alpha[map_->At(x, y)] != kUnsplit;
+}
+
+// Returns true if a pixel of the field has a far surface that is not hidden.
+bool PixelSplitter::IsPartial(int32_t x, int32_t y) const {
+  return Contains(centre_.copied(), x, y) &&
+         map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
+         map_->alpha[map_->At(x, y)] < kLeastWhole;
+}
+
+// Returns true if a pixel lies inside its near surface, so that slices on both sides of a step
+// within the surface must overlap. Otherwise, the far surface would show between the slices. With
+// given coverage, the near surface must cover the pixel and its eight neighbours.
+bool PixelSplitter::IsInside(int32_t x, int32_t y) const {
+  return !AnyPixel(Around(x, y, 1),
+                   [&](int32_t column, int32_t row) { return IsPartial(column, row); });
+}
+
+// Returns true if a pixel and its eight neighbours belong to one surface of the disparity map.
+bool PixelSplitter::IsOneSurface(int32_t x, int32_t y) const {
+  const int32_t here = centre_.Disparity(x, y);
+  return !AnyPixel(Around(x, y, 1), [&](int32_t column, int32_t row) {
+    const int32_t most = (Abs(column - x) + Abs(row - y)) * kDepthEdge;
+    return Abs(centre_.Disparity(column, row) - here) > most;
+  });
+}
+
+// Limits a colour of the far surface at pixel (x, y) to the range of the far colour of the map and
+// of pixels around that the near surface does not cover.
+void PixelSplitter::LimitToFar(int32_t x, int32_t y, Colour* far) const {
+  const FarCell& cell = map_->FarAt(x, y);
+  int32_t low[3] = {cell.rgb[0], cell.rgb[1], cell.rgb[2]}, high[3] = {low[0], low[1], low[2]};
+  ForPixels(Around(x, y, 6), [&](int32_t column, int32_t row) {
+    if (!IsPartial(column, row) || map_->alpha[map_->At(column, row)] != 0) return;
+    Widen(field_.Rgb(column - field_.x, row - field_.y), low, high);
+  });
+  LimitTo(low, high, far);
 }
 
 bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const {
   const int32_t x = field_.x + column, y = field_.y + row;
   if (IsInMap(x, y)) return false;
   const int16_t disparity = *field_.Disparity(column, row);
-  const auto moves = [&](int32_t near, int32_t far) {
-    return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;
-  };
-  MixtureSum sum;
+  // Sums of the mixtures with the nearer surfaces on all sides, weighted by their shares.
+  ColourSum<int32_t> nears, fars;
+  int32_t nearest = INT16_MIN, most = 0;
   for (int side = 0; side < kSideCount; ++side) {
     const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
-    if (near - disparity <= step_ || !moves(near, disparity)) continue;
-    sum.nearest = Max(sum.nearest, near);
-    sum.Add(FindMixture(centre_, {x, y, side, disparity, near, step_}, kContrastFade));
+    if (near - disparity <= step_ || !MoveApart(near, disparity)) continue;
+    nearest = Max(nearest, near);
+    const Mixture mixture = FindMixture(centre_, x, y, side, disparity, near, step_, kContrastFade);
+    most = Max(most, mixture.share);
+    nears.Add(mixture.near, mixture.share);
+    fars.Add(mixture.far, mixture.share);
   }
-  if (sum.nearest == INT16_MIN) return false;
-  const int32_t share = RoundShift(sum.most * simd::kSliceWhole, kShareBits);
+  if (nearest == INT16_MIN) return false;
+  const int32_t share = RoundShift(most * simd::kSliceWhole, kShareBits);
   const bool is_rim = rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty();
   if (share == 0 && !is_rim) return false;
   *pixel = {SplitPixel::kBoundary,
             column,
             row,
             static_cast<uint8_t>(share),
-            static_cast<int16_t>(sum.nearest),
+            static_cast<int16_t>(nearest),
             disparity,
-            share > 0 ? sum.Mean(sum.near) : Colour(),
-            share > 0 ? sum.Mean(sum.far) : centre_.ColourAt(x, y)};
+            share > 0 ? MeanOf(nears) : Colour(),
+            share > 0 ? MeanOf(fars) : centre_.ColourAt(x, y)};
   if (is_rim) CleanRim(OutlineAt(x, y), pixel);
   return pixel->share > 0;
 }
@@ -295,19 +262,13 @@ bool PixelSplitter::LimitToClean(int32_t x, int32_t y, const Outline& outline,
       for (int32_t beside = -2; beside <= 2; beside += 2) {
         const int32_t clean_x = x - away * dx + beside * dy, clean_y = y - away * dy + beside * dx;
         if (Abs(centre_.Disparity(clean_x, clean_y) - here) > kRimStep / 2) continue;
-        const Colour clean = centre_.ColourAt(clean_x, clean_y);
-        for (int c = 0; c < 3; ++c) {
-          low[c] = Min(low[c], clean[c]);
-          high[c] = Max(high[c], clean[c]);
-        }
+        Widen(centre_.ColourAt(clean_x, clean_y).rgb, low, high);
         ++count;
       }
     }
   });
   if (count < kRimEnd - kRimWidth) return false;
-  for (int c = 0; c < 3; ++c) {
-    colour->rgb[c] = static_cast<int16_t>(Clamp(colour->rgb[c], low[c], high[c]));
-  }
+  LimitTo(low, high, colour);
   return true;
 }
 
@@ -324,8 +285,7 @@ void PixelSplitter::CleanRim(const Outline& outline, SplitPixel* pixel) const {
   const Colour mixed = centre_.ColourAt(x, y);
   Colour clean;
   for (int c = 0; c < 3; ++c) {
-    const int32_t light = mixed[c] - rim.excess[outline.distance - 1][c];
-    clean.rgb[c] = static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
+    clean.rgb[c] = LimitedLight(mixed[c] - rim.excess[outline.distance - 1][c]);
   }
   if (!LimitToClean(x, y, outline, &clean)) return;
   int32_t part = LeastShare(mixed, clean);
@@ -341,10 +301,8 @@ void PixelSplitter::CleanRim(const Outline& outline, SplitPixel* pixel) const {
   pixel->share = static_cast<uint8_t>(share);
   for (int c = 0; c < 3; ++c) {
     const int32_t far = blend(pixel->far[c], clean[c]);
-    const int32_t near = far + (mixed[c] - far) * simd::kSliceWhole / share;
     pixel->far.rgb[c] = static_cast<int16_t>(far);
-    pixel->near.rgb[c] =
-        static_cast<int16_t>(Clamp(near, ranges::kUnmixed.low, ranges::kUnmixed.high));
+    pixel->near.rgb[c] = LimitedLight(far + (mixed[c] - far) * simd::kSliceWhole / share);
   }
 }
 
@@ -357,7 +315,7 @@ bool PixelSplitter::SplitRim(int32_t column, int32_t row, SplitPixel* pixel) con
   }
   const Outline outline = OutlineAt(x, y);
   if (outline.distance == 0) return false;
-  if (Abs(grid_.Shift(rim_, outline.near) - grid_.Shift(rim_, far)) <= kLeastMove) return false;
+  if (!MoveApart(outline.near, far)) return false;
   *pixel = {
       SplitPixel::kBoundary, column, row, 0, static_cast<int16_t>(outline.near), far, Colour(),
       centre_.ColourAt(x, y)};
@@ -377,8 +335,8 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pix
   const bool is_excess = input.captured != nullptr;
   // Noise must not change the number of surfaces, so found coverage does not decide whether a pixel
   // lies inside.
-  const bool inside = HasGiven(input) ? found >= kLeastWhole && IsInside(map, field_, x, y)
-                                      : ShowsNear(input, cell, x, y) && IsOneSurface(centre_, x, y);
+  const bool inside = HasGiven(input) ? found >= kLeastWhole && IsInside(x, y)
+                                      : ShowsNear(input, cell, x, y) && IsOneSurface(x, y);
   const int32_t alpha = inside ? kWhole : Min(found + Max(found - kMostExact, 0), kWhole);
   const bool whole = alpha == kWhole;
   // Pixels without coverage have a near surface too, with a share of 0, so that the disparities of
@@ -409,7 +367,7 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pix
     }
     if (rims_ != nullptr && HasGiven(centre_.input()) &&
         std::memcmp(far.rgb, cell.rgb, sizeof(far.rgb)) != 0) {
-      LimitToFar(map, field_, x, y, &far);
+      LimitToFar(x, y, &far);
       const int32_t share = Min(Max(alpha, LeastShare(mixed, far)), kWhole - 1);
       pixel->share = static_cast<uint8_t>(share);
       for (int c = 0; c < 3; ++c) near.rgb[c] = RestOf(mixed[c], far[c], kWhole - share);

@@ -32,6 +32,8 @@ class CentreView {
   explicit CentreView(const Input& input, const BlockPixels* field = nullptr);
 
   const Input& input() const { return input_; }
+  // At layer 0, the pixels of the picture in the field.
+  const Rect& copied() const { return copied_; }
   int layer() const { return layer_; }
   int32_t Disparity(int32_t x, int32_t y) const {
     return layer_ == 0
@@ -41,8 +43,7 @@ class CentreView {
   // Returns the light of a pixel, or the light beyond white (excess) if the input reads excess.
   Colour ColourAt(int32_t x, int32_t y) const {
     Colour colour;
-    if (layer_ == 0 && (x < copied_.x || x - copied_.x >= copied_.width || y < copied_.y ||
-                        y - copied_.y >= copied_.height)) {
+    if (layer_ == 0 && !Contains(copied_, x, y)) {
       input_.Light(0, Clamp(x, 0, input_.width - 1), Clamp(y, 0, input_.height - 1), 1, colour.rgb);
     } else {
       std::memcpy(colour.rgb, field_->Rgb(Column(x), Row(y)), sizeof(colour.rgb));
@@ -57,15 +58,7 @@ class CentreView {
   const Input& input_;
   const BlockPixels* const field_;
   const int layer_;
-  Rect copied_ = {0, 0, 0, 0};  // At layer 0, the pixels of the picture in the field.
-};
-
-// A pixel next to a depth edge; the disparity beyond the edge, `near`, is larger by more than
-// `step`. Disparities have kDisparityBits.
-struct BoundaryPixel {
-  int32_t x, y;  // position in the layer
-  int side;      // index into kSides: direction of the nearer surface
-  int32_t disparity, near, step;
+  Rect copied_ = {0, 0, 0, 0};
 };
 
 // Colour of a boundary pixel, and the colours of the two surfaces that it may mix.
@@ -85,18 +78,20 @@ struct Mixture {
 // of one code then changes shares at low contrast by up to a third.
 inline constexpr int32_t kContrastFade = 1024, kPaperContrastFade = 64;
 
-// Separates a boundary pixel. The near colour is read at
-// the second pixel beyond the edge, or at the first pixel if the two pixels are on different
-// surfaces. The far colour comes from a captured side view in which the nearer surface does not
-// cover the far surface. Without such a view, the far colour is the colour of the next pixel away
-// from the edge. If the input reads excess, both colours are excess, but the share is computed from
-// light.
-Mixture FindMixture(const CentreView& centre, const BoundaryPixel& pixel, int32_t contrast_fade);
+// Separates pixel (x, y) of the layer, which is next to a depth edge: the disparity `near` on its
+// side `side` (an index into kSides) is larger than its own by more than `step`. The near colour is
+// read at the second pixel beyond the edge, or at the first pixel if the two pixels are on
+// different surfaces. The far colour comes from a captured side view in which the nearer surface
+// does not cover the far surface. Without such a view, the far colour is the colour of the next
+// pixel away from the edge. If the input reads excess, both colours are excess, but the share is
+// computed from light.
+Mixture FindMixture(const CentreView& centre, int32_t x, int32_t y, int side, int32_t disparity,
+                    int32_t near, int32_t step, int32_t contrast_fade);
 
-// Separates a pixel by its colour and by the colours of both surfaces. Small changes of a colour
-// change the result little: as the share falls to 0, the far colour becomes the colour of the
-// pixel.
-Mixture Unmix(const BoundaryColours& colours, int32_t contrast_fade);
+// Separates a pixel by the light of the pixel and of both surfaces into the colours `shown`, which
+// are light or excess. Small changes of a colour change the result little: as the share falls to 0,
+// the far colour becomes the colour of the pixel.
+Mixture Unmix(const BoundaryColours& light, int32_t contrast_fade, const BoundaryColours& shown);
 
 // Calls visit(column, row) for each pixel of a field if the disparity of one of its four neighbours
 // is larger by more than `step`. Pixels outside the picture and the outermost pixels of the field
@@ -139,6 +134,25 @@ struct SplitPixel {
   Colour near, far;
 };
 
+// Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
+// these disparities, hidden surfaces end at the boundary of the thin structure.
+void TakeDisparities(const Input& input, BlockPixels* field);
+
+// Calls act(x, y, at) for each pixel of the picture in the field that lies in a thin tile; `at` is
+// its index, CoverageMap::At(x, y).
+template <class Act>
+void ForEachThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
+  const Rect inside = Clipped({field.x, field.y, field.width, field.height}, map.width, map.height);
+  for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
+    for (int32_t x = inside.x, end; x < inside.x + inside.width; x = end) {
+      end = Min(inside.x + inside.width, (x / kCoverageTile + 1) * kCoverageTile);
+      if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) continue;
+      size_t at = map.At(x, y);
+      for (int32_t k = x; k < end; ++k) act(k, y, at++);
+    }
+  }
+}
+
 // Splits the pixels of a field for a lens.
 //
 // Pixels outside the picture are not split. A boundary pixel is split only if its two surfaces move
@@ -148,6 +162,53 @@ struct SplitPixel {
 class PixelSplitter {
  public:
   PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field);
+
+  // Calls visit(SplitPixel) for each split pixel of the field, and for each other pixel of thin
+  // tiles if the coverage is not given. The disparities of the field must come from
+  // TakeDisparities.
+  template <class Visit>
+  void ForEach(const Visit& visit) const {
+    const Input& input = centre_.input();
+    SplitPixel pixel;
+    ForEachBesideEdge(*input.kernels, input, field_, step_, [&](int32_t column, int32_t row) {
+      if (SplitBoundary(column, row, &pixel)) visit(pixel);
+    });
+    if (rims_ != nullptr) {
+      ForEachInRim([&](int32_t x, int32_t y) {
+        if (SplitRim(x - field_.x, y - field_.y, &pixel)) visit(pixel);
+      });
+    }
+    if (map_ == nullptr) return;
+    ForEachThin(*map_, field_, [&](int32_t x, int32_t y, size_t at) {
+      if (HasGiven(input) && map_->alpha[at] == kUnsplit) return;
+      SplitThin(x, y, at, &pixel);
+      visit(pixel);
+    });
+  }
+
+ private:
+  // The outline next to a pixel of its far surface: the distance to the nearest pixel of the near
+  // surface, 0 if it is more than kRimWidth pixels away; the sides on which it is (one bit of
+  // kSides each); and the largest disparity there.
+  struct Outline {
+    int32_t distance, sides, near;
+  };
+
+  // Calls act(x, y) for each pixel of the picture in the field, except its outermost pixels, that
+  // lies in a cell with a rim.
+  template <class Act>
+  void ForEachInRim(const Act& act) const {
+    const Rect inside = Clipped({field_.x + 1, field_.y + 1, field_.width - 2, field_.height - 2},
+                                rims_->width, rims_->height);
+    const int32_t right = inside.x + inside.width, bottom = inside.y + inside.height;
+    for (int32_t y = inside.y, end; y < bottom; y = end) {
+      end = Min(bottom, (y / kRimCell + 1) * kRimCell);
+      for (int32_t x = inside.x, last; x < right; x = last) {
+        last = Min(right, (x / kRimCell + 1) * kRimCell);
+        if (!rims_->RimAt(x, y).IsEmpty()) ForPixels({x, y, last - x, end - y}, act);
+      }
+    }
+  }
 
   // Splits the boundary pixel (column, row). Returns false if it is not a mixture, or if the
   // coverage map splits it.
@@ -159,22 +220,19 @@ class PixelSplitter {
   // index `from` (CoverageMap::At).
   void SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pixel) const;
 
-  int16_t step() const { return step_; }
-  const RimMap* rims() const { return rims_; }
-
- private:
-  // The outline next to a pixel of its far surface: the distance to the nearest pixel of the near
-  // surface, 0 if it is more than kRimWidth pixels away; the sides on which it is (one bit of
-  // kSides each); and the largest disparity there.
-  struct Outline {
-    int32_t distance, sides, near;
-  };
+  // Returns true if two surfaces move far enough relative to each other for a split.
+  bool MoveApart(int32_t near, int32_t far) const;
   // Returns true if the coverage map decides how pixel (x, y) of the picture is split. Given
   // coverage decides only on the pixels that it splits.
   bool IsInMap(int32_t x, int32_t y) const;
+  bool IsPartial(int32_t x, int32_t y) const;
+  bool IsInside(int32_t x, int32_t y) const;
+  bool IsOneSurface(int32_t x, int32_t y) const;
+  void LimitToFar(int32_t x, int32_t y, Colour* far) const;
   Outline OutlineAt(int32_t x, int32_t y) const;
   bool LimitToClean(int32_t x, int32_t y, const Outline& outline, Colour* colour) const;
   void CleanRim(const Outline& outline, SplitPixel* pixel) const;
+
   const CentreView centre_;
   const ViewGrid& grid_;
   const BlockPixels& field_;
@@ -183,69 +241,6 @@ class PixelSplitter {
   const int16_t step_;            // Largest step between pixels that is not a depth edge.
   const int64_t rim_;
 };
-
-// Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
-// these disparities, hidden surfaces end at the boundary of the thin structure.
-void TakeDisparities(const Input& input, BlockPixels* field);
-
-// Calls act(x, y, at) for each pixel of the picture in the field that lies in a thin tile; `at` is
-// its index, CoverageMap::At(x, y).
-template <class Act>
-void ForEachThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
-  const int32_t left = Max(0, field.x), right = Min(field.x + field.width, map.width);
-  const int32_t top = Max(0, field.y), bottom = Min(field.y + field.height, map.height);
-  for (int32_t y = top; y < bottom; ++y) {
-    for (int32_t x = left, end; x < right; x = end) {
-      end = Min(right, (x / kCoverageTile + 1) * kCoverageTile);
-      if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) continue;
-      size_t at = map.At(x, y);
-      for (int32_t k = x; k < end; ++k) act(k, y, at++);
-    }
-  }
-}
-
-// Calls act(x, y) for each pixel of the picture in the field, except its outermost pixels, that
-// lies in a cell with a rim.
-template <class Act>
-void ForEachRim(const RimMap& map, const BlockPixels& field, const Act& act) {
-  const int32_t left = Max(0, field.x + 1), right = Min(field.x + field.width - 1, map.width);
-  const int32_t top = Max(0, field.y + 1), bottom = Min(field.y + field.height - 1, map.height);
-  for (int32_t y = top, end; y < bottom; y = end) {
-    end = Min(bottom, (y / kRimCell + 1) * kRimCell);
-    for (int32_t x = left, last; x < right; x = last) {
-      last = Min(right, (x / kRimCell + 1) * kRimCell);
-      if (map.RimAt(x, y).IsEmpty()) continue;
-      for (int32_t row = y; row < end; ++row) {
-        for (int32_t column = x; column < last; ++column) act(column, row);
-      }
-    }
-  }
-}
-
-// Calls visit(SplitPixel) for each split pixel of a field, and for each other pixel of thin tiles
-// if the coverage is not given. The disparities of the field must come from TakeDisparities.
-template <class Visit>
-void ForEachSplitPixel(const Input& input, const ViewGrid& grid, const BlockPixels& field,
-                       const Visit& visit) {
-  const PixelSplitter splitter(input, grid, field);
-  SplitPixel pixel;
-  ForEachBesideEdge(*input.kernels, input, field, splitter.step(),
-                    [&](int32_t column, int32_t row) {
-                      if (splitter.SplitBoundary(column, row, &pixel)) visit(pixel);
-                    });
-  if (splitter.rims() != nullptr) {
-    ForEachRim(*splitter.rims(), field, [&](int32_t x, int32_t y) {
-      if (splitter.SplitRim(x - field.x, y - field.y, &pixel)) visit(pixel);
-    });
-  }
-  if (input.coverage == nullptr || field.layer > 0) return;
-  const CoverageMap& map = *input.coverage;
-  ForEachThin(map, field, [&](int32_t x, int32_t y, size_t at) {
-    if (HasGiven(input) && map.alpha[at] == kUnsplit) return;
-    splitter.SplitThin(x, y, at, &pixel);
-    visit(pixel);
-  });
-}
 
 }  // namespace starfocus
 

@@ -404,7 +404,7 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const Bl
 void SplitMixedPixels(const Input& input, const ViewGrid& grid, const BlockPixels& field,
                       LayeredDepth* surfaces) {
   const auto copy_step = static_cast<int16_t>(kDepthEdge << field.layer);
-  ForEachSplitPixel(input, grid, field, [&](const SplitPixel& pixel) {
+  PixelSplitter(input, grid, field).ForEach([&](const SplitPixel& pixel) {
     if (pixel.kind == SplitPixel::kOneSurface) {
       DropStrands(pixel, surfaces);
     } else {

@@ -73,8 +73,8 @@ TEST_CASE("boundary pixels: a sixteenth of a code changes light by less than thr
     const BoundaryColours changed = {Changed(colours.near, kCode / 16, &random),
                                      Changed(colours.far, kCode / 16, &random),
                                      Changed(colours.mixed, kCode / 16, &random)};
-    const Mixture before = Unmix(colours, starfocus::kContrastFade),
-                  after = Unmix(changed, starfocus::kContrastFade);
+    const Mixture before = Unmix(colours, starfocus::kContrastFade, colours),
+                  after = Unmix(changed, starfocus::kContrastFade, changed);
     most = std::max(most, Step(colours, before, after));
     split += before.share > 0 ? 1 : 0;
   }
@@ -86,10 +86,10 @@ TEST_CASE("boundary pixels: inverted colours have equal shares and inverted far 
   test::Random random(17);
   for (int n = 0; n < 20000; ++n) {
     const BoundaryColours colours = Draw(&random);
-    const Mixture plain = Unmix(colours, starfocus::kContrastFade);
-    const Mixture inverted =
-        Unmix({Inverted(colours.near), Inverted(colours.far), Inverted(colours.mixed)},
-              starfocus::kContrastFade);
+    const Mixture plain = Unmix(colours, starfocus::kContrastFade, colours);
+    const BoundaryColours other = {Inverted(colours.near), Inverted(colours.far),
+                                   Inverted(colours.mixed)};
+    const Mixture inverted = Unmix(other, starfocus::kContrastFade, other);
     CHECK(inverted.share == plain.share);
     for (int c = 0; c < 3; ++c) CHECK(std::abs(kWhite - inverted.far[c] - plain.far[c]) <= 1);
   }
@@ -101,7 +101,7 @@ TEST_CASE("boundary pixels: a pixel that shows one surface keeps its colour") {
   for (const BoundaryColours& colours :
        {BoundaryColours{near, far, near}, BoundaryColours{near, far, other},
         BoundaryColours{near, near, near}, BoundaryColours{near, far, far}}) {
-    const Mixture mixture = Unmix(colours, starfocus::kContrastFade);
+    const Mixture mixture = Unmix(colours, starfocus::kContrastFade, colours);
     CHECK(mixture.share == 0);
     for (int c = 0; c < 3; ++c) CHECK(mixture.far[c] == colours.mixed[c]);
   }
