@@ -123,14 +123,6 @@ inline Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin) {
   return Clipped(Extended(rect, {margin, margin, margin, margin}), setup.width, setup.height);
 }
 
-// Calls act(x, y) for each pixel of a rectangle, row by row.
-template <class Act>
-void ForPixels(const Rect& rect, const Act& act) {
-  for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
-    for (int32_t x = rect.x; x < rect.x + rect.width; ++x) act(x, y);
-  }
-}
-
 // Returns -position * d in pixels with `fraction_bits` fractional bits, by default in 1/128 pixel.
 // Halves are rounded away from zero.
 inline int32_t MoveBy(int32_t position, int32_t d, int32_t fraction_bits = 7) {
