@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "simd/line_scan.h"
+#include "simd/kernels.h"
 
 namespace starfocus::bench {
 
