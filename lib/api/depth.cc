@@ -102,7 +102,8 @@ void CheckCall(const DepthCall& call, bool repairs, const starfocus_disparity_ou
   CheckMemory("workspace", call.workspace, call.bytes, needed, check);
   if (!check->passed()) return;
   CheckViews(light_field, config.views, width, height, check);
-  CheckMap(map.disparity, map.disparity_stride, width, height, check);
+  CheckMap(map.disparity, map.disparity_stride, width, height, "map.disparity",
+           "map.disparity_stride", check);
   if (repairs) CheckDepthMap(light_field.depth, width, height, check);
   if (!Converts(config)) CheckInPlace(config, light_field, repairs, check);
   CheckBytes(map.confidence, map.confidence_stride, width, height, "map.confidence_stride", check);

@@ -115,7 +115,7 @@ starfocus_status starfocus_fill_disparity(float* disparity, size_t stride, int32
                                           int32_t height, starfocus_problem* problem) {
   starfocus_disparity_stats stats;
   Checker check = Enter(problem);
-  CheckMap(disparity, stride, width, height, &check);
+  CheckMap(disparity, stride, width, height, "disparity", "stride", &check);
   if (!check.passed()) return check.status();
   const starfocus_depth_map map = starfocus_depth_float(disparity, stride, width, height);
   check.Add(starfocus_measure_disparity(&map, &stats, problem));

@@ -164,8 +164,9 @@ starfocus_status starfocus_matte_field(const starfocus_matte* matte,
   CheckMatteDepth(*depth, &check);
   Rect area;
   FindArea(region, width, height, &area, &check);
-  CheckMap(out->disparity, out->disparity_stride, area.width, area.height, &check);
-  CheckBytes(out->coverage, out->coverage_stride, area.width, area.height, "coverage_stride",
+  CheckMap(out->disparity, out->disparity_stride, area.width, area.height, "out.disparity",
+           "out.disparity_stride", &check);
+  CheckBytes(out->coverage, out->coverage_stride, area.width, area.height, "out.coverage_stride",
              &check);
   if (!check.passed()) return check.status();
   Extents taken;
@@ -211,8 +212,8 @@ starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
   CheckLoneMap(*depth, width, height, &check);
   Rect area;
   FindArea(region, width, height, &area, &check);
-  check.NotNull(out->coverage, "coverage");
-  CheckBytes(out->coverage, out->coverage_stride, area.width, area.height, "coverage_stride",
+  check.NotNull(out->coverage, "out.coverage");
+  CheckBytes(out->coverage, out->coverage_stride, area.width, area.height, "out.coverage_stride",
              &check);
   if (!check.passed()) return check.status();
   Extents read;

@@ -171,14 +171,14 @@ void CheckMemory(const char* name, const void* memory, size_t bytes, size_t need
 }
 
 void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height,
-              Checker* check) {
-  check->NotNull(disparity, "disparity");
+              const char* name, const char* stride_name, Checker* check) {
+  check->NotNull(disparity, name);
   CheckSize(width, height, check);
   if (!check->passed()) return;
   const bool aligned =
       stride % sizeof(float) == 0 && reinterpret_cast<uintptr_t>(disparity) % alignof(float) == 0;
   check->Stride(aligned && ValidStride(stride, sizeof(float) * static_cast<size_t>(width), height),
-                "disparity_stride", stride);
+                stride_name, stride);
 }
 
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows) {

@@ -57,8 +57,9 @@ void CheckParams(const FullConfig& config, const FullParams& params, Checker* ch
 // STARFOCUS_ALIGNMENT and has at least `needed` bytes.
 void CheckMemory(const char* name, const void* memory, size_t bytes, size_t needed, Checker* check);
 
-// Checks the pointer, size and stride of a disparity map.
-void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height, Checker* check);
+// Checks the pointer `name`, the size and the stride `stride_name` of a disparity map.
+void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t height,
+              const char* name, const char* stride_name, Checker* check);
 
 // Returns true if a stride is at least `row_bytes` and all rows are addressable.
 bool ValidStride(size_t stride, size_t row_bytes, int32_t rows);

@@ -614,8 +614,9 @@ STARFOCUS_API void starfocus_destroy_prepared(starfocus_prepared* prepared);
 
 /** Refocuses a prepared light field. The output bytes are the same as with starfocus_refocus.
  *
- *  With a preview_shift s, the picture has 1 / S of the size, where S = 2^s, and takes about
- *  1 / S^2 of the time. Even for a preview, all parameters are in pixels of the full size. The
+ *  With a preview_shift s, the picture has 1 / S of the size, where S = 2^s, and takes about 1 /
+ *  S^2 of the time. Even for a preview, all parameters are in pixels of the full size. A preview of
+ *  the whole picture has width / S columns and height / S rows, both rounded up. In general, the
  *  output contains the columns from floor(x / S) to floor((x + width - 1) / S) of the reduced
  *  picture, where x and width describe the region. The rows of the output follow from y and height
  *  by the same formula. The alpha of a preview is 255. Previews read only the prepared light field,
