@@ -28,33 +28,26 @@ bool ShowsHighlights(const EngineState& engine, const Rect& rect) {
          HasHighlights(engine.input, rect, engine.lens.borders.highlights);
 }
 
-Block WholeBlock(const EngineState& engine, const Rect& rect) {
-  const Lens& lens = engine.lens;
-  const int32_t border = lens.borders.whole_block;
-  Block block;
-  block.rect = block.rendered = rect;
-  block.border = {border, border, border, border};
-  block.layer = 0;
-  block.n = lens.aperture.n;
-  block.gathers = block.has_highlights = false;
-  block.cost =
-      PredictTime(engine.config.tuning.timing,
-                  lens.renderer->measure_work(block.rendered, block.border, lens.aperture, {}, 0));
-  return block;
-}
-
 // Plans blocks of one size at layer 0, for the frame modes, blur mode and pinholes. `superblock` is
 // the part of the superblock inside the picture. Returns the number of blocks.
 int32_t PlanWhole(const EngineState& engine, const Rect& superblock, Block* blocks) {
-  const int32_t side = LargestSide(engine);
+  const Lens& lens = engine.lens;
+  const int32_t side = LargestSide(engine), border = lens.borders.whole_block;
   const int32_t right = superblock.x + superblock.width, bottom = superblock.y + superblock.height;
-  const bool has_highlights = !IsPinhole(engine.lens) && ShowsHighlights(engine, superblock);
+  Block block;
+  block.border = {border, border, border, border};
+  block.layer = 0;
+  block.n = lens.aperture.n;
+  block.gathers = false;
+  block.has_highlights = !IsPinhole(lens) && ShowsHighlights(engine, superblock);
   int32_t count = 0;
   for (int32_t y = superblock.y; y < bottom; y += side) {
     for (int32_t x = superblock.x; x < right; x += side) {
-      Block& block = blocks[count++];
-      block = WholeBlock(engine, {x, y, Min(side, right - x), Min(side, bottom - y)});
-      block.has_highlights = has_highlights;
+      block.rect = block.rendered = {x, y, Min(side, right - x), Min(side, bottom - y)};
+      block.cost = PredictTime(
+          engine.config.tuning.timing,
+          lens.renderer->measure_work(block.rendered, block.border, lens.aperture, {}, 0));
+      blocks[count++] = block;
     }
   }
   return count;
