@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // C API: refocuses whole pictures, regions and previews.
 #include "lib/api/validate.h"
-#include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/prepared.h"
+#include "lib/engine/stripe.h"
 #include "lib/io/output.h"
 
 namespace starfocus {

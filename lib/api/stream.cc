@@ -2,7 +2,6 @@
 // C API: streams. The caller pushes input rows, which are stored in ring buffers, and pulls
 // finished rows.
 #include "lib/api/validate.h"
-#include "lib/engine/driver.h"
 #include "lib/engine/engine.h"
 #include "lib/engine/stripe.h"
 #include "lib/io/output.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/engine/driver.h"
-
+// Reads the rows of the map that stripes depend on, and refocuses whole pictures.
 #include <cstring>
 
 #include "lib/base/fixed.h"

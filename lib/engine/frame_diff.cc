@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "lib/base/fixed.h"
-#include "lib/engine/driver.h"
+#include "lib/engine/stripe.h"
 #include "lib/io/depth_map.h"
 #include "lib/io/image.h"
 

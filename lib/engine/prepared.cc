@@ -4,7 +4,6 @@
 #include <new>
 
 #include "lib/base/fixed.h"
-#include "lib/engine/driver.h"
 #include "lib/engine/stripe.h"
 #include "lib/optics/view_set.h"
 
