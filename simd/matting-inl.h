@@ -38,14 +38,15 @@ inline void FindBeyond(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, int16_
 }
 
 inline void CoverPlaces(const int16_t* HWY_RESTRICT near, const uint8_t* HWY_RESTRICT coverage,
-                        const int16_t* HWY_RESTRICT far, int16_t along, int16_t place,
-                        int16_t within, int16_t least, int16_t* HWY_RESTRICT covered) {
+                        const int16_t* HWY_RESTRICT far, const CoverView& view,
+                        int16_t* HWY_RESTRICT covered) {
   const LanesTag d16;
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto nearer = hn::SaturatedSub(hn::LoadU(d16, near + n), hn::LoadU(d16, far + n));
-    const auto moved = hn::MulFixedPoint15(nearer, hn::Set(d16, along));
-    const auto beside = hn::SaturatedSub(moved, hn::Set(d16, place));
-    const auto covers = hn::And(hn::Gt(nearer, hn::Set(d16, least)), IsWithin(beside, within));
+    const auto moved = hn::MulFixedPoint15(nearer, hn::Set(d16, view.along));
+    const auto beside = hn::SaturatedSub(moved, hn::Set(d16, view.place));
+    const auto covers =
+        hn::And(hn::Gt(nearer, hn::Set(d16, view.least)), IsWithin(beside, view.within));
     const auto cover = LoadBytes(d16, coverage + n);
     const auto before = hn::LoadU(d16, covered + n);
     hn::StoreU(hn::Max(before, hn::IfThenElseZero(covers, cover)), d16, covered + n);

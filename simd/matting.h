@@ -17,6 +17,17 @@ namespace starfocus::simd {
 // Largest distance, in columns and rows, of the pixels that FindBeyond compares.
 inline constexpr int32_t kBeyondReach = 3;
 
+// Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude far pixels in the
+// view. All disparities must have the same scale; any scale is permitted.
+struct CoverView {
+  int16_t along;  // movement in the view per unit of disparity, 15 fractional bits
+  // Movement in the view that places the near pixel onto the far pixel, in the scale of
+  // disparities.
+  int16_t place;
+  int16_t within;  // Largest deviation from `place` at which the near pixel covers the far pixel.
+  int16_t least;   // A near pixel covers far pixels only if it is nearer by more than `least`.
+};
+
 // Largest distance, in columns and rows, of the pixels that SumNear adds.
 inline constexpr int32_t kNearReach = 2;
 
@@ -96,18 +107,13 @@ STARFOCUS_REFERENCE void FindBeyond(const int16_t* row, ptrdiff_t stride, int16_
 }
 
 // For each n < kSliceLanes, raises covered[n] to coverage[n] if near pixel n (disparity near[n])
-// occludes far pixel n (disparity far[n]) in a view. CoverPlaces never lowers covered[n].
-//
-// In the view, pixels move by `along` per unit of disparity (15 fractional bits). All other numbers
-// are in the scale of the disparities, which may be any scale. The near pixel covers the far pixel
-// if it is nearer by more than `least`, and if it moves by `place`, give or take `within`.
+// occludes far pixel n (disparity far[n]) in the view. CoverPlaces never lowers covered[n].
 STARFOCUS_REFERENCE void CoverPlaces(const int16_t* near, const uint8_t* coverage,
-                                     const int16_t* far, int16_t along, int16_t place,
-                                     int16_t within, int16_t least, int16_t* covered) {
+                                     const int16_t* far, const CoverView& view, int16_t* covered) {
   for (size_t n = 0; n < kSliceLanes; ++n) {
     const int16_t nearer = Saturated(near[n] - far[n]);
-    const int16_t beside = Saturated(Product15(nearer, along) - place);
-    const bool covers = nearer > least && beside >= -within && beside <= within;
+    const int16_t beside = Saturated(Product15(nearer, view.along) - view.place);
+    const bool covers = nearer > view.least && beside >= -view.within && beside <= view.within;
     if (covers && coverage[n] > covered[n]) covered[n] = coverage[n];
   }
 }

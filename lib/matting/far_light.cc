@@ -258,15 +258,16 @@ class TileLooker {
     // Movements have kDisparityBits - 1 fractional bits, because the SIMD kernel interprets `along`
     // with 15 fractional bits and kViewOne has 14. `m` and `along` have the same sign, which is
     // left away, so that products are rounded alike on both sides.
-    const auto along = static_cast<int16_t>(Abs(view.along));
-    const auto place = static_cast<int16_t>(Abs(m) * (1 << (kDisparityBits - 1)));
+    const simd::CoverView cover = {static_cast<int16_t>(Abs(view.along)),
+                                   static_cast<int16_t>(Abs(m) * (1 << (kDisparityBits - 1))),
+                                   static_cast<int16_t>(kWithin / 2),
+                                   static_cast<int16_t>(kBefore)};
     const auto across = static_cast<int32_t>(RoundShift(int64_t{m} * view.slant, kViewBits));
     for (int32_t beside = across - 1; beside <= across + 1; ++beside) {
       const int32_t dx = view.down ? beside : m, row = y + (view.down ? m : beside);
       if (row < 0 || row >= map_.height) continue;
       const size_t at = map_.At(left_ + dx, row);
-      kernels_.CoverPlaces(map_.near + at, map_.first + at, far_, along, place, kWithin / 2,
-                           kBefore, covered);
+      kernels_.CoverPlaces(map_.near + at, map_.first + at, far_, cover, covered);
     }
   }
 

@@ -17,6 +17,12 @@ int Saturated(int value) { return std::clamp(value, -32768, 32767); }
 // Returns a * b with 15 fractional bits, rounded half up, computed with real numbers.
 int Product(int a, int b) { return int(std::floor(double(a) * b / 32768 + 0.5)); }
 
+CoverView DrawView(Draw* draw) {
+  const int move = draw->Int(-64, 64);
+  return {int16_t(draw->Int(-16384, 16384)), int16_t(move * 32), int16_t(draw->Int(0, 64)),
+          int16_t(draw->Int(0, 200))};
+}
+
 std::vector<int16_t> Weights(size_t count, Draw* draw) {
   return Filled<int16_t>(count, [&] {
     const int kind = draw->Int(0, 3);
@@ -75,23 +81,20 @@ void CoverPlaces(Draw* draw, KernelCall* call) {
   const int16_t* near = call->Input("near", TwoSurfaces(rows * kSliceLanes, draw));
   const uint8_t* coverage = call->Input("coverage", RandomBytes(rows * kSliceLanes, draw));
   const int16_t* far = call->Input("far", TwoSurfaces(rows * kSliceLanes, draw));
-  const auto place = int16_t(32 * draw->Int(-64, 64));
-  const auto along = int16_t(draw->Int(-16384, 16384));
-  const auto within = int16_t(draw->Int(0, 64)), least = int16_t(draw->Int(0, 200));
+  const CoverView view = DrawView(draw);
   auto* covered = call->Results<int16_t>("covered", rows * kSliceLanes);
   call->Runs([=](const Kernels& kernels) {
     std::fill(covered, covered + rows * kSliceLanes, int16_t{100});
     for (size_t y = 0; y < rows; ++y) {
       const size_t at = y * kSliceLanes;
-      kernels.CoverPlaces(near + at, coverage + at, far + at, along, place, within, least,
-                          covered + at);
+      kernels.CoverPlaces(near + at, coverage + at, far + at, view, covered + at);
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(rows * kSliceLanes, [&](size_t n) {
       const int nearer = Saturated(near[n] - far[n]);
-      const int beside = std::abs(Saturated(Product(nearer, along) - place));
-      const bool covers = nearer > least && beside <= within;
+      const int beside = std::abs(Saturated(Product(nearer, view.along) - view.place));
+      const bool covers = nearer > view.least && beside <= view.within;
       (*met)["covered"] += covers;
       return covered[n] == (covers ? std::max<int>(100, coverage[n]) : 100);
     });
