@@ -391,17 +391,6 @@ HWY_INLINE V64 DivideEven(CompositeVec sum, CompositeVec low, CompositeVec high,
   return hn::BitCast(d64, hn::Min(hn::BitCast(di64, value), white));
 }
 
-HWY_INLINE void CopyMissing(const int16_t* centre, int bits, uint32_t* out) {
-  const CompositeTag d32;
-  const hn::Rebind<uint16_t, CompositeTag> d16;
-  const auto* light = reinterpret_cast<const uint16_t*>(centre);
-  const size_t lanes = hn::Lanes(d32);
-  for (size_t n = 0; n < 3 * lanes; n += lanes) {
-    const auto value = hn::PromoteTo(d32, hn::LoadU(d16, light + n));
-    hn::StoreU(hn::ShiftLeftSame(value, bits - kLightBits), d32, out + n);
-  }
-}
-
 // Converts the sums of a vector of pixels to accumulators.
 HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const int16_t* centre,
                             uint32_t least, int bits, Inverses& inverses, uint32_t* out) {
@@ -410,10 +399,6 @@ HWY_INLINE void FinishGroup(const uint32_t* sums, size_t plane, const int16_t* c
   const hn::RebindToSigned<decltype(d64)> di64;
   const auto covered = hn::LoadU(d32, sums + 3 * plane);
   const auto missing = hn::Lt(covered, hn::Set(d32, least));
-  if (hn::AllTrue(d32, missing)) {
-    CopyMissing(centre, bits, out);
-    return;
-  }
   inverses.Load(covered);
   const int shift = kInverseBits - 8 - bits;
   const auto half = hn::Set(d64, uint64_t{1} << (shift - 1));

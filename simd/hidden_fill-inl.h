@@ -84,9 +84,16 @@ inline void PutFarthest(const FarRow& far, const int16_t* HWY_RESTRICT disparity
   }
 }
 
+// Returns a mask of the lanes whose disparities differ by more than `unit`.
+HWY_INLINE hn::Mask<LanesTag> Differ(LanesVec a, LanesVec b, int16_t unit) {
+  const LanesTag d16;
+  const auto less = hn::SaturatedSub(a, b);
+  return hn::Or(hn::Gt(less, hn::Set(d16, unit)),
+                hn::Gt(hn::Set(d16, static_cast<int16_t>(-unit)), less));
+}
+
 inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
-  const auto most = hn::Set(d16, rows.unit), least = hn::Set(d16, static_cast<int16_t>(-rows.unit));
   const auto zero = hn::Zero(d16);
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const auto from = hn::LoadU(d16, reinterpret_cast<const int16_t*>(rows.source) + n);
@@ -96,8 +103,7 @@ inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT ou
     const auto own = hn::LoadU(d16, rows.disparity[1] + n);
     const auto is_other = [&](const int16_t* beside, const int16_t* along) HWY_ATTR {
       const auto there = hn::IfThenElse(across, hn::LoadU(d16, beside + n), hn::LoadU(d16, along));
-      const auto less = hn::SaturatedSub(own, there);
-      return hn::Or(hn::Gt(less, most), hn::Gt(least, less));
+      return Differ(own, there, rows.unit);
     };
     const auto other = hn::Or(is_other(rows.disparity[0], rows.disparity[1] + n - 1),
                               is_other(rows.disparity[2], rows.disparity[1] + n + 1));
@@ -123,7 +129,6 @@ inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT ou
 inline void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* HWY_RESTRICT out) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
-  const auto most = hn::Set(d16, rows.unit), least = hn::Set(d16, static_cast<int16_t>(-rows.unit));
   // Largest integer distance n for which 2 n < step.
   const auto short_of = hn::Set(d16, static_cast<int16_t>((step - 1) / 2));
   const auto mean = [&](LanesVec a, LanesVec b) HWY_ATTR {
@@ -134,14 +139,12 @@ inline void SmoothFar(const FarRows& rows, int32_t step, size_t count, int16_t* 
     const auto takes = hn::Gt(hn::BitCast(d16, distance), short_of);
     if (hn::AllFalse(d16, takes)) continue;
     const auto own = hn::LoadU(d16, rows.disparity[1] + n);
-    const auto is_other = [&](const int16_t* at) HWY_ATTR {
-      const auto less = hn::SaturatedSub(own, hn::LoadU(d16, at));
-      return hn::Or(hn::Gt(less, most), hn::Gt(least, less));
-    };
-    const auto left = is_other(rows.disparity[1] + n - step);
-    const auto right = is_other(rows.disparity[1] + n + step);
-    const auto above = is_other(rows.disparity[0] + n);
-    const auto below = is_other(rows.disparity[2] + n);
+    const auto differs = [&](const int16_t* at)
+                             HWY_ATTR { return Differ(own, hn::LoadU(d16, at), rows.unit); };
+    const auto left = differs(rows.disparity[1] + n - step);
+    const auto right = differs(rows.disparity[1] + n + step);
+    const auto above = differs(rows.disparity[0] + n);
+    const auto below = differs(rows.disparity[2] + n);
     for (size_t c = 0; c < 3; ++c) {
       const int16_t* at = rows.rgb[1] + c * rows.plane + n;
       const auto here = hn::LoadU(d16, at);

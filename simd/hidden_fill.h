@@ -73,6 +73,14 @@ STARFOCUS_REFERENCE int32_t TakeFarthest(const SurfaceRow& row, const uint16_t* 
   return most;
 }
 
+// Returns true if the disparity of pixel n of row 1 differs by at most rows.unit from that of the
+// pixel `across` pixels beside it in row `row`.
+inline bool IsSame(const FarRows& rows, size_t n, int row, ptrdiff_t across) {
+  const int16_t other = rows.disparity[row][static_cast<ptrdiff_t>(n) + across];
+  const int16_t less = Saturated(rows.disparity[1][n] - other);
+  return less <= rows.unit && less >= -rows.unit;
+}
+
 // Smooths the colours of those pixels n < count of a row whose colours are repeated over a distance
 // of at least step / 2. Other pixels are not changed. Whole groups of kSliceLanes are processed.
 // `step` is at most kSliceLanes. The new colour of a pixel is the mean of its old colour and the
@@ -92,10 +100,9 @@ STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int32_t step, size_t cou
       const int16_t here = rows.rgb[1][at];
       int32_t colours[4];
       for (int k = 0; k < 4; ++k) {
-        const int16_t other = rows.disparity[row_of[k]][static_cast<ptrdiff_t>(n) + across[k]];
-        const int16_t less = Saturated(rows.disparity[1][n] - other);
-        const bool same = less <= rows.unit && less >= -rows.unit;
-        colours[k] = same ? rows.rgb[row_of[k]][static_cast<ptrdiff_t>(at) + across[k]] : here;
+        colours[k] = IsSame(rows, n, row_of[k], across[k])
+                         ? rows.rgb[row_of[k]][static_cast<ptrdiff_t>(at) + across[k]]
+                         : here;
       }
       const int32_t around = Mean(Mean(colours[0], colours[1]), Mean(colours[2], colours[3]));
       out[at] = static_cast<int16_t>(Mean(here, around));
@@ -116,12 +123,8 @@ STARFOCUS_REFERENCE void LimitFar(const FarRows& rows, size_t count, int16_t* ou
     if (rows.source[n] == 0 || across == down) continue;
     const int row_of[2] = {across ? 0 : 1, across ? 2 : 1};
     const ptrdiff_t beside[2] = {across ? 0 : -1, across ? 0 : 1};
-    bool same = true;
-    for (int k = 0; k < 2; ++k) {
-      const int16_t other = rows.disparity[row_of[k]][static_cast<ptrdiff_t>(n) + beside[k]];
-      const int16_t less = Saturated(rows.disparity[1][n] - other);
-      same = same && less <= rows.unit && less >= -rows.unit;
-    }
+    const bool same =
+        IsSame(rows, n, row_of[0], beside[0]) && IsSame(rows, n, row_of[1], beside[1]);
     for (size_t c = 0; c < 3 && same; ++c) {
       const size_t at = c * rows.plane + n;
       const int16_t first = rows.rgb[row_of[0]][static_cast<ptrdiff_t>(at) + beside[0]];

@@ -19,61 +19,49 @@ int32_t StrengthOf(int32_t near_radius, int32_t far_radius) {
   return Min(Min(near_radius - far_radius, kSharp + kShiftOne - far_radius), kShiftOne);
 }
 
-class Unmixer {
- public:
-  Unmixer(const Input& input, const ViewGrid& grid)
-      : centre_(input), grid_(grid), rim_(grid.Move(grid.n())) {}
+// Returns the part of a pixel (kShareBits) that the far colour replaces. At full strength, the
+// result is 1 if the share of the nearer surface is at least one half. Pixels with a smaller share
+// are replaced only in part, because most of the removed light would be missing from the nearer
+// surface beyond the edge. A smaller `strength` reduces the result where no outline would be
+// visible.
+int32_t AmountOf(int32_t share, int32_t strength) {
+  return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
+}
 
-  // Writes the colour of the far surface at pixel (x, y): the mean over the adjacent depth edges,
-  // weighted by the share of the nearer surface.
-  void Unmix(int32_t x, int32_t y, int16_t* out) const {
-    const Colour mixed = centre_.ColourAt(x, y);
-    const int32_t disparity = centre_.Disparity(x, y);
-    int64_t sums[3] = {0, 0, 0}, shares = 0;
-    for (int side = 0; side < kSideCount; ++side) {
-      const int32_t near = centre_.Disparity(x + kSides[side][0], y + kSides[side][1]);
-      if (near - disparity <= kSurfaceStep) continue;
-      const int32_t strength = StrengthOf(Radius(near), Radius(disparity));
-      if (strength <= 0) continue;
-      const Mixture mixture =
-          FindMixture(centre_, x, y, side, disparity, near, kSurfaceStep, kPaperContrastFade);
-      const int64_t weight = int64_t{mixture.share} * AmountOf(mixture.share, strength);
-      for (int c = 0; c < 3; ++c) sums[c] += weight * (mixture.far[c] - mixed[c]);
-      shares += mixture.share;
-    }
-    if (shares == 0) return;
-    const int64_t unit = shares * kShareOne;
-    for (int c = 0; c < 3; ++c) {
-      out[c] = static_cast<int16_t>(
-          Checked(ranges::kUnmixed, (mixed[c] * unit + sums[c] + unit / 2) / unit));
-    }
+// Writes the colour of the far surface at pixel (x, y): the mean over the adjacent depth edges,
+// weighted by the share of the nearer surface.
+void Unmix(const CentreView& centre, const ViewGrid& grid, int32_t x, int32_t y, int16_t* out) {
+  const Colour mixed = centre.ColourAt(x, y);
+  const int32_t disparity = centre.Disparity(x, y);
+  const auto radius = [&](int32_t of) { return Abs(grid.Shift(grid.Move(grid.n()), of)); };
+  int64_t sums[3] = {0, 0, 0}, shares = 0;
+  for (int side = 0; side < kSideCount; ++side) {
+    const int32_t near = centre.Disparity(x + kSides[side][0], y + kSides[side][1]);
+    if (near - disparity <= kSurfaceStep) continue;
+    const int32_t strength = StrengthOf(radius(near), radius(disparity));
+    if (strength <= 0) continue;
+    const Mixture mixture =
+        FindMixture(centre, x, y, side, disparity, near, kSurfaceStep, kPaperContrastFade);
+    const int64_t weight = int64_t{mixture.share} * AmountOf(mixture.share, strength);
+    for (int c = 0; c < 3; ++c) sums[c] += weight * (mixture.far[c] - mixed[c]);
+    shares += mixture.share;
   }
-
- private:
-  int32_t Radius(int32_t disparity) const { return Abs(grid_.Shift(rim_, disparity)); }
-
-  // Returns the part of a pixel (kShareBits) that the far colour replaces. At full strength, the
-  // result is 1 if the share of the nearer surface is at least one half. Pixels with a smaller
-  // share are replaced only in part, because most of the removed light would be missing from the
-  // nearer surface beyond the edge. A smaller `strength` reduces the result where no outline would
-  // be visible.
-  static int32_t AmountOf(int32_t share, int32_t strength) {
-    return (Min(2 * share, kShareOne) * strength + kShiftOne / 2) >> kShiftBits;
+  if (shares == 0) return;
+  const int64_t unit = shares * kShareOne;
+  for (int c = 0; c < 3; ++c) {
+    out[c] = static_cast<int16_t>(
+        Checked(ranges::kUnmixed, (mixed[c] * unit + sums[c] + unit / 2) / unit));
   }
-
-  const CentreView centre_;
-  const ViewGrid& grid_;
-  const int64_t rim_;
-};
+}
 
 }  // namespace
 
 void UnmixEdges(const simd::Kernels& kernels, const Input& input, const ViewGrid& grid,
                 BlockPixels* field) {
   if (field->layer != 0 || input.views == 1) return;
-  const Unmixer unmixer(input, grid);
+  const CentreView centre(input);
   ForEachBesideEdge(kernels, input, *field, kSurfaceStep, [&](int32_t column, int32_t row) {
-    unmixer.Unmix(field->x + column, field->y + row, field->Rgb(column, row));
+    Unmix(centre, grid, field->x + column, field->y + row, field->Rgb(column, row));
   });
 }
 

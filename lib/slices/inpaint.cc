@@ -8,8 +8,6 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kAtOnce = 4;  // number of pixels whose colour sources are tested at once
-
 class HiddenFiller {
  public:
   HiddenFiller(const simd::Kernels& kernels, int32_t layer, const FillScratch& scratch,
@@ -90,23 +88,9 @@ class HiddenFiller {
     for (uint64_t strips = surfaces_.hiding[y]; strips != 0;
          strips >>= 1, first += simd::kStripColumns) {
       if ((strips & 1) == 0) continue;
-      for (int32_t x = first; x < first + simd::kStripColumns; x += kAtOnce) {
-        if (HasSource(sources + x)) TakeFew(x, y, sources);
+      for (int32_t x = first; x < first + simd::kStripColumns; ++x) {
+        if (sources[x] != 0) TakeSource(x, y, sources[x]);
       }
-    }
-  }
-
-  // Returns true if any of kAtOnce pixels repeats the colour of a source pixel, which is rare.
-  static bool HasSource(const uint16_t* sources) {
-    uint64_t all;
-    static_assert(sizeof(all) == kAtOnce * sizeof(*sources), "one load covers kAtOnce sources");
-    std::memcpy(&all, sources, sizeof(all));
-    return all != 0;
-  }
-
-  void TakeFew(int32_t x, int32_t y, const uint16_t* sources) {
-    for (const int32_t end = x + kAtOnce; x < end; ++x) {
-      if (sources[x] != 0) TakeSource(x, y, sources[x]);
     }
   }
 

@@ -32,6 +32,14 @@ simd::ViewLook ViewLookOf(const OcclusionView& look, int unit_bits) {
           static_cast<int16_t>(across < 0 ? -slant : slant)};
 }
 
+// Copies the disparity and the colour of a hidden surface of a pixel to another hidden surface.
+void CopyHidden(size_t at, int from, int to, LayeredDepth* surfaces) {
+  surfaces->disparity[to][at] = surfaces->disparity[from][at];
+  for (size_t sample = at; sample < 3 * surfaces->plane; sample += surfaces->plane) {
+    surfaces->rgb[to][sample] = surfaces->rgb[from][sample];
+  }
+}
+
 class SurfaceFinder {
  public:
   SurfaceFinder(const simd::Kernels& kernels, const Input& input, const BlockPixels& field,
@@ -72,9 +80,7 @@ class SurfaceFinder {
                         ranges);
     simd::DisparityRange all = ranges[0];
     for (int32_t x = kStripColumns; x < surfaces_.width; x += kStripColumns) {
-      const simd::DisparityRange& range = ranges[x / kStripColumns];
-      all.low = range.low < all.low ? range.low : all.low;
-      all.high = range.high > all.high ? range.high : all.high;
+      Widen(ranges[x / kStripColumns], &all);
     }
     surfaces_.low = all.low;
     surfaces_.high = all.high;
@@ -215,14 +221,12 @@ class SurfaceFinder {
   // Pixels at which a surface ends get no copy, because they belong to one slice only.
   void InsertCopy(size_t at, int16_t copy, const int16_t* rgb) {
     if (copy <= surfaces_.disparity[1][at] || surfaces_.share[at] != simd::kSliceWhole) return;
-    surfaces_.disparity[2][at] = surfaces_.disparity[1][at];
+    CopyHidden(at, 1, 2, &surfaces_);
     surfaces_.disparity[1][at] = copy;
     surfaces_.sources[1][at] = surfaces_.sources[0][at];
     surfaces_.sources[0][at] = 0;
     for (size_t c = 0; c < 3; ++c) {
-      const size_t sample = c * surfaces_.plane + at;
-      surfaces_.rgb[2][sample] = surfaces_.rgb[1][sample];
-      surfaces_.rgb[1][sample] = rgb[c * kStripColumns];
+      surfaces_.rgb[1][c * surfaces_.plane + at] = rgb[c * kStripColumns];
     }
   }
 
@@ -332,11 +336,8 @@ int ContinuedFar(const SplitPixel& pixel, const LayeredDepth& surfaces) {
 
 // Moves the second hidden surface of a pixel to the place of the first one.
 void DropFirstHidden(size_t at, LayeredDepth* surfaces) {
-  surfaces->disparity[1][at] = surfaces->disparity[2][at];
+  CopyHidden(at, 2, 1, surfaces);
   surfaces->sources[0][at] = surfaces->sources[1][at];
-  for (size_t sample = at; sample < 3 * surfaces->plane; sample += surfaces->plane) {
-    surfaces->rgb[1][sample] = surfaces->rgb[2][sample];
-  }
   surfaces->disparity[2][at] = kNoSurface;
   surfaces->sources[1][at] = 0;
 }
@@ -360,12 +361,11 @@ void Split(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
     if (continued > far) DropFirstHidden(at, surfaces);
     return;
   }
-  const bool moves = !is_thin && pixel.far_disparity - to.disparity[1][at] > copy_step;
   if (is_thin) {
     to.sources[0][at] = to.sources[1][at] = 0;
     to.disparity[2][at] = kNoSurface;
-  } else if (moves) {
-    to.disparity[2][at] = to.disparity[1][at];
+  } else if (pixel.far_disparity - to.disparity[1][at] > copy_step) {
+    CopyHidden(at, 1, 2, surfaces);
   } else {
     to.sources[0][at] = to.sources[1][at];  // source of the surface behind the far surface
   }
@@ -373,7 +373,6 @@ void Split(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
   to.low = pixel.far_disparity < to.low ? pixel.far_disparity : to.low;
   for (size_t c = 0; c < 3; ++c) {
     const size_t sample = c * to.plane + at;
-    if (moves) to.rgb[2][sample] = to.rgb[1][sample];
     to.rgb[far][sample] = pixel.far.rgb[c];
     to.rgb[0][sample] = pixel.near.rgb[c];
   }

@@ -65,6 +65,12 @@ inline constexpr int32_t kBandRows = 8;
 inline constexpr int32_t kMaxBands =
     kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
 
+// Extends *all to include `range`.
+inline void Widen(const simd::DisparityRange& range, simd::DisparityRange* all) {
+  all->low = range.low < all->low ? range.low : all->low;
+  all->high = range.high > all->high ? range.high : all->high;
+}
+
 // Finds the surfaces of a field. The caller sets the pointers of `surfaces` to sufficient memory.
 //
 // The surfaces behind a pixel are found along its row and its column. On each side, the search

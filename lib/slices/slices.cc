@@ -82,11 +82,6 @@ class SliceFinder {
     }
   }
 
-  static void Widen(const simd::DisparityRange& range, simd::DisparityRange* all) {
-    all->low = range.low < all->low ? range.low : all->low;
-    all->high = range.high > all->high ? range.high : all->high;
-  }
-
   void MarkRows(int surface, int32_t y, int32_t end) {
     simd::DisparityRange ranges[kMaxStrips];
     kernels_.FindRanges(surfaces_.disparity[surface] + surfaces_.At(around_.x, y),
