@@ -60,21 +60,34 @@ class RowMarks {
   int all_covered_ = 0;  // Number of consecutive fully covered rows that end with the last row.
 };
 
+// Calls take(taps), with `taps` as a compile-time constant.
+template <class Take>
+HWY_INLINE void TakeByTaps(int taps, const Take& take) {
+  if (taps == 2) {
+    take(std::integral_constant<int, 2>());
+  } else if (taps == 3) {
+    take(std::integral_constant<int, 3>());
+  } else {
+    take(std::integral_constant<int, 4>());
+  }
+}
+
 // Shifts rows one at a time, with vectors of at most one row. Wider vectors that combine the planes
 // of two rows are slower.
 template <int kTaps>
-HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceFraction& fraction,
+HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceOffset& offset,
                           size_t rows, size_t plane, int16_t* HWY_RESTRICT out,
                           int8_t* HWY_RESTRICT near) {
   const LanesTag d;
   const size_t lanes = hn::Lanes(d);
-  const auto inside = hn::Set(d, fraction.inside), edge = hn::Set(d, fraction.edge);
-  const auto third = hn::Set(d, fraction.third), fourth = hn::Set(d, fraction.fourth);
+  const auto inside = hn::Set(d, offset.inside), edge = hn::Set(d, offset.edge);
+  const auto third = hn::Set(d, offset.third), fourth = hn::Set(d, offset.fourth);
+  const int16_t* const first_row = in + offset.whole;
   RowMarks marks;
   for (size_t row = 0; row < rows; ++row, out += kSliceLanes) {
     auto most = hn::Zero(d), least = hn::Set(d, kSliceOne);
     for (size_t n = 0; n < kSliceLanes; n += lanes) {
-      const int16_t* HWY_RESTRICT from = in + row * 4 * in_plane + n;
+      const int16_t* HWY_RESTRICT from = first_row + row * 4 * in_plane + n;
       const auto load = [&](size_t c, size_t next)
                             HWY_ATTR { return hn::LoadU(d, from + c * in_plane + next); };
       const auto covered = load(3, 0), next = load(3, 1);
@@ -106,16 +119,11 @@ HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceFractio
   }
 }
 
-inline void ShiftSlice(const int16_t* in, size_t in_plane, const SliceFraction& fraction,
-                       size_t rows, size_t plane, int16_t* HWY_RESTRICT out,
-                       int8_t* HWY_RESTRICT near) {
-  if (fraction.third == 0) {
-    ShiftRows<2>(in, in_plane, fraction, rows, plane, out, near);
-  } else if (fraction.fourth == 0) {
-    ShiftRows<3>(in, in_plane, fraction, rows, plane, out, near);
-  } else {
-    ShiftRows<4>(in, in_plane, fraction, rows, plane, out, near);
-  }
+inline void ShiftSlice(const int16_t* in, size_t in_plane, const SliceOffset& offset, size_t rows,
+                       size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
+  TakeByTaps(offset.taps, [&](auto taps) HWY_ATTR {
+    ShiftRows<decltype(taps)::value>(in, in_plane, offset, rows, plane, out, near);
+  });
 }
 
 using SliceVec = hn::Vec<StripTag>;
@@ -203,18 +211,17 @@ HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec exces
 // Adds the contribution of a slice to a vector of rows of a view. `at` is the first sample of the
 // slice. Each row of the view is interpolated from kTaps (2 to 4) rows of the slice.
 template <int kTaps, Known kKnown>
-HWY_INLINE void TakeRows(const SliceFraction& fraction, size_t plane,
-                         const int16_t* HWY_RESTRICT at, SliceVec weight, SliceVec& light,
-                         const ViewSums& sums) {
+HWY_INLINE void TakeRows(const SliceOffset& offset, size_t plane, const int16_t* HWY_RESTRICT at,
+                         SliceVec weight, SliceVec& light, const ViewSums& sums) {
   const StripTag d16;
   constexpr bool kCovered = kKnown == Known::kCovered;
   const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
   const int16_t* HWY_RESTRICT cover = at + 3 * plane;
-  auto first = hn::Set(d16, fraction.edge);
-  const auto third = hn::Set(d16, fraction.third);
-  const auto fourth = hn::Set(d16, fraction.fourth);
+  auto first = hn::Set(d16, offset.edge);
+  const auto third = hn::Set(d16, offset.third);
+  const auto fourth = hn::Set(d16, offset.fourth);
   if (kTaps == 2) {
-    const auto inside = hn::Set(d16, fraction.inside);
+    const auto inside = hn::Set(d16, offset.inside);
     first = kCovered
                 ? inside
                 : hn::IfThenElse(hn::Eq(load(cover), load(cover + kSliceLanes)), inside, first);
@@ -253,18 +260,6 @@ struct SeenSlice {
   const SliceOffset* offsets;
 };
 
-// Calls take(taps), with `taps` as a compile-time constant.
-template <class Take>
-HWY_INLINE void TakeByTaps(int taps, const Take& take) {
-  if (taps == 2) {
-    take(std::integral_constant<int, 2>());
-  } else if (taps == 3) {
-    take(std::integral_constant<int, 3>());
-  } else {
-    take(std::integral_constant<int, 4>());
-  }
-}
-
 // Composites two vectors of rows of a strip.
 HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, size_t row, size_t n,
                               size_t rows, uint32_t* HWY_RESTRICT sums) {
@@ -292,11 +287,10 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
           constexpr Known kKnown = decltype(known)::value;
           const int read = vector_rows + kTaps - 1;
           if (kLooksFirst || near[0] < read) {
-            TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at, weight, light0,
-                                    {r0, g0, b0, a0});
+            TakeRows<kTaps, kKnown>(offset, slice.plane, at, weight, light0, {r0, g0, b0, a0});
           }
           if (kLooksFirst || near[step] < read) {
-            TakeRows<kTaps, kKnown>(offset.fraction, slice.plane, at + second, weight, light1,
+            TakeRows<kTaps, kKnown>(offset, slice.plane, at + second, weight, light1,
                                     {r1, g1, b1, a1});
           }
         });

@@ -15,15 +15,6 @@
 
 namespace starfocus::simd {
 
-// Factors of the interpolation between up to four consecutive samples p of a slice:
-//   p[1] + first (p[1] - p[0]) + third (p[1] - p[2]) + fourth (p[2] - p[3]).
-// The factor `first` is `inside` if p[0] and p[1] have equal coverage, and `edge` if not. All
-// factors are in [-1, 0] with 15 fractional bits, because 16 bits can represent -1 but not 1. If
-// `third` is not 0, `inside` and `edge` are equal. If `third` is 0, `fourth` is also 0.
-struct SliceFraction {
-  int16_t inside, edge, third, fourth;
-};
-
 // Number of rows of a strip that Composite may read after the last row that it composites.
 inline constexpr size_t kRowsAhead = 6;
 
@@ -40,16 +31,21 @@ struct StripSlice {
   size_t plane;
 };
 
-// Position of a slice in a view: a shift by whole rows, and the interpolation between a row and the
-// next rows.
+// Position of a slice in a view, along rows or columns: a shift by whole pixels, and factors of the
+// interpolation between up to four consecutive samples p of the slice:
+//   p[1] + first (p[1] - p[0]) + third (p[1] - p[2]) + fourth (p[2] - p[3]).
+// The factor `first` is `inside` if p[0] and p[1] have equal coverage, and `edge` if not. All
+// factors are in [-1, 0] with 15 fractional bits, because 16 bits can represent -1 but not 1. If
+// `third` is not 0, `inside` and `edge` are equal. If `third` is 0, `fourth` is also 0.
 struct SliceOffset {
   int16_t whole;
-  int16_t taps;  // number of interpolated rows: 2, 3 or 4, depending on the fraction
-  SliceFraction fraction;
+  int16_t taps;  // number of interpolated samples: 2, 3 or 4, depending on the factors
+  int16_t inside, edge, third, fourth;
 
-  static constexpr SliceOffset Of(int32_t whole, const SliceFraction& fraction) {
-    const int taps = 2 + (fraction.third != 0 ? 1 : 0) + (fraction.fourth != 0 ? 1 : 0);
-    return {static_cast<int16_t>(whole), static_cast<int16_t>(taps), fraction};
+  static constexpr SliceOffset Of(int32_t whole, int16_t inside, int16_t edge, int16_t third,
+                                  int16_t fourth) {
+    const int taps = 2 + (third != 0 ? 1 : 0) + (fourth != 0 ? 1 : 0);
+    return {static_cast<int16_t>(whole), static_cast<int16_t>(taps), inside, edge, third, fourth};
   }
 };
 
@@ -83,11 +79,11 @@ inline int16_t Between15(int16_t from, int16_t to, int16_t fraction) {
 // Interpolates between a sample and the following samples, which are `next` apart. `covered` points
 // to the coverage of the first sample.
 inline int16_t Between15(const int16_t* at, const int16_t* covered, size_t next,
-                         const SliceFraction& fraction) {
+                         const SliceOffset& offset) {
   const bool alike = covered[0] == covered[next];
-  int value = Between15(at[0], at[next], alike ? fraction.inside : fraction.edge);
-  if (fraction.third != 0) value += Product15(at[next] - at[2 * next], fraction.third);
-  if (fraction.fourth != 0) value += Product15(at[2 * next] - at[3 * next], fraction.fourth);
+  int value = Between15(at[0], at[next], alike ? offset.inside : offset.edge);
+  if (offset.third != 0) value += Product15(at[next] - at[2 * next], offset.third);
+  if (offset.fourth != 0) value += Product15(at[2 * next] - at[3 * next], offset.fourth);
   return static_cast<int16_t>(value);
 }
 
@@ -101,27 +97,26 @@ inline int16_t SliceShare(int16_t covered, int16_t light) {
   return static_cast<int16_t>(share < 4 * light ? share : Saturated(4 * light));
 }
 
-// Shifts rows of a slice along the row by a fraction of a sample, and stores the result in a strip.
+// Shifts rows of a slice along the row by `offset`, and stores the result in a strip.
 // The four planes of each row of `in` are `in_plane` samples apart. The planes of the strip are
-// `plane` samples apart. Sample out[n] is interpolated between in[n] and the following samples.
-// Each product is rounded half up.
+// `plane` samples apart. Sample out[n] is interpolated between in[n + whole] and the following
+// samples. Each product is rounded half up.
 //
 // near[row] is the mark of a row; kRowsAhead more marks precede near[0]. Before the call, all marks
 // must be at least kNothingNear. The kernel sets the marks of rows in which the slice covers a
 // pixel, and the marks of the kRowsAhead rows before such a row. The marks of all other rows are
 // not changed.
-STARFOCUS_REFERENCE void ShiftSlice(const int16_t* in, size_t in_plane,
-                                    const SliceFraction& fraction, size_t rows, size_t plane,
-                                    int16_t* out, int8_t* near) {
+STARFOCUS_REFERENCE void ShiftSlice(const int16_t* in, size_t in_plane, const SliceOffset& offset,
+                                    size_t rows, size_t plane, int16_t* out, int8_t* near) {
   // Number of consecutive fully covered rows up to and including the current row.
   size_t all_covered = 0;
   for (size_t row = 0; row < rows; ++row) {
-    const int16_t* covered = in + (4 * row + 3) * in_plane;
+    const int16_t* first = in + offset.whole + 4 * row * in_plane;
+    const int16_t* covered = first + 3 * in_plane;
     for (size_t c = 0; c < 4; ++c) {
-      const int16_t* from = in + (4 * row + c) * in_plane;
+      const int16_t* from = first + c * in_plane;
       int16_t* to = out + c * plane + row * kSliceLanes;
-      for (size_t n = 0; n < kSliceLanes; ++n)
-        to[n] = Between15(from + n, covered + n, 1, fraction);
+      for (size_t n = 0; n < kSliceLanes; ++n) to[n] = Between15(from + n, covered + n, 1, offset);
     }
     const int16_t *shown = out + 3 * plane + row * kSliceLanes, *end = shown + kSliceLanes;
     int8_t* last = near + row;
@@ -159,8 +154,7 @@ STARFOCUS_REFERENCE void Composite(const SliceViews& views, size_t rows, uint32_
           if (slice.near[moved] == kNothingNear) continue;
           const int16_t* from = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
           const auto value = [&](size_t c) {
-            return Between15(from + c * slice.plane, from + 3 * slice.plane, kSliceLanes,
-                             offset.fraction);
+            return Between15(from + c * slice.plane, from + 3 * slice.plane, kSliceLanes, offset);
           };
           const int16_t covered = value(3);
           for (size_t c = 0; c < 4; ++c) {

@@ -104,13 +104,6 @@ inline int32_t SubapertureWeight(int32_t offset, int32_t subaperture) {
   return static_cast<int32_t>(Checked(ranges::kSubapertureWeight, (scaled + (1u << 9)) >> 10));
 }
 
-// Surface whose end covers a part of the outermost pixel of a hole, on the side of the hole where
-// the scan continues.
-struct Rim {
-  int32_t pixel;    // Pixel of the line that shows the surface; -1: no rim.
-  int32_t covered;  // Part of the hole's outermost pixel that the surface covers, kShiftBits.
-};
-
 // Scans a line for several views. The scan calls the following functions of the sink, with
 // positions in pixels of the line that are never mirrored.
 //
@@ -121,8 +114,10 @@ struct Rim {
 // `weight` (kShiftBits), shows line pixel `other`, which lies in front of `source` or behind
 // `source`.
 //
-// sink.Hole(begin, end, pixel, rim): rendered pixels [begin, end) are uncovered. Pixels of a hole
-// show the surface of the visible line pixel `pixel`, which continues into the hole.
+// sink.Hole(begin, end, pixel, rim, covered): rendered pixels [begin, end) are uncovered. Pixels of
+// a hole show the surface of the visible line pixel `pixel`, which continues into the hole. If
+// `rim` is not -1, the end of the surface that the line pixel `rim` shows covers the part `covered`
+// (kShiftBits) of the hole's outermost pixel on the side where the scan continues.
 //
 // Each required pixel is passed exactly once, in scan order.
 template <Direction kDirection, class Sink>
@@ -167,7 +162,7 @@ class LineScan {
       run_end = begin;
     }
     FlushEdge();
-    if (filled_from_ > begin_) Hole(begin_, filled_from_, filled_pixel_, {-1, 0});
+    if (filled_from_ > begin_) Hole(begin_, filled_from_, filled_pixel_, -1, 0);
   }
 
  private:
@@ -315,24 +310,24 @@ class LineScan {
                            filled_from_ + whole <= line_.length;
     if (stretched) return filled_from_;
     if (step <= kSurfaceStep) {
-      Hole(Max(gap, begin_), filled_from_, step < 0 ? q : filled_pixel_, {-1, 0});
+      Hole(Max(gap, begin_), filled_from_, step < 0 ? q : filled_pixel_, -1, 0);
       return gap;
     }
     const int32_t begin = offset > 0 ? gap - 1 : gap;
     const int32_t covered = offset > 0 ? kShiftOne - offset : -offset;
     const bool wanted = begin >= begin_ && covered > 0;
-    Hole(Max(begin, begin_), filled_from_, filled_pixel_, {wanted ? Pixel(q) : -1, covered});
+    Hole(Max(begin, begin_), filled_from_, filled_pixel_, wanted ? Pixel(q) : -1, covered);
     return begin;
   }
 
   // Emits a hole that continues the surface of position q.
-  void Hole(int32_t begin, int32_t end, int32_t q, const Rim& rim) const {
+  void Hole(int32_t begin, int32_t end, int32_t q, int32_t rim, int32_t covered) const {
     end = Min(end, end_);
     if (begin >= end) return;
     if (kMirrored) {
-      sink_->Hole(line_.length - end, line_.length - begin, Pixel(q), rim);
+      sink_->Hole(line_.length - end, line_.length - begin, Pixel(q), rim, covered);
     } else {
-      sink_->Hole(begin, end, Pixel(q), rim);
+      sink_->Hole(begin, end, Pixel(q), rim, covered);
     }
   }
 

@@ -129,25 +129,24 @@ class SpanSink {
     }
   }
 
-  void Hole(int32_t begin, int32_t end, int32_t pixel, const Rim& rim) {
+  void Hole(int32_t begin, int32_t end, int32_t pixel, int32_t rim, int32_t covered) {
     int16_t* pixels = list_->Pixels(3 * static_cast<size_t>(end - begin));
     const int16_t disparity = line_.disparity[pixel * line_.step];
     holes_.Fill(begin, end, disparity, line_.rgb + 3 * static_cast<ptrdiff_t>(pixel), pixels);
-    const int32_t rim_at = rim.pixel < pixel ? begin : end - 1;
-    if (rim.pixel >= 0) {
-      const int16_t* colour = line_.rgb + 3 * static_cast<ptrdiff_t>(rim.pixel);
+    const int32_t rim_at = rim < pixel ? begin : end - 1;
+    if (rim >= 0) {
+      const int16_t* colour = line_.rgb + 3 * static_cast<ptrdiff_t>(rim);
       int16_t* out = pixels + 3 * (rim_at - begin);
       for (int c = 0; c < 3; ++c) {
         out[c] = static_cast<int16_t>(
-            (out[c] * (kShiftOne - rim.covered) + colour[c] * rim.covered + kShiftOne / 2) >>
-            kShiftBits);
+            (out[c] * (kShiftOne - covered) + colour[c] * covered + kShiftOne / 2) >> kShiftBits);
       }
     }
     Add(begin, end, pixels, 0, 0);
     if (disparity_ == nullptr) return;
     for (int32_t p = begin; p < end; ++p) disparity_[p - first_] = disparity;
-    if (rim.pixel >= 0 && rim.covered > kShiftOne / 2) {
-      disparity_[rim_at - first_] = line_.disparity[rim.pixel];
+    if (rim >= 0 && covered > kShiftOne / 2) {
+      disparity_[rim_at - first_] = line_.disparity[rim];
     }
   }
 

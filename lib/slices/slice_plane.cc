@@ -50,13 +50,12 @@ SliceOffset BoxOffset(int32_t shift, int32_t subaperture) {
   const auto share = [&](int32_t more) {
     return static_cast<int16_t>(-(kFractionOne / 2 + kFractionOne / 4 * more / subaperture));
   };
-  if (rest <= kHalves)
-    return SliceOffset::Of(whole, {share(left - rest), share(left - rest), 0, 0});
+  if (rest <= kHalves) return SliceOffset::Of(whole, share(left - rest), share(left - rest), 0, 0);
   if (rest <= 2 * kHalves) {
-    return SliceOffset::Of(whole, {part(left), part(left), part(rest - kHalves), 0});
+    return SliceOffset::Of(whole, part(left), part(left), part(rest - kHalves), 0);
   }
   const int32_t right = rest - 2 * kHalves;
-  return SliceOffset::Of(whole, {part(left), part(left), share(right - left), part(right)});
+  return SliceOffset::Of(whole, part(left), part(left), share(right - left), part(right));
 }
 
 // Returns the share, with 15 fractional bits, of the second of two pixels inside a slice, if a
@@ -79,10 +78,10 @@ SliceOffset OffsetOf(int32_t shift, int32_t subaperture, int32_t scale) {
     return static_cast<int16_t>(fraction - kFractionOne);
   };
   const int16_t edge = before(rest * (kFractionOne / kShiftOne));
-  if (subaperture >= kShiftOne) return SliceOffset::Of(whole, {edge, edge, 0, 0});
+  if (subaperture >= kShiftOne) return SliceOffset::Of(whole, edge, edge, 0, 0);
   const int64_t moved = int64_t{shift} * scale - int64_t{whole} * (1 << kScaledBits);
   const int32_t inside = ShareInside(moved, subaperture * scale);
-  return SliceOffset::Of(whole, {before(inside), edge, 0, 0});
+  return SliceOffset::Of(whole, before(inside), edge, 0, 0);
 }
 
 // Returns the scale of the shifts inside a slice whose subapertures are narrower than a pixel. The

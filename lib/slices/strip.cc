@@ -212,12 +212,10 @@ class Strip {
     int8_t* near = shown_[k].near + first;
     // Resets the marks of rows, which still hold the values of the previous column of views.
     std::memset(near - kRowsAhead, simd::kNothingNear, rows + simd::kRowsAhead);
-    const simd::SliceOffset& offset = stack_.Offset(k, i);
     const int16_t* from =
         placed.samples + static_cast<size_t>(first + placed.reach) * 4 * placed.plane;
-    kernels_.ShiftSlice(from + first_->x + placed.reach + offset.whole, placed.plane,
-                        offset.fraction, rows, shown_[k].plane,
-                        shown_[k].samples + first * simd::kStripColumns, near);
+    kernels_.ShiftSlice(from + first_->x + placed.reach, placed.plane, stack_.Offset(k, i), rows,
+                        shown_[k].plane, shown_[k].samples + first * simd::kStripColumns, near);
   }
 
   // Adds the views (i, first) to (i, j) for the largest j <= most for which all weights have the

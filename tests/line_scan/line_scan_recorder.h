@@ -58,17 +58,17 @@ struct Recorder {
     begins.push_back(p);
     Show(p, Kind::kMix, source, other, weight);
   }
-  void Hole(int begin, int end, int pixel, const starfocus::Rim& rim) {
+  void Hole(int begin, int end, int pixel, int rim, int covered) {
     REQUIRE(begin < end);
     begins.push_back(begin);
     for (int p = begin; p < end; ++p) Show(p, Kind::kHole, pixel, -1, 0);
-    if (rim.pixel < 0) return;
+    if (rim < 0) return;
     // A scan from right to left continues at the left end of a hole. A sink may derive the
-    // direction from the order of `pixel` and `rim.pixel`.
-    CHECK((rim.pixel < pixel) == (direction == Direction::kRightToLeft));
+    // direction from the order of `pixel` and `rim`.
+    CHECK((rim < pixel) == (direction == Direction::kRightToLeft));
     Shown& shown = pixels[size_t(direction == Direction::kRightToLeft ? begin : end - 1)];
-    shown.other = rim.pixel;
-    shown.weight = rim.covered;
+    shown.other = rim;
+    shown.weight = covered;
   }
   void Show(int p, Kind kind, int source, int other, int weight) {
     REQUIRE(p >= 0);

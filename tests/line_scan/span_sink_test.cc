@@ -15,7 +15,6 @@
 namespace span_sink_test {
 namespace {
 
-using starfocus::Rim;
 using namespace starfocus::simd;
 
 constexpr int kLength = 12;
@@ -111,7 +110,7 @@ TEST_CASE("span sink: the rim of a hole is mixed, with the disparity of the larg
   for (const Case& c : {Case{8, 2, 4}, Case{2, 8, 7}}) {
     for (const int covered : {1, 127, 128, 129, 255}) {
       Drawing drawing(200);
-      const auto draw = [&](auto* sink) { sink->Hole(4, 8, c.pixel, Rim{c.rim, covered}); };
+      const auto draw = [&](auto* sink) { sink->Hole(4, 8, c.pixel, c.rim, covered); };
       drawing.Run(kBlendOne, draw);
       CAPTURES(c.rim, covered);
       CHECK(drawing.holes.disparity == 100 + c.pixel);
@@ -135,7 +134,7 @@ TEST_CASE("span sink: a hole without a rim and a surface with its neighbours are
   Drawing drawing(200);
   drawing.Run(kBlendOne, [](auto* sink) {
     sink->Surface(3, 6, 4, -1, int(kBlendOne) / 4);
-    sink->Hole(6, 8, 1, Rim{-1, 0});
+    sink->Hole(6, 8, 1, -1, 0);
     sink->Surface(8, 10, 9, 1, 0);
   });
   for (int p = 3; p < 6; ++p) {

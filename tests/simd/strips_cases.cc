@@ -7,16 +7,18 @@
 namespace test::kernel_cases {
 namespace {
 
-// Returns a random filter for the position of a view: one sample, two samples, or three or four
-// samples. With two samples, the weights at edges and inside surfaces may be equal or different.
-SliceFraction Fraction(Draw* draw) {
+// Returns a position with a shift by `whole` and a random filter: one sample, two samples, or three
+// or four samples. With two samples, the weights at edges and inside surfaces may be equal or
+// different.
+SliceOffset Offset(int whole, Draw* draw) {
   const int taps = draw->timed() ? 2 : draw->Int(1, 5), first = draw->Int(0, 32767);
-  if (taps == 1) return {INT16_MIN, INT16_MIN, 0, 0};
+  if (taps == 1) return SliceOffset::Of(whole, INT16_MIN, INT16_MIN, 0, 0);
   const auto edge = int16_t(-first);
-  if (taps == 2) return {edge, edge, 0, 0};
-  if (taps == 3) return {int16_t(draw->Int(-32768, 0)), edge, 0, 0};
+  if (taps == 2) return SliceOffset::Of(whole, edge, edge, 0, 0);
+  if (taps == 3) return SliceOffset::Of(whole, int16_t(draw->Int(-32768, 0)), edge, 0, 0);
   const int third = draw->Int(1, 32768 - first);
-  return {edge, edge, int16_t(-third), int16_t(taps == 4 ? 0 : -draw->Int(0, third))};
+  const int fourth = taps == 4 ? 0 : draw->Int(0, third);
+  return SliceOffset::Of(whole, edge, edge, int16_t(-third), int16_t(-fourth));
 }
 
 // Returns rows of samples; each row has four adjacent planes, three colours and the coverage. In
@@ -54,14 +56,14 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   // The memory of `in` ends with the last sample that the kernel reads.
   samples.resize(samples.size() - (more - first));
   const int16_t* in = call->Input("in", samples) + first;
-  const SliceFraction fraction = Fraction(draw);
+  const SliceOffset offset = Offset(draw->Int(-3, 3), draw);
   auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
   call->ResultRows(out, 4, plane, rows * kSliceLanes);
   auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
   constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
   call->Runs([=](const Kernels& kernels) {
-    kernels.ShiftSlice(in, in_plane, fraction, rows, plane, out, near + kRowsAhead);
+    kernels.ShiftSlice(in - offset.whole, in_plane, offset, rows, plane, out, near + kRowsAhead);
   });
   call->is_right = [=](uint64_t, Met* met) {
     const int8_t *begin = near, *end = near + kRowsAhead + rows;
@@ -122,7 +124,7 @@ SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
       view_count, [&] { return draw->Int(0, std::min(16383, 58000 / int(view_count))); });
   std::vector<SliceOffset> offsets;
   for (size_t n = 0; n < view_count * count; ++n) {
-    offsets.push_back(SliceOffset::Of(draw->Int(-int(kMost), int(kMost)), Fraction(draw)));
+    offsets.push_back(Offset(draw->Int(-int(kMost), int(kMost)), draw));
   }
   std::vector<uint8_t> shown;
   for (size_t k = 0; k < count; ++k) {

@@ -81,7 +81,7 @@ TEST_CASE("slice planes: pixels inside a slice are not integrated over pixels a 
           double weight = 0;
           for (int j = -grid.n(); j <= grid.n(); ++j) weight += grid.aperture.Weight(i, j);
           const starfocus::simd::SliceOffset& offset = offsets[size_t(i + grid.n())];
-          const double share = 1 + offset.fraction.inside / 32768.0;
+          const double share = 1 + offset.inside / 32768.0;
           const double first = offset.whole, next = offset.whole + 1;
           const double shift = i * grid.step / std::ldexp(grid.n(), 24) * side * blur / 64;
           total += weight;
