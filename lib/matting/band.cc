@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstring>
 
 #include "lib/matting/coverage_tile.h"
@@ -44,78 +45,34 @@ uint64_t BinsOf(const CoverageMap& map, int32_t low, int32_t high) {
   return (map.BinOf(high) << 1) - map.BinOf(low);
 }
 
-// Disparities of a row of adjacent tiles, with a border of one pixel. Beyond the picture, the
-// outermost pixels of the picture are repeated.
-class TileRow {
- public:
-  TileRow(const Input& input, int32_t left, int32_t top, int32_t columns) {
-    const int32_t right = input.width - 1;
-    const int32_t first = Max(left - 1, 0), end = Min(left + columns, right) + 1;
-    for (int32_t y = 0; y < kCoverageTile + 2; ++y) {
-      const int16_t* from = input.disparity.Row(Clamp(top + y - 1, 0, input.height - 1));
-      int16_t* to = At(-1, y - 1);
-      std::memcpy(to + first - left + 1, from + first,
-                  static_cast<size_t>(end - first) * sizeof(*to));
-      if (first == left) to[0] = from[0];
-      for (int32_t x = end - left + 1; x < columns + 2; ++x) to[x] = from[right];
-    }
+using TileDisparities = DisparitiesAround<1>;
+
+// Returns the number of pixels of a tile that have a nearer neighbour.
+int32_t CountRagged(const simd::Kernels& kernels, const TileDisparities& around) {
+  int32_t count = 0;
+  for (int32_t y = 0; y < kCoverageTile; ++y) {
+    uint16_t bits;
+    kernels.BesideSteps(around.disparity + TileDisparities::At(0, y), TileDisparities::kSide,
+                        kCoverageTile, static_cast<int16_t>(kThinStep), &bits);
+    ForEachBit(bits, [&](int32_t) { ++count; });
   }
+  return count;
+}
 
-  int16_t* At(int32_t x, int32_t y) { return samples_ + (y + 1) * kStride + x + kCoverageTile; }
-
-  // Finds the range of the disparities of a tile and of the one-pixel border around the tile.
-  void FindRange(int32_t x, int32_t* low, int32_t* high) {
-    int16_t lows[kCoverageTile + 2], highs[kCoverageTile + 2];
-    std::memcpy(lows, At(x - 1, -1), sizeof(lows));
-    std::memcpy(highs, lows, sizeof(highs));
-    for (int32_t y = 0; y <= kCoverageTile; ++y) {
-      const int16_t* row = At(x - 1, y);
-      for (int32_t k = 0; k < kCoverageTile + 2; ++k) {
-        lows[k] = row[k] < lows[k] ? row[k] : lows[k];
-        highs[k] = row[k] > highs[k] ? row[k] : highs[k];
-      }
-    }
-    *low = INT16_MAX;
-    *high = INT16_MIN;
-    for (int32_t k = 0; k < kCoverageTile + 2; ++k) {
-      *low = Min(*low, lows[k]);
-      *high = Max(*high, highs[k]);
-    }
-  }
-
-  // Returns the number of pixels of a tile that have a nearer neighbour.
-  int32_t CountRagged(const simd::Kernels& kernels, int32_t x) {
-    int32_t count = 0;
-    for (int32_t y = 0; y < kCoverageTile; ++y) {
-      uint16_t bits;
-      kernels.BesideSteps(At(x, y), kStride, kCoverageTile, static_cast<int16_t>(kThinStep), &bits);
-      ForEachBit(bits, [&](int32_t) { ++count; });
-    }
-    return count;
-  }
-
-  // Returns the number of pixels of a tile that belong to a strand one pixel wide, because two
-  // opposite neighbours are farther.
-  int32_t CountStrands(int32_t x) {
-    int32_t count = 0;
-    for (int32_t y = 0; y < kCoverageTile; ++y) {
-      const int16_t* const row = At(x, y);
-      for (int32_t k = 0; k < kCoverageTile; ++k) {
-        const int32_t beyond = row[k] - kThinStep;
-        const bool across = row[k - 1] < beyond && row[k + 1] < beyond;
-        const bool down = row[k - kStride] < beyond && row[k + kStride] < beyond;
-        count += across || down ? 1 : 0;
-      }
-    }
-    return count;
-  }
-
-  static constexpr int32_t kMostTiles = 16;
-
- private:
-  static constexpr int32_t kStride = (kMostTiles + 2) * kCoverageTile;
-  int16_t samples_[(kCoverageTile + 3) * kStride];
-};
+// Returns the number of pixels of a tile that belong to a strand one pixel wide, because two
+// opposite neighbours are farther.
+int32_t CountStrands(const TileDisparities& around) {
+  int32_t count = 0;
+  ForPixels({0, 0, kCoverageTile, kCoverageTile}, [&](int32_t x, int32_t y) {
+    const int16_t* const here = around.disparity + TileDisparities::At(x, y);
+    const int32_t beyond = *here - kThinStep;
+    const bool across = here[-1] < beyond && here[1] < beyond;
+    const bool down =
+        here[-TileDisparities::kSide] < beyond && here[TileDisparities::kSide] < beyond;
+    count += across || down ? 1 : 0;
+  });
+  return count;
+}
 
 // Replaces the near disparity of each pixel of a row of a tile by a weighted mean of the
 // disparities in the 5x5 pixels around it that differ from it by at most 2 pixels, if there are
@@ -154,36 +111,26 @@ void SmoothNear(const int16_t* here, int32_t stride, int16_t* near) {
 // tolerance hides the noise of coverage that was computed or compressed.
 constexpr int32_t kPure = 2;
 
-// The pixels of a tile that have a mixture at most kBandReach pixels away along both axes.
-class BesideMixtures {
- public:
-  BesideMixtures(const Input& input, int32_t column, int32_t row) {
-    const int32_t left = column * kCoverageTile - kBandReach, first = Max(0, left);
-    const int32_t end = Min(left + kSide, input.width);
-    for (int32_t y = 0; y < kSide; ++y) {
-      const int32_t from = row * kCoverageTile - kBandReach + y;
-      if (from < 0 || from >= input.height) continue;
-      const uint8_t* const given = input.given_coverage.Row(from);
-      uint32_t mixed = 0, wide = 0;  // bit k: column left + k
-      for (int32_t x = first; x < end; ++x) {
-        const int32_t alpha = GivenAlpha(given[x]);
-        mixed |= uint32_t{alpha > kPure && alpha < kLeastWhole} << (x - left);
-      }
-      for (int32_t k = 0; k <= 2 * kBandReach; ++k) wide |= mixed >> k;
-      for (int32_t k = Max(0, y - 2 * kBandReach); k <= Min(y, kCoverageTile - 1); ++k) {
-        rows_[k] |= wide;
-      }
+// Sets bit k of rows[y] if pixel (k, y) of a tile has a mixture at most kBandReach pixels away
+// along both axes.
+void FindMixtures(const Input& input, int32_t column, int32_t row, uint32_t* rows) {
+  constexpr int32_t kSide = kCoverageTile + 2 * kBandReach;
+  static_assert(kSide <= 32, "a row of the tile and its surroundings has one bit per pixel");
+  const int32_t left = column * kCoverageTile - kBandReach, top = row * kCoverageTile - kBandReach;
+  const Rect around = Clipped({left, top, kSide, kSide}, input.width, input.height);
+  std::fill_n(rows, kCoverageTile, 0U);
+  for (int32_t y = around.y; y < around.y + around.height; ++y) {
+    uint32_t mixed = 0, wide = 0;  // bit k: column left + k
+    for (int32_t x = around.x; x < around.x + around.width; ++x) {
+      const int32_t alpha = GivenAlpha(input.given_coverage.Row(y)[x]);
+      mixed |= uint32_t{alpha > kPure && alpha < kLeastWhole} << (x - left);
+    }
+    for (int32_t k = 0; k <= 2 * kBandReach; ++k) wide |= mixed >> k;
+    for (int32_t k = Max(0, y - top - 2 * kBandReach); k <= Min(y - top, kCoverageTile - 1); ++k) {
+      rows[k] |= wide;
     }
   }
-
-  bool Has(int32_t x, int32_t y) const { return (rows_[y] >> x & 1) != 0; }
-
- private:
-  static constexpr int32_t kSide = kCoverageTile + 2 * kBandReach;
-  static_assert(kSide <= 32, "a row of the tile and its surroundings has one bit per pixel");
-
-  uint32_t rows_[kCoverageTile] = {};  // bit k: column k of the tile
-};
+}
 
 // Writes the surfaces, the coverage and the light of the pixels of a tile. find(y, at, pixels)
 // writes the BandPixels of row y of the tile, whose first pixel has the index `at` in `around`.
@@ -233,22 +180,20 @@ void StartPixels(const Input& input, int32_t column, int32_t row, const Disparit
 
 }  // namespace
 
-void FindRagged(const Input& input, int32_t first, int32_t last, int32_t row) {
+void FindRagged(const Input& input, int32_t column, int32_t row) {
   const CoverageMap& map = *input.coverage;
-  for (int32_t from = first; from < last; from += TileRow::kMostTiles) {
-    const int32_t count = Min(TileRow::kMostTiles, last - from);
-    TileRow tiles(input, from * kCoverageTile, row * kCoverageTile, count * kCoverageTile);
-    for (int32_t k = 0; k < count; ++k) {
-      CoverageTile& tile = map.Tile(from + k, row);
-      int32_t low, high;
-      tiles.FindRange(k * kCoverageTile, &low, &high);
-      const bool ragged = high - low > kThinStep &&
-                          (HasGiven(input) ||
-                           (tiles.CountRagged(*input.kernels, k * kCoverageTile) >= kLeastRagged &&
-                            tiles.CountStrands(k * kCoverageTile) >= kLeastStrands));
-      tile = {BinsOf(map, low, high), INT16_MAX, INT16_MIN, ragged ? uint8_t{1} : uint8_t{0}, 0, 0};
-    }
-  }
+  const TileDisparities around(input, column, row);
+  simd::DisparityRange ranges[2];
+  static_assert(TileDisparities::kSide <= 2 * simd::kSliceLanes);
+  input.kernels->FindRanges(around.disparity, TileDisparities::kSide, TileDisparities::kSide,
+                            TileDisparities::kSide, ranges);
+  const int32_t low = Min(ranges[0].low, ranges[1].low);
+  const int32_t high = Max(ranges[0].high, ranges[1].high);
+  const bool ragged = high - low > kThinStep &&
+                      (HasGiven(input) || (CountRagged(*input.kernels, around) >= kLeastRagged &&
+                                           CountStrands(around) >= kLeastStrands));
+  map.Tile(column, row) = {BinsOf(map, low, high),           INT16_MAX, INT16_MIN,
+                           ragged ? uint8_t{1} : uint8_t{0}, 0,         0};
 }
 
 void ClearTile(const Input& input, int32_t column, int32_t row) {
@@ -281,7 +226,8 @@ void StartTile(const Input& input, int32_t column, int32_t row) {
 void StartGiven(const Input& input, int32_t column, int32_t row) {
   const GivenDisparities around(input, column, row);
   const SurfaceSearch search(around);
-  const BesideMixtures mixtures(input, column, row);
+  uint32_t mixtures[kCoverageTile];
+  FindMixtures(input, column, row, mixtures);
   CoverageTile& tile = input.coverage->Tile(column, row);
   const auto find = [&](int32_t x, int32_t y, int32_t at) -> BandPixel {
     const int32_t here = around.disparity[at];
@@ -294,7 +240,7 @@ void StartGiven(const Input& input, int32_t column, int32_t row) {
     const int32_t alpha = GivenAlpha(input.given_coverage.Row(y)[x]);
     const bool agrees =
         (implied > 0 ? alpha >= kLeastWhole : alpha <= kPure) && !search.IsOnRamp(at);
-    if (agrees && !mixtures.Has(x % kCoverageTile, y % kCoverageTile)) return one_surface;
+    if (agrees && (mixtures[y % kCoverageTile] >> x % kCoverageTile & 1) == 0) return one_surface;
     tile.mixed = 1;
     return {true, implied, alpha, surfaces.low, surfaces.high, FarWeight(alpha)};
   };

@@ -126,16 +126,18 @@ struct CoverageMap {
     return uint64_t{1} << Clamp((disparity - disparity_min) >> bin_bits, 0, 63);
   }
   bool HasTile(int32_t column, int32_t row) const {
-    return column >= 0 && column < columns && row >= 0 && row < Rows();
+    return Contains({0, 0, columns, Rows()}, column, row);
   }
-  // Returns true if `mark` is set in any tile within `reach` tiles of the tile at (column, row).
-  bool AnyAround(int32_t column, int32_t row, int32_t reach, uint8_t CoverageTile::*mark) const {
-    return AnyPixel(Clipped(Around(column, row, reach), columns, Rows()),
-                    [&](int32_t x, int32_t y) { return Tile(x, y).*mark != 0; });
+  // Returns the pixels of the picture in a tile.
+  Rect PixelsOf(int32_t column, int32_t row) const {
+    return Clipped({column * kCoverageTile, row * kCoverageTile, kCoverageTile, kCoverageTile},
+                   width, height);
   }
-  // Returns true if the passes process the tile at (column, row).
+  // Returns true if the passes process the tile at (column, row), because it or a tile at most
+  // `around` tiles away is ragged.
   bool IsStarted(int32_t column, int32_t row) const {
-    return AnyAround(column, row, around, &CoverageTile::ragged);
+    return AnyPixel(Clipped(Around(column, row, around), columns, Rows()),
+                    [&](int32_t x, int32_t y) { return Tile(x, y).ragged != 0; });
   }
   // Returns the light of the far surface at pixel (x, y).
   FarCell& FarAt(int32_t x, int32_t y) const { return far[0][CellAt(x, y, 0)]; }

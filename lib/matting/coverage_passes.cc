@@ -79,32 +79,22 @@ void Look(const Input& input, int32_t column, int32_t row) {
   if (tile.thin != 0 && !IsGivenAlone(input)) LookBehindTile(input, column, row);
 }
 
-// Runs a pass on the tiles [first, last) of a row. All earlier passes must already be as many rows
-// of tiles ahead as TilesAhead requires.
-void RunPass(const Input& input, int pass, int32_t first, int32_t last, int32_t row) {
-  const CoverageMap& map = *input.coverage;
-  if (pass == kFindRagged) {
-    FindRagged(input, first, last, row);
-    return;
-  }
+// Runs a pass on a tile. All earlier passes must already be as many rows of tiles ahead as
+// TilesAhead requires.
+void RunPass(const Input& input, int pass, int32_t column, int32_t row) {
   // If the light field provides coverage, the first unmixing pass is not needed. Given coverage is
   // read during kUnmixFirst instead of kStart, because reading requires `ragged` of tiles up to two
   // rows ahead.
   const bool given = HasGiven(input);
-  const int start = given ? kUnmixFirst : kStart;
-  for (int32_t column = first; column < last; ++column) {
-    const CoverageTile& tile = map.Tile(column, row);
-    if (pass == start) Start(input, column, row);
-    if (pass == kUnmixFirst && !given && tile.ragged != 0) UnmixFirst(input, column, row);
-    if (pass == kLook) Look(input, column, row);
-    if (pass != kUnmixAgain || tile.thin == 0) continue;
-    if (given) {
-      TakeGiven(input, column, row);
-      if (!IsGivenAlone(input)) AddFarDetail(input, column, row);
-    } else {
-      UnmixAgain(input, column, row);
-    }
-  }
+  const CoverageTile& tile = input.coverage->Tile(column, row);
+  if (pass == kFindRagged) FindRagged(input, column, row);
+  if (pass == (given ? kUnmixFirst : kStart)) Start(input, column, row);
+  if (pass == kUnmixFirst && !given && tile.ragged != 0) UnmixFirst(input, column, row);
+  if (pass == kLook) Look(input, column, row);
+  if (pass != kUnmixAgain || tile.thin == 0) return;
+  if (!given) return UnmixAgain(input, column, row);
+  TakeGiven(input, column, row);
+  if (!IsGivenAlone(input)) AddFarDetail(input, column, row);
 }
 
 // Runs all passes, so that the last pass completes the rows of tiles [top, end). A job of a pass
@@ -124,7 +114,7 @@ starfocus_status RunPasses(const FullConfig& config, const Input& input, const R
         CancelToken cancel(&jobs->call_progress);
         for (int32_t row = rows.first; row < rows.last; ++row) {
           if (!cancel.Spend(int64_t{last - first} * kCoverageTile * kCoverageTile)) return;
-          RunPass(input, pass, first, last, row);
+          for (int32_t k = first; k < last; ++k) RunPass(input, pass, k, row);
         }
       };
       const starfocus_status status = ForEach((map->columns + side - 1) / side, jobs, run);

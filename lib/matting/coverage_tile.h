@@ -14,8 +14,8 @@ namespace starfocus {
 
 // Band (band.cc).
 
-// Sets CoverageTile::ragged of the tiles [first, last) of a row.
-void FindRagged(const Input& input, int32_t first, int32_t last, int32_t row);
+// Sets CoverageTile::ragged of a tile.
+void FindRagged(const Input& input, int32_t column, int32_t row);
 
 // Initialises a tile as a single surface with the disparities of the disparity map.
 void ClearTile(const Input& input, int32_t column, int32_t row);
@@ -51,10 +51,14 @@ void TakeGiven(const Input& input, int32_t column, int32_t row);
 // level 0. Each cell gets the light of the farthest surface in the cell.
 void PullTile(int32_t column, int32_t row, const CoverageMap& map);
 
-// Light of the far surface at each pixel of a tile. The weight of a pixel is 0 if the light of the
-// far surface is not known nearby.
+// Light of the far surface at each pixel of a tile, or in each cell of a level of a tile, with a
+// border of one cell. The weight of a pixel is 0 if the light of the far surface is not known
+// nearby.
 struct FarTile {
-  FarCell cells[kCoverageTile * kCoverageTile];
+  static constexpr int32_t kSide = kCoverageTile + 2;
+  FarCell cells[kSide * kSide];
+
+  FarCell& At(int32_t x, int32_t y) { return cells[(y + 1) * kSide + x + 1]; }
 };
 
 // Fills in unknown light of the far surface at the tile's pixels, from levels 1 to 4 of this tile
@@ -97,7 +101,8 @@ void AddFarDetail(const Input& input, int32_t column, int32_t row);
 template <int32_t kAround>
 struct DisparitiesAround {
   static constexpr int32_t kSide = kCoverageTile + 2 * kAround;
-  int16_t disparity[kSide * kSide];
+  // The samples after the last row may be read, and are not used.
+  int16_t disparity[kSide * kSide + simd::kSliceLanes];
 
   DisparitiesAround() = default;
   DisparitiesAround(const Input& input, int32_t column, int32_t row) {
@@ -172,14 +177,6 @@ class SurfaceSearch {
       if (disparity > greatest) greatest = disparity;
     }
   };
-  struct Target {
-    int32_t x, y;  // column and row of the start
-    int32_t low, high;
-  };
-
-  // Returns the least of `rank` and the ranks of the pixels of a cell that match the target.
-  uint32_t LeastRank(const Target& target, int32_t column, int32_t row, uint32_t rank) const;
-
   const GivenDisparities& around_;
   bool on_ramp_[kSide * kSide] = {};  // false for the outermost kRampReach pixels
   Cell cells_[kCells * kCells];

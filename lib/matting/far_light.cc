@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lib/matting/colour.h"
 #include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
 namespace {
 
 // Returns a / b, rounded to the nearest integer; b > 0.
-int32_t Rounded(int64_t a, int32_t b) {
-  return static_cast<int32_t>((a + (a < 0 ? -(b / 2) : b / 2)) / b);
-}
-
-// Weighted sums of the light and the disparities of several cells that show one surface.
-struct FarSum {
-  int64_t rgb[3] = {0, 0, 0}, disparity = 0;
-  int32_t weight = 0;
-
-  void Add(const FarCell& cell, int32_t part) {
-    for (int c = 0; c < 3; ++c) rgb[c] += int64_t{part} * cell.rgb[c];
-    disparity += int64_t{part} * cell.disparity;
-    weight += part;
-  }
-  int16_t Mean(int64_t sum) const { return static_cast<int16_t>(Rounded(sum, weight)); }
-  FarCell Mean(int32_t known) const {
-    if (weight == 0) return {};
-    return {
-        {Mean(rgb[0]), Mean(rgb[1]), Mean(rgb[2])}, static_cast<int16_t>(known), Mean(disparity)};
-  }
-};
+int64_t Rounded(int64_t a, int64_t b) { return (a + (a < 0 ? -(b / 2) : b / 2)) / b; }
 
 using FourCells = const FarCell* [4];
 
@@ -38,64 +19,38 @@ int32_t FarthestOf(const FourCells& cells) {
   return farthest;
 }
 
-// Returns the weighted sum of the cells whose disparity differs from `disparity` by at most
-// kThinStep. Each cell is weighted by its element of `parts` and by its confidence.
-FarSum SumOf(const FourCells& cells, const int32_t (&parts)[4], int32_t disparity) {
-  FarSum sum;
+// Returns the mean of the cells whose disparity differs from `disparity` by at most kThinStep. Each
+// cell is weighted by its element of `parts` and by its confidence. The weight of the mean is the
+// sum of the weights, at most kKnown. It is inlined, because `parts` are constants.
+inline FarCell MeanOf(const FourCells& cells, const int32_t (&parts)[4], int32_t disparity) {
+  ColourSum<int64_t> sum;
+  int64_t disparities = 0;
   for (int k = 0; k < 4; ++k) {
     if (cells[k]->weight == 0 || Abs(cells[k]->disparity - disparity) > kThinStep) continue;
-    sum.Add(*cells[k], parts[k] * cells[k]->weight);
+    const int32_t part = parts[k] * cells[k]->weight;
+    sum.Add(cells[k]->rgb, part);
+    disparities += int64_t{part} * cells[k]->disparity;
   }
-  return sum;
-}
-
-FarCell Pull(const FourCells& children) {
-  const FarSum sum = SumOf(children, {1, 1, 1, 1}, FarthestOf(children));
-  return sum.Mean(Min(sum.weight, kKnown));
+  if (sum.weight == 0) return {};
+  FarCell mean;
+  for (int c = 0; c < 3; ++c) mean.rgb[c] = static_cast<int16_t>(sum.Mean(c));
+  mean.weight = static_cast<int16_t>(Min(static_cast<int32_t>(sum.weight), kKnown));
+  mean.disparity = static_cast<int16_t>(Rounded(disparities, sum.weight));
+  return mean;
 }
 
 // Fills in the unknown part of a cell's light with the mean light of cells in `above`. Only cells
 // that show the surface at `disparity` are included.
 void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
   if (cell->weight >= kKnown) return;
-  const FarSum sum = SumOf(above, {9, 3, 3, 1}, disparity);
-  if (sum.weight == 0) return;
-  const FarCell mean = sum.Mean(kKnown);
+  const FarCell mean = MeanOf(above, {9, 3, 3, 1}, disparity);
+  if (mean.weight == 0) return;
   for (int c = 0; c < 3; ++c) {
     const int32_t more = (cell->rgb[c] - mean.rgb[c]) * cell->weight;
     cell->rgb[c] = static_cast<int16_t>(mean.rgb[c] + RoundShift(more, kFarKnownBits));
   }
   if (cell->weight == 0) cell->disparity = mean.disparity;
   cell->weight = kKnown;
-}
-
-// Cells of one level of a tile, surrounded by a border one cell wide.
-struct LevelCells {
-  static constexpr int32_t kMost = kCoverageTile + 2;
-  FarCell cells[kMost * kMost];
-  int32_t side = 0;
-
-  FarCell& At(int32_t x, int32_t y) { return cells[(y + 1) * kMost + x + 1]; }
-};
-
-FarCell LoadCell(const CoverageMap& map, int level, int32_t x, int32_t y) {
-  const int bits = 4 - level;
-  const int32_t columns = map.columns << bits, rows = map.Rows() << bits;
-  if (x < 0 || y < 0 || x >= columns || y >= rows) return {};
-  if (!map.IsStarted(x >> bits, y >> bits)) return {};
-  return map.far[level][map.CellAt(x, y, level)];
-}
-
-// Finds the four cells of the level above that are nearest to cell (x, y), ordered from the nearest
-// to the farthest.
-template <class Cells>
-void Above(Cells* cells, int32_t x, int32_t y, FourCells* above) {
-  const int32_t column = x >> 1, row = y >> 1;
-  const int32_t beside = column + ((x & 1) != 0 ? 1 : -1), next = row + ((y & 1) != 0 ? 1 : -1);
-  (*above)[0] = &cells->At(column, row);
-  (*above)[1] = &cells->At(beside, row);
-  (*above)[2] = &cells->At(column, next);
-  (*above)[3] = &cells->At(beside, next);
 }
 
 // Smallest difference of disparity at which a nearer surface occludes a farther surface,
@@ -150,19 +105,19 @@ class TileLooker {
     int16_t light[3 * kCoverageTile];
     input_.Light(0, left_, y, columns_, light);
     for (int32_t k = 0; k < columns_; ++k) {
-      Add(light + 3 * k, FarWeight(map_.first[map_.At(left_ + k, y)]) >> kCentreBits, &sums_[k]);
+      sums_[k].Add(light + 3 * k, FarWeight(map_.first[map_.At(left_ + k, y)]) >> kCentreBits);
     }
     for (int view = 0; view < count_; ++view) LookInto(views_[view], y);
     for (int32_t k = 0; k < columns_; ++k) {
-      if (split_[k]) Store(sums_[k], &map_.FarAt(left_ + k, y));
+      if (!split_[k]) continue;
+      FarCell& cell = map_.FarAt(left_ + k, y);
+      cell.weight = static_cast<int16_t>(Min(sums_[k].weight * seen_ / 4, kKnown));
+      if (sums_[k].weight == 0) continue;
+      for (int c = 0; c < 3; ++c) cell.rgb[c] = static_cast<int16_t>(sums_[k].Mean(c));
     }
   }
 
  private:
-  struct Sum {
-    int32_t rgb[3], weight;
-  };
-
   void AddView(const OcclusionView& look) {
     if (look.view == 0) return;
     for (int k = 0; k < count_; ++k) {
@@ -176,23 +131,8 @@ class TileLooker {
   // Collects the disparities of near surfaces in and around the tile.
   void FindBins(int32_t column, int32_t row) {
     constexpr int32_t kAround = (kMostMove + kCoverageTile - 1) / kCoverageTile;
-    for (int32_t y = row - kAround; y <= row + kAround; ++y) {
-      for (int32_t x = column - kAround; x <= column + kAround; ++x) {
-        if (map_.HasTile(x, y)) bins_ |= map_.Tile(x, y).near_bins;
-      }
-    }
-  }
-
-  static void Add(const int16_t* rgb, int32_t weight, Sum* sum) {
-    for (int c = 0; c < 3; ++c) sum->rgb[c] += weight * rgb[c];
-    sum->weight += weight;
-  }
-
-  void Store(const Sum& sum, FarCell* cell) const {
-    cell->weight = static_cast<int16_t>(Min(sum.weight * seen_ / 4, kKnown));
-    for (int c = 0; c < 3 && sum.weight > 0; ++c) {
-      cell->rgb[c] = static_cast<int16_t>((sum.rgb[c] + sum.weight / 2) / sum.weight);
-    }
+    ForPixels(Clipped(Around(column, row, kAround), map_.columns, map_.Rows()),
+              [&](int32_t x, int32_t y) { bins_ |= map_.Tile(x, y).near_bins; });
   }
 
   // Reads the light of the far surface in row y from a view, and adds the light to sums_. Adjacent
@@ -213,7 +153,7 @@ class TileLooker {
           y * kShiftOne - ScaledByView(view.look.at.v, far_[k], kBits), 1, 0};
       int16_t light[3 * kCoverageTile];
       ReadCaptured(input_, 0, view.look.view, line, end - k, light);
-      for (int32_t n = k; n < end; ++n) Add(light + 3 * (n - k), weights[n], &sums_[n]);
+      for (int32_t n = k; n < end; ++n) sums_[n].Add(light + 3 * (n - k), weights[n]);
     }
   }
 
@@ -282,7 +222,7 @@ class TileLooker {
   // State of one row of the tile.
   int16_t far_[kCoverageTile];  // disparity of the far surface at each pixel of the row
   bool split_[kCoverageTile];
-  Sum sums_[kCoverageTile];
+  ColourSum<int32_t> sums_[kCoverageTile];
 };
 
 // Largest distance, along each axis, from a pixel to the pixels that contribute to the mean light
@@ -293,14 +233,8 @@ constexpr int32_t kNearReach = 3;
 // for four pixels of coverage 1/2.
 constexpr int kNearKnownBits = 2;
 
-// Mean light of the near surface around a pixel.
-struct NearMean {
-  int32_t rgb[3];  // 0 if `weight` is 0
-  int32_t weight;  // sum of the weights; kKnown for one pixel that the surface covers
-
-  // Returns the trust in the mean, with kNearKnownBits fractional bits.
-  int32_t Known() const { return Min(weight, 1 << kNearKnownBits); }
-};
+// Returns the trust in the mean light of the near surface, with kNearKnownBits fractional bits.
+int32_t TrustIn(const ColourSum<int32_t>& near) { return Min(near.weight, 1 << kNearKnownBits); }
 
 // Separates the light of the far surface from the light of the near surface in a tile.
 class FarUnmixer {
@@ -320,71 +254,62 @@ class FarUnmixer {
     }
   }
 
-  // Calls visit(x, y, alpha) for each pixel (x, y) of the tile whose coverage in `plane`,
-  // CoverageMap::first or CoverageMap::alpha, is between 0 and 1.
+  // Calls visit(x, y, alpha) for each pixel (x, y) of the picture in the tile whose coverage in
+  // `plane`, CoverageMap::first or CoverageMap::alpha, is between 0 and 1.
   template <class Visit>
   void ForEachMixture(const uint8_t* plane, const Visit& visit) const {
-    for (int32_t y = 0; y < Min(kCoverageTile, map_.height - top_); ++y) {
-      for (int32_t x = 0; x < Min(kCoverageTile, map_.width - left_); ++x) {
-        const int32_t alpha = plane[map_.At(left_ + x, top_ + y)];
-        if (alpha > 0 && alpha < kWhole) visit(x, y, alpha);
-      }
-    }
+    ForPixels(map_.PixelsOf(left_ / kCoverageTile, top_ / kCoverageTile),
+              [&](int32_t x, int32_t y) {
+                const int32_t alpha = plane[map_.At(x, y)];
+                if (alpha > 0 && alpha < kWhole) visit(x, y, alpha);
+              });
   }
 
-  // Unmixes pixel (x, y) of the tile: far = mixed + (mixed - near) alpha / (1 - alpha). The weight
-  // is (1 - alpha)^5.
+  // Unmixes a pixel: far = mixed + (mixed - near) alpha / (1 - alpha). The weight is (1 - alpha)^5.
   void UnmixAt(int32_t x, int32_t y, int32_t alpha) const {
-    FarCell& far = map_.FarAt(left_ + x, top_ + y);
-    const NearMean near = MeanAround(x, y);
+    FarCell& far = map_.FarAt(x, y);
+    const ColourSum<int32_t> near = SumAround(x, y);
     const int32_t rest = kWhole - alpha;
     // If the light of the near surface is not known, it is assumed to equal the light of the pixel.
     for (int c = 0; c < 3; ++c) {
-      const int32_t contrast = near.Known() * alpha * (far.rgb[c] - near.rgb[c]);
-      far.rgb[c] = Unmixed(far.rgb[c] + Rounded(contrast, rest << kNearKnownBits));
+      const int32_t contrast = TrustIn(near) * alpha * (far.rgb[c] - near.Mean(c));
+      far.rgb[c] = LimitedLight(far.rgb[c] +
+                                static_cast<int32_t>(Rounded(contrast, rest << kNearKnownBits)));
     }
     const int64_t square = int64_t{rest} * rest;
     far.weight = static_cast<int16_t>(square * square * rest >> (5 * kAlphaBits - kFarKnownBits));
   }
 
-  // Adds detail at pixel (x, y) of the tile. The far surface gets half of (1 - alpha)^3 of the
-  // light that the means of both surfaces do not explain, per part of the pixel that it covers. The
-  // other half is left away because the light from side views already has detail.
+  // Adds detail at a pixel. The far surface gets half of (1 - alpha)^3 of the light that the means
+  // of both surfaces do not explain, per part of the pixel that it covers. The other half is left
+  // away because the light from side views already has detail.
   void AddDetailAt(int32_t x, int32_t y, int32_t alpha) const {
-    const int16_t* const mixed = light_[y + kNearReach] + 3 * (x + kNearReach);
-    int16_t* const far = map_.FarAt(left_ + x, top_ + y).rgb;
-    const NearMean near = MeanAround(x, y);
+    const int16_t* const mixed = light_[y - top_ + kNearReach] + 3 * (x - left_ + kNearReach);
+    int16_t* const far = map_.FarAt(x, y).rgb;
+    const ColourSum<int32_t> near = SumAround(x, y);
     const int32_t rest = kWhole - alpha, cube = rest * rest * rest;
     // If the light of the near surface is not known, it is assumed to equal the light of the far
     // surface.
     for (int c = 0; c < 3; ++c) {
-      const int32_t contrast = near.Known() * (near.rgb[c] - far[c]) >> kNearKnownBits;
+      const int32_t contrast = TrustIn(near) * (near.Mean(c) - far[c]) >> kNearKnownBits;
       const int64_t detail = (mixed[c] - far[c]) * kWhole - alpha * contrast;
-      far[c] =
-          Unmixed(far[c] + static_cast<int32_t>(RoundShift(detail * cube, 4 * kAlphaBits + 1)));
+      far[c] = LimitedLight(far[c] +
+                            static_cast<int32_t>(RoundShift(detail * cube, 4 * kAlphaBits + 1)));
     }
   }
 
  private:
   static constexpr int32_t kSide = kCoverageTile + 2 * kNearReach;
 
-  static int16_t Unmixed(int32_t light) {
-    return static_cast<int16_t>(Clamp(light, ranges::kUnmixed.low, ranges::kUnmixed.high));
-  }
-
-  NearMean MeanAround(int32_t x, int32_t y) const {
-    NearMean mean = {};
-    for (int32_t row = y; row <= y + 2 * kNearReach; ++row) {
-      for (int32_t column = x; column <= x + 2 * kNearReach; ++column) {
-        const int32_t weight = weights_[row][column];
-        mean.weight += weight;
-        for (int c = 0; c < 3; ++c) mean.rgb[c] += weight * light_[row][3 * column + c];
-      }
-    }
-    for (int c = 0; c < 3 && mean.weight > 0; ++c) {
-      mean.rgb[c] = Rounded(mean.rgb[c], mean.weight);
-    }
-    return mean;
+  // Returns the sum of the light of the near surface around a pixel. The weight is kKnown for one
+  // pixel that the surface covers.
+  ColourSum<int32_t> SumAround(int32_t x, int32_t y) const {
+    ColourSum<int32_t> sum;
+    ForPixels({x - left_, y - top_, 2 * kNearReach + 1, 2 * kNearReach + 1},
+              [&](int32_t column, int32_t row) {
+                sum.Add(light_[row] + 3 * column, weights_[row][column]);
+              });
+    return sum;
   }
 
   const CoverageMap& map_;
@@ -400,51 +325,51 @@ class FarUnmixer {
 void PullTile(int32_t column, int32_t row, const CoverageMap& map) {
   for (int level = 1; level < kFarLevels; ++level) {
     const int32_t side = kCoverageTile >> level;
-    for (int32_t y = row * side; y < (row + 1) * side; ++y) {
-      for (int32_t x = column * side; x < (column + 1) * side; ++x) {
-        const FarCell* const below = map.far[level - 1];
-        const FourCells children = {below + map.CellAt(2 * x, 2 * y, level - 1),
-                                    below + map.CellAt(2 * x + 1, 2 * y, level - 1),
-                                    below + map.CellAt(2 * x, 2 * y + 1, level - 1),
-                                    below + map.CellAt(2 * x + 1, 2 * y + 1, level - 1)};
-        map.far[level][map.CellAt(x, y, level)] = Pull(children);
-      }
-    }
+    ForPixels({column * side, row * side, side, side}, [&](int32_t x, int32_t y) {
+      const FarCell* const below = map.far[level - 1];
+      const FourCells four = {below + map.CellAt(2 * x, 2 * y, level - 1),
+                              below + map.CellAt(2 * x + 1, 2 * y, level - 1),
+                              below + map.CellAt(2 * x, 2 * y + 1, level - 1),
+                              below + map.CellAt(2 * x + 1, 2 * y + 1, level - 1)};
+      map.far[level][map.CellAt(x, y, level)] = MeanOf(four, {1, 1, 1, 1}, FarthestOf(four));
+    });
   }
 }
 
 void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far) {
-  LevelCells levels[2];
-  for (int level = kFarLevels - 1; level > 0; --level) {
-    LevelCells& cells = levels[level & 1];
-    const int32_t side = kCoverageTile >> level;
-    for (int32_t y = -1; y <= side; ++y) {
-      for (int32_t x = -1; x <= side; ++x) {
-        FarCell& cell = cells.At(x, y) = LoadCell(map, level, column * side + x, row * side + y);
-        if (level == kFarLevels - 1) continue;
-        FourCells above;
-        Above(&levels[(level + 1) & 1], x, y, &above);
-        PushCell(above, cell.weight > 0 ? cell.disparity : FarthestOf(above), &cell);
-      }
-    }
-  }
-  for (int32_t y = 0; y < kCoverageTile; ++y) {
-    for (int32_t x = 0; x < kCoverageTile; ++x) {
-      FarCell& cell = far->cells[y * kCoverageTile + x] =
-          map.FarAt(column * kCoverageTile + x, row * kCoverageTile + y);
-      const int16_t disparity = cell.disparity;
-      FourCells above;
-      Above(&levels[1], x, y, &above);
-      PushCell(above, disparity, &cell);
-      cell.disparity = disparity;
-    }
+  bool known[3][3];  // whether the tiles around the tile have cells
+  ForPixels({0, 0, 3, 3}, [&](int32_t x, int32_t y) {
+    known[y][x] =
+        map.HasTile(column + x - 1, row + y - 1) && map.IsStarted(column + x - 1, row + y - 1);
+  });
+  FarTile levels[2];
+  for (int level = kFarLevels - 1; level >= 0; --level) {
+    FarTile& cells = level == 0 ? *far : levels[level & 1];
+    FarTile& above = levels[(level + 1) & 1];
+    const int32_t side = kCoverageTile >> level, border = level == 0 ? 0 : 1;
+    const auto tile_of = [side](int32_t k) { return k < 0 ? 0 : k < side ? 1 : 2; };
+    ForPixels({-border, -border, side + 2 * border, side + 2 * border}, [&](int32_t x, int32_t y) {
+      FarCell& cell = cells.At(x, y);
+      cell = known[tile_of(y)][tile_of(x)]
+                 ? map.far[level][map.CellAt(column * side + x, row * side + y, level)]
+                 : FarCell{};
+      if (level == kFarLevels - 1) return;
+      // The four cells of the level above that are nearest to the cell, the nearest first.
+      const int32_t u = x >> 1, v = y >> 1;
+      const int32_t beside = u + ((x & 1) != 0 ? 1 : -1), next = v + ((y & 1) != 0 ? 1 : -1);
+      const FourCells four = {&above.At(u, v), &above.At(beside, v), &above.At(u, next),
+                              &above.At(beside, next)};
+      const int16_t own = cell.disparity;
+      PushCell(four, level == 0 || cell.weight > 0 ? own : FarthestOf(four), &cell);
+      if (level == 0) cell.disparity = own;
+    });
   }
 }
 
 void LookBehindTile(const Input& input, int32_t column, int32_t row) {
   TileLooker looker(input, column, row);
-  const int32_t end = Min((row + 1) * kCoverageTile, input.coverage->height);
-  for (int32_t y = row * kCoverageTile; y < end; ++y) looker.LookRow(y);
+  const Rect pixels = input.coverage->PixelsOf(column, row);
+  for (int32_t y = pixels.y; y < pixels.y + pixels.height; ++y) looker.LookRow(y);
   PullTile(column, row, *input.coverage);
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
@@ -44,11 +46,6 @@ uint32_t RankOf(int32_t dx, int32_t dy) {
 }
 int32_t DistanceOf(uint32_t rank) { return static_cast<int32_t>(rank >> 20); }
 
-// Returns the distance from `at` to the nearest of the positions first to last.
-int32_t DistanceTo(int32_t first, int32_t last, int32_t at) {
-  return Abs(at - Clamp(at, first, last));
-}
-
 }  // namespace
 
 SurfaceSearch::SurfaceSearch(const GivenDisparities& around) : around_(around) {
@@ -71,46 +68,41 @@ SurfaceSearch::SurfaceSearch(const GivenDisparities& around) : around_(around) {
   }
 }
 
-uint32_t SurfaceSearch::LeastRank(const Target& target, int32_t column, int32_t row,
-                                  uint32_t rank) const {
-  const Cell& cell = cells_[row * kCells + column];
-  if (cell.greatest < target.low || cell.least > target.high) return rank;
-  const int32_t left = Max(column * kCellSide, target.x - kGivenReach),
-                right = Min(column * kCellSide + kCellSide - 1, target.x + kGivenReach),
-                top = Max(row * kCellSide, target.y - kGivenReach),
-                bottom = Min(row * kCellSide + kCellSide - 1, target.y + kGivenReach);
-  const int32_t nearest = DistanceTo(left, right, target.x);
-  if (!cell.has_ramp && cell.least >= target.low && cell.greatest <= target.high) {
-    // All pixels of the cell match, and the nearest one has the lowest rank.
-    const uint32_t here =
-        RankOf(Clamp(target.x, left, right) - target.x, Clamp(target.y, top, bottom) - target.y);
-    return here < rank ? here : rank;
-  }
-  for (int32_t y = top; y <= bottom; ++y) {
-    const int32_t dy = y - target.y;
-    if (nearest * nearest + dy * dy > DistanceOf(rank)) continue;
-    for (int32_t x = left; x <= right; ++x) {
-      const int32_t at = y * kSide + x, disparity = around_.disparity[at];
-      if (on_ramp_[at] || disparity < target.low || disparity > target.high) continue;
-      const uint32_t here = RankOf(x - target.x, dy);
-      if (here < rank) rank = here;
-    }
-  }
-  return rank;
-}
-
 Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
   if (high < all_.least || low > all_.greatest) return {around_.disparity[at], INT32_MAX};
-  const Target target = {at % kSide, at / kSide, low, high};
-  const int32_t column = target.x / kCellSide, row = target.y / kCellSide;
+  const int32_t x = at % kSide, y = at / kSide;
   uint32_t rank = kNotFound;
+  // Lowers `rank` to the ranks of the matching pixels of a cell.
+  const auto search = [&](int32_t column, int32_t row) {
+    const Cell& cell = cells_[row * kCells + column];
+    if (cell.greatest < low || cell.least > high) return;
+    const int32_t left = Max(column * kCellSide, x - kGivenReach),
+                  right = Min(column * kCellSide + kCellSide - 1, x + kGivenReach),
+                  top = Max(row * kCellSide, y - kGivenReach),
+                  bottom = Min(row * kCellSide + kCellSide - 1, y + kGivenReach);
+    const int32_t nearest = Clamp(x, left, right) - x;
+    if (!cell.has_ramp && cell.least >= low && cell.greatest <= high) {
+      // All pixels of the cell match, and the nearest one has the lowest rank.
+      rank = std::min(rank, RankOf(nearest, Clamp(y, top, bottom) - y));
+      return;
+    }
+    for (int32_t v = top; v <= bottom; ++v) {
+      if (nearest * nearest + (v - y) * (v - y) > DistanceOf(rank)) continue;
+      for (int32_t u = left; u <= right; ++u) {
+        const int32_t there = v * kSide + u, disparity = around_.disparity[there];
+        if (on_ramp_[there] || disparity < low || disparity > high) continue;
+        rank = std::min(rank, RankOf(u - x, v - y));
+      }
+    }
+  };
+  const int32_t column = x / kCellSide, row = y / kCellSide;
   for (int32_t r = 0; r <= kGivenReach / kCellSide; ++r) {
     const int32_t least = (r - 1) * kCellSide + 1;  // distance to the nearest cell of the square
     if (r > 0 && least * least > DistanceOf(rank)) break;
-    for (int32_t y = Max(row - r, 0); y <= Min(row + r, kCells - 1); ++y) {
-      const int32_t step = Abs(y - row) == r ? 1 : 2 * r;
-      for (int32_t x = column - r; x <= column + r; x += step) {
-        if (x >= 0 && x < kCells) rank = LeastRank(target, x, y, rank);
+    for (int32_t v = Max(row - r, 0); v <= Min(row + r, kCells - 1); ++v) {
+      const int32_t step = Abs(v - row) == r ? 1 : 2 * r;
+      for (int32_t u = column - r; u <= column + r; u += step) {
+        if (u >= 0 && u < kCells) search(u, v);
       }
     }
   }

@@ -27,59 +27,11 @@ constexpr int32_t kNoise = 81 * kSquareOne;
 // trust is 1 if the sum is at least 2^kNearBits.
 constexpr int kNearBits = 10;
 
-// The pixels in and around a tile: light, near disparities, and the weight of each pixel in a mean
-// of the near light.
-struct NearTile {
-  static constexpr size_t kPlane = kSide * kSide;
-  int16_t light[3 * kPlane];
-  int16_t near[kPlane];
-  int16_t weight[kPlane];
-
-  // Sums the near light around each pixel of a row of the tile (simd::Kernels::SumNear).
-  void SumRow(const simd::Kernels& kernels, int32_t y, int16_t sums[4][simd::kSliceLanes]) const {
-    const size_t at = static_cast<size_t>((y + kAround) * kSide + kAround);
-    const int16_t* const colours[] = {light + at, light + kPlane + at, light + 2 * kPlane + at};
-    kernels.SumNear(colours, near + at, weight + at, kSide, static_cast<int16_t>(kThinStep), sums);
-  }
-};
-
-// Loads a tile and its surroundings. The function weight_of(x, y) returns the weight of pixel (x,
-// y) in a mean of the near light.
-template <class Weight>
-void LoadNearTile(const Input& input, int32_t column, int32_t row, const Weight& weight_of,
-                  NearTile* tile) {
-  const CoverageMap& map = *input.coverage;
-  const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
-  const int32_t first = Max(0, -left), last = Min(kSide, map.width - left);
-  std::memset(tile->weight, 0, sizeof(tile->weight));
-  std::memset(tile->light, 0, sizeof(tile->light));
-  std::memset(tile->near, 0, sizeof(tile->near));
-  for (int32_t y = Max(0, -top); y < Min(kSide, map.height - top); ++y) {
-    int16_t light[3 * kSide + simd::kPadding / sizeof(int16_t)];
-    const auto at = static_cast<size_t>(y * kSide + first);
-    input.Light(0, left + first, top + y, last - first, light);
-    input.kernels->Split(light, static_cast<size_t>(last - first), NearTile::kPlane,
-                         tile->light + at);
-    std::memcpy(tile->near + at, map.near + map.At(left + first, top + y),
-                static_cast<size_t>(last - first) * sizeof(*tile->near));
-    for (int32_t x = first; x < last; ++x) {
-      tile->weight[y * kSide + x] = static_cast<int16_t>(weight_of(left + x, top + y));
-    }
-  }
-}
-
-using Rgb = int32_t[3];
-
-// Colours of a pixel and of its two surfaces.
-struct SplitColours {
-  Rgb near, far, mixed;
-  int32_t near_weight;  // sum of the weights of the samples of `near`
-};
-
 // Returns the part of a pixel that the near surface covers, as far as its colours can be trusted;
-// `guess` replaces the rest.
-int32_t AlphaOf(const SplitColours& colours, int32_t guess) {
-  const ColourLine line = ColourLineOf<kColourBits>(colours.near, colours.far, colours.mixed);
+// `guess` replaces the rest. `near_weight` is the sum of the weights of the samples of `near`.
+int32_t AlphaOf(const int32_t* near, int32_t near_weight, const int32_t* far, const int32_t* mixed,
+                int32_t guess) {
+  const ColourLine line = ColourLineOf<kColourBits>(near, far, mixed);
   const int64_t contrast = line.contrast;
   if (contrast == 0) return guess;
   const int64_t beside = line.distance - line.along * line.along / contrast;
@@ -88,45 +40,82 @@ int32_t AlphaOf(const SplitColours& colours, int32_t guess) {
   // The difference of alpha and guess, multiplied by the trust in the contrast: at most kWhole,
   // with 8 more fractional bits.
   const int64_t change = (part * kWhole - guess * contrast) * 256 / (contrast + kContrastNoise);
-  const int32_t known = Min(colours.near_weight, 1 << kNearBits);
+  const int32_t known = Min(near_weight, 1 << kNearBits);
   return guess + static_cast<int32_t>(
                      RoundShift(change * known * square / (square + beside), 8 + kNearBits));
 }
 
-// Calls visit(x, y, alpha, cell) for each pixel of the tile that is near an edge, if the light of
-// the far surface (`cell`) is known. Coordinates x and y are in pixels of the picture.
-template <class Visit>
-void ForEachSplit(const Input& input, const NearTile& tile, int32_t column, int32_t row,
-                  const Visit& visit) {
-  const CoverageMap& map = *input.coverage;
-  const int32_t left = column * kCoverageTile, top = row * kCoverageTile;
-  FarTile far;
-  PushTile(column, row, map, &far);
-  for (int32_t y = 0; y < Min(kCoverageTile, map.height - top); ++y) {
-    int16_t sums[4][simd::kSliceLanes];
-    tile.SumRow(*input.kernels, y, sums);
-    for (int32_t x = 0; x < Min(kCoverageTile, map.width - left); ++x) {
-      const size_t to = map.At(left + x, top + y);
-      const FarCell& cell = far.cells[y * kCoverageTile + x];
-      if (map.alpha[to] == kUnsplit || cell.weight == 0) continue;
-      int32_t alpha = map.first[to];
-      const int32_t weight = sums[3][x];
-      if (weight > 0) {
-        SplitColours colours;
-        colours.near_weight = weight;
-        for (int c = 0; c < 3; ++c) {
-          const size_t at = static_cast<size_t>(c) * NearTile::kPlane;
-          colours.near[c] = (sums[c][x] << 15) / weight;
-          colours.far[c] = cell.rgb[c];
-          colours.mixed[c] =
-              tile.light[at + static_cast<size_t>((y + kAround) * kSide + x + kAround)];
-        }
-        alpha = AlphaOf(colours, alpha);
+// The pixels in and around a tile: light, near disparities, and the weight of each pixel in a mean
+// of the near light.
+class NearTile {
+ public:
+  // Loads a tile and its surroundings. The function weight_of(x, y) returns the weight of pixel
+  // (x, y) in a mean of the near light.
+  template <class Weight>
+  NearTile(const Input& input, int32_t column, int32_t row, const Weight& weight_of)
+      : input_(input), column_(column), row_(row) {
+    const CoverageMap& map = *input.coverage;
+    const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
+    const Rect from = Clipped({left, top, kSide, kSide}, map.width, map.height);
+    for (int32_t y = from.y; y < from.y + from.height; ++y) {
+      int16_t light[3 * kSide + simd::kPadding / sizeof(int16_t)];
+      const auto at = static_cast<size_t>((y - top) * kSide + from.x - left);
+      const auto count = static_cast<size_t>(from.width);
+      input.Light(0, from.x, y, from.width, light);
+      input.kernels->Split(light, count, kPlane, light_ + at);
+      std::memcpy(near_ + at, map.near + map.At(from.x, y), count * sizeof(*near_));
+      for (size_t k = 0; k < count; ++k) {
+        weight_[at + k] = static_cast<int16_t>(weight_of(from.x + static_cast<int32_t>(k), y));
       }
-      visit(left + x, top + y, alpha, cell);
     }
   }
-}
+
+  // Calls visit(x, y, alpha, cell) for each pixel of the tile that is near an edge, if the light of
+  // the far surface (`cell`) is known. Coordinates x and y are in pixels of the picture.
+  template <class Visit>
+  void ForEachSplit(const Visit& visit) const {
+    const CoverageMap& map = *input_.coverage;
+    const Rect pixels = map.PixelsOf(column_, row_);
+    FarTile far;
+    PushTile(column_, row_, map, &far);
+    for (int32_t y = 0; y < pixels.height; ++y) {
+      const auto first = static_cast<size_t>((y + kAround) * kSide + kAround);
+      int16_t sums[4][simd::kSliceLanes];
+      SumRow(first, sums);
+      for (int32_t x = 0; x < pixels.width; ++x) {
+        const size_t to = map.At(pixels.x + x, pixels.y + y), at = first + static_cast<size_t>(x);
+        const FarCell& cell = far.At(x, y);
+        if (map.alpha[to] == kUnsplit || cell.weight == 0) continue;
+        int32_t alpha = map.first[to];
+        const int32_t weight = sums[3][x];
+        if (weight > 0) {
+          int32_t near[3], beyond[3], mixed[3];
+          for (size_t c = 0; c < 3; ++c) {
+            near[c] = (sums[c][x] << 15) / weight;
+            beyond[c] = cell.rgb[c];
+            mixed[c] = light_[c * kPlane + at];
+          }
+          alpha = AlphaOf(near, weight, beyond, mixed, alpha);
+        }
+        visit(pixels.x + x, pixels.y + y, alpha, cell);
+      }
+    }
+  }
+
+ private:
+  static constexpr size_t kPlane = kSide * kSide;
+
+  // Sums the near light around each pixel of a row of the tile, whose first pixel has index `at`.
+  void SumRow(size_t at, int16_t sums[4][simd::kSliceLanes]) const {
+    const int16_t* const colours[] = {light_ + at, light_ + kPlane + at, light_ + 2 * kPlane + at};
+    input_.kernels->SumNear(colours, near_ + at, weight_ + at, kSide,
+                            static_cast<int16_t>(kThinStep), sums);
+  }
+
+  const Input& input_;
+  const int32_t column_, row_;
+  int16_t light_[3 * kPlane] = {}, near_[kPlane] = {}, weight_[kPlane] = {};
+};
 
 }  // namespace
 
@@ -137,52 +126,43 @@ void UnmixFirst(const Input& input, int32_t column, int32_t row) {
   const auto weight_of = [&](int32_t x, int32_t y) {
     if (map.alpha[map.At(x, y)] == 0) return 0;
     int32_t count = 0;
-    for (int32_t dy = -1; dy <= 1; ++dy) {
-      const int32_t there = Clamp(y + dy, 0, map.height - 1);
-      for (int32_t dx = -1; dx <= 1; ++dx) {
-        count += map.alpha[map.At(Clamp(x + dx, 0, map.width - 1), there)] != 0 ? 1 : 0;
-      }
-    }
+    ForPixels(Around(x, y, 1), [&](int32_t u, int32_t v) {
+      const size_t at = map.At(Clamp(u, 0, map.width - 1), Clamp(v, 0, map.height - 1));
+      count += map.alpha[at] != 0 ? 1 : 0;
+    });
     return 3 * count * count;
   };
-  NearTile tile;
-  LoadNearTile(input, column, row, weight_of, &tile);
-  ForEachSplit(input, tile, column, row, [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
+  const NearTile tile(input, column, row, weight_of);
+  tile.ForEachSplit([&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
     map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
   });
 }
 
 void UnmixAgain(const Input& input, int32_t column, int32_t row) {
   const CoverageMap& map = *input.coverage;
-  NearTile tile;
-  LoadNearTile(
-      input, column, row,
-      [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); }, &tile);
-  ForEachSplit(input, tile, column, row,
-               [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
-                 map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
-                 std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
-               });
+  const NearTile tile(input, column, row,
+                      [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); });
+  tile.ForEachSplit([&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
+    map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
+    std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
+  });
 }
 
 void TakeGiven(const Input& input, int32_t column, int32_t row) {
   const CoverageMap& map = *input.coverage;
   FarTile far;
   PushTile(column, row, map, &far);
-  for (int32_t y = 0; y < Min(kCoverageTile, map.height - row * kCoverageTile); ++y) {
-    for (int32_t k = 0; k < Min(kCoverageTile, map.width - column * kCoverageTile); ++k) {
-      const int32_t x = column * kCoverageTile + k;
-      const size_t to = map.At(x, row * kCoverageTile + y);
-      const FarCell& cell = far.cells[y * kCoverageTile + k];
-      if (map.alpha[to] == kUnsplit) continue;
-      // A pixel cannot be split if the light of the far surface is not known nearby. It then
-      // belongs to the near surface if the near surface covers most of it.
-      map.alpha[to] = cell.weight > 0               ? map.first[to]
-                      : 2 * map.first[to] >= kWhole ? uint8_t{kWhole}
-                                                    : kUnsplit;
-      std::memcpy(map.FarAt(x, row * kCoverageTile + y).rgb, cell.rgb, sizeof(cell.rgb));
-    }
-  }
+  ForPixels(map.PixelsOf(column, row), [&](int32_t x, int32_t y) {
+    const size_t to = map.At(x, y);
+    const FarCell& cell = far.At(x % kCoverageTile, y % kCoverageTile);
+    if (map.alpha[to] == kUnsplit) return;
+    // A pixel cannot be split if the light of the far surface is not known nearby. It then belongs
+    // to the near surface if the near surface covers most of it.
+    map.alpha[to] = cell.weight > 0               ? map.first[to]
+                    : 2 * map.first[to] >= kWhole ? uint8_t{kWhole}
+                                                  : kUnsplit;
+    std::memcpy(map.FarAt(x, y).rgb, cell.rgb, sizeof(cell.rgb));
+  });
 }
 
 }  // namespace starfocus
