@@ -10,32 +10,20 @@ namespace {
 // to two tiles away.
 constexpr int32_t kAroundGiven = 2;
 
-// Returns the largest movement in pixels of a nearer surface relative to a farther surface, in any
-// view that is read.
-int32_t LargestMoveBefore(const FullConfig& config) {
-  if (config.views == 1) return 0;
-  const float range = MaxDisparity(config) - MinDisparity(config);
-  return Min(static_cast<int32_t>(range) + 3, kMostMove + 1);
-}
-
 // Returns the number of rows of tiles by which a pass must be ahead of the last pass.
 int32_t TilesAhead(const FullConfig& config, int pass) {
-  const int32_t moved = (LargestMoveBefore(config) + kCoverageTile - 1) / kCoverageTile;
-  switch (pass) {
-    case kUnmixAgain:
-      return 0;
-    case kLook:
-      // UnmixAgain fills in unknown light of the far surface from the surrounding tiles, so it
-      // requires this light in the next row of tiles.
-      return 1;
-    case kUnmixFirst:
-      // The Look pass reads the coverage of surfaces that move onto a tile in side views.
-      return 1 + Max(1, moved);
-    case kStart:
-      return TilesAhead(config, kUnmixFirst) + 1;
-    default:
-      return TilesAhead(config, kStart) + 1;
-  }
+  // Largest movement in pixels of a nearer surface relative to a farther surface, in any view that
+  // is read.
+  const auto range = static_cast<int32_t>(MaxDisparity(config) - MinDisparity(config));
+  const int32_t moved = config.views == 1 ? 0 : Min(range + 3, kMostMove + 1);
+  // UnmixAgain fills in unknown light of the far surface from the surrounding tiles, so it requires
+  // this light in the next row of tiles. The Look pass reads the coverage of surfaces that move
+  // onto a tile in side views.
+  constexpr int32_t kLookAhead = 1;
+  const int32_t unmix_ahead = kLookAhead + Max(1, (moved + kCoverageTile - 1) / kCoverageTile);
+  const int32_t ahead[kCoveragePasses] = {unmix_ahead + 2, unmix_ahead + 1, unmix_ahead, kLookAhead,
+                                          0};
+  return ahead[pass];
 }
 
 int32_t TilesOfSuperblock(const FullConfig& config) { return config.superblock / kCoverageTile; }

@@ -16,15 +16,12 @@ constexpr int32_t kBlock = 4 * kCoverageTile;
 constexpr int32_t kBlockSide = kBlock + 2 * kMatteReach;
 
 // Places around a pixel at which the matte and the map are compared: rings of eight places.
-struct Offset {
-  int8_t x, y;
-};
-constexpr Offset kPlaces[] = {{0, 0},     {3, 0},    {2, 2},    {0, 3},    {-2, 2},    {-3, 0},
-                              {-2, -2},   {0, -3},   {2, -2},   {7, 3},    {3, 7},     {-3, 7},
-                              {-7, 3},    {-7, -3},  {-3, -7},  {3, -7},   {7, -3},    {16, 0},
-                              {11, 11},   {0, 16},   {-11, 11}, {-16, 0},  {-11, -11}, {0, -16},
-                              {11, -11},  {24, 10},  {10, 24},  {-10, 24}, {-24, 10},  {-24, -10},
-                              {-10, -24}, {10, -24}, {24, -10}};
+constexpr int8_t kPlaces[][2] = {
+    {0, 0},    {3, 0},     {2, 2},     {0, 3},    {-2, 2},  {-3, 0},  {-2, -2},
+    {0, -3},   {2, -2},    {7, 3},     {3, 7},    {-3, 7},  {-7, 3},  {-7, -3},
+    {-3, -7},  {3, -7},    {7, -3},    {16, 0},   {11, 11}, {0, 16},  {-11, 11},
+    {-16, 0},  {-11, -11}, {0, -16},   {11, -11}, {24, 10}, {10, 24}, {-10, 24},
+    {-24, 10}, {-24, -10}, {-10, -24}, {10, -24}, {24, -10}};
 
 constexpr int32_t kMostPlaces = sizeof(kPlaces) / sizeof(kPlaces[0]);
 
@@ -91,8 +88,8 @@ class TileCoverage {
   void Compare(int32_t at, const Surfaces& surfaces, SortedAlpha* near, SortedAlpha* far) const {
     constexpr int32_t kSide = GivenDisparities::kSide;
     const int32_t highest = surfaces.high + (surfaces.high - surfaces.low) / 2;
-    for (const Offset& offset : kPlaces) {
-      const int32_t there = at + offset.y * kSide + offset.x;
+    for (const auto& offset : kPlaces) {
+      const int32_t there = at + offset[1] * kSide + offset[0];
       const int32_t disparity = around_.disparity[there];
       if (disparity > highest) continue;
       const uint8_t alpha = matte_.data[rows_[there / kSide] + columns_[there % kSide]];
@@ -106,122 +103,102 @@ class TileCoverage {
   size_t columns_[GivenDisparities::kSide], rows_[GivenDisparities::kSide];
 };
 
-// Finds whether pixels may have two surfaces, from the range of their disparities.
-struct EdgeFinder {
+// Widens the range from *least to *greatest by disparities. Pixels may have two surfaces only if
+// the range is larger than kThinStep.
+void Widen(const int16_t* disparities, int32_t count, int16_t* least, int16_t* greatest) {
+  for (int32_t k = 0; k < count; ++k) {
+    if (disparities[k] < *least) *least = disparities[k];
+    if (disparities[k] > *greatest) *greatest = disparities[k];
+  }
+}
+
+// Reads disparities of a rectangle that is at most kBlockSide pixels wide.
+void Read(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& rect,
+          const Plane<int16_t>& out) {
+  uint32_t columns[kBlockSide];
+  FillColumns(depth.width, depth.map.width, rect.x, rect.width, columns);
+  DepthSource part = depth;
+  part.columns = columns;
+  part.first_column = rect.x;
+  ReadDepth(kernels, part, rect, out);
+}
+
+// Returns true if the map has an edge in the block or within kMatteReach pixels of the block.
+bool HasEdge(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& block) {
+  constexpr int32_t kRows = 8;
+  const Rect all = Clipped(Extended(block, {kMatteReach, kMatteReach, kMatteReach, kMatteReach}),
+                           depth.width, depth.height);
   int16_t least = INT16_MAX, greatest = INT16_MIN;
+  for (int32_t y = 0; y < all.height && greatest - least <= kThinStep; y += kRows) {
+    int16_t disparities[kRows * kBlockSide];
+    const Rect rect = {all.x, all.y + y, all.width, Min(kRows, all.height - y)};
+    Read(kernels, depth, rect, {disparities, static_cast<size_t>(all.width), 0, rect.y});
+    Widen(disparities, rect.width * rect.height, &least, &greatest);
+  }
+  return greatest - least > kThinStep;
+}
 
-  void Add(const int16_t* disparities, int32_t count) {
-    for (int32_t k = 0; k < count; ++k) {
-      if (disparities[k] < least) least = disparities[k];
-      if (disparities[k] > greatest) greatest = disparities[k];
+// Reads the disparities around a tile. Beyond the picture, the outermost pixels are repeated.
+// Returns true if they have an edge.
+bool ReadAround(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& tile,
+                GivenDisparities* around) {
+  constexpr int32_t kSide = GivenDisparities::kSide;
+  const int32_t left = tile.x - kMatteReach, top = tile.y - kMatteReach;
+  const Rect rect = Clipped({left, top, kSide, kSide}, depth.width, depth.height);
+  const int32_t x = rect.x - left, y = rect.y - top;
+  int16_t* const disparity = around->disparity;
+  Read(kernels, depth, rect, {disparity + y * kSide + x, kSide, 0, rect.y});
+  for (int32_t row = y; row < y + rect.height; ++row) {
+    int16_t* const to = disparity + row * kSide;
+    for (int32_t k = 0; k < x; ++k) to[k] = to[x];
+    for (int32_t k = x + rect.width; k < kSide; ++k) to[k] = to[x + rect.width - 1];
+  }
+  for (int32_t row = 0; row < kSide; ++row) {
+    const int32_t from = Clamp(row, y, y + rect.height - 1);
+    if (row == from) continue;
+    std::memcpy(disparity + row * kSide, disparity + from * kSide, kSide * sizeof(*disparity));
+  }
+  int16_t least = INT16_MAX, greatest = INT16_MIN;
+  Widen(disparity, kSide * kSide, &least, &greatest);
+  return greatest - least > kThinStep;
+}
+
+// Writes the coverage of a block. `rows` reads the matte at the columns of the block.
+void WriteBlock(const simd::ImageKernels& kernels, const starfocus_matte& matte,
+                const DepthSource& depth, const Rect& block, MatteRows* rows,
+                const Plane<uint8_t>& out) {
+  const bool has_edge = HasEdge(kernels, depth, block);
+  const int32_t bottom = block.y + block.height;
+  for (int32_t top = block.y; top < bottom; top += kCoverageTile) {
+    const int32_t height = Min(kCoverageTile, bottom - top);
+    uint8_t alpha[kCoverageTile][kBlock];
+    for (int32_t y = 0; y < height; ++y) {
+      if (has_edge) rows->Read(top + y, alpha[y]);
+      std::memset(out.Row(top + y), 255, static_cast<size_t>(block.width));
+    }
+    for (int32_t x = 0; has_edge && x < block.width; x += kCoverageTile) {
+      const Rect tile = {block.x + x, top, Min(kCoverageTile, block.width - x), height};
+      GivenDisparities around;
+      if (!ReadAround(kernels, depth, tile, &around)) continue;
+      const TileCoverage coverage(matte, depth, tile, around);
+      ForPixels({0, 0, tile.width, height}, [&](int32_t k, int32_t y) {
+        out.Row(top + y)[x + k] = static_cast<uint8_t>(coverage.At(k, y, alpha[y][x + k]));
+      });
     }
   }
-  bool HasEdge() const { return greatest - least > kThinStep; }
-};
-
-class CoverageWriter {
- public:
-  CoverageWriter(const simd::ImageKernels& kernels, const starfocus_matte& matte,
-                 const DepthSource& depth)
-      : kernels_(kernels), matte_(matte), depth_(depth) {}
-
-  // Writes the coverage of a block. `rows` reads the matte at the columns of the block.
-  void WriteBlock(const Rect& block, MatteRows* rows, const Plane<uint8_t>& out) const {
-    const bool has_edge = HasEdge(block);
-    const int32_t bottom = block.y + block.height;
-    for (int32_t top = block.y; top < bottom; top += kCoverageTile) {
-      const int32_t height = Min(kCoverageTile, bottom - top);
-      uint8_t alpha[kCoverageTile][kBlock];
-      for (int32_t y = 0; y < height; ++y) {
-        if (has_edge) rows->Read(top + y, alpha[y]);
-        std::memset(out.Row(top + y), 255, static_cast<size_t>(block.width));
-      }
-      for (int32_t x = 0; has_edge && x < block.width; x += kCoverageTile) {
-        const Rect tile = {block.x + x, top, Min(kCoverageTile, block.width - x), height};
-        GivenDisparities around;
-        ReadAround(tile, &around);
-        EdgeFinder finder;
-        finder.Add(around.disparity, GivenDisparities::kSide * GivenDisparities::kSide);
-        if (!finder.HasEdge()) continue;
-        const TileCoverage coverage(matte_, depth_, tile, around);
-        for (int32_t y = 0; y < height; ++y) {
-          for (int32_t k = 0; k < tile.width; ++k) {
-            out.Row(top + y)[x + k] = static_cast<uint8_t>(coverage.At(k, y, alpha[y][x + k]));
-          }
-        }
-      }
-    }
-  }
-
- private:
-  // Returns the part of `rect` inside the picture.
-  Rect Inside(const Rect& rect) const {
-    const int32_t left = Max(rect.x, 0), top = Max(rect.y, 0);
-    return {left, top, Min(rect.x + rect.width, depth_.width) - left,
-            Min(rect.y + rect.height, depth_.height) - top};
-  }
-
-  // Reads disparities of a rectangle that is at most kBlockSide pixels wide.
-  void Read(const Rect& rect, const Plane<int16_t>& out) const {
-    uint32_t columns[kBlockSide];
-    FillColumns(depth_.width, depth_.map.width, rect.x, rect.width, columns);
-    DepthSource part = depth_;
-    part.columns = columns;
-    part.first_column = rect.x;
-    ReadDepth(kernels_, part, rect, out);
-  }
-
-  // Returns true if the map has an edge in the block or within kMatteReach pixels of the block.
-  bool HasEdge(const Rect& block) const {
-    constexpr int32_t kRows = 8;
-    const Rect all = Inside(Extended(block, {kMatteReach, kMatteReach, kMatteReach, kMatteReach}));
-    EdgeFinder finder;
-    for (int32_t y = 0; y < all.height && !finder.HasEdge(); y += kRows) {
-      int16_t disparities[kRows * kBlockSide];
-      const Rect rect = {all.x, all.y + y, all.width, Min(kRows, all.height - y)};
-      Read(rect, {disparities, static_cast<size_t>(all.width), 0, rect.y});
-      finder.Add(disparities, rect.width * rect.height);
-    }
-    return finder.HasEdge();
-  }
-
-  // Reads the disparities around a tile. Beyond the picture, the outermost pixels are repeated.
-  void ReadAround(const Rect& tile, GivenDisparities* around) const {
-    constexpr int32_t kSide = GivenDisparities::kSide;
-    const int32_t left = tile.x - kMatteReach, top = tile.y - kMatteReach;
-    const Rect rect = Inside({left, top, kSide, kSide});
-    const int32_t x = rect.x - left, y = rect.y - top;
-    int16_t* const disparity = around->disparity;
-    Read(rect, {disparity + y * kSide + x, kSide, 0, rect.y});
-    for (int32_t row = y; row < y + rect.height; ++row) {
-      int16_t* const to = disparity + row * kSide;
-      for (int32_t k = 0; k < x; ++k) to[k] = to[x];
-      for (int32_t k = x + rect.width; k < kSide; ++k) to[k] = to[x + rect.width - 1];
-    }
-    for (int32_t row = 0; row < kSide; ++row) {
-      const int32_t from = Clamp(row, y, y + rect.height - 1);
-      if (row == from) continue;
-      std::memcpy(disparity + row * kSide, disparity + from * kSide, kSide * sizeof(*disparity));
-    }
-  }
-
-  const simd::ImageKernels& kernels_;
-  const starfocus_matte& matte_;
-  const DepthSource& depth_;
-};
+}
 
 }  // namespace
 
 void MatteCoverage(const simd::ImageKernels& kernels, const starfocus_matte& matte,
                    const DepthSource& depth, const Rect& area, const Plane<uint8_t>& out) {
-  const CoverageWriter writer(kernels, matte, depth);
   for (int32_t x = 0; x < area.width; x += kBlock) {
     const int32_t width = Min(kBlock, area.width - x), left = area.x + x;
     MatteRows rows(matte, depth.width, depth.height, left, width);
     for (int32_t y = 0; y < area.height; y += kBlock) {
       const int32_t top = area.y + y;
-      writer.WriteBlock({left, top, width, Min(kBlock, area.height - y)}, &rows,
-                        {out.Row(top) + x, out.stride, 0, top});
+      WriteBlock(kernels, matte, depth, {left, top, width, Min(kBlock, area.height - y)}, &rows,
+                 {out.Row(top) + x, out.stride, 0, top});
     }
   }
 }

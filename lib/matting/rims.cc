@@ -49,14 +49,12 @@ class RimSummer {
     if (top_ < kReach || top_ + kRimCell + kReach > input_.height) return;
     if (left_ < kReach || left_ + kRimCell + kReach > input_.width || !HasStep()) return;
     loaded_ = false;
-    for (int32_t y = top_; y < top_ + kRimCell; ++y) {
-      for (int32_t x = left_; x < left_ + kRimCell; ++x) {
-        const int32_t edge = Disparity(x, y) + kRimStep;
-        for (int side = 0; side < kSideCount; ++side) {
-          if (Disparity(x + kSides[side][0], y + kSides[side][1]) > edge) AddLine(x, y, side, sums);
-        }
+    ForPixels({left_, top_, kRimCell, kRimCell}, [&](int32_t x, int32_t y) {
+      const int32_t edge = Disparity(x, y) + kRimStep;
+      for (int side = 0; side < kSideCount; ++side) {
+        if (Disparity(x + kSides[side][0], y + kSides[side][1]) > edge) AddLine(x, y, side, sums);
       }
-    }
+    });
   }
 
  private:
@@ -84,15 +82,6 @@ class RimSummer {
     return high - low > kRimStep;
   }
 
-  // Reads the light of the cell and of the pixels around it.
-  void Load() {
-    if (loaded_) return;
-    loaded_ = true;
-    for (int32_t k = 0; k < kSide; ++k) {
-      input_.Light(0, left_ - kReach, top_ - kReach + k, kSide, light_[k]);
-    }
-  }
-
   // Returns true if no outline along the other axis is nearer to a pixel than `distance`.
   bool IsNearest(int32_t x, int32_t y, int side, int32_t distance) const {
     const int32_t dx = kSides[side][1], dy = kSides[side][0], edge = Disparity(x, y) + kRimStep;
@@ -118,7 +107,10 @@ class RimSummer {
   // Adds the line from the far pixel (x, y) away from the near surface on side `side`.
   void AddLine(int32_t x, int32_t y, int side, RimSums* sums) {
     if (!IsLine(x, y, side)) return;
-    Load();
+    for (int32_t k = 0; !loaded_ && k < kSide; ++k) {
+      input_.Light(0, left_ - kReach, top_ - kReach + k, kSide, light_[k]);
+    }
+    loaded_ = true;
     const int32_t dx = kSides[side][0], dy = kSides[side][1];
     int32_t clean[3] = {0, 0, 0};
     for (int32_t k = kRimWidth; k < kRimEnd; ++k) {
@@ -216,13 +208,8 @@ struct RimTotal {
 void FindRim(const RimMap& map, int32_t column, int32_t row, CellRim* rim) {
   *rim = {};
   RimTotal total;
-  const int32_t right = Min(map.columns - 1, column + kRimAround);
-  const int32_t bottom = Min(map.Rows() - 1, row + kRimAround);
-  for (int32_t y = Max(0, row - kRimAround); y <= bottom; ++y) {
-    for (int32_t x = Max(0, column - kRimAround); x <= right; ++x) {
-      total.Add(map.sums[map.At(x, y)]);
-    }
-  }
+  ForPixels(Clipped(Around(column, row, kRimAround), map.columns, map.Rows()),
+            [&](int32_t x, int32_t y) { total.Add(map.sums[map.At(x, y)]); });
   if (total.lines <= kLeastLines) return;
   int32_t weight = kWholeRim;
   for (int k = 1; k < kRimWidth && weight > 0; ++k) {
