@@ -53,76 +53,68 @@ void FillNearest(int32_t length, const IsKnown& is_known, const Fill& fill) {
 }
 
 // A repair: its input, its output and its memory.
-class ColourRepair {
- public:
-  ColourRepair(const SweepSetup& setup, const starfocus_light_field& light_field,
-               const simd::DepthKernels& kernels, const MapOutput& output,
-               const ColourMemory& memory)
-      : setup_(setup),
-        light_field_(light_field),
-        kernels_(kernels),
-        rgb_(RowsOf(light_field.views[0])),
-        output_(output),
-        memory_(memory) {}
+struct ColourRepair {
+  const SweepSetup& setup;
+  const starfocus_light_field& light_field;
+  const simd::DepthKernels& kernels;
+  const MapOutput& output;
+  const ColourMemory& memory;
+  const Plane<const uint8_t> rgb;
 
   starfocus_status Run(bool* has_coverage) const {
-    const bool covers = output_.coverage.data != nullptr;
-    Sequence run(memory_.jobs, kPhases + (covers ? kHairPhases : 0), setup_.columns * setup_.rows);
+    const bool covers = output.coverage.data != nullptr;
+    Sequence run(memory.jobs, kPhases + (covers ? kHairPhases : 0), setup.columns * setup.rows);
     const int32_t noise = ReadMap(&run);
-    int16_t* const given = memory_.outlines.given;
-    *has_coverage =
-        covers && FindHairCoverage(rgb_, {given, static_cast<size_t>(setup_.width), 0, 0},
-                                   output_.coverage, memory_.hair, &run);
+    int16_t* const given = memory.outlines.given;
+    *has_coverage = covers && FindHairCoverage(rgb, {given, static_cast<size_t>(setup.width), 0, 0},
+                                               output.coverage, memory.hair, &run);
     // The first pass averages disparities within three standard deviations, which reduces the noise
     // to a third.
-    Smooth(given, noise, 3, 1, 3 * noise, memory_.outlines.repaired, &run);
-    Smooth(memory_.outlines.repaired, noise, 4, 2, 3 * noise / 2, given, &run);
+    Smooth(given, noise, 3, 1, 3 * noise, memory.outlines.repaired, &run);
+    Smooth(memory.outlines.repaired, noise, 4, 2, 3 * noise / 2, given, &run);
     run.Run([&](int32_t index, int32_t) {
-      CountBeside(GridOf(setup_), given, TileOf(setup_, index), index, memory_.thin);
+      CountBeside(GridOf(setup), given, TileOf(setup, index), index, memory.thin);
     });
     if (run.status() != STARFOCUS_OK) return run.status();
-    FindThin(GridOf(setup_), kThinGiven, memory_.thin);
+    FindThin(GridOf(setup), kThinGiven, memory.thin);
     const int16_t* repaired =
-        FollowOutlines(light_field_, kernels_, memory_.thin,
-                       *has_coverage ? &memory_.hair : nullptr, memory_.outlines, &run);
-    run.Run([&](int32_t index, int32_t) { WriteTile(repaired, TileOf(setup_, index)); });
+        FollowOutlines(light_field, kernels, memory.thin, *has_coverage ? &memory.hair : nullptr,
+                       memory.outlines, &run);
+    run.Run([&](int32_t index, int32_t) { WriteTile(repaired, TileOf(setup, index)); });
     if (*has_coverage) {
-      run.Run([&](int32_t index, int32_t) { CompleteTile(TileOf(setup_, index)); });
+      run.Run([&](int32_t index, int32_t) { CompleteTile(TileOf(setup, index)); });
     } else {
       run.Skip();
     }
     return run.status();
   }
 
- private:
   // Converts the given map to fixed point (memory.outlines.given) and returns its noise.
   int32_t ReadMap(Sequence* run) const {
-    const auto rows = [&](int32_t index) {
-      return PartOf({0, setup_.height}, index, run->count());
-    };
+    const auto rows = [&](int32_t index) { return PartOf({0, setup.height}, index, run->count()); };
     run->Run([&](int32_t index, int32_t) {
-      ReadRows(setup_, light_field_, rows(index), memory_.outlines.given);
+      ReadRows(setup, light_field, rows(index), memory.outlines.given);
     });
     if (run->status() != STARFOCUS_OK) return 0;
-    FillUnknownRows(setup_, memory_.outlines.given);
-    const int32_t counts = memory_.outlines.workers * kNoiseCounts;
-    std::fill_n(memory_.noise, counts, 0U);
+    FillUnknownRows(setup, memory.outlines.given);
+    const int32_t counts = memory.outlines.workers * kNoiseCounts;
+    std::fill_n(memory.noise, counts, 0U);
     run->Run([&](int32_t index, int32_t worker) {
-      CountNoise(rows(index), memory_.noise + worker * kNoiseCounts);
+      CountNoise(rows(index), memory.noise + worker * kNoiseCounts);
     });
     for (int32_t k = kNoiseCounts; k < counts; ++k) {
-      memory_.noise[k % kNoiseCounts] += memory_.noise[k];
+      memory.noise[k % kNoiseCounts] += memory.noise[k];
     }
-    return NoiseOf(memory_.noise);
+    return NoiseOf(memory.noise);
   }
 
   // Adds the pixels of `rows`, except the pixels at the edges of the picture, to the numbers of
   // pixels by the absolute difference between four times the pixel's disparity and the sum of the
   // disparities of its neighbours.
   void CountNoise(const Range& rows, uint32_t* counts) const {
-    const ptrdiff_t width = setup_.width;
-    for (int32_t y = Max(rows.first, 1); y < Min(rows.last, setup_.height - 1); ++y) {
-      const int16_t* d = memory_.outlines.given + setup_.At(1, y);
+    const ptrdiff_t width = setup.width;
+    for (int32_t y = Max(rows.first, 1); y < Min(rows.last, setup.height - 1); ++y) {
+      const int16_t* d = memory.outlines.given + setup.At(1, y);
       for (ptrdiff_t x = 1; x + 1 < width; ++x, ++d) {
         const int32_t others = *(d - 1) + *(d + 1) + *(d - width) + *(d + width);
         ++counts[Min(Abs(others - 4 * *d), kNoiseCounts - 1)];
@@ -151,21 +143,21 @@ class ColourRepair {
               int16_t* to, Sequence* run) const {
     if (noise == 0) return run->Skip();
     run->Run([&](int32_t index, int32_t worker) {
-      const Rect tile = TileOf(setup_, index);
-      int32_t* const ring = memory_.rings + ptrdiff_t{worker} * kSmoothSamples;
+      const Rect tile = TileOf(setup, index);
+      int32_t* const ring = memory.rings + ptrdiff_t{worker} * kSmoothSamples;
       const auto row_at = [ring](int32_t y) { return ring + y % kSmoothRows * 4 * kSmoothPlane; };
       int32_t filled = Max(tile.y - radius, 0);
       for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
-        for (; filled <= y + radius && filled < setup_.height; ++filled) {
+        for (; filled <= y + radius && filled < setup.height; ++filled) {
           FillPlanes(from, tile.x - radius, tile.width + 2 * radius, filled, row_at(filled));
         }
         const int32_t* rows[simd::kMostSmoothRows];
         size_t count = 0;
         for (int32_t row = y - radius; row <= y + radius; row += step) {
-          if (row >= 0 && row < setup_.height) rows[count++] = row_at(row) + radius;
+          if (row >= 0 && row < setup.height) rows[count++] = row_at(row) + radius;
         }
-        kernels_.SmoothDisparity(row_at(y) + radius, rows, count, kSmoothPlane, radius, step, tolerance,
-                                 static_cast<size_t>(tile.width), to + setup_.At(tile.x, y));
+        kernels.SmoothDisparity(row_at(y) + radius, rows, count, kSmoothPlane, radius, step, tolerance,
+                                 static_cast<size_t>(tile.width), to + setup.At(tile.x, y));
       }
     });
   }
@@ -175,9 +167,9 @@ class ColourRepair {
   void FillPlanes(const int16_t* map, int32_t first, int32_t count, int32_t y, int32_t* row) const {
     for (int32_t k = 0; k < count; ++k) {
       const int32_t x = first + k;
-      const bool inside = x >= 0 && x < setup_.width;
-      const uint8_t* colour = inside ? rgb_.Row(y) + 3 * ptrdiff_t{x} : kBlack;
-      row[k] = inside ? map[setup_.At(x, y)] : kOutside;
+      const bool inside = x >= 0 && x < setup.width;
+      const uint8_t* colour = inside ? rgb.Row(y) + 3 * ptrdiff_t{x} : kBlack;
+      row[k] = inside ? map[setup.At(x, y)] : kOutside;
       row[k + kSmoothPlane] = colour[0] + colour[1] + colour[2];
       row[k + 2 * kSmoothPlane] = colour[0] - colour[1];
       row[k + 3 * kSmoothPlane] = colour[1] - colour[2];
@@ -187,15 +179,15 @@ class ColourRepair {
   // Writes the repaired map of a tile. A disparity that is as in the given map is copied exactly.
   void WriteTile(const int16_t* repaired, const Rect& tile) const {
     ForPixels(tile, [&](int32_t x, int32_t y) {
-      const size_t at = setup_.At(x, y);
-      const float given = GivenAt(light_field_, y)[x];
-      const int32_t vote = Abs(memory_.outlines.vote[at]);
-      const int32_t confidence = memory_.outlines.distance[at] != 0 ? 2 * vote : UINT8_MAX;
-      output_.WriteConfidence(x, y, static_cast<uint8_t>(confidence));
+      const size_t at = setup.At(x, y);
+      const float given = GivenAt(light_field, y)[x];
+      const int32_t vote = Abs(memory.outlines.vote[at]);
+      const int32_t confidence = memory.outlines.distance[at] != 0 ? 2 * vote : UINT8_MAX;
+      output.WriteConfidence(x, y, static_cast<uint8_t>(confidence));
       if (std::isfinite(given) && repaired[at] == ToFixed(given)) {
-        output_.disparity.Row(y)[x] = given;
+        output.disparity.Row(y)[x] = given;
       } else {
-        output_.Write(x, y, repaired[at]);
+        output.Write(x, y, repaired[at]);
       }
     });
   }
@@ -205,21 +197,14 @@ class ColourRepair {
     int16_t disparity[kMostTileSide];
     for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
       for (int32_t k = 0; k < tile.width; ++k) {
-        disparity[k] = ToFixed(output_.disparity.Row(y)[tile.x + k]);
+        disparity[k] = ToFixed(output.disparity.Row(y)[tile.x + k]);
       }
       uint8_t* const confidence =
-          output_.confidence.data == nullptr ? nullptr : output_.confidence.Row(y) + tile.x;
-      CompleteCoverage(memory_.hair, {tile.x, tile.x + tile.width}, y, disparity,
-                       output_.coverage.Row(y) + tile.x, confidence);
+          output.confidence.data == nullptr ? nullptr : output.confidence.Row(y) + tile.x;
+      CompleteCoverage(memory.hair, {tile.x, tile.x + tile.width}, y, disparity,
+                       output.coverage.Row(y) + tile.x, confidence);
     }
   }
-
-  const SweepSetup& setup_;
-  const starfocus_light_field& light_field_;
-  const simd::DepthKernels& kernels_;
-  const Plane<const uint8_t> rgb_;
-  const MapOutput& output_;
-  const ColourMemory& memory_;
 };
 
 }  // namespace
@@ -267,7 +252,8 @@ void FillUnknownRows(const SweepSetup& setup, int16_t* disparity) {
 starfocus_status RepairByColour(const SweepSetup& setup, const starfocus_light_field& light_field,
                                 const simd::DepthKernels& kernels, const MapOutput& output,
                                 const ColourMemory& memory, bool* has_coverage) {
-  return ColourRepair(setup, light_field, kernels, output, memory).Run(has_coverage);
+  const Plane<const uint8_t> rgb = RowsOf(light_field.views[0]);
+  return ColourRepair{setup, light_field, kernels, output, memory, rgb}.Run(has_coverage);
 }
 
 }  // namespace starfocus

@@ -236,89 +236,36 @@ constexpr int kNearKnownBits = 2;
 // Returns the trust in the mean light of the near surface, with kNearKnownBits fractional bits.
 int32_t TrustIn(const ColourSum<int32_t>& near) { return Min(near.weight, 1 << kNearKnownBits); }
 
-// Separates the light of the far surface from the light of the near surface in a tile.
-class FarUnmixer {
- public:
-  FarUnmixer(const Input& input, int32_t column, int32_t row)
-      : map_(*input.coverage), left_(column * kCoverageTile), top_(row * kCoverageTile) {
-    const int32_t left = left_ - kNearReach, first = Max(0, left);
-    const int32_t end = Min(left + kSide, map_.width);
-    for (int32_t k = 0; k < kSide; ++k) {
-      const int32_t y = top_ - kNearReach + k;
-      if (y < 0 || y >= map_.height) continue;
-      input.Light(0, first, y, end - first, light_[k] + 3 * (first - left));
-      const uint8_t* const coverage = input.given_coverage.Row(y);
-      for (int32_t x = first; x < end; ++x) {
-        weights_[k][x - left] = static_cast<int16_t>(EighthPower(GivenAlpha(coverage[x])));
-      }
-    }
-  }
-
-  // Calls visit(x, y, alpha) for each pixel (x, y) of the picture in the tile whose coverage in
-  // `plane`, CoverageMap::first or CoverageMap::alpha, is between 0 and 1.
-  template <class Visit>
-  void ForEachMixture(const uint8_t* plane, const Visit& visit) const {
-    ForPixels(map_.PixelsOf(left_ / kCoverageTile, top_ / kCoverageTile),
-              [&](int32_t x, int32_t y) {
-                const int32_t alpha = plane[map_.At(x, y)];
-                if (alpha > 0 && alpha < kWhole) visit(x, y, alpha);
-              });
-  }
-
-  // Unmixes a pixel: far = mixed + (mixed - near) alpha / (1 - alpha). The weight is (1 - alpha)^5.
-  void UnmixAt(int32_t x, int32_t y, int32_t alpha) const {
-    FarCell& far = map_.FarAt(x, y);
-    const ColourSum<int32_t> near = SumAround(x, y);
-    const int32_t rest = kWhole - alpha;
-    // If the light of the near surface is not known, it is assumed to equal the light of the pixel.
-    for (int c = 0; c < 3; ++c) {
-      const int32_t contrast = TrustIn(near) * alpha * (far.rgb[c] - near.Mean(c));
-      far.rgb[c] = LimitedLight(far.rgb[c] +
-                                static_cast<int32_t>(Rounded(contrast, rest << kNearKnownBits)));
-    }
-    const int64_t square = int64_t{rest} * rest;
-    far.weight = static_cast<int16_t>(square * square * rest >> (5 * kAlphaBits - kFarKnownBits));
-  }
-
-  // Adds detail at a pixel. The far surface gets half of (1 - alpha)^3 of the light that the means
-  // of both surfaces do not explain, per part of the pixel that it covers. The other half is left
-  // away because the light from side views already has detail.
-  void AddDetailAt(int32_t x, int32_t y, int32_t alpha) const {
-    const int16_t* const mixed = light_[y - top_ + kNearReach] + 3 * (x - left_ + kNearReach);
-    int16_t* const far = map_.FarAt(x, y).rgb;
-    const ColourSum<int32_t> near = SumAround(x, y);
-    const int32_t rest = kWhole - alpha, cube = rest * rest * rest;
-    // If the light of the near surface is not known, it is assumed to equal the light of the far
-    // surface.
-    for (int c = 0; c < 3; ++c) {
-      const int32_t contrast = TrustIn(near) * (near.Mean(c) - far[c]) >> kNearKnownBits;
-      const int64_t detail = (mixed[c] - far[c]) * kWhole - alpha * contrast;
-      far[c] = LimitedLight(far[c] +
-                            static_cast<int32_t>(RoundShift(detail * cube, 4 * kAlphaBits + 1)));
-    }
-  }
-
- private:
-  static constexpr int32_t kSide = kCoverageTile + 2 * kNearReach;
-
-  // Returns the sum of the light of the near surface around a pixel. The weight is kKnown for one
-  // pixel that the surface covers.
-  ColourSum<int32_t> SumAround(int32_t x, int32_t y) const {
-    ColourSum<int32_t> sum;
-    ForPixels({x - left_, y - top_, 2 * kNearReach + 1, 2 * kNearReach + 1},
-              [&](int32_t column, int32_t row) {
-                sum.Add(light_[row] + 3 * column, weights_[row][column]);
-              });
-    return sum;
-  }
-
-  const CoverageMap& map_;
-  const int32_t left_, top_;
+// Calls visit(x, y, alpha, light, near) for each pixel (x, y) of the picture in a tile whose
+// coverage in `plane`, CoverageMap::first or CoverageMap::alpha, is between 0 and 1. `light` is the
+// pixel's light, and `near` the sum of the light of the near surface around the pixel. The weight
+// of the sum is kKnown for one pixel that the surface covers.
+template <class Visit>
+void ForEachMixture(const Input& input, int32_t column, int32_t row, const uint8_t* plane,
+                    const Visit& visit) {
+  constexpr int32_t kSide = kCoverageTile + 2 * kNearReach;
+  const CoverageMap& map = *input.coverage;
+  const int32_t left = column * kCoverageTile - kNearReach, top = row * kCoverageTile - kNearReach;
   // Light and weights (EighthPower of the given coverage) of the tile and of kNearReach pixels on
   // each side. Pixels beyond the picture have weight 0.
-  int16_t light_[kSide][3 * kSide] = {};
-  int16_t weights_[kSide][kSide] = {};
-};
+  int16_t light[kSide][3 * kSide] = {}, weights[kSide][kSide] = {};
+  const Rect inside = Clipped({left, top, kSide, kSide}, map.width, map.height);
+  for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
+    input.Light(0, inside.x, y, inside.width, light[y - top] + 3 * (inside.x - left));
+    for (int32_t x = inside.x; x < inside.x + inside.width; ++x) {
+      const int32_t alpha = GivenAlpha(input.given_coverage.Row(y)[x]);
+      weights[y - top][x - left] = static_cast<int16_t>(EighthPower(alpha));
+    }
+  }
+  ForPixels(map.PixelsOf(column, row), [&](int32_t x, int32_t y) {
+    const int32_t alpha = plane[map.At(x, y)];
+    if (alpha == 0 || alpha >= kWhole) return;
+    ColourSum<int32_t> near;
+    ForPixels(Around(x - left, y - top, kNearReach),
+              [&](int32_t u, int32_t v) { near.Add(light[v] + 3 * u, weights[v][u]); });
+    visit(x, y, alpha, light[y - top] + 3 * (x - left), near);
+  });
+}
 
 }  // namespace
 
@@ -374,17 +321,43 @@ void LookBehindTile(const Input& input, int32_t column, int32_t row) {
 }
 
 void UnmixFar(const Input& input, int32_t column, int32_t row) {
-  const FarUnmixer unmixer(input, column, row);
-  unmixer.ForEachMixture(input.coverage->first, [&](int32_t x, int32_t y, int32_t alpha) {
-    unmixer.UnmixAt(x, y, alpha);
-  });
+  const CoverageMap& map = *input.coverage;
+  const auto unmix = [&](int32_t x, int32_t y, int32_t alpha, const int16_t*,
+                         const ColourSum<int32_t>& near) {
+    FarCell& far = map.FarAt(x, y);
+    const int32_t rest = kWhole - alpha;
+    // far = mixed + (mixed - near) alpha / (1 - alpha). If the light of the near surface is not
+    // known, it is assumed to equal the light of the pixel. The weight is (1 - alpha)^5.
+    for (int c = 0; c < 3; ++c) {
+      const int32_t contrast = TrustIn(near) * alpha * (far.rgb[c] - near.Mean(c));
+      far.rgb[c] = LimitedLight(far.rgb[c] +
+                                static_cast<int32_t>(Rounded(contrast, rest << kNearKnownBits)));
+    }
+    const int64_t square = int64_t{rest} * rest;
+    far.weight = static_cast<int16_t>(square * square * rest >> (5 * kAlphaBits - kFarKnownBits));
+  };
+  ForEachMixture(input, column, row, map.first, unmix);
 }
 
 void AddFarDetail(const Input& input, int32_t column, int32_t row) {
-  const FarUnmixer unmixer(input, column, row);
-  unmixer.ForEachMixture(input.coverage->alpha, [&](int32_t x, int32_t y, int32_t alpha) {
-    unmixer.AddDetailAt(x, y, alpha);
-  });
+  const CoverageMap& map = *input.coverage;
+  // The far surface gets half of (1 - alpha)^3 of the light that the means of both surfaces do not
+  // explain, per part of the pixel that it covers. The other half is left away because the light
+  // from side views already has detail.
+  const auto add = [&](int32_t x, int32_t y, int32_t alpha, const int16_t* mixed,
+                       const ColourSum<int32_t>& near) {
+    int16_t* const far = map.FarAt(x, y).rgb;
+    const int32_t rest = kWhole - alpha, cube = rest * rest * rest;
+    // If the light of the near surface is not known, it is assumed to equal the light of the far
+    // surface.
+    for (int c = 0; c < 3; ++c) {
+      const int32_t contrast = TrustIn(near) * (near.Mean(c) - far[c]) >> kNearKnownBits;
+      const int64_t detail = (mixed[c] - far[c]) * kWhole - alpha * contrast;
+      far[c] = LimitedLight(far[c] +
+                            static_cast<int32_t>(RoundShift(detail * cube, 4 * kAlphaBits + 1)));
+    }
+  };
+  ForEachMixture(input, column, row, map.alpha, add);
 }
 
 }  // namespace starfocus

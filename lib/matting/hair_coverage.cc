@@ -131,22 +131,22 @@ int32_t Faded(int32_t from, int32_t to, uint8_t hair) {
 }
 
 // The phases of FindHairCoverage. Each phase processes rows of blocks.
-class HairSearch {
- public:
-  HairSearch(const Plane<const uint8_t>& rgb, const Plane<const int16_t>& disparity,
-             const Plane<uint8_t>& coverage, const HairMemory& memory)
-      : rgb_(rgb), disparity_(disparity), coverage_(coverage), memory_(memory) {}
+struct HairSearch {
+  const Plane<const uint8_t> rgb;
+  const Plane<const int16_t> disparity;
+  const Plane<uint8_t> coverage;
+  const HairMemory& memory;
 
   // Measures the range of the disparities of each cell.
   void MeasureCells(const Range& blocks) const {
     ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
       int16_t least = INT16_MAX, greatest = INT16_MIN;
       ForPixels(CellAt(column, row), [&](int32_t x, int32_t y) {
-        least = std::min(least, disparity_.Row(y)[x]);
-        greatest = std::max(greatest, disparity_.Row(y)[x]);
+        least = std::min(least, disparity.Row(y)[x]);
+        greatest = std::max(greatest, disparity.Row(y)[x]);
       });
-      memory_.low[at] = memory_.least[at] = least;
-      memory_.high[at] = memory_.greatest[at] = greatest;
+      memory.low[at] = memory.least[at] = least;
+      memory.high[at] = memory.greatest[at] = greatest;
     });
   }
 
@@ -154,13 +154,13 @@ class HairSearch {
   bool JoinCells() const {
     const auto least = [](int16_t a, int16_t b) { return std::min(a, b); };
     const auto most = [](int16_t a, int16_t b) { return std::max(a, b); };
-    for (int32_t row = 0; row < memory_.rows; ++row) {
-      JoinAround(memory_.columns, 1, least, memory_.low + memory_.At(0, row));
-      JoinAround(memory_.columns, 1, most, memory_.high + memory_.At(0, row));
+    for (int32_t row = 0; row < memory.rows; ++row) {
+      JoinAround(memory.columns, 1, least, memory.low + memory.At(0, row));
+      JoinAround(memory.columns, 1, most, memory.high + memory.At(0, row));
     }
-    for (int32_t column = 0; column < memory_.columns; ++column) {
-      JoinAround(memory_.rows, memory_.columns, least, memory_.low + column);
-      JoinAround(memory_.rows, memory_.columns, most, memory_.high + column);
+    for (int32_t column = 0; column < memory.columns; ++column) {
+      JoinAround(memory.rows, memory.columns, least, memory.low + column);
+      JoinAround(memory.rows, memory.columns, most, memory.high + column);
     }
     return true;
   }
@@ -169,10 +169,10 @@ class HairSearch {
   void PullFar(const Range& blocks) const {
     ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
       ColourSum<int64_t> sum;
-      if (memory_.HasEdge(at) && !HasWithin(column, row, kBeside, true)) {
+      if (memory.HasEdge(at) && !HasWithin(column, row, kBeside, true)) {
         ForCell(column, row, [&](const CellPixel& pixel) { sum.Add(pixel.rgb, kFull); });
       }
-      memory_.far.At(0, column, row) = MeanOf(sum);
+      memory.far.At(0, column, row) = MeanOf(sum);
     });
   }
 
@@ -185,25 +185,25 @@ class HairSearch {
         ForCell(column, row, [&](const CellPixel& pixel) {
           if (!pixel.is_near || !IsSample(pixel)) return;
           int32_t far[3];
-          ColourAt(memory_.far, pixel.x, pixel.y, far);
+          ColourAt(memory.far, pixel.x, pixel.y, far);
           const int64_t contrast = SquaredDifference(far, pixel.rgb) / 16;
           const int64_t fourth = contrast * contrast / 256;
           sum.Add(pixel.rgb, std::min(fourth * fourth, kFull));
         });
       }
-      memory_.near.At(0, column, row) = MeanOf(sum);
+      memory.near.At(0, column, row) = MeanOf(sum);
     });
   }
 
   void CountVotes(const Range& blocks) const {
-    std::fill(&memory_.VotesAt(0, blocks.first), &memory_.VotesAt(0, blocks.last), HairVotes{});
+    std::fill(&memory.VotesAt(0, blocks.first), &memory.VotesAt(0, blocks.last), HairVotes{});
     ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
-      memory_.hair[at] = 0;
-      if (!memory_.HasEdge(at)) return;
+      memory.hair[at] = 0;
+      if (!memory.HasEdge(at)) return;
       const bool near = HasWithin(column, row, kBeside, true);
       if (near == HasWithin(column, row, kBeside, false)) return;
       if (!HasWithin(column, row, kMostInside, !near)) return;
-      HairVotes* const votes = &memory_.VotesAt(column / kHairBlock, row / kHairBlock);
+      HairVotes* const votes = &memory.VotesAt(column / kHairBlock, row / kHairBlock);
       if (near) return CountInside(column, row, votes);
       ForCell(column, row, [&](const CellPixel& pixel) {
         if (!IsSample(pixel)) return;
@@ -218,16 +218,16 @@ class HairSearch {
   // degree is interpolated. Returns true if any block has hair.
   bool FillHair() const {
     bool any = false;
-    ForPixels({0, 0, memory_.block_columns, memory_.block_rows}, [&](int32_t column, int32_t row) {
+    ForPixels({0, 0, memory.block_columns, memory.block_rows}, [&](int32_t column, int32_t row) {
       const int32_t found = FindHair(column, row);
-      memory_.VotesAt(column, row).found = found;
+      memory.VotesAt(column, row).found = found;
       any = any || found >= kHairy;
     });
     if (!any) return false;
-    ForCells({0, memory_.block_rows}, [&](int32_t column, int32_t row, size_t at) {
-      if (!memory_.HasEdge(at)) return;
+    ForCells({0, memory.block_rows}, [&](int32_t column, int32_t row, size_t at) {
+      if (!memory.HasEdge(at)) return;
       int32_t hair = 0;
-      Interpolate<kHairBlock>(memory_.block_columns, memory_.block_rows, column, row,
+      Interpolate<kHairBlock>(memory.block_columns, memory.block_rows, column, row,
                               [&](int32_t x, int32_t y, int32_t weight) {
                                 int32_t most = 0;
                                 ForBlocksAround(x, y, 1, [&](const HairVotes& votes, int32_t) {
@@ -235,7 +235,7 @@ class HairSearch {
                                 });
                                 hair += weight * most;
                               });
-      memory_.hair[at] = static_cast<uint8_t>(Min(hair / (4 * kHairBlock * kHairBlock), UINT8_MAX));
+      memory.hair[at] = static_cast<uint8_t>(Min(hair / (4 * kHairBlock * kHairBlock), UINT8_MAX));
     });
     return true;
   }
@@ -246,7 +246,7 @@ class HairSearch {
   template <bool kAgain>
   void UnmixCells(const Range& blocks) const {
     ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
-      if (memory_.hair[at] == 0) return;
+      if (memory.hair[at] == 0) return;
       ForCell(column, row, [&](const CellPixel& pixel) {
         const int32_t own = kAgain ? FourthPower(kWhole - ShareOf(*pixel.coverage)) : 0;
         const int32_t texture = pixel.is_near ? 0 : kTexture;
@@ -262,45 +262,44 @@ class HairSearch {
   void PullBoth(const Range& blocks) const {
     ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
       ColourSum<int64_t> near, far;
-      if (memory_.HasEdge(at)) {
+      if (memory.HasEdge(at)) {
         ForCell(column, row, [&](const CellPixel& pixel) {
           const int32_t given = pixel.is_near ? kWhole : 0;
           // The coverage of cells without hair has not been written.
-          const int32_t found = memory_.hair[at] == 0 ? given : ShareOf(*pixel.coverage);
-          const int32_t share = Faded(given, found, memory_.hair[at]);
+          const int32_t found = memory.hair[at] == 0 ? given : ShareOf(*pixel.coverage);
+          const int32_t share = Faded(given, found, memory.hair[at]);
           near.Add(pixel.rgb, kUnit * FourthPower(share));
           far.Add(pixel.rgb, kUnit * FourthPower(kWhole - share));
         });
       }
-      memory_.near.At(0, column, row) = MeanOf(near);
-      memory_.far.At(0, column, row) = MeanOf(far);
+      memory.near.At(0, column, row) = MeanOf(near);
+      memory.far.At(0, column, row) = MeanOf(far);
     });
   }
 
- private:
   // Calls act(column, row, at) for all cells of the rows of blocks.
   template <class Act>
   void ForCells(const Range& blocks, const Act& act) const {
     const int32_t first = kHairBlock * blocks.first;
-    const int32_t last = Min(kHairBlock * blocks.last, memory_.rows);
-    ForPixels({0, first, memory_.columns, last - first},
-              [&](int32_t column, int32_t row) { act(column, row, memory_.At(column, row)); });
+    const int32_t last = Min(kHairBlock * blocks.last, memory.rows);
+    ForPixels({0, first, memory.columns, last - first},
+              [&](int32_t column, int32_t row) { act(column, row, memory.At(column, row)); });
   }
 
   Rect CellAt(int32_t column, int32_t row) const {
-    return Clipped({column * kHairCell, row * kHairCell, kHairCell, kHairCell}, memory_.width,
-                   memory_.height);
+    return Clipped({column * kHairCell, row * kHairCell, kHairCell, kHairCell}, memory.width,
+                   memory.height);
   }
 
   // Calls act(pixel) for all pixels of a cell.
   template <class Act>
   void ForCell(int32_t column, int32_t row, const Act& act) const {
-    const size_t at = memory_.At(column, row);
+    const size_t at = memory.At(column, row);
     ForPixels(CellAt(column, row), [&](int32_t x, int32_t y) {
-      const bool is_near = memory_.IsNear(at, disparity_.Row(y)[x]);
-      CellPixel pixel = {x, y, is_near, coverage_.Row(y) + x, {}};
-      const uint8_t* rgb = rgb_.Row(y) + 3 * ptrdiff_t{x};
-      for (int c = 0; c < 3; ++c) pixel.rgb[c] = rgb[c] << kMeanBits;
+      const bool is_near = memory.IsNear(at, disparity.Row(y)[x]);
+      CellPixel pixel = {x, y, is_near, coverage.Row(y) + x, {}};
+      const uint8_t* from = rgb.Row(y) + 3 * ptrdiff_t{x};
+      for (int c = 0; c < 3; ++c) pixel.rgb[c] = from[c] << kMeanBits;
       act(pixel);
     });
   }
@@ -308,12 +307,12 @@ class HairSearch {
   // Returns true if a cell within `reach` of cell (column, row) has pixels of the nearer surface of
   // an edge or, if `near` is false, of the farther surface.
   bool HasWithin(int32_t column, int32_t row, int32_t reach, bool near) const {
-    return AnyPixel(Clipped(Around(column, row, reach), memory_.columns, memory_.rows),
+    return AnyPixel(Clipped(Around(column, row, reach), memory.columns, memory.rows),
                     [&](int32_t x, int32_t y) {
-                      const size_t at = memory_.At(x, y);
-                      if (!memory_.HasEdge(at)) return false;
-                      return near ? memory_.IsNear(at, memory_.greatest[at])
-                                  : !memory_.IsNear(at, memory_.least[at]);
+                      const size_t at = memory.At(x, y);
+                      if (!memory.HasEdge(at)) return false;
+                      return near ? memory.IsNear(at, memory.greatest[at])
+                                  : !memory.IsNear(at, memory.least[at]);
                     });
   }
 
@@ -322,8 +321,8 @@ class HairSearch {
   // pixel's own colour in the background colour, as a fraction of kWhole.
   Unmixed Unmix(const CellPixel& pixel, int32_t own) const {
     int32_t far[3], near[3];
-    ColourAt(memory_.far, pixel.x, pixel.y, far);
-    ColourAt(memory_.near, pixel.x, pixel.y, near);
+    ColourAt(memory.far, pixel.x, pixel.y, far);
+    ColourAt(memory.near, pixel.x, pixel.y, near);
     for (int c = 0; c < 3; ++c) {
       far[c] = (own * pixel.rgb[c] + (kWhole - own) * far[c] + kWhole / 2) / kWhole;
     }
@@ -361,9 +360,9 @@ class HairSearch {
   // decreases with the distance, from (reach + 1)^2 to 1.
   template <class Act>
   void ForBlocksAround(int32_t column, int32_t row, int32_t reach, const Act& act) const {
-    ForPixels(Clipped(Around(column, row, reach), memory_.block_columns, memory_.block_rows),
+    ForPixels(Clipped(Around(column, row, reach), memory.block_columns, memory.block_rows),
               [&](int32_t x, int32_t y) {
-                act(memory_.VotesAt(x, y),
+                act(memory.VotesAt(x, y),
                     (reach + 1 - Abs(x - column)) * (reach + 1 - Abs(y - row)));
               });
   }
@@ -395,11 +394,6 @@ class HairSearch {
     const int32_t like = Fade(colours, 50, 70) * Fade(fineness, 652, 678) / 256;
     return like * (256 - Fade(1024 * beyond / (kWhole * outside), 36, 48)) / 256;
   }
-
-  const Plane<const uint8_t> rgb_;
-  const Plane<const int16_t> disparity_;
-  const Plane<uint8_t> coverage_;
-  const HairMemory& memory_;
 };
 
 }  // namespace
@@ -471,7 +465,7 @@ HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena) {
 
 bool FindHairCoverage(const Plane<const uint8_t>& rgb, const Plane<const int16_t>& disparity,
                       const Plane<uint8_t>& coverage, const HairMemory& memory, Sequence* run) {
-  const HairSearch search(rgb, disparity, coverage, memory);
+  const HairSearch search = {rgb, disparity, coverage, memory};
   bool found = true;
   // Runs a phase of the search. When the phase has finished all cells, `conclude` processes the
   // results for the whole picture. The search ends if `conclude` returns false.

@@ -29,21 +29,12 @@ constexpr int32_t kMostPlaces = sizeof(kPlaces) / sizeof(kPlaces[0]);
 // map decides; with kTrusted or more, the matte (docs/constants.md).
 constexpr int32_t kDoubted = 64, kTrusted = 128;
 
-// Alpha at places of one surface, in ascending order.
-struct SortedAlpha {
-  uint8_t alpha[kMostPlaces];
-  int32_t count = 0;
-
-  void Insert(uint8_t value) {
-    int32_t k = count++;
-    for (; k > 0 && alpha[k - 1] > value; --k) alpha[k] = alpha[k - 1];
-    alpha[k] = value;
-  }
-  // Quantiles ignore places on the wrong side of outlines that the map displaces. Most places on a
-  // map's closed outline of hair lie between strands, so the near surface needs a high quantile.
-  int32_t FarLevel() const { return alpha[(count - 1) / 4]; }
-  int32_t NearLevel() const { return alpha[(count - 1) * 9 / 10]; }
-};
+// Inserts a value into `count` values in ascending order.
+void Insert(uint8_t value, uint8_t* values, int32_t* count) {
+  int32_t k = (*count)++;
+  for (; k > 0 && values[k - 1] > value; --k) values[k] = values[k - 1];
+  values[k] = value;
+}
 
 // Coverage of the pixels of a tile.
 class TileCoverage {
@@ -52,7 +43,7 @@ class TileCoverage {
                const GivenDisparities& around)
       : matte_(matte), around_(around), search_(around) {
     const auto step = static_cast<size_t>(Max(1, matte.pixel_stride));
-    for (int32_t k = 0; k < GivenDisparities::kSide; ++k) {
+    for (int32_t k = 0; k < kSide; ++k) {
       columns_[k] = step * SampleOf(tile.x + k - kMatteReach, depth.width, matte.width);
       rows_[k] = matte.stride * SampleOf(tile.y + k - kMatteReach, depth.height, matte.height);
     }
@@ -65,10 +56,24 @@ class TileCoverage {
     if (!search_.FindSurfaces(at, &surfaces)) return 255;
     const int32_t implied = surfaces.IsNear(around_.disparity[at]) ? 255 : 0;
     if (alpha == implied) return implied;
-    SortedAlpha near, far;
-    Compare(at, surfaces, &near, &far);
-    if (near.count == 0 || far.count == 0) return implied;
-    const int32_t most = near.NearLevel(), least = far.FarLevel();
+    // The alpha of both surfaces around the pixel. Places of objects in front of the near surface
+    // are left out.
+    uint8_t near[kMostPlaces], far[kMostPlaces];
+    int32_t nears = 0, fars = 0;
+    const int32_t highest = surfaces.high + (surfaces.high - surfaces.low) / 2;
+    for (const auto& offset : kPlaces) {
+      const int32_t there = at + offset[1] * kSide + offset[0];
+      const int32_t disparity = around_.disparity[there];
+      if (disparity > highest) continue;
+      const uint8_t value = matte_.data[rows_[there / kSide] + columns_[there % kSide]];
+      const bool is_near = surfaces.IsNear(disparity);
+      Insert(value, is_near ? near : far, is_near ? &nears : &fars);
+    }
+    if (nears == 0 || fars == 0) return implied;
+    // Quantiles ignore places on the wrong side of outlines that the map displaces. Most places on
+    // a map's closed outline of hair lie between strands, so the near surface needs a high
+    // quantile.
+    const int32_t most = near[(nears - 1) * 9 / 10], least = far[(fars - 1) / 4];
     const int32_t trust = Clamp(most - least - kDoubted, 0, kTrusted - kDoubted);
     if (trust == 0) return implied;
     // Where a false part of the matte surrounds the outline, `least` is the alpha of this part.
@@ -77,30 +82,18 @@ class TileCoverage {
   }
 
  private:
+  static constexpr int32_t kSide = GivenDisparities::kSide;
+
   // Returns the sample of the matte at the middle of a pixel, along one axis.
   static size_t SampleOf(int32_t pixel, int32_t pixels, int32_t samples) {
     return static_cast<size_t>((2 * int64_t{Clamp(pixel, 0, pixels - 1)} + 1) * samples /
                                (2 * pixels));
   }
 
-  // Collects the alpha of both surfaces around a pixel. Places of objects in front of the near
-  // surface are left out.
-  void Compare(int32_t at, const Surfaces& surfaces, SortedAlpha* near, SortedAlpha* far) const {
-    constexpr int32_t kSide = GivenDisparities::kSide;
-    const int32_t highest = surfaces.high + (surfaces.high - surfaces.low) / 2;
-    for (const auto& offset : kPlaces) {
-      const int32_t there = at + offset[1] * kSide + offset[0];
-      const int32_t disparity = around_.disparity[there];
-      if (disparity > highest) continue;
-      const uint8_t alpha = matte_.data[rows_[there / kSide] + columns_[there % kSide]];
-      (surfaces.IsNear(disparity) ? near : far)->Insert(alpha);
-    }
-  }
-
   const starfocus_matte& matte_;
   const GivenDisparities& around_;
   const SurfaceSearch search_;
-  size_t columns_[GivenDisparities::kSide], rows_[GivenDisparities::kSide];
+  size_t columns_[kSide], rows_[kSide];
 };
 
 // Widens the range from *least to *greatest by disparities. Pixels may have two surfaces only if

@@ -45,77 +45,58 @@ int32_t AlphaOf(const int32_t* near, int32_t near_weight, const int32_t* far, co
                      RoundShift(change * known * square / (square + beside), 8 + kNearBits));
 }
 
-// The pixels in and around a tile: light, near disparities, and the weight of each pixel in a mean
-// of the near light.
-class NearTile {
- public:
-  // Loads a tile and its surroundings. The function weight_of(x, y) returns the weight of pixel
-  // (x, y) in a mean of the near light.
-  template <class Weight>
-  NearTile(const Input& input, int32_t column, int32_t row, const Weight& weight_of)
-      : input_(input), column_(column), row_(row) {
-    const CoverageMap& map = *input.coverage;
-    const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
-    const Rect from = Clipped({left, top, kSide, kSide}, map.width, map.height);
-    for (int32_t y = from.y; y < from.y + from.height; ++y) {
-      int16_t light[3 * kSide + simd::kPadding / sizeof(int16_t)];
-      const auto at = static_cast<size_t>((y - top) * kSide + from.x - left);
-      const auto count = static_cast<size_t>(from.width);
-      input.Light(0, from.x, y, from.width, light);
-      input.kernels->Split(light, count, kPlane, light_ + at);
-      std::memcpy(near_ + at, map.near + map.At(from.x, y), count * sizeof(*near_));
-      for (size_t k = 0; k < count; ++k) {
-        weight_[at + k] = static_cast<int16_t>(weight_of(from.x + static_cast<int32_t>(k), y));
-      }
+// Calls visit(x, y, alpha, cell) for each pixel (x, y) of the picture in a tile that is near an
+// edge, if the light of the far surface (`cell`) is known. The function weight_of(x, y) returns the
+// weight of a pixel in a mean of the near light.
+template <class Weight, class Visit>
+void ForEachSplit(const Input& input, int32_t column, int32_t row, const Weight& weight_of,
+                  const Visit& visit) {
+  const CoverageMap& map = *input.coverage;
+  // Planes of the pixels in and around the tile.
+  constexpr size_t kPlane = kSide * kSide;
+  int16_t light[3 * kPlane] = {}, nears[kPlane] = {}, weights[kPlane] = {};
+  const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
+  const Rect from = Clipped({left, top, kSide, kSide}, map.width, map.height);
+  for (int32_t y = from.y; y < from.y + from.height; ++y) {
+    int16_t rgb[3 * kSide + simd::kPadding / sizeof(int16_t)];
+    const auto at = static_cast<size_t>((y - top) * kSide + from.x - left);
+    const auto count = static_cast<size_t>(from.width);
+    input.Light(0, from.x, y, from.width, rgb);
+    input.kernels->Split(rgb, count, kPlane, light + at);
+    std::memcpy(nears + at, map.near + map.At(from.x, y), count * sizeof(*nears));
+    for (size_t k = 0; k < count; ++k) {
+      weights[at + k] = static_cast<int16_t>(weight_of(from.x + static_cast<int32_t>(k), y));
     }
   }
-
-  // Calls visit(x, y, alpha, cell) for each pixel of the tile that is near an edge, if the light of
-  // the far surface (`cell`) is known. Coordinates x and y are in pixels of the picture.
-  template <class Visit>
-  void ForEachSplit(const Visit& visit) const {
-    const CoverageMap& map = *input_.coverage;
-    const Rect pixels = map.PixelsOf(column_, row_);
-    FarTile far;
-    PushTile(column_, row_, map, &far);
-    for (int32_t y = 0; y < pixels.height; ++y) {
-      const auto first = static_cast<size_t>((y + kAround) * kSide + kAround);
-      int16_t sums[4][simd::kSliceLanes];
-      SumRow(first, sums);
-      for (int32_t x = 0; x < pixels.width; ++x) {
-        const size_t to = map.At(pixels.x + x, pixels.y + y), at = first + static_cast<size_t>(x);
-        const FarCell& cell = far.At(x, y);
-        if (map.alpha[to] == kUnsplit || cell.weight == 0) continue;
-        int32_t alpha = map.first[to];
-        const int32_t weight = sums[3][x];
-        if (weight > 0) {
-          int32_t near[3], beyond[3], mixed[3];
-          for (size_t c = 0; c < 3; ++c) {
-            near[c] = (sums[c][x] << 15) / weight;
-            beyond[c] = cell.rgb[c];
-            mixed[c] = light_[c * kPlane + at];
-          }
-          alpha = AlphaOf(near, weight, beyond, mixed, alpha);
+  FarTile far;
+  PushTile(column, row, map, &far);
+  const Rect pixels = map.PixelsOf(column, row);
+  for (int32_t y = 0; y < pixels.height; ++y) {
+    const auto first = static_cast<size_t>((y + kAround) * kSide + kAround);
+    const int16_t* const here = light + first;
+    const int16_t* const colours[] = {here, here + kPlane, here + 2 * kPlane};
+    int16_t sums[4][simd::kSliceLanes];
+    input.kernels->SumNear(colours, nears + first, weights + first, kSide,
+                           static_cast<int16_t>(kThinStep), sums);
+    for (int32_t x = 0; x < pixels.width; ++x) {
+      const size_t to = map.At(pixels.x + x, pixels.y + y);
+      const FarCell& cell = far.At(x, y);
+      if (map.alpha[to] == kUnsplit || cell.weight == 0) continue;
+      int32_t alpha = map.first[to];
+      const int32_t weight = sums[3][x];
+      if (weight > 0) {
+        int32_t near[3], beyond[3], mixed[3];
+        for (int c = 0; c < 3; ++c) {
+          near[c] = (sums[c][x] << 15) / weight;
+          beyond[c] = cell.rgb[c];
+          mixed[c] = here[static_cast<size_t>(c) * kPlane + static_cast<size_t>(x)];
         }
-        visit(pixels.x + x, pixels.y + y, alpha, cell);
+        alpha = AlphaOf(near, weight, beyond, mixed, alpha);
       }
+      visit(pixels.x + x, pixels.y + y, alpha, cell);
     }
   }
-
- private:
-  static constexpr size_t kPlane = kSide * kSide;
-
-  // Sums the near light around each pixel of a row of the tile, whose first pixel has index `at`.
-  void SumRow(size_t at, int16_t sums[4][simd::kSliceLanes]) const {
-    const int16_t* const colours[] = {light_ + at, light_ + kPlane + at, light_ + 2 * kPlane + at};
-    input_.kernels->SumNear(colours, near_ + at, weight_ + at, kSide,
-                            static_cast<int16_t>(kThinStep), sums);
-  }
-
-  const Input& input_;
-  const int32_t column_, row_;
-  int16_t light_[3 * kPlane] = {}, near_[kPlane] = {}, weight_[kPlane] = {};
-};
+}
 
 }  // namespace
 
@@ -132,20 +113,21 @@ void UnmixFirst(const Input& input, int32_t column, int32_t row) {
     });
     return 3 * count * count;
   };
-  const NearTile tile(input, column, row, weight_of);
-  tile.ForEachSplit([&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
-    map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
-  });
+  ForEachSplit(input, column, row, weight_of,
+               [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
+                 map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
+               });
 }
 
 void UnmixAgain(const Input& input, int32_t column, int32_t row) {
   const CoverageMap& map = *input.coverage;
-  const NearTile tile(input, column, row,
-                      [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); });
-  tile.ForEachSplit([&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
-    map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
-    std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
-  });
+  ForEachSplit(
+      input, column, row,
+      [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); },
+      [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
+        map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
+        std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
+      });
 }
 
 void TakeGiven(const Input& input, int32_t column, int32_t row) {
