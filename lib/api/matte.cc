@@ -9,7 +9,7 @@
 #include "lib/engine/lens.h"
 #include "lib/io/depth_map.h"
 #include "lib/io/matte_rows.h"
-#include "lib/matting/matte_coverage.h"
+#include "lib/matting/coverage.h"
 
 namespace starfocus {
 namespace {

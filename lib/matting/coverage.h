@@ -15,6 +15,7 @@
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/io/input.h"
+#include "starfocus/matte.h"
 #include "starfocus/starfocus.h"
 
 namespace starfocus {
@@ -165,6 +166,19 @@ void ForgetCoverage(CoverageMap* map);
 // STARFOCUS_OK, STARFOCUS_ERROR_RUNNER or STARFOCUS_ERROR_CANCELLED.
 starfocus_status FindCoverage(const FullConfig& config, const Input& input, const Range& rows,
                               Jobs* jobs, CoverageMap* map);
+
+// Computing the coverage of a light field from a matte of the subject and the depth map
+// (matte_coverage.cc). The matte replaces the coverage that the map implies only at outlines of the
+// subject. Other edges of the map, and parts of the matte that the map contradicts, keep the
+// implied coverage.
+
+// Number of pixels around an area whose disparities MatteCoverage reads.
+inline constexpr int32_t kMatteReach = 35;
+
+// Writes the coverage of `area`. out.Row(y) receives row y of the picture, starting with column
+// area.x. All disparities must be known. `depth.columns` is ignored.
+void MatteCoverage(const simd::ImageKernels& kernels, const starfocus_matte& matte,
+                   const DepthSource& depth, const Rect& area, const Plane<uint8_t>& out);
 
 }  // namespace starfocus
 

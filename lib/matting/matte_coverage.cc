@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/matting/matte_coverage.h"
-
 #include <cstring>
 
 #include "lib/io/matte_rows.h"

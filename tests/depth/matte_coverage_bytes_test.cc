@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/matting/matte_coverage.h"
+#include "lib/matting/coverage.h"
 #include "tests/depth/matte_planes.h"
 #include "tests/support/simd_targets.h"
 
@@ -241,13 +241,18 @@ TEST_CASE("matte: illegal arguments are rejected, and nothing is written") {
   const S null = STARFOCUS_ERROR_NULL;
   CHECK(starfocus_measure_matte(nullptr, &stats, nullptr) == null);
   CHECK(starfocus_measure_matte(&call.matte, nullptr, nullptr) == null);
-  CHECK(starfocus_matte_field(nullptr, &call.depth, kWidth, kHeight, nullptr, &out, nullptr) == null);
-  CHECK(starfocus_matte_field(&call.matte, nullptr, kWidth, kHeight, nullptr, &out, nullptr) == null);
-  CHECK(starfocus_matte_field(&call.matte, &call.depth, kWidth, kHeight, nullptr, nullptr, nullptr) == null);
-  CHECK(starfocus_matte_coverage(nullptr, &call.map, kWidth, kHeight, nullptr, &out, nullptr) == null);
-  CHECK(starfocus_matte_coverage(&call.matte, nullptr, kWidth, kHeight, nullptr, &out, nullptr) == null);
-  CHECK(starfocus_matte_coverage(&call.matte, &call.map, kWidth, kHeight, nullptr, nullptr, nullptr) ==
+  CHECK(starfocus_matte_field(nullptr, &call.depth, kWidth, kHeight, nullptr, &out, nullptr) ==
         null);
+  CHECK(starfocus_matte_field(&call.matte, nullptr, kWidth, kHeight, nullptr, &out, nullptr) ==
+        null);
+  CHECK(starfocus_matte_field(&call.matte, &call.depth, kWidth, kHeight, nullptr, nullptr,
+                              nullptr) == null);
+  CHECK(starfocus_matte_coverage(nullptr, &call.map, kWidth, kHeight, nullptr, &out, nullptr) ==
+        null);
+  CHECK(starfocus_matte_coverage(&call.matte, nullptr, kWidth, kHeight, nullptr, &out, nullptr) ==
+        null);
+  CHECK(starfocus_matte_coverage(&call.matte, &call.map, kWidth, kHeight, nullptr, nullptr,
+                                 nullptr) == null);
 }
 
 TEST_CASE("matte: regions have the bytes of the whole picture") {
@@ -261,9 +266,10 @@ TEST_CASE("matte: regions have the bytes of the whole picture") {
     for (const bool has_map : {false, true}) {
       const auto make = [&](const starfocus_region* region, Planes* planes) {
         starfocus_disparity_output out = planes->Out();
-        REQUIRE((has_map ? starfocus_matte_coverage(&matte, &map, kWidth, kHeight, region, &out, nullptr)
-                         : starfocus_matte_field(&matte, &depth, kWidth, kHeight, region, &out, nullptr)) ==
-                STARFOCUS_OK);
+        REQUIRE((has_map ? starfocus_matte_coverage(&matte, &map, kWidth, kHeight, region, &out,
+                                                    nullptr)
+                         : starfocus_matte_field(&matte, &depth, kWidth, kHeight, region, &out,
+                                                 nullptr)) == STARFOCUS_OK);
       };
       Planes whole(kWidth, kHeight), again(kWidth, kHeight);
       make(nullptr, &whole);

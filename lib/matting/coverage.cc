@@ -1,10 +1,106 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/base/config.h"
+// The passes over tiles that compute the coverage map, and the steps that unmix pixels.
 #include "lib/matting/coverage.h"
+
+#include <cstring>
+
+#include "lib/base/config.h"
+#include "lib/matting/colour.h"
 #include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
 namespace {
+
+constexpr int32_t kAround = simd::kNearReach;
+constexpr int32_t kSide = kCoverageTile + 2 * kAround;
+
+// Colours are compared in 255ths of white with 3 fractional bits.
+constexpr int kColourBits = 3;
+constexpr int32_t kSquareOne = 1 << (2 * kColourBits);
+// Alpha is computed from colours to the degree that the colours can be trusted; the disparity map
+// decides the rest. Noise of one code must change alpha little, so the trust is a product of smooth
+// functions without limits. With the squared distance c between near and far colours, the first is
+// c / (c + kContrastNoise), the factor of a least-squares fit that weighs alpha's distance from the
+// guess with kContrastNoise.
+constexpr int32_t kContrastNoise = 1500 * kSquareOne;
+// With the squared distance b of the mixed colour from the line through the near and far colours,
+// the second is s / (s + b). The scale s is kNoise, the tolerated squared noise of mixed colours,
+// plus c / 16.
+constexpr int32_t kNoise = 81 * kSquareOne;
+// The third is the sum of the weights of the near samples around a pixel, in units of 2^-15. The
+// trust is 1 if the sum is at least 2^kNearBits.
+constexpr int kNearBits = 10;
+
+// Returns the part of a pixel that the near surface covers, as far as its colours can be trusted;
+// `guess` replaces the rest. `near_weight` is the sum of the weights of the samples of `near`.
+int32_t AlphaOf(const int32_t* near, int32_t near_weight, const int32_t* far, const int32_t* mixed,
+                int32_t guess) {
+  const ColourLine line = ColourLineOf<kColourBits>(near, far, mixed);
+  const int64_t contrast = line.contrast;
+  if (contrast == 0) return guess;
+  const int64_t beside = line.distance - line.along * line.along / contrast;
+  const int64_t square = kNoise + contrast / 16;
+  const int64_t part = line.along < 0 ? 0 : line.along > contrast ? contrast : line.along;
+  // The difference of alpha and guess, multiplied by the trust in the contrast: at most kWhole,
+  // with 8 more fractional bits.
+  const int64_t change = (part * kWhole - guess * contrast) * 256 / (contrast + kContrastNoise);
+  const int32_t known = Min(near_weight, 1 << kNearBits);
+  return guess + static_cast<int32_t>(
+                     RoundShift(change * known * square / (square + beside), 8 + kNearBits));
+}
+
+// Calls visit(x, y, alpha, cell) for each pixel (x, y) of the picture in a tile that is near an
+// edge, if the light of the far surface (`cell`) is known. The function weight_of(x, y) returns the
+// weight of a pixel in a mean of the near light.
+template <class Weight, class Visit>
+void ForEachSplit(const Input& input, int32_t column, int32_t row, const Weight& weight_of,
+                  const Visit& visit) {
+  const CoverageMap& map = *input.coverage;
+  // Planes of the pixels in and around the tile.
+  constexpr size_t kPlane = kSide * kSide;
+  int16_t light[3 * kPlane] = {}, nears[kPlane] = {}, weights[kPlane] = {};
+  const int32_t left = column * kCoverageTile - kAround, top = row * kCoverageTile - kAround;
+  const Rect from = Clipped({left, top, kSide, kSide}, map.width, map.height);
+  for (int32_t y = from.y; y < from.y + from.height; ++y) {
+    int16_t rgb[3 * kSide + simd::kPadding / sizeof(int16_t)];
+    const auto at = static_cast<size_t>((y - top) * kSide + from.x - left);
+    const auto count = static_cast<size_t>(from.width);
+    input.Light(0, from.x, y, from.width, rgb);
+    input.kernels->Split(rgb, count, kPlane, light + at);
+    std::memcpy(nears + at, map.near + map.At(from.x, y), count * sizeof(*nears));
+    for (size_t k = 0; k < count; ++k) {
+      weights[at + k] = static_cast<int16_t>(weight_of(from.x + static_cast<int32_t>(k), y));
+    }
+  }
+  FarTile far;
+  PushTile(column, row, map, &far);
+  const Rect pixels = map.PixelsOf(column, row);
+  for (int32_t y = 0; y < pixels.height; ++y) {
+    const auto first = static_cast<size_t>((y + kAround) * kSide + kAround);
+    const int16_t* const here = light + first;
+    const int16_t* const colours[] = {here, here + kPlane, here + 2 * kPlane};
+    int16_t sums[4][simd::kSliceLanes];
+    input.kernels->SumNear(colours, nears + first, weights + first, kSide,
+                           static_cast<int16_t>(kThinStep), sums);
+    for (int32_t x = 0; x < pixels.width; ++x) {
+      const size_t to = map.At(pixels.x + x, pixels.y + y);
+      const FarCell& cell = far.At(x, y);
+      if (map.alpha[to] == kUnsplit || cell.weight == 0) continue;
+      int32_t alpha = map.first[to];
+      const int32_t weight = sums[3][x];
+      if (weight > 0) {
+        int32_t near[3], beyond[3], mixed[3];
+        for (int c = 0; c < 3; ++c) {
+          near[c] = (sums[c][x] << 15) / weight;
+          beyond[c] = cell.rgb[c];
+          mixed[c] = here[static_cast<size_t>(c) * kPlane + static_cast<size_t>(x)];
+        }
+        alpha = AlphaOf(near, weight, beyond, mixed, alpha);
+      }
+      visit(pixels.x + x, pixels.y + y, alpha, cell);
+    }
+  }
+}
 
 // Value of CoverageMap::around if the light field has coverage, because edges are then searched up
 // to two tiles away.
@@ -114,6 +210,53 @@ starfocus_status RunPasses(const FullConfig& config, const Input& input, const R
 }
 
 }  // namespace
+
+void UnmixFirst(const Input& input, int32_t column, int32_t row) {
+  const CoverageMap& map = *input.coverage;
+  // Returns a weight of 0 for pixels on the far side of an edge. For other pixels, the weight
+  // increases with the number of surrounding 3x3 pixels that are not on the far side.
+  const auto weight_of = [&](int32_t x, int32_t y) {
+    if (map.alpha[map.At(x, y)] == 0) return 0;
+    int32_t count = 0;
+    ForPixels(Around(x, y, 1), [&](int32_t u, int32_t v) {
+      const size_t at = map.At(Clamp(u, 0, map.width - 1), Clamp(v, 0, map.height - 1));
+      count += map.alpha[at] != 0 ? 1 : 0;
+    });
+    return 3 * count * count;
+  };
+  ForEachSplit(input, column, row, weight_of,
+               [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
+                 map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
+               });
+}
+
+void UnmixAgain(const Input& input, int32_t column, int32_t row) {
+  const CoverageMap& map = *input.coverage;
+  ForEachSplit(
+      input, column, row,
+      [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); },
+      [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
+        map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
+        std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
+      });
+}
+
+void TakeGiven(const Input& input, int32_t column, int32_t row) {
+  const CoverageMap& map = *input.coverage;
+  FarTile far;
+  PushTile(column, row, map, &far);
+  ForPixels(map.PixelsOf(column, row), [&](int32_t x, int32_t y) {
+    const size_t to = map.At(x, y);
+    const FarCell& cell = far.At(x % kCoverageTile, y % kCoverageTile);
+    if (map.alpha[to] == kUnsplit) return;
+    // A pixel cannot be split if the light of the far surface is not known nearby. It then belongs
+    // to the near surface if the near surface covers most of it.
+    map.alpha[to] = cell.weight > 0               ? map.first[to]
+                    : 2 * map.first[to] >= kWhole ? uint8_t{kWhole}
+                                                  : kUnsplit;
+    std::memcpy(map.FarAt(x, y).rgb, cell.rgb, sizeof(cell.rgb));
+  });
+}
 
 int32_t CoverageBorder(const FullConfig& config) {
   if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return 0;
