@@ -82,14 +82,14 @@ void FillColours(const uint8_t* rgb, int32_t count, int32_t at, const simd::Dept
 // Writes the planes of the pixels around `area`, with the trust and the surface of
 // sample(at, &trust), which returns the surface. Pixels outside the picture have no trust.
 template <class Sample>
-void FillBlock(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
-               const simd::DepthKernels& kernels, const Rect& area, int32_t reach,
-               const Sample& sample, VoteBlock* block) {
+void FillBlock(const OutlinePass& pass, const Rect& area, int32_t reach, const Sample& sample,
+               VoteBlock* block) {
   const Rect around = Widened(*pass.setup, area, reach);
   std::fill_n(block->trust, VoteBlock::kWidth * VoteBlock::kWidth, int16_t{0});
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
     const int32_t row = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach - area.x;
-    FillColours(rgb.Row(y) + 3 * ptrdiff_t{around.x}, around.width, row + around.x, kernels, block);
+    FillColours(pass.rgb.Row(y) + 3 * ptrdiff_t{around.x}, around.width, row + around.x,
+                *pass.kernels, block);
     for (int32_t x = around.x; x < around.x + around.width; ++x) {
       block->surface[row + x] = sample(pass.At(x, y), block->trust + row + x);
     }
@@ -100,13 +100,12 @@ void FillBlock(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
 // needs(x, y, at, lane) returns true, and which lies in lane `lane`. The function `needs` is called
 // for the pixels of all lanes first.
 template <class Sample, class Needs, class Act>
-void SumAround(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
-               const simd::DepthKernels& kernels, const Rect& tile, const Samples& samples,
-               VoteBlock* block, const Sample& sample, const Needs& needs, const Act& act) {
+void SumAround(const OutlinePass& pass, const Rect& tile, const Samples& samples, VoteBlock* block,
+               const Sample& sample, const Needs& needs, const Act& act) {
   constexpr auto kLanes = static_cast<int32_t>(simd::kSliceLanes);
   const auto visit = [&](const Rect& area) {
     if (!HasBand(pass, area)) return;
-    FillBlock(pass, rgb, kernels, area, samples.reach, sample, block);
+    FillBlock(pass, area, samples.reach, sample, block);
     for (int32_t y = area.y; y < area.y + area.height; ++y) {
       for (int32_t x = area.x; x < area.x + area.width; x += kLanes) {
         const int32_t count = Min(kLanes, area.x + area.width - x);
@@ -124,8 +123,9 @@ void SumAround(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
         const int16_t* const colours[] = {block->colour[0] + own, block->colour[1] + own,
                                           block->colour[2] + own};
         simd::VoteSums sums;
-        kernels.SumVotes(colours, block->surface + own, block->trust + own, middle,
-                         VoteBlock::kWidth, samples.reach, samples.step, samples.closeness, &sums);
+        pass.kernels->SumVotes(colours, block->surface + own, block->trust + own, middle,
+                               VoteBlock::kWidth, samples.reach, samples.step, samples.closeness,
+                               &sums);
         for (size_t k = 0; k < wants; ++k) act(pass.At(x, y) + wanted[k], sums, wanted[k]);
       }
     }
@@ -312,8 +312,7 @@ size_t FindCrests(const OutlinePass& pass, size_t pending, int32_t round, SidePl
 
 }  // namespace
 
-void VoteByColour(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
-                  const simd::DepthKernels& kernels, const Rect& tile, VoteBlock* block) {
+void VoteByColour(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
   // Trust by the absolute value of the distance.
   const int32_t end = kDistance * pass.band, first = pass.trusted * end;
   int16_t trust[128] = {simd::kMostTrust};
@@ -324,7 +323,7 @@ void VoteByColour(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
   }
   const Samples samples(pass, false);
   SumAround(
-      pass, rgb, kernels, tile, samples, block,
+      pass, tile, samples, block,
       [&](size_t at, int16_t* trusted) {
         *trusted = trust[Abs(pass.distance[at])];
         return pass.map[at];
@@ -369,8 +368,7 @@ void ShiftOutlines(const OutlinePass& pass, const Rect& tile) {
   });
 }
 
-void VoteAgain(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
-               const simd::DepthKernels& kernels, const Rect& tile, VoteBlock* block) {
+void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
   const Samples samples(pass, true);
   const ShiftCells columns = pass.Columns(), rows = pass.Rows();
   // The displacement of each column of cells of the tile, and the row of cells for which it holds.
@@ -383,7 +381,7 @@ void VoteAgain(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
     trust[k] = static_cast<uint8_t>(k * k * simd::kMostTrust / (kSure * kSure));
   }
   SumAround(
-      pass, rgb, kernels, tile, samples, block,
+      pass, tile, samples, block,
       [&](size_t at, int16_t* trusted) {
         *trusted = simd::kMostTrust;
         const int32_t distance = pass.distance[at], vote = pass.vote[at];

@@ -328,7 +328,6 @@ OutlineMemory TakeOutlines(const SweepSetup& setup, int32_t max_workers, Arena* 
 const int16_t* FollowOutlines(const starfocus_light_field& light_field,
                               const simd::DepthKernels& kernels, const ThinCells& thin,
                               const HairMemory* hair, const OutlineMemory& memory, Sequence* run) {
-  const Plane<const uint8_t> rgb = RowsOf(light_field.views[0]);
   // Calls work(tile, worker, index) for each tile.
   const auto phase = [&](const auto& work) {
     run->Run(
@@ -340,11 +339,11 @@ const int16_t* FollowOutlines(const starfocus_light_field& light_field,
       MeasureDistances(pass, tile, pass.scratch + worker);
     });
     phase([&](const Rect& tile, int32_t worker, int32_t) {
-      VoteByColour(pass, rgb, kernels, tile, &pass.scratch[worker].block);
+      VoteByColour(pass, tile, &pass.scratch[worker].block);
     });
     phase([&](const Rect& tile, int32_t, int32_t) { ShiftOutlines(pass, tile); });
     phase([&](const Rect& tile, int32_t worker, int32_t index) {
-      VoteAgain(pass, rgb, kernels, tile, &pass.scratch[worker].block);
+      VoteAgain(pass, tile, &pass.scratch[worker].block);
       KeepParts(pass, thin, hair, index);
     });
     if (was_hard) {
@@ -363,7 +362,16 @@ const int16_t* FollowOutlines(const starfocus_light_field& light_field,
     });
   };
   std::fill_n(memory.counts, memory.workers, OutlineCounts{});
-  OutlinePass pass = {memory, memory.given, memory.repaired, kDistance, 0, 6, 5, 60};
+  OutlinePass pass = {memory,
+                      RowsOf(light_field.views[0]),
+                      &kernels,
+                      memory.given,
+                      memory.repaired,
+                      kDistance,
+                      0,
+                      6,
+                      5,
+                      60};
   phase([&](const Rect& tile, int32_t worker, int32_t) {
     CountRamps(pass, tile, pass.scratch + worker, pass.counts + worker);
   });
@@ -374,7 +382,8 @@ const int16_t* FollowOutlines(const starfocus_light_field& light_field,
   if (again) {
     // The edges of the result of the first pass are steps that are hardly off. In soft maps, a
     // second pass hardly improves results, and leaves more single pixels.
-    run_pass({memory, memory.repaired, memory.given, kDistance, 0, 3, 5, 8}, true);
+    run_pass({memory, pass.rgb, &kernels, memory.repaired, memory.given, kDistance, 0, 3, 5, 8},
+             true);
     return memory.given;
   }
   for (int32_t k = 0; k < kPassPhases; ++k) run->Skip();

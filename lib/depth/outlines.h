@@ -132,8 +132,10 @@ struct OutlineMemory {
   size_t At(int32_t x, int32_t y) const { return setup->At(x, y); }
 };
 
-// A pass of the search for outlines, which reads `map` and writes `result`.
+// A pass of the search for outlines, which reads the picture and `map`, and writes `result`.
 struct OutlinePass : OutlineMemory {
+  Plane<const uint8_t> rgb;
+  const simd::DepthKernels* kernels;
   const int16_t* map;
   int16_t* result;
   int32_t ramp;     // width of the map's edges, in 1/kDistance pixel
@@ -213,16 +215,14 @@ void ForShiftCells(const OutlineMemory& memory, const Rect& tile, const Act& act
 // one for the pixels around the tile.
 
 // Writes pass.vote, from samples that are trusted by their distance to the outline.
-void VoteByColour(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
-                  const simd::DepthKernels& kernels, const Rect& tile, VoteBlock* block);
+void VoteByColour(const OutlinePass& pass, const Rect& tile, VoteBlock* block);
 
 // Writes pass.shift and pass.gain of the cells whose first pixels lie in the tile.
 void ShiftOutlines(const OutlinePass& pass, const Rect& tile);
 
 // Writes pass.side, from samples that are trusted by their own votes, and from the distance to the
 // displaced outline.
-void VoteAgain(const OutlinePass& pass, const Plane<const uint8_t>& rgb,
-               const simd::DepthKernels& kernels, const Rect& tile, VoteBlock* block);
+void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block);
 
 // Copies pass.map to pass.result in the tile, except pixels that change their side or lie on a
 // ramp: these take the disparities of their side around them.
