@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of the coverage passes (coverage.cc), which process one tile each: finding the
+// The steps of the coverage passes (coverage_passes.cc), which process one tile each: finding the
 // pixels near depth edges and their two surfaces, unmixing, and estimating the light of the far
 // surface. Means over cells of increasing size collect the known light of the far surface, and
 // extend it smoothly to pixels without known light (the pull-push algorithm).
@@ -31,7 +31,7 @@ void StartTile(const Input& input, int32_t column, int32_t row);
 // which are not beside mixtures, are not split. Sets `mixed` if any pixel is split.
 void StartGiven(const Input& input, int32_t column, int32_t row);
 
-// Coverage (coverage.cc).
+// Coverage (coverage_passes.cc).
 
 // Writes the coverage of a tile after the first pass, starting from the tile's initial alpha.
 void UnmixFirst(const Input& input, int32_t column, int32_t row);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes over tiles that compute the coverage map, and the steps that unmix pixels.
-#include "lib/matting/coverage.h"
-
 #include <cstring>
 
 #include "lib/base/config.h"
 #include "lib/matting/colour.h"
+#include "lib/matting/coverage.h"
 #include "lib/matting/coverage_tile.h"
 
 namespace starfocus {
