@@ -156,7 +156,7 @@ HWY_INLINE hn::Vec<D8> ColourDistance(D8 d8, const uint8_t* a, const uint8_t* b,
 //   equal values again. If there are fewer samples than lanes, the kernel calls its reference. Only
 //   Blend stores a part of a vector, because most spans of Blend are short.
 // - Kernels that add to accumulators must add each sample once. These kernels mask the last vector
-//   (`AddSpan` in spans-inl.h).
+//   (`AddSpan` in gather-inl.h).
 
 // Calls step(n) for each vector of `count` samples. The last vector ends at the last sample and may
 // overlap the previous vector. If there are fewer samples than lanes, returns false without calling

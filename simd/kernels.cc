@@ -17,7 +17,6 @@
 #include "simd/matting-inl.h"
 #include "simd/resample-inl.h"
 #include "simd/slices-inl.h"
-#include "simd/spans-inl.h"
 
 #define STARFOCUS_LIST STARFOCUS_KERNELS
 #include "simd/table-inl.h"

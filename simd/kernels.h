@@ -28,7 +28,6 @@
 #include "simd/resample.h"
 #include "simd/samples.h"
 #include "simd/slices.h"
-#include "simd/spans.h"
 
 // STARFOCUS_MEMBER declares one member of a table. STARFOCUS_ENTRY is one entry of a table's
 // initialiser and refers to the kernel of this name in scope.

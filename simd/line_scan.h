@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "simd/gather.h"
 #include "simd/samples.h"
-#include "simd/spans.h"
 
 namespace starfocus::simd {
 

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "lib/engine/stripe.h"
-#include "lib/gather/depth_blur.h"
 #include "lib/gather/gather.h"
 #include "lib/io/highlights.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/gather/depth_blur.h"
-
+// Depth-dependent blur of the centre view.
 #include <cstring>
 
+#include "lib/gather/gather.h"
 #include "lib/io/block_pixels.h"
 #include "lib/io/highlights.h"
 

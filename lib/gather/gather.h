@@ -12,6 +12,7 @@
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/io/block_pixels.h"
+#include "lib/io/input.h"
 #include "lib/optics/psf.h"
 #include "lib/optics/rules.h"
 #include "lib/plan/cells.h"
@@ -82,6 +83,24 @@ struct GatherJob {
 // other layers. Returns the number of pixels of the picture that the blurred cells cover.
 uint64_t GatherCells(const GatherJob& job, BlockPixels* field, uint8_t* codes, int16_t* samples,
                      size_t stride);
+
+// Depth-dependent blur of the centre view alone (references [13] and [14] of the paper), for
+// comparison with rendered views. Each output pixel is the mean of its neighbours, weighted by the
+// ideal PSF (4) of its blur radius.
+struct BlurJob {
+  const Input* input;  // If it reads excess, BlurRectangle adds the blurred excess to `out`.
+  BlurScale scale;
+  const Psf* psfs_of_radius;
+  Rect rect;
+  int32_t border;       // Largest Psf::size in the picture, in pixels.
+  CancelToken* cancel;  // Cancels the call; `out` is incomplete after cancellation.
+};
+
+// Blurs job.rect into `out`, which starts at the first pixel of the rectangle. Scratch memory:
+// `rgb` holds the light of the extended rectangle in packed rows, `accumulators` 3 * rect.width
+// sums.
+void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, uint8_t* out,
+                   size_t out_stride);
 
 }  // namespace starfocus
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Center-based line scan (paper, IV-A). A scan finds the surfaces and holes of a rendered view
 // along a line in a single pass without z-buffer, and passes them to a sink. Also defines the
-// memory of the renderer that scans lines (triangles.cc).
+// memory of the renderer that scans lines (triangles.cc), and separates boundary pixels
+// (lib/matting/mixed_pixels.h) before they are scanned (unmix.cc).
 #ifndef STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
 #define STARFOCUS_LIB_LINE_SCAN_LINE_SCAN_H_
 
@@ -10,6 +11,8 @@
 
 #include "lib/base/fixed.h"
 #include "lib/base/geometry.h"
+#include "lib/io/block_pixels.h"
+#include "lib/io/input.h"
 #include "lib/optics/view_grid.h"
 #include "lib/plan/renderer.h"
 #include "simd/kernels.h"
@@ -396,6 +399,18 @@ struct LineScanScratch : RendererScratch {
   size_t hole_samples;          // 6 E, at least the samples of one line.
 };
 inline constexpr size_t kSpanCapacity = 512;
+
+// Removes the nearer surface from adjacent pixels of a sharp farther surface, if the nearer surface
+// is more defocused. Without this removal, the nearer surface's part of mixed pixels would remain
+// sharp, and would outline an object that the blur has dissolved. The colour of the far surface
+// comes from a captured side view in which the nearer surface does not cover the far surface.
+// Pixels that are not mixtures of both colours are not changed.
+//
+// The field must come from LoadBlock. Pixels outside the picture and the outermost pixels, which do
+// not splat into the rectangle, are not changed. Only layer 0 requires UnmixEdges, because
+// subsampled layers are sufficiently blurred.
+void UnmixEdges(const simd::Kernels& kernels, const Input& input, const ViewGrid& grid,
+                BlockPixels* field);
 
 }  // namespace starfocus
 

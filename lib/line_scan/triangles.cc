@@ -7,7 +7,6 @@
 #include "lib/io/block_pixels.h"
 #include "lib/line_scan/line_scan.h"
 #include "lib/line_scan/span_sink.h"
-#include "lib/line_scan/unmix.h"
 #include "lib/plan/renderer.h"
 
 namespace starfocus {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/line_scan/unmix.h"
-
+// Separates boundary pixels for line scans.
+#include "lib/line_scan/line_scan.h"
 #include "lib/matting/mixed_pixels.h"
 
 namespace starfocus {

@@ -6,7 +6,6 @@
 #include "lib/io/block_pixels.h"
 #include "lib/matting/mixed_pixels.h"
 #include "lib/plan/renderer.h"
-#include "lib/slices/slices.h"
 
 namespace starfocus {
 namespace {

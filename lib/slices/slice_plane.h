@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines the slice: the part of a scene within a range of disparities so narrow that all pixels
 // move together from view to view. Also defines the limits on the size of tiles and on the number
-// of slices in a tile.
+// of slices in a tile, and divides the surfaces of a tile into slices (slices.cc).
 //
 // A slice plane stores a slice of a part of a tile: the pixels of the part and the surrounding
 // pixels that some view shows. The stored pixels already include the blur of wide subapertures.
@@ -111,6 +111,18 @@ constexpr int32_t MostSliceArea(double blur) {
   constexpr int32_t kLeastBlur = 32, kMargin = 3;
   return 5 * SliceArea(Max(static_cast<int32_t>(blur), kLeastBlur) + kMargin);
 }
+
+// Number of disparity bins. A bin holds a single disparity up to a blur of 64 pixels at full
+// aperture.
+inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
+
+// Finds the slices of a tile, ordered from the nearest to the farthest. The slices hold all pixels
+// of the surfaces that may splat into the tile, which is in pixels of the surfaces. Also finds the
+// range of disparities in each of the kMaxBands bands of the surfaces, for FillSlice. Returns the
+// number of slices, at most rule.most.
+int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
+                   const SliceRule& rule, const Rect& tile, Slice* slices,
+                   simd::DisparityRange* bands);
 
 struct SlicePlane {
   int32_t reach = 0;  // Number of pixels that the slice extends beyond the rectangle on each side.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/slices/slices.h"
-
+// Divides the surfaces of a tile into slices.
 #include <cstring>
+
+#include "lib/slices/slice_plane.h"
 
 namespace starfocus {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "lib/slices/slices.h"
+#include "lib/slices/slice_plane.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/conformance/reference_opening.h"

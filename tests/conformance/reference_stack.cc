@@ -4,7 +4,6 @@
 #include <set>
 
 #include "lib/slices/slice_plane.h"
-#include "lib/slices/slices.h"
 #include "tests/conformance/reference_surfaces.h"
 
 namespace reference {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the blur mode with an adaptive convolution by the ideal PSF (4) in double precision.
-#include "lib/gather/depth_blur.h"
+#include "lib/gather/gather.h"
 
 #include <doctest/doctest.h>
 

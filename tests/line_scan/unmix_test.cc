@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the separation of boundary pixels in a light field with one depth edge per row.
-#include "lib/line_scan/unmix.h"
-
 #include <doctest/doctest.h>
 
 #include <vector>
 
 #include "lib/io/block_pixels.h"
+#include "lib/line_scan/line_scan.h"
 #include "tests/support/star_views.h"
 
 namespace unmix_test {

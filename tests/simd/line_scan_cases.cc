@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/line_scan.h and simd/spans.h.
+// Test and benchmark calls of the kernels in simd/line_scan.h, and of Accumulate in simd/gather.h.
 #include "tests/simd/kernel_cases.h"
 
 namespace test {

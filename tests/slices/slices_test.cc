@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the division of the surfaces of a rectangle into slices.
-#include "lib/slices/slices.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "lib/slices/compositor.h"
+#include "lib/slices/slice_plane.h"
 #include "tests/support/test_scene.h"
 
 namespace slices_test {

@@ -7,7 +7,7 @@
 
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
-#include "lib/slices/slices.h"
+#include "lib/slices/slice_plane.h"
 #include "starfocus/starfocus.hpp"
 
 namespace starfocus {
