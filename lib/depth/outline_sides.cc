@@ -91,7 +91,8 @@ void FillBlock(const OutlinePass& pass, const Rect& area, int32_t reach, const S
     FillColours(pass.rgb.Row(y) + 3 * ptrdiff_t{around.x}, around.width, row + around.x,
                 *pass.kernels, block);
     for (int32_t x = around.x; x < around.x + around.width; ++x) {
-      block->surface[row + x] = sample(pass.At(x, y), block->trust + row + x);
+      const int32_t to = row + x;
+      block->surface[to] = sample(pass.At(x, y), block->trust + to);
     }
   }
 }
