@@ -162,10 +162,10 @@ TEST_CASE("stack: slices that are computed in several parts give the same pictur
   }
 }
 
-int ranges_found = 0;
+int rows_filled = 0;
 
-// Cancels the call as soon as the first slices have been found.
-int SayNo(void*, int32_t, int32_t) { return ranges_found > 0 ? 1 : 0; }
+// Cancels the call as soon as the first row of a slice has been filled.
+int SayNo(void*, int32_t, int32_t) { return rows_filled > 0 ? 1 : 0; }
 
 TEST_CASE("stack: no more tiles are computed after cancellation") {
   const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
@@ -173,19 +173,19 @@ TEST_CASE("stack: no more tiles are computed after cancellation") {
   config.superblock = 256;
   test::Engine engine(config);
   starfocus::simd::Kernels counting = starfocus::simd::BestKernels();
-  counting.FindRanges = [](auto... arguments) {
-    ++ranges_found;
-    starfocus::simd::BestKernels().FindRanges(arguments...);
+  counting.SelectSlice = [](auto... arguments) {
+    ++rows_filled;
+    return starfocus::simd::BestKernels().SelectSlice(arguments...);
   };
   test::UseKernels(&counting, engine.get());
   starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES);
   test::Output out = test::OutputOf(&engine, params, scene);
-  const int all = ranges_found;
-  ranges_found = 0;
+  const int all = rows_filled;
+  rows_filled = 0;
   CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) ==
         STARFOCUS_ERROR_CANCELLED);
-  CHECK(ranges_found > 0);
-  CHECK(ranges_found < all / 8);  // fewer than two of sixteen tiles were computed
+  CHECK(rows_filled > 0);
+  CHECK(rows_filled < all / 8);  // fewer than two of sixteen tiles were computed
 }
 
 // With AddressSanitizer, red zones between the parts of a workspace increase its size.
