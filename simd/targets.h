@@ -20,7 +20,7 @@
 #include "hwy/foreach_target.h"  // must precede highway.h
 #include "hwy/highway.h"
 
-// Oldest supported version of Highway, as stated in cmake/highway.cmake and docs/third-party.md.
+// Oldest supported version of Highway, as stated in cmake/highway.cmake and docs/developing.md.
 #if HWY_MAJOR * 1000000 + HWY_MINOR * 1000 + HWY_PATCH < 1000003
 #error "Highway: unsupported version (expected 1.0.3 or newer)"
 #endif

@@ -373,7 +373,7 @@ struct HairSearch {
   // and the part of the variance of the coverage that lies within cells, because shading varies
   // slowly. They are not if pixels outside look like foreground: the foreground colour is then one
   // of a pattern of the background, which the map covers by mistake. All limits lie between the
-  // values of scenes with hair and those of scenes and photographs without (docs/lab-notebook.md).
+  // values of scenes with hair and those of scenes and photographs without (docs/constants.md).
   int32_t FindHair(int32_t column, int32_t row) const {
     // 2048 votes against hair decide where there are few pixels.
     int64_t inside = 2048, outside = 1, far = 0, same = 0, beyond = 0, coarse = 1, fine = 0;

@@ -23,11 +23,9 @@ using starfocus::Outcome;
 using starfocus::TempFolder;
 using Commands = std::vector<std::string>;
 
-constexpr std::array<const char*, 13> kDocuments = {
-    "README.md",       "CONTRIBUTING.md",      "docs/program.md", "docs/recipes.md",
-    "docs/formats.md", "docs/lab.md",          "docs/depth.md",   "docs/bindings.md",
-    "docs/boards.md",  "docs/benchmarking.md", "docs/testing.md", "docs/library.md",
-    "docs/web.md"};
+constexpr std::array<const char*, 9> kDocuments = {
+    "README.md",     "CONTRIBUTING.md",  "docs/program.md", "docs/formats.md", "docs/developing.md",
+    "docs/depth.md", "docs/bindings.md", "docs/boards.md",  "docs/library.md"};
 
 std::string ReadSource(const std::string& path) {
   return starfocus::Text(STARFOCUS_SOURCE_DIR "/" + path);

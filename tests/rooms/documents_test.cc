@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,8 @@ using tree::Read;
 
 std::vector<fs::path> Documents() {
   std::vector<fs::path> found = {kRoot / "README.md", kRoot / "CONTRIBUTING.md",
-                                 kRoot / "CHANGELOG.md", kRoot / "SECURITY.md"};
+                                 kRoot / "CHANGELOG.md", kRoot / "SECURITY.md",
+                                 kRoot / "toolchains/site/gallery.md"};
   for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / "docs")) {
     if (entry.path().extension() == ".md") found.push_back(entry.path());
   }
@@ -77,6 +80,19 @@ TEST_CASE("documents: README.md has at most 110 lines") {
   const std::string text = Read(kRoot / "README.md");
   CHECK(std::count(text.begin(), text.end(), '\n') <= 110);
   CHECK(text.size() > 1000);
+}
+
+TEST_CASE("documents: docs has at most 9 pages with at most 36,000 words") {
+  size_t pages = 0, words = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / "docs")) {
+    if (entry.path().extension() != ".md") continue;
+    std::istringstream text(Read(entry.path()));
+    words += static_cast<size_t>(std::distance(std::istream_iterator<std::string>(text), {}));
+    ++pages;
+  }
+  CHECK(pages <= 9);
+  CHECK(pages > 1);
+  CHECK(words <= 36000);
 }
 
 TEST_CASE("documents: pages begin with what readers type or look for, not with their purpose") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the dependencies between the folders of the project from #include lines, and checks them.
 // Data flows in one direction through lib/, and no two modules include each other.
-// docs/architecture.md describes the folders.
+// docs/developing.md describes the folders.
 #include <doctest/doctest.h>
 
 #include <algorithm>

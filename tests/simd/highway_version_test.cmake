@@ -8,9 +8,9 @@ set(older 1.0.2)
 set(FOLDER "${BUILD}/tests/highway_version")
 file(REMOVE_RECURSE "${FOLDER}")
 
-file(READ "${SOURCE}/docs/third-party.md" text)
+file(READ "${SOURCE}/docs/developing.md" text)
 if(NOT text MATCHES "google/highway\\) ${oldest} or newer")
-  message(SEND_ERROR "docs/third-party.md: wrong version of Highway (expected ${oldest})")
+  message(SEND_ERROR "docs/developing.md: wrong version of Highway (expected ${oldest})")
 endif()
 
 file(WRITE "${FOLDER}/hwy/hwy-config.cmake" "add_library(hwy::hwy INTERFACE IMPORTED)\n")

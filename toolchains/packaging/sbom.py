@@ -3,7 +3,7 @@
 
 usage: sbom.py FOLDER VERSION REVISION
 
-Lists the files in FOLDER with their checksums, and the libraries in the table of docs/third-party.md with the licences
+Lists the files in FOLDER with their checksums, and the libraries in the table of docs/developing.md with the licences
 there and the versions of this machine's Debian packages. The environment variable SOURCE_DATE_EPOCH is the time of the
 document; without it, the time is the time of the commit REVISION.
 """
@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# Licences of docs/third-party.md as SPDX identifiers.
+# Licences of docs/developing.md as SPDX identifiers.
 LICENCES = {
     "Apache-2.0": "Apache-2.0",
     'public domain, or MIT ("Expat")': "LicenseRef-public-domain OR MIT",
@@ -33,7 +33,7 @@ LICENCES = {
     "LGPL-2.1": "LGPL-2.1-only",
 }
 
-# Debian packages of the libraries in docs/third-party.md.
+# Debian packages of the libraries in docs/developing.md.
 PACKAGES = {
     "Highway": "libhwy-dev", "stb_image, stb_image_write": "libstb-dev", "libjpeg-turbo": "libjpeg62-turbo-dev",
     "libpng": "libpng-dev", "libdeflate": "libdeflate-dev", "libwebp": "libwebp-dev", "libsixel": "libsixel-dev",
@@ -50,8 +50,8 @@ def run(*command: str) -> str:
 
 
 def libraries():
-    """Yields name, home page, licence and users of each library in docs/third-party.md."""
-    text = (ROOT / "docs/third-party.md").read_text(encoding="utf-8")
+    """Yields name, home page, licence and users of each library in docs/developing.md."""
+    text = (ROOT / "docs/developing.md").read_text(encoding="utf-8")
     row = r"^\| \[([^\]]+)\]\(([^)]+)\)[^|]*\| ([^|]+) \| ([^|]+) \|"
     for name, page, licence, users in re.findall(row, text, re.MULTILINE):
         yield name, page, LICENCES[licence.strip()], users

@@ -3,9 +3,9 @@
 
 usage: pages.py SITE GALLERY
 
-Writes README.md, docs/*.md and all Markdown files that they link to as HTML pages into the folder SITE, in the folders
-of the documents. Copies linked pictures. Copies linked source files as text: `X` becomes `X.txt`. GALLERY is the folder
-that gallery.py wrote.
+Writes README.md, docs/*.md, gallery.md and all Markdown files that they link to as HTML pages into the folder SITE, in
+the folders of the documents; gallery.html is beside index.html. Copies linked pictures. Copies linked source files as
+text: `X` becomes `X.txt`. GALLERY is the folder that gallery.py wrote.
 """
 
 import html
@@ -19,12 +19,12 @@ import unicodedata
 
 PICTURES = {'.png', '.jpg', '.svg'}
 HOME = 'README.md'
-GALLERY = 'docs/gallery.md'
+GALLERY = 'toolchains/site/gallery.md'
 
 
 def target(document):
     """Returns the path of the page of a document in the site."""
-    return 'index.html' if document == HOME else document[:-len('.md')] + '.html'
+    return {HOME: 'index.html', GALLERY: 'gallery.html'}.get(document, document[:-len('.md')] + '.html')
 
 
 def relative(path, page):
@@ -57,7 +57,7 @@ class Site:
     def __init__(self, folder, gallery):
         self.folder = pathlib.Path(folder)
         self.gallery = pathlib.Path(gallery)
-        self.documents = [HOME] + sorted(str(path) for path in pathlib.Path('docs').glob('*.md'))
+        self.documents = [HOME, GALLERY] + sorted(str(path) for path in pathlib.Path('docs').glob('*.md'))
         self.groups = groups_of(pathlib.Path(HOME).read_text())
 
     def copy(self, source, path):
@@ -146,7 +146,7 @@ class Site:
                 found.append(movie)
                 slider += f'<p><img loading="lazy" src="gallery/{movie}" alt="Animation of the focus"></p>\n'
             for file in found:
-                self.copy(self.gallery / file, f'docs/gallery/{file}')
+                self.copy(self.gallery / file, f'gallery/{file}')
             return f'{slider}<p><a href="gallery/{name}.html">Depth and pixels in focus</a></p>\n{match.group()}'
 
         return re.sub(r'<pre[^>]*><code>.*?</code></pre>', pictures, body, flags=re.S)
@@ -158,7 +158,7 @@ class Site:
             if document == GALLERY:
                 body = self.add_sliders(body)
                 for file in ('slider.css', 'slider.js'):
-                    self.copy(self.gallery / file, f'docs/gallery/{file}')
+                    self.copy(self.gallery / file, f'gallery/{file}')
                 head = '<link rel="stylesheet" href="gallery/slider.css">\n'
                 tail = '<script src="gallery/slider.js"></script>\n'
             path = self.folder / target(document)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Command of ./do that makes the site; sourced by ./do.
 
-# make_gallery FOLDER: runs the commands of docs/gallery.md in the folder.
+# make_gallery FOLDER: runs the commands of gallery.md in the folder.
 make_gallery() {
   rm -rf "$1"
-  mkdir -p "$1" && PATH="$PWD/$BUILD:$PATH" python3 toolchains/site/gallery.py docs/gallery.md "$1"
+  mkdir -p "$1" && PATH="$PWD/$BUILD:$PATH" python3 toolchains/site/gallery.py toolchains/site/gallery.md "$1"
 }
 
 # copy_reference FOLDER: copies the pages of doxygen, and links the name of the project to the start page.
@@ -30,7 +30,7 @@ site() {
   docs
   [ -f build/web/site/index.html ] || ./do web build || exit 1
   rm -rf $site
-  step gallery "making the pictures of docs/gallery.md" make_gallery build/gallery
+  step gallery "making the pictures of the gallery" make_gallery build/gallery
   step pages "making the pages in $site" python3 toolchains/site/pages.py $site build/gallery
   step reference "copying the reference" copy_reference $site/reference
   step tap "copying the page to tap" copy_page $site/tap

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # usage: constants.sh PROGRAM PROGRAM-BEFORE [REFOCUS-OPTION...]
-# Measures the effect of a changed constant, as a row of docs/lab-notebook.md. The row has the PSNR in dB of the
+# Measures the effect of a changed constant, as a row of docs/constants.md. The row has the PSNR in dB of the
 # pictures of PROGRAM against ray-traced truth (wires, leaves) and against the benchmark mode of PROGRAM-BEFORE
 # (stilllife). The row also has the number of samples, in millions, that are rendered at the last focus of each scene.
 # Compare the printed row with the row of the program before the change. starfocus-lab must be in the folder of PROGRAM.

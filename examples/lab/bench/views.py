@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compares sets of views with the star of five views: PSNR in dB, as rows of docs/lab-notebook.md.
+"""Compares sets of views with the star of five views: PSNR in dB, as rows of docs/constants.md.
 
 usage: views.py PROGRAM FOLDER...
 

@@ -16,8 +16,8 @@ const BLOCK_NUMBERS = 6;  // number of int32 fields of a starfocus_block
 const HAS_COVERAGE = 1, REPAIR = 2, ESTIMATE = 4;  // flags of the bridge's Room
 const DEPTH = -1, COVERAGE = -2, CONFIDENCE = -3;  // places of the bridge's Place
 
-// Without shared memory, the worker reads its messages each time it has computed this number of rows. docs/web.md lists
-// the cost of this interruption.
+// Without shared memory, the worker reads its messages each time it has computed this number of rows. docs/bindings.md
+// states the cost of this interruption.
 const ROWS_AT_ONCE = 512;
 
 let memory, engine, threads, isShared;
