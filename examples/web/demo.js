@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the demo: five views of a ray-traced scene and their disparities. toolchains/web.sh makes the files.
+// Loads the demo: five views of a ray-traced scene and their disparities. toolchains/site/web makes the files.
 
 import {call} from './pixels.js';
 import {checkPicture} from './problem.js';

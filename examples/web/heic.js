@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worker that decodes one HEIC file with its depth map and matte with libheif-js, which toolchains/web.sh copies to the folder
+// Worker that decodes one HEIC file with its depth map and matte with libheif-js, which toolchains/site/web copies to the folder
 // heic. The message is the file. The answer is {result}, which is read() or null without a decoder, or {error}.
 
 const RGB = [1, 10], STORED = [99, 99];       // heif_colorspace and heif_chroma

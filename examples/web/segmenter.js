@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worker that finds the person in one photo with @mediapipe/selfie_segmentation, which toolchains/web.sh copies to the
+// Worker that finds the person in one photo with @mediapipe/selfie_segmentation, which toolchains/site/web copies to the
 // folder segmenter. The message is the photo, a Blob or an ImageBitmap. The answer is {result}, the matte as a grey PNG
 // file, or {error}.
 

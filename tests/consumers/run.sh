@@ -1,23 +1,49 @@
-#!/bin/sh
+#!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: run.sh BUILD KIND...
-# Installs the build folder BUILD, and builds small projects outside the source tree that use starfocus
-# in all supported ways. All projects must print the same checksums as a program that is linked directly
-# with the library of BUILD.
+# usage: tests/consumers/run.sh [KIND...]
+#
+# Builds and runs small projects outside the source tree that use starfocus in all supported ways. All projects must print
+# the same checksums as a program that is linked directly with the library of build/release. The default is every KIND
+# but the last two.
 #   package   CMake packages and pkg-config, static and shared library, then uninstallation
 #   source    the source tree as a subfolder of another project, and through FetchContent
 #   m32       a build for 32 bits with GCC's -m32
 #   wasm      a build for WebAssembly SIMD with emscripten, run by node
 #   python    the Python package, from a wheel and from the source tree
 #   java      the Java API
-#   java-aarch64  the Java API with the aarch64 build in the folder next to BUILD, run by an emulator
 #   swift     the module map of the C headers
-#   PRESET    the build of this preset for another machine, in the folder next to BUILD, run by its emulator
-set -eu
-[ $# -ge 2 ] || { echo "usage: $0 BUILD package|source|m32|wasm|python|java|java-aarch64|swift|PRESET..." >&2; exit 2; }
-sources=$(cd "$(dirname "$0")/../.." && pwd)
-build=$(cd "$1" && pwd)
-shift
+#   java-aarch64  the Java API on aarch64, run by an emulator
+#   PRESET    the build of this preset for another machine in build/PRESET, run by its emulator
+. "$(dirname "$0")/../../toolchains/steps.sh"
+set -e
+
+help_if_asked "$@"
+if [ $# = 0 ]; then
+  set -- package source wasm python java swift
+  [ "$(uname -m)" != x86_64 ] || set -- "$@" m32
+fi
+packages=build targets='starfocus starfocus_lab starfocus_shared'
+for kind; do
+  case "$kind" in
+    package | source) ;;
+    m32) packages+=' libc6-dev-i386 lib32stdc++-12-dev qemu-user' ;;
+    wasm) packages+=' emscripten nodejs' ;;
+    python)
+      packages+=" python3 $(printf 'python3-%s ' numpy pip venv setuptools wheel pil matplotlib distributed mypy)"
+      targets+=' starfocus_python'
+      ;;
+    java | java-aarch64)
+      packages+=' openjdk-17-jdk-headless kotlin python3 zip android-platform-frameworks-native-headers'
+      targets+=' starfocus_jni starfocus_phone'
+      [ "$kind" = java ] || packages+=' g++-aarch64-linux-gnu qemu-user'
+      ;;
+    swift) packages+=' clang' ;;
+    *) [ -f "build/$kind/CMakeCache.txt" ] || wrong "expected a KIND, or a preset that was built, found '$kind'" ;;
+  esac
+done
+install $packages
+./do build $targets
+sources=$PWD build=$PWD/$BUILD
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
@@ -143,6 +169,17 @@ preset() {
     "-Dstarfocus_DIR=$(dirname "$(find "$work/$1" -name starfocus-config.cmake)")"
 }
 
+# Builds the library for the emulated board, and downloads a Java run time.
+java_aarch64() {
+  step sysroot-aarch64 "fetching headers and libraries for aarch64" toolchains/sysroot.sh arm64 build/sysroot/arm64
+  step java-aarch64 "fetching Java for aarch64" \
+    toolchains/fetch.sh arm64 build/sysroot/java-arm64 zlib1g openjdk-17-jre-headless
+  step configure-aarch64 "configuring build/aarch64" cmake --preset aarch64
+  step build-aarch64 "building starfocus_jni in build/aarch64" \
+    cmake --build --preset aarch64 --parallel "$(nproc)" --target starfocus_jni
+  tests/java/run.sh "$build" aarch64 build/sysroot/java-arm64
+}
+
 # Compiles the module map of the Swift package with clang. No other part of the package is tested.
 swift() {
   cat >"$work/module.m" <<'TEXT'
@@ -186,8 +223,7 @@ for kind in "$@"; do
     wasm) wasm ;;
     python) "$sources/tests/python/run.sh" "$build" ;;
     java) "$sources/tests/java/run.sh" "$build" ;;
-    java-aarch64)
-      "$sources/tests/java/run.sh" "$build" aarch64 "$(dirname "$build")/sysroot/java-arm64" ;;
+    java-aarch64) java_aarch64 ;;
     swift) swift ;;
     *) preset "$kind" ;;
   esac

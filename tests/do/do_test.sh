@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # do_test.sh SOURCES: checks the messages and exit codes of ./do build on machines without some tools. The test replaces
-# tools by fake programs. The programs dpkg and apt-get are absent. The test also checks the commands of ./do bare.
+# tools by fake programs. The programs dpkg and apt-get are absent. The test also checks the helps of ./do and of the other
+# scripts for developers, and the commands of toolchains/packaging/bare.
 set -eu
 sources=$(cd "$1" && pwd)
 work=$(mktemp -d)
@@ -44,7 +45,25 @@ printf '#!/bin/sh\n' >"$work/bin/c++"
 build
 [ $result = 0 ] || fail "everything is there, and it fails"
 
-# Each command of the help installs packages, except `help` and `bare` itself, and is tried in a bare Debian.
-"$work/tree/do" help | sed -n 's/^  \([a-z][a-z]*\) .*/\1/p' | grep -vxE 'help|bare' | sort -u >"$work/commands"
-bash -c '. "$0" && echo "$BARE_COMMANDS"' "$work/tree/toolchains/packaging/bare.sh" | sed 's/ .*//' | sort -u >"$work/tried"
-diff "$work/commands" "$work/tried" >"$work/said" || fail "the help (<) and BARE_COMMANDS (>) have different commands"
+# commands SCRIPT: prints the commands that the help of a script lists.
+commands() { "$1" --help | sed -n "s|^  \([a-z][a-z0-9-]*\) .*|$1 \1|p"; }
+
+# Each command of the project installs packages, except `help` and `bare`, and is tried in a bare Debian.
+cd "$sources"
+{
+  commands ./do
+  commands toolchains/board/board
+  commands toolchains/site/web
+  commands tests/consumers/run.sh
+  printf 'toolchains/%s\n' packaging/package packaging/release packaging/wheel site/site
+} | grep -vx './do help' | sort -u >"$work/commands"
+toolchains/packaging/bare --list | awk '{ print (/packaging|site\/site/ ? $1 : $1 " " $2) }' | sort -u >"$work/tried"
+diff "$work/commands" "$work/tried" >"$work/said" || fail "the helps (<) and toolchains/packaging/bare (>) differ"
+
+# Each of these scripts explains itself, and rejects a wrong argument in one line that names it.
+for script in ./do $(find toolchains tests/consumers -type f -perm -u+x -exec grep -l help_if_asked {} +); do
+  "$script" --help | grep -q "^usage: $script" || fail "$script --help does not begin with its usage"
+  case $script in *install.sh | *bare) continue ;; esac
+  ! "$script" --nonsense >"$work/said" 2>&1 || fail "$script accepts --nonsense"
+  [ "$(wc -l <"$work/said")" = 1 ] && grep -q -e "'--nonsense'" "$work/said" || fail "$script --nonsense: expected one line"
+done

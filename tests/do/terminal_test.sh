@@ -18,9 +18,7 @@ columns() { wc -L; }
 long='[1/2] Building CXX object lib/engine.o'
 wide='翻訳中: ファイル ‘ü’ 한국어'
 (
-  cd "$sources"
-  BASH_ARGV0=./do
-  . ./do help >/dev/null # defines the functions
+  . "$sources/toolchains/steps.sh" # defines the functions
   for text in "$long" "$wide" "$(printf 'broken \377 \303')"; do
     for ((width = 0; width < 60; ++width)); do
       shown=$(fit "$text" $width)

@@ -32,6 +32,7 @@ inline std::vector<std::filesystem::path> Files(const std::vector<std::string>& 
   std::vector<std::filesystem::path> found;
   for (const std::string& folder : folders) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / folder)) {
+      if (!entry.is_regular_file()) continue;
       const std::filesystem::path& path = entry.path();
       if (endings.count(path.extension().string()) + endings.count(path.filename().string()) > 0) {
         found.push_back(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the memory that the engine requires on a board; used by ./do size. `size_probe stack`
+// Prints the memory that the engine requires on a board; used by toolchains/board/board size. `size_probe stack`
 // prints the bytes of stack that calls of the engine use. `size_probe workspace` prints a table of
 // workspaces, and `size_probe parts` prints a table of the parts of workspaces.
 #include <pthread.h>
@@ -26,8 +26,8 @@ void Check(bool good, const char* what) {
 
 // Calls of the engine that are executed on a separate stack.
 struct Calls {
-  starfocus_config config;
-  starfocus_params params;
+  test::Config config;
+  starfocus::Params params;
   starfocus_light_field field;
   void* workspace;
   size_t bytes;
@@ -136,7 +136,7 @@ void PrintWorkspace() {
     int width, height;
   } kSizes[] = {{"VGA", 640, 480}, {"HD", 1280, 720}, {"Full HD", 1920, 1080}};
   constexpr int kBlocks[] = {32, 64, 128, 256}, kBlurs[] = {8, 32, 128};
-  const auto row = [&](const char* name, const char* input, starfocus_config config) {
+  const auto row = [&](const char* name, const char* input, test::Config config) {
     std::printf("| %s | %s |", name, input);
     for (const int block : kBlocks) {
       for (const int blur : kBlurs) {
@@ -155,9 +155,10 @@ void PrintWorkspace() {
   for (size_t i = 0; i < sizeof(kBlocks) / sizeof(int) * 3; ++i) std::printf("--:|");
   std::printf("\n");
   for (const auto& size : kSizes) {
-    starfocus_config config = test::BoardConfig(size.width, size.height, 17, 32, 8, 0);
+    test::Config config = test::BoardConfig(size.width, size.height, 17, 32, 8, 0);
     row(size.name, "whole pictures", config);
     config.features = 0;
+    config.tuning.line_scan = nullptr;
     row(size.name, "whole pictures, no line scan", config);
     for (const int views : {1, 5, 9, 17}) {
       char input[40];
@@ -173,15 +174,16 @@ class PartsTable {
   PartsTable() {
     const struct {
       const char* name;
-      starfocus_config config;
+      test::Config config;
     } kColumns[] = {
         {"VGA, 1 streamed view, 32, 8", test::BoardConfig(640, 480, 1, 32, 8, 1)},
         {"VGA, 5 streamed views, 64, 32", test::BoardConfig(640, 480, 5, 64, 32, 1)},
         {"Full HD, whole pictures, 64, 32", test::BoardConfig(1920, 1080, 17, 64, 32, 0)},
         {"Full HD, whole pictures, 128, 128", test::BoardConfig(1920, 1080, 17, 128, 128, 0)},
         {"Full HD, whole pictures, 128, 128, no line scan", [] {
-           starfocus_config config = test::BoardConfig(1920, 1080, 17, 128, 128, 0);
+           test::Config config = test::BoardConfig(1920, 1080, 17, 128, 128, 0);
            config.features = 0;
+           config.tuning.line_scan = nullptr;
            return config;
          }()}};
     std::printf("| |");

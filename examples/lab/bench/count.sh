@@ -34,7 +34,7 @@ count() {
 }
 
 # count_case NAME PIXELS KERNELS: runs a case of instruction_bench, and prints
-# "NAME KERNELS instructions-per-pixel". `./do count` counts the same cases on AArch64.
+# "NAME KERNELS instructions-per-pixel". `toolchains/board/board count` counts the same cases on AArch64.
 count_case() {
   local out=$build/callgrind.$1.$3 instructions
   "$here/../../../tests/support/valgrind.sh" "$build" --tool=callgrind --callgrind-out-file="$out" --toggle-collect=starfocus_refocus \

@@ -3,7 +3,7 @@
 
 usage: report.py RESULTS.json X86-COUNTS ARM-COUNTS > report.html
 
-X86-COUNTS and ARM-COUNTS are the baselines of `./do bench --check` and `./do count`. The plots need gnuplot. Without
+X86-COUNTS and ARM-COUNTS are the baselines of `./do bench --check` and `toolchains/board/board count`. The plots need gnuplot. Without
 gnuplot the page has messages instead of plots.
 """
 import html
@@ -233,7 +233,7 @@ def count_table(x86, arm):
             simd, plain = (values.get((machine, kernels), math.nan) for kernels in ("simd", "reference"))
             lines[-1] += [fixed(simd, 0), fixed(plain, 0), fixed(plain / simd, 2)]
     return table("Counted inside the engine, repeating exactly; from the tracked baselines (<code>./do bench --check</code> "
-                 "by callgrind, <code>./do count</code> by an emulator), not of this run. No board was at hand: what the "
+                 "by callgrind, <code>toolchains/board/board count</code> by an emulator), not of this run. No board was at hand: what the "
                  "emulated AArch64 executes stands in for energy, without what memory costs. Cases are views, scene, mode "
                  "and largest blur radius, 192×128 pixels, rooms 384×256.",
                  ["case", "x86-64 AVX2", "plain C++", "ratio", "AArch64 NEON", "plain C++", "ratio"], lines)

@@ -1,0 +1,67 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# usage: ./do bench [--quick | --check | --record | --micro]
+#
+# Measures time and error of every mode, and writes a report: build/bench/report.html.
+#   --quick   small pictures, few of them: a minute or two
+#   --check   only compares instruction counts with examples/lab/bench/baseline.txt
+#   --record  writes that file anew
+#   --micro   only times kernels, the line scan and small pictures
+. "$(dirname "$0")/../../../toolchains/steps.sh"
+
+check_counts() {
+  install valgrind
+  ./do build starfocus_lab starfocus_valgrind starfocus-bench-count starfocus_instruction_bench || exit 1
+  examples/lab/bench/count.sh $BUILD "$1"
+}
+
+micro() {
+  install build libbenchmark-dev
+  ./do build starfocus-bench-micro || exit 1
+  $BUILD/starfocus-bench-micro || fail "the micro bench failed"
+}
+
+# scene NAME ARGUMENT...: renders a scene unless the scene already exists.
+scene() {
+  local folder=build/bench/$1
+  shift
+  [ -f "$folder/meta.txt" ] || lab "made the light field $folder" scene "$folder" "$@"
+}
+
+# measure [--quick]: measures every mode, and writes the report.
+measure() {
+  local folder fields=build/bench/portrait-small options="--views 5,9 --max-layers 0,1 --rules
+    --n-scales 0.5,0.7,1,1.4,2 --targets all --workers 2"
+  install build gnuplot-nox python3
+  ./do build starfocus_lab starfocus-bench || exit 1
+  mkdir -p build/bench
+  scene portrait-small --name portrait --size 512x384 --truth=3.5,1
+  if [ $# = 1 ]; then
+    options="$options --quantiles 0.1,0.5,0.9 --repetitions 3 --patience 0.5 --largest-radius 16 --largest-size 1"
+  else
+    options="$options --quantiles 0.1,0.3,0.5,0.7,0.9 --apertures 1,0.5,0.25 --superblocks 32,128,256 --largest-radius 64
+      --largest-size 16"
+    fields="build/bench/portrait build/bench/ramp build/bench/hair-scene"
+    scene portrait --name portrait --truth=7.84,1 --truth=-8.6,1
+    scene ramp --name ramp --size 512x384
+    scene hair-scene --name hair --truth=10,1 --truth=-11.4,1
+    for folder in ../shared/data/*/; do
+      [ -f "$folder/disparity.pfm" ] && fields="$fields $folder"
+    done
+  fi
+  $BUILD/starfocus-bench $fields $options --sweep build/bench/portrait-small \
+    --revision "$(git rev-parse --short HEAD 2>/dev/null)" --csv build/bench/results.csv \
+    --json build/bench/results.json || fail "the bench failed"
+  python3 examples/lab/bench/report.py build/bench/results.json examples/lab/bench/baseline.txt \
+    toolchains/board/instruction_counts.txt >build/bench/report.html || fail "the report failed"
+  echo "report: build/bench/report.html; rows: build/bench/results.csv and .json"
+}
+
+help_if_asked "$@"
+case "$*" in
+  '' | --quick) measure "$@" ;;
+  --check) check_counts check ;;
+  --record) check_counts record ;;
+  --micro) micro ;;
+  *) fail "./do bench: expected --quick, --check, --record, --micro or nothing, found '$*'" ;;
+esac
