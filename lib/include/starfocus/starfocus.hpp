@@ -22,7 +22,9 @@ struct Config : starfocus_config {
     starfocus_tuning_init(&tuning);
     starfocus_config::tuning = &tuning;
   }
+  /** Copies the tuning as well. */
   Config(const Config& other) : Config() { *this = other; }
+  /** Copies the tuning as well. */
   Config& operator=(const Config& other) {
     static_cast<starfocus_config&>(*this) = other;
     tuning = other.tuning;
@@ -46,7 +48,9 @@ struct Params : starfocus_params {
     if (other.study != nullptr) study = *other.study;
     starfocus_params::study = &study;
   }
+  /** Copies the study as well. */
   Params(const Params& other) : Params(static_cast<const starfocus_params&>(other)) {}
+  /** Copies the study as well. */
   Params& operator=(const Params& other) {
     static_cast<starfocus_params&>(*this) = other;
     study = other.study;
