@@ -179,9 +179,11 @@ starfocus_status starfocus_largest_aperture(starfocus_engine* engine,
   check.NotNull(params, "params");
   check.NotNull(aperture, "aperture");
   if (!check.passed()) return check.status();
-  CheckFocus(*params, &check);
+  starfocus_params full = DefaultParams();
+  check.Read(*params, "params.size", &full);
+  CheckFocus(full, &check);
   if (check.passed()) {
-    *aperture = LargestAperture(reinterpret_cast<EngineState*>(engine)->config, *params);
+    *aperture = LargestAperture(reinterpret_cast<EngineState*>(engine)->config, full);
   }
   return check.status();
 }

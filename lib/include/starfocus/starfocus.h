@@ -745,8 +745,8 @@ STARFOCUS_API starfocus_status starfocus_focus_at(const starfocus_depth_map* dep
  *  @param engine engine
  *  @param params range in focus; the other fields are ignored
  *  @param aperture receives the aperture; may point to params->aperture
- *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL, or STARFOCUS_ERROR_RANGE if the focus is out of
- *          range */
+ *  @return STARFOCUS_OK, STARFOCUS_ERROR_NULL, STARFOCUS_ERROR_STRUCTURE, or STARFOCUS_ERROR_RANGE
+ *          if the focus is out of range */
 STARFOCUS_API starfocus_status starfocus_largest_aperture(starfocus_engine* engine,
                                                           const starfocus_params* params,
                                                           double* aperture);
