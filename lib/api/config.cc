@@ -140,7 +140,7 @@ const char* starfocus_status_string(starfocus_status status) {
       "the given memory is too small or not aligned to STARFOCUS_ALIGNMENT bytes",
       "the configuration needs more memory than this machine can address",
       "out of memory",
-      "a stride is smaller than a row or misaligned",
+      "a stride is smaller than a row, or a stride or a map is misaligned",
       "an output overlaps an input or the workspace",
       "the aperture times the distance from the focus to the farther end of the disparity "
       "range exceeds max_blur",

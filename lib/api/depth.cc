@@ -208,6 +208,7 @@ starfocus_status starfocus_map_workspace_size(const starfocus_config* config, in
   FullConfig full;
   Checker check = Enter(config, problem, &full);
   check.NotNull(bytes, "bytes");
+  check.In({"repairs", double(repairs)}, STARFOCUS_FROM_TO(0, 1));
   const size_t needed = SizeOf(full, repairs != 0, &check);
   if (check.passed()) *bytes = needed;
   return check.status();

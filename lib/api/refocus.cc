@@ -17,7 +17,8 @@ void CheckCall(const FullConfig& config, const FullParams& params, const Prepare
   CheckRegion(params.region, config.width, config.height, check);
   if (prepared == nullptr) return;
   check->Need(Fits(*prepared, config), STARFOCUS_ERROR_PREPARED, {"prepared"},
-              {"prepared with the engine's size, views, disparity range, max_layer and transfer"});
+              {"prepared with the engine's size, views, positions, disparity range, max_layer and "
+               "transfer"});
   check->Need(params.previous == nullptr, STARFOCUS_ERROR_RANGE, {"previous"},
               {"null if the light field is prepared"});
 }
@@ -68,7 +69,8 @@ starfocus_status RefocusPreview(const FullParams& params, const Prepared& prepar
   Checker check(config.problem);
   CheckCall(config, params, &prepared, &check);
   check.Need(shift >= 1 && shift <= most, STARFOCUS_ERROR_PREPARED,
-             {"preview_shift", double(shift)}, {"1 to previews", 1, double(most)});
+             {"preview_shift", double(shift)},
+             {"0 to previews of the engine that prepared", 0, double(most)});
   if (!check.passed()) return check.status();
   check.Add(CheckBlur(config, params));
   const Rect rect = ReducedRect(RegionOf(config, params), shift);
@@ -155,8 +157,8 @@ void CheckPrevious(const EngineState& engine, const FullParams& params, const st
                                      Checker* check) {
   const FullConfig& config = engine->config;
   starfocus_light_field field = {}, before = {};
-  check->Read(given, "light_field.size", &field);
   CheckCall(config, params, prepared, check);
+  check->Read(given, "light_field.size", &field);
   CheckLightField(config, field, check);
   if (!check->passed()) return;
   const Rect rect = RegionOf(config, params);

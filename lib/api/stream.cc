@@ -16,10 +16,10 @@ int32_t NeededRows(const EngineState& engine) {
                                        LargestBorders(engine.config).streamed);
 }
 
-void CheckCount(const EngineState& engine, int32_t rows, int32_t most, Checker* check) {
+void CheckCount(const EngineState& engine, int32_t rows, const Allowed& allowed, Checker* check) {
   check->Need(engine.stream.active, STARFOCUS_ERROR_STATE, {"stream"},
               {"an earlier call of starfocus_stream_begin"});
-  check->In({"rows", double(rows)}, {"at most the number of remaining rows", 0, double(most)});
+  check->In({"rows", double(rows)}, allowed);
 }
 
 // Checks the number of rows of a push or pull that starts at row `first`. YUV formats require pairs
@@ -158,7 +158,9 @@ starfocus_status starfocus_stream_push(starfocus_engine* engine,
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
   starfocus_light_field field = {};
   check.Read(*light_field, "light_field.size", &field);
-  CheckCount(e, rows, e.config.height - e.stream.pushed, &check);
+  CheckCount(e, rows,
+             {"0 to the number of remaining rows", 0, double(e.config.height - e.stream.pushed)},
+             &check);
   CheckLightField(e.config, field, &check);
   if (!check.passed()) return check.status();
   CheckPairs(e.config, AnyYuv(e.config, field), e.stream.pushed, rows, &check);
@@ -184,7 +186,7 @@ starfocus_status starfocus_stream_pull(starfocus_engine* engine, const starfocus
   CheckReport(report, &check);
   if (!check.passed()) return check.status();
   EngineState& e = *reinterpret_cast<EngineState*>(engine);
-  CheckCount(e, rows, INT32_MAX, &check);
+  CheckCount(e, rows, {"at least 0", 0, INT32_MAX}, &check);
   const int32_t first = e.stream.written, left = e.config.height - first;
   const int32_t most = Min(rows, left);
   CheckOutput(e.config, *out, e.config.width, e.config.height, &check);

@@ -53,6 +53,12 @@ void CheckTuning(const starfocus_tuning& tuning, Checker* check) {
   CheckTiming(tuning.timing, check);
 }
 
+// Checks that a disparity map, whose argument is `name`, is aligned to its values of `bytes` bytes.
+void CheckAligned(const void* map, size_t bytes, const char* name, Checker* check) {
+  check->Need(reinterpret_cast<uintptr_t>(map) % bytes == 0, STARFOCUS_ERROR_STRIDE, {name},
+              {"aligned to the type of its values"});
+}
+
 bool IsBlock(int32_t side) {
   return side == 0 || side == 32 || side == 64 || side == 128 || side == 256;
 }
@@ -164,8 +170,8 @@ void CheckMemory(const char* name, const void* memory, size_t bytes, size_t need
                  Checker* check) {
   const auto address = reinterpret_cast<uintptr_t>(memory);
   check->NotNull(memory, name);
-  check->Need(address % STARFOCUS_ALIGNMENT == 0, STARFOCUS_ERROR_WORKSPACE,
-              {name, double(address % STARFOCUS_ALIGNMENT)}, {"a multiple of STARFOCUS_ALIGNMENT"});
+  check->Need(address % STARFOCUS_ALIGNMENT == 0, STARFOCUS_ERROR_WORKSPACE, {name},
+              {"aligned to STARFOCUS_ALIGNMENT bytes"});
   check->Need(bytes >= needed, STARFOCUS_ERROR_WORKSPACE, {"bytes", double(bytes)},
               {"at least the number of bytes that the size function returns", double(needed)});
 }
@@ -175,9 +181,9 @@ void CheckMap(const float* disparity, size_t stride, int32_t width, int32_t heig
   check->NotNull(disparity, name);
   CheckSize(width, height, check);
   if (!check->passed()) return;
-  const bool aligned =
-      stride % sizeof(float) == 0 && reinterpret_cast<uintptr_t>(disparity) % alignof(float) == 0;
-  check->Stride(aligned && ValidStride(stride, sizeof(float) * static_cast<size_t>(width), height),
+  CheckAligned(disparity, sizeof(float), name, check);
+  check->Stride(stride % sizeof(float) == 0 &&
+                    ValidStride(stride, sizeof(float) * static_cast<size_t>(width), height),
                 stride_name, stride);
 }
 
@@ -306,8 +312,9 @@ void CheckDepthMap(const starfocus_depth_map& map, int32_t width, int32_t height
   check->In({"depth.height", double(map.height)}, {"1 to height", 1, double(height)});
   if (!check->passed()) return;
   const size_t bytes = DepthBytes(map.type);
+  CheckAligned(map.data, bytes, "depth.data", check);
   check->Stride(ValidStride(map.stride, bytes * static_cast<size_t>(map.width), map.height) &&
-                    map.stride % bytes == 0 && reinterpret_cast<uintptr_t>(map.data) % bytes == 0,
+                    map.stride % bytes == 0,
                 "depth.stride", map.stride);
 }
 

@@ -56,8 +56,10 @@ class Checker {
   template <class Structure>
   void Read(const Structure& given, const char* name, Structure* full) {
     const uint32_t size = given.size;
-    Need(size > sizeof size && size <= sizeof(Structure), STARFOCUS_ERROR_STRUCTURE,
-         {name, double(size)}, {"the value set by the init function"});
+    constexpr size_t kLeast = 2 * sizeof size;
+    Need(size >= kLeast && size <= sizeof(Structure) && size % alignof(Structure) == 0,
+         STARFOCUS_ERROR_STRUCTURE, {name, double(size)},
+         {"the value set by the init function", double(kLeast), double(sizeof(Structure))});
     if (passed()) std::memcpy(static_cast<void*>(full), &given, size);
   }
   // Checks that an output does not overlap the address ranges in `read`.

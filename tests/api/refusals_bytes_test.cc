@@ -204,7 +204,7 @@ const Row kImages[] = {
     {kViews, "depth.height", kRange, [](Call* c) { c->field.depth.height = -1; }},
     {kViews, "depth.stride", kStride, [](Call* c) { c->field.depth.stride = 2 * 10 - 2; }},
     {kViews, "depth.stride", kStride, [](Call* c) { c->field.depth.stride += 1; }},
-    {kViews, "depth.stride", kStride,  // an odd address
+    {kViews, "depth.data", kStride,  // an odd address
      [](Call* c) { c->field.depth.data = static_cast<const char*>(c->field.depth.data) + 1; }},
     {kOuts | kPreview, "out", kOverlap, [](Call* c) { PutOut(c, c->f.engine.workspace()); }},
     {kPrepare, "bytes", kWorkspace, [](Call* c) { --c->bytes; }},

@@ -84,7 +84,8 @@ typedef struct starfocus_disparity_output {
  *
  *  A repair takes 12 bytes per pixel of the picture, plus about as much memory for each worker.
  *  @param config configuration
- *  @param repairs 1 for starfocus_repair_disparity, 0 for starfocus_estimate_disparity
+ *  @param repairs 1 for starfocus_repair_disparity, 0 for starfocus_estimate_disparity; other
+ *         values are rejected
  *  @param bytes receives the size in bytes
  *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, or an error of the configuration */

@@ -52,8 +52,8 @@
  * **Structures.** Structures with an init function have a field `size`; the init function sets
  * `size` and the defaults. Set structures without an init function to zero, for example with
  * `= {0}`, before you set fields. If `size` is smaller than the library's structure, the missing
- * fields get defaults. If `size` is larger than the library's structure, the call returns
- * STARFOCUS_ERROR_STRUCTURE.
+ * bytes get defaults. Calls return STARFOCUS_ERROR_STRUCTURE if `size` is larger than the library's
+ * structure, less than 8, or not a multiple of the structure's alignment.
  *
  * **Memory.** The engine lives in one block of memory, its workspace, and allocates no other
  * memory, except in starfocus_prepare if the caller passes no memory. Either starfocus_create
@@ -114,7 +114,8 @@ typedef enum starfocus_status {
   STARFOCUS_ERROR_WORKSPACE = 6, /**< The given memory is too small or not aligned. */
   STARFOCUS_ERROR_TOO_LARGE = 7, /**< The configuration requires more memory than is addressable. */
   STARFOCUS_ERROR_MEMORY = 8,    /**< Memory could not be allocated. */
-  STARFOCUS_ERROR_STRIDE = 9,    /**< A stride is smaller than a row, or not aligned. */
+  STARFOCUS_ERROR_STRIDE = 9,    /**< A stride is smaller than a row, or a stride or a map is not
+                                      aligned. */
   STARFOCUS_ERROR_OVERLAP = 10,  /**< An output overlaps an input or the workspace. */
   STARFOCUS_ERROR_BLUR = 11,     /**< The blur radius aperture * |d - focus| exceeds max_blur at
                                       disparity_min or disparity_max. */
@@ -131,12 +132,14 @@ typedef enum starfocus_status {
 /** The cause of an error. The strings `field` and `expected` are in static storage and never
  *  null. */
 typedef struct starfocus_problem {
-  int32_t status;    /**< starfocus_status that the call returned. */
-  int32_t index;     /**< Index of the array element, if `field` contains []; otherwise 0. */
-  const char* field; /**< Wrong field or argument, for example "width" or "views[].strides"; "" if
-                        no single field is wrong. */
+  int32_t status; /**< starfocus_status that the call returned. */
+  int32_t index;  /**< Index of the array element, if `field` contains []; otherwise 0. */
+  /** Wrong field or argument; "" if no single field is wrong. Fields of starfocus_config,
+   *  starfocus_params and starfocus_light_field have no prefix: "width", "views[].strides". Fields
+   *  `size`, nested fields and fields of other structures have one: "params.size", "region.x". */
+  const char* field;
   const char* expected; /**< Allowed values in words, for example "1 to 65535". */
-  double value;         /**< Value that was given; NaN if unknown. */
+  double value;         /**< Value that was given; NaN for pointers, and if unknown. */
   double low;           /**< Smallest allowed value; NaN if there is no range. */
   double high;          /**< Largest allowed value; NaN if there is no range. */
   int32_t
@@ -217,7 +220,9 @@ STARFOCUS_API const char* starfocus_version(uint32_t* abi);
  *  in C and C++ call the function of the structure, for example starfocus_config_init.
  *  @param structure name of a structure with a field `size`, for example "starfocus_config"
  *  @param to structure; no-op if null
- *  @param size size in bytes of the structure that the caller knows
+ *  @param size size in bytes of the structure that the caller knows, which becomes the field
+ *         `size`. With a size below 4, nothing is written. Bytes that the library does not know
+ *         become 0
  *  @return STARFOCUS_OK, or STARFOCUS_ERROR_NULL or STARFOCUS_ERROR_RANGE if the name is null or
  *         unknown */
 STARFOCUS_API starfocus_status starfocus_defaults(const char* structure, void* to, uint32_t size);
@@ -487,7 +492,7 @@ typedef struct starfocus_params {
   int32_t blades; /**< Polygon: number of corners, [STARFOCUS_MIN_BLADES, STARFOCUS_MAX_BLADES];
                        default 5. */
   /** For starfocus_refocus_prepared: the picture has 1 / 2^preview_shift of the full size. Range
-   *  [0, starfocus_config.previews]; default 0. */
+   *  [0, starfocus_config.previews of the engine that prepared the light field]; default 0. */
   int32_t preview_shift;
   double focus; /**< Disparity in focus (d_t), |focus| <= STARFOCUS_MAX_FOCUS; default 0. */
   /** Extent of the range in focus on the near side of `focus`. Disparities from focus to focus +
