@@ -72,7 +72,6 @@ starfocus_status RefocusPreview(const FullParams& params, const Prepared& prepar
              {"preview_shift", double(shift)},
              {"0 to previews of the engine that prepared", 0, double(most)});
   if (!check.passed()) return check.status();
-  check.Add(CheckBlur(config, params));
   const Rect rect = ReducedRect(RegionOf(config, params), shift);
   CheckOutput(config, out, rect.width, rect.height, &check);
   CheckOutputApart(out, rect.width, rect.height, MemoryOf(*engine, &prepared), &check);

@@ -2,6 +2,7 @@
 #include "lib/api/validate.h"
 
 #include "lib/engine/engine.h"
+#include "lib/engine/lens.h"
 #include "lib/io/depth_map.h"
 #include "lib/io/image.h"
 #include "lib/optics/view_set.h"
@@ -164,6 +165,7 @@ void CheckParams(const FullConfig& config, const FullParams& params, Checker* ch
                 {"study.renderer", double(params.renderer)},
                 {"not STARFOCUS_RENDERER_LINE_SCAN without the views of starfocus_view_position"});
   }
+  if (check->passed()) check->Add(CheckBlur(config, params));
 }
 
 void CheckMemory(const char* name, const void* memory, size_t bytes, size_t needed,

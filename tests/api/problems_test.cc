@@ -98,5 +98,34 @@ TEST_CASE("problem: starfocus_map_workspace_size accepts 0 and 1 as `repairs`") 
   }
 }
 
+TEST_CASE("stream: calls with wrong arguments do not end a stream, and accepted calls do") {
+  Fixture f(false);
+  const auto check = [&](unsigned function, auto&& spoil, starfocus_status status, bool ends) {
+    CAPTURE(function);
+    Call other(&f, function), pull(&f, kPull);
+    spoil(&other);
+    CHECK(other.Run() == status);
+    CHECK(pull.Run() == (ends ? STARFOCUS_ERROR_STATE : STARFOCUS_OK));
+    CHECK(pull.count == (ends ? 0 : kHeight));
+  };
+  for (const unsigned function : {kRefocus, kPrepared, kPreview, kPrepare}) {
+    check(
+        function, [](Call*) {}, STARFOCUS_OK, true);
+    check(
+        function, [](Call* c) { c->out_at = nullptr, c->field_at = nullptr; }, STARFOCUS_ERROR_NULL,
+        false);
+    if (function == kPrepare) continue;
+    check(
+        function, [](Call* c) { c->params.focus = 6.5; }, STARFOCUS_ERROR_BLUR, false);
+  }
+  float& disparity = f.scene.Disparity(7, 3);
+  const float good = disparity;
+  for (const unsigned function : {kRefocus, kPrepare}) {
+    const auto spoil = [&](Call*) { disparity = 100; };
+    check(function, spoil, STARFOCUS_ERROR_DISPARITY, true);
+    disparity = good;
+  }
+}
+
 }  // namespace
 }  // namespace problems_test

@@ -664,7 +664,8 @@ STARFOCUS_API starfocus_status starfocus_stream_begin(starfocus_engine* engine,
  *  @param light_field rows of the light field. Planes of views and coverage point to the first new
  *         row. `depth.height` is the height of the whole map. If the map has the picture's height,
  *         `depth.data` points to the first new row as well. A map of smaller height is passed whole
- *         in every call. Coverage must be present for all rows of a stream or for none
+ *         in every call. All pushes of a stream must pass the same map, apart from `depth.data`;
+ *         the engine does not check this. Coverage must be present for all rows or for none
  *  @param rows number of rows, at most the number of rows left. If a view has chroma samples of 2 x
  *         2 pixels, `rows` must be even, except at the end of the picture
  *  @param consumed receives the number of copied rows, at most `rows`. If fewer rows were copied,
@@ -680,9 +681,10 @@ STARFOCUS_API starfocus_status starfocus_stream_push(starfocus_engine* engine,
  *
  *  After STARFOCUS_ERROR_RUNNER and STARFOCUS_ERROR_CANCELLED the stream remains valid: `*written`
  *  rows are complete, and the next pull resumes after these rows. The next pull reports
- *  half-finished blocks to on_block again, but counts each block once. All other calls with the
- *  engine, except starfocus_set_callbacks, end the stream. The progress callback counts rows of the
- *  whole picture.
+ *  half-finished blocks to on_block again, but counts each block once. starfocus_refocus,
+ *  starfocus_refocus_prepared and starfocus_prepare end the stream when they have accepted their
+ *  arguments, before they check disparities. The progress callback counts rows of the whole
+ *  picture.
  *  @param engine engine
  *  @param out image of the rows to write, whose planes point to the first of these rows. The image
  *         must not overlap the workspace
