@@ -418,10 +418,10 @@ starfocus_status starfocus_plane_size(const starfocus_image* image, int32_t plan
   if (!check.passed()) return check.status();
   CheckLayout(*image, kImageNames, 0, &check);
   if (!check.passed()) return check.status();
-  check.In({"plane", double(plane)},
-           {"a plane of the format", 0, PlanesOfFormat(image->format) - 1.0});
+  check.In({"plane", double(plane)}, STARFOCUS_FROM_TO(0, 2));
   if (!check.passed()) return check.status();
-  *rows = PlaneRows(image->format, plane, height);
-  *row_bytes = PlaneRowBytes(*image, plane, width);
+  const bool is_used = plane < PlanesOfFormat(image->format);
+  *rows = is_used ? PlaneRows(image->format, plane, height) : 0;
+  *row_bytes = is_used ? PlaneRowBytes(*image, plane, width) : 0;
   return STARFOCUS_OK;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the fields, values and ranges of problems that refusals_bytes_test.cc does not compare.
+// Tests the fields, values and ranges of problems that refusals_bytes_test.cc does not compare, and
+// the sizes of planes.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -124,6 +125,37 @@ TEST_CASE("stream: calls with wrong arguments do not end a stream, and accepted 
     const auto spoil = [&](Call*) { disparity = 100; };
     check(function, spoil, STARFOCUS_ERROR_DISPARITY, true);
     disparity = good;
+  }
+}
+
+TEST_CASE("starfocus_plane_size returns 0 for planes that the format does not have") {
+  struct Row {
+    starfocus_format format;
+    int32_t rows[3];
+    size_t row_bytes[3];
+  };
+  const Row rows[] = {{STARFOCUS_FORMAT_RGB, {5, 0, 0}, {21, 0, 0}},
+                      {STARFOCUS_FORMAT_BGRX, {5, 0, 0}, {28, 0, 0}},
+                      {STARFOCUS_FORMAT_NV12, {5, 3, 0}, {7, 8, 0}},
+                      {STARFOCUS_FORMAT_I420, {5, 3, 3}, {7, 4, 4}}};
+  int32_t count = -1;
+  size_t bytes = 0;
+  starfocus_problem problem;
+  for (const Row& row : rows) {
+    starfocus_image image = {};
+    image.format = row.format;
+    for (int plane = 0; plane < 3; ++plane) {
+      CAPTURE(row.format);
+      CAPTURE(plane);
+      CHECK(starfocus_plane_size(&image, plane, 7, 5, &count, &bytes, &problem) == STARFOCUS_OK);
+      CHECK(count == row.rows[plane]);
+      CHECK(bytes == row.row_bytes[plane]);
+    }
+    for (const int32_t plane : {-1, 3}) {
+      CHECK(starfocus_plane_size(&image, plane, 7, 5, &count, &bytes, &problem) ==
+            STARFOCUS_ERROR_RANGE);
+      CHECK(problem.field == std::string("plane"));
+    }
   }
 }
 

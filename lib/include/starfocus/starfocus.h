@@ -760,9 +760,9 @@ STARFOCUS_API starfocus_status starfocus_largest_aperture(starfocus_engine* engi
 
 /** Size of a plane of a picture, for copies of planes.
  *  @param image picture, of which format and pixel_stride are read
- *  @param plane index of the plane, at least 0 and less than the number of planes of the format
+ *  @param plane index of the plane, [0, 2]
  *  @param width,height size of the picture in pixels, [1, STARFOCUS_MAX_SIZE]
- *  @param rows receives the number of rows
+ *  @param rows receives the number of rows; 0 if the format has no such plane
  *  @param row_bytes receives the number of bytes of a row, without padding at its end
  *  @param problem receives the cause of an error; may be null
  *  @return STARFOCUS_OK, or an error of the arguments */

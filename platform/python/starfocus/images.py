@@ -15,7 +15,6 @@ from ._types import Array, Bytes
 from .constants import DepthMeaning, Format, Matrix, Range
 from .errors import call
 
-_PLANES = {Format.NV12: 2, Format.NV21: 2, Format.I420: 3, Format.YUV_420_888: 3}
 _DEPTH_TYPES = {np.dtype(np.float32): 0, np.dtype(np.uint16): 1, np.dtype(np.uint8): 2, np.dtype(np.float16): 3}
 _DEPTH16 = 4
 
@@ -116,9 +115,10 @@ def _plane_sizes(image: Structure, width: int, height: int) -> Sequence[Tuple[in
     """Returns the number of rows and the bytes per row of each plane of a picture, whose planes are not read."""
     rows, row_bytes = c_int32(), c_size_t()
     sizes = []
-    for plane in range(_PLANES.get(image.format, 1)):
+    for plane in range(len(image.planes)):
         call(library.starfocus_plane_size, byref(image), plane, width, height, byref(rows), byref(row_bytes))
-        sizes.append((rows.value, row_bytes.value))
+        if rows.value > 0:
+            sizes.append((rows.value, row_bytes.value))
     return sizes
 
 

@@ -16,21 +16,8 @@ struct PlaneSize {
   int64_t rows, row_bytes;
 };
 
-int PlanesOf(int32_t format) {
-  switch (format) {
-    case STARFOCUS_FORMAT_NV12:
-    case STARFOCUS_FORMAT_NV21:
-      return 2;
-    case STARFOCUS_FORMAT_I420:
-    case STARFOCUS_FORMAT_YUV_420_888:
-      return 3;
-    default:
-      return 1;
-  }
-}
-
-// Finds the size of a plane. Returns false, with an exception pending, if the library rejects the
-// format or the pixel_stride.
+// Finds the size of a plane, which has 0 rows if the format lacks the plane. Returns false, with an
+// exception pending, if the library rejects the format or the pixel_stride.
 bool FindSize(JNIEnv* env, const starfocus_image& image, int plane, int32_t width, int32_t height,
               PlaneSize* size) {
   int32_t rows = 0;
@@ -157,15 +144,20 @@ bool ReadImage(JNIEnv* env, jobject object, const char* what, int32_t width, int
   const auto planes =
       static_cast<jobjectArray>(ReadObject(env, object, "planes", "[Ljava/nio/ByteBuffer;"));
   if (planes == nullptr) return false;
-  const int expected = PlanesOf(image->format), found = env->GetArrayLength(planes);
+  constexpr int kMost = sizeof image->planes / sizeof *image->planes;
+  PlaneSize sizes[kMost];
+  int expected = 0;
+  for (int i = 0; i < kMost; ++i) {
+    if (!FindSize(env, *image, i, width, height, &sizes[i])) return false;
+    if (sizes[i].rows > 0) ++expected;
+  }
+  const int found = env->GetArrayLength(planes);
   if (found != expected) {
     ThrowArgument(env, "%s: expected %d planes, found %d", what, expected, found);
     return false;
   }
   for (int i = 0; i < expected; ++i) {
-    PlaneSize size;
-    if (!FindSize(env, *image, i, width, height, &size)) return false;
-    if (!ReadPlane(env, {object, what, planes}, i, size, image)) return false;
+    if (!ReadPlane(env, {object, what, planes}, i, sizes[i], image)) return false;
   }
   env->DeleteLocalRef(planes);
   return true;
