@@ -14,6 +14,8 @@ namespace {
 template <class Type>
 constexpr int32_t TypeOf() {
   if (std::is_class_v<Type>) return STARFOCUS_FIELD_STRUCTURE;
+  if (std::is_same_v<Type, const char*>) return STARFOCUS_FIELD_STRING;
+  if (std::is_function_v<std::remove_pointer_t<Type>>) return STARFOCUS_FIELD_FUNCTION;
   if (std::is_pointer_v<Type>) return STARFOCUS_FIELD_POINTER;
   if (std::is_floating_point_v<Type>) return STARFOCUS_FIELD_DOUBLE;
   if (sizeof(Type) == 4) {
@@ -22,16 +24,21 @@ constexpr int32_t TypeOf() {
   return std::is_signed_v<Type> ? STARFOCUS_FIELD_INT64 : STARFOCUS_FIELD_UINT64;
 }
 
-template <class Member>
+// `structure` is the name of Nested, the structure that the field contains or points to. If there
+// is none, `structure` is null and Nested is void.
+template <class Member, class Nested>
 constexpr starfocus_field FieldOf(const char* name, const char* structure, size_t offset) {
+  using Target = std::remove_cv_t<std::remove_pointer_t<std::remove_extent_t<Member>>>;
+  static_assert(std::is_void_v<Nested> || std::is_same_v<Nested, Target>);
   constexpr auto kCount = static_cast<uint32_t>(std::extent_v<Member>);
   return {name, structure, static_cast<uint32_t>(offset), kCount == 0 ? 1 : kCount,
           TypeOf<std::remove_extent_t<Member>>()};
 }
 
-#define NESTED_AS(name, nested) FieldOf<decltype(Type::name)>(#name, nested, offsetof(Type, name))
-#define NESTED(name, nested) NESTED_AS(name, "starfocus_" #nested)
-#define FIELD(name) NESTED_AS(name, nullptr)
+#define FIELD_OF(name, structure, Nested) \
+  FieldOf<decltype(Type::name), Nested>(#name, structure, offsetof(Type, name))
+#define FIELD_AS(name, nested) FIELD_OF(name, "starfocus_" #nested, starfocus_##nested)
+#define FIELD(name) FIELD_OF(name, nullptr, void)
 #define STRUCTURE(type, ...)                                         \
   if (AreEqual(structure, "starfocus_" #type)) {                     \
     using Type = starfocus_##type;                                   \
@@ -55,24 +62,24 @@ size_t starfocus_fields(const char* structure, const starfocus_field** fields, i
   STRUCTURE(problem, FIELD(status), FIELD(index), FIELD(field), FIELD(expected), FIELD(value),
             FIELD(low), FIELD(high), FIELD(x), FIELD(y))
   STRUCTURE(callbacks, FIELD(runner), FIELD(runner_data), FIELD(progress), FIELD(progress_data),
-            FIELD(observer))
+            FIELD_AS(observer, observer))
   STRUCTURE(position, FIELD(u), FIELD(v))
   STRUCTURE(config, FIELD(size), FIELD(width), FIELD(height), FIELD(views), FIELD(disparity_min),
             FIELD(disparity_max), FIELD(max_blur), FIELD(superblock), FIELD(max_workers),
             FIELD(features), FIELD(unknown), FIELD(previews), FIELD(transfer), FIELD(highlights),
-            NESTED(positions, position), FIELD(tuning))
+            FIELD_AS(positions, position), FIELD_AS(tuning, tuning))
   STRUCTURE(allocator, FIELD(data), FIELD(allocate), FIELD(release))
   STRUCTURE(region, FIELD(x), FIELD(y), FIELD(width), FIELD(height))
-  STRUCTURE(light_field, FIELD(size), NESTED(views, image), NESTED(depth, depth_map),
+  STRUCTURE(light_field, FIELD(size), FIELD_AS(views, image), FIELD_AS(depth, depth_map),
             FIELD(coverage), FIELD(coverage_stride))
-  STRUCTURE(previous, FIELD(size), FIELD(light_field), FIELD(out))
+  STRUCTURE(previous, FIELD(size), FIELD_AS(light_field, light_field), FIELD_AS(out, image))
   STRUCTURE(params, FIELD(size), FIELD(shape), FIELD(blades), FIELD(preview_shift), FIELD(focus),
             FIELD(focus_nearer), FIELD(focus_farther), FIELD(aperture), FIELD(theta),
             FIELD(rotation), FIELD(curvature), FIELD(ring_inner), FIELD(cats_eye),
-            NESTED(region, region), FIELD(previous), FIELD(study))
+            FIELD_AS(region, region), FIELD_AS(previous, previous), FIELD_AS(study, study))
   STRUCTURE(report, FIELD(size), FIELD(n), FIELD(rendered_views), FIELD(superblock), FIELD(r_max),
             FIELD(rendered_samples), FIELD(copied_pixels), FIELD(gathered_pixels),
-            FIELD(reused_blocks), FIELD(unknown_pixels), FIELD(layers))
+            FIELD(reused_blocks), FIELD(unknown_pixels), FIELD_AS(layers, layer_report))
   STRUCTURE(disparity_stats, FIELD(min), FIELD(max), FIELD(invalid))
   STRUCTURE(field, FIELD(name), FIELD(structure), FIELD(offset), FIELD(count), FIELD(type))
   STRUCTURE(disparity_output, FIELD(disparity), FIELD(disparity_stride), FIELD(confidence),
@@ -85,7 +92,7 @@ size_t starfocus_fields(const char* structure, const starfocus_field** fields, i
   STRUCTURE(timing, FIELD(block), FIELD(field), FIELD(a), FIELD(b), FIELD(c), FIELD(upsample),
             FIELD(span), FIELD(hole))
   STRUCTURE(tuning, FIELD(size), FIELD(max_layer), FIELD(deblocking), FIELD(gather), FIELD(n_scale),
-            NESTED(timing, timing), FIELD(line_scan))
+            FIELD_AS(timing, timing), FIELD(line_scan))
   STRUCTURE(block, FIELD(x), FIELD(y), FIELD(width), FIELD(height), FIELD(layer), FIELD(n))
   STRUCTURE(layer_report, FIELD(blocks), FIELD(pixels), FIELD(views), FIELD(rendered_samples),
             FIELD(predicted_ps), FIELD(measured_ns))
@@ -96,8 +103,8 @@ size_t starfocus_fields(const char* structure, const starfocus_field** fields, i
 
 #undef STRUCTURE
 #undef FIELD
-#undef NESTED
-#undef NESTED_AS
+#undef FIELD_AS
+#undef FIELD_OF
 
 starfocus_status starfocus_defaults(const char* structure, void* to, uint32_t size) {
   if (structure == nullptr) return STARFOCUS_ERROR_NULL;

@@ -2,6 +2,7 @@
 // Tests the version, structure sizes, defaults and view positions that the library reports.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -40,7 +41,8 @@ TEST_CASE("the fields of all structures are listed, without gaps or overlaps") {
   CHECK(starfocus_fields("starfocus_config", nullptr, nullptr) == sizeof(starfocus_config));
   CHECK(starfocus_fields("starfocus_params", nullptr, nullptr) == sizeof(starfocus_params));
   CHECK(starfocus_fields("starfocus_report", nullptr, nullptr) == sizeof(starfocus_report));
-  constexpr size_t kSizes[] = {4, 4, 8, 8, 8, sizeof(void*)};
+  constexpr size_t kPointer = sizeof(void*);
+  constexpr size_t kSizes[] = {4, 4, 8, 8, 8, kPointer, 0, kPointer, kPointer};
   size_t structures = 0;
   for (const char* header : {"starfocus.h", "experimental.h", "depth.h", "image.h", "matte.h"}) {
     for (const std::string& name : StructuresOf(header)) {
@@ -52,10 +54,11 @@ TEST_CASE("the fields of all structures are listed, without gaps or overlaps") {
       size_t end = 0;
       for (const starfocus_field* field = fields; field != fields + count; ++field) {
         CAPTURE(field->name);
-        CHECK((field->structure != nullptr) == (field->type == STARFOCUS_FIELD_STRUCTURE));
-        const size_t bytes = field->structure == nullptr
-                                 ? kSizes[field->type]
-                                 : starfocus_fields(field->structure, nullptr, nullptr);
+        const bool is_nested = field->type == STARFOCUS_FIELD_STRUCTURE;
+        const size_t target = starfocus_fields(field->structure, nullptr, nullptr);
+        CHECK((target > 0) == (field->structure != nullptr));
+        CHECK((target == 0 || is_nested || field->type == STARFOCUS_FIELD_POINTER));
+        const size_t bytes = is_nested ? target : kSizes[field->type];
         REQUIRE(bytes > 0);
         CHECK(field->offset >= end);
         CHECK(field->offset - end < 8);  // only padding
@@ -72,6 +75,43 @@ TEST_CASE("the fields of all structures are listed, without gaps or overlaps") {
     CHECK(starfocus_fields(name, nullptr, nullptr) == 0);
   }
   CHECK(starfocus_fields(nullptr, nullptr, nullptr) == 0);
+}
+
+TEST_CASE("the types of pointers are listed") {
+  struct Row {
+    const char *structure, *name, *target;
+    int32_t type;
+  };
+  for (const Row& row : {
+           Row{"starfocus_config", "tuning", "starfocus_tuning", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_params", "previous", "starfocus_previous", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_params", "study", "starfocus_study", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_previous", "light_field", "starfocus_light_field",
+               STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_previous", "out", "starfocus_image", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_report", "layers", "starfocus_layer_report", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_callbacks", "observer", "starfocus_observer", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_callbacks", "runner", "", STARFOCUS_FIELD_FUNCTION},
+           Row{"starfocus_callbacks", "runner_data", "", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_allocator", "release", "", STARFOCUS_FIELD_FUNCTION},
+           Row{"starfocus_observer", "on_block", "", STARFOCUS_FIELD_FUNCTION},
+           Row{"starfocus_problem", "expected", "", STARFOCUS_FIELD_STRING},
+           Row{"starfocus_tuning", "line_scan", "", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_light_field", "coverage", "", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_image", "planes", "", STARFOCUS_FIELD_POINTER},
+           Row{"starfocus_config", "positions", "starfocus_position", STARFOCUS_FIELD_STRUCTURE},
+       }) {
+    CAPTURE(row.structure);
+    CAPTURE(row.name);
+    const starfocus_field* fields = nullptr;
+    int32_t count = 0;
+    REQUIRE(starfocus_fields(row.structure, &fields, &count) > 0);
+    const auto* const field = std::find_if(
+        fields, fields + count, [&](const auto& one) { return one.name == std::string(row.name); });
+    REQUIRE(field != fields + count);
+    CHECK(field->type == row.type);
+    CHECK((field->structure == nullptr ? "" : field->structure) == std::string(row.target));
+  }
 }
 
 TEST_CASE("the defaults match the documentation in the headers") {

@@ -772,19 +772,22 @@ STARFOCUS_API starfocus_status starfocus_plane_size(const starfocus_image* image
 
 /** Type of a field of a public structure. */
 typedef enum starfocus_field_type {
-  STARFOCUS_FIELD_INT32 = 0,    /**< int32_t, also for enumerations. */
-  STARFOCUS_FIELD_UINT32 = 1,   /**< uint32_t, or size_t with 32 bits. */
-  STARFOCUS_FIELD_INT64 = 2,    /**< int64_t. */
-  STARFOCUS_FIELD_UINT64 = 3,   /**< uint64_t, or size_t with 64 bits. */
-  STARFOCUS_FIELD_DOUBLE = 4,   /**< double. */
-  STARFOCUS_FIELD_POINTER = 5,  /**< A pointer to data or to a function. */
-  STARFOCUS_FIELD_STRUCTURE = 6 /**< A structure by value, whose name is `structure`. */
+  STARFOCUS_FIELD_INT32 = 0,     /**< int32_t, also for enumerations. */
+  STARFOCUS_FIELD_UINT32 = 1,    /**< uint32_t, or size_t with 32 bits. */
+  STARFOCUS_FIELD_INT64 = 2,     /**< int64_t. */
+  STARFOCUS_FIELD_UINT64 = 3,    /**< uint64_t, or size_t with 64 bits. */
+  STARFOCUS_FIELD_DOUBLE = 4,    /**< double. */
+  STARFOCUS_FIELD_POINTER = 5,   /**< A pointer to data. */
+  STARFOCUS_FIELD_STRUCTURE = 6, /**< A structure by value. */
+  STARFOCUS_FIELD_STRING = 7,    /**< A pointer to a string that ends with a zero. */
+  STARFOCUS_FIELD_FUNCTION = 8   /**< A pointer to a function. */
 } starfocus_field_type;
 
 /** A field of a public structure, in static storage. */
 typedef struct starfocus_field {
   const char* name;      /**< Name of the field, for example "width". */
-  const char* structure; /**< Name of the nested structure, or null. */
+  const char* structure; /**< Name of the structure that the field contains or points to; null if
+                            it has none, or if the structure has no public fields. */
   uint32_t offset;       /**< Bytes before the field. */
   uint32_t count;        /**< Number of elements of an array; 1 for a single field. */
   int32_t type;          /**< starfocus_field_type, of an element for arrays. */

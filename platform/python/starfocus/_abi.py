@@ -22,8 +22,9 @@ FEATURES = {"coverage": 1, "streaming": 2, "images": 4, "shapes": 8}
 
 Progress = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32)
 
-#: Types of the elements of fields, by starfocus_field_type. Type 6 is a nested structure.
-_TYPES: Any = (c_int32, c_uint32, c_int64, c_uint64, c_double, c_void_p)
+#: Types of the elements of fields, by starfocus_field_type. The types of structures are not listed.
+_TYPES: Any = (c_int32, c_uint32, c_int64, c_uint64, c_double, c_void_p, None, c_char_p, c_void_p)
+_POINTER = 5
 
 
 class Field(Structure):
@@ -48,9 +49,9 @@ library = _load()
 
 
 @lru_cache(maxsize=None)
-def structure(name: str, **pointers: Any) -> Type[Structure]:
-    """Returns the structure of the C API with this name. `pointers` are the types of fields that point to known types;
-    other pointers are c_void_p.
+def structure(name: str, **functions: Any) -> Type[Structure]:
+    """Returns the structure of the C API with this name. `functions` are the types of fields that point to functions;
+    other such fields are c_void_p.
 
     Raises ImportError if the library has no such structure, or if ctypes places its fields differently.
     """
@@ -59,7 +60,9 @@ def structure(name: str, **pointers: Any) -> Type[Structure]:
     fields, members = first[:count.value], []
     for field in fields:
         kind = structure(field.structure.decode()) if field.structure else _TYPES[field.type]
-        kind = pointers.get(field.name.decode(), kind)
+        if field.structure and field.type == _POINTER:
+            kind = POINTER(kind)
+        kind = functions.get(field.name.decode(), kind)
         members.append((field.name.decode(), kind * field.count if field.count > 1 else kind))
     made: Type[Structure] = type(name, (Structure,), {"_fields_": members})
     places = [getattr(made, member).offset for member, _ in members]
@@ -70,18 +73,18 @@ def structure(name: str, **pointers: Any) -> Type[Structure]:
 
 Position = structure("starfocus_position")
 Tuning = structure("starfocus_tuning")
-Config = structure("starfocus_config", tuning=POINTER(Tuning))
-Problem = structure("starfocus_problem", field=c_char_p, expected=c_char_p)
+Config = structure("starfocus_config")
+Problem = structure("starfocus_problem")
 Callbacks = structure("starfocus_callbacks", progress=Progress)
 Image = structure("starfocus_image")
 DepthMap = structure("starfocus_depth_map")
 LightField = structure("starfocus_light_field")
-Previous = structure("starfocus_previous", light_field=POINTER(LightField), out=POINTER(Image))
+Previous = structure("starfocus_previous")
 Region = structure("starfocus_region")
 Study = structure("starfocus_study")
-Params = structure("starfocus_params", previous=POINTER(Previous), study=POINTER(Study))
+Params = structure("starfocus_params")
 LayerReport = structure("starfocus_layer_report")
-Report = structure("starfocus_report", layers=POINTER(LayerReport))
+Report = structure("starfocus_report")
 DisparityStats = structure("starfocus_disparity_stats")
 DisparityOutput = structure("starfocus_disparity_output")
 Matte = structure("starfocus_matte")

@@ -127,7 +127,7 @@ static int SetField(const char* structure, void* to, const char* name, double va
     if (strncmp(fields[i].name, name, length) != 0) continue;
     char* const at = (char*)to + fields[i].offset;
     if (name[length] == 0) return Store(at, fields[i].type, value);
-    if (name[length] == '.' && fields[i].structure != NULL) {
+    if (name[length] == '.' && fields[i].type == STARFOCUS_FIELD_STRUCTURE) {
       return SetField(fields[i].structure, at, name + length + 1, value);
     }
   }

@@ -28,7 +28,7 @@ Number FindNumber(const char* structure, const char* name) {
       const bool is_number = is_double || field->type == STARFOCUS_FIELD_INT32;
       return {is_number ? ptrdiff_t(field->offset) : -1, is_double};
     }
-    if (name[length] != '_' || field->structure == nullptr) continue;
+    if (name[length] != '_' || field->type != STARFOCUS_FIELD_STRUCTURE) continue;
     Number inner = FindNumber(field->structure, name + length + 1);
     if (inner.offset >= 0) inner.offset += field->offset;
     return inner;
