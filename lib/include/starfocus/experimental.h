@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
- * What may change between versions of starfocus with one ABI: the modes and renderers of the paper,
- * trade-offs between time and error, and measurements of an engine. The conventions of starfocus.h
- * apply. Programs that only refocus pictures do not need this header. */
+ * The modes and renderers of the paper, trade-offs between time and error, and measurements of an
+ * engine. Within one ABI, the meaning of fields and the values that they accept may change. Layouts
+ * and STARFOCUS_LAYERS do not change, except that structures with a field `size` may grow. The
+ * conventions of starfocus.h apply. Programs that only refocus pictures do not need this header. */
 #ifndef STARFOCUS_EXPERIMENTAL_H_
 #define STARFOCUS_EXPERIMENTAL_H_
 

@@ -63,25 +63,27 @@
  *
  * **Threads.** One call at a time may use an engine, from any thread. Different engines are
  * independent. The engine starts no threads; it passes jobs to the runner of
- * starfocus_set_callbacks. starfocus/pool.h provides a runner with a pool of threads. The output
- * bytes do not depend on the runner, the number of workers or the SIMD target. Streaming rows gives
- * the same bytes as passing whole pictures.
+ * starfocus_set_callbacks. starfocus/pool.h provides a runner with a pool of threads, in a separate
+ * library, starfocus_pool. The output bytes do not depend on the runner, the number of workers or
+ * the SIMD target. Streaming rows gives the same bytes as passing whole pictures.
  *
  * **Errors.** Functions that can fail return a starfocus_status. A function checks all its
  * arguments before it writes any output. The status is the kind of error; a starfocus_problem names
  * the wrong field or argument, its value, and the allowed range. After a call with an engine,
  * starfocus_engine_problem returns the problem. Functions without an engine write the problem to
- * their last argument, unless it is null.
+ * their last argument, unless it is null. A call that succeeds clears the earlier problem.
  *
  * **Bindings.** Compare the ABI that starfocus_version() reports with STARFOCUS_ABI, and build
  * structures from starfocus_fields(). Within one ABI, only structures with a field `size` grow, and
- * only at their end. The structures without this field are frozen. Enumerators are passed as
+ * only at their end. All other layouts, and constants that determine them (STARFOCUS_MAX_VIEWS,
+ * STARFOCUS_LAYERS), are frozen, also in starfocus/experimental.h. Enumerators are passed as
  * int32_t. Inline functions are not exported: instead of the init functions, call
  * starfocus_defaults.
  *
- * **Stability.** starfocus/experimental.h contains what may still change: modes and renderers,
- * tuning with its limits (STARFOCUS_MAX_TIMING, STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE), and
- * measurements by layer (STARFOCUS_LAYERS). This header contains all other limits.
+ * **Stability.** Within one ABI, the meaning of the fields of starfocus/experimental.h and the
+ * values that they accept may still change: modes and renderers, tuning with its limits
+ * (STARFOCUS_MAX_TIMING, STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE), and measurements by layer.
+ * This header contains all other limits.
  */
 #ifndef STARFOCUS_STARFOCUS_H_
 #define STARFOCUS_STARFOCUS_H_
@@ -264,7 +266,9 @@ typedef int (*starfocus_runner)(void* runner_data, starfocus_job job, void* job_
  *  @return 0 to continue; another value cancels the call */
 typedef int (*starfocus_progress)(void* data, int32_t rows_done, int32_t rows);
 
-/** Callbacks of an engine, or of a call of starfocus/depth.h. Each function may be null. */
+/** Callbacks of an engine, or of a call of starfocus/depth.h. Each function may be null. All
+ *  functions that the library calls, also those of observers and allocators, must return normally:
+ *  not by an exception or longjmp. */
 typedef struct starfocus_callbacks {
   starfocus_runner runner;     /**< Runs jobs; null: the calling thread runs them as worker 0. */
   void* runner_data;           /**< Passed to `runner`. */
@@ -394,7 +398,8 @@ STARFOCUS_API const starfocus_problem* starfocus_engine_problem(const starfocus_
 STARFOCUS_API starfocus_status starfocus_set_callbacks(starfocus_engine* engine,
                                                        const starfocus_callbacks* callbacks);
 
-/** Allocator of starfocus_create and of starfocus_prepare. */
+/** Allocator of starfocus_create and of starfocus_prepare. The library copies the structure. `data`
+ *  and the functions must outlive the engine and the light fields that it prepared. */
 typedef struct starfocus_allocator {
   void* data; /**< Passed to `allocate` and `release`. */
   /** Returns `bytes` bytes aligned to `alignment` (STARFOCUS_ALIGNMENT), or null on failure. */
@@ -448,7 +453,8 @@ typedef struct starfocus_light_field {
   size_t coverage_stride; /**< Bytes from row to row of `coverage`, >= width. */
 } starfocus_light_field;
 
-/** Makes a light field without views, depth and coverage.
+/** Makes a light field without views, depth and coverage. All fields except `size` are 0. In
+ *  `depth`, also set `scale`, as starfocus_depth_float does; calls reject 0.
  *  @param light_field light field; no-op if null */
 static inline void starfocus_light_field_init(starfocus_light_field* light_field) {
   starfocus_defaults("starfocus_light_field", light_field, (uint32_t)sizeof *light_field);
@@ -465,7 +471,7 @@ typedef struct starfocus_previous {
   const starfocus_image* out;
 } starfocus_previous;
 
-/** Sets both pointers to null.
+/** Sets both pointers to null; calls reject null pointers.
  *  @param previous previous frame; no-op if null */
 static inline void starfocus_previous_init(starfocus_previous* previous) {
   starfocus_defaults("starfocus_previous", previous, (uint32_t)sizeof *previous);
