@@ -73,10 +73,10 @@ struct ColourRepair {
     Smooth(given, noise, 3, 1, 3 * noise, memory.outlines.repaired, &run);
     Smooth(memory.outlines.repaired, noise, 4, 2, 3 * noise / 2, given, &run);
     run.Run([&](int32_t index, int32_t) {
-      CountBeside(GridOf(setup), given, TileOf(setup, index), index, memory.thin);
+      CountBeside(memory.thin, given, TileOf(setup, index), index);
     });
     if (run.status() != STARFOCUS_OK) return run.status();
-    FindThin(GridOf(setup), kThinGiven, memory.thin);
+    FindThin(memory.thin, kThinGiven);
     const int16_t* repaired =
         FollowOutlines(light_field, kernels, memory.thin, *has_coverage ? &memory.hair : nullptr,
                        memory.outlines, &run);
@@ -156,8 +156,9 @@ struct ColourRepair {
         for (int32_t row = y - radius; row <= y + radius; row += step) {
           if (row >= 0 && row < setup.height) rows[count++] = row_at(row) + radius;
         }
-        kernels.SmoothDisparity(row_at(y) + radius, rows, count, kSmoothPlane, radius, step, tolerance,
-                                 static_cast<size_t>(tile.width), to + setup.At(tile.x, y));
+        kernels.SmoothDisparity(row_at(y) + radius, rows, count, kSmoothPlane, radius, step,
+                                tolerance, static_cast<size_t>(tile.width),
+                                to + setup.At(tile.x, y));
       }
     });
   }
@@ -214,7 +215,7 @@ ColourMemory TakeColourRepair(const SweepSetup& setup, int32_t max_workers, Aren
   ColourMemory memory = {};
   memory.jobs = TakeJobs(setup, max_workers, arena);
   memory.hair = TakeHairMemory(setup.width, setup.height, arena);
-  memory.thin = TakeThinCells(GridOf(setup), arena);
+  memory.thin = TakeThinCells(setup, arena);
   memory.outlines = TakeOutlines(setup, max_workers, arena);
   memory.rings = arena->Take<int32_t>(kSmoothSamples, workers);
   memory.noise = arena->Take<uint32_t>(kNoiseCounts, workers);

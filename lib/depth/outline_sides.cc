@@ -267,7 +267,7 @@ size_t FindClean(const OutlinePass& pass, SidePlanes* planes) {
 // Takes the mean disparity of the neighbours of the same side that have had theirs before `round`.
 // Neighbours that are more than a pixel of disparity from the clearest one, such as a second near
 // surface, are left out. Returns false if no neighbour has a disparity of this side.
-bool TakeFromNeighbours(int32_t middle, int32_t at, int32_t round, SidePlanes* planes) {
+bool AverageNeighbours(int32_t middle, int32_t at, int32_t round, SidePlanes* planes) {
   const int32_t end = round * kRound;
   const bool near = (planes->state[at] & kNearer) != 0;
   int32_t found[8], count = 0, extreme = near ? INT16_MIN : INT16_MAX;
@@ -418,7 +418,7 @@ void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
       });
 }
 
-void TakeDisparities(const OutlinePass& pass, const Rect& tile, SidePlanes* planes) {
+void WriteResult(const OutlinePass& pass, const Rect& tile, SidePlanes* planes) {
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     std::copy_n(pass.map + pass.At(tile.x, y), tile.width, pass.result + pass.At(tile.x, y));
   }
@@ -437,7 +437,7 @@ void TakeDisparities(const OutlinePass& pass, const Rect& tile, SidePlanes* plan
       if ((planes->ready[at] & Bit(round)) == 0) continue;
       planes->ready[at] &= static_cast<uint8_t>(~Bit(round));
       const int32_t x = planes->XOf(at), y = planes->YOf(at);
-      if (!TakeFromNeighbours(pass.middle[pass.At(x, y)], at, round, planes)) continue;
+      if (!AverageNeighbours(pass.middle[pass.At(x, y)], at, round, planes)) continue;
       --left;
       write(at, x, y);
       planes->state[at] = static_cast<uint8_t>(round * kRound + (planes->state[at] & kNearer));

@@ -294,7 +294,7 @@ void KeepRight(const OutlinePass& pass, const starfocus_light_field& light_field
 // Sets pass.side to 0 in the cells of a tile that have thin structure or hair.
 void KeepParts(const OutlinePass& pass, const ThinCells& thin, const HairMemory* hair,
                int32_t index) {
-  ForCells(GridOf(*pass.setup), index, [&](const Rect& cell, int32_t number) {
+  ForCells(thin, index, [&](const Rect& cell, int32_t number) {
     if (thin.thin[number] == 0 && (hair == nullptr || !HasHair(*hair, cell))) return;
     for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
       std::fill_n(pass.side + pass.At(cell.x, y), cell.width, int8_t{0});
@@ -358,7 +358,7 @@ const int16_t* FollowOutlines(const starfocus_light_field& light_field,
       run->Skip();
     }
     phase([&](const Rect& tile, int32_t worker, int32_t) {
-      TakeDisparities(pass, tile, &pass.scratch[worker].sides);
+      WriteResult(pass, tile, &pass.scratch[worker].sides);
     });
   };
   std::fill_n(memory.counts, memory.workers, OutlineCounts{});

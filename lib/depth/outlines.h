@@ -79,7 +79,7 @@ struct VoteBlock {
 };
 
 // Planes of a region of at most kMostRegion^2 pixels and a margin of one pixel, for
-// TakeDisparities, and the pixels that have no disparity yet.
+// WriteResult, and the pixels that have no disparity yet.
 struct SidePlanes {
   static constexpr size_t kSamples = (kMostRegion + 2) * (kMostRegion + 2);
 
@@ -226,7 +226,7 @@ void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block);
 
 // Copies pass.map to pass.result in the tile, except pixels that change their side or lie on a
 // ramp: these take the disparities of their side around them.
-void TakeDisparities(const OutlinePass& pass, const Rect& tile, SidePlanes* planes);
+void WriteResult(const OutlinePass& pass, const Rect& tile, SidePlanes* planes);
 
 }  // namespace starfocus
 

@@ -165,9 +165,8 @@ void ValueTile(const SweepSetup& setup, const Plane<const uint8_t>& centre, int3
     count.differs += Differs(memory, at);
   });
   memory.counts[index] = count;
-  const ThinGrid grid = GridOf(setup);
-  CountBeside(grid, memory.given, tile, index, memory.given_cells);
-  CountBeside(grid, memory.first, tile, index, memory.found_cells);
+  CountBeside(memory.given_cells, memory.given, tile, index);
+  CountBeside(memory.found_cells, memory.first, tile, index);
 }
 
 void WritePixel(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
@@ -216,7 +215,7 @@ void WriteTile(const SweepSetup& setup, const starfocus_light_field& light_field
     std::copy_n(memory.certainty + setup.At(tile.x, y), tile.width,
                 output.confidence.Row(y) + tile.x);
   }
-  ForCells(GridOf(setup), index, [&](const Rect& cell, int32_t number) {
+  ForCells(memory.given_cells, index, [&](const Rect& cell, int32_t number) {
     WriteCell(setup, memory, output, least_evidence, cell, number);
   });
 }
@@ -265,8 +264,8 @@ starfocus_status Repair(const SweepSetup& setup, const starfocus_light_field& li
     if (rates) RateUnswept(setup, centre, TileOf(setup, index), memory);
   });
   if (run.status() != STARFOCUS_OK) return run.status();
-  FindThin(GridOf(setup), kThinGiven, memory.given_cells);
-  FindThin(GridOf(setup), kThinFound, memory.found_cells);
+  FindThin(memory.given_cells, kThinGiven);
+  FindThin(memory.found_cells, kThinFound);
   const int32_t least_evidence =
       LeastEvidence(memory.counts, setup.columns * setup.rows, kRightEvidence, kWrongEvidence);
   run.Run([&](int32_t index, int32_t) {

@@ -43,7 +43,7 @@ void FindSides(SweepSetup* setup) {
   }
 }
 
-void TakeViews(const ViewSet& views, SweepSetup* setup) {
+void SetViews(const ViewSet& views, SweepSetup* setup) {
   setup->side_views = views.count - 1;
   if (views.star) return OrderStar(views.count, setup);
   for (int32_t k = 0; k < setup->side_views; ++k) setup->side[k] = {k + 1, views.at[k + 1]};
@@ -64,7 +64,7 @@ int32_t TileBegin(int32_t length, int32_t count, int32_t k) {
 }
 
 LabelMove SweepSetup::MoveOf(const SideView& view, int32_t l) const {
-  constexpr int32_t kQuarterBits = 2, kQuarter = 128 >> kQuarterBits;
+  constexpr int32_t kQuarterBits = 2, kQuarter = kMoveOne >> kQuarterBits;
   const int32_t across = MoveBy(view.at.u, l * step, kQuarterBits);
   const int32_t down = MoveBy(view.at.v, l * step, kQuarterBits);
   return {MoveAcross(view, low) + kQuarter * across, MoveDown(view, low) + kQuarter * down,
@@ -108,7 +108,7 @@ SweepSetup MakeSetup(const FullConfig& config, bool repairs) {
   setup.directions = 8;
   ViewSet views;
   FindViews(config.views, config.positions, config.problem, &views);
-  TakeViews(views, &setup);
+  SetViews(views, &setup);
   setup.columns = TilesAlong(config.width, kTileSide);
   setup.rows = TilesAlong(config.height, kTileSide);
   return setup;

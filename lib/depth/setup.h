@@ -123,9 +123,12 @@ inline Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin) {
   return Clipped(Extended(rect, {margin, margin, margin, margin}), setup.width, setup.height);
 }
 
+// Fractional bits of the movements of pixels between views.
+inline constexpr int32_t kMoveBits = 7, kMoveOne = 1 << kMoveBits;
+
 // Returns -position * d in pixels with `fraction_bits` fractional bits, by default in 1/128 pixel.
 // Halves are rounded away from zero.
-inline int32_t MoveBy(int32_t position, int32_t d, int32_t fraction_bits = 7) {
+inline int32_t MoveBy(int32_t position, int32_t d, int32_t fraction_bits = kMoveBits) {
   const int32_t bits = kViewBits + kDisparityBits - fraction_bits;
   const int32_t move = -position * d;
   return (move + (1 << (bits - 1)) - (move < 0 ? 1 : 0)) >> bits;
@@ -136,7 +139,7 @@ inline int32_t MoveAcross(const SideView& view, int32_t d) { return MoveBy(view.
 inline int32_t MoveDown(const SideView& view, int32_t d) { return MoveBy(view.at.v, d); }
 // Rounds a movement with `fraction_bits` fractional bits, by default in 1/128 pixel, to whole
 // pixels. Halves are rounded towards zero, so that mirrored movements stay mirrored.
-inline int32_t WholeMove(int32_t move, int32_t fraction_bits = 7) {
+inline int32_t WholeMove(int32_t move, int32_t fraction_bits = kMoveBits) {
   return (move + (1 << (fraction_bits - 1)) - 1 + (move < 0 ? 1 : 0)) >> fraction_bits;
 }
 // Returns -position * d, rounded to whole pixels by WholeMove.

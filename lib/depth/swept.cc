@@ -45,7 +45,8 @@ bool IsTested(int32_t at, int32_t length) { return (std::abs(2 * at - (length - 
 // Returns simd::kMostDifference if the view does not cover (x, y).
 int32_t Misfit(const SweepSetup& setup, const Plane<const uint8_t>& view, int32_t x, int32_t y,
                const uint8_t* pixel) {
-  const int32_t column = x >> 7, row = y >> 7, across = x & 127, down = y & 127;
+  const int32_t column = x >> kMoveBits, row = y >> kMoveBits;
+  const int32_t across = x & (kMoveOne - 1), down = y & (kMoveOne - 1);
   const int32_t right = across > 0 ? 3 : 0, below = down > 0 ? 1 : 0;
   if (column < 0 || 3 * column + right >= 3 * setup.width || row < 0 ||
       row + below >= setup.height) {
@@ -56,11 +57,11 @@ int32_t Misfit(const SweepSetup& setup, const Plane<const uint8_t>& view, int32_
   int32_t misfit = 0;
   for (int32_t c = 0; c < 3; ++c) {
     const auto between = [&](const uint8_t* from) {
-      return from[c] * 128 + (from[c + right] - from[c]) * across;
+      return from[c] * kMoveOne + (from[c + right] - from[c]) * across;
     };
-    int32_t value = between(at) * 128;
+    int32_t value = between(at) * kMoveOne;
     if (down != 0) value += (between(next) - between(at)) * down;
-    misfit += std::abs(((value + (1 << 13)) >> 14) - pixel[c]);
+    misfit += std::abs(((value + (1 << (2 * kMoveBits - 1))) >> (2 * kMoveBits)) - pixel[c]);
   }
   return Min(misfit, simd::kMostDifference);
 }
@@ -75,8 +76,9 @@ bool Fits(const SweepSetup& setup, const starfocus_light_field& light_field, int
   for (int32_t arm = 0; arm < setup.arms + along - 1; ++arm) {
     if (arm < setup.arms) {
       const SideView& side = setup.side[arm];
-      misfit[arm] = Misfit(setup, RowsOf(light_field.views[side.index]),
-                           128 * x + MoveAcross(side, d), 128 * y + MoveDown(side, d), pixel);
+      misfit[arm] =
+          Misfit(setup, RowsOf(light_field.views[side.index]), kMoveOne * x + MoveAcross(side, d),
+                 kMoveOne * y + MoveDown(side, d), pixel);
     }
     if (arm < along - 1) continue;
     int32_t sum = 0;

@@ -9,15 +9,13 @@
 namespace starfocus {
 namespace {
 
-int32_t Inside(int32_t at, int32_t length) { return Max(0, Min(at, length - 1)); }
-
 // Splits a row of the picture into rows of the planes. Beyond the left and right ends of the
 // picture, the outermost pixels are repeated.
 void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews& views,
                      const simd::DepthKernels& kernels, uint8_t* out) {
   const auto stride = static_cast<int32_t>(views.stride);
-  const int32_t first = Min(Max(0, -views.left), stride);
-  const int32_t last = Max(first, Min(stride, picture_width - views.left));
+  const int32_t first = Clamp(-views.left, 0, stride);
+  const int32_t last = Clamp(picture_width - views.left, first, stride);
   kernels.SplitRow(row + 3 * (views.left + first), static_cast<size_t>(last - first), views.stride,
                    out + first);
   for (size_t c = 0; c < 3; ++c, out += stride) {
@@ -34,9 +32,10 @@ void MakePlanes(const Plane<const uint8_t>& picture, const ViewPhases& phases,
   // `stride` is larger than `count`, because interpolation reads samples after the end of a row. No
   // label moves a pixel to a sample after the first `count` samples.
   const size_t stride = views.stride, count = stride - simd::kSliceLanes;
+  constexpr int32_t kFraction = kMoveOne - 1;
   for (int32_t row = 0; row <= views.rows; ++row) {
     uint8_t* next = views.split + static_cast<size_t>(row % 2) * 3 * stride;
-    const int32_t y = Inside(views.top + row, setup.height);
+    const int32_t y = Clamp(views.top + row, 0, setup.height - 1);
     SplitPictureRow(picture.Row(y), setup.width, views, kernels, next);
     if (row == 0) continue;
     const uint8_t* here = views.split + static_cast<size_t>((row - 1) % 2) * 3 * stride;
@@ -44,8 +43,9 @@ void MakePlanes(const Plane<const uint8_t>& picture, const ViewPhases& phases,
       for (size_t c = 0; c < 3; ++c) {
         uint8_t* to = out + (3 * static_cast<size_t>(k) + c) * views.plane +
                       static_cast<size_t>(row - 1) * stride;
-        kernels.InterpolateRow(here + c * stride, next + c * stride, phases.move[k].across & 127,
-                               phases.move[k].down & 127, count, to);
+        kernels.InterpolateRow(here + c * stride, next + c * stride,
+                               phases.move[k].across & kFraction, phases.move[k].down & kFraction,
+                               count, to);
       }
     }
   }
@@ -53,15 +53,15 @@ void MakePlanes(const Plane<const uint8_t>& picture, const ViewPhases& phases,
 
 // Returns the part of the planes' rectangle that lies in the picture.
 Rect PartInside(const SweepSetup& setup, const TileViews& views) {
-  const int32_t x = Max(views.left, 0), y = Max(views.top, 0);
-  const int32_t right = Min(views.left + static_cast<int32_t>(views.stride), setup.width);
-  return {x, y, right - x, Min(views.top + views.rows, setup.height) - y};
+  return Clipped({views.left, views.top, static_cast<int32_t>(views.stride), views.rows},
+                 setup.width, setup.height);
 }
 
 // Returns the number of labels that a pixel at disparity d hides. The hidden labels are always the
 // lowest labels.
 uint8_t HiddenBehind(const SweepSetup& setup, int32_t d) {
   const int32_t beyond = Max(d - kSurfaceDepth - setup.low, 0) + setup.step - 1;
+  // Nearly all setups have the step kLabelStep. A division by a constant is a shift.
   const int32_t labels = setup.step == kLabelStep ? beyond / kLabelStep : beyond / setup.step;
   return static_cast<uint8_t>(Min(labels, setup.labels));
 }
@@ -142,7 +142,7 @@ void FindMoves(const SweepSetup& setup, const TileViews& views, simd::ViewMove* 
       const LabelMove move = setup.MoveOf(setup.side[k], l);
       const int32_t planes = 3 * (first + phases.slot[move.phase]);
       moves[l * setup.side_views + k] = {
-          planes * plane + (move.down >> 7) * stride + (move.across >> 7),
+          planes * plane + (move.down >> kMoveBits) * stride + (move.across >> kMoveBits),
           k * plane + WholeMove(move.down) * stride + WholeMove(move.across)};
     }
     first += phases.count;

@@ -48,7 +48,7 @@ struct Scene {
     starfocus::ThinCells thin;
     const auto take = [&](starfocus::Arena* arena) {
       outlines = starfocus::TakeOutlines(setup, 1, arena);
-      thin = starfocus::TakeThinCells(GridOf(setup), arena);
+      thin = starfocus::TakeThinCells(setup, arena);
     };
     starfocus::Arena count(nullptr);
     take(&count);
@@ -56,7 +56,7 @@ struct Scene {
     starfocus::Arena arena(memory.data);
     take(&arena);
     std::copy(map.begin(), map.end(), outlines.given);
-    std::fill_n(thin.thin, GridOf(setup).Cells(), uint8_t{0});
+    std::fill_n(thin.thin, thin.columns * thin.rows, uint8_t{0});
     const std::vector<float> known(map.begin(), map.end());
     starfocus_light_field field = starfocus::NewLightField();
     field.views[0] = starfocus_image_rgb(rgb.data(), 3 * kWidth);
