@@ -60,15 +60,15 @@ class RowMarks {
   int all_covered_ = 0;  // Number of consecutive fully covered rows that end with the last row.
 };
 
-// Calls take(taps), with `taps` as a compile-time constant.
-template <class Take>
-HWY_INLINE void TakeByTaps(int taps, const Take& take) {
+// Calls act(taps), with `taps` as a compile-time constant.
+template <class Act>
+HWY_INLINE void CallWithTaps(int taps, const Act& act) {
   if (taps == 2) {
-    take(std::integral_constant<int, 2>());
+    act(std::integral_constant<int, 2>());
   } else if (taps == 3) {
-    take(std::integral_constant<int, 3>());
+    act(std::integral_constant<int, 3>());
   } else {
-    take(std::integral_constant<int, 4>());
+    act(std::integral_constant<int, 4>());
   }
 }
 
@@ -121,7 +121,7 @@ HWY_INLINE void ShiftRows(const int16_t* in, size_t in_plane, const SliceOffset&
 
 inline void ShiftSlice(const int16_t* in, size_t in_plane, const SliceOffset& offset, size_t rows,
                        size_t plane, int16_t* HWY_RESTRICT out, int8_t* HWY_RESTRICT near) {
-  TakeByTaps(offset.taps, [&](auto taps) HWY_ATTR {
+  CallWithTaps(offset.taps, [&](auto taps) HWY_ATTR {
     ShiftRows<decltype(taps)::value>(in, in_plane, offset, rows, plane, out, near);
   });
 }
@@ -186,8 +186,8 @@ struct ViewSums {
 // remaining light. `excess` is the part of the coverage that exceeds the remaining light. The
 // excess does not contribute to the sums.
 template <Known kKnown>
-HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec excess, SliceVec& light,
-                          const ViewSums& sums) {
+HWY_INLINE void AddSlice(SliceVec weight, const ViewSums& slice, SliceVec excess, SliceVec& light,
+                         const ViewSums& sums) {
   const StripTag d16;
   const auto taken = hn::Sub(slice.covered, excess);
   if (kKnown == Known::kNothing && !(kLooksFirst && AllZero(d16, excess))) {
@@ -211,8 +211,8 @@ HWY_INLINE void TakeLight(SliceVec weight, const ViewSums& slice, SliceVec exces
 // Adds the contribution of a slice to a vector of rows of a view. `at` is the first sample of the
 // slice. Each row of the view is interpolated from kTaps (2 to 4) rows of the slice.
 template <int kTaps, Known kKnown>
-HWY_INLINE void TakeRows(const SliceOffset& offset, size_t plane, const int16_t* HWY_RESTRICT at,
-                         SliceVec weight, SliceVec& light, const ViewSums& sums) {
+HWY_INLINE void AddRows(const SliceOffset& offset, size_t plane, const int16_t* HWY_RESTRICT at,
+                        SliceVec weight, SliceVec& light, const ViewSums& sums) {
   const StripTag d16;
   constexpr bool kCovered = kKnown == Known::kCovered;
   const auto load = [&](const int16_t* from) HWY_ATTR { return hn::LoadU(d16, from); };
@@ -243,7 +243,7 @@ HWY_INLINE void TakeRows(const SliceOffset& offset, size_t plane, const int16_t*
   const auto excess =
       kKnown == Known::kNothing ? hn::Max(hn::Sub(covered, light), hn::Zero(d16)) : hn::Zero(d16);
   auto r = between(at), g = between(at + plane), b = between(at + 2 * plane);
-  TakeLight<kKnown>(weight, {r, g, b, covered}, excess, light, sums);
+  AddSlice<kKnown>(weight, {r, g, b, covered}, excess, light, sums);
 }
 
 // Adds the light in `rows` rows of a vector to the sums of these rows.
@@ -282,16 +282,16 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       if (near[0] >= (kLooksFirst ? int{kNothingNear} : read_by_both)) continue;
       const int16_t* at = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
       const auto take = [&](auto known) HWY_ATTR {
-        TakeByTaps(offset.taps, [&](auto taps) HWY_ATTR {
+        CallWithTaps(offset.taps, [&](auto taps) HWY_ATTR {
           constexpr int kTaps = decltype(taps)::value;
           constexpr Known kKnown = decltype(known)::value;
           const int read = vector_rows + kTaps - 1;
           if (kLooksFirst || near[0] < read) {
-            TakeRows<kTaps, kKnown>(offset, slice.plane, at, weight, light0, {r0, g0, b0, a0});
+            AddRows<kTaps, kKnown>(offset, slice.plane, at, weight, light0, {r0, g0, b0, a0});
           }
           if (kLooksFirst || near[step] < read) {
-            TakeRows<kTaps, kKnown>(offset, slice.plane, at + second, weight, light1,
-                                    {r1, g1, b1, a1});
+            AddRows<kTaps, kKnown>(offset, slice.plane, at + second, weight, light1,
+                                   {r1, g1, b1, a1});
           }
         });
       };

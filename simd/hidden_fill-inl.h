@@ -9,7 +9,7 @@ namespace HWY_NAMESPACE {
 
 // Copies the farthest surfaces of a vector of pixels, some of which have hidden surfaces. Returns
 // the largest distance over which a colour is repeated.
-HWY_INLINE int32_t TakeHidden(const SurfaceRow& from, const uint16_t* const* source, size_t n,
+HWY_INLINE int32_t CopyHidden(const SurfaceRow& from, const uint16_t* const* source, size_t n,
                               const FarRow& far) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
@@ -43,14 +43,14 @@ HWY_INLINE int32_t TakeHidden(const SurfaceRow& from, const uint16_t* const* sou
   return hn::GetLane(hn::MaxOfLanes(d16, hn::BitCast(d16, distance)));
 }
 
-inline int32_t TakeFarthest(const SurfaceRow& from, const uint16_t* const* source, size_t count,
+inline int32_t CopyFarthest(const SurfaceRow& from, const uint16_t* const* source, size_t count,
                             const FarRow& far) {
   const LanesTag d16;
   const hn::RebindToUnsigned<LanesTag> du16;
   int32_t most = 0;
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     if ((from.hiding >> (n / kSliceLanes) & 1) != 0) {
-      const int32_t distance = TakeHidden(from, source, n, far);
+      const int32_t distance = CopyHidden(from, source, n, far);
       most = distance > most ? distance : most;
       continue;
     }
@@ -98,8 +98,8 @@ inline void LimitFar(const FarRows& rows, size_t count, int16_t* HWY_RESTRICT ou
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const auto from = hn::LoadU(d16, reinterpret_cast<const int16_t*>(rows.source) + n);
     if (hn::AllTrue(d16, hn::Eq(from, zero))) continue;
-    const auto across = hn::Ne(hn::And(from, hn::Set(d16, int16_t{3})), zero);
-    const auto down = hn::Ne(hn::And(from, hn::Set(d16, int16_t{12})), zero);
+    const auto across = hn::Ne(hn::And(from, hn::Set(d16, kSourceAlongRow)), zero);
+    const auto down = hn::Ne(hn::And(from, hn::Set(d16, kSourceAlongColumn)), zero);
     const auto own = hn::LoadU(d16, rows.disparity[1] + n);
     const auto is_other = [&](const int16_t* beside, const int16_t* along) HWY_ATTR {
       const auto there = hn::IfThenElse(across, hn::LoadU(d16, beside + n), hn::LoadU(d16, along));

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "simd/layered_depth.h"
+#include "simd/light.h"
 #include "simd/samples.h"
 #include "simd/slices.h"
 
@@ -33,7 +34,7 @@ struct FarRows {
 };
 
 // Light, 4/255 of white, by which repeated colours may always differ (LimitFar).
-inline constexpr int16_t kStreakLight = 4 << 7;
+inline constexpr int16_t kStreakLight = 4 << kLightBits;
 
 namespace reference {
 
@@ -53,7 +54,7 @@ inline int FarthestOf(const SurfaceRow& surfaces, size_t n) {
 // the largest distance over which a copied colour is repeated, or 0 if no colour is repeated. The
 // sources of the hidden surfaces have the format of HiddenRow: source[k] belongs to surface k + 1.
 // If the first surface covers only a part of a pixel, source[0] belongs to surface 2 instead.
-STARFOCUS_REFERENCE int32_t TakeFarthest(const SurfaceRow& row, const uint16_t* const* source,
+STARFOCUS_REFERENCE int32_t CopyFarthest(const SurfaceRow& row, const uint16_t* const* source,
                                          size_t count, const FarRow& far) {
   int32_t most = 0;
   for (size_t n = 0; n < SliceSamples(count); ++n) {
@@ -117,15 +118,16 @@ STARFOCUS_REFERENCE void SmoothFar(const FarRows& rows, int32_t step, size_t cou
 // disparity differs by more than `unit`, is not changed. Rows 0 and 2 are the next rows. Processes
 // whole groups of kSliceLanes.
 STARFOCUS_REFERENCE void LimitFar(const FarRows& rows, size_t count, int16_t* out) {
-  constexpr int kAcross = 3, kDown = 12;  // bits of the sources along a row and along a column
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    const bool across = (rows.source[n] & kAcross) != 0, down = (rows.source[n] & kDown) != 0;
-    if (rows.source[n] == 0 || across == down) continue;
+    const bool across = (rows.source[n] & kSourceAlongRow) != 0;
+    const bool down = (rows.source[n] & kSourceAlongColumn) != 0;
+    if (across == down) continue;
     const int row_of[2] = {across ? 0 : 1, across ? 2 : 1};
     const ptrdiff_t beside[2] = {across ? 0 : -1, across ? 0 : 1};
     const bool same =
         IsSame(rows, n, row_of[0], beside[0]) && IsSame(rows, n, row_of[1], beside[1]);
-    for (size_t c = 0; c < 3 && same; ++c) {
+    if (!same) continue;
+    for (size_t c = 0; c < 3; ++c) {
       const size_t at = c * rows.plane + n;
       const int16_t first = rows.rgb[row_of[0]][static_cast<ptrdiff_t>(at) + beside[0]];
       const int16_t second = rows.rgb[row_of[1]][static_cast<ptrdiff_t>(at) + beside[1]];

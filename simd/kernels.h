@@ -78,7 +78,7 @@
   KERNEL(FindBeyond)              \
   KERNEL(CoverPlaces)             \
   KERNEL(SumNear)                 \
-  KERNEL(TakeFarthest)            \
+  KERNEL(CopyFarthest)            \
   KERNEL(LimitFar)                \
   KERNEL(SmoothFar)               \
   KERNEL(PutFarthest)             \

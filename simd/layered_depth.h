@@ -97,6 +97,8 @@ struct HiddenRow {
 // view shows the surface, a pixel beyond the edge is repeated, and the bits from kSourceDistance on
 // are the distance to the repeated pixel.
 inline constexpr int kSourceSecond = 4, kSourceDistance = 8;
+// Masks of the sides along the rows (right and left) and along the columns (bottom and top).
+inline constexpr int16_t kSourceAlongRow = 3, kSourceAlongColumn = 12;
 
 // The rank of an edge is the distance to its far side in pixels, plus kUnseen if no view shows the
 // surface behind the edge. The edge with the lowest rank determines the hidden surface. If there is

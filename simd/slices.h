@@ -19,8 +19,8 @@ namespace starfocus::simd {
 
 inline constexpr int16_t kSliceOne = 32767;
 
-// A row of pixels with up to kSurfaces surfaces each, ordered from the nearest to the farthest.
-// Missing surfaces have a disparity below any slice.
+// A row of pixels with up to kSurfaces surfaces each. The first surface is the nearest one; the
+// others have no order. Missing surfaces have a disparity below any slice.
 struct SurfaceRow {
   const int16_t* disparity[kSurfaces];
   const int16_t* rgb[kSurfaces];  // Light in three planes, `plane` samples apart.

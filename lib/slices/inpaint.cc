@@ -20,9 +20,9 @@ class HiddenFiller {
 
   void Fill() {
     const int32_t height = surfaces_.height;
-    for (int32_t y = 0; y < height; ++y) TakeRow(y);
+    for (int32_t y = 0; y < height; ++y) CopyRow(y);
     Separate(RowAt(height));
-    for (int32_t y = 0; y < height; ++y) TakeSources(y);
+    for (int32_t y = 0; y < height; ++y) CopySources(y);
     const auto width = static_cast<size_t>(surfaces_.width);
     for (int32_t step = kFillStep; step > 0; step /= 2) {
       Pass(step, [&](const simd::FarRows& rows, int16_t* out) {
@@ -54,7 +54,7 @@ class HiddenFiller {
     for (size_t x = 0; x < Column(0); ++x) scratch_.disparity[at + x] = kNoSurface;
   }
 
-  void TakeRow(int32_t y) {
+  void CopyRow(int32_t y) {
     const size_t at = surfaces_.At(0, y);
     simd::SurfaceRow row = {};
     const uint16_t* source[simd::kSurfaces - 1];
@@ -67,7 +67,7 @@ class HiddenFiller {
     row.plane = surfaces_.plane;
     row.hiding = surfaces_.hiding[y];
     const int32_t farthest =
-        kernels_.TakeFarthest(row, source, static_cast<size_t>(surfaces_.width), FarOf(y));
+        kernels_.CopyFarthest(row, source, static_cast<size_t>(surfaces_.width), FarOf(y));
     Separate(RowAt(y));
     scratch_.farthest[y] = static_cast<uint8_t>(farthest);
   }
@@ -81,7 +81,7 @@ class HiddenFiller {
   }
 
   // Copies the colours of source pixels to all repeated pixels of a row.
-  void TakeSources(int32_t y) {
+  void CopySources(int32_t y) {
     if (scratch_.farthest[y] == 0) return;
     const uint16_t* const sources = scratch_.source + RowAt(y) + Column(0);
     int32_t first = 0;
@@ -89,7 +89,7 @@ class HiddenFiller {
          strips >>= 1, first += simd::kStripColumns) {
       if ((strips & 1) == 0) continue;
       for (int32_t x = first; x < first + simd::kStripColumns; ++x) {
-        if (sources[x] != 0) TakeSource(x, y, sources[x]);
+        if (sources[x] != 0) CopySource(x, y, sources[x]);
       }
     }
   }
@@ -97,7 +97,7 @@ class HiddenFiller {
   // Copies the colour of the source pixel to pixel (x, y). If the pixel has sources on several
   // sides, copies the mean of the sources. Copies nothing if a source itself repeats another pixel,
   // or belongs to another surface.
-  void TakeSource(int32_t x, int32_t y, uint32_t source) {
+  void CopySource(int32_t x, int32_t y, uint32_t source) {
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
     const int16_t disparity = scratch_.disparity[RowAt(y) + Column(x)];
     int32_t sums[3] = {0, 0, 0}, count = 0;

@@ -37,7 +37,7 @@ std::vector<uint8_t> Shares(size_t count, Draw* draw) {
   });
 }
 
-// Allocates the output row of TakeFarthest or SmoothFar: the farthest surface of each pixel.
+// Allocates the output row of CopyFarthest or SmoothFar: the farthest surface of each pixel.
 FarRow OutputOf(size_t whole, Draw* draw, KernelCall* call) {
   const size_t plane = whole + draw->Size(0, 9, 0);
   const FarRow far = {call->Results<int16_t>("far disparity", whole),
@@ -49,7 +49,7 @@ FarRow OutputOf(size_t whole, Draw* draw, KernelCall* call) {
 
 }  // namespace
 
-void TakeFarthest(Draw* draw, KernelCall* call) {
+void CopyFarthest(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedWidth), whole = SliceSamples(count);
   SurfaceRow row = {};
   const uint16_t* source[kSurfaces - 1];
@@ -66,7 +66,7 @@ void TakeFarthest(Draw* draw, KernelCall* call) {
   row.share = call->Input("share", Shares(whole, draw));
   const FarRow far = OutputOf(whole, draw, call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
-    return uint64_t(kernels.TakeFarthest(row, source, count, far));
+    return uint64_t(kernels.CopyFarthest(row, source, count, far));
   };
   call->is_right = [=](uint64_t returned, Met* met) {
     int most = 0;
