@@ -55,7 +55,7 @@ void RunJob(int32_t index, int32_t worker, Jobs* set) {
 }
 
 // Takes a job and runs it. Returns false if the job was taken before or does not exist.
-bool TakeJob(Jobs* set, int32_t index, int32_t worker) {
+bool ClaimJob(Jobs* set, int32_t index, int32_t worker) {
   if (index < 0 || index >= set->count) return false;
   std::atomic<uint32_t>& word = set->progress[index / 16];
   if ((word.fetch_or(TakenBit(index)) & TakenBit(index)) != 0) return false;
@@ -72,7 +72,7 @@ void CallJob(void* data, int32_t index, int32_t worker) {
     set.misused.store(1);
     return;
   }
-  if (set.open.load() != 0 && !TakeJob(&set, index, worker)) set.misused.store(1);
+  if (set.open.load() != 0 && !ClaimJob(&set, index, worker)) set.misused.store(1);
   set.busy[worker].store(0);
 }
 

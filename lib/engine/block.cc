@@ -189,7 +189,7 @@ ViewGrid ViewGridOf(const EngineState& engine, const Block& block, uint16_t* wei
   // With N = 0 a block shows the centre view alone. To render the centre view, the weights of N = 1
   // are used, and grid.step = 0 moves all views to the centre.
   const bool pinhole = aperture.n == 0;
-  const ViewWeights& whole = pinhole ? lens.apertures[1] : aperture;
+  const ViewWeights& whole = pinhole ? lens.weights_by_n[1] : aperture;
   const ApertureShape& opening = engine.tables->opening;
   const ViewWeights rendered =
       opening.cats_eye > 0

@@ -48,11 +48,11 @@ int32_t DownToPicture(int32_t border, int layer) {
 
 }  // namespace
 
-Borders AddBorders(const FullConfig& config, double max_blur, bool joins) {
+Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
   const int32_t blur = CeilPixels(max_blur), reach = ReachOf(blur << kDisparityBits);
   const bool one_view = config.views == 1;
   Borders borders;
-  borders.joined = joins ? kDeblockRows : 0;
+  borders.deblocked = deblocks ? kDeblockRows : 0;
   borders.whole_block = reach + kRenderBorder;
   borders.cells = ToWholeCells(reach + kLayerMargin[config.tuning.max_layer]) / kCellSize;
   // Blocks use the depth edges of cells within the blur radius, and other statistics of cells

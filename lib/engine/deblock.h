@@ -7,8 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/io/input.h"
+#include "lib/base/geometry.h"
 #include "simd/kernels.h"
+#include "simd/light.h"
 
 namespace starfocus {
 
@@ -34,7 +35,8 @@ struct LayerMap {
   }
 };
 
-struct DeblockJob {
+// A stripe to deblock.
+struct Deblocking {
   const LayerMap* map;
   Plane<uint8_t> out;     // Rows of the picture.
   int32_t width, height;  // Size of the picture.
@@ -44,13 +46,13 @@ struct DeblockJob {
   const simd::Kernels* kernels;
 };
 
-// Deblocks the boundaries between rows of smallest blocks, in columns [begin, end) of these blocks:
-// the boundary at the top of the stripe (y > 0) and the boundaries inside the stripe. All columns
-// of a row must be finished before DeblockColumns processes the row.
-void DeblockRows(const DeblockJob& job, int32_t begin, int32_t end);
+// Deblocks the boundaries between rows of smallest blocks, in `columns` of these blocks: the
+// boundary at the top of the stripe (y > 0) and the boundaries inside the stripe. All columns of a
+// row must be finished before DeblockColumnBoundaries processes the row.
+void DeblockRowBoundaries(const Deblocking& stripe, const Range& columns);
 
-// Deblocks the boundaries between columns of smallest blocks, in rows [first, last) of the picture.
-void DeblockColumns(const DeblockJob& job, int32_t first, int32_t last);
+// Deblocks the boundaries between columns of smallest blocks, in `rows` of the picture.
+void DeblockColumnBoundaries(const Deblocking& stripe, const Range& rows);
 
 }  // namespace starfocus
 

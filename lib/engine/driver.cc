@@ -20,7 +20,7 @@ void StoreChanged(const Output& out, const Plane<uint8_t>& from, int32_t y,
                   const EngineState& engine) {
   const Rect& rect = out.rect;
   const FrameDiff& changes = engine.stripe.changes;
-  const int32_t side = engine.config.superblock, reach = engine.lens.borders.joined;
+  const int32_t side = engine.config.superblock, reach = engine.lens.borders.deblocked;
   std::memcpy(out.image.Pixel(0, y - rect.y), RowsOf(*changes.picture, rect.y).Row(y),
               3 * static_cast<size_t>(rect.width));
   for (int32_t x = 0; x < engine.config.width; x += side) {
@@ -42,7 +42,7 @@ starfocus_status Store(const Output& out, const Range& rows, const Plane<uint8_t
 
 Range StripeRows(const EngineState& engine) {
   const Rect& region = engine.lens.region;
-  const int32_t reach = engine.lens.borders.joined;
+  const int32_t reach = engine.lens.borders.deblocked;
   const int32_t side = engine.config.superblock;
   return {Max(0, region.y - reach) / side * side,
           Min(engine.config.height, region.y + region.height + reach)};
@@ -82,7 +82,7 @@ starfocus_status ReadRows(const Range& rows, const Plane<int16_t>* disparity, En
   for (int32_t worker = 0; worker < config.max_workers; ++worker) {
     flags |= engine->scratch[worker].counts.depth_flags;
   }
-  TakeCounts(engine);
+  ReportCounts(engine);
   return status != STARFOCUS_OK ? status : CheckFlags(flags, config);
 }
 

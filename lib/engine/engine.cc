@@ -217,7 +217,7 @@ starfocus_status SetLens(const FullParams& params, EngineState* engine) {
   return STARFOCUS_OK;
 }
 
-void TakeCounts(EngineState* engine) {
+void ReportCounts(EngineState* engine) {
   for (int32_t worker = 0; worker < engine->config.max_workers; ++worker) {
     Add(engine->scratch[worker].counts, &engine->report);
   }

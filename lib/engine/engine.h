@@ -188,8 +188,8 @@ void StartFrameDiff(const starfocus_previous& previous, const starfocus_light_fi
 // STARFOCUS_OK. The caller must have checked all other requirements on `params`.
 starfocus_status SetLens(const FullParams& params, EngineState* engine);
 
-// TakeCounts moves the workers' counts to the report. DropCounts discards these counts.
-void TakeCounts(EngineState* engine);
+// ReportCounts moves the workers' counts to the report. DropCounts discards these counts.
+void ReportCounts(EngineState* engine);
 void DropCounts(EngineState* engine);
 
 // Writes the statistics of the last refocusing to *report, unless it is null. Writes only the first

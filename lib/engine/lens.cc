@@ -29,7 +29,7 @@ void TakeTables(const FullConfig& config, Arena* arena, Tables* tables) {
     const int32_t last = LargestN(config, RendererAt(config, k), Demand::kRing, config.max_blur);
     size_t weights = 0;
     for (int32_t n = 0; n <= last; ++n) weights += weights_of(n);
-    tables->apertures[k].apertures = arena->Take<ViewWeights>(static_cast<size_t>(last) + 1);
+    tables->apertures[k].weights_by_n = arena->Take<ViewWeights>(static_cast<size_t>(last) + 1);
     tables->apertures[k].weights = arena->Take<uint16_t>(weights);
   }
   const int32_t benchmark_n = ViewsOfBenchmark(config.max_blur);
@@ -59,7 +59,7 @@ starfocus_status MakeApertures(const Renderer& renderer, int32_t last, CallProgr
     const size_t size = ViewWeightsSize(tables->opening, table.count);
     if (!cancel.Spend(static_cast<int64_t>(size) * kAperturePoints))
       return STARFOCUS_ERROR_CANCELLED;
-    table.apertures[table.count] =
+    table.weights_by_n[table.count] =
         renderer.make_aperture(table.count, tables->opening, table.weights + table.used);
     table.used += size;
   }
@@ -87,9 +87,9 @@ double NextBelow(double value) {
 }
 
 // Returns the largest distance of a configured disparity from the range in focus.
-double LargestDistance(const FullConfig& config, const starfocus_params& lens) {
-  const double nearer = config.disparity_max - (lens.focus + lens.focus_nearer);
-  const double farther = lens.focus - lens.focus_farther - config.disparity_min;
+double LargestDistance(const FullConfig& config, const starfocus_params& params) {
+  const double nearer = config.disparity_max - (params.focus + params.focus_nearer);
+  const double farther = params.focus - params.focus_farther - config.disparity_min;
   const double distance = nearer > farther ? nearer : farther;
   return distance > 0 ? distance : 0;
 }
@@ -108,13 +108,13 @@ const Renderer& RendererOf(const FullConfig& config, const FullParams& params) {
 // benchmark mode has its own memory. STARFOCUS_MODE_BLUR reads only the centre view and uses N = 0.
 ViewWeights FrameWeights(const FullConfig& config, const Tables& tables, const Lens& lens) {
   const Renderer& renderer = *lens.renderer;
-  if (lens.params.mode == STARFOCUS_MODE_BLUR) return lens.apertures[0];
+  if (lens.params.mode == STARFOCUS_MODE_BLUR) return lens.weights_by_n[0];
   if (IsBenchmark(lens)) {
     return renderer.make_aperture(ViewsOfBenchmark(lens.r_max), tables.opening,
                                   tables.benchmark_weights);
   }
   const int32_t n = renderer.view_count(lens.r_max, DemandOf(tables.opening));
-  return lens.apertures[ScaleViews(n, config.tuning.n_scale)];
+  return lens.weights_by_n[ScaleViews(n, config.tuning.n_scale)];
 }
 
 }  // namespace
@@ -131,8 +131,8 @@ double LargestBlur(const FullConfig& config, const FullParams& params) {
   return params.aperture * LargestDistance(config, params);
 }
 
-double LargestAperture(const FullConfig& config, const starfocus_params& lens) {
-  const double distance = LargestDistance(config, lens), most = config.max_blur;
+double LargestAperture(const FullConfig& config, const starfocus_params& params) {
+  const double distance = LargestDistance(config, params), most = config.max_blur;
   double aperture = distance <= most ? 1 : most / distance;
   // The rounded quotient may be too large by one unit in the last place. The loop ends for any
   // quotient, because each step makes `aperture` smaller, and the product with 0 is not too large.
@@ -167,10 +167,10 @@ starfocus_status MakeLens(const FullConfig& config, const FullParams& params,
   const starfocus_status status =
       MakeApertures(*lens->renderer, lens->largest_n, call_progress, tables);
   if (status != STARFOCUS_OK) return status;
-  lens->apertures = tables->apertures[lens->renderer->index].apertures;
-  lens->aperture = FrameWeights(config, *tables, *lens);
+  lens->weights_by_n = tables->apertures[lens->renderer->index].weights_by_n;
+  lens->frame_weights = FrameWeights(config, *tables, *lens);
   const FocusRange focus = MakeFocusRange(params.focus, params.focus_nearer, params.focus_farther);
-  const ViewGrid grid = MakeViewGrid(lens->aperture, focus, params.aperture, 0);
+  const ViewGrid grid = MakeViewGrid(lens->frame_weights, focus, params.aperture, 0);
   lens->scale = {grid.focus, grid.step};
   if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, call_progress, tables);
   if (params.mode == STARFOCUS_MODE_BLUR)

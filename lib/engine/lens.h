@@ -37,7 +37,7 @@ int32_t LargestN(const FullConfig& config, const Renderer& renderer, Demand dema
 
 // Apertures of one renderer, indexed by N.
 struct ApertureTable {
-  ViewWeights* apertures;  // one aperture per N, up to the largest N that max_blur requires
+  ViewWeights* weights_by_n;  // one aperture per N, up to the largest N that max_blur requires
   uint16_t* weights;
   int32_t count = 0;  // Number of apertures in the table.
   size_t used = 0;    // Number of weights in use.
@@ -73,7 +73,7 @@ starfocus_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* ta
 // Borders: numbers of pixels that the engine reads on each side of a superblock, or of its stripe.
 // The border of a processing step's input includes the borders of all later steps (borders.cc).
 struct Borders {
-  int32_t joined = 0;                    // Finished pixels around a region, for deblocking.
+  int32_t deblocked = 0;                 // Finished pixels around a region, for deblocking.
   int32_t whole_block = 0;               // Pixels around a block that is planned without cells.
   int32_t layer[STARFOCUS_LAYERS] = {};  // Pixels of each layer around any possible block.
   int32_t cells = 0;                     // Number of cells (not pixels) around a superblock.
@@ -85,9 +85,9 @@ struct Borders {
   int32_t streamed = 0;  // Rows around a stripe of a stream, rounded up to even for images.
 };
 
-// Adds the borders of all processing steps for blur radii up to `max_blur`. `joins` is true if
+// Adds the borders of all processing steps for blur radii up to `max_blur`. `deblocks` is true if
 // blocks are deblocked.
-Borders AddBorders(const FullConfig& config, double max_blur, bool joins);
+Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks);
 
 // Returns the borders for the largest configured blur radius.
 inline Borders LargestBorders(const FullConfig& config) {
@@ -108,10 +108,10 @@ struct Lens {
   FullParams params;
   Rect region;  // region of `params`, or the whole picture if no region is set
   const Renderer* renderer;
-  double r_max;                  // Largest blur radius for the configured disparities, in pixels.
-  const ViewWeights* apertures;  // Apertures of `renderer`, indexed by N.
-  int32_t largest_n;             // Largest N of `apertures`.
-  ViewWeights aperture;          // In frame modes, the aperture for the whole picture.
+  double r_max;  // Largest blur radius for the configured disparities, in pixels.
+  const ViewWeights* weights_by_n;  // Apertures of `renderer`, indexed by N.
+  int32_t largest_n;                // Largest N of `weights_by_n`.
+  ViewWeights frame_weights;        // In frame modes, the aperture for the whole picture.
   BlurScale scale;
   Borders borders;
 };
@@ -144,7 +144,7 @@ int32_t LastGatherStep(const Lens& lens);
 
 // Returns the weights of the views of a block with n views along the radius.
 inline const ViewWeights& WeightsOf(const Lens& lens, int32_t n) {
-  return IsBlockMode(lens) ? lens.apertures[n] : lens.aperture;
+  return IsBlockMode(lens) ? lens.weights_by_n[n] : lens.frame_weights;
 }
 
 // Returns true if the boundaries between blocks of different layers are smoothed.
@@ -156,7 +156,7 @@ inline bool IsDeblocking(const FullConfig& config, const Lens& lens) {
 double LargestBlur(const FullConfig& config, const FullParams& params);
 
 // Returns the largest aperture, at most 1, whose largest blur radius is at most max_blur.
-double LargestAperture(const FullConfig& config, const starfocus_params& lens);
+double LargestAperture(const FullConfig& config, const starfocus_params& params);
 
 // Returns STARFOCUS_ERROR_BLUR if the largest blur radius exceeds max_blur, otherwise STARFOCUS_OK.
 starfocus_status CheckBlur(const FullConfig& config, const FullParams& params);

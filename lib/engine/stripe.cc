@@ -14,21 +14,22 @@ namespace {
 // kSmallestBlock finished rows.
 starfocus_status Deblock(const Range& stripe, const Plane<uint8_t>& out, EngineState* engine) {
   const FullConfig& config = engine->config;
-  const DeblockJob job = {&engine->stripe.map,    out,
-                          config.width,           config.height,
-                          stripe.first,           config.tuning.deblocking,
-                          engine->input.transfer, engine->kernels};
+  const Deblocking deblocking = {&engine->stripe.map,    out,
+                                 config.width,           config.height,
+                                 stripe.first,           config.tuning.deblocking,
+                                 engine->input.transfer, engine->kernels};
   const int32_t smallest = config.superblock / kSmallestBlock;
   const starfocus_status status =
       ForEach(Columns(config), engine->jobs, [&](int32_t column, int32_t) {
-        DeblockRows(job, column * smallest, Min((column + 1) * smallest, job.map->columns));
+        DeblockRowBoundaries(deblocking, {column * smallest, Min((column + 1) * smallest,
+                                                                 engine->stripe.map.columns)});
       });
   const Range finished = {Max(0, stripe.first - kDeblockRows), FinishedRows(config, stripe.first)};
   if (status != STARFOCUS_OK || finished.count() <= 0) return status;
   const int32_t jobs = (finished.count() + kSmallestBlock - 1) / kSmallestBlock;
   return ForEach(jobs, engine->jobs, [&](int32_t index, int32_t) {
     const int32_t first = finished.first + index * kSmallestBlock;
-    DeblockColumns(job, first, Min(first + kSmallestBlock, finished.last));
+    DeblockColumnBoundaries(deblocking, {first, Min(first + kSmallestBlock, finished.last)});
   });
 }
 
@@ -125,7 +126,7 @@ starfocus_status RefocusStripe(EngineState* engine, int32_t y) {
     ForgetLayers(config, &engine->layers);
     return status;
   }
-  TakeCounts(engine);
+  ReportCounts(engine);
   // The next stripe deblocks its boundary with the last blocks of this stripe.
   const LayerMap& map = engine->stripe.map;
   std::memcpy(map.layers, &map.At(0, map.rows - 1), static_cast<size_t>(map.columns));

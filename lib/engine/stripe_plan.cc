@@ -37,7 +37,7 @@ int32_t PlanWhole(const EngineState& engine, const Rect& superblock, Block* bloc
   Block block;
   block.border = {border, border, border, border};
   block.layer = 0;
-  block.n = lens.aperture.n;
+  block.n = lens.frame_weights.n;
   block.gathers = false;
   block.has_highlights = !IsPinhole(lens) && ShowsHighlights(engine, superblock);
   int32_t count = 0;
@@ -46,7 +46,7 @@ int32_t PlanWhole(const EngineState& engine, const Rect& superblock, Block* bloc
       block.rect = block.rendered = {x, y, Min(side, right - x), Min(side, bottom - y)};
       block.cost = PredictTime(
           engine.config.tuning.timing,
-          lens.renderer->measure_work(block.rendered, block.border, lens.aperture, {}, 0));
+          lens.renderer->measure_work(block.rendered, block.border, lens.frame_weights, {}, 0));
       blocks[count++] = block;
     }
   }
@@ -64,7 +64,7 @@ int32_t PlanBlocks(const EngineState& engine, const Rect& superblock, const Scra
   const PartitionRules rules = {engine.kernels,
                                 &engine.config,
                                 lens.renderer,
-                                lens.apertures,
+                                lens.weights_by_n,
                                 lens.largest_n,
                                 DemandOf(engine.tables->opening),
                                 lens.scale,
@@ -80,7 +80,7 @@ int32_t PlanBlocks(const EngineState& engine, const Rect& superblock, const Scra
 // Returns true if the region that the lens requests depends on pixels of `rect`.
 bool IsInRegion(const EngineState& engine, const Rect& rect) {
   const Rect& region = engine.lens.region;
-  const int32_t reach = engine.lens.borders.joined;
+  const int32_t reach = engine.lens.borders.deblocked;
   return rect.x - reach < region.x + region.width && region.x < rect.x + rect.width + reach &&
          rect.y - reach < region.y + region.height && region.y < rect.y + rect.height + reach;
 }
@@ -90,7 +90,7 @@ bool IsInRegion(const EngineState& engine, const Rect& rect) {
 // of every pixel that it changes. The test therefore extends `rect` by twice the reach of
 // deblocking.
 bool IsNew(const EngineState& engine, const Rect& rect) {
-  const int32_t reach = 2 * engine.lens.borders.joined;
+  const int32_t reach = 2 * engine.lens.borders.deblocked;
   const FrameDiff& changes = engine.stripe.changes;
   return changes.before == nullptr ||
          HasChanged(changes, {rect.x - reach, rect.y - reach, rect.width + 2 * reach,

@@ -176,7 +176,7 @@ void RunPass(const Input& input, int pass, int32_t column, int32_t row) {
   if (pass == kLook) Look(input, column, row);
   if (pass != kUnmixAgain || tile.thin == 0) return;
   if (!given) return UnmixAgain(input, column, row);
-  TakeGiven(input, column, row);
+  UseGiven(input, column, row);
   if (!IsGivenAlone(input)) AddFarDetail(input, column, row);
 }
 
@@ -240,7 +240,7 @@ void UnmixAgain(const Input& input, int32_t column, int32_t row) {
       });
 }
 
-void TakeGiven(const Input& input, int32_t column, int32_t row) {
+void UseGiven(const Input& input, int32_t column, int32_t row) {
   const CoverageMap& map = *input.coverage;
   FarTile far;
   PushTile(column, row, map, &far);

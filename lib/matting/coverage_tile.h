@@ -43,7 +43,7 @@ void UnmixAgain(const Input& input, int32_t column, int32_t row);
 
 // Writes the final coverage of a tile, and the light of the far surface in the tile. LookBehindTile
 // must have read the light of the far surface, unless the light field has only one view.
-void TakeGiven(const Input& input, int32_t column, int32_t row);
+void UseGiven(const Input& input, int32_t column, int32_t row);
 
 // Light of the far surface (far_light.cc).
 

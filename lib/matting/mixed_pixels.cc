@@ -376,7 +376,7 @@ void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pix
   if (!whole && rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty()) CleanRim(OutlineAt(x, y), pixel);
 }
 
-void TakeDisparities(const Input& input, BlockPixels* field) {
+void SetThinDisparities(const Input& input, BlockPixels* field) {
   if (input.coverage == nullptr || field->layer > 0) return;
   const CoverageMap& map = *input.coverage;
   ForEachThin(map, *field, [&](int32_t x, int32_t y, size_t from) {

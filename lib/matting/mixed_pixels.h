@@ -136,7 +136,7 @@ struct SplitPixel {
 
 // Gives each pixel of thin tiles the disparity of the surface that covers most of the pixel. With
 // these disparities, hidden surfaces end at the boundary of the thin structure.
-void TakeDisparities(const Input& input, BlockPixels* field);
+void SetThinDisparities(const Input& input, BlockPixels* field);
 
 // Calls act(x, y, at) for each pixel of the picture in the field that lies in a thin tile; `at` is
 // its index, CoverageMap::At(x, y).
@@ -165,7 +165,7 @@ class PixelSplitter {
 
   // Calls visit(SplitPixel) for each split pixel of the field, and for each other pixel of thin
   // tiles if the coverage is not given. The disparities of the field must come from
-  // TakeDisparities.
+  // SetThinDisparities.
   template <class Visit>
   void ForEach(const Visit& visit) const {
     const Input& input = centre_.input();

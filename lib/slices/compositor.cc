@@ -171,7 +171,7 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   field.rgb = scratch->field_rgb;
   field.disparity = scratch->field_disparity;
   LoadBlock(*job.input, job.layer, job.rect, job.border, &field);
-  TakeDisparities(*job.input, &field);
+  SetThinDisparities(*job.input, &field);
   FindLayeredDepth(*job.input->kernels, *job.input, field, &scratch->surfaces);
   SplitMixedPixels(*job.input, *job.grid, field, &scratch->surfaces);
   const Rect& inner = field.inner;

@@ -37,7 +37,7 @@ void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta, in
         map.At(column, row) = picture->Layer(column, y / kSmallestBlock + row);
       }
     }
-    const starfocus::DeblockJob job = {&map,
+    const starfocus::Deblocking job = {&map,
                                        {picture->rgb.data(), 3 * size_t(picture->width), 0, 0},
                                        picture->width,
                                        picture->height,
@@ -46,11 +46,13 @@ void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta, in
                                        &starfocus::TransferOf(transfer),
                                        &starfocus::simd::BestKernels()};
     for (int part = parts - 1; part >= 0; --part) {
-      starfocus::DeblockRows(job, map.columns * part / parts, map.columns * (part + 1) / parts);
+      starfocus::DeblockRowBoundaries(
+          job, {map.columns * part / parts, map.columns * (part + 1) / parts});
     }
     const int first = std::max(0, y - kDeblockRows);
     const int last = y + height == picture->height ? picture->height : y + height - kDeblockRows;
-    for (int row = last - 1; row >= first; --row) starfocus::DeblockColumns(job, row, row + 1);
+    for (int row = last - 1; row >= first; --row)
+      starfocus::DeblockColumnBoundaries(job, {row, row + 1});
   }
 }
 

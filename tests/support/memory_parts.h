@@ -34,8 +34,8 @@ inline std::vector<MemoryPart> PartsOf(const starfocus::EngineState& e) {
       scratch.renderers[starfocus_line_scan_renderer()->renderer.index]);
   return {
       {"engine state", false, &e},
-      {"slices: apertures of every N", false, e.tables->apertures[0].apertures},
-      {"line scan: apertures of every N", false, e.tables->apertures[1].apertures},
+      {"slices: apertures of every N", false, e.tables->apertures[0].weights_by_n},
+      {"line scan: apertures of every N", false, e.tables->apertures[1].weights_by_n},
       {"aperture of the benchmark mode", false, e.tables->benchmark_weights},
       {"point-spread functions", false, e.tables->psfs},
       {"jobs", false, e.jobs->progress},
@@ -112,7 +112,7 @@ inline MemorySum SumOf(const std::vector<MemoryPart>& parts) {
 
 // Returns a configuration as in docs/boards.md, without memory for thin structures.
 inline test::Config BoardConfig(int width, int height, int views, int block, double blur,
-                                    int streaming) {
+                                int streaming) {
   test::Config config;
   config.width = width;
   config.height = height;

@@ -84,7 +84,7 @@ void Deblock(benchmark::State& state) {
   map.layers = layers.data();
   map.columns = kSmallestBlocks;
   map.rows = kSmallestBlocks;
-  const DeblockJob job = {&map,
+  const Deblocking job = {&map,
                           {picture.data(), 3 * kSide, 0, 0},
                           kSide,
                           kSide,
@@ -93,8 +93,8 @@ void Deblock(benchmark::State& state) {
                           &TransferOf(STARFOCUS_TRANSFER_NONE),
                           &simd::BestKernels()};
   for (auto _ : state) {
-    DeblockRows(job, 0, kSmallestBlocks);
-    DeblockColumns(job, 0, kSide);
+    DeblockRowBoundaries(job, {0, kSmallestBlocks});
+    DeblockColumnBoundaries(job, {0, kSide});
     benchmark::ClobberMemory();
   }
   state.SetBytesProcessed(int64_t(state.iterations()) * int64_t(4 * picture.size()));
