@@ -45,7 +45,7 @@ starfocus_status starfocus_create(const starfocus_config* config,
   if (memory == nullptr) return check.Add(STARFOCUS_ERROR_MEMORY);
   const starfocus_status status = starfocus_init(config, memory, bytes, engine, problem);
   if (status != STARFOCUS_OK) {
-    from.release(from.data, memory, bytes);
+    Release(from, memory, bytes);
     return status;
   }
   reinterpret_cast<EngineState*>(*engine)->allocator = from;
@@ -55,9 +55,5 @@ starfocus_status starfocus_create(const starfocus_config* config,
 void starfocus_destroy(starfocus_engine* engine) {
   if (engine == nullptr) return;
   const EngineState& state = *reinterpret_cast<EngineState*>(engine);
-  if (state.allocator.release == nullptr) return;
-  // The allocator is copied to the stack first, because releasing the engine frees the engine's own
-  // copy.
-  const starfocus_allocator allocator = state.allocator;
-  allocator.release(allocator.data, engine, state.bytes);
+  Release(state.allocator, engine, state.bytes);
 }

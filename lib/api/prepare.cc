@@ -73,13 +73,10 @@ starfocus_status starfocus_prepare(starfocus_engine* engine,
   Prepared* made = nullptr;
   const starfocus_status status = PrepareIn(memory, bytes, field, &e, &made);
   if (status != STARFOCUS_OK) {
-    if (allocates) allocator.release(allocator.data, memory, bytes);
+    if (allocates) Release(allocator, memory, bytes);
     return status;
   }
-  if (allocates) {
-    made->allocator = allocator;
-    made->bytes = bytes;
-  }
+  if (allocates) made->allocator = allocator;
   *prepared = reinterpret_cast<starfocus_prepared*>(made);
   return STARFOCUS_OK;
 }
@@ -87,7 +84,5 @@ starfocus_status starfocus_prepare(starfocus_engine* engine,
 void starfocus_destroy_prepared(starfocus_prepared* prepared) {
   if (prepared == nullptr) return;
   const Prepared& made = *reinterpret_cast<const Prepared*>(prepared);
-  // The allocator is copied to the stack first, because releasing the memory frees this copy.
-  const starfocus_allocator allocator = made.allocator;
-  if (allocator.release != nullptr) allocator.release(allocator.data, prepared, made.bytes);
+  Release(made.allocator, prepared, made.bytes);
 }

@@ -101,7 +101,7 @@ void TakeRows(const FullConfig& config, Arena* arena, EngineState* engine) {
 
 // Allocates what does not depend on the size of the picture: pieces of memory that the pictures of
 // previews use as well.
-void TakeEngine(const FullConfig& config, Arena* arena, EngineMemory* memory) {
+void TakeShared(const FullConfig& config, Arena* arena, EngineMemory* memory) {
   TakeTables(config, arena, &memory->tables);
   memory->jobs.max_workers = config.max_workers;
   memory->jobs.progress =
@@ -126,14 +126,24 @@ void TakePicture(const FullConfig& config, Arena* arena, EngineState* engine) {
   TakeFrameDiff(config, borders.views, arena, &engine->stripe.changes);
 }
 
+// Allocates an engine of `config`, with the pieces of a picture of `picture`. Returns *counted if
+// the arena only counts.
+EngineMemory& TakeEngine(const FullConfig& config, const FullConfig& picture, Arena* arena,
+                         EngineMemory* counted) {
+  auto* const taken = arena->Take<EngineMemory>(1);
+  EngineMemory& memory = taken == nullptr ? *counted : *new (taken) EngineMemory();
+  TakeShared(config, arena, &memory);
+  memory.engine.picture_memory = arena->Here();
+  TakePicture(picture, arena, &memory.engine);
+  return memory;
+}
+
 #ifdef STARFOCUS_RED_ZONES
 void VisitZones(const EngineState& engine, void (*visit)(void*, size_t, size_t)) {
   const PieceVisitor zones = {visit, engine.memory};
   Arena arena(nullptr, PTRDIFF_MAX, &zones);
   EngineMemory counted;
-  arena.Take<EngineMemory>(1);
-  TakeEngine(engine.memory->engine.config, &arena, &counted);
-  TakePicture(engine.config, &arena, &counted.engine);
+  TakeEngine(engine.memory->engine.config, engine.config, &arena, &counted);
 }
 #endif
 
@@ -142,26 +152,24 @@ void VisitZones(const EngineState& engine, void (*visit)(void*, size_t, size_t))
 size_t LayOut(const FullConfig& config, void* base, EngineState** engine,
               const PieceVisitor* pieces) {
   Arena arena(base, PTRDIFF_MAX, pieces);
-  EngineMemory counted;  // replaces *taken while the layout only counts
-  auto* const taken = arena.Take<EngineMemory>(1);
-  EngineMemory& memory = taken == nullptr ? counted : *new (taken) EngineMemory();
-  TakeEngine(config, &arena, &memory);
+  EngineMemory counted;
+  EngineMemory& memory = TakeEngine(config, config, &arena, &counted);
   EngineState& made = memory.engine;
-  made.picture_memory = arena.Here();
-  TakePicture(config, &arena, &made);
   made.config = config;
   made.config.problem = &made.problem;
   made.kernels = &simd::BestKernels();
   made.tables = &memory.tables;
   made.jobs = &memory.jobs;
-  made.memory = taken;
+  made.memory = &memory;
   made.bytes = arena.Bytes();
-  *engine = taken == nullptr ? nullptr : &made;
+  *engine = base == nullptr ? nullptr : &made;
   return made.bytes;
 }
 
 EngineState PreviewEngine(const FullConfig& config, EngineState* engine) {
   engine->stream.active = false;
+  // The pictures of the preview and of the engine share memory, which includes the columns of the
+  // map, so that both must set them anew.
   engine->rings.map_width = 0;
   EngineState preview = *engine;
   preview.config = config;
@@ -232,15 +240,15 @@ void DropCounts(EngineState* engine) {
 
 void WriteReport(const EngineState& engine, starfocus_report* report) {
   if (report == nullptr) return;
-  const uint32_t size = report->size;
-  starfocus_report full = {};
-  std::memcpy(&full, report, size);
-  starfocus_layer_report* const layers = full.layers;
-  full = engine.report;
-  full.size = size;
-  full.layers = layers;
-  std::memcpy(report, &full, size);
-  if (layers != nullptr) std::memcpy(layers, engine.report.layers, sizeof engine.report.layers);
+  // A shorter, older report has no `layers`, which then stays null.
+  starfocus_report given = {};
+  std::memcpy(&given, report, report->size);
+  starfocus_report written = engine.report;
+  written.size = given.size;
+  written.layers = given.layers;
+  std::memcpy(report, &written, given.size);
+  if (given.layers == nullptr) return;
+  std::memcpy(given.layers, engine.report.layers, sizeof engine.report.layers);
 }
 
 void ForgetStripe(StripeState* stripe) {

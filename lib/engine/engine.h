@@ -142,6 +142,12 @@ struct Stream {
   int32_t written = 0;   // Number of output rows that the caller has pulled.
 };
 
+// Frees memory that came from an allocator. Does nothing if its functions are null, because the
+// memory then belongs to the caller. The allocator is a copy, because the memory may contain it.
+inline void Release(starfocus_allocator allocator, void* memory, size_t bytes) {
+  if (allocator.release != nullptr) allocator.release(allocator.data, memory, bytes);
+}
+
 struct EngineMemory;
 
 // Copies of an engine share its tables, jobs and memory.

@@ -10,6 +10,8 @@
 namespace starfocus {
 namespace {
 
+// Computes the mean light of whole blocks. With a constant size, the compiler unrolls the loops and
+// divides by shifts.
 template <int kShift>
 void MeanOfWhole(const uint32_t* sums, int32_t blocks, int16_t* light) {
   constexpr int kSide = 1 << kShift;
@@ -92,12 +94,15 @@ bool ReduceView(const Prepared& prepared, const EngineState& engine, int view, c
   const simd::Encoding& encoding = *engine.input.transfer;
   const int32_t previews = prepared.config.previews;
   const size_t samples = 3 * static_cast<size_t>(part.width);
+  // Both share the memory of a superblock. The space between them is larger than a row of light,
+  // because Input::Light may write beyond the last sample.
   int16_t* const light = scratch->picture_samples;
   int16_t* const mean = light + 6 * engine.config.superblock;
   for (int32_t y = part.y; y < part.y + part.height; ++y) {
     if (!scratch->cancel.Spend(static_cast<int64_t>(samples) * (1 + previews))) return false;
     engine.input.Light(view, part.x, y, part.width, light);
     for (int shift = 1; shift <= previews; ++shift) {
+      // Each size has its own row of sums, because it completes blocks after other rows.
       uint32_t* const sums = scratch->sums + 3 * shift * engine.config.superblock;
       const int32_t row = y & ((1 << shift) - 1);
       AddLight(light, samples, row == 0, sums);
@@ -112,6 +117,7 @@ bool ReduceView(const Prepared& prepared, const EngineState& engine, int view, c
 }
 
 // Calls reduce(x, y, right, bottom) for each square of 2^shift pixels, or its part inside `part`.
+// `cost` is the work for a pixel (CancelToken::Spend). Returns false after cancellation.
 template <class Reduce>
 bool ForSquares(const Rect& part, int shift, int64_t cost, Scratch* scratch, const Reduce& reduce) {
   const int32_t side = 1 << shift, right = part.x + part.width, bottom = part.y + part.height;
@@ -148,6 +154,7 @@ bool ReduceMap(const Prepared& prepared, const EngineState& engine, int shift, c
     prepared.reduced[shift].disparity.Row(y >> shift)[x >> shift] =
         static_cast<int16_t>(Clamp(median, low, high));
   };
+  // The bisection compares each value several times.
   return ForSquares(part, shift, 4, scratch, reduce);
 }
 
@@ -222,23 +229,35 @@ void TakeReduced(const FullConfig& config, int shift, Arena* arena, ReducedField
   field->coverage = TakePlane<uint8_t>(width, height, arena);
 }
 
-// Largest number of rows of the picture that the filters of the layers read beyond a stripe.
-constexpr int32_t kBeyond = 16;
+// Number of rows of the picture that the filter of layer 1 reads below a stripe. Images are read in
+// pairs of rows.
+constexpr int32_t kRowsBelow = kDownBorder - 1;
+static_assert(kRowsBelow % 2 == 0);
+
+// Largest number of pixels of the picture by which a layer extends beyond the picture (LayerSize).
+// For each 4 pixels of the picture, layers 1 and 2 grow by 2 pixels and 1 pixel.
+constexpr int32_t Overhang(int32_t size, int32_t layer) {
+  return (LayerSize(size, layer) << layer) - size;
+}
+constexpr int32_t kMostOverhang = Overhang(3, 2);
+static_assert(Overhang(1, 1) <= kMostOverhang && Overhang(2, 1) <= kMostOverhang &&
+              Overhang(1, 2) <= kMostOverhang && Overhang(2, 2) <= kMostOverhang &&
+              Overhang(4, 2) <= kMostOverhang);
 
 // Computes the rows of layer 1 of a stripe from the picture, and the rows of layer 2 whose source
 // rows are complete. `two` are the rows of layer 2 of the previous stripe, and are replaced by the
 // rows of this stripe. Computing layer 2 from layer 1 halves the number of codes that are decoded.
 starfocus_status MakeLayers(const Prepared& prepared, const Range& rows, Range* two,
                             EngineState* engine) {
-  // Layers extend beyond the picture (LayerSize) by fewer than kBeyond pixels of the picture.
-  // PlaceLayers omits rows outside the layers.
+  // The last stripe includes the rows beyond the picture. PlaceLayers omits rows outside the
+  // layers.
   const FullConfig& config = engine->config;
   const bool is_last = rows.last == config.height;
   StripeLayers* const store = &engine->layers;
   const int32_t most = config.tuning.max_layer;
   ForgetLayers(config, store);
   MarkLayerColumns(config, store);
-  PlaceLayers({rows.first, is_last ? config.height + kBeyond : rows.last}, Borders(), engine);
+  PlaceLayers({rows.first, is_last ? config.height + kMostOverhang : rows.last}, Borders(), engine);
   for (int layer = 1; layer <= most; ++layer) {
     store->planes[layer].samples = prepared.layers[layer];
   }
@@ -257,14 +276,14 @@ starfocus_status MakeLayers(const Prepared& prepared, const Range& rows, Range* 
 starfocus_status MakePlanes(const Prepared& prepared, EngineState maker) {
   const int32_t height = maker.config.height;
   Range two = {0, 0};
-  // The filters of the layers read up to kBeyond rows below the rows that they process.
-  return ForStripes({0, height}, kBeyond, height, maker.config, [&](int32_t y, const Range& read) {
-    maker.jobs->call_progress.SetRows(y);
-    const Range rows = {y, Min(y + maker.config.superblock, height)};
-    starfocus_status status = ReadRows(read, &prepared.disparity, &maker);
-    if (status == STARFOCUS_OK) status = MakeLayers(prepared, rows, &two, &maker);
-    return status == STARFOCUS_OK ? ReduceRows(prepared, rows, maker) : status;
-  });
+  return ForStripes({0, height}, kRowsBelow, height, maker.config,
+                    [&](int32_t y, const Range& read) {
+                      maker.jobs->call_progress.SetRows(y);
+                      const Range rows = {y, Min(y + maker.config.superblock, height)};
+                      starfocus_status status = ReadRows(read, &prepared.disparity, &maker);
+                      if (status == STARFOCUS_OK) status = MakeLayers(prepared, rows, &two, &maker);
+                      return status == STARFOCUS_OK ? ReduceRows(prepared, rows, maker) : status;
+                    });
 }
 
 }  // namespace
@@ -273,7 +292,9 @@ size_t LayOutPrepared(const FullConfig& config, void* base, Prepared** prepared)
   Arena arena(base);
   *prepared = arena.Take<Prepared>(1);
   Prepared counted;  // used instead of **prepared if `base` is null
-  Prepared& p = *prepared == nullptr ? counted : **prepared;
+  Prepared& p = *prepared == nullptr ? counted : *new (*prepared) Prepared();
+  p.config = config;
+  p.config.problem = nullptr;
   p.disparity = TakePlane<int16_t>(static_cast<size_t>(config.width), config.height, &arena);
   for (int layer = 1; layer <= config.tuning.max_layer; ++layer) {
     p.layers[layer] = TakePlane<int16_t>(3 * static_cast<size_t>(LayerSize(config.width, layer)),
@@ -282,7 +303,7 @@ size_t LayOutPrepared(const FullConfig& config, void* base, Prepared** prepared)
   for (int shift = 1; shift <= config.previews; ++shift) {
     TakeReduced(config, shift, &arena, &p.reduced[shift]);
   }
-  return arena.Bytes();
+  return p.bytes = arena.Bytes();
 }
 
 starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared) {
@@ -292,10 +313,8 @@ starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared)
   call_progress.Begin(0, height);
   starfocus_status status = ReadRows({0, height}, nullptr, engine);
   if (status != STARFOCUS_OK) return status;
-  new (memory) Prepared();
   Prepared* made = nullptr;
   LayOutPrepared(engine->config, memory, &made);
-  made->config = engine->config;
   made->covers = engine->input.given_coverage.data != nullptr;
   status = MakePlanes(*made, *engine);
   ForgetLayers(engine->config, &engine->layers);
@@ -314,8 +333,7 @@ bool Fits(const Prepared& prepared, const FullConfig& config) {
 }
 
 Extent PreparedMemory(const Prepared& prepared) {
-  Prepared* counted = nullptr;
-  return ExtentOf(&prepared, 0, 1, LayOutPrepared(prepared.config, nullptr, &counted));
+  return ExtentOf(&prepared, 0, 1, prepared.bytes);
 }
 
 void UsePrepared(const Prepared& prepared, Input* in) {

@@ -34,10 +34,12 @@ struct ReducedField {
 FullConfig ReducedConfig(const FullConfig& config, int shift);
 
 struct Prepared {
-  // Allocator and size of the memory; `release` is null if the memory belongs to the caller.
+  // Allocator of the memory; its functions are null if the memory belongs to the caller.
   starfocus_allocator allocator = {};
-  size_t bytes = 0;
-  FullConfig config;  // configuration of the engine that prepared the light field
+  size_t bytes = 0;  // Result of LayOutPrepared, also if the caller's memory is larger.
+  // Configuration of the engine that prepared the light field, without `problem`, which belongs to
+  // that engine.
+  FullConfig config;
   starfocus_light_field light_field;
   bool covers = false;       // True if the light field has coverage.
   Plane<int16_t> disparity;  // Disparities of all rows.
@@ -52,8 +54,8 @@ size_t LayOutPrepared(const FullConfig& config, void* base, Prepared** prepared)
 
 // Prepares the light field of the engine's input in `memory`. Checks and converts the map, and
 // computes the layers and reduced light fields stripe by stripe. The engine's planes, except for
-// the pixels, serve as scratch memory. On error *prepared is null. If a row of the map is invalid,
-// the memory is not changed.
+// the pixels, serve as scratch memory. *prepared is written only on success. If a row of the map is
+// invalid, the memory is not changed.
 starfocus_status Prepare(void* memory, EngineState* engine, Prepared** prepared);
 
 // Returns true if an engine of `config` can refocus the prepared light field.

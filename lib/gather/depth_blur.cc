@@ -48,9 +48,13 @@ void AddPsf(const simd::Kernels& kernels, Psf psf, int32_t side, const int16_t* 
         kernels.Accumulate(spans, used, sums);
         used = 0;
       }
-      spans[used++] = {row + 3 * static_cast<ptrdiff_t>(n), 0,
-                       3 * static_cast<uint32_t>(count),    static_cast<uint16_t>(first),
-                       static_cast<uint16_t>(next),         3};
+      simd::Span& span = spans[used++];
+      span.source = row + 3 * static_cast<ptrdiff_t>(n);
+      span.target = 0;
+      span.samples = 3 * static_cast<uint32_t>(count);
+      span.weight = static_cast<uint16_t>(first);
+      span.neighbour_weight = static_cast<uint16_t>(next);
+      span.neighbour_offset = 3;
     }
   }
   kernels.Accumulate(spans, used, sums);

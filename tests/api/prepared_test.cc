@@ -48,6 +48,23 @@ TEST_CASE(
   CHECK((streamed.bytes == whole.bytes));
 }
 
+TEST_CASE("prepared: a prepared light field outlives the engine that prepared it") {
+  const test::Scene scene = test::LayeredScene(70, 50, 5, 7, 11);
+  const test::Config config = test::ConfigFor(scene, 20);
+  test::PreparedMemory memory(config);
+  const starfocus_prepared* prepared = nullptr;
+  {
+    test::Engine maker(config);
+    prepared = memory.Prepare(maker.get(), scene.Field());
+  }
+  test::Engine user(config);
+  const starfocus::Params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
+  test::Output got(70, 50);
+  REQUIRE(test::RefocusPreparedRgb(user.get(), &params, prepared, got.bytes.data(), got.stride,
+                                   nullptr) == STARFOCUS_OK);
+  CHECK((got.bytes == test::OutputOf(&user, params, scene).bytes));
+}
+
 TEST_CASE("prepared: refocusing does not read the map again, and previews read no plane again") {
   test::Scene scene = test::LayeredScene(90, 70, 5, 7, 13);
   scene.coverage.assign(size_t{90} * 70, 255);
