@@ -40,27 +40,6 @@ constexpr int32_t kShiftRadius = 4;
 // Weight of no displacement against displacements, in units of gains and weights of cells.
 constexpr int32_t kStill = 1;
 
-// Where the samples around a pixel are, and how much closeness they have.
-struct Samples {
-  int32_t reach, step, sum = 0;
-  int16_t closeness[simd::kMostVoteSide * simd::kMostVoteSide];
-
-  // In wider bands, the second vote, whose samples are trusted more, compares fewer samples.
-  Samples(const OutlinePass& pass, bool second) : reach(pass.band + kVoteReach) {
-    step = reach > kCoarseReach ? 4 : reach > kFineReach ? 3 : 2;
-    if (second && step > 2) ++step;
-    reach -= reach % step;
-    int32_t k = 0;
-    for (int32_t y = -reach; y <= reach; y += step) {
-      for (int32_t x = -reach; x <= reach; x += step, ++k) {
-        const int32_t close = simd::kMostCloseness * kFallOff / (kFallOff + x * x + y * y);
-        closeness[k] = static_cast<int16_t>(close * simd::kClosenessUnit);
-        sum += close;
-      }
-    }
-  }
-};
-
 // Writes the colours of a row of pixels, from sample `at` of the planes.
 void FillColours(const uint8_t* rgb, int32_t count, int32_t at, const simd::DepthKernels& kernels,
                  VoteBlock* block) {
@@ -97,16 +76,30 @@ void FillBlock(const OutlinePass& pass, const Rect& area, int32_t reach, const S
   }
 }
 
-// Calls act(at, sums, lane) for each pixel of the band of a tile for which
+// Calls act(at, sums, lane, closeness) for each pixel of the band of a tile for which
 // needs(x, y, at, lane) returns true, and which lies in lane `lane`. The function `needs` is called
-// for the pixels of all lanes first.
+// for the pixels of all lanes first. `closeness` is the total closeness of the samples. In wider
+// bands, the second vote, whose samples are trusted more, compares fewer samples.
 template <class Sample, class Needs, class Act>
-void SumAround(const OutlinePass& pass, const Rect& tile, const Samples& samples, VoteBlock* block,
+void SumAround(const OutlinePass& pass, const Rect& tile, bool second, VoteBlock* block,
                const Sample& sample, const Needs& needs, const Act& act) {
   constexpr auto kLanes = static_cast<int32_t>(simd::kSliceLanes);
+  int32_t reach = pass.band + kVoteReach;
+  int32_t step = reach > kCoarseReach ? 4 : reach > kFineReach ? 3 : 2;
+  if (second && step > 2) ++step;
+  reach -= reach % step;
+  int16_t closeness[simd::kMostVoteSide * simd::kMostVoteSide];
+  int32_t samples = 0, all = 0;
+  for (int32_t y = -reach; y <= reach; y += step) {
+    for (int32_t x = -reach; x <= reach; x += step) {
+      const int32_t close = simd::kMostCloseness * kFallOff / (kFallOff + x * x + y * y);
+      closeness[samples++] = static_cast<int16_t>(close * simd::kClosenessUnit);
+      all += close;
+    }
+  }
   const auto visit = [&](const Rect& area) {
     if (!HasBand(pass, area)) return;
-    FillBlock(pass, area, samples.reach, sample, block);
+    FillBlock(pass, area, reach, sample, block);
     for (int32_t y = area.y; y < area.y + area.height; ++y) {
       for (int32_t x = area.x; x < area.x + area.width; x += kLanes) {
         const int32_t count = Min(kLanes, area.x + area.width - x);
@@ -125,9 +118,8 @@ void SumAround(const OutlinePass& pass, const Rect& tile, const Samples& samples
                                           block->colour[2] + own};
         simd::VoteSums sums;
         pass.kernels->SumVotes(colours, block->surface + own, block->trust + own, middle,
-                               VoteBlock::kWidth, samples.reach, samples.step, samples.closeness,
-                               &sums);
-        for (size_t k = 0; k < wants; ++k) act(pass.At(x, y) + wanted[k], sums, wanted[k]);
+                               VoteBlock::kWidth, reach, step, closeness, &sums);
+        for (size_t k = 0; k < wants; ++k) act(pass.At(x, y) + wanted[k], sums, wanted[k], all);
       }
     }
   };
@@ -322,17 +314,16 @@ void VoteByColour(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
     trust[k] = static_cast<int16_t>(
         Clamp(simd::kMostTrust * (10 * k - first) / (10 * end - first), least, simd::kMostTrust));
   }
-  const Samples samples(pass, false);
   SumAround(
-      pass, tile, samples, block,
+      pass, tile, false, block,
       [&](size_t at, int16_t* trusted) {
         *trusted = trust[Abs(pass.distance[at])];
         return pass.map[at];
       },
       [](int32_t, int32_t, size_t, size_t) { return true; },
-      [&](size_t at, const simd::VoteSums& sums, size_t lane) {
+      [&](size_t at, const simd::VoteSums& sums, size_t lane, int32_t closeness) {
         const int32_t weight = sums.weight[0][lane] + sums.weight[1][lane];
-        const bool dense = 100 * weight < kLeastTrusted * samples.sum;
+        const bool dense = 100 * weight < kLeastTrusted * closeness;
         pass.vote[at] = dense ? int8_t{0} : VoteOf(sums, lane, 1, 1);
       });
 }
@@ -370,7 +361,6 @@ void ShiftOutlines(const OutlinePass& pass, const Rect& tile) {
 }
 
 void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
-  const Samples samples(pass, true);
   const ShiftCells columns = pass.Columns(), rows = pass.Rows();
   // The displacement of each column of cells of the tile, and the row of cells for which it holds.
   int32_t shifts[kMostTileSide], shift_rows[kMostTileSide];
@@ -382,7 +372,7 @@ void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
     trust[k] = static_cast<uint8_t>(k * k * simd::kMostTrust / (kSure * kSure));
   }
   SumAround(
-      pass, tile, samples, block,
+      pass, tile, true, block,
       [&](size_t at, int16_t* trusted) {
         *trusted = simd::kMostTrust;
         const int32_t distance = pass.distance[at], vote = pass.vote[at];
@@ -413,7 +403,7 @@ void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
         pass.side[at] = near ? kSure : -kSure;
         return false;
       },
-      [&](size_t at, const simd::VoteSums& sums, size_t lane) {
+      [&](size_t at, const simd::VoteSums& sums, size_t lane, int32_t) {
         pass.side[at] = VoteOf(sums, lane, Max(-priors[lane], 1), Max(priors[lane], 1));
       });
 }

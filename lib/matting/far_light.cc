@@ -69,15 +69,6 @@ constexpr int kCentreBits = 3;
 // lack strands that cover a sample, so two samples are needed. Given coverage lacks none.
 constexpr int32_t kSeenFound = 2, kSeenGiven = 16;
 
-// A side view from which the light of the far surface is read.
-struct SideLook {
-  OcclusionView look;
-  bool down;      // True if the search for occluders runs along columns, false if along rows.
-  int32_t along;  // Position of the view on the axis of the search, kViewBits.
-  // Movement at right angles to the axis for each pixel of movement along the axis, kViewBits.
-  int32_t slant;
-};
-
 class TileLooker {
  public:
   TileLooker(const Input& input, int32_t column, int32_t row)
@@ -121,11 +112,9 @@ class TileLooker {
   void AddView(const OcclusionView& look) {
     if (look.view == 0) return;
     for (int k = 0; k < count_; ++k) {
-      if (views_[k].look.view == look.view) return;
+      if (views_[k].view == look.view) return;
     }
-    const bool down = Abs(look.at.v) > Abs(look.at.u);
-    const int32_t along = down ? look.at.v : look.at.u, across = down ? look.at.u : look.at.v;
-    views_[count_++] = {look, down, along, across * kViewOne / along};
+    views_[count_++] = look;
   }
 
   // Collects the disparities of near surfaces in and around the tile.
@@ -137,9 +126,9 @@ class TileLooker {
 
   // Reads the light of the far surface in row y from a view, and adds the light to sums_. Adjacent
   // pixels of equal disparity are read together.
-  void LookInto(const SideLook& view, int32_t y) {
+  void LookInto(const OcclusionView& look, int32_t y) {
     int16_t covered[kCoverageTile] = {};
-    if (!FindCovered(view, y, covered)) return;
+    if (!FindCovered(look.at, y, covered)) return;
     for (int32_t k = 0, end; k < columns_; k = end) {
       end = k + 1;
       if (!split_[k]) continue;
@@ -148,30 +137,28 @@ class TileLooker {
       for (int32_t n = k; n < end; ++n) all |= weights[n] = FarWeight(covered[n]);
       if (all == 0) continue;
       constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
-      const CapturedLine line = {
-          (left_ + k) * kShiftOne - ScaledByView(view.look.at.u, far_[k], kBits),
-          y * kShiftOne - ScaledByView(view.look.at.v, far_[k], kBits), 1, 0};
+      const CapturedLine line = {(left_ + k) * kShiftOne - ScaledByView(look.at.u, far_[k], kBits),
+                                 y * kShiftOne - ScaledByView(look.at.v, far_[k], kBits), 1, 0};
       int16_t light[3 * kCoverageTile];
-      ReadCaptured(input_, 0, view.look.view, line, end - k, light);
+      ReadCaptured(input_, 0, look.view, line, end - k, light);
       for (int32_t n = k; n < end; ++n) sums_[n].Add(light + 3 * (n - k), weights[n]);
     }
   }
 
   // Finds, for each pixel of a row, an upper bound of the coverage by nearer surfaces in the view.
   // Returns false if a nearer surface may move by more than kMostMove pixels.
-  bool FindCovered(const SideLook& view, int32_t y, int16_t* covered) const {
+  bool FindCovered(const ViewPosition& view, int32_t y, int16_t* covered) const {
     // comes[m]: true if a nearer surface may move onto the row from m pixels away.
     bool comes[kMostMove + 1] = {};
-    if (!FindMoves(view, comes)) return false;
-    const int32_t sign = view.along < 0 ? -1 : 1;
+    if (!FindMoves(Max(Abs(view.u), Abs(view.v)), comes)) return false;
     for (int32_t m = 0; m <= kMostMove; ++m) {
-      if (comes[m]) CoverFrom(view, y, sign * m, covered);
+      if (comes[m]) CoverFrom(view, y, m, covered);
     }
     return true;
   }
 
-  bool FindMoves(const SideLook& view, bool* comes) const {
-    const int32_t size = Abs(view.along);
+  // `size` is the distance of the view from the centre view along the axis of the search.
+  bool FindMoves(int32_t size, bool* comes) const {
     int32_t nearest_far = INT16_MAX, farthest_far = INT16_MIN;
     for (int32_t k = 0; k < columns_; ++k) {
       if (!split_[k]) continue;
@@ -193,18 +180,22 @@ class TileLooker {
   }
 
   // Updates `covered` with the surfaces that may move onto row y from a distance of `m` pixels
-  // along the view's axis.
-  void CoverFrom(const SideLook& view, int32_t y, int32_t m, int16_t* covered) const {
+  // along the axis of the search, on the side of the view. The axis is the one on which the view is
+  // farther away.
+  void CoverFrom(const ViewPosition& view, int32_t y, int32_t m, int16_t* covered) const {
+    const bool down = Abs(view.v) > Abs(view.u);
+    const int32_t along = down ? view.v : view.u, across = down ? view.u : view.v;
     // Movements have kDisparityBits - 1 fractional bits, because the SIMD kernel interprets `along`
-    // with 15 fractional bits and kViewOne has 14. `m` and `along` have the same sign, which is
+    // with 15 fractional bits and kViewOne has 14. `moved` and `along` have the same sign, which is
     // left away, so that products are rounded alike on both sides.
-    const simd::CoverView cover = {static_cast<int16_t>(Abs(view.along)),
-                                   static_cast<int16_t>(Abs(m) * (1 << (kDisparityBits - 1))),
-                                   static_cast<int16_t>(kWithin / 2),
-                                   static_cast<int16_t>(kBefore)};
-    const auto across = static_cast<int32_t>(RoundShift(int64_t{m} * view.slant, kViewBits));
-    for (int32_t beside = across - 1; beside <= across + 1; ++beside) {
-      const int32_t dx = view.down ? beside : m, row = y + (view.down ? m : beside);
+    const simd::CoverView cover = {
+        static_cast<int16_t>(Abs(along)), static_cast<int16_t>(m * (1 << (kDisparityBits - 1))),
+        static_cast<int16_t>(kWithin / 2), static_cast<int16_t>(kBefore)};
+    // Movement at right angles to the axis for each pixel of movement along the axis, kViewBits.
+    const int32_t slant = across * kViewOne / along, moved = along < 0 ? -m : m;
+    const auto middle = static_cast<int32_t>(RoundShift(int64_t{moved} * slant, kViewBits));
+    for (int32_t beside = middle - 1; beside <= middle + 1; ++beside) {
+      const int32_t dx = down ? beside : moved, row = y + (down ? moved : beside);
       if (row < 0 || row >= map_.height) continue;
       const size_t at = map_.At(left_ + dx, row);
       kernels_.CoverPlaces(map_.near + at, map_.first + at, far_, cover, covered);
@@ -216,7 +207,7 @@ class TileLooker {
   const CoverageMap& map_;
   const int32_t left_, columns_;
   const int32_t seen_;  // kSeenFound or kSeenGiven
-  SideLook views_[kSideCount * kOcclusionViews];
+  OcclusionView views_[kSideCount * kOcclusionViews];
   int count_ = 0;
   uint64_t bins_ = 0;
   // State of one row of the tile.

@@ -150,73 +150,71 @@ class RimSummer {
 };
 
 // Sums of the cells around a cell.
-struct RimTotal {
-  int64_t excess[kRimWidth][3] = {}, squares[kRimWidth] = {}, count[kRimWidth] = {};
-  int64_t near[3] = {}, slope[3] = {}, lines = 0;
+using RimTotal = RimSumsOf<int64_t, int64_t>;
 
-  void Add(const RimSums& sums) {
-    if (sums.lines == 0) return;
-    for (int k = 0; k < kRimWidth; ++k) {
-      for (int c = 0; c < 3; ++c) excess[k][c] += sums.excess[k][c];
-      squares[k] += sums.squares[k];
-      count[k] += sums.count[k];
-    }
-    for (int c = 0; c < 3; ++c) {
-      near[c] += sums.near[c];
-      slope[c] += sums.slope[c];
-    }
-    lines += sums.lines;
+void AddSums(const RimSums& sums, RimTotal* total) {
+  if (sums.lines == 0) return;
+  for (int k = 0; k < kRimWidth; ++k) {
+    for (int c = 0; c < 3; ++c) total->excess[k][c] += sums.excess[k][c];
+    total->squares[k] += sums.squares[k];
+    total->count[k] += sums.count[k];
   }
+  for (int c = 0; c < 3; ++c) {
+    total->near[c] += sums.near[c];
+    total->slope[c] += sums.slope[c];
+  }
+  total->lines += sums.lines;
+}
 
-  // Returns how clearly the pixels at a distance of k + 1 belong to a rim, in kFadeBits. All along
-  // the outlines, pixels of a rim differ from the clean pixels by the same colour, roughly a
-  // multiple of the difference between the near surface and the clean pixels: a negative one in a
-  // halo, a positive one if the pixels contain light of the near surface. Textures differ from line
-  // to line, and gradients continue in the clean pixels.
-  int32_t WeightOf(int k) const {
-    if (count[k] <= kLeastLines) return 0;
-    int64_t square = 0, along = 0, contrast = kLeastContrast, slopes = 0;
-    for (int c = 0; c < 3; ++c) {
-      const int64_t mean = excess[k][c] / count[k], other = near[c] / lines;
-      square += mean * mean;
-      along += mean * other;
-      contrast += other * other;
-      slopes += slope[c] * slope[c] / (lines * lines);
-    }
-    // Next to an outline, light of the near surface is an ordinary mixture (FindMixture).
-    const bool is_halo = along < 0;
-    if (k == 0 && !is_halo) return 0;
-    const int64_t spread = squares[k] / count[k] - square;
-    const int64_t by_chance = spread * Larger(kDependent, (is_halo ? count[k] : 3 * count[k]) / 2);
-    // The slope is that of 3 pixels, and the middle of the clean pixels is away / 2 pixels away.
-    const int64_t away = 2 * kRimWidth + kClean - 1 - 2 * k;
-    const int64_t limit = kNoise + by_chance / count[k] + slopes * away * away / 18;
-    const int64_t beside = square - along * along / contrast;
-    const int64_t clear = Fade(square - limit, limit);
-    const int64_t aligned = Fade(13 * square - 16 * beside, 3 * square);
-    const int64_t size = is_halo ? -along : along;
-    const int64_t large = Fade(32 * size - contrast, contrast);
-    const int64_t small = Fade(2 * contrast - (is_halo ? 3 : 6) * size, contrast);
-    const int64_t enough = Fade(count[k] - kLeastLines, kLeastLines);
-    return static_cast<int32_t>(
-        ((clear * aligned * large >> (2 * kFadeBits)) * enough >> kFadeBits) * small >> kFadeBits);
+// Returns how clearly the pixels at a distance of k + 1 belong to a rim, in kFadeBits. All along
+// the outlines, pixels of a rim differ from the clean pixels by the same colour, roughly a
+// multiple of the difference between the near surface and the clean pixels: a negative one in a
+// halo, a positive one if the pixels contain light of the near surface. Textures differ from line
+// to line, and gradients continue in the clean pixels.
+int32_t WeightOf(const RimTotal& total, int k) {
+  const int64_t count = total.count[k];
+  if (count <= kLeastLines) return 0;
+  int64_t square = 0, along = 0, contrast = kLeastContrast, slopes = 0;
+  for (int c = 0; c < 3; ++c) {
+    const int64_t mean = total.excess[k][c] / count, other = total.near[c] / total.lines;
+    square += mean * mean;
+    along += mean * other;
+    contrast += other * other;
+    slopes += total.slope[c] * total.slope[c] / (total.lines * total.lines);
   }
-};
+  // Next to an outline, light of the near surface is an ordinary mixture (FindMixture).
+  const bool is_halo = along < 0;
+  if (k == 0 && !is_halo) return 0;
+  const int64_t spread = total.squares[k] / count - square;
+  const int64_t by_chance = spread * Larger(kDependent, (is_halo ? count : 3 * count) / 2);
+  // The slope is that of 3 pixels, and the middle of the clean pixels is away / 2 pixels away.
+  const int64_t away = 2 * kRimWidth + kClean - 1 - 2 * k;
+  const int64_t limit = kNoise + by_chance / count + slopes * away * away / 18;
+  const int64_t beside = square - along * along / contrast;
+  const int64_t clear = Fade(square - limit, limit);
+  const int64_t aligned = Fade(13 * square - 16 * beside, 3 * square);
+  const int64_t size = is_halo ? -along : along;
+  const int64_t large = Fade(32 * size - contrast, contrast);
+  const int64_t small = Fade(2 * contrast - (is_halo ? 3 : 6) * size, contrast);
+  const int64_t enough = Fade(count - kLeastLines, kLeastLines);
+  return static_cast<int32_t>(
+      ((clear * aligned * large >> (2 * kFadeBits)) * enough >> kFadeBits) * small >> kFadeBits);
+}
 
 // Finds the rim in a cell. A rim has no gap: no pixel counts more than a pixel between itself and
 // the outline. Only the first pixel may count less, because it may be an ordinary mixture.
 void FindRim(const RimMap& map, int32_t column, int32_t row, CellRim* rim) {
   *rim = {};
-  RimTotal total;
+  RimTotal total = {};
   ForPixels(Clipped(Around(column, row, kRimAround), map.columns, map.Rows()),
-            [&](int32_t x, int32_t y) { total.Add(map.sums[map.At(x, y)]); });
+            [&](int32_t x, int32_t y) { AddSums(map.sums[map.At(x, y)], &total); });
   if (total.lines <= kLeastLines) return;
   int32_t weight = kWholeRim;
   for (int k = 1; k < kRimWidth && weight > 0; ++k) {
-    weight = Min(weight, total.WeightOf(k));
+    weight = Min(weight, WeightOf(total, k));
     rim->weight[k] = static_cast<uint8_t>(weight);
   }
-  const int32_t first = Max(rim->weight[1], total.WeightOf(0));
+  const int32_t first = Max(rim->weight[1], WeightOf(total, 0));
   rim->weight[0] = static_cast<uint8_t>(Min(first, kWholeRim));
   for (int k = 0; k < kRimWidth && rim->weight[k] > 0; ++k) {
     for (int c = 0; c < 3; ++c) {

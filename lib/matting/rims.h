@@ -35,14 +35,16 @@ inline constexpr int32_t kRimBorder = (kRimAround + 1) * kRimCell - 1 + kRimEnd 
 // the cell of its far pixel next to the outline. Element k of an array belongs to the far pixel at
 // a distance of k + 1 pixels. Colours are differences from the mean colour of the clean pixels of
 // the line, in units of white / (8 * 255).
-struct RimSums {
-  int32_t excess[kRimWidth][3];  // sums of differences
-  uint32_t squares[kRimWidth];   // sums of squared differences, of three channels
-  int32_t count[kRimWidth];      // number of pixels to which no other outline is nearer
-  int32_t near[3];               // differences of the near surface
-  int32_t slope[3];              // first clean pixel minus last clean pixel
-  int32_t lines;                 // number of lines
+template <class Sum, class Squares>
+struct RimSumsOf {
+  Sum excess[kRimWidth][3];    // sums of differences
+  Squares squares[kRimWidth];  // sums of squared differences, of three channels
+  Sum count[kRimWidth];        // number of pixels to which no other outline is nearer
+  Sum near[3];                 // differences of the near surface
+  Sum slope[3];                // first clean pixel minus last clean pixel
+  Sum lines;                   // number of lines
 };
+using RimSums = RimSumsOf<int32_t, uint32_t>;
 
 // The rim in a cell.
 struct CellRim {
