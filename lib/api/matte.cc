@@ -55,15 +55,24 @@ Extent ExtentOfCoverage(const Rect& area, const starfocus_disparity_output& out)
   return ExtentOf(out.coverage, out.coverage_stride, area.height, static_cast<size_t>(area.width));
 }
 
-// Finds the part of a picture of width x height that `region` selects. A null region selects the
+// Returns the part of a picture of width x height that `region` selects. A null region selects the
 // whole picture.
-void FindArea(const starfocus_region* region, int32_t width, int32_t height, Rect* area,
-              Checker* check) {
+Rect AreaOf(const starfocus_region* region, int32_t width, int32_t height, Checker* check) {
   CheckSize(width, height, check);
-  *area = {0, 0, width, height};
-  if (region == nullptr || IsWhole(*region)) return;
-  *area = {region->x, region->y, region->width, region->height};
+  if (region == nullptr || IsWhole(*region)) return {0, 0, width, height};
   CheckRegion(*region, width, height, check);
+  return {region->x, region->y, region->width, region->height};
+}
+
+// Starts an API call that reads a matte and a description of its depth.
+Checker EnterMatte(const starfocus_matte* matte, const void* depth,
+                   const starfocus_disparity_output* out, starfocus_problem* problem) {
+  Checker check = Enter(problem);
+  check.NotNull(matte, "matte");
+  check.NotNull(depth, "depth");
+  check.NotNull(out, "out");
+  if (check.passed()) CheckMatte(*matte, &check);
+  return check;
 }
 
 int64_t CountSubject(const starfocus_matte& matte, int32_t y) {
@@ -155,15 +164,10 @@ starfocus_status starfocus_matte_field(const starfocus_matte* matte,
                                        int32_t height, const starfocus_region* region,
                                        starfocus_disparity_output* out,
                                        starfocus_problem* problem) {
-  Checker check = Enter(problem);
-  check.NotNull(matte, "matte");
-  check.NotNull(depth, "depth");
-  check.NotNull(out, "out");
+  Checker check = EnterMatte(matte, depth, out, problem);
   if (!check.passed()) return check.status();
-  CheckMatte(*matte, &check);
   CheckMatteDepth(*depth, &check);
-  Rect area;
-  FindArea(region, width, height, &area, &check);
+  const Rect area = AreaOf(region, width, height, &check);
   CheckMap(out->disparity, out->disparity_stride, area.width, area.height, "out.disparity",
            "out.disparity_stride", &check);
   CheckBytes(out->coverage, out->coverage_stride, area.width, area.height, "out.coverage_stride",
@@ -203,15 +207,10 @@ starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
                                           int32_t height, const starfocus_region* region,
                                           starfocus_disparity_output* out,
                                           starfocus_problem* problem) {
-  Checker check = Enter(problem);
-  check.NotNull(matte, "matte");
-  check.NotNull(depth, "depth");
-  check.NotNull(out, "out");
+  Checker check = EnterMatte(matte, depth, out, problem);
   if (!check.passed()) return check.status();
-  CheckMatte(*matte, &check);
   CheckLoneMap(*depth, width, height, &check);
-  Rect area;
-  FindArea(region, width, height, &area, &check);
+  const Rect area = AreaOf(region, width, height, &check);
   check.NotNull(out->coverage, "out.coverage");
   CheckBytes(out->coverage, out->coverage_stride, area.width, area.height, "out.coverage_stride",
              &check);
