@@ -26,6 +26,10 @@ constexpr Rect Extended(const Rect& rect, const Border& border) {
           border.top + rect.height + border.bottom};
 }
 
+constexpr uint64_t PixelsIn(int32_t width, int32_t height) {
+  return static_cast<uint64_t>(width) * static_cast<uint64_t>(height);
+}
+
 // Returns the part of a rectangle in a picture of width x height pixels.
 constexpr Rect Clipped(const Rect& rect, int32_t width, int32_t height) {
   const int32_t left = Max(rect.x, 0), top = Max(rect.y, 0);

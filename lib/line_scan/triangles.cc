@@ -374,7 +374,7 @@ class Star {
 // Implements Renderer::render for line scans. `scratch` is a LineScanScratch. N > 0.
 uint64_t RefocusRectangle(const RenderJob& job, RendererScratch* scratch, uint32_t* sums) {
   Star(job, static_cast<LineScanScratch*>(scratch), sums).Refocus();
-  return 3 * static_cast<uint64_t>(job.rect.width) * static_cast<uint64_t>(job.rect.height);
+  return 3 * PixelsIn(job.rect.width, job.rect.height);
 }
 
 int32_t LayerOf(const BlockStats& stats, Demand demand) {
@@ -387,18 +387,17 @@ int32_t LayerOf(const BlockStats& stats, Demand demand) {
 // are scanned along both axes.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
-  const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
-  const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
-  const uint64_t extended_height = height + static_cast<uint64_t>(border.top + border.bottom);
+  const Rect field = Extended(rect, border);
+  const uint64_t pixels = PixelsIn(rect.width, rect.height);
   const auto all = static_cast<uint64_t>(aperture.views) - 1;
   const uint64_t on_axis = 2 * static_cast<uint64_t>(aperture.n);
   BlockWork work = {};
-  work.field = extended_width * extended_height;
-  work.a = on_axis * (width * extended_height + extended_width * height);
-  work.b = 4 * static_cast<uint64_t>(LastOnDiagonal(aperture.n)) * width * height;
-  work.c = (all - 2 * on_axis) * width * height - work.b;
-  AddScans(all / 2, height, content[0], layer, &work);
-  AddScans(all / 2, width, content[1], layer, &work);
+  work.field = PixelsIn(field.width, field.height);
+  work.a = on_axis * (PixelsIn(rect.width, field.height) + PixelsIn(field.width, rect.height));
+  work.b = 4 * static_cast<uint64_t>(LastOnDiagonal(aperture.n)) * pixels;
+  work.c = (all - 2 * on_axis) * pixels - work.b;
+  AddScans(all / 2, rect.height, content[0], layer, &work);
+  AddScans(all / 2, rect.width, content[1], layer, &work);
   return work;
 }
 

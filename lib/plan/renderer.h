@@ -34,13 +34,13 @@ struct BlockWork {
 
 // Adds the spans and holes of `views` views that are scanned along `lines` lines of the layer in
 // one direction. `content` is the content of the block at layer 0.
-inline void AddScans(uint64_t views, uint64_t lines, const Content& content, int32_t layer,
+inline void AddScans(uint64_t views, int32_t lines, const Content& content, int32_t layer,
                      BlockWork* work) {
   // Layer L has 1 / 2^L as many lines as layer 0. Along a line of layer L, slopes start 1 / 2^L as
   // many runs, and gaps are 1 / 2^L as wide. The number of depth edges along a line is equal at all
   // layers.
   const uint64_t runs = (content.slopes >> 2 * layer) + (content.edges >> layer);
-  work->span += views * lines + views * runs / kContentOne;
+  work->span += views * static_cast<uint64_t>(lines) + views * runs / kContentOne;
   work->hole += views * (content.gaps >> 2 * layer) / kContentOne;
 }
 

@@ -287,18 +287,16 @@ int32_t LayerOf(const BlockStats& stats, Demand demand) {
 // counts the pixels of slices that are composited, once for each view.
 BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights& aperture,
                       const Content (&content)[2], int32_t layer) {
-  const auto width = static_cast<uint64_t>(rect.width), height = static_cast<uint64_t>(rect.height);
-  const uint64_t extended_width = width + static_cast<uint64_t>(border.left + border.right);
-  const uint64_t extended_height = height + static_cast<uint64_t>(border.top + border.bottom);
+  const Rect field = Extended(rect, border);
   const auto all = static_cast<uint64_t>(aperture.views) - 1;
   const uint64_t along_axis = 2 * static_cast<uint64_t>(aperture.last);
   const uint64_t columns = all > 0 ? along_axis + 1 : 0;
   BlockWork work = {};
-  work.field = extended_width * extended_height;
-  work.a = columns * width * extended_height;
-  work.c = (all - along_axis) * width * height;
-  AddScans(columns, extended_height, content[0], layer, &work);
-  AddScans(all - along_axis, width, content[1], layer, &work);
+  work.field = PixelsIn(field.width, field.height);
+  work.a = columns * PixelsIn(rect.width, field.height);
+  work.c = (all - along_axis) * PixelsIn(rect.width, rect.height);
+  AddScans(columns, field.height, content[0], layer, &work);
+  AddScans(all - along_axis, rect.width, content[1], layer, &work);
   return work;
 }
 
