@@ -97,6 +97,21 @@ bool ShowsNear(const Input& input, const FarCell& far, int32_t x, int32_t y) {
   return input.disparity.Row(y)[x] > far.disparity;
 }
 
+// Calls act(x, y, at) for each pixel of the picture in the field that lies in a thin tile; `at` is
+// its index, CoverageMap::At(x, y).
+template <class Act>
+void ForEachThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
+  const Rect inside = Clipped({field.x, field.y, field.width, field.height}, map.width, map.height);
+  for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
+    for (int32_t x = inside.x, end; x < inside.x + inside.width; x = end) {
+      end = Min(inside.x + inside.width, (x / kCoverageTile + 1) * kCoverageTile);
+      if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) continue;
+      size_t at = map.At(x, y);
+      for (int32_t k = x; k < end; ++k) act(k, y, at++);
+    }
+  }
+}
+
 }  // namespace
 
 CentreView::CentreView(const Input& input, const BlockPixels* field)
@@ -148,232 +163,307 @@ Mixture Unmix(const BoundaryColours& light, int32_t contrast_fade, const Boundar
   return mixture;
 }
 
-PixelSplitter::PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field)
-    : centre_(input, &field),
-      grid_(grid),
-      field_(field),
-      rims_(field.layer == 0 && input.captured == nullptr ? input.rims : nullptr),
-      map_(field.layer == 0 ? input.coverage : nullptr),
-      step_(static_cast<int16_t>(kDepthEdge << field.layer)),
-      rim_(grid.Move(grid.n())) {}
+namespace {
 
-bool PixelSplitter::MoveApart(int32_t near, int32_t far) const {
-  return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;
-}
+// Splits the pixels of a field (SplitPixels).
+class PixelSplitter {
+ public:
+  PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field)
+      : centre_(input, &field),
+        grid_(grid),
+        field_(field),
+        rims_(field.layer == 0 && input.captured == nullptr ? input.rims : nullptr),
+        map_(field.layer == 0 ? input.coverage : nullptr),
+        step_(static_cast<int16_t>(kDepthEdge << field.layer)),
+        rim_(grid.Move(grid.n())) {}
 
-bool PixelSplitter::IsInMap(int32_t x, int32_t y) const {
-  if (map_ == nullptr || map_->Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) return false;
-  return !HasGiven(centre_.input()) || map_->alpha[map_->At(x, y)] != kUnsplit;
-}
-
-// Returns true if a pixel of the field has a far surface that is not hidden.
-bool PixelSplitter::IsPartial(int32_t x, int32_t y) const {
-  return Contains(centre_.copied(), x, y) &&
-         map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
-         map_->alpha[map_->At(x, y)] < kLeastWhole;
-}
-
-// Returns true if a pixel lies inside its near surface, so that slices on both sides of a step
-// within the surface must overlap. Otherwise, the far surface would show between the slices. With
-// given coverage, the near surface must cover the pixel and its eight neighbours.
-bool PixelSplitter::IsInside(int32_t x, int32_t y) const {
-  return !AnyPixel(Around(x, y, 1),
-                   [&](int32_t column, int32_t row) { return IsPartial(column, row); });
-}
-
-// Returns true if a pixel and its eight neighbours belong to one surface of the disparity map.
-bool PixelSplitter::IsOneSurface(int32_t x, int32_t y) const {
-  const int32_t here = centre_.Disparity(x, y);
-  return !AnyPixel(Around(x, y, 1), [&](int32_t column, int32_t row) {
-    const int32_t most = (Abs(column - x) + Abs(row - y)) * kDepthEdge;
-    return Abs(centre_.Disparity(column, row) - here) > most;
-  });
-}
-
-// Limits a colour of the far surface at pixel (x, y) to the range of the far colour of the map and
-// of pixels around that the near surface does not cover.
-void PixelSplitter::LimitToFar(int32_t x, int32_t y, Colour* far) const {
-  const FarCell& cell = map_->FarAt(x, y);
-  int32_t low[3] = {cell.rgb[0], cell.rgb[1], cell.rgb[2]}, high[3] = {low[0], low[1], low[2]};
-  ForPixels(Around(x, y, 6), [&](int32_t column, int32_t row) {
-    if (!IsPartial(column, row) || map_->alpha[map_->At(column, row)] != 0) return;
-    Widen(field_.Rgb(column - field_.x, row - field_.y), low, high);
-  });
-  LimitTo(low, high, far);
-}
-
-bool PixelSplitter::SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const {
-  const int32_t x = field_.x + column, y = field_.y + row;
-  if (IsInMap(x, y)) return false;
-  const int16_t disparity = *field_.Disparity(column, row);
-  // Sums of the mixtures with the nearer surfaces on all sides, weighted by their shares.
-  ColourSum<int32_t> nears, fars;
-  int32_t nearest = INT16_MIN, most = 0;
-  for (int side = 0; side < kSideCount; ++side) {
-    const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
-    if (near - disparity <= step_ || !MoveApart(near, disparity)) continue;
-    nearest = Max(nearest, near);
-    const Mixture mixture = FindMixture(centre_, x, y, side, disparity, near, step_, kContrastFade);
-    most = Max(most, mixture.share);
-    nears.Add(mixture.near, mixture.share);
-    fars.Add(mixture.far, mixture.share);
-  }
-  if (nearest == INT16_MIN) return false;
-  const int32_t share = RoundShift(most * simd::kSliceWhole, kShareBits);
-  const bool is_rim = rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty();
-  if (share == 0 && !is_rim) return false;
-  *pixel = {SplitPixel::kBoundary,
-            column,
-            row,
-            static_cast<uint8_t>(share),
-            static_cast<int16_t>(nearest),
-            disparity,
-            share > 0 ? MeanOf(nears) : Colour(),
-            share > 0 ? MeanOf(fars) : centre_.ColourAt(x, y)};
-  if (is_rim) CleanRim(OutlineAt(x, y), pixel);
-  return pixel->share > 0;
-}
-
-PixelSplitter::Outline PixelSplitter::OutlineAt(int32_t x, int32_t y) const {
-  const int32_t here = centre_.Disparity(x, y);
-  Outline outline = {0, 0, INT16_MIN};
-  for (int32_t distance = 1; distance <= kRimWidth; ++distance) {
-    for (int side = 0; side < kSideCount; ++side) {
-      const int32_t there =
-          centre_.Disparity(x + distance * kSides[side][0], y + distance * kSides[side][1]);
-      if (there - here <= kRimStep) continue;
-      outline = {distance, outline.sides | 1 << side, Max(outline.near, there)};
+  void Visit(SplitVisitor visit, void* data) const {
+    const Input& input = centre_.input();
+    SplitPixel pixel;
+    ForEachBesideEdge(*input.kernels, input, field_, step_, [&](int32_t column, int32_t row) {
+      if (SplitBoundary(column, row, &pixel)) visit(pixel, step_, data);
+    });
+    if (rims_ != nullptr) {
+      ForEachInRim([&](int32_t x, int32_t y) {
+        if (SplitRim(x - field_.x, y - field_.y, &pixel)) visit(pixel, step_, data);
+      });
     }
-    if (outline.distance != 0) break;
+    if (map_ == nullptr) return;
+    ForEachThin(*map_, field_, [&](int32_t x, int32_t y, size_t at) {
+      if (HasGiven(input) && map_->alpha[at] == kUnsplit) return;
+      SplitThin(x, y, at, &pixel);
+      visit(pixel, step_, data);
+    });
   }
-  return outline;
-}
 
-// Limits a colour to the range of the clean colours beyond the rim, on the line across the outline
-// and on two lines beside it. Returns false if the far surface ends there.
-bool PixelSplitter::LimitToClean(int32_t x, int32_t y, const Outline& outline,
-                                 Colour* colour) const {
-  const int32_t here = centre_.Disparity(x, y);
-  int32_t low[3] = {INT16_MAX, INT16_MAX, INT16_MAX}, high[3] = {0, 0, 0}, count = 0;
-  ForEachBit(static_cast<uint32_t>(outline.sides), [&](int32_t side) {
-    const int32_t dx = kSides[side][0], dy = kSides[side][1];
-    for (int32_t distance = kRimWidth + 1; distance <= kRimEnd; ++distance) {
-      const int32_t away = distance - outline.distance;
-      for (int32_t beside = -2; beside <= 2; beside += 2) {
-        const int32_t clean_x = x - away * dx + beside * dy, clean_y = y - away * dy + beside * dx;
-        if (Abs(centre_.Disparity(clean_x, clean_y) - here) > kRimStep / 2) continue;
-        Widen(centre_.ColourAt(clean_x, clean_y).rgb, low, high);
-        ++count;
+ private:
+  // The outline next to a pixel of its far surface: the distance to the nearest pixel of the near
+  // surface, 0 if it is more than kRimWidth pixels away; the sides on which it is (one bit of
+  // kSides each); and the largest disparity there.
+  struct Outline {
+    int32_t distance, sides, near;
+  };
+
+  // Calls act(x, y) for each pixel of the picture in the field, except its outermost pixels, that
+  // lies in a cell with a rim.
+  template <class Act>
+  void ForEachInRim(const Act& act) const {
+    const Rect inside = Clipped({field_.x + 1, field_.y + 1, field_.width - 2, field_.height - 2},
+                                rims_->width, rims_->height);
+    const int32_t right = inside.x + inside.width, bottom = inside.y + inside.height;
+    for (int32_t y = inside.y, end; y < bottom; y = end) {
+      end = Min(bottom, (y / kRimCell + 1) * kRimCell);
+      for (int32_t x = inside.x, last; x < right; x = last) {
+        last = Min(right, (x / kRimCell + 1) * kRimCell);
+        if (!rims_->RimAt(x, y).IsEmpty()) ForPixels({x, y, last - x, end - y}, act);
       }
     }
-  });
-  if (count < kRimEnd - kRimWidth) return false;
-  LimitTo(low, high, colour);
-  return true;
-}
+  }
 
-// Divides a pixel of a rim into the clean far colour and the rest of the pixel's light, which the
-// near surface takes. The near surface covers a quarter of the pixel, or less if the rest is faint
-// (kWholeRest), or more if its light would otherwise be brighter than white or negative.
-void PixelSplitter::CleanRim(const Outline& outline, SplitPixel* pixel) const {
-  constexpr int32_t kWholeRest = 8 << kLightBits;
-  if (outline.distance == 0) return;
-  const int32_t x = field_.x + pixel->column, y = field_.y + pixel->row;
-  const CellRim& rim = rims_->RimAt(x, y);
-  const int32_t weight = rim.weight[outline.distance - 1];
-  if (weight == 0) return;
-  const Colour mixed = centre_.ColourAt(x, y);
-  Colour clean;
-  for (int c = 0; c < 3; ++c) {
-    clean.rgb[c] = LimitedLight(mixed[c] - rim.excess[outline.distance - 1][c]);
+  // Splits the boundary pixel (column, row). Returns false if it is not a mixture, or if the
+  // coverage map splits it.
+  bool SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const {
+    const int32_t x = field_.x + column, y = field_.y + row;
+    if (IsInMap(x, y)) return false;
+    const int16_t disparity = *field_.Disparity(column, row);
+    // Sums of the mixtures with the nearer surfaces on all sides, weighted by their shares.
+    ColourSum<int32_t> nears, fars;
+    int32_t nearest = INT16_MIN, most = 0;
+    for (int side = 0; side < kSideCount; ++side) {
+      const int32_t near = *field_.Disparity(column + kSides[side][0], row + kSides[side][1]);
+      if (near - disparity <= step_ || !MoveApart(near, disparity)) continue;
+      nearest = Max(nearest, near);
+      const Mixture mixture =
+          FindMixture(centre_, x, y, side, disparity, near, step_, kContrastFade);
+      most = Max(most, mixture.share);
+      nears.Add(mixture.near, mixture.share);
+      fars.Add(mixture.far, mixture.share);
+    }
+    if (nearest == INT16_MIN) return false;
+    const int32_t share = RoundShift(most * simd::kSliceWhole, kShareBits);
+    const bool is_rim = rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty();
+    if (share == 0 && !is_rim) return false;
+    *pixel = {SplitPixel::kBoundary,
+              column,
+              row,
+              static_cast<uint8_t>(share),
+              static_cast<int16_t>(nearest),
+              disparity,
+              share > 0 ? MeanOf(nears) : Colour(),
+              share > 0 ? MeanOf(fars) : centre_.ColourAt(x, y)};
+    if (is_rim) CleanRim(OutlineAt(x, y), pixel);
+    return pixel->share > 0;
   }
-  if (!LimitToClean(x, y, outline, &clean)) return;
-  int32_t part = LeastShare(mixed, clean);
-  for (int c = 0; c < 3; ++c) {
-    const int32_t rest = Abs(mixed[c] - clean[c]) * simd::kSliceWhole;
-    part = Max(part, Min(rest / (4 * kWholeRest), simd::kSliceWhole / 4));
-  }
-  const auto blend = [&](int32_t from, int32_t to) {
-    return from + (to - from) * weight / kWholeRim;
-  };
-  const int32_t share = Min(blend(pixel->share, Max(pixel->share, part)), simd::kSliceWhole - 1);
-  if (share == 0) return;
-  pixel->share = static_cast<uint8_t>(share);
-  for (int c = 0; c < 3; ++c) {
-    const int32_t far = blend(pixel->far[c], clean[c]);
-    pixel->far.rgb[c] = static_cast<int16_t>(far);
-    pixel->near.rgb[c] = LimitedLight(far + (mixed[c] - far) * simd::kSliceWhole / share);
-  }
-}
 
-bool PixelSplitter::SplitRim(int32_t column, int32_t row, SplitPixel* pixel) const {
-  const int32_t x = field_.x + column, y = field_.y + row;
-  if (IsInMap(x, y)) return false;
-  const int16_t far = *field_.Disparity(column, row);
-  for (const auto& side : kSides) {  // SplitBoundary splits boundary pixels
-    if (*field_.Disparity(column + side[0], row + side[1]) - far > step_) return false;
+  // Splits a pixel of a contaminated rim that is not a boundary pixel. Returns false if the pixel
+  // does not belong to a rim.
+  bool SplitRim(int32_t column, int32_t row, SplitPixel* pixel) const {
+    const int32_t x = field_.x + column, y = field_.y + row;
+    if (IsInMap(x, y)) return false;
+    const int16_t far = *field_.Disparity(column, row);
+    for (const auto& side : kSides) {  // SplitBoundary splits boundary pixels
+      if (*field_.Disparity(column + side[0], row + side[1]) - far > step_) return false;
+    }
+    const Outline outline = OutlineAt(x, y);
+    if (outline.distance == 0) return false;
+    if (!MoveApart(outline.near, far)) return false;
+    *pixel = {
+        SplitPixel::kBoundary, column, row, 0, static_cast<int16_t>(outline.near), far, Colour(),
+        centre_.ColourAt(x, y)};
+    CleanRim(outline, pixel);
+    return pixel->share > 0;
   }
-  const Outline outline = OutlineAt(x, y);
-  if (outline.distance == 0) return false;
-  if (!MoveApart(outline.near, far)) return false;
-  *pixel = {
-      SplitPixel::kBoundary, column, row, 0, static_cast<int16_t>(outline.near), far, Colour(),
-      centre_.ColourAt(x, y)};
-  CleanRim(outline, pixel);
-  return pixel->share > 0;
-}
 
-void PixelSplitter::SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pixel) const {
-  const CoverageMap& map = *map_;
-  pixel->column = x - field_.x;
-  pixel->row = y - field_.y;
-  pixel->kind = map.alpha[from] == kUnsplit ? SplitPixel::kOneSurface : SplitPixel::kThin;
-  if (pixel->kind == SplitPixel::kOneSurface) return;
-  const int32_t found = map.alpha[from];
-  const FarCell& cell = map.FarAt(x, y);
-  const Input& input = centre_.input();
-  const bool is_excess = input.captured != nullptr;
-  // Noise must not change the number of surfaces, so found coverage does not decide whether a pixel
-  // lies inside.
-  const bool inside = HasGiven(input) ? found >= kLeastWhole && IsInside(x, y)
-                                      : ShowsNear(input, cell, x, y) && IsOneSurface(x, y);
-  const int32_t alpha = inside ? kWhole : Min(found + Max(found - kMostExact, 0), kWhole);
-  const bool whole = alpha == kWhole;
-  // Pixels without coverage have a near surface too, with a share of 0, so that the disparities of
-  // all surfaces, and therefore the slices, do not depend on colours.
-  pixel->near_disparity = map.near[from];
-  pixel->far_disparity = cell.disparity;
-  pixel->share = !whole   ? static_cast<uint8_t>(alpha)
-                 : inside ? uint8_t{simd::kSliceWhole}
-                          : simd::kSliceEnd;
-  Colour &near = pixel->near, &far = pixel->far;
-  std::memcpy(near.rgb, field_.Rgb(pixel->column, pixel->row), sizeof(near.rgb));
-  far = near;
-  if (whole) {
-    // Excess is not divided: the near surface has all the excess of a pixel that it covers.
-    if (is_excess) far = {};
-    if (!is_excess) std::memcpy(far.rgb, cell.rgb, sizeof(far.rgb));
-  } else if (alpha > 0 && !is_excess) {
-    const Colour mixed = near;
+  // Splits pixel (x, y) of the picture, which lies in a thin tile, as the coverage map says at
+  // index `from` (CoverageMap::At).
+  void SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pixel) const {
+    const CoverageMap& map = *map_;
+    pixel->column = x - field_.x;
+    pixel->row = y - field_.y;
+    pixel->kind = map.alpha[from] == kUnsplit ? SplitPixel::kOneSurface : SplitPixel::kThin;
+    if (pixel->kind == SplitPixel::kOneSurface) return;
+    const int32_t found = map.alpha[from];
+    const FarCell& cell = map.FarAt(x, y);
+    const Input& input = centre_.input();
+    const bool is_excess = input.captured != nullptr;
+    // Noise must not change the number of surfaces, so found coverage does not decide whether a
+    // pixel lies inside.
+    const bool inside = HasGiven(input) ? found >= kLeastWhole && IsInside(x, y)
+                                        : ShowsNear(input, cell, x, y) && IsOneSurface(x, y);
+    const int32_t alpha = inside ? kWhole : Min(found + Max(found - kMostExact, 0), kWhole);
+    const bool whole = alpha == kWhole;
+    // Pixels without coverage have a near surface too, with a share of 0, so that the disparities
+    // of all surfaces, and therefore the slices, do not depend on colours.
+    pixel->near_disparity = map.near[from];
+    pixel->far_disparity = cell.disparity;
+    pixel->share = !whole   ? static_cast<uint8_t>(alpha)
+                   : inside ? uint8_t{simd::kSliceWhole}
+                            : simd::kSliceEnd;
+    Colour &near = pixel->near, &far = pixel->far;
+    std::memcpy(near.rgb, field_.Rgb(pixel->column, pixel->row), sizeof(near.rgb));
+    far = near;
+    if (whole) {
+      // Excess is not divided: the near surface has all the excess of a pixel that it covers.
+      if (is_excess) far = {};
+      if (!is_excess) std::memcpy(far.rgb, cell.rgb, sizeof(far.rgb));
+    } else if (alpha > 0 && !is_excess) {
+      const Colour mixed = near;
+      for (int c = 0; c < 3; ++c) {
+        near.rgb[c] = RestOf(mixed[c], cell.rgb[c], kWhole - alpha);
+        // RestOf may have clipped the near surface's light. The far surface's light compensates for
+        // the clipping, so that the mixture of both surfaces still equals the light of the pixel.
+        // If the far surface covers less than half of the pixel, it compensates only in part,
+        // because it would multiply noise.
+        const int32_t more = RestOf(mixed[c], near.rgb[c], alpha) - cell.rgb[c];
+        const int32_t part = Min(2 * (kWhole - alpha), kWhole);
+        far.rgb[c] = static_cast<int16_t>(cell.rgb[c] + RoundShift(more * part, kAlphaBits));
+      }
+      if (rims_ != nullptr && HasGiven(centre_.input()) &&
+          std::memcmp(far.rgb, cell.rgb, sizeof(far.rgb)) != 0) {
+        LimitToFar(x, y, &far);
+        const int32_t share = Min(Max(alpha, LeastShare(mixed, far)), kWhole - 1);
+        pixel->share = static_cast<uint8_t>(share);
+        for (int c = 0; c < 3; ++c) near.rgb[c] = RestOf(mixed[c], far[c], kWhole - share);
+      }
+    }
+    if (!whole && rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty())
+      CleanRim(OutlineAt(x, y), pixel);
+  }
+
+  // Returns true if two surfaces move far enough relative to each other for a split.
+  bool MoveApart(int32_t near, int32_t far) const {
+    return Abs(grid_.Shift(rim_, near) - grid_.Shift(rim_, far)) > kLeastMove;
+  }
+
+  // Returns true if the coverage map decides how pixel (x, y) of the picture is split. Given
+  // coverage decides only on the pixels that it splits.
+  bool IsInMap(int32_t x, int32_t y) const {
+    if (map_ == nullptr || map_->Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) return false;
+    return !HasGiven(centre_.input()) || map_->alpha[map_->At(x, y)] != kUnsplit;
+  }
+
+  // Returns true if a pixel of the field has a far surface that is not hidden.
+  bool IsPartial(int32_t x, int32_t y) const {
+    return Contains(centre_.copied(), x, y) &&
+           map_->Tile(x / kCoverageTile, y / kCoverageTile).thin != 0 &&
+           map_->alpha[map_->At(x, y)] < kLeastWhole;
+  }
+
+  // Returns true if a pixel lies inside its near surface, so that slices on both sides of a step
+  // within the surface must overlap. Otherwise, the far surface would show between the slices. With
+  // given coverage, the near surface must cover the pixel and its eight neighbours.
+  bool IsInside(int32_t x, int32_t y) const {
+    return !AnyPixel(Around(x, y, 1),
+                     [&](int32_t column, int32_t row) { return IsPartial(column, row); });
+  }
+
+  // Returns true if a pixel and its eight neighbours belong to one surface of the disparity map.
+  bool IsOneSurface(int32_t x, int32_t y) const {
+    const int32_t here = centre_.Disparity(x, y);
+    return !AnyPixel(Around(x, y, 1), [&](int32_t column, int32_t row) {
+      const int32_t most = (Abs(column - x) + Abs(row - y)) * kDepthEdge;
+      return Abs(centre_.Disparity(column, row) - here) > most;
+    });
+  }
+
+  // Limits a colour of the far surface at pixel (x, y) to the range of the far colour of the map
+  // and of pixels around that the near surface does not cover.
+  void LimitToFar(int32_t x, int32_t y, Colour* far) const {
+    const FarCell& cell = map_->FarAt(x, y);
+    int32_t low[3] = {cell.rgb[0], cell.rgb[1], cell.rgb[2]}, high[3] = {low[0], low[1], low[2]};
+    ForPixels(Around(x, y, 6), [&](int32_t column, int32_t row) {
+      if (!IsPartial(column, row) || map_->alpha[map_->At(column, row)] != 0) return;
+      Widen(field_.Rgb(column - field_.x, row - field_.y), low, high);
+    });
+    LimitTo(low, high, far);
+  }
+
+  Outline OutlineAt(int32_t x, int32_t y) const {
+    const int32_t here = centre_.Disparity(x, y);
+    Outline outline = {0, 0, INT16_MIN};
+    for (int32_t distance = 1; distance <= kRimWidth; ++distance) {
+      for (int side = 0; side < kSideCount; ++side) {
+        const int32_t there =
+            centre_.Disparity(x + distance * kSides[side][0], y + distance * kSides[side][1]);
+        if (there - here <= kRimStep) continue;
+        outline = {distance, outline.sides | 1 << side, Max(outline.near, there)};
+      }
+      if (outline.distance != 0) break;
+    }
+    return outline;
+  }
+
+  // Limits a colour to the range of the clean colours beyond the rim, on the line across the
+  // outline and on two lines beside it. Returns false if the far surface ends there.
+  bool LimitToClean(int32_t x, int32_t y, const Outline& outline, Colour* colour) const {
+    const int32_t here = centre_.Disparity(x, y);
+    int32_t low[3] = {INT16_MAX, INT16_MAX, INT16_MAX}, high[3] = {0, 0, 0}, count = 0;
+    ForEachBit(static_cast<uint32_t>(outline.sides), [&](int32_t side) {
+      const int32_t dx = kSides[side][0], dy = kSides[side][1];
+      for (int32_t distance = kRimWidth + 1; distance <= kRimEnd; ++distance) {
+        const int32_t away = distance - outline.distance;
+        for (int32_t beside = -2; beside <= 2; beside += 2) {
+          const int32_t clean_x = x - away * dx + beside * dy,
+                        clean_y = y - away * dy + beside * dx;
+          if (Abs(centre_.Disparity(clean_x, clean_y) - here) > kRimStep / 2) continue;
+          Widen(centre_.ColourAt(clean_x, clean_y).rgb, low, high);
+          ++count;
+        }
+      }
+    });
+    if (count < kRimEnd - kRimWidth) return false;
+    LimitTo(low, high, colour);
+    return true;
+  }
+
+  // Divides a pixel of a rim into the clean far colour and the rest of the pixel's light, which the
+  // near surface takes. The near surface covers a quarter of the pixel, or less if the rest is
+  // faint (kWholeRest), or more if its light would otherwise be brighter than white or negative.
+  void CleanRim(const Outline& outline, SplitPixel* pixel) const {
+    constexpr int32_t kWholeRest = 8 << kLightBits;
+    if (outline.distance == 0) return;
+    const int32_t x = field_.x + pixel->column, y = field_.y + pixel->row;
+    const CellRim& rim = rims_->RimAt(x, y);
+    const int32_t weight = rim.weight[outline.distance - 1];
+    if (weight == 0) return;
+    const Colour mixed = centre_.ColourAt(x, y);
+    Colour clean;
     for (int c = 0; c < 3; ++c) {
-      near.rgb[c] = RestOf(mixed[c], cell.rgb[c], kWhole - alpha);
-      // RestOf may have clipped the near surface's light. The far surface's light compensates for
-      // the clipping, so that the mixture of both surfaces still equals the light of the pixel. If
-      // the far surface covers less than half of the pixel, it compensates only in part, because
-      // it would multiply noise.
-      const int32_t more = RestOf(mixed[c], near.rgb[c], alpha) - cell.rgb[c];
-      const int32_t part = Min(2 * (kWhole - alpha), kWhole);
-      far.rgb[c] = static_cast<int16_t>(cell.rgb[c] + RoundShift(more * part, kAlphaBits));
+      clean.rgb[c] = LimitedLight(mixed[c] - rim.excess[outline.distance - 1][c]);
     }
-    if (rims_ != nullptr && HasGiven(centre_.input()) &&
-        std::memcmp(far.rgb, cell.rgb, sizeof(far.rgb)) != 0) {
-      LimitToFar(x, y, &far);
-      const int32_t share = Min(Max(alpha, LeastShare(mixed, far)), kWhole - 1);
-      pixel->share = static_cast<uint8_t>(share);
-      for (int c = 0; c < 3; ++c) near.rgb[c] = RestOf(mixed[c], far[c], kWhole - share);
+    if (!LimitToClean(x, y, outline, &clean)) return;
+    int32_t part = LeastShare(mixed, clean);
+    for (int c = 0; c < 3; ++c) {
+      const int32_t rest = Abs(mixed[c] - clean[c]) * simd::kSliceWhole;
+      part = Max(part, Min(rest / (4 * kWholeRest), simd::kSliceWhole / 4));
+    }
+    const auto blend = [&](int32_t from, int32_t to) {
+      return from + (to - from) * weight / kWholeRim;
+    };
+    const int32_t share = Min(blend(pixel->share, Max(pixel->share, part)), simd::kSliceWhole - 1);
+    if (share == 0) return;
+    pixel->share = static_cast<uint8_t>(share);
+    for (int c = 0; c < 3; ++c) {
+      const int32_t far = blend(pixel->far[c], clean[c]);
+      pixel->far.rgb[c] = static_cast<int16_t>(far);
+      pixel->near.rgb[c] = LimitedLight(far + (mixed[c] - far) * simd::kSliceWhole / share);
     }
   }
-  if (!whole && rims_ != nullptr && !rims_->RimAt(x, y).IsEmpty()) CleanRim(OutlineAt(x, y), pixel);
+
+  const CentreView centre_;
+  const ViewGrid& grid_;
+  const BlockPixels& field_;
+  const RimMap* const rims_;      // Null if no pixel of the field belongs to a rim.
+  const CoverageMap* const map_;  // Null if the coverage map splits no pixel of the field.
+  const int16_t step_;            // Largest step between pixels that is not a depth edge.
+  const int64_t rim_;
+};
+
+}  // namespace
+
+void SplitPixels(const Input& input, const ViewGrid& grid, const BlockPixels& field,
+                 SplitVisitor visit, void* data) {
+  PixelSplitter(input, grid, field).Visit(visit, data);
 }
 
 void SetThinDisparities(const Input& input, BlockPixels* field) {

@@ -138,109 +138,18 @@ struct SplitPixel {
 // these disparities, hidden surfaces end at the boundary of the thin structure.
 void SetThinDisparities(const Input& input, BlockPixels* field);
 
-// Calls act(x, y, at) for each pixel of the picture in the field that lies in a thin tile; `at` is
-// its index, CoverageMap::At(x, y).
-template <class Act>
-void ForEachThin(const CoverageMap& map, const BlockPixels& field, const Act& act) {
-  const Rect inside = Clipped({field.x, field.y, field.width, field.height}, map.width, map.height);
-  for (int32_t y = inside.y; y < inside.y + inside.height; ++y) {
-    for (int32_t x = inside.x, end; x < inside.x + inside.width; x = end) {
-      end = Min(inside.x + inside.width, (x / kCoverageTile + 1) * kCoverageTile);
-      if (map.Tile(x / kCoverageTile, y / kCoverageTile).thin == 0) continue;
-      size_t at = map.At(x, y);
-      for (int32_t k = x; k < end; ++k) act(k, y, at++);
-    }
-  }
-}
-
-// Splits the pixels of a field for a lens.
+// Splits the pixels of a field for a lens. Calls visit(SplitPixel, step, data) for each split pixel
+// of the field, and for each other pixel of thin tiles if the coverage is not given. `step` is the
+// largest step of disparity between pixels of the field that is not a depth edge. The disparities
+// of the field must come from SetThinDisparities.
 //
 // Pixels outside the picture are not split. A boundary pixel is split only if its two surfaces move
 // by more than a pixel relative to each other in some view, and only on the far side of the depth
 // edge. The outermost boundary pixels of the field are not split, because these pixels do not splat
 // into any rectangle.
-class PixelSplitter {
- public:
-  PixelSplitter(const Input& input, const ViewGrid& grid, const BlockPixels& field);
-
-  // Calls visit(SplitPixel) for each split pixel of the field, and for each other pixel of thin
-  // tiles if the coverage is not given. The disparities of the field must come from
-  // SetThinDisparities.
-  template <class Visit>
-  void ForEach(const Visit& visit) const {
-    const Input& input = centre_.input();
-    SplitPixel pixel;
-    ForEachBesideEdge(*input.kernels, input, field_, step_, [&](int32_t column, int32_t row) {
-      if (SplitBoundary(column, row, &pixel)) visit(pixel);
-    });
-    if (rims_ != nullptr) {
-      ForEachInRim([&](int32_t x, int32_t y) {
-        if (SplitRim(x - field_.x, y - field_.y, &pixel)) visit(pixel);
-      });
-    }
-    if (map_ == nullptr) return;
-    ForEachThin(*map_, field_, [&](int32_t x, int32_t y, size_t at) {
-      if (HasGiven(input) && map_->alpha[at] == kUnsplit) return;
-      SplitThin(x, y, at, &pixel);
-      visit(pixel);
-    });
-  }
-
- private:
-  // The outline next to a pixel of its far surface: the distance to the nearest pixel of the near
-  // surface, 0 if it is more than kRimWidth pixels away; the sides on which it is (one bit of
-  // kSides each); and the largest disparity there.
-  struct Outline {
-    int32_t distance, sides, near;
-  };
-
-  // Calls act(x, y) for each pixel of the picture in the field, except its outermost pixels, that
-  // lies in a cell with a rim.
-  template <class Act>
-  void ForEachInRim(const Act& act) const {
-    const Rect inside = Clipped({field_.x + 1, field_.y + 1, field_.width - 2, field_.height - 2},
-                                rims_->width, rims_->height);
-    const int32_t right = inside.x + inside.width, bottom = inside.y + inside.height;
-    for (int32_t y = inside.y, end; y < bottom; y = end) {
-      end = Min(bottom, (y / kRimCell + 1) * kRimCell);
-      for (int32_t x = inside.x, last; x < right; x = last) {
-        last = Min(right, (x / kRimCell + 1) * kRimCell);
-        if (!rims_->RimAt(x, y).IsEmpty()) ForPixels({x, y, last - x, end - y}, act);
-      }
-    }
-  }
-
-  // Splits the boundary pixel (column, row). Returns false if it is not a mixture, or if the
-  // coverage map splits it.
-  bool SplitBoundary(int32_t column, int32_t row, SplitPixel* pixel) const;
-  // Splits a pixel of a contaminated rim that is not a boundary pixel. Returns false if the pixel
-  // does not belong to a rim.
-  bool SplitRim(int32_t column, int32_t row, SplitPixel* pixel) const;
-  // Splits pixel (x, y) of the picture, which lies in a thin tile, as the coverage map says at
-  // index `from` (CoverageMap::At).
-  void SplitThin(int32_t x, int32_t y, size_t from, SplitPixel* pixel) const;
-
-  // Returns true if two surfaces move far enough relative to each other for a split.
-  bool MoveApart(int32_t near, int32_t far) const;
-  // Returns true if the coverage map decides how pixel (x, y) of the picture is split. Given
-  // coverage decides only on the pixels that it splits.
-  bool IsInMap(int32_t x, int32_t y) const;
-  bool IsPartial(int32_t x, int32_t y) const;
-  bool IsInside(int32_t x, int32_t y) const;
-  bool IsOneSurface(int32_t x, int32_t y) const;
-  void LimitToFar(int32_t x, int32_t y, Colour* far) const;
-  Outline OutlineAt(int32_t x, int32_t y) const;
-  bool LimitToClean(int32_t x, int32_t y, const Outline& outline, Colour* colour) const;
-  void CleanRim(const Outline& outline, SplitPixel* pixel) const;
-
-  const CentreView centre_;
-  const ViewGrid& grid_;
-  const BlockPixels& field_;
-  const RimMap* const rims_;      // Null if no pixel of the field belongs to a rim.
-  const CoverageMap* const map_;  // Null if the coverage map splits no pixel of the field.
-  const int16_t step_;            // Largest step between pixels that is not a depth edge.
-  const int64_t rim_;
-};
+using SplitVisitor = void (*)(const SplitPixel& pixel, int32_t step, void* data);
+void SplitPixels(const Input& input, const ViewGrid& grid, const BlockPixels& field,
+                 SplitVisitor visit, void* data);
 
 }  // namespace starfocus
 

@@ -402,14 +402,15 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const Bl
 
 void SplitMixedPixels(const Input& input, const ViewGrid& grid, const BlockPixels& field,
                       LayeredDepth* surfaces) {
-  const auto copy_step = static_cast<int16_t>(kDepthEdge << field.layer);
-  PixelSplitter(input, grid, field).ForEach([&](const SplitPixel& pixel) {
+  const auto apply = [](const SplitPixel& pixel, int32_t step, void* data) {
+    auto* const to = static_cast<LayeredDepth*>(data);
     if (pixel.kind == SplitPixel::kOneSurface) {
-      DropStrands(pixel, surfaces);
+      DropStrands(pixel, to);
     } else {
-      Split(pixel, copy_step, surfaces);
+      Split(pixel, step, to);
     }
-  });
+  };
+  SplitPixels(input, grid, field, apply, surfaces);
 }
 
 void RemoveFocusRange(const FocusRange& focus, LayeredDepth* surfaces) {
