@@ -113,7 +113,7 @@ BlockWork BlockBench::Work(const BlockTask& task) {
   }
   const uint64_t upsampled = block.layer == 0 ? 0 : uint64_t(rect.width) * uint64_t(rect.height);
   BlockWork work = kSliceRenderer.measure_work(
-      block.rendered, block.border, engine_->lens.apertures[block.n], content, block.layer);
+      block.rendered, block.border, engine_->lens.weights_by_n[block.n], content, block.layer);
   work.upsample = upsampled;
   return work;
 }
