@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/scene/opening.h"
-#include "starfocus/starfocus.hpp"
 
 #include <cmath>
+
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {

@@ -116,8 +116,8 @@ class Session {
   Result<double> FocusAt(const Pixel& point) {
     const double start = Seconds();
     double focus = 0;
-    Error error = Outcome(
-        starfocus_focus_at(&field_.depth, map_.width, map_.height, point.x, point.y, &focus, nullptr));
+    Error error = Outcome(starfocus_focus_at(&field_.depth, map_.width, map_.height, point.x,
+                                             point.y, &focus, nullptr));
     if (error) return error;
     const std::string tap = std::to_string(point.x) + "," + std::to_string(point.y);
     Say("tap at " + tap + ": focus " + Short(focus), start);

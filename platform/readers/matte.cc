@@ -110,8 +110,8 @@ Error FillTwoSurfaces(const std::string& where, const Matte& matte, double subje
     depth.horizon = stats.horizon;
     depth.ground = stats.ground;
   }
-  return Judge(
-      where, starfocus_matte_field(&engine, &depth, picture.width, picture.height, nullptr, &out, nullptr));
+  return Judge(where, starfocus_matte_field(&engine, &depth, picture.width, picture.height, nullptr,
+                                            &out, nullptr));
 }
 
 Error CoverByMatte(const std::string& where, const Matte& matte, ThreadRunner* runner,

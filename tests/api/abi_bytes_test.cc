@@ -143,7 +143,8 @@ TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
   uint8_t* workspace = legal.workspace();
   for (size_t size : {size_t{0}, size_t{1}, size_t{64}, bytes / 2, bytes - 1}) {
     starfocus_engine* engine = legal.get();
-    CHECK(starfocus_init(&f.config, workspace, size, &engine, nullptr) == STARFOCUS_ERROR_WORKSPACE);
+    CHECK(starfocus_init(&f.config, workspace, size, &engine, nullptr) ==
+          STARFOCUS_ERROR_WORKSPACE);
     CHECK(engine == nullptr);
   }
   std::vector<uint8_t> larger(bytes + 2 * STARFOCUS_ALIGNMENT);
@@ -152,7 +153,8 @@ TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
       larger.data() + (STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT) % STARFOCUS_ALIGNMENT;
   for (int offset : {1, 2, 8, 16, 32, 63}) {
     starfocus_engine* engine = legal.get();
-    CHECK(starfocus_init(&f.config, aligned + offset, bytes, &engine, nullptr) == STARFOCUS_ERROR_WORKSPACE);
+    CHECK(starfocus_init(&f.config, aligned + offset, bytes, &engine, nullptr) ==
+          STARFOCUS_ERROR_WORKSPACE);
     CHECK(engine == nullptr);
   }
   starfocus_engine* engine = nullptr;

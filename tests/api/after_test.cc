@@ -102,7 +102,8 @@ TEST_CASE("previous frame: reusing blocks does not change the bytes of a frame i
     starfocus::Params params =
         test::Params(random.Real(-5, 5), random.Real(0.1, 1), STARFOCUS_MODE_BLOCK);
     params.study.renderer = random.Int(0, 2);
-    if (round % 4 == 3) params.study.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
+    if (round % 4 == 3)
+      params.study.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
     if (round % 5 == 4) {
       params.region = {random.Int(0, width - 1), random.Int(0, height - 1), 1, 1};
       params.region.width = random.Int(1, width - params.region.x);

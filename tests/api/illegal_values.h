@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "tests/support/config.h"
 #include "starfocus/starfocus.h"
+#include "tests/support/config.h"
 
 namespace illegal_values {
 
@@ -115,7 +115,8 @@ inline const Bad<starfocus::Params> kBadParams[] = {
     {"study.mode", [](starfocus::Params* p) { p->study.mode = STARFOCUS_MODE_BLUR + 1; }},
     {"study.mode", [](starfocus::Params* p) { p->study.mode = 1000; }},
     {"study.renderer", [](starfocus::Params* p) { p->study.renderer = -1; }},
-    {"study.renderer", [](starfocus::Params* p) { p->study.renderer = STARFOCUS_RENDERER_SLICES + 1; }},
+    {"study.renderer",
+     [](starfocus::Params* p) { p->study.renderer = STARFOCUS_RENDERER_SLICES + 1; }},
     {"focus", [](starfocus::Params* p) { p->focus = kNan; }},
     {"focus", [](starfocus::Params* p) { p->focus = kInf; }},
     {"focus", [](starfocus::Params* p) { p->focus = -kInf; }},

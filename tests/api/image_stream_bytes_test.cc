@@ -34,8 +34,9 @@ ImageField FieldOf(const test::Scene& scene, int format, bool unknown, test::Ran
   return test::MakeImageField(scene, kinds, std::move(depth), random);
 }
 
-ImageMemory Refocused(test::Engine* engine, const ImageField& field, const starfocus::Params& params,
-                      const ImageKind& kind, starfocus_report* report) {
+ImageMemory Refocused(test::Engine* engine, const ImageField& field,
+                      const starfocus::Params& params, const ImageKind& kind,
+                      starfocus_report* report) {
   ImageMemory image(field.converted.width, field.converted.height, kind);
   const starfocus_light_field images = field.Field();
   const starfocus_image out = image.Out();

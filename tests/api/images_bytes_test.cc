@@ -138,7 +138,8 @@ TEST_CASE(
       const test::Scene scene = test::NearScene(173, 122, views, 3);
       const ImageField field = AnyField(scene, STARFOCUS_FORMAT_NV12, 0, &random);
       test::Config config = test::ImageConfig(field, 8);
-      starfocus::Params params = test::Params(test::kNearFocus, 0.2, STARFOCUS_MODE_BLOCK, renderer);
+      starfocus::Params params =
+          test::Params(test::kNearFocus, 0.2, STARFOCUS_MODE_BLOCK, renderer);
       CheckSame(field, config, params, test::AnyKind(STARFOCUS_FORMAT_I420, &random), &random);
     }
   }

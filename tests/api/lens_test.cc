@@ -59,7 +59,7 @@ test::Config Config(const test::Scene& scene) {
 }
 
 starfocus::Params ParamsOf(const starfocus::Params& lens, starfocus_mode mode,
-                          starfocus_renderer renderer) {
+                           starfocus_renderer renderer) {
   starfocus::Params params = lens;
   params.study.mode = mode;
   params.study.renderer = renderer;
@@ -144,7 +144,8 @@ TEST_CASE("lens: engines share a prepared light field, each with different lense
     CAPTURE(k);
     for (const bool ahead : {false, true}) {
       const starfocus::Params& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
-      const starfocus::Params params = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
+      const starfocus::Params params =
+          ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
       test::Output out(kWidth, kHeight);
       REQUIRE(test::RefocusPreparedRgb((ahead ? second : first).get(), &params, prepared,
                                        out.bytes.data(), out.stride, nullptr) == STARFOCUS_OK);
@@ -157,7 +158,8 @@ TEST_CASE("lens: a stream keeps the lens that was given to begin") {
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
   for (const starfocus::Params& lens : Lenses()) {
-    const starfocus::Params expected = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
+    const starfocus::Params expected =
+        ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
     starfocus::Params params = expected;
     REQUIRE(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
     params = LensOf(test::kShapes[0]);

@@ -121,16 +121,16 @@ TEST_CASE("prepared: engines of another configuration reject a prepared light fi
   const starfocus_prepared* prepared = memory.Prepare(engine.get(), scene.Field());
   test::Output out(50, 40);
   const starfocus::Params params = test::Params(1);
-  void (*const kOthers[])(test::Config*) = {
-      [](test::Config* c) { c->width = 49; },
-      [](test::Config* c) { c->height = 39; },
-      [](test::Config* c) { c->views = 1; },
-      [](test::Config* c) { c->disparity_min = -4; },
-      [](test::Config* c) { c->disparity_max = 4; },
-      [](test::Config* c) { c->tuning.max_layer = 1; },
-      [](test::Config* c) {
-        for (int k = 1; k < c->views; ++k) c->positions[k] = {0.25 * k / c->views, 0};
-      }};
+  void (*const kOthers[])(test::Config*) = {[](test::Config* c) { c->width = 49; },
+                                            [](test::Config* c) { c->height = 39; },
+                                            [](test::Config* c) { c->views = 1; },
+                                            [](test::Config* c) { c->disparity_min = -4; },
+                                            [](test::Config* c) { c->disparity_max = 4; },
+                                            [](test::Config* c) { c->tuning.max_layer = 1; },
+                                            [](test::Config* c) {
+                                              for (int k = 1; k < c->views; ++k)
+                                                c->positions[k] = {0.25 * k / c->views, 0};
+                                            }};
   for (const auto other : kOthers) {
     test::Config changed = config;
     other(&changed);

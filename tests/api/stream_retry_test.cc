@@ -87,8 +87,8 @@ void CheckRetries(const test::Scene& scene, const starfocus::Params& params, int
   Failing never = {1 << 20, 0};
   const Streamed expected = Stream(config, params, scene, kHeight, &never);
   REQUIRE(expected.failures == 0);
-  const bool all_layers =
-      params.study.mode == STARFOCUS_MODE_BLOCK && params.study.renderer == STARFOCUS_RENDERER_SLICES;
+  const bool all_layers = params.study.mode == STARFOCUS_MODE_BLOCK &&
+                          params.study.renderer == STARFOCUS_RENDERER_SLICES;
   for (const starfocus_layer_report& layer : expected.report.layers)
     CHECK((!all_layers || layer.blocks > 0));
   constexpr int kStep = STARFOCUS_EMULATED ? 4 : 1;  // an emulator is twenty times slower

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks that all ways to request a picture return the bytes of the whole picture.
-#include "starfocus/starfocus.hpp"
-#include "tests/support/config.h"
 #include "tests/support/ways.h"
 
 #include <doctest/doctest.h>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
@@ -35,7 +35,8 @@ TEST_CASE(
     starfocus::Params params =
         test::Params(random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
     params.study.renderer = random.Int(0, 2);
-    if (round % 4 == 3) params.study.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
+    if (round % 4 == 3)
+      params.study.mode = round % 8 == 3 ? STARFOCUS_MODE_FRAME : STARFOCUS_MODE_BLUR;
     if (round == 11) params.study.mode = STARFOCUS_MODE_BENCHMARK;
     if (round % 3 == 0) params.focus_nearer = random.Real(0, 6);
     if (round % 5 == 0) params.focus_farther = random.Real(0, 6);

@@ -2,7 +2,6 @@
 // Tests the positions of captured views, and the choice of views that see behind edges on each
 // side.
 #include "lib/optics/view_set.h"
-#include "tests/support/config.h"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +9,8 @@
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "tests/support/config.h"
 
 namespace view_set_test {
 namespace {
@@ -38,8 +39,7 @@ starfocus_status Check(const test::Config& config) {
 using Sides = std::vector<std::vector<int>>;
 Sides LooksOf(const test::Config& config) {
   ViewSet set;
-  REQUIRE(starfocus::FindViews(config.views, config.positions, nullptr, &set) ==
-          STARFOCUS_OK);
+  REQUIRE(starfocus::FindViews(config.views, config.positions, nullptr, &set) == STARFOCUS_OK);
   const OcclusionViews occlusion_views = starfocus::ChooseOcclusionViews(set);
   Sides sides(kSideCount);
   for (int side = 0; side < kSideCount; ++side) {

@@ -65,7 +65,7 @@ Distance Check(const test::Scene& scene, const starfocus::Params& params, int bl
 constexpr int kSizes[][2] = {{1, 1}, {7, 5}, {40, 33}, {96, 64}};
 // Returns parameters with a random lens whose largest blur radius is r_max.
 starfocus::Params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,
-                            test::Random* random) {
+                             test::Random* random) {
   const double aperture = random->Int(0, 2) == 0 ? 1 : random->Real(0.3, 1);
   const double reach = r_max / aperture;
   const double half = 0.5 * double(scene.disparity_max - scene.disparity_min);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "starfocus/starfocus.hpp"
 #include "tests/conformance/engine_blocks.h"
 
 #include <algorithm>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/support/inside.h"
 
 namespace conformance {

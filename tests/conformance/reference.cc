@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "starfocus/starfocus.hpp"
 #include "tests/conformance/reference.h"
 
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/reference_gather.h"
 #include "tests/conformance/reference_rectangle.h"
 #include "tests/conformance/reference_stack.h"
@@ -366,8 +366,7 @@ void RefocusAll(const LightField& field, const starfocus::Params& params,
 }  // namespace
 
 std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus::Params& params,
-                                  const test::Config& config,
-                                  const std::vector<Block>& blocks) {
+                                  const test::Config& config, const std::vector<Block>& blocks) {
   Result result;
   result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
   Result excess = result;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "starfocus/starfocus.hpp"
 #include "tests/conformance/trial.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "simd/kernels.h"
+#include "starfocus/starfocus.hpp"
 #include "tests/conformance/engine_blocks.h"
 #include "tests/conformance/reference.h"
 #include "tests/support/config.h"

@@ -118,7 +118,8 @@ TEST_CASE("estimate: confidence is high where only one disparity fits") {
 TEST_CASE("estimate: disparities are within the configured range for pictures of any size") {
   for (const PlaneScene& scene : ScenesOfAnySize()) {
     const PlaneField field = RenderPlanes(scene);
-    for (const auto& [low, high] : {std::pair<float, float>{0, 0.25F}, {-3.3F, 4.7F}, {-500, 500}}) {
+    for (const auto& [low, high] :
+         {std::pair<float, float>{0, 0.25F}, {-3.3F, 4.7F}, {-500, 500}}) {
       CheckWithin(MakeMap(field, ConfigOf(field, low, high)).disparity, low, high);
     }
   }

@@ -18,7 +18,8 @@ Planes Field(const starfocus_matte& matte, const starfocus_matte_depth& depth, i
              int height) {
   Planes planes(width, height);
   starfocus_disparity_output out = planes.Out();
-  REQUIRE(starfocus_matte_field(&matte, &depth, width, height, nullptr, &out, nullptr) == STARFOCUS_OK);
+  REQUIRE(starfocus_matte_field(&matte, &depth, width, height, nullptr, &out, nullptr) ==
+          STARFOCUS_OK);
   CHECK(out.has_coverage == 1);
   CHECK(planes.PaddingIsUnset());
   return planes;

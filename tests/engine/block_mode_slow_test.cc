@@ -81,7 +81,6 @@ Setup RandomSetup(test::Random* random, float limit) {
   return s;
 }
 
-
 void CheckStreamed(const test::Scene& scene, const Setup& s) {
   CAPTURE(Text(s, scene));
   test::CheckStreamed(scene, Config(s, scene), s.Params());

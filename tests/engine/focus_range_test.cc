@@ -29,7 +29,8 @@ starfocus::Params ParamsOf(double far, double focus, double near) {
 }
 
 // Calls check(params) for every mode and renderer.
-void ForModes(starfocus::Params params, const std::function<void(const starfocus::Params&)>& check) {
+void ForModes(starfocus::Params params,
+              const std::function<void(const starfocus::Params&)>& check) {
   for (const starfocus_mode mode : test::kModes) {
     for (const starfocus_renderer renderer : test::kRenderers) {
       CAPTURES(mode, renderer);

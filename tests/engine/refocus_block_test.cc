@@ -140,7 +140,8 @@ FrameDiff CheckPictures(int rounds, double least_aperture, const MakeScene& make
     const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(least_aperture, 1);
     starfocus::Params params =
         test::Params(kFocus[random.Int(0, 7)], aperture, STARFOCUS_MODE_BLOCK);
-    params.study.renderer = round % 2 == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
+    params.study.renderer =
+        round % 2 == 0 ? STARFOCUS_RENDERER_LINE_SCAN : STARFOCUS_RENDERER_SLICES;
     CheckPicture(scene, params, random.Int(1, 9), &changes);
   }
   changes.Tell();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the blur of a small white patch for openings of every shape. The blurred patch must have
 // the shape of the opening, rotated by half a turn if the patch is nearer than the focus.
-#include "starfocus/starfocus.hpp"
-#include "tests/support/config.h"
 #include "tests/support/shapes.h"
 
 #include <doctest/doctest.h>
@@ -13,6 +11,8 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the blur mode with an adaptive convolution by the ideal PSF (4) in double precision.
-#include "lib/gather/gather.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/gather/gather.h"
 #include "lib/optics/view_weights.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"

@@ -98,8 +98,7 @@ void FillMap(const test::Config& config, Input* input, Rows<float>* map) {
 }
 
 // Makes a picture of strands above a body, and a map in which the strands form a closed outline.
-void FillHair(const test::Config& config, Input* input, Rows<uint8_t>* picture,
-              Rows<float>* map) {
+void FillHair(const test::Config& config, Input* input, Rows<uint8_t>* picture, Rows<float>* map) {
   const test::Strands strands = test::DrawStrands(input);
   uint8_t colours[6];
   input->Bytes(colours, sizeof(colours));
@@ -151,10 +150,10 @@ void UseMatte(const test::Config& config, const Rows<float>& map, Input* input) 
                                           input->Real(0, 0.5), input->Real(0.6, 1)};
   starfocus_matte_stats stats;
   if (starfocus_measure_matte(&matte, &stats, nullptr) != STARFOCUS_OK ||
-      starfocus_matte_coverage(&matte, &depth, config.width, config.height, &region, &out, nullptr) !=
-          STARFOCUS_OK ||
-      starfocus_matte_field(&matte, &surfaces, config.width, config.height, &region, &out, nullptr) !=
-          STARFOCUS_OK) {
+      starfocus_matte_coverage(&matte, &depth, config.width, config.height, &region, &out,
+                               nullptr) != STARFOCUS_OK ||
+      starfocus_matte_field(&matte, &surfaces, config.width, config.height, &region, &out,
+                            nullptr) != STARFOCUS_OK) {
     std::abort();
   }
 }
@@ -201,7 +200,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                                     -1};
   if (input.Rarely()) out.confidence = nullptr;
   if (input.Rarely()) out.coverage = nullptr;
-  const starfocus_status status = make(&config, &callbacks, &field, &out, workspace, bytes, nullptr);
+  const starfocus_status status =
+      make(&config, &callbacks, &field, &out, workspace, bytes, nullptr);
   if (status == STARFOCUS_OK) {
     CheckMap(config, map);
     UseMatte(config, map, &input);

@@ -246,9 +246,8 @@ int RowCount(int left, Input* input) {
 }
 
 // Pushes rows, and pulls finished rows into `out`, in any order. Restarts the stream in some cases.
-void Stream(starfocus_engine* engine, const test::Config& config,
-            const starfocus::Params& params, const Pictures& pictures, uint8_t* out, size_t stride,
-            Input* input) {
+void Stream(starfocus_engine* engine, const test::Config& config, const starfocus::Params& params,
+            const Pictures& pictures, uint8_t* out, size_t stride, Input* input) {
   if (starfocus_stream_begin(engine, &params) != STARFOCUS_OK) return;
   int pushed = 0, pulled = 0;
   for (int round = 0; round < 200 && pulled < config.height; ++round) {
@@ -272,9 +271,8 @@ void Stream(starfocus_engine* engine, const test::Config& config,
 
 // Refocuses a whole picture with one of several API functions. The previous frame may be equal to
 // the current frame or different.
-void Refocus(starfocus_engine* engine, const test::Config& config,
-             const starfocus::Params& params, const Pictures& pictures, uint8_t* out, size_t stride,
-             Input* input) {
+void Refocus(starfocus_engine* engine, const test::Config& config, const starfocus::Params& params,
+             const Pictures& pictures, uint8_t* out, size_t stride, Input* input) {
   starfocus_report report = starfocus::NewReport();
   if (!input->Rarely()) {
     test::RefocusRgb(engine, &params, &pictures.field, out, stride, &report);
@@ -312,7 +310,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   starfocus::Params lens;
   const test::Config config = MakeConfig(strands.any(), &input, &lens);
   size_t bytes = 0;
-  if (starfocus_workspace_size(&config, &bytes, nullptr) != STARFOCUS_OK || bytes > (size_t{200} << 20))
+  if (starfocus_workspace_size(&config, &bytes, nullptr) != STARFOCUS_OK ||
+      bytes > (size_t{200} << 20))
     return 0;
   if (int64_t{config.width} * config.height > 20000) return 0;
   void* workspace = nullptr;
@@ -330,9 +329,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     SetProgress(engine, &input);
     const double scale = params.study.mode == STARFOCUS_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
     const bool frame = params.study.mode == STARFOCUS_MODE_FRAME;
-    const bool by_default = params.study.mode == STARFOCUS_MODE_BLOCK || (frame && config.views == 1);
-    const bool subapertures = by_default ? params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN
-                                         : frame && params.study.renderer == STARFOCUS_RENDERER_SLICES;
+    const bool by_default =
+        params.study.mode == STARFOCUS_MODE_BLOCK || (frame && config.views == 1);
+    const bool subapertures = by_default
+                                  ? params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN
+                                  : frame && params.study.renderer == STARFOCUS_RENDERER_SLICES;
     // The rule of subapertures uses at most 13 views along the radius, however large the blur is.
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;

@@ -217,8 +217,8 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
   REQUIRE(holder.status() == STARFOCUS_OK);
   const starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
   int told = 0;
-  starfocus_observer observer = test::Visitor(
-      [](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &told);
+  starfocus_observer observer =
+      test::Visitor([](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &told);
   observer.clock = [](void*) -> uint64_t { return 7; };
   const starfocus_callbacks callbacks = test::ObservedBy(&observer);
   const starfocus_light_field field = scene.Field();
@@ -227,7 +227,8 @@ TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no he
   HeapWatch watch;
   starfocus_engine* engine = nullptr;
   test::Report report;
-  Expect(STARFOCUS_OK, starfocus_init(&config, holder.workspace(), holder.bytes(), &engine, nullptr));
+  Expect(STARFOCUS_OK,
+         starfocus_init(&config, holder.workspace(), holder.bytes(), &engine, nullptr));
   Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
   Expect(STARFOCUS_OK,
          test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report));
@@ -304,7 +305,8 @@ TEST_CASE("measuring, filling and focusing with disparity maps make no heap call
   HeapWatch watch;
   starfocus_disparity_stats stats;
   const starfocus_status measured = starfocus_measure_disparity(&depth, &stats, nullptr);
-  const starfocus_status filled = starfocus_fill_disparity(scene.disparity.data(), 160, 40, 30, nullptr);
+  const starfocus_status filled =
+      starfocus_fill_disparity(scene.disparity.data(), 160, 40, 30, nullptr);
   double focus = 0;
   const starfocus_status tapped = starfocus_focus_at(&depth, 40, 30, 4, 4, &focus, nullptr);
   CHECK(watch.Stop() == 0);
@@ -330,8 +332,10 @@ TEST_CASE("maps and coverage from mattes make no heap call") {
   HeapWatch watch;
   starfocus_matte_stats stats;
   const starfocus_status measured = starfocus_measure_matte(&matte, &stats, nullptr);
-  const starfocus_status field = starfocus_matte_field(&matte, &surfaces, 40, 30, nullptr, &out, nullptr);
-  const starfocus_status covered = starfocus_matte_coverage(&matte, &depth, 40, 30, nullptr, &out, nullptr);
+  const starfocus_status field =
+      starfocus_matte_field(&matte, &surfaces, 40, 30, nullptr, &out, nullptr);
+  const starfocus_status covered =
+      starfocus_matte_coverage(&matte, &depth, 40, 30, nullptr, &out, nullptr);
   CHECK(watch.Stop() == 0);
   CHECK(measured == STARFOCUS_OK);
   CHECK(field == STARFOCUS_OK);

@@ -194,7 +194,8 @@ TEST_CASE(
       CAPTURES(exact, max_layer);
       for (const bool subapertures : {false, true}) {
         CAPTURE(subapertures);
-        plan.Use(subapertures ? starfocus::kSliceRenderer : starfocus_line_scan_renderer()->renderer);
+        plan.Use(subapertures ? starfocus::kSliceRenderer
+                              : starfocus_line_scan_renderer()->renderer);
         for (const Block& block : plan.Partition(kMiddle, kMiddle)) {
           const int layer =
               std::min(LayerOf(subapertures, exact, false, plan.rules.demand), max_layer);

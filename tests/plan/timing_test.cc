@@ -93,7 +93,8 @@ TEST_CASE("timing: the work of a block is the sum over its views") {
     const bool subapertures = random.Int(0, 1) == 1;
     const BlockWork expected =
         MeasureViewByView(rect, border, n, subapertures, upsampled, content, layer);
-    const starfocus::Renderer& renderer = subapertures ? kSliceRenderer : starfocus_line_scan_renderer()->renderer;
+    const starfocus::Renderer& renderer =
+        subapertures ? kSliceRenderer : starfocus_line_scan_renderer()->renderer;
     BlockWork got = renderer.measure_work(rect, border, DiscOf(n), content, layer);
     got.upsample = upsampled;
     CAPTURE(n);
@@ -171,8 +172,8 @@ TEST_CASE(
     const auto pixels = uint32_t(side * side);
     const Content along = {64 * pixels, 64 * pixels, 256 * pixels};
     const Content content[2] = {along, along};
-    BlockWork work = starfocus_line_scan_renderer()->renderer.measure_work({0, 0, side, side}, {140, 140, 140, 140},
-                                                    DiscOf(102), content, 0);
+    BlockWork work = starfocus_line_scan_renderer()->renderer.measure_work(
+        {0, 0, side, side}, {140, 140, 140, 140}, DiscOf(102), content, 0);
     work.upsample = pixels;
     CAPTURE(side);
     CHECK(exact(work) * (256 / side) * (256 / side) < 1.8e19L);

@@ -2,7 +2,6 @@
 // Family of calls that must return the same picture: whole, streamed, as regions, from a prepared
 // light field, and as a frame of a video. The engines may have been used before, and their runners
 // may have failed before.
-#include "starfocus/starfocus.hpp"
 #include "tests/stress/differential.h"
 
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <iterator>
 #include <limits>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/stress/families.h"
 #include "tests/support/config.h"
 
@@ -27,8 +27,8 @@ bool IsLineByLine(const Setup& setup) {
   const starfocus::Params& params = setup.params;
   return params.study.renderer == STARFOCUS_RENDERER_LINE_SCAN ||
          params.study.mode == STARFOCUS_MODE_BENCHMARK ||
-         (params.study.mode == STARFOCUS_MODE_FRAME && params.study.renderer == STARFOCUS_RENDERER_AUTO &&
-          setup.config.views > 1);
+         (params.study.mode == STARFOCUS_MODE_FRAME &&
+          params.study.renderer == STARFOCUS_RENDERER_AUTO && setup.config.views > 1);
 }
 
 // Limits the work of the line scan, whose number of views grows with the square of the radius.

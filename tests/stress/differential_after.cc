@@ -91,8 +91,7 @@ std::string After(const Asked& asked, test::Random* random) {
     if (part) params.region = region;
     const starfocus_light_field field = now.setup.scene.Field();
     const starfocus_light_field before_field = before.Field();
-    const starfocus_image before_image =
-        starfocus_image_rgb(last.data(), 3 * size_t(region.width));
+    const starfocus_image before_image = starfocus_image_rgb(last.data(), 3 * size_t(region.width));
     const starfocus_previous previous = {sizeof previous, &before_field, &before_image};
     test::Output out(region.width, region.height, random->Int(0, 5));
     const starfocus_status status = Retried(&rig, random, [&] {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "starfocus/starfocus.hpp"
 #include "tests/stress/setup.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
 #include "tests/support/shapes.h"
 #include "tests/support/strands.h"
@@ -44,8 +44,8 @@ double Setup::Radius() const {
 std::string Setup::Text() const {
   return std::to_string(config.width) + "x" + std::to_string(config.height) + ", " +
          std::to_string(config.views) + " views, " + kModes[params.study.mode] + ", renderer " +
-         std::to_string(params.study.renderer) + ", disparity [" + Number(config.disparity_min) + ", " +
-         Number(config.disparity_max) + "], focus " + Number(params.focus) + " - " +
+         std::to_string(params.study.renderer) + ", disparity [" + Number(config.disparity_min) +
+         ", " + Number(config.disparity_max) + "], focus " + Number(params.focus) + " - " +
          Number(params.focus_farther) + " + " + Number(params.focus_nearer) + ", aperture " +
          Number(params.aperture) + ", max_blur " + Number(config.max_blur) + ", block " +
          std::to_string(config.superblock) + ", layers " + std::to_string(config.tuning.max_layer) +

@@ -51,7 +51,8 @@ struct Apertures {
   std::vector<starfocus::ViewWeights> all;
 };
 inline const std::vector<starfocus::ViewWeights>& AperturesOf(const Renderer& renderer) {
-  static const Apertures slices(kSliceRenderer), line_scan(starfocus_line_scan_renderer()->renderer);
+  static const Apertures slices(kSliceRenderer),
+      line_scan(starfocus_line_scan_renderer()->renderer);
   return (&renderer == &kSliceRenderer ? slices : line_scan).all;
 }
 

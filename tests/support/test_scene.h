@@ -262,8 +262,8 @@ inline void RandomViews(Scene* scene, starfocus_config* config, Random* random) 
 }
 
 inline starfocus::Params Params(double focus, double aperture = 1,
-                               starfocus_mode mode = STARFOCUS_MODE_FRAME,
-                               int32_t renderer = STARFOCUS_RENDERER_AUTO) {
+                                starfocus_mode mode = STARFOCUS_MODE_FRAME,
+                                int32_t renderer = STARFOCUS_RENDERER_AUTO) {
   starfocus::Params params;
   params.study.renderer = renderer;
   params.focus = focus;

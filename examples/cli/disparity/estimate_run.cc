@@ -89,8 +89,7 @@ Result<MadeMap> MakeMap(const std::string& where, const MapTask& task, Maker* ma
                                          &maker->progress, nullptr};
   size_t bytes = 0;
   MadeMap made = {{centre.width, centre.height, {}}, {}, {}};
-  starfocus_status status =
-      starfocus_map_workspace_size(&config, repair ? 1 : 0, &bytes, &problem);
+  starfocus_status status = starfocus_map_workspace_size(&config, repair ? 1 : 0, &bytes, &problem);
   if (status == STARFOCUS_ERROR_TOO_LARGE) {
     return OutOfMemory(where, repair ? "repair its disparities" : "estimate its disparities");
   }

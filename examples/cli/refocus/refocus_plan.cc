@@ -82,8 +82,8 @@ std::optional<double> FocusAround(const FloatMap& map, int x, int y) {
   }
   const starfocus_depth_map depth = EngineMap(part);
   double focus = 0;
-  if (starfocus_fill_disparity(part.values.data(), part.stride(), part.width, part.height, nullptr) !=
-          STARFOCUS_OK ||
+  if (starfocus_fill_disparity(part.values.data(), part.stride(), part.width, part.height,
+                               nullptr) != STARFOCUS_OK ||
       starfocus_focus_at(&depth, part.width, part.height, x - left, y - top, &focus, nullptr) !=
           STARFOCUS_OK) {
     return {};

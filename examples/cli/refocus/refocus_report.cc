@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/cli/refocus/refocus_report.h"
-#include "starfocus/starfocus.hpp"
 
 #include <utility>
+
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 namespace {

@@ -60,7 +60,8 @@ void Refocus(const Picture& picture, benchmark::State& state) {
   config.highlights = static_cast<float>(picture.highlights);
   test::Engine engine(config);
   test::Output out(kWidth, kHeight);
-  const starfocus::Params params = test::Params(picture.white < 0 ? -1 : 0, 1, STARFOCUS_MODE_BLOCK);
+  const starfocus::Params params =
+      test::Params(picture.white < 0 ? -1 : 0, 1, STARFOCUS_MODE_BLOCK);
   for (auto _ : state) {
     if (test::Refocus(&engine, params, scene, &out) != STARFOCUS_OK)
       state.SkipWithError("not refocused");

@@ -54,8 +54,8 @@ Error Prepare(const Field& field, const Task& task, double focus, double apertur
   if (status == STARFOCUS_OK) {
     timed->workspace.reset(
         ::operator new (timed->workspace_bytes, std::align_val_t{STARFOCUS_ALIGNMENT}));
-    status =
-        starfocus_init(&config, timed->workspace.get(), timed->workspace_bytes, &timed->engine, nullptr);
+    status = starfocus_init(&config, timed->workspace.get(), timed->workspace_bytes, &timed->engine,
+                            nullptr);
   }
   if (status != STARFOCUS_OK) {
     return Expected(field.name, "a light field that the engine accepts",

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "examples/lab/calibrate/timing_fit.h"
-#include "starfocus/experimental.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "starfocus/experimental.h"
 
 namespace starfocus {
 namespace {
