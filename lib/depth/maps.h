@@ -17,7 +17,7 @@
 #include "lib/base/config.h"
 #include "lib/base/jobs.h"
 #include "lib/depth/setup.h"
-#include "lib/depth/thin_cells.h"
+#include "lib/depth/thin_patches.h"
 #include "lib/io/depth_map.h"
 #include "simd/kernels.h"
 #include "starfocus/depth.h"

@@ -22,7 +22,7 @@
 #include "lib/base/geometry.h"
 #include "lib/base/jobs.h"
 #include "lib/depth/setup.h"
-#include "lib/depth/thin_cells.h"
+#include "lib/depth/thin_patches.h"
 #include "lib/matting/hair_coverage.h"
 #include "simd/kernels.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lib/depth/thin_cells.h"
+#include "lib/depth/thin_patches.h"
 
 #include <algorithm>
 #include <cstring>
