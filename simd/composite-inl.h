@@ -27,7 +27,7 @@ constexpr bool kCoveredApart = HWY_MAX_BYTES >= 32;
 // branches that test each vector are unpredictable. On x86, branch mispredictions would cost up to
 // 12 % of the time, so Composite tests only the precomputed marks of whole rows. On ARM, using only
 // the marks of rows takes 3 to 5 % more instructions than testing each vector.
-constexpr bool kLooksFirst = !HWY_ARCH_X86;
+constexpr bool kBehindFirst = !HWY_ARCH_X86;
 
 // Returns the number of rows of a strip in a vector, or 1 if a vector holds only a part of a row.
 template <class D>
@@ -190,7 +190,7 @@ HWY_INLINE void AddSlice(SliceVec weight, const ViewSums& slice, SliceVec excess
                          const ViewSums& sums) {
   const StripTag d16;
   const auto taken = hn::Sub(slice.covered, excess);
-  if (kKnown == Known::kNothing && !(kLooksFirst && AllZero(d16, excess))) {
+  if (kKnown == Known::kNothing && !(kBehindFirst && AllZero(d16, excess))) {
     const auto over = hn::Gt(slice.covered, light);
     const auto share = ShareOfLight(slice.covered, light, excess);
     const auto lit = [&](SliceVec value) HWY_ATTR {
@@ -239,7 +239,7 @@ HWY_INLINE void AddRows(const SliceOffset& offset, size_t plane, const int16_t* 
   auto covered = kCovered ? hn::Set(d16, kSliceOne) : between(cover);
   // Colours of pixels without coverage are at most rounding errors. Products of rounding errors and
   // weights below one half are 0.
-  if (kLooksFirst && !kCovered && AllZero(d16, covered)) return;
+  if (kBehindFirst && !kCovered && AllZero(d16, covered)) return;
   const auto excess =
       kKnown == Known::kNothing ? hn::Max(hn::Sub(covered, light), hn::Zero(d16)) : hn::Zero(d16);
   auto r = between(at), g = between(at + plane), b = between(at + 2 * plane);
@@ -279,17 +279,17 @@ HWY_INLINE void CompositeRows(const SliceViews& views, const SeenSlice* seen, si
       const ptrdiff_t moved = static_cast<ptrdiff_t>(row) + offset.whole;
       const int8_t* near = slice.near + moved;
       const int read_by_both = 2 * vector_rows + offset.taps - 1;
-      if (near[0] >= (kLooksFirst ? int{kNothingNear} : read_by_both)) continue;
+      if (near[0] >= (kBehindFirst ? int{kNothingNear} : read_by_both)) continue;
       const int16_t* at = slice.samples + moved * ptrdiff_t{kSliceLanes} + n;
       const auto take = [&](auto known) HWY_ATTR {
         CallWithTaps(offset.taps, [&](auto taps) HWY_ATTR {
           constexpr int kTaps = decltype(taps)::value;
           constexpr Known kKnown = decltype(known)::value;
           const int read = vector_rows + kTaps - 1;
-          if (kLooksFirst || near[0] < read) {
+          if (kBehindFirst || near[0] < read) {
             AddRows<kTaps, kKnown>(offset, slice.plane, at, weight, light0, {r0, g0, b0, a0});
           }
-          if (kLooksFirst || near[step] < read) {
+          if (kBehindFirst || near[step] < read) {
             AddRows<kTaps, kKnown>(offset, slice.plane, at + second, weight, light1,
                                    {r1, g1, b1, a1});
           }

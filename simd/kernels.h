@@ -74,7 +74,7 @@
   KERNEL(BesideSteps)             \
   KERNEL(FindCopies)              \
   KERNEL(ColourCopies)            \
-  KERNEL(LookBehind)              \
+  KERNEL(FindHidden)              \
   KERNEL(FindBeyond)              \
   KERNEL(CoverPlaces)             \
   KERNEL(SumNear)                 \

@@ -44,7 +44,7 @@ inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTR
   }
 }
 
-// Number of depth edges that LookBehind evaluates for a pixel: on each of the four sides, the next
+// Number of depth edges that FindHidden evaluates for a pixel: on each of the four sides, the next
 // edge and a second edge behind the next edge.
 inline constexpr int kEdges = 8;
 
@@ -95,21 +95,21 @@ HWY_INLINE hn::Mask<D> FindCovered(D d16, const int16_t* at, ptrdiff_t step, int
 // is in column `column` of the row. Pixels of the line after number `last` cannot cover the hidden
 // pixel.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewLook& look,
+HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const HiddenView& view,
                                          int32_t column, V disparity, int32_t last) {
   const int16_t* const at = row.disparity + column;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
-  const auto reach = static_cast<int16_t>((3 * look.unit - 1) / 4);
+  const auto reach = static_cast<int16_t>((3 * view.unit - 1) / 4);
   const auto nearer =
-      hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(look.unit / 2)));
+      hn::SaturatedAdd(disparity, hn::Set(d16, static_cast<int16_t>(view.unit / 2)));
   auto start = hn::Sub(hn::Sub(disparity, hn::Set(d16, reach)), hn::Set(d16, INT16_MIN));
   const auto end = hn::Set(d16, static_cast<int16_t>(INT16_MIN + 2 * reach + 1));
   const auto columns = CountFrom(d16, static_cast<int16_t>(column));
   auto covered = hn::Zero(d16);
   for (int32_t m = 0; m <= last; ++m) {
-    const int32_t along = look.side % 2 == 0 ? m : -m;
-    const int32_t across = (m * look.slant + (1 << (kSlantBits - 1))) >> kSlantBits;
-    const int32_t x = look.side < 2 ? along : across, y = look.side < 2 ? across : along;
+    const int32_t along = view.side % 2 == 0 ? m : -m;
+    const int32_t across = (m * view.slant + (1 << (kSlantBits - 1))) >> kSlantBits;
+    const int32_t x = view.side < 2 ? along : across, y = view.side < 2 ? across : along;
     if (y < -row.above || y > row.below) break;
     if (column + x <= -lanes || column + x >= row.width) break;
     const auto here = hn::LoadU(d16, at + y * row.stride + x);
@@ -118,7 +118,7 @@ HWY_INLINE hn::Mask<D> FindCoveredAslant(D d16, const DepthRow& row, const ViewL
                                 hn::Lt(place, hn::Set(d16, static_cast<int16_t>(row.width))));
     const auto near = hn::And(hn::Gt(here, nearer), hn::Lt(hn::Sub(here, start), end));
     covered = hn::Or(covered, hn::VecFromMask(d16, hn::And(near, inside)));
-    start = hn::Add(start, hn::Set(d16, look.unit));
+    start = hn::Add(start, hn::Set(d16, view.unit));
   }
   return hn::MaskFromVec(covered);
 }
@@ -170,12 +170,12 @@ HWY_INLINE uint32_t FollowEdges(const DepthRow& row, int side, size_t strip, uin
 // Returns a mask of the lanes in which the hidden pixel, at `disparity`, is covered in a view. The
 // disparities of all lanes are at least `low`.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& look, int32_t column,
+HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const HiddenView& view, int32_t column,
                                  V disparity, int32_t low) {
-  const int32_t side = look.side, vertical = side == 2 ? row.below : row.above;
+  const int32_t side = view.side, vertical = side == 2 ? row.below : row.above;
   const auto lanes = static_cast<int32_t>(hn::Lanes(d16));
-  const int32_t last = (row.high - low) / look.unit + 1;
-  if (look.slant != 0) return FindCoveredAslant(d16, row, look, column, disparity, last);
+  const int32_t last = (row.high - low) / view.unit + 1;
+  if (view.slant != 0) return FindCoveredAslant(d16, row, view, column, disparity, last);
   const auto columns = CountFrom(d16, static_cast<int16_t>(column));
   const auto width = hn::Set(d16, static_cast<int16_t>(row.width - 1));
   const auto room = side == 0   ? hn::Sub(width, columns)
@@ -186,18 +186,18 @@ HWY_INLINE hn::Mask<D> IsCovered(D d16, const DepthRow& row, const ViewLook& loo
   const int32_t most = side == 0   ? row.width - 1 - column
                        : side == 1 ? column + lanes - 1
                                    : vertical;
-  return FindCovered(d16, row.disparity + column, StepOf(row, side), look.unit, sure,
+  return FindCovered(d16, row.disparity + column, StepOf(row, side), view.unit, sure,
                      last < most ? last : most, disparity, room);
 }
 
 // Looks behind an edge of each pixel of `lanes`. In the other lanes, the distances to the far sides
 // of edges are 0. Writes the result as edge `index`. Sides are in the order of DepthRow::edges.
-HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t* distances,
+HWY_INLINE void FindHiddenSide(const DepthRow& row, size_t strip, const uint8_t* distances,
                                uint32_t lanes, int index, StripSides* sides) {
   const LanesTag d16;
   const int side = index % 4;
   const ptrdiff_t step = StepOf(row, side);
-  const ViewLook* const looks = row.looks[side];
+  const HiddenView* const views = row.views[side];
   int16_t* const behind = sides->disparity[index];
   const int16_t* const pixels = row.disparity + strip;
   for (size_t k = 0; k < kSliceLanes; k += hn::Lanes(d16)) {
@@ -215,11 +215,11 @@ HWY_INLINE void LookBehindSide(const DepthRow& row, size_t strip, const uint8_t*
     const auto high = hn::Set(d16, row.high);
     const int32_t low = hn::GetLane(hn::MinOfLanes(d16, hn::IfThenElse(hides, disparity, high)));
     auto unseen = hides, second = hn::Lt(distance, hn::Zero(d16));
-    if (looks[0].unit != 0) {
-      unseen = hn::And(hides, IsCovered(d16, row, looks[0], column, disparity, low));
+    if (views[0].unit != 0) {
+      unseen = hn::And(hides, IsCovered(d16, row, views[0], column, disparity, low));
     }
-    if (looks[1].unit != 0 && !hn::AllFalse(d16, unseen)) {
-      const auto covered = IsCovered(d16, row, looks[1], column, disparity, low);
+    if (views[1].unit != 0 && !hn::AllFalse(d16, unseen)) {
+      const auto covered = IsCovered(d16, row, views[1], column, disparity, low);
       second = hn::AndNot(covered, unseen);
       unseen = hn::And(covered, unseen);
     }
@@ -329,7 +329,7 @@ HWY_INLINE uint32_t MarkEnds(const DepthRow& row, size_t strip, uint8_t* HWY_RES
   return sides;
 }
 
-inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
+inline uint64_t FindHidden(const DepthRow& row, const HiddenRow& hidden) {
   const LanesTag d16;
   StripSides sides;
   sides.unit = static_cast<int16_t>(1 << row.unit_bits);
@@ -348,12 +348,12 @@ inline uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
       if ((sides.some >> side & 1) == 0) continue;
       const uint8_t* const edges = row.edges[side] + strip;
       const uint32_t lanes = LanesOf(edges);
-      LookBehindSide(row, strip, edges, lanes, side, &sides);
+      FindHiddenSide(row, strip, edges, lanes, side, &sides);
       uint8_t next[kSliceLanes] = {};
       const uint32_t more = FollowEdges(row, side, strip, lanes, next);
       if (more == 0) continue;
       sides.some |= 16u << side;
-      LookBehindSide(row, strip, next, more, 4 + side, &sides);
+      FindHiddenSide(row, strip, next, more, 4 + side, &sides);
     }
     if (ChooseSurfaces(sides, strip, hidden)) strips |= bit;
   }

@@ -51,18 +51,18 @@ struct StepBits {
 // hidden pixel in this view lie on a line that starts at the hidden pixel. Pixel m of the line is m
 // pixels away towards `side`. Perpendicular to `side`, pixel m is shifted to the right or to the
 // bottom by m slant 2^-kSlantBits pixels, rounded half up.
-struct ViewLook {
+struct HiddenView {
   int16_t unit;  // Disparity that moves a pixel of the view by one pixel; 0 if there is no view.
   int8_t side;   // Direction of the line: 0 right, 1 left, 2 bottom, 3 top.
   // Slope of the line, in [-2^kSlantBits, 2^kSlantBits]; 0 for lines along rows or columns.
   int16_t slant;
 };
 inline constexpr int kSlantBits = 14;
-// Largest value of ViewLook::unit. Views whose ViewLook::unit exceeds this constant are too close
-// to the centre view and are not used.
+// Largest value of HiddenView::unit. Views whose HiddenView::unit exceeds this constant are too
+// close to the centre view and are not used.
 inline constexpr int16_t kMostUnit = 1 << 10;
-// Number of views per side. LookBehind tries the views of a side in order.
-inline constexpr int kViewLooks = 2;
+// Number of views per side. FindHidden tries the views of a side in order.
+inline constexpr int kHiddenViews = 2;
 
 // A row of a field in which hidden surfaces are searched. The rows of the field are `stride`
 // samples apart. Before and after the row, kSliceLanes more samples must be readable.
@@ -74,14 +74,14 @@ struct DepthRow {
   int16_t high;          // Upper bound of the disparities of the field.
   int unit_bits;         // `unit_bits` of FindEdges.
   // Views that look behind the edges of each side, in the order of `edges`.
-  ViewLook looks[4][kViewLooks];
+  HiddenView views[4][kHiddenViews];
   // Distances from each pixel to the far sides of edges to the right, left, bottom and top, as
   // computed by FindEdges. A distance is 0 if there is no edge. All far sides lie inside the field.
   // The rows of distances are `stride` elements apart.
   const uint8_t* edges[4];
 };
 
-// Output of LookBehind for a row: the hidden surfaces, the sources of their colours, and the pixels
+// Output of FindHidden for a row: the hidden surfaces, the sources of their colours, and the pixels
 // that have hidden surfaces. Whole groups of kSliceLanes are written.
 struct HiddenRow {
   int16_t* disparity[kSurfaces - 1];  // kNoSurface if there is no surface.
@@ -118,15 +118,15 @@ struct HiddenSide {
 };
 
 // Returns true if a view does not show the surface at `disparity` behind pixel x of a row.
-inline bool IsCovered(const DepthRow& row, int32_t x, int16_t disparity, const ViewLook& look) {
+inline bool IsCovered(const DepthRow& row, int32_t x, int16_t disparity, const HiddenView& view) {
   for (int32_t m = 0;; ++m) {
-    const int32_t along = look.side % 2 == 0 ? m : -m;
-    const int32_t across = (m * look.slant + (1 << (kSlantBits - 1))) >> kSlantBits;
-    const int32_t column = x + (look.side < 2 ? along : across);
-    const int32_t line = look.side < 2 ? across : along;
+    const int32_t along = view.side % 2 == 0 ? m : -m;
+    const int32_t across = (m * view.slant + (1 << (kSlantBits - 1))) >> kSlantBits;
+    const int32_t column = x + (view.side < 2 ? along : across);
+    const int32_t line = view.side < 2 ? across : along;
     if (column < 0 || column >= row.width || line < -row.above || line > row.below) return false;
     const int32_t nearer = row.disparity[column + line * row.stride] - disparity;
-    if (2 * nearer > look.unit && 4 * std::abs(nearer - m * look.unit) < 3 * look.unit) return true;
+    if (2 * nearer > view.unit && 4 * std::abs(nearer - m * view.unit) < 3 * view.unit) return true;
   }
 }
 
@@ -145,14 +145,14 @@ inline int DistanceOf(const DepthRow& row, int32_t x, int side, ptrdiff_t step, 
   return distance - 1 <= depth ? distance : 0;
 }
 
-inline HiddenSide LookBehindSide(const DepthRow& row, int32_t x, int side, int edge) {
+inline HiddenSide FindHiddenSide(const DepthRow& row, int32_t x, int side, int edge) {
   const ptrdiff_t along = side < 2 ? 1 : row.stride, step = side % 2 == 0 ? along : -along;
   const int32_t distance = DistanceOf(row, x, side, step, edge);
   if (distance == 0) return {kNoRank, kNoSurface, false};
   const int16_t disparity = row.disparity[x + step * distance];
-  for (const ViewLook& look : row.looks[side]) {
-    if (look.unit != 0 && !IsCovered(row, x, disparity, look)) {
-      return {distance, disparity, &look != row.looks[side]};
+  for (const HiddenView& view : row.views[side]) {
+    if (view.unit != 0 && !IsCovered(row, x, disparity, view)) {
+      return {distance, disparity, &view != row.views[side]};
     }
   }
   return {distance + kUnseen, disparity, false};
@@ -321,21 +321,21 @@ STARFOCUS_REFERENCE void ColourCopies(const int16_t* row, ptrdiff_t stride, cons
 // rank, the nearer candidate is chosen. The second hidden surface is chosen in the same way, from
 // the candidates that differ from the first hidden surface by more than 2^unit_bits.
 //
-// A view shows a hidden surface behind a pixel if no pixel on the line of the ViewLook covers the
+// A view shows a hidden surface behind a pixel if no pixel on the line of the HiddenView covers the
 // hidden surface. A pixel of the line covers the surface if two conditions hold. First, the pixel
 // is nearer than the surface by more than half of the view's unit. Second, the view shows the pixel
 // less than 3/4 of a pixel away from the hidden pixel.
 //
 // In the result, bit c is set if group c of kSliceLanes pixels has hidden surfaces. In all other
 // groups, `source` and `found` are unspecified.
-STARFOCUS_REFERENCE uint64_t LookBehind(const DepthRow& row, const HiddenRow& hidden) {
+STARFOCUS_REFERENCE uint64_t FindHidden(const DepthRow& row, const HiddenRow& hidden) {
   uint64_t strips = 0;
   for (int32_t x = 0; x < static_cast<int32_t>(SliceSamples(static_cast<size_t>(row.width))); ++x) {
     HiddenSide sides[4 * kEdges];
     bool end = false;
     for (int side = 0; side < 4; ++side) {
       for (int edge = 0; edge < kEdges; ++edge) {
-        sides[4 * edge + side] = LookBehindSide(row, x, side, edge);
+        sides[4 * edge + side] = FindHiddenSide(row, x, side, edge);
       }
       end = end || row.edges[side][x] == 1;
     }

@@ -58,7 +58,7 @@ Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
   // Blocks use the depth edges of cells within the blur radius, and other statistics of cells
   // within the blur radius plus the border of upsampling.
   borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
-  if (!one_view) borders.centre = Max(borders.centre, kLookBack - 1);
+  if (!one_view) borders.centre = Max(borders.centre, kSearchBack - 1);
   for (int layer = 0; layer <= config.tuning.max_layer; ++layer) {
     int32_t& border = borders.layer[layer] = BorderOfLayer(blur, layer);
     borders.centre = Max(borders.centre, DownToPicture(border, layer));

@@ -36,7 +36,7 @@ class Beyond {
         layer_width_(PixelsInside(input.width, field.layer)),
         layer_height_(PixelsInside(input.height, field.layer)) {}
 
-  void Look() {
+  void Read() {
     // The part of the field inside the picture; `right` and `bottom` are exclusive.
     const int32_t width = field_.width, height = field_.height;
     const int32_t left = Clamp(-field_.x, 0, width), top = Clamp(-field_.y, 0, height);
@@ -44,12 +44,12 @@ class Beyond {
     const int32_t bottom = Clamp(layer_height_ - field_.y, 0, height);
     if (right - left == width && bottom - top == height) return;  // the most frequent case
     for (int32_t row = top; row < bottom; ++row) {
-      LookOver({right - 1, row, 0, width - right});
-      LookOver({left, row, 1, left});
+      ReadBehind({right - 1, row, 0, width - right});
+      ReadBehind({left, row, 1, left});
     }
     for (int32_t column = left; column < right; ++column) {
-      LookOver({column, bottom - 1, 2, height - bottom});
-      LookOver({column, top, 3, top});
+      ReadBehind({column, bottom - 1, 2, height - bottom});
+      ReadBehind({column, top, 3, top});
     }
   }
 
@@ -58,20 +58,20 @@ class Beyond {
     return input_.disparity.Row(y << field_.layer)[x << field_.layer];
   }
 
-  void LookOver(const EdgePixel& edge) {
+  void ReadBehind(const EdgePixel& edge) {
     if (edge.beyond == 0) return;
     const int32_t disparity = DisparityAt(field_.x + edge.column, field_.y + edge.row);
     // Views on the side of the picture's edge show how surfaces of positive disparity continue.
     // Views on the opposite side show how other surfaces continue.
-    const OcclusionView& look =
+    const OcclusionView& behind =
         input_.occlusion_views.on[disparity < 0 ? edge.side ^ 1 : edge.side][0];
-    if (look.view == 0) return;
-    const int32_t moved_x = Moved(look.at.u, disparity), moved_y = Moved(look.at.v, disparity);
+    if (behind.view == 0) return;
+    const int32_t moved_x = Moved(behind.at.u, disparity), moved_y = Moved(behind.at.v, disparity);
     const int32_t along = edge.out()[0] != 0 ? moved_x : moved_y;
     int32_t seen = Min(edge.beyond, Abs(along) >> kShiftBits);
-    if (disparity < 0 && seen > 0) seen = Uncovered(edge, look, disparity, seen);
+    if (disparity < 0 && seen > 0) seen = Uncovered(edge, behind, disparity, seen);
     if (seen == 0) return;
-    Read(edge, look.view, moved_x, moved_y, seen);
+    Read(edge, behind.view, moved_x, moved_y, seen);
     RepeatLast(edge, seen);
   }
 
@@ -86,13 +86,13 @@ class Beyond {
   // is covered if the captured view shows a nearer pixel of the picture less than 3/4 of a pixel
   // away. Surfaces of positive disparity are never covered, because the view that shows them moves
   // nearer surfaces farther away.
-  int32_t Uncovered(const EdgePixel& edge, const OcclusionView& look, int32_t disparity,
+  int32_t Uncovered(const EdgePixel& edge, const OcclusionView& behind, int32_t disparity,
                     int32_t seen) const {
     const int layer = field_.layer;
     const int32_t unit = int32_t{1} << (kDisparityBits + layer);
     const int8_t* const out = edge.out();
-    const int32_t position = out[0] != 0 ? Abs(look.at.u) : Abs(look.at.v);
-    const int32_t room = Min(kLookBack >> layer, out[0] != 0 ? layer_width_ : layer_height_);
+    const int32_t position = out[0] != 0 ? Abs(behind.at.u) : Abs(behind.at.v);
+    const int32_t room = Min(kSearchBack >> layer, out[0] != 0 ? layer_width_ : layer_height_);
     int32_t x = field_.x + edge.column, y = field_.y + edge.row;
     for (int32_t m = 0; m < room; ++m, x -= out[0], y -= out[1]) {
       const int32_t nearer = ScaledByView(position, DisparityAt(x, y) - disparity, kViewBits);
@@ -214,7 +214,7 @@ void LoadBlock(const Input& input, int layer, const Rect& rect, const Border& bo
     CopyDisparity(input, layer, from_disparity, field->x + first, last - first, disparity + first);
     RepeatEdges(first, last, field->width, rgb, disparity);
   }
-  if (input.views > 1) Beyond(input, *field).Look();
+  if (input.views > 1) Beyond(input, *field).Read();
 }
 
 }  // namespace starfocus

@@ -37,10 +37,10 @@ struct BlockPixels {
 };
 
 // Number of pixels inside the picture's edge that are searched for surfaces that may cover a pixel
-// outside. The rows stored around a stripe suffice for a search over kLookBack pixels. If
-// disparities differ by less than kLookBack, a search over fewer pixels finds all covering surfaces
-// (docs/constants.md).
-inline constexpr int32_t kLookBack = 32;
+// outside. The rows stored around a stripe suffice for a search over kSearchBack pixels. If
+// disparities differ by less than kSearchBack, a search over fewer pixels finds all covering
+// surfaces (docs/constants.md).
+inline constexpr int32_t kSearchBack = 32;
 
 // Writes the light of `count` pixels of a layer of the centre view. The pixels start at (x, y) and
 // must be inside the layer.

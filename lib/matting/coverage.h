@@ -82,7 +82,7 @@ struct CoverageTile {
 };
 
 // Passes that compute the coverage map, in this order.
-enum CoveragePass { kFindRagged, kStart, kUnmixFirst, kLook, kUnmixAgain, kCoveragePasses };
+enum CoveragePass { kFindRagged, kStart, kUnmixFirst, kReadBehind, kUnmixAgain, kCoveragePasses };
 
 // The coverage map: a ring buffer of rows of tiles. Row t is stored at ring row t % tile_rows.
 // If a tile extends beyond the picture, its pixels outside the picture are unused.

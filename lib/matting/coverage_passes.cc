@@ -155,11 +155,11 @@ void Start(const Input& input, int32_t column, int32_t row) {
   }
 }
 
-void Look(const Input& input, int32_t column, int32_t row) {
+void ReadBehind(const Input& input, int32_t column, int32_t row) {
   CoverageTile& tile = input.coverage->Tile(column, row);
   const bool thin = !HasGiven(input) || tile.mixed != 0;
   tile.thin = thin && input.coverage->IsStarted(column, row) ? 1 : 0;
-  if (tile.thin != 0 && !IsGivenAlone(input)) LookBehindTile(input, column, row);
+  if (tile.thin != 0 && !IsGivenAlone(input)) ReadBehindTile(input, column, row);
 }
 
 // Runs a pass on a tile. All earlier passes must already be as many rows of tiles ahead as
@@ -173,7 +173,7 @@ void RunPass(const Input& input, int pass, int32_t column, int32_t row) {
   if (pass == kFindRagged) FindRagged(input, column, row);
   if (pass == (given ? kUnmixFirst : kStart)) Start(input, column, row);
   if (pass == kUnmixFirst && !given && tile.ragged != 0) UnmixFirst(input, column, row);
-  if (pass == kLook) Look(input, column, row);
+  if (pass == kReadBehind) ReadBehind(input, column, row);
   if (pass != kUnmixAgain || tile.thin == 0) return;
   if (!given) return UnmixAgain(input, column, row);
   UseGiven(input, column, row);

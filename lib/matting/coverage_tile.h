@@ -38,10 +38,10 @@ void UnmixFirst(const Input& input, int32_t column, int32_t row);
 
 // Writes the coverage of a tile after the second pass, and the light of the far surface in the
 // tile. The inputs are the coverage of the first pass and the light of the far surface that
-// LookBehindTile has read.
+// ReadBehindTile has read.
 void UnmixAgain(const Input& input, int32_t column, int32_t row);
 
-// Writes the final coverage of a tile, and the light of the far surface in the tile. LookBehindTile
+// Writes the final coverage of a tile, and the light of the far surface in the tile. ReadBehindTile
 // must have read the light of the far surface, unless the light field has only one view.
 void UseGiven(const Input& input, int32_t column, int32_t row);
 
@@ -80,7 +80,7 @@ constexpr int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha);
 // OcclusionViews, and recomputes the cells of all levels. Light from a view gets a smaller weight
 // if nearer surfaces cover more of the pixel in that view (FarWeight). CoverageMap::first contains
 // the coverage by nearer surfaces.
-void LookBehindTile(const Input& input, int32_t column, int32_t row);
+void ReadBehindTile(const Input& input, int32_t column, int32_t row);
 
 // Removes the light of the near surface, a mean of the light around, from the light of the far
 // surface in the cells of level 0 of a tile. The result keeps the detail of the background, and its

@@ -69,9 +69,9 @@ constexpr int kCentreBits = 3;
 // lack strands that cover a sample, so two samples are needed. Given coverage lacks none.
 constexpr int32_t kSeenFound = 2, kSeenGiven = 16;
 
-class TileLooker {
+class BehindReader {
  public:
-  TileLooker(const Input& input, int32_t column, int32_t row)
+  BehindReader(const Input& input, int32_t column, int32_t row)
       : kernels_(*input.kernels),
         input_(input),
         map_(*input.coverage),
@@ -79,12 +79,12 @@ class TileLooker {
         columns_(Min(kCoverageTile, map_.width - left_)),
         seen_(HasGiven(input) ? kSeenGiven : kSeenFound) {
     for (int side = 0; side < kSideCount; ++side) {
-      for (const OcclusionView& look : input_.occlusion_views.on[side]) AddView(look);
+      for (const OcclusionView& behind : input_.occlusion_views.on[side]) AddView(behind);
     }
     if (count_ > 0) FindBins(column, row);
   }
 
-  void LookRow(int32_t y) {
+  void ReadRow(int32_t y) {
     bool any = false;
     for (int32_t k = 0; k < kCoverageTile; ++k) {
       sums_[k] = {};
@@ -98,7 +98,7 @@ class TileLooker {
     for (int32_t k = 0; k < columns_; ++k) {
       sums_[k].Add(light + 3 * k, FarWeight(map_.first[map_.At(left_ + k, y)]) >> kCentreBits);
     }
-    for (int view = 0; view < count_; ++view) LookInto(views_[view], y);
+    for (int view = 0; view < count_; ++view) ReadView(views_[view], y);
     for (int32_t k = 0; k < columns_; ++k) {
       if (!split_[k]) continue;
       FarCell& cell = map_.FarAt(left_ + k, y);
@@ -109,12 +109,12 @@ class TileLooker {
   }
 
  private:
-  void AddView(const OcclusionView& look) {
-    if (look.view == 0) return;
+  void AddView(const OcclusionView& behind) {
+    if (behind.view == 0) return;
     for (int k = 0; k < count_; ++k) {
-      if (views_[k].view == look.view) return;
+      if (views_[k].view == behind.view) return;
     }
-    views_[count_++] = look;
+    views_[count_++] = behind;
   }
 
   // Collects the disparities of near surfaces in and around the tile.
@@ -126,9 +126,9 @@ class TileLooker {
 
   // Reads the light of the far surface in row y from a view, and adds the light to sums_. Adjacent
   // pixels of equal disparity are read together.
-  void LookInto(const OcclusionView& look, int32_t y) {
+  void ReadView(const OcclusionView& behind, int32_t y) {
     int16_t covered[kCoverageTile] = {};
-    if (!FindCovered(look.at, y, covered)) return;
+    if (!FindCovered(behind.at, y, covered)) return;
     for (int32_t k = 0, end; k < columns_; k = end) {
       end = k + 1;
       if (!split_[k]) continue;
@@ -137,10 +137,11 @@ class TileLooker {
       for (int32_t n = k; n < end; ++n) all |= weights[n] = FarWeight(covered[n]);
       if (all == 0) continue;
       constexpr int kBits = kViewBits + kDisparityBits - kShiftBits;
-      const CapturedLine line = {(left_ + k) * kShiftOne - ScaledByView(look.at.u, far_[k], kBits),
-                                 y * kShiftOne - ScaledByView(look.at.v, far_[k], kBits), 1, 0};
+      const CapturedLine line = {
+          (left_ + k) * kShiftOne - ScaledByView(behind.at.u, far_[k], kBits),
+          y * kShiftOne - ScaledByView(behind.at.v, far_[k], kBits), 1, 0};
       int16_t light[3 * kCoverageTile];
-      ReadCaptured(input_, 0, look.view, line, end - k, light);
+      ReadCaptured(input_, 0, behind.view, line, end - k, light);
       for (int32_t n = k; n < end; ++n) sums_[n].Add(light + 3 * (n - k), weights[n]);
     }
   }
@@ -304,10 +305,10 @@ void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far)
   }
 }
 
-void LookBehindTile(const Input& input, int32_t column, int32_t row) {
-  TileLooker looker(input, column, row);
+void ReadBehindTile(const Input& input, int32_t column, int32_t row) {
+  BehindReader reader(input, column, row);
   const Rect pixels = input.coverage->PixelsOf(column, row);
-  for (int32_t y = pixels.y; y < pixels.y + pixels.height; ++y) looker.LookRow(y);
+  for (int32_t y = pixels.y; y < pixels.y + pixels.height; ++y) reader.ReadRow(y);
   PullTile(column, row, *input.coverage);
 }
 

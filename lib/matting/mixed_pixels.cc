@@ -34,12 +34,12 @@ BoundaryColours ReadColours(const CentreView& centre, int32_t x, int32_t y, int 
   BoundaryColours colours;
   colours.mixed = colours.far = centre.ColourAt(x, y);
   colours.near = centre.ColourAt(x + pure * dx, y + pure * dy);
-  const OcclusionView& look = centre.input().occlusion_views.Last(side ^ 1);
-  if (look.view != 0) {
+  const OcclusionView& behind = centre.input().occlusion_views.Last(side ^ 1);
+  if (behind.view != 0) {
     const int bits = kViewBits + kDisparityBits - kShiftBits + centre.layer();
-    const CapturedLine line = {x * kShiftOne - ScaledByView(look.at.u, disparity, bits),
-                               y * kShiftOne - ScaledByView(look.at.v, disparity, bits), 1, 0};
-    ReadCaptured(centre.input(), centre.layer(), look.view, line, 1, colours.far.rgb);
+    const CapturedLine line = {x * kShiftOne - ScaledByView(behind.at.u, disparity, bits),
+                               y * kShiftOne - ScaledByView(behind.at.v, disparity, bits), 1, 0};
+    ReadCaptured(centre.input(), centre.layer(), behind.view, line, 1, colours.far.rgb);
   } else if (Abs(centre.Disparity(x - dx, y - dy) - disparity) <= step) {
     colours.far = centre.ColourAt(x - dx, y - dy);
   }

@@ -340,7 +340,7 @@ void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena*
   LayeredDepth& surfaces = scratch.surfaces;
   const size_t area = extended * simd::SliceSamples(extended) + simd::kSliceLanes;
   for (int k = 0; k < simd::kSurfaces; ++k) {
-    // LookBehind reads kSliceLanes samples before the first disparity, and ColourCopies one before
+    // FindHidden reads kSliceLanes samples before the first disparity, and ColourCopies one before
     // the first colour. Both ignore their values.
     const auto take = [&](size_t samples) {
       int16_t* const before = arena->Take<int16_t>(simd::kSliceLanes + samples);

@@ -11,7 +11,7 @@ namespace {
 
 using simd::kStripColumns;
 
-static_assert(kOcclusionViews == simd::kViewLooks, "number of views per side");
+static_assert(kOcclusionViews == simd::kHiddenViews, "number of views per side");
 
 // Sets kStripColumns pixels to kNoSurface. The pixels after the end of a row must be cleared,
 // because SIMD kernels read whole vectors.
@@ -19,12 +19,12 @@ void ClearStrip(int16_t* disparity) {
   for (int32_t k = 0; k < kStripColumns; ++k) disparity[k] = kNoSurface;
 }
 
-// Converts a view to the input format of the SIMD kernel LookBehind.
-simd::ViewLook ViewLookOf(const OcclusionView& look, int unit_bits) {
-  const bool down = Abs(look.at.v) > Abs(look.at.u);
-  const int32_t along = down ? look.at.v : look.at.u, across = down ? look.at.u : look.at.v;
+// Converts a view to the input format of the SIMD kernel FindHidden.
+simd::HiddenView HiddenViewOf(const OcclusionView& behind, int unit_bits) {
+  const bool down = Abs(behind.at.v) > Abs(behind.at.u);
+  const int32_t along = down ? behind.at.v : behind.at.u, across = down ? behind.at.u : behind.at.v;
   const int32_t size = Abs(along);
-  if (look.view == 0) return {0, 0, 0};
+  if (behind.view == 0) return {0, 0, 0};
   const int32_t unit = ((kViewOne << unit_bits) + size / 2) / size;
   if (unit > simd::kMostUnit) return {0, 0, 0};
   const int32_t slant = (Abs(across) * (1 << simd::kSlantBits) + size / 2) / size;
@@ -53,7 +53,7 @@ class SurfaceFinder {
         step_(kDepthEdge << layer_) {
     for (int side = 0; side < kSideCount; ++side) {
       for (int k = 0; k < kOcclusionViews; ++k) {
-        looks_[side][k] = ViewLookOf(input.occlusion_views.on[side][k], kDisparityBits + layer_);
+        views_[side][k] = HiddenViewOf(input.occlusion_views.on[side][k], kDisparityBits + layer_);
       }
     }
   }
@@ -160,14 +160,14 @@ class SurfaceFinder {
     row.below = surfaces_.height - 1 - y;
     row.high = surfaces_.high;
     row.unit_bits = kDisparityBits + layer_;
-    std::memcpy(row.looks, looks_, sizeof(looks_));
+    std::memcpy(row.views, views_, sizeof(views_));
     for (int side = 0; side < 4; ++side) row.edges[side] = Edges(side, y);
     uint16_t found[simd::kSurfaces - 1][kMaxStrips];
     const simd::HiddenRow hidden = {{surfaces_.disparity[1] + at, surfaces_.disparity[2] + at},
                                     {surfaces_.sources[0] + at, surfaces_.sources[1] + at},
                                     {found[0], found[1]},
                                     surfaces_.share + at};
-    const uint64_t strips = kernels_.LookBehind(row, hidden);
+    const uint64_t strips = kernels_.FindHidden(row, hidden);
     surfaces_.hiding[y] = strips;
     for (int behind = 1; behind < simd::kSurfaces; ++behind) {
       int32_t strip = 0;
@@ -263,7 +263,7 @@ class SurfaceFinder {
   }
 
   // Reads the colours of `count` hidden pixels from (x, y) of the field on, which all have this
-  // disparity and source (the format of LookBehind).
+  // disparity and source (the format of FindHidden).
   void ReadSide(int32_t x, int32_t y, int32_t count, int16_t disparity, uint32_t source,
                 int32_t side, int16_t* to) {
     const auto distance = static_cast<int32_t>(source >> simd::kSourceDistance);
@@ -273,16 +273,16 @@ class SurfaceFinder {
                   3 * static_cast<size_t>(count) * sizeof(*to));
       return;
     }
-    const OcclusionView& look =
+    const OcclusionView& behind =
         input_.occlusion_views.on[side][source >> (simd::kSourceSecond + side) & 1];
     // Returns the movement along one axis from the centre view to a view at `position`, in pixels
     // of the layer with kShiftBits.
     const auto moved = [&](int32_t position) {
       return ScaledByView(position, disparity, kViewBits + kDisparityBits - kShiftBits + layer_);
     };
-    const CapturedLine line = {(field_.x + x) * kShiftOne - moved(look.at.u),
-                               (field_.y + y) * kShiftOne - moved(look.at.v), 1, 0};
-    ReadCaptured(input_, layer_, look.view, line, count, to);
+    const CapturedLine line = {(field_.x + x) * kShiftOne - moved(behind.at.u),
+                               (field_.y + y) * kShiftOne - moved(behind.at.v), 1, 0};
+    ReadCaptured(input_, layer_, behind.view, line, count, to);
   }
 
   const simd::Kernels& kernels_;
@@ -293,7 +293,7 @@ class SurfaceFinder {
   // disparity of a point that moves by one pixel of the layer in a view at distance 1
   const int32_t unit_;
   const int32_t step_;  // largest step between pixels that is not a depth edge
-  simd::ViewLook looks_[kSideCount][kOcclusionViews];
+  simd::HiddenView views_[kSideCount][kOcclusionViews];
   int16_t strip_[3 * kStripColumns + simd::kPadding / sizeof(int16_t)] = {};  // colours of a strip
 };
 

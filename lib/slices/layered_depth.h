@@ -48,7 +48,7 @@ struct LayeredDepth {
   // side.
   uint8_t* bins = nullptr;
   int32_t* least_blur = nullptr;
-  // Source of the colour of each pixel of the hidden surfaces, in the format of LookBehind. The
+  // Source of the colour of each pixel of the hidden surfaces, in the format of FindHidden. The
   // sources are valid only in strips whose bit in `hiding` is set.
   uint16_t* sources[simd::kSurfaces - 1] = {};
   bool repeats = false;        // True if the colour of any pixel is repeated.

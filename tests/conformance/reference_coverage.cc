@@ -51,7 +51,7 @@ class Parter {
     MarkMixed();
     if (!IsGivenAlone()) {
       ForEach([&](int x, int y) {
-        if (At(x, y).two && IsThin(x, y)) LookBehind(x, y);
+        if (At(x, y).two && IsThin(x, y)) FindHidden(x, y);
       });
       far_.Fill();
     }
@@ -285,7 +285,7 @@ class Parter {
     return covered;
   }
 
-  void LookBehind(int x, int y) {
+  void FindHidden(int x, int y) {
     std::set<Position> views;
     for (const Direction& side : kDirections) {
       for (const Position& view : LooksOn(field_, side)) views.insert(view);

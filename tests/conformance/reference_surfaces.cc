@@ -150,7 +150,7 @@ class SurfaceFinder {
   void AddHidden(int x, int y, std::vector<Surface>* hidden) const {
     std::vector<Surface>& surfaces = *hidden;
     std::vector<Background> backgrounds;
-    for (const Direction& towards : kDirections) LookBehind(x, y, towards, &backgrounds);
+    for (const Direction& towards : kDirections) FindHidden(x, y, towards, &backgrounds);
     while (!backgrounds.empty() && surfaces.size() < starfocus::simd::kSurfaces) {
       const Background best =
           *std::min_element(backgrounds.begin(), backgrounds.end(),
@@ -250,7 +250,7 @@ class SurfaceFinder {
   // Finds up to two surfaces behind a pixel: the surfaces beyond the next two edges in the
   // direction `towards`. The second surface is added only if a view can see that far behind the
   // pixel.
-  void LookBehind(int x, int y, const Direction& towards, std::vector<Background>* found) const {
+  void FindHidden(int x, int y, const Direction& towards, std::vector<Background>* found) const {
     const int next = NextEdge(x, y, towards);
     if (next == 0) return;
     AddBackground(x, y, towards, next, found);

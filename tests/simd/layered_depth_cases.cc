@@ -258,12 +258,12 @@ void SetLooks(Draw* draw, DepthRow* row) {
   const int unit = 1 << row->unit_bits;
   for (int side = 0; side < 4; ++side) {
     if (none) break;
-    row->looks[side][0] = {int16_t(unit), int8_t(side), 0};
-    if (second) row->looks[side][1] = {int16_t(2 * unit), int8_t(side), 0};
-    for (ViewLook& look : row->looks[side]) {
+    row->views[side][0] = {int16_t(unit), int8_t(side), 0};
+    if (second) row->views[side][1] = {int16_t(2 * unit), int8_t(side), 0};
+    for (HiddenView& view : row->views[side]) {
       if (!anywhere || draw->Rarely(4)) continue;
       const int most = 1 << kSlantBits;
-      look = {int16_t(draw->Int(unit, kMostUnit)), int8_t(draw->Int(0, 3)),
+      view = {int16_t(draw->Int(unit, kMostUnit)), int8_t(draw->Int(0, 3)),
               int16_t(draw->Rarely(3) ? 0 : draw->Int(-most, most))};
     }
   }
@@ -286,13 +286,13 @@ DepthField MakeField(Draw* draw, KernelCall* call) {
   return field;
 }
 
-// The output of LookBehind for all rows of a field.
+// The output of FindHidden for all rows of a field.
 struct HiddenField {
   int16_t* disparity[kSurfaces - 1];
   uint16_t* source[kSurfaces - 1];
   uint16_t* found[kSurfaces - 1];
   uint8_t* share;
-  uint64_t* strips;  // return value of LookBehind for each row
+  uint64_t* strips;  // return value of FindHidden for each row
 
   HiddenField(const DepthField& field, KernelCall* call) {
     const auto rows = size_t(field.height), samples = field.stride * rows;
@@ -345,12 +345,12 @@ struct HiddenField {
 
 }  // namespace
 
-void LookBehind(Draw* draw, KernelCall* call) {
+void FindHidden(Draw* draw, KernelCall* call) {
   const DepthField field = MakeField(draw, call);
   const HiddenField hidden(field, call);
   call->Runs([=](const Kernels& kernels) {
     for (int y = 0; y < field.height; ++y) {
-      hidden.strips[y] = kernels.LookBehind(field.Row(y), hidden.Row(field.stride * size_t(y)));
+      hidden.strips[y] = kernels.FindHidden(field.Row(y), hidden.Row(field.stride * size_t(y)));
     }
   });
   call->is_right = [=](uint64_t, Met* met) {
