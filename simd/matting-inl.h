@@ -20,8 +20,8 @@ inline void FindBeyond(const int16_t* HWY_RESTRICT row, ptrdiff_t stride, int16_
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto here = hn::LoadU(d16, row + n), none = hn::Set(d16, int16_t{INT16_MAX});
     auto found = here, distance = none;
-    for (int32_t y = -kBeyondReach; y <= kBeyondReach; ++y) {
-      for (int32_t x = -kBeyondReach; x <= kBeyondReach; ++x) {
+    for (int32_t y = -kBeyondRadius; y <= kBeyondRadius; ++y) {
+      for (int32_t x = -kBeyondRadius; x <= kBeyondRadius; ++x) {
         const auto there = hn::LoadU(d16, row + n + y * stride + x);
         const auto own = hn::Set(d16, static_cast<int16_t>(x * x + y * y));
         const auto larger = hn::And(hn::Eq(distance, own), hn::Gt(there, found));
@@ -59,8 +59,8 @@ inline void SumNear(const int16_t* const light[3], const int16_t* disparity, con
   for (size_t n = 0; n < kSliceLanes; n += hn::Lanes(d16)) {
     const auto here = hn::LoadU(d16, disparity + n);
     auto r = hn::Zero(d16), g = r, b = r, weights = r;
-    for (int32_t y = -kNearReach; y <= kNearReach; ++y) {
-      for (int32_t x = -kNearReach; x <= kNearReach; ++x) {
+    for (int32_t y = -kNearRadius; y <= kNearRadius; ++y) {
+      for (int32_t x = -kNearRadius; x <= kNearRadius; ++x) {
         const ptrdiff_t there = static_cast<ptrdiff_t>(n) + y * stride + x;
         const int16_t tap = kNearTaps[y < 0 ? -y : y][x < 0 ? -x : x];
         const auto beyond = hn::SaturatedSub(hn::LoadU(d16, disparity + there), here);

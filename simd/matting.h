@@ -15,7 +15,7 @@
 namespace starfocus::simd {
 
 // Largest distance, in columns and rows, of the pixels that FindBeyond compares.
-inline constexpr int32_t kBeyondReach = 3;
+inline constexpr int32_t kBeyondRadius = 3;
 
 // Geometry of a view for CoverPlaces, which finds the nearer pixels that occlude far pixels in the
 // view. All disparities must have the same scale; any scale is permitted.
@@ -29,11 +29,11 @@ struct CoverView {
 };
 
 // Largest distance, in columns and rows, of the pixels that SumNear adds.
-inline constexpr int32_t kNearReach = 2;
+inline constexpr int32_t kNearRadius = 2;
 
 // Filter coefficients of SumNear, by the distance in columns and rows. The coefficients of all
 // pixels sum to 118, so that with weights of 256 the total is less than 1 (15 fractional bits).
-inline constexpr int16_t kNearTaps[kNearReach + 1][kNearReach + 1] = {
+inline constexpr int16_t kNearTaps[kNearRadius + 1][kNearRadius + 1] = {
     {10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
 
 // Largest number of samples in a row and in a column around a pixel, for SumVotes.
@@ -82,7 +82,7 @@ inline int16_t SmoothMean(int32_t disparity, int32_t weights) {
 
 namespace reference {
 
-// For each pixel n < kSliceLanes of a row, finds the nearest pixel within kBeyondReach columns and
+// For each pixel n < kSliceLanes of a row, finds the nearest pixel within kBeyondRadius columns and
 // rows whose disparity differs by more than `step`. Among equally distant pixels, the one with the
 // largest disparity is found, so that mirrored maps give mirrored results. Writes its disparity and
 // its squared distance; without such a pixel, the disparity of pixel n and 0. Rows are `stride`
@@ -92,8 +92,8 @@ STARFOCUS_REFERENCE void FindBeyond(const int16_t* row, ptrdiff_t stride, int16_
   for (ptrdiff_t n = 0; n < static_cast<ptrdiff_t>(kSliceLanes); ++n) {
     beyond[n] = row[n];
     square[n] = 0;
-    for (int32_t y = -kBeyondReach; y <= kBeyondReach; ++y) {
-      for (int32_t x = -kBeyondReach; x <= kBeyondReach; ++x) {
+    for (int32_t y = -kBeyondRadius; y <= kBeyondRadius; ++y) {
+      for (int32_t x = -kBeyondRadius; x <= kBeyondRadius; ++x) {
         const int16_t there = row[n + y * stride + x];
         const int32_t apart = there < row[n] ? row[n] - there : there - row[n];
         const int32_t distance = x * x + y * y;
@@ -119,10 +119,10 @@ STARFOCUS_REFERENCE void CoverPlaces(const int16_t* near, const uint8_t* coverag
 }
 
 // Sums the light around each pixel n < kSliceLanes of a row. The sum includes the pixels within
-// kNearReach whose near surface is the near surface of pixel n: `disparity`, which is the disparity
-// of the near surface, differs by at most `step`. The light of each pixel is multiplied by the
-// pixel's weight, in [0, 256], and by a filter coefficient from kNearTaps. Each product is rounded
-// half up. sums[c][n] is the sum of colour c, and sums[3][n] the sum of the weights with 15
+// kNearRadius whose near surface is the near surface of pixel n: `disparity`, which is the
+// disparity of the near surface, differs by at most `step`. The light of each pixel is multiplied
+// by the pixel's weight, in [0, 256], and by a filter coefficient from kNearTaps. Each product is
+// rounded half up. sums[c][n] is the sum of colour c, and sums[3][n] the sum of the weights with 15
 // fractional bits. The inputs point to the first pixel of the row; rows are `stride` samples apart.
 STARFOCUS_REFERENCE void SumNear(const int16_t* const light[3], const int16_t* disparity,
                                  const int16_t* weight, ptrdiff_t stride, int16_t step,
@@ -130,8 +130,8 @@ STARFOCUS_REFERENCE void SumNear(const int16_t* const light[3], const int16_t* d
   for (size_t k = 0; k < 4; ++k) {
     for (size_t n = 0; n < kSliceLanes; ++n) sums[k][n] = 0;
   }
-  for (int32_t y = -kNearReach; y <= kNearReach; ++y) {
-    for (int32_t x = -kNearReach; x <= kNearReach; ++x) {
+  for (int32_t y = -kNearRadius; y <= kNearRadius; ++y) {
+    for (int32_t x = -kNearRadius; x <= kNearRadius; ++x) {
       const int16_t tap = kNearTaps[std::abs(y)][std::abs(x)];
       for (size_t n = 0; n < kSliceLanes; ++n) {
         const ptrdiff_t here = static_cast<ptrdiff_t>(n), there = here + y * stride + x;

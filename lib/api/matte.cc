@@ -225,7 +225,7 @@ starfocus_status starfocus_matte_coverage(const starfocus_matte* matte,
   const simd::ImageKernels& kernels = simd::BestImageKernels();
   const uint32_t flags =
       CheckDepth(kernels, source,
-                 {Max(0, area.y - kMatteReach), Min(height, area.y + area.height + kMatteReach)});
+                 {Max(0, area.y - kMatteRadius), Min(height, area.y + area.height + kMatteRadius)});
   check.Need((flags & simd::kUnknownDepth) == 0, STARFOCUS_ERROR_NOT_FINITE, {"depth"}, {"finite"});
   check.Need((flags & simd::kDepthOutside) == 0, STARFOCUS_ERROR_DISPARITY, {"depth"},
              {"disparities within +-STARFOCUS_MAX_DISPARITY"});

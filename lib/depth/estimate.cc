@@ -74,10 +74,10 @@ void FindRange(const SweepSetup& setup, const int16_t* map, const Rect& around, 
   *high = most;
 }
 
-// A hidden strip is at most as wide as the largest movement. kMoreReach is the number of pixels
-// next to a hidden strip that may be wrong. The limit kMostReach bounds the time in pictures in
+// A hidden strip is at most as wide as the largest movement. kBesideHidden is the number of pixels
+// next to a hidden strip that may be wrong. The limit kMostHidden bounds the time in pictures in
 // which no pixel is seen.
-constexpr int32_t kMoreReach = 16, kMostReach = 128;
+constexpr int32_t kBesideHidden = 16, kMostHidden = 128;
 
 // Returns true if a side view shows pixel (x, y) at disparity d.
 bool IsSeen(const SweepSetup& setup, const EstimateMemory& memory, int32_t x, int32_t y,
@@ -96,7 +96,7 @@ bool IsSeen(const SweepSetup& setup, const EstimateMemory& memory, int32_t x, in
 // shows, or kNoSurface if no side view shows a pixel within `reach` pixels.
 int16_t SeenBeside(const SweepSetup& setup, const int16_t* seen, int32_t x, int32_t y,
                    const int8_t* direction) {
-  const int32_t reach = Min(setup.reach + kMoreReach, kMostReach);
+  const int32_t reach = Min(setup.reach + kBesideHidden, kMostHidden);
   for (int32_t k = 1; k <= reach; ++k) {
     const int32_t column = x + k * direction[0], row = y + k * direction[1];
     if (column < 0 || column >= setup.width || row < 0 || row >= setup.height) break;

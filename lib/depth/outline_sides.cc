@@ -13,10 +13,10 @@ namespace {
 // Largest absolute vote and side.
 constexpr int32_t kSure = 127;
 
-// A vote compares a pixel with every second pixel and row within band + kVoteReach pixels; beyond
-// kFineReach pixels with every third, and beyond kCoarseReach with every fourth. The weight of a
+// A vote compares a pixel with every second pixel and row within band + kVoteRadius pixels; beyond
+// kFineRadius pixels with every third, and beyond kCoarseRadius with every fourth. The weight of a
 // sample is the product of its trust, its closeness and its similarity.
-constexpr int32_t kFineReach = 13, kCoarseReach = 15;
+constexpr int32_t kFineRadius = 13, kCoarseRadius = 15;
 constexpr int32_t kRidgeTrust = 32;
 // Squared distance in pixels at which the closeness is a half.
 constexpr int32_t kFallOff = 100;
@@ -66,7 +66,7 @@ void FillBlock(const OutlinePass& pass, const Rect& area, int32_t reach, const S
   const Rect around = Widened(*pass.setup, area, reach);
   std::fill_n(block->trust, VoteBlock::kWidth * VoteBlock::kWidth, int16_t{0});
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
-    const int32_t row = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach - area.x;
+    const int32_t row = (y - area.y + kMostRadius) * VoteBlock::kWidth + kMostRadius - area.x;
     FillColours(pass.rgb.Row(y) + 3 * ptrdiff_t{around.x}, around.width, row + around.x,
                 *pass.kernels, block);
     for (int32_t x = around.x; x < around.x + around.width; ++x) {
@@ -84,8 +84,8 @@ template <class Sample, class Needs, class Act>
 void SumAround(const OutlinePass& pass, const Rect& tile, bool second, VoteBlock* block,
                const Sample& sample, const Needs& needs, const Act& act) {
   constexpr auto kLanes = static_cast<int32_t>(simd::kSliceLanes);
-  int32_t reach = pass.band + kVoteReach;
-  int32_t step = reach > kCoarseReach ? 4 : reach > kFineReach ? 3 : 2;
+  int32_t reach = pass.band + kVoteRadius;
+  int32_t step = reach > kCoarseRadius ? 4 : reach > kFineRadius ? 3 : 2;
   if (second && step > 2) ++step;
   reach -= reach % step;
   int16_t closeness[simd::kMostVoteSide * simd::kMostVoteSide];
@@ -113,7 +113,8 @@ void SumAround(const OutlinePass& pass, const Rect& tile, bool second, VoteBlock
         if (wants == 0) continue;
         int16_t middle[kLanes] = {};
         std::copy_n(pass.middle + pass.At(x, y), count, middle);
-        const int32_t own = (y - area.y + kMostReach) * VoteBlock::kWidth + kMostReach + x - area.x;
+        const int32_t own =
+            (y - area.y + kMostRadius) * VoteBlock::kWidth + kMostRadius + x - area.x;
         const int16_t* const colours[] = {block->colour[0] + own, block->colour[1] + own,
                                           block->colour[2] + own};
         simd::VoteSums sums;

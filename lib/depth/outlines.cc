@@ -19,10 +19,10 @@ constexpr int32_t kLeastStep = 2 * kPixel;
 // in wrong maps 21 to 50.
 constexpr int64_t kWrongPercent = 18;
 // A part of a right map is wrong if the outline is displaced: from kDisplacedPercent of the pixels
-// next to outlines, within kRightReach cells, change their side in the direction of the shift of
+// next to outlines, within kRightRadius cells, change their side in the direction of the shift of
 // their cell. In exact maps it is at most 11 of 97 % of all cells; in displaced maps about 45.
 constexpr int64_t kDisplacedPercent = 35;
-constexpr int32_t kRightReach = 8;
+constexpr int32_t kRightRadius = 8;
 
 // Calls join(size, shift) so that windows of one pixel become windows of `most` pixels: each window
 // is joined with the one `shift` pixels later, which makes it `size` pixels long.
@@ -254,8 +254,8 @@ bool IsRight(const OutlineMemory& memory, int32_t number, int64_t beside, int64_
   const int32_t columns = memory.Columns().Count(), rows = memory.Rows().Count();
   const int32_t column = number % columns, row = number / columns;
   int64_t near_beside = 0, near_displaced = 0;
-  for (int32_t v = row - kRightReach; v <= row + kRightReach; v += 2) {
-    for (int32_t u = column - kRightReach; u <= column + kRightReach; u += 2) {
+  for (int32_t v = row - kRightRadius; v <= row + kRightRadius; v += 2) {
+    for (int32_t u = column - kRightRadius; u <= column + kRightRadius; u += 2) {
       if (u < 0 || v < 0 || u >= columns || v >= rows) continue;
       near_beside += memory.beside[v * columns + u];
       near_displaced += memory.displaced[v * columns + u];

@@ -35,11 +35,11 @@ inline constexpr int32_t kDistance = 4;
 // Largest width of the band on each side, and largest radius of the windows in which outlines are
 // found, in pixels.
 inline constexpr int32_t kMostBand = 10, kMostOutlineRadius = 12;
-// Votes compare pixels up to kVoteReach pixels beyond the width of the band.
-inline constexpr int32_t kVoteReach = 7, kMostReach = kMostBand + kVoteReach;
-// Disparities of a tile follow from the pixels up to kSideReach pixels around it.
-inline constexpr int32_t kSideReach = 2 * kMostBand + 4;
-inline constexpr size_t kMostRegion = kMostTileSide + 2 * kSideReach;
+// Votes compare pixels up to kVoteRadius pixels beyond the width of the band.
+inline constexpr int32_t kVoteRadius = 7, kMostRadius = kMostBand + kVoteRadius;
+// Disparities of a tile follow from the pixels up to kSideRadius pixels around it.
+inline constexpr int32_t kSideRadius = 2 * kMostBand + 4;
+inline constexpr size_t kMostRegion = kMostTileSide + 2 * kSideRadius;
 // Widths of ramps that are counted apart, in 1/kDistance pixel. The last one includes all wider.
 inline constexpr int32_t kRampCounts = kDistance * 25;
 
@@ -73,7 +73,7 @@ struct OutlineCounts {
 
 // Pixels of a block and the pixels around it, in planes, for simd::SumVotes.
 struct VoteBlock {
-  static constexpr int32_t kSide = 128, kWidth = kSide + 2 * kMostReach;
+  static constexpr int32_t kSide = 128, kWidth = kSide + 2 * kMostRadius;
 
   int16_t colour[3][kWidth * kWidth], surface[kWidth * kWidth], trust[kWidth * kWidth];
 };

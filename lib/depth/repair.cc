@@ -22,9 +22,9 @@ constexpr int32_t kSameSurface = 38;
 constexpr int32_t kSame = kPixel / 4;
 constexpr int32_t kMeanRadius = 3, kEvidenceRadius = 2;
 // Largest distance in pixels from a pixel that mixes two surfaces to trusted disparities of the
-// nearer surface. kNearReach spans a ramp of disparities that is 12 pixels long, and the untrusted
+// nearer surface. kNearRadius spans a ramp of disparities that is 12 pixels long, and the untrusted
 // pixels at the ends of the ramp.
-constexpr int32_t kNearReach = 16;
+constexpr int32_t kNearRadius = 16;
 // Largest cost of a pixel that the views show clearly. kClearCost corresponds to 11 grey levels. In
 // images of hair in front of a wall, half of the wall pixels and a twentieth of the mixed pixels
 // have a cost below kClearCost.
@@ -123,17 +123,17 @@ int16_t RepairedAt(const SweepSetup& setup, const EstimateMemory& memory, int32_
 // is near, the value is kNoSurface.
 void FindNearest(const SweepSetup& setup, const int16_t* trusted, const Rect& cell, int32_t y,
                  int16_t* nearest) {
-  const Rect around = Widened(setup, {cell.x, y, cell.width, 1}, kNearReach);
-  // Largest disparity in each column; columns[0] is kNearReach columns to the left of the cell.
-  int16_t columns[kMostCellSide + 2 * kNearReach];
-  std::fill_n(columns, cell.width + 2 * kNearReach, simd::kNoSurface);
-  int16_t* to = columns + kNearReach - (cell.x - around.x);
+  const Rect around = Widened(setup, {cell.x, y, cell.width, 1}, kNearRadius);
+  // Largest disparity in each column; columns[0] is kNearRadius columns to the left of the cell.
+  int16_t columns[kMostCellSide + 2 * kNearRadius];
+  std::fill_n(columns, cell.width + 2 * kNearRadius, simd::kNoSurface);
+  int16_t* to = columns + kNearRadius - (cell.x - around.x);
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     const int16_t* from = trusted + setup.At(around.x, row);
     for (int32_t x = 0; x < around.width; ++x) to[x] = std::max(to[x], from[x]);
   }
   std::fill_n(nearest, cell.width, simd::kNoSurface);
-  for (int32_t k = 0; k <= 2 * kNearReach; ++k) {
+  for (int32_t k = 0; k <= 2 * kNearRadius; ++k) {
     for (int32_t x = 0; x < cell.width; ++x) nearest[x] = std::max(nearest[x], columns[x + k]);
   }
 }

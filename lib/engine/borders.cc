@@ -79,7 +79,7 @@ Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
     // highlights.
     borders.highlights =
         ToWholeCells(reach + kLayerMargin[2]) + 5 * kCellSize + blur + LargestMove(config);
-    borders.views = Max(borders.views, borders.highlights + LampReach(LargestLamp(config.width)));
+    borders.views = Max(borders.views, borders.highlights + LampRadius(LargestLamp(config.width)));
   }
   borders.streamed =
       borders.views + (Has(config, STARFOCUS_FEATURE_IMAGES) ? borders.views % 2 : 0);

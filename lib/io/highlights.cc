@@ -37,9 +37,9 @@ struct ViewLine {
 };
 
 // Counts the consecutive highlights around `at`, which must be a highlight. The length of a run is
-// at most LampReach. Runs that reach the edge of the picture have the length LampReach.
+// at most LampRadius. Runs that reach the edge of the picture have the length LampRadius.
 LampRun CountRun(const ViewLine& line, int32_t at) {
-  const int32_t most = LampReach(LargestLamp(line.in.width)), size = line.Size();
+  const int32_t most = LampRadius(LargestLamp(line.in.width)), size = line.Size();
   int32_t first = at, last = at;
   while (last - first + 1 < most && last + 1 < size && line.HasHighlight(last + 1)) ++last;
   const bool ends = last + 1 < size;
@@ -75,7 +75,7 @@ void ReadPixel(const Input& in, int view, int32_t x, int32_t y, const uint8_t* c
   const int32_t lamp = LargestLamp(in.width);
   int32_t run = RunThrough({in, view, true, y}, x);
   if (run > lamp) run = Min(run, RunThrough({in, view, false, x}, y));
-  const int32_t share = Clamp(LampReach(lamp) - run, 0, lamp);
+  const int32_t share = Clamp(LampRadius(lamp) - run, 0, lamp);
   if (share == 0) return;
   for (int c = 0; c < 3; ++c) {
     rgb[c] = static_cast<int16_t>(ExcessOfCode(codes[c]) * share / lamp);
@@ -131,7 +131,7 @@ bool AnyPiece(const Input& in, const Rect& rect, bool (*test)(const uint8_t*, in
 bool HasHighlights(const Input& in, const Rect& rect, int32_t reach) {
   const Rect near = Extended(rect, {reach, reach, reach, reach});
   if (!AnyPiece(in, near, IsBright)) return false;
-  const int32_t lamp = LampReach(LargestLamp(in.width));
+  const int32_t lamp = LampRadius(LargestLamp(in.width));
   return AnyPiece(in, Extended(near, {lamp, lamp, lamp, lamp}), HasOthers);
 }
 

@@ -19,7 +19,7 @@ namespace starfocus {
 constexpr int32_t LargestLamp(int32_t width) { return Clamp(width / 32, 16, 128); }
 
 // Returns the number of pixels around a highlight that decide whether the highlight is a lamp.
-constexpr int32_t LampReach(int32_t lamp) { return 2 * lamp; }
+constexpr int32_t LampRadius(int32_t lamp) { return 2 * lamp; }
 
 // A pixel is a highlight if at least two of its codes are kFirstExcess or more. Lamps of any colour
 // are highlights. Darker saturated colours are not highlights, because at most one of their codes
@@ -31,7 +31,7 @@ inline constexpr int32_t kFirstExcess = 251;
 // covers the whole area within reach.
 bool HasHighlights(const Input& in, const Rect& rect, int32_t reach);
 
-// Run of highlights in a row or column: pixels [first, last]. `length` is at most LampReach and
+// Run of highlights in a row or column: pixels [first, last]. `length` is at most LampRadius and
 // applies to all pixels of the run.
 struct LampRun {
   int16_t view = -1;  // -1: no run

@@ -14,7 +14,7 @@ constexpr int32_t kLeastRamp = 1 << (kDisparityBits - 1);
 constexpr int32_t kRampRatio = 4;
 
 // Returns true if the middle of three pixels is on a ramp. The arguments are the disparities of the
-// pixels in kDisparityBits. Two edges are a ramp with any ratio and up to kRampReach pixels away,
+// pixels in kDisparityBits. Two edges are a ramp with any ratio and up to kRampRadius pixels away,
 // because repaired maps of networks have narrow strips of another disparity along outlines.
 bool IsRamp(int32_t before, int32_t here, int32_t after, bool adjacent) {
   if (Abs(after - before) < 2 * kLeastRamp) return false;  // most pixels
@@ -28,7 +28,7 @@ bool IsBetween(const int16_t* here) {
   constexpr int32_t kSide = GivenDisparities::kSide;
   constexpr int32_t kOpposite[] = {1, kSide - 1, kSide, kSide + 1};
   for (const int32_t step : kOpposite) {
-    for (int32_t reach = 1; reach <= kRampReach; ++reach) {
+    for (int32_t reach = 1; reach <= kRampRadius; ++reach) {
       if (IsRamp(here[-reach * step], here[0], here[reach * step], reach == 1)) return true;
     }
   }
@@ -36,21 +36,21 @@ bool IsBetween(const int16_t* here) {
 }
 
 // Rank of a pixel in a search: squared distance, square around the start, row, column. The lowest
-// rank wins. Scale: 12 bits for the squared distance, at most 2 kGivenReach^2 = 2048; 6 bits for
+// rank wins. Scale: 12 bits for the squared distance, at most 2 kGivenRadius^2 = 2048; 6 bits for
 // the square; 7 bits each for row and column.
 constexpr uint32_t kNotFound = UINT32_MAX;
 
 uint32_t RankOf(int32_t dx, int32_t dy) {
-  static_assert(kGivenReach == 32);
+  static_assert(kGivenRadius == 32);
   const int32_t ring = Max(Abs(dx), Abs(dy));
   return static_cast<uint32_t>(dx * dx + dy * dy) << 20 | static_cast<uint32_t>(ring) << 14 |
-         static_cast<uint32_t>(dy + kGivenReach) << 7 | static_cast<uint32_t>(dx + kGivenReach);
+         static_cast<uint32_t>(dy + kGivenRadius) << 7 | static_cast<uint32_t>(dx + kGivenRadius);
 }
 int32_t DistanceOf(uint32_t rank) { return static_cast<int32_t>(rank >> 20); }
 
 // Disparities in and around a tile: the input for finding the pixels near edges and their near
 // disparities.
-using BandDisparities = DisparitiesAround<kBandReach + 2>;
+using BandDisparities = DisparitiesAround<kBandRadius + 2>;
 
 // A tile counts as thin structure if at least kLeastRagged of its pixels have a nearer neighbour,
 // and if at least kLeastStrands of its pixels belong to strands one pixel wide. In tiles of hair,
@@ -152,12 +152,13 @@ void SmoothNear(const int16_t* here, int32_t stride, int16_t* near) {
 // tolerance hides the noise of coverage that was computed or compressed.
 constexpr int32_t kPure = 2;
 
-// Sets bit k of rows[y] if pixel (k, y) of a tile has a mixture at most kBandReach pixels away
+// Sets bit k of rows[y] if pixel (k, y) of a tile has a mixture at most kBandRadius pixels away
 // along both axes.
 void FindMixtures(const Input& input, int32_t column, int32_t row, uint32_t* rows) {
-  constexpr int32_t kSide = kCoverageTile + 2 * kBandReach;
+  constexpr int32_t kSide = kCoverageTile + 2 * kBandRadius;
   static_assert(kSide <= 32, "a row of the tile and its surroundings has one bit per pixel");
-  const int32_t left = column * kCoverageTile - kBandReach, top = row * kCoverageTile - kBandReach;
+  const int32_t left = column * kCoverageTile - kBandRadius,
+                top = row * kCoverageTile - kBandRadius;
   const Rect around = Clipped({left, top, kSide, kSide}, input.width, input.height);
   std::fill_n(rows, kCoverageTile, 0U);
   for (int32_t y = around.y; y < around.y + around.height; ++y) {
@@ -166,8 +167,8 @@ void FindMixtures(const Input& input, int32_t column, int32_t row, uint32_t* row
       const int32_t alpha = GivenAlpha(input.given_coverage.Row(y)[x]);
       mixed |= uint32_t{alpha > kPure && alpha < kLeastWhole} << (x - left);
     }
-    for (int32_t k = 0; k <= 2 * kBandReach; ++k) wide |= mixed >> k;
-    for (int32_t k = Max(0, y - top - 2 * kBandReach); k <= Min(y - top, kCoverageTile - 1); ++k) {
+    for (int32_t k = 0; k <= 2 * kBandRadius; ++k) wide |= mixed >> k;
+    for (int32_t k = Max(0, y - top - 2 * kBandRadius); k <= Min(y - top, kCoverageTile - 1); ++k) {
       rows[k] |= wide;
     }
   }
@@ -222,8 +223,8 @@ void StartPixels(const Input& input, int32_t column, int32_t row, const Disparit
 }  // namespace
 
 SurfaceSearch::SurfaceSearch(const GivenDisparities& around) : around_(around) {
-  for (int32_t y = kRampReach; y < kSide - kRampReach; ++y) {
-    for (int32_t x = kRampReach; x < kSide - kRampReach; ++x) {
+  for (int32_t y = kRampRadius; y < kSide - kRampRadius; ++y) {
+    for (int32_t x = kRampRadius; x < kSide - kRampRadius; ++x) {
       const int32_t at = y * kSide + x;
       on_ramp_[at] = IsBetween(around.disparity + at);
       Cell& cell = cells_[y / kCellSide * kCells + x / kCellSide];
@@ -249,10 +250,10 @@ Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
   const auto search = [&](int32_t column, int32_t row) {
     const Cell& cell = cells_[row * kCells + column];
     if (cell.greatest < low || cell.least > high) return;
-    const int32_t left = Max(column * kCellSide, x - kGivenReach),
-                  right = Min(column * kCellSide + kCellSide - 1, x + kGivenReach),
-                  top = Max(row * kCellSide, y - kGivenReach),
-                  bottom = Min(row * kCellSide + kCellSide - 1, y + kGivenReach);
+    const int32_t left = Max(column * kCellSide, x - kGivenRadius),
+                  right = Min(column * kCellSide + kCellSide - 1, x + kGivenRadius),
+                  top = Max(row * kCellSide, y - kGivenRadius),
+                  bottom = Min(row * kCellSide + kCellSide - 1, y + kGivenRadius);
     const int32_t nearest = Clamp(x, left, right) - x;
     if (!cell.has_ramp && cell.least >= low && cell.greatest <= high) {
       // All pixels of the cell match, and the nearest one has the lowest rank.
@@ -269,7 +270,7 @@ Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
     }
   };
   const int32_t column = x / kCellSide, row = y / kCellSide;
-  for (int32_t r = 0; r <= kGivenReach / kCellSide; ++r) {
+  for (int32_t r = 0; r <= kGivenRadius / kCellSide; ++r) {
     const int32_t least = (r - 1) * kCellSide + 1;  // distance to the nearest cell of the square
     if (r > 0 && least * least > DistanceOf(rank)) break;
     for (int32_t v = Max(row - r, 0); v <= Min(row + r, kCells - 1); ++v) {
@@ -280,8 +281,8 @@ Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
     }
   }
   if (rank == kNotFound) return {around_.disparity[at], INT32_MAX};
-  const int32_t dy = static_cast<int32_t>(rank >> 7 & 127) - kGivenReach,
-                dx = static_cast<int32_t>(rank & 127) - kGivenReach;
+  const int32_t dy = static_cast<int32_t>(rank >> 7 & 127) - kGivenRadius,
+                dx = static_cast<int32_t>(rank & 127) - kGivenRadius;
   return {around_.disparity[at + dy * kSide + dx], DistanceOf(rank)};
 }
 

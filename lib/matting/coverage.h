@@ -39,7 +39,7 @@ inline constexpr int32_t kMostExact = 102, kLeastWhole = (kMostExact + kWhole) /
 inline constexpr int32_t kThinStep = 5 << kDisparityBits;
 
 // Largest distance in pixels from an edge to a pixel that is split.
-inline constexpr int32_t kBandReach = simd::kBeyondReach;
+inline constexpr int32_t kBandRadius = simd::kBeyondRadius;
 
 // Light of the far surface in a cell with a side of 2^level pixels, and the confidence of the
 // light.
@@ -173,7 +173,7 @@ starfocus_status FindCoverage(const FullConfig& config, const Input& input, cons
 // implied coverage.
 
 // Number of pixels around an area whose disparities MatteCoverage reads.
-inline constexpr int32_t kMatteReach = 35;
+inline constexpr int32_t kMatteRadius = 35;
 
 // Writes the coverage of `area`. out.Row(y) receives row y of the picture, starting with column
 // area.x. All disparities must be known. `depth.columns` is ignored.

@@ -10,7 +10,7 @@
 namespace starfocus {
 namespace {
 
-constexpr int32_t kAround = simd::kNearReach;
+constexpr int32_t kAround = simd::kNearRadius;
 constexpr int32_t kSide = kCoverageTile + 2 * kAround;
 
 // Colours are compared in 255ths of white with 3 fractional bits.
@@ -259,7 +259,7 @@ void UseGiven(const Input& input, int32_t column, int32_t row) {
 
 int32_t CoverageBorder(const FullConfig& config) {
   if (!Has(config, STARFOCUS_FEATURE_COVERAGE)) return 0;
-  return (TilesAhead(config, kFindRagged) + 1) * kCoverageTile + kBandReach + 2;
+  return (TilesAhead(config, kFindRagged) + 1) * kCoverageTile + kBandRadius + 2;
 }
 
 void TakeCoverage(const FullConfig& config, int32_t border, Arena* arena, CoverageMap* map) {

@@ -121,12 +121,12 @@ struct DisparitiesAround {
 };
 
 // Radius in pixels of the search for the far and the near surface of a pixel. In disparity maps
-// computed by neural networks, outlines are misplaced by up to kGivenReach pixels.
-inline constexpr int32_t kGivenReach = 32;
+// computed by neural networks, outlines are misplaced by up to kGivenRadius pixels.
+inline constexpr int32_t kGivenRadius = 32;
 
 // Largest distance in pixels from a pixel to the pixels that decide whether the pixel is on a ramp.
-inline constexpr int32_t kRampReach = 3;
-using GivenDisparities = DisparitiesAround<kGivenReach + kRampReach>;
+inline constexpr int32_t kRampRadius = 3;
+using GivenDisparities = DisparitiesAround<kGivenRadius + kRampRadius>;
 
 // Result of a search for the nearest pixel of a surface. Among equally distant pixels, the search
 // prefers the pixel on the smallest square around the start, and then the first in row order.
@@ -150,10 +150,10 @@ class SurfaceSearch {
   explicit SurfaceSearch(const GivenDisparities& around);
 
   // A pixel is on a ramp if its disparity lies between the disparities of two opposite pixels at an
-  // equal distance of at most kRampReach.
+  // equal distance of at most kRampRadius.
   bool IsOnRamp(int32_t at) const { return on_ramp_[at]; }
 
-  // Finds the nearest pixel in the square of radius kGivenReach around a pixel of the tile that is
+  // Finds the nearest pixel in the square of radius kGivenRadius around a pixel of the tile that is
   // not on a ramp and has a disparity in [low, high].
   Found FindNearest(int32_t at, int32_t low, int32_t high) const;
 
@@ -178,7 +178,7 @@ class SurfaceSearch {
     }
   };
   const GivenDisparities& around_;
-  bool on_ramp_[kSide * kSide] = {};  // false for the outermost kRampReach pixels
+  bool on_ramp_[kSide * kSide] = {};  // false for the outermost kRampRadius pixels
   Cell cells_[kCells * kCells];
   Cell all_;  // range of all cells, at which most searches end
 };

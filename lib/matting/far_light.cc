@@ -219,7 +219,7 @@ class BehindReader {
 
 // Largest distance, along each axis, from a pixel to the pixels that contribute to the mean light
 // of the near surface at the pixel.
-constexpr int32_t kNearReach = 3;
+constexpr int32_t kNearRadius = 3;
 
 // The light of the near surface is known if the weights around a pixel sum to 2^kNearKnownBits, as
 // for four pixels of coverage 1/2.
@@ -235,10 +235,11 @@ int32_t TrustIn(const ColourSum<int32_t>& near) { return Min(near.weight, 1 << k
 template <class Visit>
 void ForEachMixture(const Input& input, int32_t column, int32_t row, const uint8_t* plane,
                     const Visit& visit) {
-  constexpr int32_t kSide = kCoverageTile + 2 * kNearReach;
+  constexpr int32_t kSide = kCoverageTile + 2 * kNearRadius;
   const CoverageMap& map = *input.coverage;
-  const int32_t left = column * kCoverageTile - kNearReach, top = row * kCoverageTile - kNearReach;
-  // Light and weights (EighthPower of the given coverage) of the tile and of kNearReach pixels on
+  const int32_t left = column * kCoverageTile - kNearRadius,
+                top = row * kCoverageTile - kNearRadius;
+  // Light and weights (EighthPower of the given coverage) of the tile and of kNearRadius pixels on
   // each side. Pixels beyond the picture have weight 0.
   int16_t light[kSide][3 * kSide] = {}, weights[kSide][kSide] = {};
   const Rect inside = Clipped({left, top, kSide, kSide}, map.width, map.height);
@@ -253,7 +254,7 @@ void ForEachMixture(const Input& input, int32_t column, int32_t row, const uint8
     const int32_t alpha = plane[map.At(x, y)];
     if (alpha == 0 || alpha >= kWhole) return;
     ColourSum<int32_t> near;
-    ForPixels(Around(x - left, y - top, kNearReach),
+    ForPixels(Around(x - left, y - top, kNearRadius),
               [&](int32_t u, int32_t v) { near.Add(light[v] + 3 * u, weights[v][u]); });
     visit(x, y, alpha, light[y - top] + 3 * (x - left), near);
   });

@@ -10,7 +10,7 @@ namespace starfocus {
 namespace {
 
 // Radius in cells of the range HairMemory::low to HairMemory::high.
-constexpr int32_t kSurfaceReach = 10;
+constexpr int32_t kSurfaceRadius = 10;
 // Radii in cells. An inside cell has far pixels within kMostInside but not within kBeside. An
 // outside cell has near pixels within kMostInside but not within kBeside.
 constexpr int32_t kBeside = 1, kMostInside = 4;
@@ -78,12 +78,12 @@ bool IsSample(const CellPixel& pixel) {
 }
 
 // Replaces each of `count` values, which are `stride` values apart, with the reduction by `join`
-// over the kSurfaceReach values before and after it. With growing shifts, each value is joined with
-// the values after it, and then with those before it.
+// over the kSurfaceRadius values before and after it. With growing shifts, each value is joined
+// with the values after it, and then with those before it.
 template <class Join>
 void JoinAround(int32_t count, int32_t stride, const Join& join, int16_t* values) {
   for (const bool after : {true, false}) {
-    for (const int32_t shift : {1, 2, 4, kSurfaceReach - 7}) {
+    for (const int32_t shift : {1, 2, 4, kSurfaceRadius - 7}) {
       for (int32_t k = 0; k + shift < count; ++k) {
         const ptrdiff_t to = after ? k : count - 1 - k, from = after ? to + shift : to - shift;
         values[to * stride] = join(values[to * stride], values[from * stride]);

@@ -7,11 +7,11 @@
 namespace starfocus {
 namespace {
 
-static_assert(kMatteReach == kGivenReach + kRampReach, "the search reads kMatteReach pixels");
+static_assert(kMatteRadius == kGivenRadius + kRampRadius, "the search reads kMatteRadius pixels");
 
 // Disparities are first read in blocks, because most blocks contain no edge.
 constexpr int32_t kBlock = 4 * kCoverageTile;
-constexpr int32_t kBlockSide = kBlock + 2 * kMatteReach;
+constexpr int32_t kBlockSide = kBlock + 2 * kMatteRadius;
 
 // Places around a pixel at which the matte and the map are compared: rings of eight places.
 constexpr int8_t kPlaces[][2] = {
@@ -42,8 +42,8 @@ class TileCoverage {
       : matte_(matte), around_(around), search_(around) {
     const auto step = static_cast<size_t>(Max(1, matte.pixel_stride));
     for (int32_t k = 0; k < kSide; ++k) {
-      columns_[k] = step * SampleOf(tile.x + k - kMatteReach, depth.width, matte.width);
-      rows_[k] = matte.stride * SampleOf(tile.y + k - kMatteReach, depth.height, matte.height);
+      columns_[k] = step * SampleOf(tile.x + k - kMatteRadius, depth.width, matte.width);
+      rows_[k] = matte.stride * SampleOf(tile.y + k - kMatteRadius, depth.height, matte.height);
     }
   }
 
@@ -114,11 +114,12 @@ void Read(const simd::ImageKernels& kernels, const DepthSource& depth, const Rec
   ReadDepth(kernels, part, rect, out);
 }
 
-// Returns true if the map has an edge in the block or within kMatteReach pixels of the block.
+// Returns true if the map has an edge in the block or within kMatteRadius pixels of the block.
 bool HasEdge(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& block) {
   constexpr int32_t kRows = 8;
-  const Rect all = Clipped(Extended(block, {kMatteReach, kMatteReach, kMatteReach, kMatteReach}),
-                           depth.width, depth.height);
+  const Rect all =
+      Clipped(Extended(block, {kMatteRadius, kMatteRadius, kMatteRadius, kMatteRadius}),
+              depth.width, depth.height);
   int16_t least = INT16_MAX, greatest = INT16_MIN;
   for (int32_t y = 0; y < all.height && greatest - least <= kThinStep; y += kRows) {
     int16_t disparities[kRows * kBlockSide];
@@ -134,7 +135,7 @@ bool HasEdge(const simd::ImageKernels& kernels, const DepthSource& depth, const 
 bool ReadAround(const simd::ImageKernels& kernels, const DepthSource& depth, const Rect& tile,
                 GivenDisparities* around) {
   constexpr int32_t kSide = GivenDisparities::kSide;
-  const int32_t left = tile.x - kMatteReach, top = tile.y - kMatteReach;
+  const int32_t left = tile.x - kMatteRadius, top = tile.y - kMatteRadius;
   const Rect rect = Clipped({left, top, kSide, kSide}, depth.width, depth.height);
   const int32_t x = rect.x - left, y = rect.y - top;
   int16_t* const disparity = around->disparity;

@@ -22,7 +22,7 @@ simd::SliceTaps TapsOf(int32_t subaperture) {
   constexpr int32_t kLargest = (2 * simd::kMaxSpread + 1) * kShiftOne;
   const int32_t length = Min(subaperture, kLargest);
   simd::SliceTaps taps;
-  taps.reach = SpreadReach(subaperture);
+  taps.reach = SpreadRadius(subaperture);
   const int32_t whole = (2 * taps.reach - 1) * kShiftOne;
   const int32_t inner = 2 * kFractionOne * kShiftOne / length;
   const int32_t outer = kFractionOne / kShiftOne * (length - whole) * kShiftOne / length;

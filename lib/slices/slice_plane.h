@@ -70,7 +70,7 @@ inline constexpr int32_t kBoxSubaperture = 3 * kShiftOne;
 
 // Returns the number of pixels on each side over which the filter of `subaperture` (kShiftBits)
 // spreads a pixel. Returns 0 if no filter is applied before the shift.
-constexpr int32_t SpreadReach(int32_t subaperture) {
+constexpr int32_t SpreadRadius(int32_t subaperture) {
   static_assert(simd::kMaxSpread == 3, "wider boxes are cut off");
   return subaperture <= kBoxSubaperture ? 0 : subaperture <= 5 * kShiftOne ? 2 : simd::kMaxSpread;
 }
@@ -80,7 +80,7 @@ constexpr int32_t SpreadReach(int32_t subaperture) {
 // reach of filters, boxes and interpolation.
 constexpr int32_t SliceReach(int32_t rim, int32_t subaperture) {
   const bool is_box = subaperture > kShiftOne && subaperture <= kBoxSubaperture;
-  return ((rim + kShiftOne - 1) >> kShiftBits) + (is_box ? 2 : SpreadReach(subaperture) + 1);
+  return ((rim + kShiftOne - 1) >> kShiftBits) + (is_box ? 2 : SpreadRadius(subaperture) + 1);
 }
 
 // Subaperture for which SliceReach is largest (kShiftBits). Wider subapertures do not increase the

@@ -41,13 +41,13 @@ std::vector<int16_t> TwoSurfaces(size_t count, Draw* draw) {
 }  // namespace
 
 void FindBeyond(Draw* draw, KernelCall* call) {
-  const size_t rows = draw->Size(1, 3, 64), height = rows + 2 * kBeyondReach;
-  const size_t width = kSliceLanes + 2 * kBeyondReach, stride = width + draw->Size(0, 5, 0);
+  const size_t rows = draw->Size(1, 3, 64), height = rows + 2 * kBeyondRadius;
+  const size_t width = kSliceLanes + 2 * kBeyondRadius, stride = width + draw->Size(0, 5, 0);
   // Half of the fields have one surface, so that some pixels have no edge within reach.
   std::vector<int16_t> disparities = TwoSurfaces(height * stride, draw);
   for (int16_t& d : disparities) d = int16_t(draw->Rarely(30) ? d : std::abs(d % 100));
-  const int16_t* field = call->Input("field", disparities) + kBeyondReach * stride + kBeyondReach;
-  call->IgnoreRows(field - kBeyondReach * stride - kBeyondReach + width, height, stride,
+  const int16_t* field = call->Input("field", disparities) + kBeyondRadius * stride + kBeyondRadius;
+  call->IgnoreRows(field - kBeyondRadius * stride - kBeyondRadius + width, height, stride,
                    stride - width);
   const auto step = int16_t(draw->Int(0, 400));
   auto* beyond = call->Results<int16_t>("beyond", rows * kSliceLanes);
@@ -63,8 +63,8 @@ void FindBeyond(Draw* draw, KernelCall* call) {
       const int16_t* here = field + i / kSliceLanes * stride + i % kSliceLanes;
       // Compares a squared distance and the negative disparity, so that the least pair is right.
       std::pair<int, int> least = {1000, -*here};
-      for (int y = -kBeyondReach; y <= kBeyondReach; ++y) {
-        for (int x = -kBeyondReach; x <= kBeyondReach; ++x) {
+      for (int y = -kBeyondRadius; y <= kBeyondRadius; ++y) {
+        for (int x = -kBeyondRadius; x <= kBeyondRadius; ++x) {
           const int there = here[y * ptrdiff_t(stride) + x];
           if (std::abs(there - *here) > step) least = std::min(least, {x * x + y * y, -there});
         }
@@ -102,9 +102,9 @@ void CoverPlaces(Draw* draw, KernelCall* call) {
 }
 
 void SumNear(Draw* draw, KernelCall* call) {
-  const size_t rows = draw->Size(1, 3, 16), height = rows + 2 * kNearReach;
-  const size_t width = kSliceLanes + 2 * kNearReach, stride = width + draw->Size(0, 5, 0);
-  const size_t at = kNearReach * stride + kNearReach;
+  const size_t rows = draw->Size(1, 3, 16), height = rows + 2 * kNearRadius;
+  const size_t width = kSliceLanes + 2 * kNearRadius, stride = width + draw->Size(0, 5, 0);
+  const size_t at = kNearRadius * stride + kNearRadius;
   std::array<const int16_t*, 3> lights;
   for (const int16_t*& light : lights) {
     light = call->Input("light", Light(height * stride, draw)) + at;
@@ -129,8 +129,8 @@ void SumNear(Draw* draw, KernelCall* call) {
     return AllRight(rows * kSliceLanes, [&](size_t i) {
       const size_t y = i / kSliceLanes, n = i % kSliceLanes, here = y * stride + n;
       int expected[4] = {0, 0, 0, 0};
-      for (int dy = -kNearReach; dy <= kNearReach; ++dy) {
-        for (int dx = -kNearReach; dx <= kNearReach; ++dx) {
+      for (int dy = -kNearRadius; dy <= kNearRadius; ++dy) {
+        for (int dx = -kNearRadius; dx <= kNearRadius; ++dx) {
           const ptrdiff_t there = ptrdiff_t(here) + dy * ptrdiff_t(stride) + dx;
           const int step = Saturated(disparity[there] - disparity[here]);
           if (std::abs(step) > most_step) continue;

@@ -15,7 +15,7 @@ namespace {
 using starfocus::Found;
 using starfocus::GivenDisparities;
 using starfocus::SurfaceSearch;
-constexpr int32_t kSide = GivenDisparities::kSide, kReach = starfocus::kGivenReach;
+constexpr int32_t kSide = GivenDisparities::kSide, kReach = starfocus::kGivenRadius;
 
 // Reads all pixels within kReach columns and rows.
 Found Expected(const GivenDisparities& around, const SurfaceSearch& search, int32_t at, int32_t low,
