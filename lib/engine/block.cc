@@ -126,7 +126,7 @@ void GatherBlock(const EngineState& engine, const Block& block, const Plane<uint
   const BlockCells cells = {&engine.stripe.plan.gathered, block.rect, block.layer};
   const Tables& tables = *engine.tables;
   const GatherJob job = {&engine.input,      &engine.stripe.cells, cells,
-                         engine.lens.scale,  tables.psfs,          LastGatherStep(engine.lens),
+                         engine.lens.scale,  tables.psfs,          LastGatherPsf(engine.lens),
                          tables.mean_square, &scratch->cancel};
   const Rect frame = LayerFrame(block.rect, block.layer);
   const size_t stride = block.layer == 0 ? out.stride : 3 * static_cast<size_t>(frame.width);

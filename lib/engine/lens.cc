@@ -33,7 +33,7 @@ void TakeTables(const FullConfig& config, Arena* arena, Tables* tables) {
     tables->apertures[k].weights = arena->Take<uint16_t>(weights);
   }
   const int32_t benchmark_n = ViewsOfBenchmark(config.max_blur);
-  const auto steps = static_cast<size_t>(BlurStepCount(config.max_blur));
+  const auto steps = static_cast<size_t>(PsfCount(config.max_blur));
   tables->benchmark_weights = arena->Take<uint16_t>(weights_of(benchmark_n));
   tables->psfs = arena->Take<Psf>(steps);
   tables->blur_weights = arena->Take<uint16_t>(BlurWeightCount(full, config.max_blur));
@@ -125,7 +125,7 @@ Rect RegionOf(const FullConfig& config, const FullParams& params) {
   return {region.x, region.y, region.width, region.height};
 }
 
-int32_t LastGatherStep(const Lens& lens) { return BlurStepCount(LargestGather(lens.r_max)) - 1; }
+int32_t LastGatherPsf(const Lens& lens) { return PsfCount(LargestGather(lens.r_max)) - 1; }
 
 double LargestBlur(const FullConfig& config, const FullParams& params) {
   return params.aperture * LargestDistance(config, params);
@@ -172,9 +172,8 @@ starfocus_status MakeLens(const FullConfig& config, const FullParams& params,
   const FocusRange focus = MakeFocusRange(params.focus, params.focus_nearer, params.focus_farther);
   const ViewGrid grid = MakeViewGrid(lens->frame_weights, focus, params.aperture, 0);
   lens->scale = {grid.focus, grid.step};
-  if (Gathers(config, *lens)) return MakePsfs(LastGatherStep(*lens) + 1, call_progress, tables);
-  if (params.mode == STARFOCUS_MODE_BLUR)
-    return MakePsfs(BlurStepCount(r_max), call_progress, tables);
+  if (Gathers(config, *lens)) return MakePsfs(LastGatherPsf(*lens) + 1, call_progress, tables);
+  if (params.mode == STARFOCUS_MODE_BLUR) return MakePsfs(PsfCount(r_max), call_progress, tables);
   return STARFOCUS_OK;
 }
 

@@ -66,7 +66,7 @@ void SetOpening(const ApertureShape& opening, Tables* tables);
 starfocus_status MakeApertures(const Renderer& renderer, int32_t last, CallProgress* call_progress,
                                Tables* tables);
 
-// Makes the missing PSFs of all steps (BlurStep) below `steps`. Returns STARFOCUS_OK or
+// Makes the missing PSFs of all steps (PsfIndex) below `steps`. Returns STARFOCUS_OK or
 // STARFOCUS_ERROR_CANCELLED; finished PSFs are kept.
 starfocus_status MakePsfs(int32_t steps, CallProgress* call_progress, Tables* tables);
 
@@ -140,7 +140,7 @@ inline bool Gathers(const FullConfig& config, const Lens& lens) {
 }
 
 // Index of the largest PSF that blurs cells without views.
-int32_t LastGatherStep(const Lens& lens);
+int32_t LastGatherPsf(const Lens& lens);
 
 // Returns the weights of the views of a block with n views along the radius.
 inline const ViewWeights& WeightsOf(const Lens& lens, int32_t n) {

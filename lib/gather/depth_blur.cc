@@ -74,16 +74,16 @@ void BlurRectangle(const BlurJob& job, int16_t* rgb, uint32_t* accumulators, uin
     const int16_t* row =
         rgb + static_cast<size_t>(y + job.border) * stride + 3 * static_cast<size_t>(job.border);
     const auto step_at = [&](int32_t x) {
-      return BlurStep(job.scale.Radius(Abs(job.scale.focus.Distance(disparity[x]))));
+      return PsfIndex(job.scale.Radius(Abs(job.scale.focus.Distance(disparity[x]))));
     };
     const auto side_of = [&](int32_t x) {
       return turns && disparity[x] < job.scale.focus.far ? -1 : 1;
     };
     for (int32_t x = 0; x < rect.width;) {
-      const int32_t begin = x, step = step_at(x), side = side_of(x);
-      while (++x < rect.width && step_at(x) == step && side_of(x) == side) {
+      const int32_t begin = x, index = step_at(x), side = side_of(x);
+      while (++x < rect.width && step_at(x) == index && side_of(x) == side) {
       }
-      const Psf& psf = job.psfs_of_radius[step];
+      const Psf& psf = job.psfs_of_radius[index];
       const size_t samples = 3 * static_cast<size_t>(x - begin);
       const int64_t points = (2 * psf.size + 1) * (2 * psf.size + 1);
       if (!GoesOn(job.cancel, points * static_cast<int64_t>(samples))) return;

@@ -123,10 +123,10 @@ class Gather {
   void Load() {
     for (int32_t y = block_.y; y < Bottom(); y += kCellSize) {
       for (int32_t x = block_.x; x < Right(); x += kCellSize) {
-        Steps& steps = At(x, y) = kNone;
+        Psfs& pair = At(x, y) = kNone;
         if (!job_.cells.IsGathered(x, y)) continue;
-        steps = StepsOf(x, y);
-        border_ = Max(border_, PsfOf(steps.more).size);
+        pair = PsfsOf(x, y);
+        border_ = Max(border_, PsfOf(pair.more).size);
       }
     }
     loaded_ = job_.cells.BoundsOf(true);
@@ -142,14 +142,14 @@ class Gather {
   uint64_t pixels() const { return pixels_; }
 
  private:
-  // Steps (BlurStep) of the PSFs for the smallest and largest radius of a cell. Steps are stored as
-  // bytes, because the steps of all cells of a block are on the stack.
-  struct Steps {
+  // Indices (PsfIndex) of the PSFs for the smallest and largest radius of a cell. Psfs are stored
+  // as bytes, because the indices of all cells of a block are on the stack.
+  struct Psfs {
     int8_t less, more;
   };
   static_assert(kMaxGather <= 31,
-                "PSF steps must fit in int8_t: step 127 is a radius of 31.5 pixels");
-  static constexpr Steps kNone = {-1, -1};  // marks cells that are rendered from views
+                "PSF indices must fit in int8_t: index 127 is a radius of 31.5 pixels");
+  static constexpr Psfs kNone = {-1, -1};  // marks cells that are rendered from views
 
   // Sizes of intermediate rows of adjacent cells on a slope, in samples. Rows that span all of the
   // cells have kStride samples. Rows that span a single cell have kCell samples, with one extra
@@ -202,11 +202,11 @@ class Gather {
   // Filters adjacent flat cells with the same PSF, starting at (x, y). Returns the end of the
   // cells, or x after cancellation.
   int32_t FilterFlat(int32_t x, int32_t y) {
-    const Steps steps = At(x, y);
+    const Psfs pair = At(x, y);
     int32_t end = x + kCellSize;
-    while (end < Right() && HasPsfs(end, y, true, steps)) end += kCellSize;
+    while (end < Right() && HasPsfs(end, y, true, pair)) end += kCellSize;
     const Rect part = PixelsOf(x, end, y);
-    const Psf& psf = PsfOf(steps.less);
+    const Psf& psf = PsfOf(pair.less);
     if (!Spend(psf, part)) return x;
     const simd::SampleRows in = RowsOf(part);
     const simd::Disc disc = DiscOf(psf);
@@ -224,19 +224,19 @@ class Gather {
   // the mean of all views is displaced on a slope. Returns the end of the cells, or x after
   // cancellation.
   int32_t FilterSlopes(int32_t x, int32_t y) {
-    const Steps steps = At(x, y);
+    const Psfs pair = At(x, y);
     const int32_t most = Min(Right(), x + kSlopeCells * kCellSize);
     int32_t end = x + kCellSize;
-    while (end < most && HasPsfs(end, y, false, steps)) end += kCellSize;
+    while (end < most && HasPsfs(end, y, false, pair)) end += kCellSize;
     const Rect part = PixelsOf(x, end, y);
-    const Psf &less = PsfOf(steps.less), &more = PsfOf(steps.more);
+    const Psf &less = PsfOf(pair.less), &more = PsfOf(pair.more);
     if (!Spend(more, part)) return x;
     job_.input->kernels->FilterTwoDiscs(RowsOf(part), DiscOf(less), DiscOf(more), less_, more_,
                                         kStride);
     for (; x < end; x += kCellSize) {
       const Rect pixels = job_.cells.PixelsOf(x, y);
       const Slope slope = SlopeOf(x, y);
-      Mix(slope, steps, pixels, 3 * static_cast<size_t>(pixels.x - part.x));
+      Mix(slope, pair, pixels, 3 * static_cast<size_t>(pixels.x - part.x));
       ContinueBeyond(pixels.height, 3 * static_cast<size_t>(pixels.width));
       Move(slope.Move(job_.mean_square), pixels);
     }
@@ -245,9 +245,9 @@ class Gather {
 
   // Mixes the results of the smaller and the larger PSF in the pixels of a cell. `first` is the
   // index of the first sample of the cell in the filtered rows.
-  void Mix(const Slope& slope, const Steps& steps, const Rect& pixels, size_t first) {
+  void Mix(const Slope& slope, const Psfs& pair, const Rect& pixels, size_t first) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
-    const Range between = {RadiusOfStep(steps.less) << kBits, RadiusOfStep(steps.more) << kBits};
+    const Range between = {RadiusOfPsf(pair.less) << kBits, RadiusOfPsf(pair.more) << kBits};
     slope.FindShares(between, pixels, kCell, share_);
     for (int32_t row = 0; row < pixels.height; ++row) {
       const size_t at = first + static_cast<size_t>(row) * kStride;
@@ -304,28 +304,29 @@ class Gather {
 
   // Returns the PSFs that blur a cell: one PSF for the middle of a flat cell, or two PSFs to mix on
   // a slope.
-  Steps StepsOf(int32_t x, int32_t y) const {
+  Psfs PsfsOf(int32_t x, int32_t y) const {
     if (job_.cells.IsFlat(x, y)) {
       const Cell& cell = *job_.grid->At(x / kCellSize, y / kCellSize);
       const int32_t distance = (cell.low + cell.high) / 2 - job_.scale.focus.far;
       const int32_t radius = job_.scale.Radius(Abs(distance));
-      const auto step = static_cast<int8_t>(BlurStep(radius >> job_.cells.layer));
-      return {step, step};
+      const auto index = static_cast<int8_t>(PsfIndex(radius >> job_.cells.layer));
+      return {index, index};
     }
     constexpr int kBits = kSlopeBits - kDisparityBits, kUp = (1 << kBits) - 1;
     const Range range = SlopeOf(x, y).RangeOf(job_.cells.PixelsOf(x, y));
-    const auto made = [&](int32_t step) { return static_cast<int8_t>(Min(step, job_.last_step)); };
-    return {made(BlurStepBelow(range.first >> kBits)),
-            made(BlurStepAbove((range.last + kUp) >> kBits))};
+    const auto made = [&](int32_t index) {
+      return static_cast<int8_t>(Min(index, job_.last_step));
+    };
+    return {made(PsfBelow(range.first >> kBits)), made(PsfAbove((range.last + kUp) >> kBits))};
   }
 
-  Steps& At(int32_t x, int32_t y) {
-    return steps_[(y - block_.y) / kCellSize * kMaxRowCells + (x - block_.x) / kCellSize];
+  Psfs& At(int32_t x, int32_t y) {
+    return psfs_[(y - block_.y) / kCellSize * kMaxRowCells + (x - block_.x) / kCellSize];
   }
 
-  bool HasPsfs(int32_t x, int32_t y, bool flat, const Steps& steps) {
-    const Steps& here = At(x, y);
-    return here.less == steps.less && here.more == steps.more && job_.cells.IsFlat(x, y) == flat;
+  bool HasPsfs(int32_t x, int32_t y, bool flat, const Psfs& pair) {
+    const Psfs& here = At(x, y);
+    return here.less == pair.less && here.more == pair.more && job_.cells.IsFlat(x, y) == flat;
   }
 
   // Returns row `row` of the mixture.
@@ -345,7 +346,7 @@ class Gather {
   const size_t stride_;
   int32_t border_ = 0;  // border of the field: the largest PSF size
   uint64_t pixels_ = 0;
-  Steps steps_[kMaxRowCells * kMaxRowCells];  // PSFs (BlurStep) of each cell of the block
+  Psfs psfs_[kMaxRowCells * kMaxRowCells];  // PSFs (PsfIndex) of each cell of the block
   // Results of the smaller and the larger PSF, and the share of the larger PSF.
   int16_t less_[kCellSize * kStride] = {}, more_[kCellSize * kStride] = {};
   int16_t share_[kCellSize * kCell] = {};

@@ -71,7 +71,7 @@ struct GatherJob {
   const CellGrid* grid;
   BlockCells cells;  // cells of a block whose coordinates are multiples of kCellSize
   BlurScale scale;
-  const Psf* psfs;  // PSFs of the lens for the steps (BlurStep) up to last_step
+  const Psf* psfs;  // PSFs of the lens for the indices (PsfIndex) up to last_step
   int32_t last_step;
   int32_t mean_square;  // MeanSquare of the opening
   CancelToken* cancel;  // cancels the call; the output is incomplete after cancellation

@@ -210,7 +210,7 @@ bool MakePsf(int32_t radius, double mean_square, const ApertureShape& opening, C
 
 }  // namespace
 
-int32_t BlurStep(int32_t radius) {
+int32_t PsfIndex(int32_t radius) {
   const int32_t fine = kFineSteps * kFineEnd;
   if (radius <= kFineEnd * kOne) return (radius * kFineSteps + kOne / 2) / kOne;
   int32_t octave = 0;
@@ -219,31 +219,31 @@ int32_t BlurStep(int32_t radius) {
   return fine + octave * kCoarseSteps + (radius + unit / 2) / unit - kCoarseSteps;
 }
 
-int32_t RadiusOfStep(int32_t step) {
+int32_t RadiusOfPsf(int32_t index) {
   const int32_t fine = kFineSteps * kFineEnd;
-  if (step <= fine) return step * kOne / kFineSteps;
-  const int32_t octave = (step - fine) / kCoarseSteps, rest = (step - fine) % kCoarseSteps;
+  if (index <= fine) return index * kOne / kFineSteps;
+  const int32_t octave = (index - fine) / kCoarseSteps, rest = (index - fine) % kCoarseSteps;
   return ((kFineEnd * kOne) << octave) / kCoarseSteps * (kCoarseSteps + rest);
 }
 
-int32_t BlurStepBelow(int32_t radius) {
-  const int32_t step = BlurStep(radius);
-  return RadiusOfStep(step) > radius ? step - 1 : step;
+int32_t PsfBelow(int32_t radius) {
+  const int32_t index = PsfIndex(radius);
+  return RadiusOfPsf(index) > radius ? index - 1 : index;
 }
 
-int32_t BlurStepAbove(int32_t radius) {
-  const int32_t step = BlurStep(radius);
-  return RadiusOfStep(step) < radius ? step + 1 : step;
+int32_t PsfAbove(int32_t radius) {
+  const int32_t index = PsfIndex(radius);
+  return RadiusOfPsf(index) < radius ? index + 1 : index;
 }
 
-int32_t BlurStepCount(double max_blur) {
-  return BlurStep(static_cast<int32_t>(max_blur * kOne) + 1) + 1;
+int32_t PsfCount(double max_blur) {
+  return PsfIndex(static_cast<int32_t>(max_blur * kOne) + 1) + 1;
 }
 
 size_t BlurWeightCount(bool full, double max_blur) {
   size_t count = 0;
-  for (int32_t step = 0; step < BlurStepCount(max_blur); ++step) {
-    count += WeightsOf(full, LargestSizeOf(RadiusOfStep(step)));
+  for (int32_t index = 0; index < PsfCount(max_blur); ++index) {
+    count += WeightsOf(full, LargestSizeOf(RadiusOfPsf(index)));
   }
   return count;
 }
@@ -251,12 +251,12 @@ size_t BlurWeightCount(bool full, double max_blur) {
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
                  uint16_t* weights, Psf* psfs) {
   const double mean_square = static_cast<double>(MeanSquare(opening)) / kOpeningOne;
-  for (int32_t step = 0; step < last; ++step) {
-    if (step >= first &&
-        !MakePsf(RadiusOfStep(step), mean_square, opening, cancel, weights, &psfs[step])) {
-      return step;
+  for (int32_t index = 0; index < last; ++index) {
+    if (index >= first &&
+        !MakePsf(RadiusOfPsf(index), mean_square, opening, cancel, weights, &psfs[index])) {
+      return index;
     }
-    weights += WeightsOf(psfs[step].full, psfs[step].size);
+    weights += WeightsOf(psfs[index].full, psfs[index].size);
   }
   return last;
 }

@@ -15,13 +15,13 @@ namespace starfocus {
 
 // PSFs exist for radii in steps of 1/8 pixel up to 4 pixels, and for 32 radii per octave beyond 4
 // pixels. Radii have kDisparityBits fractional bits.
-int32_t BlurStep(int32_t radius);  // radius: kDisparityBits
-int32_t BlurStepCount(double max_blur);
-int32_t RadiusOfStep(int32_t step);  // result: kDisparityBits
-// Return the step of the largest radius that does not exceed `radius`, and of the smallest radius
+int32_t PsfIndex(int32_t radius);  // radius: kDisparityBits
+int32_t PsfCount(double max_blur);
+int32_t RadiusOfPsf(int32_t index);  // result: kDisparityBits
+// Return the index of the largest radius that does not exceed `radius`, and of the smallest radius
 // that is at least `radius`.
-int32_t BlurStepBelow(int32_t radius);
-int32_t BlurStepAbove(int32_t radius);
+int32_t PsfBelow(int32_t radius);
+int32_t PsfAbove(int32_t radius);
 
 // Weights of a PSF: the octant 0 <= m <= n, or all weights if `full` is true. The weights of all
 // pixels sum to exactly 2^sum_bits. In an octant, the sum of the equal weights of four mirrored
@@ -48,9 +48,9 @@ struct Psf {
 size_t BlurWeightCount(bool full, double max_blur);
 
 // Computes the PSFs of steps [first, last), first <= last. The PSFs of all steps before `first`
-// must exist. The arrays must have room for psfs[BlurStepCount] and weights[BlurWeightCount].
-// The PSFs ignore cat's eyes. Returns `last`, or the step at which the call was cancelled. `cancel`
-// may be null.
+// must exist. The arrays must have room for psfs[PsfCount] and weights[BlurWeightCount].
+// The PSFs ignore cat's eyes. Returns `last`, or the index at which the call was cancelled.
+// `cancel` may be null.
 int32_t MakePsfs(int32_t first, int32_t last, const ApertureShape& opening, CancelToken* cancel,
                  uint16_t* weights, Psf* psfs);
 

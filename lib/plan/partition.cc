@@ -182,7 +182,7 @@ class Partition {
     Block& block = candidate.block;
     block.rect = RectOf(level, column, row);
     ChooseParameters(candidate.stats, SideOf(level), &block);
-    if (BlurStep(candidate.stats.r_max) > 0) PlanGathering(candidate, &block);
+    if (PsfIndex(candidate.stats.r_max) > 0) PlanGathering(candidate, &block);
     if (SideOf(level) > rules_.largest_side) block.cost = UINT64_MAX;
     uint64_t best = block.cost;
     if (level > 0) best = Smaller(best, ChildrenCost(level, column, row));

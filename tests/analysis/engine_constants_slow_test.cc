@@ -295,14 +295,14 @@ TEST_CASE("constants: the widths of the lens for N = 4, 5 and above meet their e
 // Up to the blur radius kMaxGather, the blur mode uses the same weights as block mode.
 struct GatherPsfs {
   std::vector<uint16_t> weights = std::vector<uint16_t>(BlurWeightCount(false, kMaxGather));
-  std::vector<Psf> psfs = std::vector<Psf>(static_cast<size_t>(BlurStepCount(kMaxGather)));
+  std::vector<Psf> psfs = std::vector<Psf>(static_cast<size_t>(PsfCount(kMaxGather)));
 
   GatherPsfs() {
-    MakePsfs(0, BlurStepCount(kMaxGather), ApertureFallOff(kDefaultTheta), nullptr, weights.data(),
+    MakePsfs(0, PsfCount(kMaxGather), ApertureFallOff(kDefaultTheta), nullptr, weights.data(),
              psfs.data());
   }
   // Returns the PSF of a radius with kDisparityBits fractional bits.
-  const Psf& Of(int32_t r) const { return psfs[static_cast<size_t>(BlurStep(r))]; }
+  const Psf& Of(int32_t r) const { return psfs[static_cast<size_t>(PsfIndex(r))]; }
 };
 
 // Returns the PSF of exactly radius r > 0 for pixels that are integrals already. Its variance

@@ -135,7 +135,7 @@ TEST_CASE("opening: the cat's-eye shift is mirrored with the block and is larges
 TEST_CASE("opening: PSFs of the blur mode sum to exactly one for any shape") {
   test::Random random(8);
   constexpr double kMost = 13;
-  const int steps = starfocus::BlurStepCount(kMost);
+  const int steps = starfocus::PsfCount(kMost);
   for (int trial = 0; trial < 60; ++trial) {
     const starfocus::Params lens = RandomLens(&random);
     const ApertureShape opening = starfocus::ShapeOf(lens);

@@ -184,7 +184,7 @@ TEST_CASE("blur: the result does not depend on the size of blocks") {
 
 TEST_CASE("blur: PSFs sum to exactly one, fit their types and decrease from the centre") {
   const double most = STARFOCUS_MAX_BLUR;
-  const int steps = starfocus::BlurStepCount(most);
+  const int steps = starfocus::PsfCount(most);
   std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, most));
   std::vector<starfocus::Psf> kernels(static_cast<size_t>(steps));
   // The PSFs are made in two calls, as in an engine that later requires PSFs for larger radii.
@@ -224,7 +224,7 @@ TEST_CASE("blur: PSFs are as wide as (4), without a second integral over pixels"
     starfocus::Params lens = test::Params(0, 1, STARFOCUS_MODE_BLUR);
     shape.Set(&lens);
     const starfocus::ApertureShape opening = starfocus::ShapeOf(lens);
-    const int steps = starfocus::BlurStepCount(most);
+    const int steps = starfocus::PsfCount(most);
     std::vector<uint16_t> weights(starfocus::BlurWeightCount(!opening.IsSymmetric(), most));
     std::vector<starfocus::Psf> psfs(static_cast<size_t>(steps));
     starfocus::MakePsfs(0, steps, opening, nullptr, weights.data(), psfs.data());
@@ -235,7 +235,7 @@ TEST_CASE("blur: PSFs are as wide as (4), without a second integral over pixels"
       for (int m = -psf.size; m <= psf.size; ++m) {
         for (int n = -psf.size; n <= psf.size; ++n) squares += psf.Weight(n, m) * (n * n + m * m);
       }
-      const double r = double(starfocus::RadiusOfStep(step)) / kOne, exact = r * r * mean_square;
+      const double r = double(starfocus::RadiusOfPsf(step)) / kOne, exact = r * r * mean_square;
       const double more = std::ldexp(squares / 2, -psf.sum_bits) - exact;
       CAPTURE(r);
       CHECK(std::fabs(more - std::min(exact / 4, 1.0 / 24)) < (exact < 0.5 ? 0.003 : 0.09));
@@ -243,22 +243,22 @@ TEST_CASE("blur: PSFs are as wide as (4), without a second integral over pixels"
   }
 }
 
-TEST_CASE("blur: BlurStep rounds each radius to the nearest radius that has a PSF") {
+TEST_CASE("blur: PsfIndex rounds each radius to the nearest radius that has a PSF") {
   int last = -1;
   for (int radius = 0; radius <= int(STARFOCUS_MAX_BLUR) * kOne; ++radius) {
-    const int step = starfocus::BlurStep(radius);
+    const int step = starfocus::PsfIndex(radius);
     REQUIRE(step >= last);
     REQUIRE(step <= last + 1);
     last = step;
   }
-  CHECK(starfocus::BlurStep(0) == 0);
+  CHECK(starfocus::PsfIndex(0) == 0);
   // A radius halfway between two steps of 1/8 pixel is rounded up.
-  CHECK(starfocus::BlurStep(4) == 1);
-  CHECK(starfocus::BlurStep(3) == 0);
-  CHECK(starfocus::BlurStep(4 * kOne) == 32);
-  CHECK(starfocus::BlurStep(8 * kOne) == 64);
-  CHECK(starfocus::BlurStep(128 * kOne) == 32 + 5 * 32);
-  CHECK(starfocus::BlurStepCount(STARFOCUS_MAX_BLUR) > starfocus::BlurStep(128 * kOne));
+  CHECK(starfocus::PsfIndex(4) == 1);
+  CHECK(starfocus::PsfIndex(3) == 0);
+  CHECK(starfocus::PsfIndex(4 * kOne) == 32);
+  CHECK(starfocus::PsfIndex(8 * kOne) == 64);
+  CHECK(starfocus::PsfIndex(128 * kOne) == 32 + 5 * 32);
+  CHECK(starfocus::PsfCount(STARFOCUS_MAX_BLUR) > starfocus::PsfIndex(128 * kOne));
 }
 
 }  // namespace

@@ -314,7 +314,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
       block.rendered, block.border, plan.rules.apertures[block.n], stats.content, block.layer);
   work.upsample = upsampled;
   block.cost = starfocus::PredictTime(plan.config.tuning.timing, work);
-  if (starfocus::BlurStep(stats.r_max) > 0)
+  if (starfocus::PsfIndex(stats.r_max) > 0)
     PlanGathering(plan, plan.config.tuning.timing.upsample * upsampled, &block);
   return block;
 }
