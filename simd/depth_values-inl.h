@@ -142,13 +142,13 @@ inline void BlendRows(const int16_t* HWY_RESTRICT a, const int16_t* HWY_RESTRICT
 }
 
 #if HWY_TARGET == HWY_SCALAR
-using reference::SpreadRow;
+using reference::UpsampleRow;
 #else
 
 // The 8 pixels of a vector lie between at most 9 neighbouring elements, because positions increase
 // by at most one element per pixel. A shuffle of 8 loaded elements is faster than a gather.
-inline void SpreadRow(const int16_t* HWY_RESTRICT row, const uint32_t* HWY_RESTRICT columns,
-                      size_t count, uint32_t first, int16_t* HWY_RESTRICT out) {
+inline void UpsampleRow(const int16_t* HWY_RESTRICT row, const uint32_t* HWY_RESTRICT columns,
+                        size_t count, uint32_t first, int16_t* HWY_RESTRICT out) {
   constexpr size_t kLanes = 8;
   const hn::FixedTag<int16_t, kLanes> d16;
   const hn::Repartition<uint8_t, decltype(d16)> d8;
@@ -175,7 +175,7 @@ inline void SpreadRow(const int16_t* HWY_RESTRICT row, const uint32_t* HWY_RESTR
     };
     hn::StoreU(Blended(d16, pick(from), pick(from + 1), share), d16, out + n);
   });
-  if (!done) reference::SpreadRow(row, columns, count, first, out);
+  if (!done) reference::UpsampleRow(row, columns, count, first, out);
 }
 
 #endif

@@ -37,8 +37,8 @@ inline constexpr int32_t kDepth16Distance = 0x1FFF;
 // the index of the map column on the left, plus the share of the map column on the right.
 inline constexpr int kColumnBits = 8;
 inline constexpr uint32_t kColumnOne = 1u << kColumnBits;
-// Number of elements that SpreadRow may read after the elements of a row.
-inline constexpr int kSpreadSpare = 8;
+// Number of elements that UpsampleRow may read after the elements of a row.
+inline constexpr int kUpsampleSpare = 8;
 
 namespace reference {
 
@@ -128,10 +128,10 @@ STARFOCUS_REFERENCE void BlendRows(const int16_t* a, const int16_t* b, size_t co
 
 // Interpolates along a row like BlendRows. columns[n] is the position of output pixel n, in a row
 // whose element `first` is row[0]. Positions increase by at most kColumnOne from pixel to pixel.
-// The element to the right of the last position must exist. kSpreadSpare elements after this
+// The element to the right of the last position must exist. kUpsampleSpare elements after this
 // element may be read, but do not affect the result.
-STARFOCUS_REFERENCE void SpreadRow(const int16_t* row, const uint32_t* columns, size_t count,
-                                   uint32_t first, int16_t* out) {
+STARFOCUS_REFERENCE void UpsampleRow(const int16_t* row, const uint32_t* columns, size_t count,
+                                     uint32_t first, int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
     const int16_t* const at = row + (columns[n] / kColumnOne - first);
     out[n] = BlendSamples(at[0], at[1], static_cast<int32_t>(columns[n] % kColumnOne));

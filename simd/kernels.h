@@ -106,7 +106,7 @@
   KERNEL(AddPaths)                      \
   KERNEL(FindJumps)                     \
   KERNEL(ChooseLabels)                  \
-  KERNEL(SpreadPrior)                   \
+  KERNEL(PropagatePrior)                \
   KERNEL(AddPrior)                      \
   KERNEL(SumVotes)                      \
   KERNEL(SmoothDisparity)
@@ -127,7 +127,7 @@
   KERNEL(HalvesToDepth)                 \
   KERNEL(DepthToDisparity)              \
   KERNEL(BlendRows)                     \
-  KERNEL(SpreadRow)
+  KERNEL(UpsampleRow)
 
 // List of the kernels of the line scan, which a program without the renderer of the paper does not
 // link.

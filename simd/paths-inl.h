@@ -132,8 +132,8 @@ HWY_INLINE hn::Vec<PriorTag> WayFrom(const uint8_t* from, uint8_t way) {
 // If a neighbour is missing, another pixel with a lower step cost takes its place, which does not
 // change the result: a missing diagonal neighbour is replaced by the adjacent one, and a missing
 // row by the pixel itself.
-inline void SpreadPrior(uint8_t* first, const uint8_t* before, size_t places, ptrdiff_t step,
-                        size_t count) {
+inline void PropagatePrior(uint8_t* first, const uint8_t* before, size_t places, ptrdiff_t step,
+                           size_t count) {
   const PriorTag d8;
   const ptrdiff_t next = step * static_cast<ptrdiff_t>(places);
   for (size_t k = 0; k < count; ++k) {

@@ -151,8 +151,8 @@ inline void Lessen(const uint8_t* from, int way, size_t places, uint8_t* prior) 
 // kSliceLanes. Pixel k is k * step pixels after pixel 0; step is 1 or -1. Priors are in [0,
 // kMostPrior]. `before` has the finished priors of the previous row, or is null if there is no
 // previous row.
-STARFOCUS_REFERENCE void SpreadPrior(uint8_t* prior, const uint8_t* before, size_t places,
-                                     ptrdiff_t step, size_t count) {
+STARFOCUS_REFERENCE void PropagatePrior(uint8_t* prior, const uint8_t* before, size_t places,
+                                        ptrdiff_t step, size_t count) {
   const ptrdiff_t next = step * static_cast<ptrdiff_t>(places);
   for (size_t k = 0; k < count; ++k) {
     uint8_t* here = prior + static_cast<ptrdiff_t>(k) * next;

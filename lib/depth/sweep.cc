@@ -214,8 +214,8 @@ void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
         std::fill_n(memory.prior + tile.At(x, y + from), places, simd::kMostPrior);
       }
       uint8_t* first = memory.prior + tile.At(step > 0 ? begin : end - 1, y);
-      tile.kernels.SpreadPrior(first, from != 0 ? first + from * row_places : nullptr, places, step,
-                               static_cast<size_t>(end - begin));
+      tile.kernels.PropagatePrior(first, from != 0 ? first + from * row_places : nullptr, places,
+                                  step, static_cast<size_t>(end - begin));
     });
   };
   const int32_t bottom = region.y + region.height - 1;

@@ -107,8 +107,8 @@ uint32_t ReadPiece(const simd::ImageKernels& kernels, const DepthSource& depth, 
   const auto left = static_cast<int32_t>(columns[0] >> simd::kColumnBits);
   const auto last = static_cast<int32_t>(columns[count - 1] >> simd::kColumnBits);
   const int32_t values = Min(last + 2, depth.map.width) - left;
-  // Room for the values, a copy of the last value, and what SpreadRow may read.
-  constexpr int32_t kRoom = kPiece + 1 + simd::kSpreadSpare;
+  // Room for the values, a copy of the last value, and what UpsampleRow may read.
+  constexpr int32_t kRoom = kPiece + 1 + simd::kUpsampleSpare;
   int16_t converted[2][kRoom], blended[kRoom];
   int32_t held[2] = {-1, -1};
   uint32_t flags = 0;
@@ -132,8 +132,8 @@ uint32_t ReadPiece(const simd::ImageKernels& kernels, const DepthSource& depth, 
       kernels.BlendRows(row, row_at(upper + 1), static_cast<size_t>(values) + 1, share, blended);
       row = blended;
     }
-    kernels.SpreadRow(row, columns, static_cast<size_t>(count), static_cast<uint32_t>(left),
-                      out.Row(y));
+    kernels.UpsampleRow(row, columns, static_cast<size_t>(count), static_cast<uint32_t>(left),
+                        out.Row(y));
   }
   return flags;
 }

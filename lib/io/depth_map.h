@@ -50,7 +50,7 @@ struct DepthSource {
   starfocus_depth_map map;
   simd::DepthRule rule;
   int32_t width, height;  // size of the picture
-  // Positions in the map of columns of the picture (simd::SpreadRow), starting with
+  // Positions in the map of columns of the picture (simd::UpsampleRow), starting with
   // `first_column`; null if the map has the size of the picture.
   const uint32_t* columns;
   // First row of the picture that `map` contains; 0 if the map has fewer rows than the picture.

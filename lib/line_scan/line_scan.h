@@ -48,10 +48,10 @@ constexpr size_t RunMiddles(size_t length, size_t lines) { return length * RunMa
 // the pixels, in pixels (kShiftBits). Rendering a run with one shift misplaces the pixels of the
 // run by at most half the spread, in any view. Halving the spread brings no improvement
 // (docs/constants.md).
-inline constexpr int32_t kRunSpread = kShiftOne / 4;
+inline constexpr int32_t kRunDrift = kShiftOne / 4;
 
 // Returns the largest disparity range of a run, kDisparityBits. A run covers a range of at most
-// kRunSpread / (u_t / 2^layer), and ends at every depth edge.
+// kRunDrift / (u_t / 2^layer), and ends at every depth edge.
 int16_t RunRange(const ViewGrid& grid);
 
 // Returns the largest |i| of the views whose holes are filled from the captured views at half

@@ -9,7 +9,7 @@
 namespace starfocus {
 
 int16_t RunRange(const ViewGrid& grid) {
-  constexpr int64_t kSpread = int64_t{kRunSpread} << (kStepBits + kDisparityBits - kShiftBits);
+  constexpr int64_t kSpread = int64_t{kRunDrift} << (kStepBits + kDisparityBits - kShiftBits);
   // The step is 0 if no view moves a pixel, so that any range is right.
   const int64_t range = grid.step == 0 ? kSurfaceStep : kSpread / grid.step;
   return static_cast<int16_t>(range < kSurfaceStep ? range : kSurfaceStep);

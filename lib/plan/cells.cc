@@ -15,7 +15,7 @@ int32_t Farthest(int32_t low, int32_t high, int32_t focus) {
   return Max(Abs(low - focus), Abs(high - focus));
 }
 
-// In a line scan, a run ends when its pixels drift apart by a quarter pixel (kRunSpread of
+// In a line scan, a run ends when its pixels drift apart by a quarter pixel (kRunDrift of
 // lib/line_scan). A slice covers a larger range of disparities than a run. The timing coefficients
 // account for the difference between runs and slices.
 constexpr int32_t kRunDrift = kRadiusOne / 4;

@@ -108,11 +108,11 @@ TEST_CASE("depth kernels: LimitHidden limits the differences of views that do no
 }
 
 TEST_CASE(
-    "depth kernels: SpreadPrior spreads the prior of a map to neighbours at the expected cost") {
+    "depth kernels: PropagatePrior spreads the prior of a map to neighbours at the expected cost") {
   uint8_t row[2][3][16];
   std::fill_n(row[0][0], sizeof(row), uint8_t{kMostPrior});
   row[0][1][7] = 0;  // cost 0 at label 7 of the previous row's middle pixel
-  ReferenceDepthKernels().SpreadPrior(row[1][2], row[0][2], 16, -1, 3);
+  ReferenceDepthKernels().PropagatePrior(row[1][2], row[0][2], 16, -1, 3);
   CHECK(int(row[1][2][7]) == 4);
   CHECK(int(row[1][1][7]) == 3);
   CHECK(int(row[1][0][7]) == 4);

@@ -142,7 +142,7 @@ void BlendRows(Draw* draw, ImageCall* call) {
   };
 }
 
-void SpreadRow(Draw* draw, ImageCall* call) {
+void UpsampleRow(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestDepths, 1024);
   const auto first = uint32_t(draw->Int(0, 5000));
   const int most = draw->Int(0, 2) == 0 ? int(kColumnOne) : draw->Int(0, int(kColumnOne));
@@ -153,11 +153,11 @@ void SpreadRow(Draw* draw, ImageCall* call) {
     return here;
   });
   const size_t used = places.back() / kColumnOne - first + 2;
-  const int16_t* row = call->Input("row", Row(used + kSpreadSpare, draw));
+  const int16_t* row = call->Input("row", Row(used + kUpsampleSpare, draw));
   const uint32_t* columns = call->Input("columns", places);
   auto* out = call->Results<int16_t>("out", count);
   call->Runs(
-      [=](const ImageKernels& kernels) { kernels.SpreadRow(row, columns, count, first, out); });
+      [=](const ImageKernels& kernels) { kernels.UpsampleRow(row, columns, count, first, out); });
 }
 
 }  // namespace test::image_cases

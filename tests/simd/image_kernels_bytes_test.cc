@@ -64,7 +64,7 @@ TEST_CASE("image kernels: DepthToDisparity returns values computed by hand") {
   CHECK(kernels.DepthToDisparity(steps, 4, linear, out) == kDepthOutside);
 }
 
-TEST_CASE("image kernels: BlendRows and SpreadRow return values computed by hand") {
+TEST_CASE("image kernels: BlendRows and UpsampleRow return values computed by hand") {
   const ImageKernels& kernels = ReferenceImageKernels();
   const int16_t a[] = {0, 0, 0, kNoSurface}, b[] = {96, 97, -96, 5};
   int16_t out[4];
@@ -74,7 +74,7 @@ TEST_CASE("image kernels: BlendRows and SpreadRow return values computed by hand
   CheckValues("half", out, {48, 97, -48, 5});
   const int16_t row[] = {0, 80, 1000};
   const uint32_t columns[] = {7 * 256, 7 * 256 + 128, 8 * 256 + 127, 8 * 256 + 128};
-  kernels.SpreadRow(row, columns, 4, 7, out);
+  kernels.UpsampleRow(row, columns, 4, 7, out);
   CheckValues("columns", out, {0, 40, 80, 1000});
 }
 

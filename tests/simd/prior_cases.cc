@@ -12,7 +12,7 @@ std::vector<uint8_t> Priors(size_t count, Draw* draw) {
 
 }  // namespace
 
-void SpreadPrior(Draw* draw, DepthCall* call) {
+void PropagatePrior(Draw* draw, DepthCall* call) {
   const size_t places = kSliceLanes * draw->Size(1, 4, 4), count = draw->Length(1, 40, 200);
   const size_t size = places * count;
   const ptrdiff_t step = draw->Int(0, 1) == 0 ? 1 : -1;
@@ -23,9 +23,9 @@ void SpreadPrior(Draw* draw, DepthCall* call) {
   const uint8_t* before = nullptr;
   if (!draw->Rarely(4)) before = call->Input("before", Priors(size, draw)) + first;
   call->Runs([=](const DepthKernels& kernels) {
-    kernels.SpreadPrior(prior + first, before, places, step, count);
+    kernels.PropagatePrior(prior + first, before, places, step, count);
   });
-  // SpreadPrior must not increase the cost of any label.
+  // PropagatePrior must not increase the cost of any label.
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(size, [&](size_t k) {
       ++(*met)[prior[k] < own[k] ? "lessened" : "as it was"];
