@@ -11,19 +11,19 @@ namespace starfocus {
 namespace {
 
 // Number of rows that are converted together. ReadDepth converts values that these rows share once.
-constexpr int32_t kGroupRows = 8;
+constexpr int32_t kRowsAtOnce = 8;
 
 // Converts `height` rows of `width` samples as a set of at most `most_jobs` jobs. Calls
 // convert(rows) for groups of rows. Stops after cancellation.
 template <class Convert>
-starfocus_status ForGroups(int32_t width, int32_t height, int32_t most_jobs, Jobs* jobs,
-                           const Convert& convert) {
+starfocus_status ForRowsAtOnce(int32_t width, int32_t height, int32_t most_jobs, Jobs* jobs,
+                               const Convert& convert) {
   const int32_t count = Min(most_jobs, height);
   return ForEach(count, jobs, [&](int32_t index, int32_t) {
     CancelToken cancel(&jobs->call_progress);
     const Range part = PartOf({0, height}, index, count);
-    for (int32_t y = part.first; y < part.last; y += kGroupRows) {
-      const Range rows = {y, Min(y + kGroupRows, part.last)};
+    for (int32_t y = part.first; y < part.last; y += kRowsAtOnce) {
+      const Range rows = {y, Min(y + kRowsAtOnce, part.last)};
       if (!cancel.Spend(int64_t{width} * (rows.last - rows.first))) return;
       convert(rows);
     }
@@ -43,11 +43,11 @@ void WriteDisparities(const simd::DepthRule& rule, const int16_t* fixed, int32_t
   }
 }
 
-// Converts the rows [rows.first, rows.last) of a map, at most kGroupRows rows.
+// Converts the rows [rows.first, rows.last) of a map, at most kRowsAtOnce rows.
 void ConvertRows(const simd::ImageKernels& kernels, const DepthSource& map, int32_t width,
                  const Range& rows, float* disparity) {
   for (int32_t x = 0; x < width; x += kDepthPiece) {
-    int16_t fixed[kGroupRows * kDepthPiece];
+    int16_t fixed[kRowsAtOnce * kDepthPiece];
     const Plane<int16_t> piece = {fixed, kDepthPiece, 0, rows.first};
     const int32_t count = Min(kDepthPiece, width - x);
     ReadDepth(kernels, map, {x, rows.first, count, rows.last - rows.first}, piece);
@@ -71,7 +71,7 @@ starfocus_status ConvertField(const FullConfig& config, const SweepSetup& setup,
     if (rgb == nullptr || IsInPlace(field->views[k])) continue;
     const ImageSource image = PlanesOf<const uint8_t>(field->views[k]);
     const starfocus_status status =
-        ForGroups(width, height, most_jobs, jobs, [&](const Range& group) {
+        ForRowsAtOnce(width, height, most_jobs, jobs, [&](const Range& group) {
           for (int32_t y = group.first; y < group.last; ++y) {
             ReadCodes(kernels, image, 0, y, width, rgb + static_cast<size_t>(y) * stride);
           }
@@ -87,9 +87,9 @@ starfocus_status ConvertField(const FullConfig& config, const SweepSetup& setup,
   FillColumns(width, map.width, 0, width, places);
   const simd::DepthRule rule = RuleOf(map, MinDisparity(config), MaxDisparity(config));
   const DepthSource source = {map, rule, width, height, places};
-  const starfocus_status status =
-      ForGroups(width, height, most_jobs, jobs,
-                [&](const Range& group) { ConvertRows(kernels, source, width, group, disparity); });
+  const starfocus_status status = ForRowsAtOnce(
+      width, height, most_jobs, jobs,
+      [&](const Range& group) { ConvertRows(kernels, source, width, group, disparity); });
   map = starfocus_depth_float(disparity, sizeof(float) * columns, width, height);
   return status;
 }

@@ -13,7 +13,7 @@ namespace {
 
 // Number of rows that are read together. Rows of a group share values of a map that is smaller than
 // the picture. With groups of 8 rows, a superblock still has several jobs for all workers.
-constexpr int32_t kGroupRows = 8;
+constexpr int32_t kRowsAtOnce = 8;
 
 // Copies row y of the previous picture, and then the columns of `from` that may have changed.
 void StoreChanged(const Output& out, const Plane<uint8_t>& from, int32_t y,
@@ -63,12 +63,13 @@ starfocus_status ReadRows(const Range& rows, const Plane<int16_t>* disparity, En
   const bool has_map = in.map.map.data != nullptr;
   const bool converts = in.converts_centre && disparity != nullptr;
   if (rows.first >= rows.last || !(has_map || converts)) return STARFOCUS_OK;
-  const int32_t jobs = Min(MaxJobs(config), (rows.last - rows.first + kGroupRows - 1) / kGroupRows);
+  const int32_t jobs =
+      Min(MaxJobs(config), (rows.last - rows.first + kRowsAtOnce - 1) / kRowsAtOnce);
   const auto read = [&](int32_t index, int32_t worker) {
     Scratch& scratch = engine->scratch[worker];
     const Range part = PartOf(rows, index, jobs);
-    for (int32_t y = part.first; y < part.last; y += kGroupRows) {
-      const Range group = {y, Min(y + kGroupRows, part.last)};
+    for (int32_t y = part.first; y < part.last; y += kRowsAtOnce) {
+      const Range group = {y, Min(y + kRowsAtOnce, part.last)};
       if (!scratch.cancel.Spend(int64_t{4} * config.width * (group.last - y))) return;
       for (int32_t row = y; converts && row < group.last; ++row) {
         ReadView(in, 0, row, engine->rings.View(0).Row(row));

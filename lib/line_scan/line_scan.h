@@ -389,7 +389,7 @@ struct LineScanScratch : RendererScratch {
   Run* runs;                    // Runs of all lines of a field: E^2.
   int32_t* run_counts;          // Number of runs of each line: E.
   Run* line_runs;               // Runs of one line: E.
-  int16_t* strip_rgb;           // Type A lines before they are transposed: 3 R kStripRows.
+  int16_t* strip_rgb;           // Type A lines before they are transposed: 3 R kRowsAtOnce.
   int16_t* view_disparity;      // Disparities of the type A view, one line per row: R E.
   int16_t* columns_rgb;   // Light of the type A view, one line per column: R rows of RgbStride(E).
   uint32_t* column_sums;  // Sums of the pass over rows, in column order: 3 R^2.

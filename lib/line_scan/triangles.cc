@@ -13,7 +13,7 @@ namespace starfocus {
 namespace {
 
 // Number of type A lines that are rendered before they are transposed together.
-constexpr int32_t kStripRows = 16;
+constexpr int32_t kRowsAtOnce = 16;
 
 // Returns the largest i of the type B views (i, i) for N views along the radius.
 constexpr int32_t LastOnDiagonal(int32_t n) {
@@ -224,8 +224,8 @@ class Star {
   // rectangle.
   void RenderTypeA(const BlockPixels& field, int sign, int32_t i, const Range& rows) {
     const int32_t width = field.inner.width, height = rows.last - rows.first;
-    for (int32_t row = 0; row < height; row += kStripRows) {
-      const int32_t count = Min(kStripRows, height - row);
+    for (int32_t row = 0; row < height; row += kRowsAtOnce) {
+      const int32_t count = Min(kRowsAtOnce, height - row);
       SpanList list(*scratch_, scratch_->strip_rgb);
       for (int32_t k = 0; k < count; ++k) {
         RenderRow(field, sign, i, rows.first + row + k, static_cast<uint32_t>(k * width),
@@ -423,7 +423,7 @@ void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena*
   scratch.runs = arena->Take<Run>(area);
   scratch.run_counts = arena->Take<int32_t>(extended);
   scratch.line_runs = arena->Take<Run>(extended);
-  scratch.strip_rgb = arena->Take<int16_t>(3 * rectangle * kStripRows);
+  scratch.strip_rgb = arena->Take<int16_t>(3 * rectangle * kRowsAtOnce);
   scratch.view_disparity = arena->Take<int16_t>(rectangle * extended);
   scratch.columns_rgb = arena->Take<int16_t>(rectangle * rgb_stride);
   scratch.line_accumulators = arena->Take<uint32_t>(3 * extended);

@@ -16,7 +16,7 @@ constexpr uint32_t kLeastShare = 4;
 // Largest number of views of a column that are summed together in 16 bits. If more views were
 // summed together, each weight would be smaller, and the products of small weights and faint light
 // would round to zero.
-constexpr int32_t kGroupViews = 16;
+constexpr int32_t kViewsAtOnce = 16;
 
 // Largest sum of the weights of a group of views. The rest of the 16-bit range is for two errors:
 // the rounding in each slice, and a contribution that exceeds the weight of its view by up to a
@@ -29,7 +29,7 @@ constexpr uint32_t kGroupSum = 58000;
 // kMostPortions. Each product of a weight and a light value is rounded, so smaller weights would
 // change the 8-bit codes of dark pixels.
 constexpr uint64_t kSteep = 3;
-constexpr uint64_t kLeastMean = 2 * kGroupSum / kGroupViews;
+constexpr uint64_t kLeastMean = 2 * kGroupSum / kViewsAtOnce;
 constexpr uint64_t kMostPortions = 32;
 
 // Returns the sum of the weights of views (i, first) to (i, last) or four times the largest of
@@ -80,8 +80,8 @@ void ScaleWeights(SliceStack* stack) {
       stack->largest_weight = weight > stack->largest_weight ? weight : stack->largest_weight;
       if (weight > 0) views += aperture.full || i == 0 ? 1 : 2;
     }
-    for (int32_t first = -last; first <= last; first += kGroupViews) {
-      const uint32_t sum = GroupSum(aperture, i, first, Min(first + kGroupViews - 1, last));
+    for (int32_t first = -last; first <= last; first += kViewsAtOnce) {
+      const uint32_t sum = GroupSum(aperture, i, first, Min(first + kViewsAtOnce - 1, last));
       largest_sum = sum > largest_sum ? sum : largest_sum;
     }
   }
@@ -194,8 +194,8 @@ class Strip {
   void AddColumn(int32_t i) {
     const int32_t last = LastAcross(aperture_, i);
     for (int32_t n = 0; n < seen_; ++n) MoveSlice(seen_slices_[n], i, last);
-    for (int32_t begin = -last; begin <= last; begin += kGroupViews) {
-      const int32_t most = Min(begin + kGroupViews - 1, last);
+    for (int32_t begin = -last; begin <= last; begin += kViewsAtOnce) {
+      const int32_t most = Min(begin + kViewsAtOnce - 1, last);
       for (int32_t first = begin; first <= most;) first = AddGroup(i, first, most);
     }
   }
@@ -235,7 +235,7 @@ class Strip {
     const uint64_t portions = sum <= kGroupSum ? 1 : (sum + kGroupSum - 1) / kGroupSum;
     // Small weights get extra fractional bits, unless a whole column fits in one group and the
     // first weight is more than 1/16 of the largest weight.
-    const bool is_small = rank > 0 || 2 * aperture_.last >= kGroupViews;
+    const bool is_small = rank > 0 || 2 * aperture_.last >= kViewsAtOnce;
     int extra_bits = 0;
     while (is_small && extra_bits < kMostExtraBits && sum << (extra_bits + 1) <= kGroupSum) {
       ++extra_bits;
@@ -274,7 +274,7 @@ class Strip {
   const SlicePlane* const planes_;
   const CellPair *const first_, *const end_;
   uint32_t* const sums_;
-  int16_t weights_[kGroupViews];  // weights of the current group of views
+  int16_t weights_[kViewsAtOnce];  // weights of the current group of views
   int64_t samples_ = 0;  // samples composited in one view, four per pixel, summed over all slices
   int32_t seen_ = 0;
   int32_t seen_slices_[kMaxSlices];
