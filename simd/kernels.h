@@ -68,7 +68,7 @@
   KERNEL(ConvertDisparity)        \
   KERNEL(FindRanges)              \
   KERNEL(FindWithin)              \
-  KERNEL(Split)                   \
+  KERNEL(Deinterleave)            \
   KERNEL(FindEdges)               \
   KERNEL(FindSteps)               \
   KERNEL(BesideSteps)             \
@@ -91,7 +91,7 @@
   KERNEL(ReachBlock)              \
   KERNEL(SurroundCells)           \
   KERNEL(WidenPhases)             \
-  KERNEL(SplitPhases)             \
+  KERNEL(DeinterleavePhases)      \
   KERNEL(Narrow)                  \
   KERNEL(FinishLayer)             \
   KERNEL(FilterHalfBand)          \
@@ -100,7 +100,7 @@
 
 // List of the kernels for disparity maps, which a program that only refocuses does not link.
 #define STARFOCUS_DEPTH_KERNELS(KERNEL) \
-  KERNEL(SplitRow)                      \
+  KERNEL(DeinterleaveRow)               \
   KERNEL(InterpolateRow)                \
   KERNEL(CostLabels)                    \
   KERNEL(AddPaths)                      \
@@ -117,7 +117,7 @@
   KERNEL(YuvToRgb)                      \
   KERNEL(RgbToLuma)                     \
   KERNEL(RgbToChroma)                   \
-  KERNEL(SplitPairs)                    \
+  KERNEL(DeinterleavePairs)             \
   KERNEL(JoinPairs)                     \
   KERNEL(PixelsToRgb)                   \
   KERNEL(RgbToPixels)                   \

@@ -9,10 +9,10 @@ HWY_BEFORE_NAMESPACE();
 namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
-inline void Split(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
-                  int16_t* HWY_RESTRICT out) {
+inline void Deinterleave(const int16_t* HWY_RESTRICT rgb, size_t count, size_t plane,
+                         int16_t* HWY_RESTRICT out) {
   const bool done = SplitColours(LanesTag(), rgb, count, plane, out);
-  if (!done) reference::Split(rgb, count, plane, out);
+  if (!done) reference::Deinterleave(rgb, count, plane, out);
 }
 
 inline void FindEdges(const int16_t* HWY_RESTRICT near, const int16_t* HWY_RESTRICT far,

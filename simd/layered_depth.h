@@ -183,7 +183,8 @@ inline int16_t ChooseSurface(const HiddenSide* sides, int32_t x, int behind, int
 
 // Splits pixels into planes: out[c * plane + n] = rgb[3 n + c] for n < count. No other elements of
 // `out` are written.
-STARFOCUS_REFERENCE void Split(const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
+STARFOCUS_REFERENCE void Deinterleave(const int16_t* rgb, size_t count, size_t plane,
+                                      int16_t* out) {
   for (size_t n = 0; n < count; ++n) {
     for (size_t c = 0; c < 3; ++c) out[c * plane + n] = rgb[3 * n + c];
   }

@@ -15,11 +15,11 @@ HWY_INLINE void StoreNarrow(MatchVec values, uint8_t* at) {
   StoreBytes(d16, hn::BitCast(d16, values), at);
 }
 
-inline void SplitRow(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t stride,
-                     uint8_t* HWY_RESTRICT plane) {
+inline void DeinterleaveRow(const uint8_t* HWY_RESTRICT rgb, size_t count, size_t stride,
+                            uint8_t* HWY_RESTRICT plane) {
   const hn::CappedTag<uint8_t, kSliceLanes> d8;
   const bool done = SplitColours(d8, rgb, count, stride, plane);
-  if (!done) reference::SplitRow(rgb, count, stride, plane);
+  if (!done) reference::DeinterleaveRow(rgb, count, stride, plane);
 }
 
 // Returns a + (b - a) * part / 128, rounded half up.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// SIMD kernels that match captured views with the centre view. SplitRow and InterpolateRow prepare
-// the planes of the views. CostLabels computes the cost of each label at each pixel of a row. Its
-// building blocks process one label of a row of pixels. Their vector code reads and writes whole
-// groups of kSliceLanes samples.
+// SIMD kernels that match captured views with the centre view. DeinterleaveRow and InterpolateRow
+// prepare the planes of the views. CostLabels computes the cost of each label at each pixel of a
+// row. Its building blocks process one label of a row of pixels. Their vector code reads and writes
+// whole groups of kSliceLanes samples.
 #ifndef STARFOCUS_SIMD_MATCH_H_
 #define STARFOCUS_SIMD_MATCH_H_
 
@@ -76,7 +76,8 @@ inline int InterpolateByte(int a, int b, int part) {
 
 // Splits pixels into rows of R, G and B: plane[n] = rgb[3 n], plane[n + stride] = rgb[3 n + 1],
 // plane[n + 2 stride] = rgb[3 n + 2], for n < count. No other elements of `plane` are written.
-STARFOCUS_REFERENCE void SplitRow(const uint8_t* rgb, size_t count, size_t stride, uint8_t* plane) {
+STARFOCUS_REFERENCE void DeinterleaveRow(const uint8_t* rgb, size_t count, size_t stride,
+                                         uint8_t* plane) {
   for (size_t n = 0; n < count; ++n) {
     for (size_t c = 0; c < 3; ++c) plane[n + c * stride] = rgb[3 * n + c];
   }

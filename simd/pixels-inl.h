@@ -183,8 +183,8 @@ inline void RgbToChroma(const uint8_t* HWY_RESTRICT upper, const uint8_t* HWY_RE
 
 #endif
 
-inline void SplitPairs(const uint8_t* HWY_RESTRICT pairs, size_t count, uint8_t* HWY_RESTRICT first,
-                       uint8_t* HWY_RESTRICT second) {
+inline void DeinterleavePairs(const uint8_t* HWY_RESTRICT pairs, size_t count,
+                              uint8_t* HWY_RESTRICT first, uint8_t* HWY_RESTRICT second) {
   const hn::ScalableTag<uint8_t> d8;
   const bool done = ForVectors(count, hn::Lanes(d8), [&](size_t n) HWY_ATTR {
     hn::Vec<decltype(d8)> a, b;
@@ -192,7 +192,7 @@ inline void SplitPairs(const uint8_t* HWY_RESTRICT pairs, size_t count, uint8_t*
     hn::StoreU(a, d8, first + n);
     hn::StoreU(b, d8, second + n);
   });
-  if (!done) reference::SplitPairs(pairs, count, first, second);
+  if (!done) reference::DeinterleavePairs(pairs, count, first, second);
 }
 
 inline void JoinPairs(const uint8_t* HWY_RESTRICT first, const uint8_t* HWY_RESTRICT second,

@@ -107,10 +107,10 @@ STARFOCUS_REFERENCE void RgbToChroma(const uint8_t* upper, const uint8_t* lower,
   }
 }
 
-// SplitPairs sets first[n] = pairs[2 n] and second[n] = pairs[2 n + 1] for n < count. JoinPairs is
-// the inverse of SplitPairs.
-STARFOCUS_REFERENCE void SplitPairs(const uint8_t* pairs, size_t count, uint8_t* first,
-                                    uint8_t* second) {
+// DeinterleavePairs sets first[n] = pairs[2 n] and second[n] = pairs[2 n + 1] for n < count.
+// JoinPairs is the inverse of DeinterleavePairs.
+STARFOCUS_REFERENCE void DeinterleavePairs(const uint8_t* pairs, size_t count, uint8_t* first,
+                                           uint8_t* second) {
   for (size_t n = 0; n < count; ++n) {
     first[n] = pairs[2 * n];
     second[n] = pairs[2 * n + 1];

@@ -44,9 +44,9 @@ inline void FinishLayer(const uint32_t* HWY_RESTRICT accumulators, size_t count,
 #if HWY_TARGET == HWY_SCALAR
 
 using reference::Between;
+using reference::DeinterleavePhases;
 using reference::FilterHalfBand;
 using reference::Halve;
-using reference::SplitPhases;
 using reference::WidenPhases;
 
 #else
@@ -98,8 +98,8 @@ inline void WidenPhases(const uint8_t* HWY_RESTRICT in, size_t pairs, const Enco
 }
 
 // Each store writes a pixel and a fourth sample. The next pixel overwrites the fourth sample.
-inline void SplitPhases(const int16_t* HWY_RESTRICT in, size_t pairs, int16_t* HWY_RESTRICT even,
-                        int16_t* HWY_RESTRICT odd) {
+inline void DeinterleavePhases(const int16_t* HWY_RESTRICT in, size_t pairs,
+                               int16_t* HWY_RESTRICT even, int16_t* HWY_RESTRICT odd) {
   const hn::FixedTag<int16_t, 4> d16;
   const auto split = [&](size_t pair) HWY_ATTR {
     hn::StoreU(hn::LoadU(d16, in + 6 * pair), d16, even + 3 * pair);

@@ -58,7 +58,8 @@ STARFOCUS_REFERENCE void WidenPhases(const uint8_t* in, size_t pairs, const Enco
 
 // Splits a line of samples into the samples of even and odd pixels, like WidenPhases without the
 // conversion. One sample past the end of `even` and of `odd` may be written.
-STARFOCUS_REFERENCE void SplitPhases(const int16_t* in, size_t pairs, int16_t* even, int16_t* odd) {
+STARFOCUS_REFERENCE void DeinterleavePhases(const int16_t* in, size_t pairs, int16_t* even,
+                                            int16_t* odd) {
   for (size_t n = 0; n < pairs; ++n) {
     for (size_t c = 0; c < 3; ++c) {
       even[3 * n + c] = in[6 * n + c];
@@ -106,8 +107,8 @@ STARFOCUS_REFERENCE void FilterHalfBand(const int16_t* in, ptrdiff_t step, const
   }
 }
 
-// Filters a line and keeps the even pixels. `even` and `odd` are the output of SplitPhases. Output
-// out[n] is
+// Filters a line and keeps the even pixels. `even` and `odd` are the output of DeinterleavePhases.
+// Output out[n] is
 //   centre even[n] + near (odd[n - 3] + odd[n]) + far (odd[n - 6] + odd[n + 3]),
 // rounded half up to a sample and saturated to 16 bits. Input samples must be in the valid range.
 STARFOCUS_REFERENCE void Halve(const int16_t* even, const int16_t* odd, const HalfBand& taps,

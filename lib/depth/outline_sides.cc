@@ -44,7 +44,7 @@ constexpr int32_t kStill = 1;
 void FillColours(const uint8_t* rgb, int32_t count, int32_t at, const simd::DepthKernels& kernels,
                  VoteBlock* block) {
   uint8_t split[3][VoteBlock::kWidth];
-  kernels.SplitRow(rgb, static_cast<size_t>(count), VoteBlock::kWidth, split[0]);
+  kernels.DeinterleaveRow(rgb, static_cast<size_t>(count), VoteBlock::kWidth, split[0]);
   int16_t* const brightness = block->colour[0] + at;
   for (int32_t k = 0; k < count; ++k) {
     brightness[k] = static_cast<int16_t>((split[0][k] + 2 * split[1][k] + split[2][k]) >> 2);

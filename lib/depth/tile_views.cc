@@ -11,13 +11,13 @@ namespace {
 
 // Splits a row of the picture into rows of the planes. Beyond the left and right ends of the
 // picture, the outermost pixels are repeated.
-void SplitPictureRow(const uint8_t* row, int32_t picture_width, const TileViews& views,
-                     const simd::DepthKernels& kernels, uint8_t* out) {
+void DeinterleavePictureRow(const uint8_t* row, int32_t picture_width, const TileViews& views,
+                            const simd::DepthKernels& kernels, uint8_t* out) {
   const auto stride = static_cast<int32_t>(views.stride);
   const int32_t first = Clamp(-views.left, 0, stride);
   const int32_t last = Clamp(picture_width - views.left, first, stride);
-  kernels.SplitRow(row + 3 * (views.left + first), static_cast<size_t>(last - first), views.stride,
-                   out + first);
+  kernels.DeinterleaveRow(row + 3 * (views.left + first), static_cast<size_t>(last - first),
+                          views.stride, out + first);
   for (size_t c = 0; c < 3; ++c, out += stride) {
     std::fill_n(out, first, row[c]);
     std::fill(out + last, out + stride, row[3 * static_cast<size_t>(picture_width - 1) + c]);
@@ -36,7 +36,7 @@ void MakePlanes(const Plane<const uint8_t>& picture, const ViewPhases& phases,
   for (int32_t row = 0; row <= views.rows; ++row) {
     uint8_t* next = views.split + static_cast<size_t>(row % 2) * 3 * stride;
     const int32_t y = Clamp(views.top + row, 0, setup.height - 1);
-    SplitPictureRow(picture.Row(y), setup.width, views, kernels, next);
+    DeinterleavePictureRow(picture.Row(y), setup.width, views, kernels, next);
     if (row == 0) continue;
     const uint8_t* here = views.split + static_cast<size_t>((row - 1) % 2) * 3 * stride;
     for (int32_t k = 0; k < phases.count; ++k) {

@@ -29,7 +29,7 @@ void FindChroma(const simd::ImageKernels& kernels, const ImageSource& image, int
   int first = 1;
   const bool pairs = ArePairs(image, &first);
   if (pairs) {
-    kernels.SplitPairs(image.Chroma(first, x, y), count, room[first - 1], room[2 - first]);
+    kernels.DeinterleavePairs(image.Chroma(first, x, y), count, room[first - 1], room[2 - first]);
   }
   for (int k = 0; k < 2; ++k) {
     const uint8_t* const from = image.Chroma(k + 1, x, y);

@@ -76,7 +76,7 @@ void Interleave(const int16_t* even, const int16_t* odd, int32_t width, int16_t*
 void DownsampleLayer(const Kernels& kernels, const LayerPlane& from, const Range& columns,
                      const ResampleScratch& scratch, const LayerPlane& to) {
   const auto split = [&](int32_t y, int32_t first, size_t pairs, int16_t* even, int16_t* odd) {
-    kernels.SplitPhases(from.samples.Row(y) + 6 * first, pairs, even, odd);
+    kernels.DeinterleavePhases(from.samples.Row(y) + 6 * first, pairs, even, odd);
   };
   const auto sample = [&](int32_t y, int32_t n) { return from.samples.Row(y)[n]; };
   Downsample(kernels, split, sample, from.width, from.height, columns, scratch, to);

@@ -65,7 +65,7 @@ void ForEachSplit(const Input& input, int32_t column, int32_t row, const Weight&
     const auto at = static_cast<size_t>((y - top) * kSide + from.x - left);
     const auto count = static_cast<size_t>(from.width);
     input.Light(0, from.x, y, from.width, rgb);
-    input.kernels->Split(rgb, count, kPlane, light + at);
+    input.kernels->Deinterleave(rgb, count, kPlane, light + at);
     std::memcpy(nears + at, map.near + map.At(from.x, y), count * sizeof(*nears));
     for (size_t k = 0; k < count; ++k) {
       weights[at + k] = static_cast<int16_t>(weight_of(from.x + static_cast<int32_t>(k), y));

@@ -85,7 +85,7 @@ constexpr int32_t PartitionCandidates(int32_t superblock) {
   return candidates;
 }
 
-// Splits the superblock at (x, y) into the blocks with the smallest predicted time. x and y are
+// Divides the superblock at (x, y) into the blocks with the smallest predicted time. x and y are
 // multiples of the superblock size. Writes at most MaxBlocks blocks in z-order, and the part of
 // `gathered` that belongs to the superblock. Returns the number of blocks. Scratch memory:
 // PartitionCandidates candidates, and SurroundingSamples samples for the cells.

@@ -247,7 +247,7 @@ class SurfaceFinder {
       while (end < kStripColumns && sources[end] == source && disparity[end] == disparity[k]) ++end;
       ReadSide(x + k, y, end - k, disparity[k], source, LowestBit(sides), strip_ + 3 * k);
     }
-    kernels_.Split(strip_, kStripColumns, surfaces_.plane, surfaces_.rgb[behind] + at);
+    kernels_.Deinterleave(strip_, kStripColumns, surfaces_.plane, surfaces_.rgb[behind] + at);
   }
 
   // Reads the mean of the colours that the sources of a hidden pixel on several sides provide.
@@ -345,7 +345,7 @@ void DropFirstHidden(size_t at, LayeredDepth* surfaces) {
 // Gives a pixel the two surfaces that it mixes. A hidden surface at most `copy_step` behind the far
 // surface is a copy (kMostCopy), which the far surface replaces. The copy of a pixel inside a thin
 // structure stays in front of the far surface.
-void Split(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
+void Deinterleave(const SplitPixel& pixel, int32_t copy_step, LayeredDepth* surfaces) {
   LayeredDepth& to = *surfaces;
   const size_t at = to.At(pixel.column, pixel.row);
   const bool is_thin = pixel.kind == SplitPixel::kThin;
@@ -392,8 +392,8 @@ void FindLayeredDepth(const simd::Kernels& kernels, const Input& input, const Bl
                 static_cast<size_t>(field.width) * sizeof(int16_t));
     // The next row overwrites the cleared pixels.
     ClearStrip(surfaces->disparity[0] + at + field.width);
-    kernels.Split(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
-                  surfaces->rgb[0] + at);
+    kernels.Deinterleave(field.Rgb(0, y), static_cast<size_t>(field.width), surfaces->plane,
+                         surfaces->rgb[0] + at);
   }
   for (int16_t* disparity : surfaces->disparity) ClearStrip(disparity + surfaces->plane);
   std::memset(surfaces->share + surfaces->plane, simd::kSliceWhole, simd::kSliceLanes);
@@ -407,7 +407,7 @@ void SplitMixedPixels(const Input& input, const ViewGrid& grid, const BlockPixel
     if (pixel.kind == SplitPixel::kOneSurface) {
       DropStrands(pixel, to);
     } else {
-      Split(pixel, step, to);
+      Deinterleave(pixel, step, to);
     }
   };
   SplitPixels(input, grid, field, apply, surfaces);

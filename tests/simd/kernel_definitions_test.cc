@@ -175,7 +175,7 @@ TEST_CASE("kernel definitions: Halve applies the half-band filter at every even 
   std::vector<int16_t> line(6 * kPairs);
   for (int16_t& sample : line) sample = int16_t(random.Int(0, kLayerWhite));
   std::vector<int16_t> even(3 * kPairs), odd = even, halved(3 * kKept), whole(6 * kPairs);
-  kernels.SplitPhases(line.data(), kPairs, even.data(), odd.data());
+  kernels.DeinterleavePhases(line.data(), kPairs, even.data(), odd.data());
   kernels.Halve(even.data() + 6, odd.data() + 6, starfocus::kDownFilter, 3 * kKept, halved.data());
   kernels.FilterHalfBand(line.data() + 12, 3, starfocus::kDownFilter, 6 * kKept - 3, INT16_MIN,
                          INT16_MAX, whole.data());

@@ -147,11 +147,11 @@ TEST_CASE("kernels: KernelCall::Check detects wrong results and forbidden access
     const std::string wrong = Complaint(spoilt, test::kernel_cases::Narrow);
     CHECK_MESSAGE(wrong.find(one.complaint) == 0, wrong);
   }
-  spoilt.Split = [](const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
-    ReferenceKernels().Split(rgb, count, plane, out);
+  spoilt.Deinterleave = [](const int16_t* rgb, size_t count, size_t plane, int16_t* out) {
+    ReferenceKernels().Deinterleave(rgb, count, plane, out);
     if (plane > count) out[count] ^= 1;  // between two planes
   };
-  CHECK(Complaint(spoilt, test::kernel_cases::Split).find("spoilt writes where") == 0);
+  CHECK(Complaint(spoilt, test::kernel_cases::Deinterleave).find("spoilt writes where") == 0);
   spoilt.ConvertDisparity = [](const float* disparity, size_t count, float low, float high,
                                int16_t* out) {
     return !ReferenceKernels().ConvertDisparity(disparity, count, low, high, out);

@@ -26,12 +26,12 @@ std::vector<int16_t> MovedRows(size_t rows, size_t whole, int step, Draw* draw) 
 
 }  // namespace
 
-void Split(Draw* draw, KernelCall* call) {
+void Deinterleave(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), plane = count + draw->Size(0, 9, 0);
   const int16_t* rgb = call->Input("rgb", Light(3 * count, draw), kPadding);
   auto* out = call->Output<int16_t>("out", 3 * plane);
   call->ResultRows(out, 3, plane, count);
-  call->Runs([=](const Kernels& kernels) { kernels.Split(rgb, count, plane, out); });
+  call->Runs([=](const Kernels& kernels) { kernels.Deinterleave(rgb, count, plane, out); });
   call->is_right = [=](uint64_t, Met*) {
     return AllRight(3 * count, [&](size_t i) { return out[i % 3 * plane + i / 3] == rgb[i]; });
   };

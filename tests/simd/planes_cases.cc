@@ -11,13 +11,14 @@ constexpr int kTimedPlane = 512, kLongestPlane = 2 * 64 + 3;
 
 }  // namespace
 
-void SplitRow(Draw* draw, DepthCall* call) {
+void DeinterleaveRow(Draw* draw, DepthCall* call) {
   const size_t count = draw->Length(0, kLongestPlane, kTimedPlane),
                stride = count + draw->Size(0, 9, 0);
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
   uint8_t* plane = call->Output<uint8_t>("planes", 3 * stride);
   call->ResultRows(plane, 3, stride, count);
-  call->Runs([=](const DepthKernels& kernels) { kernels.SplitRow(rgb, count, stride, plane); });
+  call->Runs(
+      [=](const DepthKernels& kernels) { kernels.DeinterleaveRow(rgb, count, stride, plane); });
 }
 
 void InterpolateRow(Draw* draw, DepthCall* call) {

@@ -59,11 +59,12 @@ void WidenPhases(Draw* draw, KernelCall* call) {
       [=](const Kernels& kernels) { kernels.WidenPhases(in, pairs, encoding, out.even, out.odd); });
 }
 
-void SplitPhases(Draw* draw, KernelCall* call) {
+void DeinterleavePhases(Draw* draw, KernelCall* call) {
   const size_t pairs = draw->Length(0, kLongestSamples, kTimedSamples / 6);
   const int16_t* in = call->Input("in", Samples(6 * pairs, false, draw), kPadding);
   const Phases out(pairs, 1, call);
-  call->Runs([=](const Kernels& kernels) { kernels.SplitPhases(in, pairs, out.even, out.odd); });
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.DeinterleavePhases(in, pairs, out.even, out.odd); });
 }
 
 void Narrow(Draw* draw, KernelCall* call) {

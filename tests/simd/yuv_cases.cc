@@ -63,12 +63,13 @@ void RgbToChroma(Draw* draw, ImageCall* call) {
       [=](const ImageKernels& kernels) { kernels.RgbToChroma(upper, lower, count, m, u, v); });
 }
 
-void SplitPairs(Draw* draw, ImageCall* call) {
+void DeinterleavePairs(Draw* draw, ImageCall* call) {
   const size_t count = draw->Length(1, kLongestRow, 1024);
   const uint8_t* pairs = call->Input("pairs", RandomBytes(2 * count, draw));
   auto* first = call->Results<uint8_t>("first", count);
   auto* second = call->Results<uint8_t>("second", count);
-  call->Runs([=](const ImageKernels& kernels) { kernels.SplitPairs(pairs, count, first, second); });
+  call->Runs(
+      [=](const ImageKernels& kernels) { kernels.DeinterleavePairs(pairs, count, first, second); });
 }
 
 void JoinPairs(Draw* draw, ImageCall* call) {

@@ -14,7 +14,7 @@ struct Shift {
   int whole, part;  // the shift is whole + part / kOne, 0 <= part < kOne
 };
 
-Shift Split(double shift) {
+Shift Deinterleave(double shift) {
   const int value = int(std::lround(shift * kOne));
   const int whole = int(std::floor(double(value) / kOne));
   return {whole, value - whole * kOne};
@@ -83,7 +83,7 @@ ShiftAndAdd::ShiftAndAdd(const LightField& data, int views, double focus)
 void ShiftAndAdd::AddView(const Image& view, int index, int y) {
   double u = 0, v = 0;
   starfocus_view_position(index, &u, &v, nullptr);
-  const Shift dx = Split(-u * focus_), dy = Split(-v * focus_);
+  const Shift dx = Deinterleave(-u * focus_), dy = Deinterleave(-v * focus_);
   const auto row = [&](int n) { return view.row(std::clamp(n, 0, view.height - 1)); };
   const size_t samples = view.stride();
   uint8_t* middle = row_.data() + pad_;
