@@ -188,12 +188,12 @@ inline void MeasureCell(const int16_t* const rows[10], const CellLimits& limits,
 class ColumnReach {
  public:
   ColumnReach(const int16_t* cells, size_t plane, size_t stride, int32_t around,
-              const int16_t* margins, int32_t first)
+              const int16_t* borders, int32_t first)
       : cells_(cells),
         plane_(plane),
         stride_(static_cast<ptrdiff_t>(stride)),
         around_(around),
-        margins_(margins),
+        borders_(borders),
         first_(first) {
     const LanesTag d16;
     const auto column = CountFrom(d16, static_cast<int16_t>(first));
@@ -216,7 +216,7 @@ class ColumnReach {
     auto y0 = hn::Zero(d16), y1 = y0, y2 = y0;
     const auto whole = hn::Set(d16, kCellPixels);
     const auto least = [&](int layer) HWY_ATTR {
-      return hn::SaturatedSub(needed_, hn::Set(d16, margins_[layer]));
+      return hn::SaturatedSub(needed_, hn::Set(d16, borders_[layer]));
     };
     const auto left = hn::MaskFromVec(left_);
     for (; row < end; ++row) {
@@ -229,7 +229,7 @@ class ColumnReach {
       const auto reach_x = hn::IfThenElse(left, load(kReachRight), load(kReachLeft));
       const auto reach_y = load(from);
       const auto reaches = [&](int layer) HWY_ATTR {
-        const auto needed = hn::SaturatedSub(gap_y, hn::Set(d16, margins_[layer]));
+        const auto needed = hn::SaturatedSub(gap_y, hn::Set(d16, borders_[layer]));
         return hn::And(hn::Gt(reach_x, least(layer)), hn::Gt(reach_y, needed));
       };
       const auto reaches2 = reaches(2);
@@ -284,25 +284,25 @@ class ColumnReach {
   const size_t plane_;
   const ptrdiff_t stride_;
   const int32_t around_;
-  const int16_t* const margins_;
+  const int16_t* const borders_;
   const int32_t first_;
   LanesVec left_, right_;  // Masks of the columns to the left and to the right of the block.
   LanesVec gap_;           // Widths, in pixels, of the gaps between the block and the columns.
   // Gap that the reach of a cell must exceed to reach the block; INT16_MIN in the columns of the
   // block.
   LanesVec needed_;
-  // Largest horizontal distance from the block to pixels that reach the block or the margin of
+  // Largest horizontal distance from the block to pixels that reach the block or the border of
   // layer 0, 1 or 2.
   LanesVec x0_ = hn::Zero(LanesTag()), x1_ = x0_, x2_ = x0_;
   LanesVec radius_ = x0_, edge_ = x0_;
 };
 
 inline void ReachBlock(const int16_t* cells, size_t plane, size_t stride, int32_t around,
-                       const int16_t margins[3], BlockReach* reach) {
+                       const int16_t borders[3], BlockReach* reach) {
   *reach = {};
   const int32_t side = 2 * around + 2;
   for (int32_t first = 0; first < side; first += static_cast<int32_t>(hn::Lanes(LanesTag()))) {
-    ColumnReach columns(cells, plane, stride, around, margins, first);
+    ColumnReach columns(cells, plane, stride, around, borders, first);
     columns.AddRows(0, around, kReachBottom, reach->border, kReachTop);
     columns.AddRows(around, around + 2, kReachTop, nullptr, kReachTop);
     columns.AddRows(around + 2, side, kReachTop, reach->border, kReachBottom);

@@ -68,7 +68,7 @@ struct BlockReach {
   // the block.
   int16_t radius, edge;
   // border[layer][side] is the largest distance beyond a side of the block of pixels that reach the
-  // block or the layer's margin around the block. Sides are kReachLeft .. kReachBottom.
+  // block or the layer's border around the block. Sides are kReachLeft .. kReachBottom.
   int16_t border[3][4];
 };
 
@@ -140,11 +140,11 @@ inline void AddReach(int value, int16_t* largest) {
 
 // Finds the pixels that reach a block; `cells` points to the block's first cell in plane 0. Planes
 // are `plane` samples apart, and rows `stride` samples apart. Cells up to `around` cells away are
-// examined. The margin of a layer in pixels is margins[layer]; margins[0] is 0, and
-// margins increase with the layer. For layers 1 and 2, `border` includes all pixels of every cell
-// whose blur reaches the margin of the layer.
+// examined. The border of a layer in pixels is borders[layer]; borders[0] is 0, and
+// borders increase with the layer. For layers 1 and 2, `border` includes all pixels of every cell
+// whose blur reaches the border of the layer.
 STARFOCUS_REFERENCE void ReachBlock(const int16_t* cells, size_t plane, size_t stride,
-                                    int32_t around, const int16_t margins[3], BlockReach* reach) {
+                                    int32_t around, const int16_t borders[3], BlockReach* reach) {
   *reach = {};
   const int side = 2 * around + 2;
   for (int y = 0; y < side; ++y) {
@@ -157,8 +157,8 @@ STARFOCUS_REFERENCE void ReachBlock(const int16_t* cells, size_t plane, size_t s
       const int from_x = x < around ? kReachRight : kReachLeft;
       const int from_y = y < around ? kReachBottom : kReachTop;
       for (int layer = 0; layer < 3; ++layer) {
-        if (gap_x >= 0 && value(from_x) + margins[layer] <= gap_x) continue;
-        if (gap_y >= 0 && value(from_y) + margins[layer] <= gap_y) continue;
+        if (gap_x >= 0 && value(from_x) + borders[layer] <= gap_x) continue;
+        if (gap_y >= 0 && value(from_y) + borders[layer] <= gap_y) continue;
         if (layer == 0) {
           AddReach(value(kRadiusPlane), &reach->radius);
           AddReach(value(kEdgePlane), &reach->edge);

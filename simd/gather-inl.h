@@ -11,7 +11,7 @@ namespace starfocus::simd {
 namespace HWY_NAMESPACE {
 
 inline constexpr size_t kDiscChunk = 192;  // number of samples that are filtered together
-inline constexpr size_t kDiscMargin = 3 * kMaxDisc;
+inline constexpr size_t kDiscBorder = 3 * kMaxDisc;
 
 // Computes the means of two rows of samples to which the disc filter applies equal weights. The
 // middle row has no counterpart and is copied.
@@ -36,27 +36,27 @@ HWY_INLINE void AverageRows(const int16_t* above, const int16_t* below, size_t c
 // at both ends.
 struct DiscMeans {
   static constexpr size_t kPixel = 3, kTap = 2 * kPixel, kSpare = HWY_MAX_BYTES;
-  static constexpr size_t kStride = kTap + kDiscChunk + 2 * kDiscMargin + kTap + kSpare;
+  static constexpr size_t kStride = kTap + kDiscChunk + 2 * kDiscBorder + kTap + kSpare;
   uint16_t rows[(kMaxDisc + 1) * kStride];
 
   // Fills `row_count` rows for `count` samples from `middle` on, plus the reach of the disc on both
   // sides.
   void Fill(const int16_t* middle, size_t in_stride, const Disc& disc, int32_t row_count,
             size_t count) {
-    const size_t margin = Margin(disc), all = count + 2 * margin;
+    const size_t border = Border(disc), all = count + 2 * border;
     for (int32_t y = 0; y < row_count; ++y) {
       const ptrdiff_t offset = y * static_cast<ptrdiff_t>(in_stride);
       uint16_t* row = rows + static_cast<size_t>(y) * kStride;
       std::memset(row, 0, kTap * sizeof(*row));
-      AverageRows(middle - offset - margin, middle + offset - margin, all, row + kTap);
+      AverageRows(middle - offset - border, middle + offset - border, all, row + kTap);
       std::memset(row + kTap + all, 0, kTap * sizeof(*row));
     }
   }
 
   // Returns a pointer to the first of the `count` samples in row 0.
-  const uint16_t* First(const Disc& disc) const { return rows + kTap + Margin(disc); }
+  const uint16_t* First(const Disc& disc) const { return rows + kTap + Border(disc); }
 
-  static size_t Margin(const Disc& disc) { return kPixel * static_cast<size_t>(disc.size); }
+  static size_t Border(const Disc& disc) { return kPixel * static_cast<size_t>(disc.size); }
 };
 
 // Filter coefficients (taps) of a quarter of one disc or of two discs. Each `Tap` contains the

@@ -227,7 +227,7 @@ EstimateMemory TakeEstimate(const SweepSetup& setup, int32_t max_workers, Arena*
     memory.counts = arena->Take<TileCount>(tiles);
   }
   memory.workers = arena->Take<TileMemory>(static_cast<size_t>(max_workers));
-  Rect largest = {0, 0, 0, 0};  // largest width and height of all tiles with their margins
+  Rect largest = {0, 0, 0, 0};  // largest width and height of all tiles with their borders
   for (int32_t tile = 0; tile < setup.columns * setup.rows; ++tile) {
     const Rect region = RegionOf(setup, tile);
     largest.width = Max(largest.width, region.width);

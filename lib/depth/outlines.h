@@ -78,7 +78,7 @@ struct VoteBlock {
   int16_t colour[3][kWidth * kWidth], surface[kWidth * kWidth], trust[kWidth * kWidth];
 };
 
-// Planes of a region of at most kMostRegion^2 pixels and a margin of one pixel, for
+// Planes of a region of at most kMostRegion^2 pixels and a border of one pixel, for
 // WriteResult, and the pixels that have no disparity yet.
 struct SidePlanes {
   static constexpr size_t kSamples = (kMostRegion + 2) * (kMostRegion + 2);

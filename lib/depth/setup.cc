@@ -131,7 +131,7 @@ Rect TileOf(const SweepSetup& setup, int32_t index) {
 }
 
 Rect RegionOf(const SweepSetup& setup, int32_t index) {
-  return Widened(setup, TileOf(setup, index), setup.repairs ? kRepairMargin : kTileMargin);
+  return Widened(setup, TileOf(setup, index), setup.repairs ? kRepairBorder : kTileBorder);
 }
 
 }  // namespace starfocus

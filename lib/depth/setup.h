@@ -15,13 +15,13 @@
 
 namespace starfocus {
 
-// Sides of tiles are between 0.5 and 1.5 times kTileSide. Pixels within kTileMargin of a tile
+// Sides of tiles are between 0.5 and 1.5 times kTileSide. Pixels within kTileBorder of a tile
 // influence the tile's result. Paths from pixels farther away have hardly any effect.
 inline constexpr int32_t kTileSide = 256, kMostTileSide = 3 * kTileSide / 2;
-inline constexpr int32_t kTileMargin = 32;
-// Margin of the tiles of a repair. Because of the given map, a smaller margin than kTileMargin is
+inline constexpr int32_t kTileBorder = 32;
+// Border of the tiles of a repair. Because of the given map, a smaller border than kTileBorder is
 // sufficient.
-inline constexpr int32_t kRepairMargin = 12;
+inline constexpr int32_t kRepairBorder = 12;
 
 inline constexpr int32_t kLabelStep = 1 << (kDisparityBits - 1);  // half a pixel
 inline constexpr int32_t kMostLabels = 129;
@@ -115,12 +115,12 @@ int32_t TileBegin(int32_t length, int32_t count, int32_t k);
 
 // Returns the rectangle of tile `index`; `index` is in [0, columns * rows).
 Rect TileOf(const SweepSetup& setup, int32_t index);
-// Returns the region that is swept for tile `index`, which is the tile extended by the margin of
+// Returns the region that is swept for tile `index`, which is the tile extended by the border of
 // the setup.
 Rect RegionOf(const SweepSetup& setup, int32_t index);
-// Returns the rectangle enlarged by `margin` on all sides and clipped to the picture.
-inline Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t margin) {
-  return Clipped(Extended(rect, {margin, margin, margin, margin}), setup.width, setup.height);
+// Returns the rectangle enlarged by `border` on all sides and clipped to the picture.
+inline Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t border) {
+  return Clipped(Extended(rect, {border, border, border, border}), setup.width, setup.height);
 }
 
 // Fractional bits of the movements of pixels between views.

@@ -15,7 +15,7 @@ namespace {
 // by at most kOwnLabels (kDisparityBits).
 constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
-// A tile of a sweep: the region that consists of the tile and its margin, and the tile's memory.
+// A tile of a sweep: the region that consists of the tile and its border, and the tile's memory.
 struct SweptTile {
   const SweepSetup& setup;
   const Rect& region;

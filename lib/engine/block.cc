@@ -44,25 +44,25 @@ void KeepLayer(const EngineState& engine, const Block& block, int shift, const S
 }
 
 // Upsamples a block from its layer to the picture. Layer 2 is upsampled through layer 1, including
-// the margin that the second upsampling step reads.
+// the border that the second upsampling step reads.
 void FinishLayer(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                  const Scratch& scratch) {
   const simd::Kernels& kernels = *engine.input.kernels;
   const Rect frame = LayerFrame(block.rect, block.layer);
   CheckAll(ranges::kLayerSample, scratch.layer_samples, Samples(frame));
   LayerRect layer = {scratch.layer_samples, frame.width, frame.height};
-  int32_t margin = LayerMargin(block.layer);
+  int32_t border = UpsampleBorder(block.layer);
   if (block.layer == 2) {
-    const int32_t next_margin = LayerMargin(1);
+    const int32_t next_border = UpsampleBorder(1);
     const LayerRect middle = {scratch.middle_samples,
-                              ((block.rect.width + 1) >> 1) + 2 * next_margin,
-                              ((block.rect.height + 1) >> 1) + 2 * next_margin};
-    UpsampleByTwo(kernels, layer, margin - next_margin / 2, scratch.upsample, middle);
+                              ((block.rect.width + 1) >> 1) + 2 * next_border,
+                              ((block.rect.height + 1) >> 1) + 2 * next_border};
+    UpsampleByTwo(kernels, layer, border - next_border / 2, scratch.upsample, middle);
     layer = middle;
-    margin = next_margin;
+    border = next_border;
   }
   const LayerRect picture = {scratch.picture_samples, block.rect.width, block.rect.height};
-  UpsampleByTwo(kernels, layer, margin, scratch.upsample, picture);
+  UpsampleByTwo(kernels, layer, border, scratch.upsample, picture);
   const size_t samples = 3 * static_cast<size_t>(block.rect.width);
   for (int32_t row = 0; row < block.rect.height; ++row) {
     kernels.Narrow(picture.samples + static_cast<size_t>(row) * samples, samples,

@@ -33,12 +33,12 @@ int32_t LargestMove(const FullConfig& config) {
 
 // Returns the border of a block at `layer`. Rendering reads every cell that has a pixel within
 // reach of the block, plus the border of upsampling. Blurring without views (gathering) reads the
-// pixels within the blur radius and the upsampling margin.
+// pixels within the blur radius and the upsampling border.
 int32_t BorderOfLayer(int32_t blur, int layer) {
   const int32_t reach = ReachOf(blur << kDisparityBits);
-  const int32_t rendered = (ToWholeCells(reach + kLayerMargin[layer]) >> layer) + kRenderBorder;
+  const int32_t rendered = (ToWholeCells(reach + kUpsampleBorder[layer]) >> layer) + kRenderBorder;
   const int32_t gathered = Min((blur + (1 << layer) - 1) >> layer, kMaxGather);
-  return Max(rendered, LayerMargin(layer) + gathered);
+  return Max(rendered, UpsampleBorder(layer) + gathered);
 }
 
 int32_t DownToPicture(int32_t border, int layer) {
@@ -54,7 +54,7 @@ Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
   Borders borders;
   borders.deblocked = deblocks ? kDeblockRows : 0;
   borders.whole_block = reach + kRenderBorder;
-  borders.cells = ToWholeCells(reach + kLayerMargin[config.tuning.max_layer]) / kCellSize;
+  borders.cells = ToWholeCells(reach + kUpsampleBorder[config.tuning.max_layer]) / kCellSize;
   // Blocks use the depth edges of cells within the blur radius, and other statistics of cells
   // within the blur radius plus the border of upsampling.
   borders.centre = Max(borders.cells * kCellSize, ToWholeCells(reach) + kCellBorder);
@@ -78,7 +78,7 @@ Borders AddBorders(const FullConfig& config, double max_blur, bool deblocks) {
     // output. This border is slightly larger than the distance by which blur and disparity move
     // highlights.
     borders.highlights =
-        ToWholeCells(reach + kLayerMargin[2]) + 5 * kCellSize + blur + LargestMove(config);
+        ToWholeCells(reach + kUpsampleBorder[2]) + 5 * kCellSize + blur + LargestMove(config);
     borders.views = Max(borders.views, borders.highlights + LampRadius(LargestLamp(config.width)));
   }
   borders.streamed =

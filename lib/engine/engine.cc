@@ -28,7 +28,7 @@ namespace {
 // Memory of blocks that are blurred without views, and of layers that are upsampled.
 void TakeUpsampling(const FullConfig& config, size_t extended, Arena* arena, Scratch* scratch) {
   const auto side = static_cast<size_t>(config.superblock);
-  const size_t half = side / 2 + 2 * static_cast<size_t>(LayerMargin(1));
+  const size_t half = side / 2 + 2 * static_cast<size_t>(UpsampleBorder(1));
   // Gathering reads `field` and writes to `layer_samples`.
   scratch->layer_samples = arena->Take<int16_t>(3 * half * half);
   const auto gather = [&] {

@@ -109,18 +109,18 @@ void MeasureCells(const simd::Kernels& kernels, const Input& input, const BlurSc
 inline constexpr int32_t kUpBorder = 2;
 
 // Returns the number of pixels that a block at layer L renders beyond each side. Upsampling from
-// layer to layer reads the pixels of this margin.
-constexpr int32_t LayerMargin(int32_t layer) {
-  return layer == 0 ? 0 : (LayerMargin(layer - 1) + 1) / 2 + kUpBorder;
+// layer to layer reads the pixels of this border.
+constexpr int32_t UpsampleBorder(int32_t layer) {
+  return layer == 0 ? 0 : (UpsampleBorder(layer - 1) + 1) / 2 + kUpBorder;
 }
 
-// LayerMargin of each layer, converted to pixels of the picture.
-inline constexpr int16_t kLayerMargin[3] = {0, LayerMargin(1) << 1, LayerMargin(2) << 2};
+// UpsampleBorder of each layer, converted to pixels of the picture.
+inline constexpr int16_t kUpsampleBorder[3] = {0, UpsampleBorder(1) << 1, UpsampleBorder(2) << 2};
 
 // Statistics of a block. The members r_max and has_edge include all pixels that splat into the
 // block. The member r_min includes only the cells of the block, and r_shown includes the cells
 // around the block as well. `border` contains, for each layer, the distance beyond which no pixel
-// splats into the block with its margin.
+// splats into the block with its border.
 struct BlockStats {
   int32_t r_min, r_shown, r_max;
   bool has_edge;

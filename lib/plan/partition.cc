@@ -44,7 +44,7 @@ int32_t CeilShift(int32_t value, int32_t layer) { return (value + (1 << layer) -
 // `beyond` is the number of pixels of the unclipped block outside the picture. One pixel is added,
 // because a subaperture uses the neighbour of a pixel as well.
 int32_t LayerBorder(int32_t border, int32_t beyond, int32_t layer) {
-  return Max(0, CeilShift(border + beyond, layer) - LayerMargin(layer)) + 1;
+  return Max(0, CeilShift(border + beyond, layer) - UpsampleBorder(layer)) + 1;
 }
 
 class Partition {

@@ -8,10 +8,10 @@
 namespace starfocus {
 
 Rect LayerFrame(const Rect& block, int32_t layer) {
-  const int32_t margin = LayerMargin(layer), rest = (1 << layer) - 1;
-  return {(block.x >> layer) - margin, (block.y >> layer) - margin,
-          ((block.width + rest) >> layer) + 2 * margin,
-          ((block.height + rest) >> layer) + 2 * margin};
+  const int32_t border = UpsampleBorder(layer), rest = (1 << layer) - 1;
+  return {(block.x >> layer) - border, (block.y >> layer) - border,
+          ((block.width + rest) >> layer) + 2 * border,
+          ((block.height + rest) >> layer) + 2 * border};
 }
 
 Rect BlockCells::PixelsOf(int32_t x, int32_t y) const {
@@ -124,7 +124,7 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
                         const Surroundings& surroundings, int32_t column, int32_t row) {
   simd::BlockReach reach;
   kernels.ReachBlock(surroundings.At(column, row), surroundings.plane, surroundings.stride,
-                     surroundings.around, kLayerMargin, &reach);
+                     surroundings.around, kUpsampleBorder, &reach);
   BlockStats stats = {INT32_MAX, INT32_MAX, reach.radius, reach.edge > 0, {}, {}};
   for (int32_t y = row; y < Min(row + 2, grid.rows); ++y) {
     for (int32_t x = column; x < Min(column + 2, grid.columns); ++x) {
@@ -133,9 +133,9 @@ BlockStats MeasureBlock(const simd::Kernels& kernels, const CellGrid& grid,
       AddCell(cell, &stats.content);
     }
   }
-  // Upsampling from layer 1 reads up to kLayerMargin[1] pixels around the block.
-  static_assert(kLayerMargin[1] <= kCellSize,
-                "the upsampling margin of layer 1 must not exceed one cell");
+  // Upsampling from layer 1 reads up to kUpsampleBorder[1] pixels around the block.
+  static_assert(kUpsampleBorder[1] <= kCellSize,
+                "the upsampling border of layer 1 must not exceed one cell");
   const int32_t top = Max(row - 1, grid.first_row), bottom = Min(row + 3, grid.last_row);
   for (int32_t y = top; y < bottom; ++y) {
     for (int32_t x = Max(column - 1, 0); x < Min(column + 3, grid.columns); ++x) {

@@ -33,12 +33,12 @@ struct GatherMap {
   int32_t FirstLayer(int32_t x, int32_t y) const { return At(x, y) & kByViews; }
 };
 
-// Returns the rectangle of a layer from which a block is made, including the margin that upsampling
+// Returns the rectangle of a layer from which a block is made, including the border that upsampling
 // reads.
 Rect LayerFrame(const Rect& block, int32_t layer);
 
 // The cells of one block, at the block's layer. A filter blurs some of these cells without
-// rendering views. Pixels in the margin are treated like the nearest cell of the block, so that a
+// rendering views. Pixels in the border are treated like the nearest cell of the block, so that a
 // block does not depend on its neighbours.
 struct BlockCells {
   const GatherMap* map;

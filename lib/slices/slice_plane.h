@@ -39,7 +39,7 @@ inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 // A tile is a part of a rectangle of the picture, and has its own slices. Large blocks are divided
 // into tiles, because a large block may have more disparities than SliceRule::most thin slices can
 // hold. Tiles are kSliceTile pixels wide and high, except that the last tile may have up to
-// kMostSliceTile pixels. A block that measures 68 pixels with its margin is therefore one tile, not
+// kMostSliceTile pixels. A block that measures 68 pixels with its border is therefore one tile, not
 // two tiles of 64 and 4 pixels.
 inline constexpr int32_t kSliceTile = 64;
 inline constexpr int32_t kMostSliceTile = 80;
@@ -88,8 +88,8 @@ constexpr int32_t SliceReach(int32_t rim, int32_t subaperture) {
 inline constexpr int32_t kWidestSubaperture = 8 * kShiftOne;
 
 // Returns the largest SliceReach for lenses with blur radii up to `max_blur` pixels, any N and the
-// widest subapertures. The margin kRounding covers the error of rounding the focus and a disparity
-// to kDisparityBits. The margin kRounding also covers the distance from the middle of a slice to
+// widest subapertures. The border kRounding covers the error of rounding the focus and a disparity
+// to kDisparityBits. The border kRounding also covers the distance from the middle of a slice to
 // its pixels. If a disparity bin holds several disparities (kSliceBins), the distance from the
 // middle is up to two units of disparity.
 constexpr int32_t LargestSliceReach(double max_blur) {

@@ -190,7 +190,7 @@ TEST_CASE("gather: the borders of a layer include all rows that the PSFs read") 
     for (int layer = 1; layer < STARFOCUS_LAYERS; ++layer) {
       const double gathered = starfocus::LargestGather(max_blur / (1 << layer));
       const int32_t read = kernels[size_t(starfocus::PsfCount(gathered) - 1)].size;
-      CHECK(starfocus::LayerMargin(layer) + read <= borders.layer[layer]);
+      CHECK(starfocus::UpsampleBorder(layer) + read <= borders.layer[layer]);
     }
   }
 }

@@ -179,15 +179,15 @@ struct Exact {
   double around_max = 0;         // Largest radius of all pixels that the analysis may consider.
   bool has_edge = false;         // True if a depth edge concerns the block.
   bool has_edge_around = false;  // True if the analysis may consider any depth edge.
-  // Smallest radius of pixels and edges in the block and in the kLayerMargin[1] pixels around the
-  // block.
+  // Smallest radius of pixels and edges in the block and in the kUpsampleBorder[1] pixels around
+  // the block.
   double shown_min = 1e9;
   double ring_min = 1e9;  // Smallest radius in the block and within 8 pixels around the block.
 };
 
 Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
   const int x1 = std::min(x0 + side, map.width) - 1, y1 = std::min(y0 + side, map.height) - 1;
-  const int sight = int(std::ceil(largest)) + kLayerMargin[2] + 2;
+  const int sight = int(std::ceil(largest)) + kUpsampleBorder[2] + 2;
   Exact exact;
   for (int y = y0 - sight; y < y0 + side + sight; ++y) {
     for (int x = x0 - sight; x < x0 + side + sight; ++x) {
@@ -197,7 +197,7 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
         exact.inside_max = std::max(exact.inside_max, radius);
       }
       for (int layer = 0; layer < 3; ++layer) {
-        const int margin = kLayerMargin[layer];
+        const int margin = kUpsampleBorder[layer];
         if (!Reaches(x, y, radius, x0 - margin, y0 - margin, x1 + margin, y1 + margin)) continue;
         if (layer == 0) exact.reaching_max = std::max(exact.reaching_max, radius);
         Border& border = exact.border[layer];
@@ -215,7 +215,7 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
     for (int x = x0 - sight - 24; x < x0 + side + sight + 24; ++x) {
       exact.around_max = std::max(exact.around_max, map.Radius(x, y));
       if (is_around(x, y, kCellSize)) exact.ring_min = std::min(exact.ring_min, map.Radius(x, y));
-      if (is_around(x, y, kLayerMargin[1])) {
+      if (is_around(x, y, kUpsampleBorder[1])) {
         exact.shown_min = std::min(exact.shown_min, map.Radius(x, y));
       }
       for (const bool below : {false, true}) {
@@ -223,7 +223,8 @@ Exact Measure(const Map& map, int x0, int y0, int side, double largest) {
         const double radius = map.EdgeRadius(x, y, below);
         if (radius < 0) continue;
         exact.has_edge_around = true;
-        if (is_around(x, y, kLayerMargin[1]) || is_around(other_x, other_y, kLayerMargin[1])) {
+        if (is_around(x, y, kUpsampleBorder[1]) ||
+            is_around(other_x, other_y, kUpsampleBorder[1])) {
           exact.shown_min = std::min(exact.shown_min, radius);
         }
         // An edge concerns the block if a pixel on either side of the edge is in the block or
@@ -371,11 +372,12 @@ TEST_CASE("cells: the borders for a constant blur equal the blur, to within a pi
     CHECK(stats.r_min == int(r * kDisparityOne));
     CHECK(stats.r_max == int(r * kDisparityOne));
     for (int layer = 0; layer < 3; ++layer) {
-      const int needed = int(std::floor(r + 0.5)) + (r >= 0.5 ? kLayerMargin[layer] : 0);
+      const int needed = int(std::floor(r + 0.5)) + (r >= 0.5 ? kUpsampleBorder[layer] : 0);
       const Border& border = stats.border[layer];
       for (const int side : {border.left, border.right, border.top, border.bottom}) {
         CHECK(side >= needed);
-        CHECK(side <= needed + (needed == 0 && layer == 0 ? 1 : kCellSize + kLayerMargin[layer]));
+        CHECK(side <=
+              needed + (needed == 0 && layer == 0 ? 1 : kCellSize + kUpsampleBorder[layer]));
       }
     }
   }

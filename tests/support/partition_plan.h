@@ -29,9 +29,9 @@ using starfocus::Border;
 using starfocus::Cell;
 using starfocus::CellGrid;
 using starfocus::kCellSize;
-using starfocus::kLayerMargin;
 using starfocus::kSliceRenderer;
 using starfocus::kSmallestBlock;
+using starfocus::kUpsampleBorder;
 using starfocus::PartitionCandidate;
 using starfocus::PartitionRules;
 using starfocus::Rect;
@@ -202,7 +202,7 @@ inline int CeilQuotient(int value, int by) { return (value + by - 1) / by; }
 // pixels that contain cells to be rendered.
 inline void PlanRest(const Plan& plan, Block* block) {
   const Rect rect = block->rect;
-  const int scale = 1 << block->layer, margin = kLayerMargin[block->layer];
+  const int scale = 1 << block->layer, margin = kUpsampleBorder[block->layer];
   const int end_x = rect.x + rect.width, end_y = rect.y + rect.height;
   int left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN, r_max = 0;
   const auto for_each = [&](const auto& visit) {
@@ -298,7 +298,7 @@ inline Block Planned(const Plan& plan, int x, int y, int side) {
   const int scale = 1 << block.layer;
   const int views = ViewsOf(subapertures, stats.r_max / (kRadiusOne * scale), plan.rules.demand);
   block.n = std::min(int(std::ceil(views * plan.config.tuning.n_scale)), plan.rules.max_n);
-  const int margin = kLayerMargin[block.layer] / scale;
+  const int margin = kUpsampleBorder[block.layer] / scale;
   block.rendered = {x / scale - margin, y / scale - margin,
                     CeilQuotient(block.rect.width, scale) + 2 * margin,
                     CeilQuotient(block.rect.height, scale) + 2 * margin};

@@ -142,7 +142,7 @@ std::optional<BlockTask> BlockSampler::Draw(int pass, const BlockKind& kind) {
   block.n = ViewsByPaper(r_max / grid);
   if (block.n < 1 || block.n > kMostViews) return {};
   if (kind.n != 0 && block.n != kind.n) return {};
-  const int margin = kLayerMargin[layer];
+  const int margin = kUpsampleBorder[layer];
   const Rect extended = {rect.x - margin, rect.y - margin, side + 2 * margin, side + 2 * margin};
   Border border = FindBorder(lens, extended, static_cast<int>(std::ceil(r_max)));
   for (int32_t* each : {&border.left, &border.right, &border.top, &border.bottom}) {
