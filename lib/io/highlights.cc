@@ -53,8 +53,8 @@ LampRun CountRun(const ViewLine& line, int32_t at) {
 // Returns the length of the run of highlights that contains `at`.
 int32_t RunThrough(const ViewLine& line, int32_t at) {
   LampRun* const runs = line.is_row ? line.in.runs->along : line.in.runs->down;
-  const int32_t span = at >> LampRuns::kSpanBits;
-  LampRun& run = runs[(line.index + 127 * span + 331 * line.view) & (LampRuns::kCount - 1)];
+  const int32_t piece = at >> LampRuns::kPieceBits;
+  LampRun& run = runs[(line.index + 127 * piece + 331 * line.view) & (LampRuns::kCount - 1)];
   const bool known =
       run.view == line.view && run.line == line.index && at >= run.first - 1 && at <= run.last + 1;
   if (!known) {

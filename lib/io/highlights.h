@@ -42,7 +42,7 @@ struct LampRun {
 // uses one cache while it renders a block.
 struct LampRuns {
   static constexpr int32_t kCount = 1024;  // Number of entries, a power of two.
-  static constexpr int kSpanBits = 6;      // 2^kSpanBits pixels of a line share an entry.
+  static constexpr int kPieceBits = 6;     // 2^kPieceBits pixels of a line share an entry.
 
   LampRun along[kCount], down[kCount];
 

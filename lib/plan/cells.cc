@@ -42,14 +42,14 @@ void StoreContent(const simd::CellMeasure& measure, int32_t slope_limit, int64_t
   }
 }
 
-uint8_t SpanOf(int32_t reach) {
+uint8_t BeyondOf(int32_t reach) {
   return static_cast<uint8_t>(Checked(ranges::kReach, reach) + kCellSize);
 }
 
 // Stores the reach of a cell in which all pixels have equal reach.
 void StoreSides(int32_t reach, Cell* cell) {
   for (int side = 0; side < 4; ++side) {
-    cell->span[side] = SpanOf(reach);
+    cell->beyond[side] = BeyondOf(reach);
     cell->inside[side] = static_cast<uint8_t>(Min(reach, kCellSize));
   }
 }
@@ -62,8 +62,8 @@ void MeasureSides(const BlurScale& scale, const int16_t (&lows)[kCellSize],
     const int32_t distance = Farthest(lows[k], highs[k], scale.focus.far);
     const int32_t reach = ReachOf(scale.RadiusAbove(distance));
     const int32_t beyond_low = reach - k, beyond_high = reach - (kCellSize - 1 - k);
-    cell->span[low] = Max(cell->span[low], SpanOf(beyond_low));
-    cell->span[high] = Max(cell->span[high], SpanOf(beyond_high));
+    cell->beyond[low] = Max(cell->beyond[low], BeyondOf(beyond_low));
+    cell->beyond[high] = Max(cell->beyond[high], BeyondOf(beyond_high));
     if (beyond_low > 0) cell->inside[low] = static_cast<uint8_t>(Max(cell->inside[low], k + 1));
     if (beyond_high > 0) {
       cell->inside[high] = static_cast<uint8_t>(Max(cell->inside[high], kCellSize - k));

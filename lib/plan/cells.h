@@ -44,14 +44,14 @@ struct Cell {
   // Number of pixels that the cell splats to the left, right, top and bottom, measured from the
   // opposite edge of the cell. `inside` counts the pixels from each side to the innermost pixel
   // that splats beyond the side.
-  uint8_t span[4];
+  uint8_t beyond[4];
   uint8_t inside[4];
   // Members of Content, counted along rows and along columns.
   uint16_t slopes[2], edges[2], gaps[2];
 
   // Number of pixels that the cell splats beyond a side. Cells with a result <= 0 do not splat
   // beyond the side.
-  int32_t Reach(size_t side) const { return span[side] - kCellSize; }
+  int32_t Reach(size_t side) const { return beyond[side] - kCellSize; }
 };
 
 enum Side { kLeft, kRight, kTop, kBottom };

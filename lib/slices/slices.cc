@@ -151,8 +151,8 @@ class SliceFinder {
     return Max(Max(x, y), 0);
   }
 
-  // Returns the number of bins that a slice may span if `bin` is its nearest bin.
-  int32_t Span(int32_t bin, int coarser) const {
+  // Returns the number of bins that a slice may thickness if `bin` is its nearest bin.
+  int32_t Thickness(int32_t bin, int coarser) const {
     const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
     const int64_t wider = Max(kSliceSharp, blur - kSliceSharp);
     const int64_t bins = (wider * range_ / kSliceSharp) >> bin_bits_;
@@ -167,9 +167,9 @@ class SliceFinder {
     for (int32_t bin = bins_ - 1; bin >= 0; --bin) {
       if (surfaces_.bins[bin] == 0) continue;
       if (count == rule_.most) return 0;
-      const int32_t span = Span(bin, coarser), top = bin;
+      const int32_t thickness = Thickness(bin, coarser), top = bin;
       int32_t bottom = bin;
-      for (; bin > Max(top - span, -1); --bin) {
+      for (; bin > Max(top - thickness, -1); --bin) {
         if (surfaces_.bins[bin] != 0) bottom = bin;
       }
       ++bin;
@@ -179,7 +179,7 @@ class SliceFinder {
       slice.low = static_cast<int16_t>(low);
       slice.high = static_cast<int16_t>(Min(high, INT16_MAX));
       slice.overlap =
-          static_cast<int16_t>(Min(high + (span << bin_bits_) / kOverlapParts, INT16_MAX));
+          static_cast<int16_t>(Min(high + (thickness << bin_bits_) / kOverlapParts, INT16_MAX));
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
       SlicePlane placed;
       PlaceSlice(grid_, slice.disparity, tile_, &placed);

@@ -157,9 +157,9 @@ bool AreEqual(const Cell& a, const Cell& b) {
     return std::equal(std::begin(x), std::end(x), std::begin(y));
   };
   return a.r_min == b.r_min && a.r_max == b.r_max && a.r_shown == b.r_shown &&
-         a.has_edge == b.has_edge && a.low == b.low && a.high == b.high && same(a.span, b.span) &&
-         same(a.inside, b.inside) && same(a.slopes, b.slopes) && same(a.edges, b.edges) &&
-         same(a.gaps, b.gaps);
+         a.has_edge == b.has_edge && a.low == b.low && a.high == b.high &&
+         same(a.beyond, b.beyond) && same(a.inside, b.inside) && same(a.slopes, b.slopes) &&
+         same(a.edges, b.edges) && same(a.gaps, b.gaps);
 }
 
 // Returns true if a pixel may reach columns [x0, x1] and rows [y0, y1]. The pixel moves by up to
