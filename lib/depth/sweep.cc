@@ -24,10 +24,10 @@ struct SweptTile {
   const uint8_t* swept;  // EstimateMemory::swept
   size_t places;         // Number of elements of a pixel in the arrays of costs (PathLabels).
 
-  // Calls act(begin, end) for each run of swept pixels of row y of the region (ForRuns).
+  // Calls act(begin, end) for each run of swept pixels of row y of the region (ForSwept).
   template <class Act>
   void ForRow(int32_t y, const Act& act) const {
-    ForRuns(setup, swept, y, region.x, region.x + region.width, act);
+    ForSwept(setup, swept, y, region.x, region.x + region.width, act);
   }
   // Returns the index of the first element of pixel (x, y) in the arrays of costs.
   size_t At(int32_t x, int32_t y) const {
@@ -163,17 +163,17 @@ void ChooseDisparities(const SweptTile& tile, const Rect& tile_rect, int16_t* di
   const TileMemory& memory = tile.memory;
   const auto labels = static_cast<size_t>(setup.labels);
   for (int32_t y = tile_rect.y; y < tile_rect.y + tile_rect.height; ++y) {
-    ForRuns(setup, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
-            [&](int32_t begin, int32_t end) {
-              const auto count = static_cast<size_t>(end - begin);
-              const size_t to = setup.At(begin, y);
-              tile.kernels.ChooseLabels(memory.sum + tile.At(begin, y), labels, count,
-                                        memory.choice,
-                                        certainty == nullptr ? nullptr : certainty + to);
-              for (size_t k = 0; k < count; ++k) {
-                disparity[to + k] = ToDisparity(setup, memory.choice[k]);
-              }
-            });
+    ForSwept(setup, tile.swept, y, tile_rect.x, tile_rect.x + tile_rect.width,
+             [&](int32_t begin, int32_t end) {
+               const auto count = static_cast<size_t>(end - begin);
+               const size_t to = setup.At(begin, y);
+               tile.kernels.ChooseLabels(memory.sum + tile.At(begin, y), labels, count,
+                                         memory.choice,
+                                         certainty == nullptr ? nullptr : certainty + to);
+               for (size_t k = 0; k < count; ++k) {
+                 disparity[to + k] = ToDisparity(setup, memory.choice[k]);
+               }
+             });
   }
 }
 

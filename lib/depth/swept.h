@@ -45,8 +45,8 @@ void RateUnswept(const SweepSetup& setup, const Plane<const uint8_t>& centre, co
 // Calls act(begin, end) for each run of swept pixels of row y in [from, to), from left to right. If
 // `swept` is null, all pixels are one run.
 template <class Act>
-void ForRuns(const SweepSetup& setup, const uint8_t* swept, int32_t y, int32_t from, int32_t to,
-             const Act& act) {
+void ForSwept(const SweepSetup& setup, const uint8_t* swept, int32_t y, int32_t from, int32_t to,
+              const Act& act) {
   if (swept == nullptr) return act(from, to);
   const uint8_t* row = swept + setup.At(0, y);
   const auto find = [&](int32_t x, int value) {
@@ -65,7 +65,7 @@ void ForRuns(const SweepSetup& setup, const uint8_t* swept, int32_t y, int32_t f
 template <class Act>
 void ForSwept(const SweepSetup& setup, const uint8_t* swept, const Rect& rect, const Act& act) {
   for (int32_t y = rect.y; y < rect.y + rect.height; ++y) {
-    ForRuns(setup, swept, y, rect.x, rect.x + rect.width, [&](int32_t begin, int32_t end) {
+    ForSwept(setup, swept, y, rect.x, rect.x + rect.width, [&](int32_t begin, int32_t end) {
       for (int32_t x = begin; x < end; ++x) act(x, y);
     });
   }

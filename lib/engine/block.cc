@@ -86,7 +86,7 @@ int SumBits(const EngineState& engine, const RenderJob& job) {
 // under every block.
 [[gnu::noinline]] uint64_t RenderExcess(const EngineState& engine, RenderJob job,
                                         const Plane<uint8_t>& out, Scratch* scratch) {
-  const Input excess = ExcessOf(engine.input, engine.config.highlights, scratch->lamp_runs);
+  const Input excess = ExcessOf(engine.input, engine.config.highlights, scratch->lamp_lengths);
   job.input = &excess;
   const uint64_t samples = RenderSums(engine, job, scratch);
   if (!scratch->cancel.Spend(0)) return 0;
@@ -177,7 +177,7 @@ void RefocusViews(const EngineState& engine, const Block& block, const Plane<uin
   };
   blur(engine.input);
   if (block.has_highlights) {
-    blur(ExcessOf(engine.input, engine.config.highlights, scratch->lamp_runs));
+    blur(ExcessOf(engine.input, engine.config.highlights, scratch->lamp_lengths));
   }
 }
 

@@ -65,7 +65,7 @@ Scratch TakeScratch(const FullConfig& config, Arena* arena) {
   scratch.sums = arena->Take<uint32_t>(3 * side * side);
   if (Has(config, STARFOCUS_FEATURE_SHAPES))
     scratch.aperture_weights = arena->Take<uint16_t>(FullApertureSize(most));
-  if (config.highlights > 1) scratch.lamp_runs = arena->Take<LampRuns>(1);
+  if (config.highlights > 1) scratch.lamp_lengths = arena->Take<LampLengths>(1);
   const auto renderer = [&](int32_t k) {
     if (k >= renderers) return;
     RendererAt(config, k).take_scratch(config, extended, static_cast<size_t>(max_n[k]), arena,

@@ -86,7 +86,7 @@ struct Scratch {
   RendererScratch* renderers[kMaxRenderers];  // Scratch memory of each renderer.
   uint32_t* sums;                             // 3 R^2 samples.
   uint16_t* aperture_weights;  // With cat's eyes: view weights of a block, for up to the largest N.
-  LampRuns* lamp_runs;         // Cache of runs of highlights, if highlights are enabled.
+  LampLengths* lamp_lengths;   // Cache of runs of highlights, if highlights are enabled.
   int16_t *field_rgb, *field_disparity;  // Pixels of a block that is blurred without views.
   ResampleScratch resample;
   UpsampleScratch upsample;

@@ -38,7 +38,7 @@ struct ViewLine {
 
 // Counts the consecutive highlights around `at`, which must be a highlight. The length of a run is
 // at most LampRadius. Runs that reach the edge of the picture have the length LampRadius.
-LampRun CountRun(const ViewLine& line, int32_t at) {
+LampLength CountLength(const ViewLine& line, int32_t at) {
   const int32_t most = LampRadius(LargestLamp(line.in.width)), size = line.Size();
   int32_t first = at, last = at;
   while (last - first + 1 < most && last + 1 < size && line.HasHighlight(last + 1)) ++last;
@@ -52,13 +52,13 @@ LampRun CountRun(const ViewLine& line, int32_t at) {
 
 // Returns the length of the run of highlights that contains `at`.
 int32_t RunThrough(const ViewLine& line, int32_t at) {
-  LampRun* const runs = line.is_row ? line.in.runs->along : line.in.runs->down;
-  const int32_t piece = at >> LampRuns::kPieceBits;
-  LampRun& run = runs[(line.index + 127 * piece + 331 * line.view) & (LampRuns::kCount - 1)];
+  LampLength* const runs = line.is_row ? line.in.runs->along : line.in.runs->down;
+  const int32_t piece = at >> LampLengths::kPieceBits;
+  LampLength& run = runs[(line.index + 127 * piece + 331 * line.view) & (LampLengths::kCount - 1)];
   const bool known =
       run.view == line.view && run.line == line.index && at >= run.first - 1 && at <= run.last + 1;
   if (!known) {
-    run = CountRun(line, at);
+    run = CountLength(line, at);
   } else if (at < run.first) {
     run.first = static_cast<uint16_t>(at);  // pixel `at` is next to the run and extends it
   } else if (at > run.last) {
@@ -135,7 +135,7 @@ bool HasHighlights(const Input& in, const Rect& rect, int32_t reach) {
   return AnyPiece(in, Extended(near, {lamp, lamp, lamp, lamp}), HasOthers);
 }
 
-Input ExcessOf(const Input& captured, double highlights, LampRuns* runs) {
+Input ExcessOf(const Input& captured, double highlights, LampLengths* runs) {
   runs->Clear();
   Input in = captured;
   in.read_light = ReadExcess;

@@ -33,22 +33,22 @@ bool HasHighlights(const Input& in, const Rect& rect, int32_t reach);
 
 // Run of highlights in a row or column: pixels [first, last]. `length` is at most LampRadius and
 // applies to all pixels of the run.
-struct LampRun {
+struct LampLength {
   int16_t view = -1;  // -1: no run
   uint16_t line = 0, first = 0, last = 0, length = 0;
 };
 
 // Cache of runs of highlights, so that the pixels of a run do not count the run again. Each worker
 // uses one cache while it renders a block.
-struct LampRuns {
+struct LampLengths {
   static constexpr int32_t kCount = 1024;  // Number of entries, a power of two.
   static constexpr int kPieceBits = 6;     // 2^kPieceBits pixels of a line share an entry.
 
-  LampRun along[kCount], down[kCount];
+  LampLength along[kCount], down[kCount];
 
   void Clear() {
-    for (LampRun& run : along) run = LampRun();
-    for (LampRun& run : down) run = LampRun();
+    for (LampLength& run : along) run = LampLength();
+    for (LampLength& run : down) run = LampLength();
   }
 };
 
@@ -60,7 +60,7 @@ struct LampRuns {
 // A highlight that is at most LargestLamp pixels high or wide has its full excess. The excess of
 // larger highlights decreases to 0 at twice this size. Highlights that reach the edge of the
 // picture count as large.
-Input ExcessOf(const Input& captured, double highlights, LampRuns* runs);
+Input ExcessOf(const Input& captured, double highlights, LampLengths* runs);
 
 // Last step of rendering highlights: adds the rendered excess in `sums`, which have `shift`
 // fractional bits, to the light of `codes`. Results beyond white are clipped to white. Sums of 0 do

@@ -22,7 +22,7 @@ namespace starfocus {
 
 struct CoverageMap;
 struct Input;
-struct LampRuns;
+struct LampLengths;
 struct RimMap;
 
 // Rows of a light field in memory of the engine. Planes without memory have null data.
@@ -98,7 +98,7 @@ struct Input {
   // its light (highlights.h). `runs` is the cache of their sizes. `excess_factor` multiplies the
   // rendered excess.
   const Input* captured = nullptr;
-  LampRuns* runs = nullptr;
+  LampLengths* runs = nullptr;
   int32_t excess_factor = 0;
 
   void Light(int view, int32_t x, int32_t y, int32_t count, int16_t* rgb) const {

@@ -80,18 +80,18 @@ TEST_CASE("swept: all disparities are tried where a smooth map contradicts the v
   CHECK(outside == 0);
 }
 
-TEST_CASE("swept: ForRuns lists the runs of swept pixels within the given part of a row") {
+TEST_CASE("swept: ForSwept lists the runs of swept pixels within the given part of a row") {
   SweepSetup setup = {};
   setup.width = 8;
   const uint8_t swept[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1, 0, 1, 1};
   std::vector<std::pair<int, int>> runs;
   const auto add = [&](int begin, int end) { runs.emplace_back(begin, end); };
-  starfocus::ForRuns(setup, swept, 1, 1, 7, add);
+  starfocus::ForSwept(setup, swept, 1, 1, 7, add);
   CHECK(runs == std::vector<std::pair<int, int>>{{1, 2}, {4, 5}, {6, 7}});
   runs.clear();
-  starfocus::ForRuns(setup, swept, 1, 2, 4, add);
+  starfocus::ForSwept(setup, swept, 1, 2, 4, add);
   CHECK(runs.empty());
-  starfocus::ForRuns(setup, nullptr, 1, 2, 4, add);
+  starfocus::ForSwept(setup, nullptr, 1, 2, 4, add);
   CHECK(runs == std::vector<std::pair<int, int>>{{2, 4}});
 }
 
