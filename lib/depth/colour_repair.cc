@@ -215,7 +215,7 @@ ColourMemory TakeColourRepair(const SweepSetup& setup, int32_t max_workers, Aren
   ColourMemory memory = {};
   memory.jobs = TakeJobs(setup, max_workers, arena);
   memory.hair = TakeHairMemory(setup.width, setup.height, arena);
-  memory.thin = TakeThinCells(setup, arena);
+  memory.thin = TakeThinPatches(setup, arena);
   memory.outlines = TakeOutlines(setup, max_workers, arena);
   memory.rings = arena->Take<int32_t>(kSmoothSamples, workers);
   memory.noise = arena->Take<uint32_t>(kNoiseCounts, workers);

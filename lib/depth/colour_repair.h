@@ -16,7 +16,7 @@ namespace starfocus {
 struct ColourMemory {
   Jobs* jobs;
   OutlineMemory outlines;
-  ThinCells thin;  // Thin structure of the map, whose disparities are kept.
+  ThinPatches thin;  // Thin structure of the map, whose disparities are kept.
   HairMemory hair;
   int32_t* rings;   // rows that are smoothed, of all workers
   uint32_t* noise;  // numbers of differences that the workers have counted

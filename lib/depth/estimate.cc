@@ -222,8 +222,8 @@ EstimateMemory TakeEstimate(const SweepSetup& setup, int32_t max_workers, Arena*
     memory.given_cost = arena->Take<uint8_t>(width, height);
     memory.found_cost = arena->Take<uint8_t>(width, height);
     memory.swept = arena->Take<uint8_t>(width, height);
-    memory.given_cells = TakeThinCells(setup, arena);
-    memory.found_cells = TakeThinCells(setup, arena);
+    memory.given_patches = TakeThinPatches(setup, arena);
+    memory.found_patches = TakeThinPatches(setup, arena);
     memory.counts = arena->Take<TileCount>(tiles);
   }
   memory.workers = arena->Take<TileMemory>(static_cast<size_t>(max_workers));

@@ -92,7 +92,7 @@ struct EstimateMemory {
   uint8_t* given_cost;
   uint8_t* found_cost;
   // Thin structure of the given map and of the result of the sweeps.
-  ThinCells given_cells, found_cells;
+  ThinPatches given_patches, found_patches;
   TileMemory* workers;  // sweep.h
 };
 

@@ -35,9 +35,9 @@ constexpr int32_t kPrior = 16, kMostPrior = 1000;
 // kSurePrior times as probable as the other one.
 constexpr int32_t kSurePrior = 64;
 
-// Radius, around a cell, of the windows whose votes displace an outline.
+// Radius, around a patch, of the windows whose votes displace an outline.
 constexpr int32_t kShiftRadius = 4;
-// Weight of no displacement against displacements, in units of gains and weights of cells.
+// Weight of no displacement against displacements, in units of gains and weights of patches.
 constexpr int32_t kStill = 1;
 
 // Writes the colours of a row of pixels, from sample `at` of the planes.
@@ -147,16 +147,16 @@ int8_t VoteOf(const simd::VoteSums& sums, size_t lane, int32_t prior_far, int32_
   return static_cast<int8_t>(vote == 0 ? 1 : vote);
 }
 
-// Displacement of the outline in a cell and the cells around it, in 1/kDistance pixel.
+// Displacement of the outline in a patch and the patches around it, in 1/kDistance pixel.
 int32_t SmoothShift(const OutlineMemory& memory, int32_t column, int32_t row) {
   const int32_t columns = memory.Columns().Count(), rows = memory.Rows().Count();
   int32_t weights = kStill, shifts = 0;
   for (int32_t v = Max(row - 1, 0); v <= Min(row + 1, rows - 1); ++v) {
     for (int32_t u = Max(column - 1, 0); u <= Min(column + 1, columns - 1); ++u) {
-      const int32_t cell = v * columns + u;
-      const int32_t weight = memory.gain[cell] << ((u == column ? 1 : 0) + (v == row ? 1 : 0));
+      const int32_t patch = v * columns + u;
+      const int32_t weight = memory.gain[patch] << ((u == column ? 1 : 0) + (v == row ? 1 : 0));
       weights += weight;
-      shifts += weight * memory.shift[cell];
+      shifts += weight * memory.shift[patch];
     }
   }
   return shifts / weights;
@@ -332,12 +332,12 @@ void VoteByColour(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
 void ShiftOutlines(const OutlinePass& pass, const Rect& tile) {
   // bins[k] is the sum of the votes k - kZero pixels from the outline, rounded.
   constexpr int32_t kZero = kMostBand + 1, kBins = 2 * kZero + 1;
-  ForShiftCells(pass, tile, [&](int32_t number, const Rect& cell, bool begins) {
+  ForShiftPatches(pass, tile, [&](int32_t number, const Rect& patch, bool begins) {
     if (!begins) return;
     pass.gain[number] = 0;
-    if (!HasBand(pass, cell)) return;
+    if (!HasBand(pass, patch)) return;
     int32_t bins[kBins] = {}, count = 0, farther = 0;
-    ForBand(pass, Widened(*pass.setup, cell, kShiftRadius), [&](int32_t, int32_t, size_t at) {
+    ForBand(pass, Widened(*pass.setup, patch, kShiftRadius), [&](int32_t, int32_t, size_t at) {
       bins[kZero + ((pass.distance[at] + 2) >> 2)] += pass.vote[at];
       farther -= pass.vote[at];
       ++count;
@@ -362,8 +362,9 @@ void ShiftOutlines(const OutlinePass& pass, const Rect& tile) {
 }
 
 void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
-  const ShiftCells columns = pass.Columns(), rows = pass.Rows();
-  // The displacement of each column of cells of the tile, and the row of cells for which it holds.
+  const ShiftPatches columns = pass.Columns(), rows = pass.Rows();
+  // The displacement of each column of patches of the tile, and the row of patches for which it
+  // holds.
   int32_t shifts[kMostTileSide], shift_rows[kMostTileSide];
   std::fill_n(shift_rows, kMostTileSide, -1);
   const int32_t first_column = columns.Of(tile.x);
@@ -388,10 +389,10 @@ void VoteAgain(const OutlinePass& pass, const Rect& tile, VoteBlock* block) {
         const int32_t vote = pass.vote[at];
         pass.side[at] = 0;
         if (vote == 0) return false;
-        const int32_t column = columns.Of(x), row = rows.Of(y), cell = column - first_column;
-        if (shift_rows[cell] != row) shifts[cell] = SmoothShift(pass, column, row);
-        shift_rows[cell] = row;
-        const int32_t moved = pass.distance[at] + shifts[cell];
+        const int32_t column = columns.Of(x), row = rows.Of(y), patch = column - first_column;
+        if (shift_rows[patch] != row) shifts[patch] = SmoothShift(pass, column, row);
+        shift_rows[patch] = row;
+        const int32_t moved = pass.distance[at] + shifts[patch];
         const bool near = moved > 0 || (moved == 0 && pass.distance[at] > 0);
         const int32_t beyond = Max(2 * Abs(moved) - kDistance / 2, 0);  // in 1/(2 kDistance) pixel
         const int32_t prior =

@@ -19,8 +19,8 @@ constexpr int32_t kLeastStep = 2 * kPixel;
 // in wrong maps 21 to 50.
 constexpr int64_t kWrongPercent = 18;
 // A part of a right map is wrong if the outline is displaced: from kDisplacedPercent of the pixels
-// next to outlines, within kRightRadius cells, change their side in the direction of the shift of
-// their cell. In exact maps it is at most 11 of 97 % of all cells; in displaced maps about 45.
+// next to outlines, within kRightRadius patches, change their side in the direction of the shift of
+// their patch. In exact maps it is at most 11 of 97 % of all patches; in displaced maps about 45.
 constexpr int64_t kDisplacedPercent = 35;
 constexpr int32_t kRightRadius = 8;
 
@@ -230,12 +230,13 @@ void SetWidths(OutlinePass* pass) {
 
 constexpr int32_t kPassPhases = 7;
 
-// Counts the pixels next to the outlines in the cells of a tile, and those that change their side.
+// Counts the pixels next to the outlines in the patches of a tile, and those that change their
+// side.
 void CountChanges(const OutlinePass& pass, const Rect& tile, OutlineCounts* counts) {
-  ForShiftCells(pass, tile, [&](int32_t number, const Rect& cell, bool begins) {
+  ForShiftPatches(pass, tile, [&](int32_t number, const Rect& patch, bool begins) {
     if (!begins) return;
     uint8_t beside = 0, displaced = 0;
-    ForBand(pass, cell, [&](int32_t, int32_t, size_t at) {
+    ForBand(pass, patch, [&](int32_t, int32_t, size_t at) {
       if (pass.side[at] == 0 || Abs(pass.distance[at]) >= kDistance) return;
       ++beside;
       if ((pass.side[at] > 0) == (pass.distance[at] > 0)) return;
@@ -248,7 +249,7 @@ void CountChanges(const OutlinePass& pass, const Rect& tile, OutlineCounts* coun
   });
 }
 
-// Returns true if few pixels around a cell would change their side. The map has `changes` changes
+// Returns true if few pixels around a patch would change their side. The map has `changes` changes
 // in `beside` pixels.
 bool IsRight(const OutlineMemory& memory, int32_t number, int64_t beside, int64_t changes) {
   const int32_t columns = memory.Columns().Count(), rows = memory.Rows().Count();
@@ -275,14 +276,14 @@ void KeepRight(const OutlinePass& pass, const starfocus_light_field& light_field
     beside += pass.counts[k].beside;
     changes += pass.counts[k].changes;
   }
-  ForShiftCells(pass, tile, [&](int32_t number, const Rect& cell, bool begins) {
-    if (!HasBand(pass, cell)) return;
+  ForShiftPatches(pass, tile, [&](int32_t number, const Rect& patch, bool begins) {
+    if (!HasBand(pass, patch)) return;
     const bool right =
         decides ? IsRight(pass, number, beside, changes) : pass.is_right[number] != 0;
     if (decides && begins) pass.is_right[number] = right ? 1 : 0;
     counts->wrong |= !right;
     if (!right) return;
-    ForBand(pass, cell, [&](int32_t x, int32_t y, size_t at) {
+    ForBand(pass, patch, [&](int32_t x, int32_t y, size_t at) {
       if (!Contains(tile, x, y) || pass.side[at] == 0) return;
       if (!std::isfinite(GivenAt(light_field, y)[x])) return;
       if ((pass.side[at] > 0) != (pass.distance[at] > 0)) pass.vote[at] = 0;
@@ -291,13 +292,13 @@ void KeepRight(const OutlinePass& pass, const starfocus_light_field& light_field
   });
 }
 
-// Sets pass.side to 0 in the cells of a tile that have thin structure or hair.
-void KeepParts(const OutlinePass& pass, const ThinCells& thin, const HairMemory* hair,
+// Sets pass.side to 0 in the patches of a tile that have thin structure or hair.
+void KeepParts(const OutlinePass& pass, const ThinPatches& thin, const HairMemory* hair,
                int32_t index) {
-  ForCells(thin, index, [&](const Rect& cell, int32_t number) {
-    if (thin.thin[number] == 0 && (hair == nullptr || !HasHair(*hair, cell))) return;
-    for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-      std::fill_n(pass.side + pass.At(cell.x, y), cell.width, int8_t{0});
+  ForPatches(thin, index, [&](const Rect& patch, int32_t number) {
+    if (thin.thin[number] == 0 && (hair == nullptr || !HasHair(*hair, patch))) return;
+    for (int32_t y = patch.y; y < patch.y + patch.height; ++y) {
+      std::fill_n(pass.side + pass.At(patch.x, y), patch.width, int8_t{0});
     }
   });
 }
@@ -315,10 +316,10 @@ OutlineMemory TakeOutlines(const SweepSetup& setup, int32_t max_workers, Arena* 
   for (int8_t** plane : {&memory.distance, &memory.vote, &memory.side}) {
     *plane = arena->Take<int8_t>(pixels);
   }
-  const int32_t cells = memory.Columns().Count() * memory.Rows().Count();
-  memory.shift = arena->Take<int8_t>(static_cast<size_t>(cells));
+  const int32_t patches = memory.Columns().Count() * memory.Rows().Count();
+  memory.shift = arena->Take<int8_t>(static_cast<size_t>(patches));
   for (uint8_t** plane : {&memory.gain, &memory.beside, &memory.displaced, &memory.is_right}) {
-    *plane = arena->Take<uint8_t>(static_cast<size_t>(cells));
+    *plane = arena->Take<uint8_t>(static_cast<size_t>(patches));
   }
   memory.counts = arena->Take<OutlineCounts>(static_cast<size_t>(max_workers));
   memory.scratch = arena->Take<OutlineScratch>(static_cast<size_t>(max_workers));
@@ -326,7 +327,7 @@ OutlineMemory TakeOutlines(const SweepSetup& setup, int32_t max_workers, Arena* 
 }
 
 const int16_t* FollowOutlines(const starfocus_light_field& light_field,
-                              const simd::DepthKernels& kernels, const ThinCells& thin,
+                              const simd::DepthKernels& kernels, const ThinPatches& thin,
                               const HairMemory* hair, const OutlineMemory& memory, Sequence* run) {
   // Calls work(tile, worker, index) for each tile.
   const auto phase = [&](const auto& work) {

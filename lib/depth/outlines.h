@@ -43,24 +43,24 @@ inline constexpr size_t kMostRegion = kMostTileSide + 2 * kSideRadius;
 // Widths of ramps that are counted apart, in 1/kDistance pixel. The last one includes all wider.
 inline constexpr int32_t kRampCounts = kDistance * 25;
 
-// The cells along a row or column in which displacements are measured. Cells of kSide pixels begin
-// at both borders, and a cell of 1 to 2 kSide pixels is left in the middle, so that mirrored
-// pictures have mirrored cells.
-struct ShiftCells {
+// The patches along a row or column in which displacements are measured. Patches of kSide pixels
+// begin at both borders, and a patch of 1 to 2 kSide pixels is left in the middle, so that mirrored
+// pictures have mirrored patches.
+struct ShiftPatches {
   static constexpr int32_t kSide = 4;
   int32_t length;  // in pixels
 
   int32_t Half() const { return (length - 1) / (2 * kSide); }
   int32_t Count() const { return 2 * Half() + 1; }
-  // Returns the cell of a pixel.
+  // Returns the patch of a pixel.
   int32_t Of(int32_t pixel) const {
     const int32_t after = length - 1 - pixel;
     if (pixel < kSide * Half()) return pixel / kSide;
     return after < kSide * Half() ? Count() - 1 - after / kSide : Half();
   }
-  // Returns the first pixel of a cell, or `length` for cell Count().
-  int32_t Begin(int32_t cell) const {
-    return cell <= Half() ? kSide * cell : length - kSide * (Count() - cell);
+  // Returns the first pixel of a patch, or `length` for patch Count().
+  int32_t Begin(int32_t patch) const {
+    return patch <= Half() ? kSide * patch : length - kSide * (Count() - patch);
   }
 };
 
@@ -119,16 +119,16 @@ struct OutlineMemory {
   int8_t* distance;    // signed distance to the outline, in 1/kDistance pixel; 0 outside the band
   int8_t* vote;        // -127 (surely farther) to 127 (surely nearer); 0 without samples
   int8_t* side;        // the same, by the second vote; 0 where the map is kept, and outside
-  int8_t* shift;       // by how much the outline approaches this cell, in 1/kDistance pixel
+  int8_t* shift;       // by how much the outline approaches this patch, in 1/kDistance pixel
   uint8_t* gain;       // agreement of the votes that the shift gains, in 1/255
-  uint8_t* beside;     // pixels of this cell next to an outline
+  uint8_t* beside;     // pixels of this patch next to an outline
   uint8_t* displaced;  // those of them that change their side as the shift demands
-  uint8_t* is_right;   // 1 if the map around this cell is right
+  uint8_t* is_right;   // 1 if the map around this patch is right
   OutlineCounts* counts;    // one for each worker
   OutlineScratch* scratch;  // one for each worker
 
-  ShiftCells Columns() const { return {setup->width}; }
-  ShiftCells Rows() const { return {setup->height}; }
+  ShiftPatches Columns() const { return {setup->width}; }
+  ShiftPatches Rows() const { return {setup->height}; }
   size_t At(int32_t x, int32_t y) const { return setup->At(x, y); }
 };
 
@@ -159,7 +159,7 @@ inline constexpr int32_t kOutlinePhases = 15;
 // pixels would change their side, the map is right: memory.side is 0, memory.vote is 0 at pixels
 // whose colours contradict the map, and known disparities are as given.
 const int16_t* FollowOutlines(const starfocus_light_field& light_field,
-                              const simd::DepthKernels& kernels, const ThinCells& thin,
+                              const simd::DepthKernels& kernels, const ThinPatches& thin,
                               const HairMemory* hair, const OutlineMemory& memory, Sequence* run);
 
 // Calls act(x, y, index) for each pixel of the band in `rect`.
@@ -195,11 +195,11 @@ void ForBeside(const OutlinePass& pass, int32_t x, int32_t y, const Act& act) {
   if (y + 1 < pass.setup->height) act(int32_t{own[width]}, 0, 1);
 }
 
-// Calls act(number, cell, begins) for the cells that a tile touches. `begins` is true if the first
-// pixel of the cell lies in the tile.
+// Calls act(number, patch, begins) for the patches that a tile touches. `begins` is true if the
+// first pixel of the patch lies in the tile.
 template <class Act>
-void ForShiftCells(const OutlineMemory& memory, const Rect& tile, const Act& act) {
-  const ShiftCells columns = memory.Columns(), rows = memory.Rows();
+void ForShiftPatches(const OutlineMemory& memory, const Rect& tile, const Act& act) {
+  const ShiftPatches columns = memory.Columns(), rows = memory.Rows();
   for (int32_t row = rows.Of(tile.y); row <= rows.Of(tile.y + tile.height - 1); ++row) {
     const int32_t top = rows.Begin(row), height = rows.Begin(row + 1) - top;
     for (int32_t column = columns.Of(tile.x); column <= columns.Of(tile.x + tile.width - 1);
@@ -217,7 +217,7 @@ void ForShiftCells(const OutlineMemory& memory, const Rect& tile, const Act& act
 // Writes pass.vote, from samples that are trusted by their distance to the outline.
 void VoteByColour(const OutlinePass& pass, const Rect& tile, VoteBlock* block);
 
-// Writes pass.shift and pass.gain of the cells whose first pixels lie in the tile.
+// Writes pass.shift and pass.gain of the patches whose first pixels lie in the tile.
 void ShiftOutlines(const OutlinePass& pass, const Rect& tile);
 
 // Writes pass.side, from samples that are trusted by their own votes, and from the distance to the

@@ -118,23 +118,23 @@ int16_t RepairedAt(const SweepSetup& setup, const EstimateMemory& memory, int32_
   return evidence >= least_evidence ? found : given;
 }
 
-// Fills `nearest` with the largest trusted disparity near each pixel of row y of a cell. The
+// Fills `nearest` with the largest trusted disparity near each pixel of row y of a patch. The
 // largest trusted disparity belongs to the surface from which hair stands out. If no trusted pixel
 // is near, the value is kNoSurface.
-void FindNearest(const SweepSetup& setup, const int16_t* trusted, const Rect& cell, int32_t y,
+void FindNearest(const SweepSetup& setup, const int16_t* trusted, const Rect& patch, int32_t y,
                  int16_t* nearest) {
-  const Rect around = Widened(setup, {cell.x, y, cell.width, 1}, kNearRadius);
-  // Largest disparity in each column; columns[0] is kNearRadius columns to the left of the cell.
-  int16_t columns[kMostCellSide + 2 * kNearRadius];
-  std::fill_n(columns, cell.width + 2 * kNearRadius, simd::kNoSurface);
-  int16_t* to = columns + kNearRadius - (cell.x - around.x);
+  const Rect around = Widened(setup, {patch.x, y, patch.width, 1}, kNearRadius);
+  // Largest disparity in each column; columns[0] is kNearRadius columns to the left of the patch.
+  int16_t columns[kMostPatchSide + 2 * kNearRadius];
+  std::fill_n(columns, patch.width + 2 * kNearRadius, simd::kNoSurface);
+  int16_t* to = columns + kNearRadius - (patch.x - around.x);
   for (int32_t row = around.y; row < around.y + around.height; ++row) {
     const int16_t* from = trusted + setup.At(around.x, row);
     for (int32_t x = 0; x < around.width; ++x) to[x] = std::max(to[x], from[x]);
   }
-  std::fill_n(nearest, cell.width, simd::kNoSurface);
+  std::fill_n(nearest, patch.width, simd::kNoSurface);
   for (int32_t k = 0; k <= 2 * kNearRadius; ++k) {
-    for (int32_t x = 0; x < cell.width; ++x) nearest[x] = std::max(nearest[x], columns[x + k]);
+    for (int32_t x = 0; x < patch.width; ++x) nearest[x] = std::max(nearest[x], columns[x + k]);
   }
 }
 
@@ -165,8 +165,8 @@ void ValueTile(const SweepSetup& setup, const Plane<const uint8_t>& centre, int3
     count.differs += Differs(memory, at);
   });
   memory.counts[index] = count;
-  CountBeside(memory.given_cells, memory.given, tile, index);
-  CountBeside(memory.found_cells, memory.first, tile, index);
+  CountBeside(memory.given_patches, memory.given, tile, index);
+  CountBeside(memory.found_patches, memory.first, tile, index);
 }
 
 void WritePixel(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
@@ -178,26 +178,26 @@ void WritePixel(const SweepSetup& setup, const EstimateMemory& memory, const Map
   if (disparity != memory.first[at] && Differs(memory, at)) output.WriteConfidence(x, y, 0);
 }
 
-// Writes the disparities of a cell with thin structure that the given map lacks.
+// Writes the disparities of a patch with thin structure that the given map lacks.
 void WriteParted(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
-                 const Rect& cell) {
-  for (int32_t y = cell.y; y < cell.y + cell.height; ++y) {
-    int16_t nearest[kMostCellSide];
-    FindNearest(setup, memory.trusted, cell, y, nearest);
-    ForSwept(setup, memory.swept, {cell.x, y, cell.width, 1}, [&](int32_t x, int32_t) {
-      const int16_t disparity = PartedAt(memory, setup.At(x, y), nearest[x - cell.x]);
+                 const Rect& patch) {
+  for (int32_t y = patch.y; y < patch.y + patch.height; ++y) {
+    int16_t nearest[kMostPatchSide];
+    FindNearest(setup, memory.trusted, patch, y, nearest);
+    ForSwept(setup, memory.swept, {patch.x, y, patch.width, 1}, [&](int32_t x, int32_t) {
+      const int16_t disparity = PartedAt(memory, setup.At(x, y), nearest[x - patch.x]);
       WritePixel(setup, memory, output, x, y, disparity);
     });
   }
 }
 
-void WriteCell(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
-               int32_t least_evidence, const Rect& cell, int32_t number) {
-  const bool keeps = memory.given_cells.thin[number] != 0;
-  if (!keeps && memory.found_cells.thin[number] != 0) {
-    return WriteParted(setup, memory, output, cell);
+void WritePatch(const SweepSetup& setup, const EstimateMemory& memory, const MapOutput& output,
+                int32_t least_evidence, const Rect& patch, int32_t number) {
+  const bool keeps = memory.given_patches.thin[number] != 0;
+  if (!keeps && memory.found_patches.thin[number] != 0) {
+    return WriteParted(setup, memory, output, patch);
   }
-  ForSwept(setup, memory.swept, cell, [&](int32_t x, int32_t y) {
+  ForSwept(setup, memory.swept, patch, [&](int32_t x, int32_t y) {
     const int16_t given = memory.given[setup.At(x, y)];
     const bool kept = keeps && given != simd::kNoSurface;
     WritePixel(setup, memory, output, x, y,
@@ -215,8 +215,8 @@ void WriteTile(const SweepSetup& setup, const starfocus_light_field& light_field
     std::copy_n(memory.certainty + setup.At(tile.x, y), tile.width,
                 output.confidence.Row(y) + tile.x);
   }
-  ForCells(memory.given_cells, index, [&](const Rect& cell, int32_t number) {
-    WriteCell(setup, memory, output, least_evidence, cell, number);
+  ForPatches(memory.given_patches, index, [&](const Rect& patch, int32_t number) {
+    WritePatch(setup, memory, output, least_evidence, patch, number);
   });
 }
 
@@ -264,8 +264,8 @@ starfocus_status Repair(const SweepSetup& setup, const starfocus_light_field& li
     if (rates) RateUnswept(setup, centre, TileOf(setup, index), memory);
   });
   if (run.status() != STARFOCUS_OK) return run.status();
-  FindThin(memory.given_cells, kThinGiven);
-  FindThin(memory.found_cells, kThinFound);
+  FindThin(memory.given_patches, kThinGiven);
+  FindThin(memory.found_patches, kThinFound);
   const int32_t least_evidence =
       LeastEvidence(memory.counts, setup.columns * setup.rows, kRightEvidence, kWrongEvidence);
   run.Run([&](int32_t index, int32_t) {

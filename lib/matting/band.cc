@@ -188,7 +188,7 @@ void StartPixels(const Input& input, int32_t column, int32_t row, const Disparit
     int16_t light[3 * kCoverageTile] = {};
     if (y < map.height) input.Light(0, left, y, columns, light);
     const size_t first = map.At(left, y);
-    FarCell* const cells = &map.FarAt(left, y);
+    FarLight* const patches = &map.FarAt(left, y);
     BandPixel pixels[kCoverageTile];
     const int32_t at = Disparities::At(0, y - top);
     find(y, at, pixels);
@@ -205,7 +205,7 @@ void StartPixels(const Input& input, int32_t column, int32_t row, const Disparit
         low = Min(low, pixel.low);
         high = Max(high, near);
       }
-      FarCell& far = cells[k];
+      FarLight& far = patches[k];
       far.disparity = static_cast<int16_t>(pixel.low);
       far.weight = static_cast<int16_t>(inside ? pixel.far_weight : 0);
       std::memcpy(far.rgb, light + 3 * k, sizeof(far.rgb));
@@ -227,18 +227,18 @@ SurfaceSearch::SurfaceSearch(const GivenDisparities& around) : around_(around) {
     for (int32_t x = kRampRadius; x < kSide - kRampRadius; ++x) {
       const int32_t at = y * kSide + x;
       on_ramp_[at] = IsBetween(around.disparity + at);
-      Cell& cell = cells_[y / kCellSide * kCells + x / kCellSide];
+      Patch& patch = patches_[y / kPatchSide * kPatches + x / kPatchSide];
       if (on_ramp_[at]) {
-        cell.has_ramp = true;
+        patch.has_ramp = true;
       } else {
-        cell.Add(around.disparity[at]);
+        patch.Add(around.disparity[at]);
       }
     }
   }
-  for (const Cell& cell : cells_) {
-    if (cell.least > cell.greatest) continue;
-    all_.Add(cell.least);
-    all_.Add(cell.greatest);
+  for (const Patch& patch : patches_) {
+    if (patch.least > patch.greatest) continue;
+    all_.Add(patch.least);
+    all_.Add(patch.greatest);
   }
 }
 
@@ -246,17 +246,17 @@ Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
   if (high < all_.least || low > all_.greatest) return {around_.disparity[at], INT32_MAX};
   const int32_t x = at % kSide, y = at / kSide;
   uint32_t rank = kNotFound;
-  // Lowers `rank` to the ranks of the matching pixels of a cell.
+  // Lowers `rank` to the ranks of the matching pixels of a patch.
   const auto search = [&](int32_t column, int32_t row) {
-    const Cell& cell = cells_[row * kCells + column];
-    if (cell.greatest < low || cell.least > high) return;
-    const int32_t left = Max(column * kCellSide, x - kGivenRadius),
-                  right = Min(column * kCellSide + kCellSide - 1, x + kGivenRadius),
-                  top = Max(row * kCellSide, y - kGivenRadius),
-                  bottom = Min(row * kCellSide + kCellSide - 1, y + kGivenRadius);
+    const Patch& patch = patches_[row * kPatches + column];
+    if (patch.greatest < low || patch.least > high) return;
+    const int32_t left = Max(column * kPatchSide, x - kGivenRadius),
+                  right = Min(column * kPatchSide + kPatchSide - 1, x + kGivenRadius),
+                  top = Max(row * kPatchSide, y - kGivenRadius),
+                  bottom = Min(row * kPatchSide + kPatchSide - 1, y + kGivenRadius);
     const int32_t nearest = Clamp(x, left, right) - x;
-    if (!cell.has_ramp && cell.least >= low && cell.greatest <= high) {
-      // All pixels of the cell match, and the nearest one has the lowest rank.
+    if (!patch.has_ramp && patch.least >= low && patch.greatest <= high) {
+      // All pixels of the patch match, and the nearest one has the lowest rank.
       rank = std::min(rank, RankOf(nearest, Clamp(y, top, bottom) - y));
       return;
     }
@@ -269,14 +269,14 @@ Found SurfaceSearch::FindNearest(int32_t at, int32_t low, int32_t high) const {
       }
     }
   };
-  const int32_t column = x / kCellSide, row = y / kCellSide;
-  for (int32_t r = 0; r <= kGivenRadius / kCellSide; ++r) {
-    const int32_t least = (r - 1) * kCellSide + 1;  // distance to the nearest cell of the square
+  const int32_t column = x / kPatchSide, row = y / kPatchSide;
+  for (int32_t r = 0; r <= kGivenRadius / kPatchSide; ++r) {
+    const int32_t least = (r - 1) * kPatchSide + 1;  // distance to the nearest patch of the square
     if (r > 0 && least * least > DistanceOf(rank)) break;
-    for (int32_t v = Max(row - r, 0); v <= Min(row + r, kCells - 1); ++v) {
+    for (int32_t v = Max(row - r, 0); v <= Min(row + r, kPatches - 1); ++v) {
       const int32_t step = Abs(v - row) == r ? 1 : 2 * r;
       for (int32_t u = column - r; u <= column + r; u += step) {
-        if (u >= 0 && u < kCells) search(u, v);
+        if (u >= 0 && u < kPatches) search(u, v);
       }
     }
   }

@@ -41,9 +41,9 @@ inline constexpr int32_t kThinStep = 5 << kDisparityBits;
 // Largest distance in pixels from an edge to a pixel that is split.
 inline constexpr int32_t kBandRadius = simd::kBeyondRadius;
 
-// Light of the far surface in a cell with a side of 2^level pixels, and the confidence of the
+// Light of the far surface in a patch with a side of 2^level pixels, and the confidence of the
 // light.
-struct FarCell {
+struct FarLight {
   int16_t rgb[3];     // Light of the far surface: R, G, B.
   int16_t weight;     // Confidence of the light in `rgb`, 0 to kKnown.
   int16_t disparity;  // Disparity of the far surface, kDisparityBits.
@@ -62,7 +62,7 @@ static_assert(kAside >= kMostMove + 2 && kAside % kCoverageTile == 0,
               "kAside must exceed kMostMove and be a multiple of the side of a tile");
 inline constexpr int16_t kNowhere = INT16_MIN;
 
-// Levels of cells, with sides of 1, 2, 4, 8 and 16 pixels.
+// Levels of patches, with sides of 1, 2, 4, 8 and 16 pixels.
 inline constexpr int kFarLevels = 5;
 
 struct CoverageTile {
@@ -100,7 +100,7 @@ struct CoverageMap {
   uint8_t* first = nullptr;  // Coverage after the first pass.
   uint8_t* alpha = nullptr;  // Coverage after the second pass, or kUnsplit.
   int16_t* near = nullptr;   // Disparity of the near surface; kNowhere beyond the picture.
-  FarCell* far[kFarLevels] = {};
+  FarLight* far[kFarLevels] = {};
   // First row of tiles that each pass has not processed yet; negative before the first row.
   int32_t done[kCoveragePasses] = {};
 
@@ -117,8 +117,8 @@ struct CoverageMap {
     return static_cast<size_t>(y % (tile_rows * kCoverageTile)) * Stride() +
            static_cast<size_t>(x + kAside);
   }
-  // Returns the index of cell (x, y) in `far[level]`.
-  size_t CellAt(int32_t x, int32_t y, int level) const {
+  // Returns the index of patch (x, y) in `far[level]`.
+  size_t PatchAt(int32_t x, int32_t y, int level) const {
     const int32_t rows = (tile_rows * kCoverageTile) >> level;
     const size_t stride = static_cast<size_t>((columns * kCoverageTile) >> level);
     return static_cast<size_t>(y % rows) * stride + static_cast<size_t>(x);
@@ -141,7 +141,7 @@ struct CoverageMap {
                     [&](int32_t x, int32_t y) { return Tile(x, y).ragged != 0; });
   }
   // Returns the light of the far surface at pixel (x, y).
-  FarCell& FarAt(int32_t x, int32_t y) const { return far[0][CellAt(x, y, 0)]; }
+  FarLight& FarAt(int32_t x, int32_t y) const { return far[0][PatchAt(x, y, 0)]; }
 };
 
 // Returns true if the light field contains coverage. If the light field contains no coverage, the

@@ -48,9 +48,9 @@ int32_t AlphaOf(const int32_t* near, int32_t near_weight, const int32_t* far, co
                      RoundShift(change * known * square / (square + beside), 8 + kNearBits));
 }
 
-// Calls visit(x, y, alpha, cell) for each pixel (x, y) of the picture in a tile that is near an
-// edge, if the light of the far surface (`cell`) is known. The function weight_of(x, y) returns the
-// weight of a pixel in a mean of the near light.
+// Calls visit(x, y, alpha, patch) for each pixel (x, y) of the picture in a tile that is near an
+// edge, if the light of the far surface (`patch`) is known. The function weight_of(x, y) returns
+// the weight of a pixel in a mean of the near light.
 template <class Weight, class Visit>
 void ForEachSplit(const Input& input, int32_t column, int32_t row, const Weight& weight_of,
                   const Visit& visit) {
@@ -83,20 +83,20 @@ void ForEachSplit(const Input& input, int32_t column, int32_t row, const Weight&
                            static_cast<int16_t>(kThinStep), sums);
     for (int32_t x = 0; x < pixels.width; ++x) {
       const size_t to = map.At(pixels.x + x, pixels.y + y);
-      const FarCell& cell = far.At(x, y);
-      if (map.alpha[to] == kUnsplit || cell.weight == 0) continue;
+      const FarLight& patch = far.At(x, y);
+      if (map.alpha[to] == kUnsplit || patch.weight == 0) continue;
       int32_t alpha = map.first[to];
       const int32_t weight = sums[3][x];
       if (weight > 0) {
         int32_t near[3], beyond[3], mixed[3];
         for (int c = 0; c < 3; ++c) {
           near[c] = (sums[c][x] << 15) / weight;
-          beyond[c] = cell.rgb[c];
+          beyond[c] = patch.rgb[c];
           mixed[c] = here[static_cast<size_t>(c) * kPlane + static_cast<size_t>(x)];
         }
         alpha = AlphaOf(near, weight, beyond, mixed, alpha);
       }
-      visit(pixels.x + x, pixels.y + y, alpha, cell);
+      visit(pixels.x + x, pixels.y + y, alpha, patch);
     }
   }
 }
@@ -224,7 +224,7 @@ void UnmixFirst(const Input& input, int32_t column, int32_t row) {
     return 3 * count * count;
   };
   ForEachSplit(input, column, row, weight_of,
-               [&](int32_t x, int32_t y, int32_t alpha, const FarCell&) {
+               [&](int32_t x, int32_t y, int32_t alpha, const FarLight&) {
                  map.first[map.At(x, y)] = static_cast<uint8_t>(alpha);
                });
 }
@@ -234,7 +234,7 @@ void UnmixAgain(const Input& input, int32_t column, int32_t row) {
   ForEachSplit(
       input, column, row,
       [&](int32_t x, int32_t y) { return EighthPower(map.first[map.At(x, y)]); },
-      [&](int32_t x, int32_t y, int32_t alpha, const FarCell& far) {
+      [&](int32_t x, int32_t y, int32_t alpha, const FarLight& far) {
         map.alpha[map.At(x, y)] = static_cast<uint8_t>(alpha);
         std::memcpy(map.FarAt(x, y).rgb, far.rgb, sizeof(far.rgb));
       });
@@ -246,14 +246,14 @@ void UseGiven(const Input& input, int32_t column, int32_t row) {
   PushTile(column, row, map, &far);
   ForPixels(map.PixelsOf(column, row), [&](int32_t x, int32_t y) {
     const size_t to = map.At(x, y);
-    const FarCell& cell = far.At(x % kCoverageTile, y % kCoverageTile);
+    const FarLight& patch = far.At(x % kCoverageTile, y % kCoverageTile);
     if (map.alpha[to] == kUnsplit) return;
     // A pixel cannot be split if the light of the far surface is not known nearby. It then belongs
     // to the near surface if the near surface covers most of it.
-    map.alpha[to] = cell.weight > 0               ? map.first[to]
+    map.alpha[to] = patch.weight > 0              ? map.first[to]
                     : 2 * map.first[to] >= kWhole ? uint8_t{kWhole}
                                                   : kUnsplit;
-    std::memcpy(map.FarAt(x, y).rgb, cell.rgb, sizeof(cell.rgb));
+    std::memcpy(map.FarAt(x, y).rgb, patch.rgb, sizeof(patch.rgb));
   });
 }
 
@@ -280,7 +280,7 @@ void TakeCoverage(const FullConfig& config, int32_t border, Arena* arena, Covera
   map->alpha = arena->Take<uint8_t>(pixels);
   map->near = arena->Take<int16_t>(pixels);
   for (int level = 0; level < kFarLevels; ++level) {
-    map->far[level] = arena->Take<FarCell>((tiles * kCoverageTile * kCoverageTile) >> (2 * level));
+    map->far[level] = arena->Take<FarLight>((tiles * kCoverageTile * kCoverageTile) >> (2 * level));
   }
 }
 

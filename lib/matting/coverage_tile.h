@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The steps of the coverage passes (coverage_passes.cc), which process one tile each: finding the
 // pixels near depth edges and their two surfaces, unmixing, and estimating the light of the far
-// surface. Means over cells of increasing size collect the known light of the far surface, and
+// surface. Means over patches of increasing size collect the known light of the far surface, and
 // extend it smoothly to pixels without known light (the pull-push algorithm).
 #ifndef STARFOCUS_LIB_MATTING_COVERAGE_TILE_H_
 #define STARFOCUS_LIB_MATTING_COVERAGE_TILE_H_
@@ -22,7 +22,7 @@ void ClearTile(const Input& input, int32_t column, int32_t row);
 
 // Writes the initial alpha (0, kWhole or kUnsplit) and the near disparities of a tile, both from
 // the disparity map alone. Reads the light of the far surface from the centre view, and writes this
-// light to the cells of the tile at all levels.
+// light to the patches of the tile at all levels.
 void StartTile(const Input& input, int32_t column, int32_t row);
 
 // For each pixel of the tile near an edge, writes the disparities of both surfaces, the given
@@ -47,18 +47,18 @@ void UseGiven(const Input& input, int32_t column, int32_t row);
 
 // Light of the far surface (far_light.cc).
 
-// Computes the light of the far surface in the cells of levels 1 to 4 of a tile, from the cells of
-// level 0. Each cell gets the light of the farthest surface in the cell.
+// Computes the light of the far surface in the patches of levels 1 to 4 of a tile, from the patches
+// of level 0. Each patch gets the light of the farthest surface in the patch.
 void PullTile(int32_t column, int32_t row, const CoverageMap& map);
 
-// Light of the far surface at each pixel of a tile, or in each cell of a level of a tile, with a
-// border of one cell. The weight of a pixel is 0 if the light of the far surface is not known
+// Light of the far surface at each pixel of a tile, or in each patch of a level of a tile, with a
+// border of one patch. The weight of a pixel is 0 if the light of the far surface is not known
 // nearby.
 struct FarTile {
   static constexpr int32_t kSide = kCoverageTile + 2;
-  FarCell cells[kSide * kSide];
+  FarLight patches[kSide * kSide];
 
-  FarCell& At(int32_t x, int32_t y) { return cells[(y + 1) * kSide + x + 1]; }
+  FarLight& At(int32_t x, int32_t y) { return patches[(y + 1) * kSide + x + 1]; }
 };
 
 // Fills in unknown light of the far surface at the tile's pixels, from levels 1 to 4 of this tile
@@ -77,15 +77,15 @@ constexpr int32_t EighthPower(int32_t a) {
 constexpr int32_t FarWeight(int32_t alpha) { return EighthPower(kWhole - alpha); }
 
 // Reads the light of the far surface at the tile's split pixels from the centre view and from the
-// OcclusionViews, and recomputes the cells of all levels. Light from a view gets a smaller weight
+// OcclusionViews, and recomputes the patches of all levels. Light from a view gets a smaller weight
 // if nearer surfaces cover more of the pixel in that view (FarWeight). CoverageMap::first contains
 // the coverage by nearer surfaces.
 void ReadBehindTile(const Input& input, int32_t column, int32_t row);
 
 // Removes the light of the near surface, a mean of the light around, from the light of the far
-// surface in the cells of level 0 of a tile. The result keeps the detail of the background, and its
-// weight decreases with the coverage, because an error of the near light grows with the coverage.
-// Call UnmixFar before PullTile. CoverageMap::first contains the coverage of the tile.
+// surface in the patches of level 0 of a tile. The result keeps the detail of the background, and
+// its weight decreases with the coverage, because an error of the near light grows with the
+// coverage. Call UnmixFar before PullTile. CoverageMap::first contains the coverage of the tile.
 void UnmixFar(const Input& input, int32_t column, int32_t row);
 
 // Adds detail to the light of the far surface, which side views show, in the mixed pixels of a
@@ -143,7 +143,7 @@ struct Surfaces {
   bool IsNear(int32_t disparity) const { return 2 * disparity >= low + high; }
 };
 
-// Searches a tile and its surroundings. A search reads only the cells of kCellSide x kCellSide
+// Searches a tile and its surroundings. A search reads only the patches of kPatchSide x kPatchSide
 // pixels that contain the surface. All positions are indices of GivenDisparities::disparity.
 class SurfaceSearch {
  public:
@@ -164,11 +164,11 @@ class SurfaceSearch {
 
  private:
   static constexpr int32_t kSide = GivenDisparities::kSide;
-  static constexpr int32_t kCellSide = 8;
-  static constexpr int32_t kCells = (kSide + kCellSide - 1) / kCellSide;
+  static constexpr int32_t kPatchSide = 8;
+  static constexpr int32_t kPatches = (kSide + kPatchSide - 1) / kPatchSide;
 
-  // Range of the disparities of a cell, without pixels on ramps; empty if least > greatest.
-  struct Cell {
+  // Range of the disparities of a patch, without pixels on ramps; empty if least > greatest.
+  struct Patch {
     int16_t least = INT16_MAX, greatest = INT16_MIN;
     bool has_ramp = false;
 
@@ -179,8 +179,8 @@ class SurfaceSearch {
   };
   const GivenDisparities& around_;
   bool on_ramp_[kSide * kSide] = {};  // false for the outermost kRampRadius pixels
-  Cell cells_[kCells * kCells];
-  Cell all_;  // range of all cells, at which most searches end
+  Patch patches_[kPatches * kPatches];
+  Patch all_;  // range of all patches, at which most searches end
 };
 
 }  // namespace starfocus

@@ -8,49 +8,50 @@ namespace {
 // Returns a / b, rounded to the nearest integer; b > 0.
 int64_t Rounded(int64_t a, int64_t b) { return (a + (a < 0 ? -(b / 2) : b / 2)) / b; }
 
-using FourCells = const FarCell* [4];
+using FourPatches = const FarLight* [4];
 
-// Returns the disparity of the farthest cell with a nonzero weight; INT16_MAX if all weights are 0.
-int32_t FarthestOf(const FourCells& cells) {
+// Returns the disparity of the farthest patch with a nonzero weight; INT16_MAX if all weights are
+// 0.
+int32_t FarthestOf(const FourPatches& patches) {
   int32_t farthest = INT16_MAX;
-  for (const FarCell* cell : cells) {
-    if (cell->weight > 0) farthest = Min(farthest, cell->disparity);
+  for (const FarLight* patch : patches) {
+    if (patch->weight > 0) farthest = Min(farthest, patch->disparity);
   }
   return farthest;
 }
 
-// Returns the mean of the cells whose disparity differs from `disparity` by at most kThinStep. Each
-// cell is weighted by its element of `parts` and by its confidence. The weight of the mean is the
-// sum of the weights, at most kKnown. It is inlined, because `parts` are constants.
-inline FarCell MeanOf(const FourCells& cells, const int32_t (&parts)[4], int32_t disparity) {
+// Returns the mean of the patches whose disparity differs from `disparity` by at most kThinStep.
+// Each patch is weighted by its element of `parts` and by its confidence. The weight of the mean is
+// the sum of the weights, at most kKnown. It is inlined, because `parts` are constants.
+inline FarLight MeanOf(const FourPatches& patches, const int32_t (&parts)[4], int32_t disparity) {
   ColourSum<int64_t> sum;
   int64_t disparities = 0;
   for (int k = 0; k < 4; ++k) {
-    if (cells[k]->weight == 0 || Abs(cells[k]->disparity - disparity) > kThinStep) continue;
-    const int32_t part = parts[k] * cells[k]->weight;
-    sum.Add(cells[k]->rgb, part);
-    disparities += int64_t{part} * cells[k]->disparity;
+    if (patches[k]->weight == 0 || Abs(patches[k]->disparity - disparity) > kThinStep) continue;
+    const int32_t part = parts[k] * patches[k]->weight;
+    sum.Add(patches[k]->rgb, part);
+    disparities += int64_t{part} * patches[k]->disparity;
   }
   if (sum.weight == 0) return {};
-  FarCell mean;
+  FarLight mean;
   for (int c = 0; c < 3; ++c) mean.rgb[c] = static_cast<int16_t>(sum.Mean(c));
   mean.weight = static_cast<int16_t>(Min(static_cast<int32_t>(sum.weight), kKnown));
   mean.disparity = static_cast<int16_t>(Rounded(disparities, sum.weight));
   return mean;
 }
 
-// Fills in the unknown part of a cell's light with the mean light of cells in `above`. Only cells
-// that show the surface at `disparity` are included.
-void PushCell(const FourCells& above, int32_t disparity, FarCell* cell) {
-  if (cell->weight >= kKnown) return;
-  const FarCell mean = MeanOf(above, {9, 3, 3, 1}, disparity);
+// Fills in the unknown part of a patch's light with the mean light of patches in `above`. Only
+// patches that show the surface at `disparity` are included.
+void PushPatch(const FourPatches& above, int32_t disparity, FarLight* patch) {
+  if (patch->weight >= kKnown) return;
+  const FarLight mean = MeanOf(above, {9, 3, 3, 1}, disparity);
   if (mean.weight == 0) return;
   for (int c = 0; c < 3; ++c) {
-    const int32_t more = (cell->rgb[c] - mean.rgb[c]) * cell->weight;
-    cell->rgb[c] = static_cast<int16_t>(mean.rgb[c] + RoundShift(more, kFarKnownBits));
+    const int32_t more = (patch->rgb[c] - mean.rgb[c]) * patch->weight;
+    patch->rgb[c] = static_cast<int16_t>(mean.rgb[c] + RoundShift(more, kFarKnownBits));
   }
-  if (cell->weight == 0) cell->disparity = mean.disparity;
-  cell->weight = kKnown;
+  if (patch->weight == 0) patch->disparity = mean.disparity;
+  patch->weight = kKnown;
 }
 
 // Smallest difference of disparity at which a nearer surface occludes a farther surface,
@@ -101,10 +102,10 @@ class BehindReader {
     for (int view = 0; view < count_; ++view) ReadView(views_[view], y);
     for (int32_t k = 0; k < columns_; ++k) {
       if (!split_[k]) continue;
-      FarCell& cell = map_.FarAt(left_ + k, y);
-      cell.weight = static_cast<int16_t>(Min(sums_[k].weight * seen_ / 4, kKnown));
+      FarLight& patch = map_.FarAt(left_ + k, y);
+      patch.weight = static_cast<int16_t>(Min(sums_[k].weight * seen_ / 4, kKnown));
       if (sums_[k].weight == 0) continue;
-      for (int c = 0; c < 3; ++c) cell.rgb[c] = static_cast<int16_t>(sums_[k].Mean(c));
+      for (int c = 0; c < 3; ++c) patch.rgb[c] = static_cast<int16_t>(sums_[k].Mean(c));
     }
   }
 
@@ -266,42 +267,42 @@ void PullTile(int32_t column, int32_t row, const CoverageMap& map) {
   for (int level = 1; level < kFarLevels; ++level) {
     const int32_t side = kCoverageTile >> level;
     ForPixels({column * side, row * side, side, side}, [&](int32_t x, int32_t y) {
-      const FarCell* const below = map.far[level - 1];
-      const FourCells four = {below + map.CellAt(2 * x, 2 * y, level - 1),
-                              below + map.CellAt(2 * x + 1, 2 * y, level - 1),
-                              below + map.CellAt(2 * x, 2 * y + 1, level - 1),
-                              below + map.CellAt(2 * x + 1, 2 * y + 1, level - 1)};
-      map.far[level][map.CellAt(x, y, level)] = MeanOf(four, {1, 1, 1, 1}, FarthestOf(four));
+      const FarLight* const below = map.far[level - 1];
+      const FourPatches four = {below + map.PatchAt(2 * x, 2 * y, level - 1),
+                                below + map.PatchAt(2 * x + 1, 2 * y, level - 1),
+                                below + map.PatchAt(2 * x, 2 * y + 1, level - 1),
+                                below + map.PatchAt(2 * x + 1, 2 * y + 1, level - 1)};
+      map.far[level][map.PatchAt(x, y, level)] = MeanOf(four, {1, 1, 1, 1}, FarthestOf(four));
     });
   }
 }
 
 void PushTile(int32_t column, int32_t row, const CoverageMap& map, FarTile* far) {
-  bool known[3][3];  // whether the tiles around the tile have cells
+  bool known[3][3];  // whether the tiles around the tile have patches
   ForPixels({0, 0, 3, 3}, [&](int32_t x, int32_t y) {
     known[y][x] =
         map.HasTile(column + x - 1, row + y - 1) && map.IsStarted(column + x - 1, row + y - 1);
   });
   FarTile levels[2];
   for (int level = kFarLevels - 1; level >= 0; --level) {
-    FarTile& cells = level == 0 ? *far : levels[level & 1];
+    FarTile& patches = level == 0 ? *far : levels[level & 1];
     FarTile& above = levels[(level + 1) & 1];
     const int32_t side = kCoverageTile >> level, border = level == 0 ? 0 : 1;
     const auto tile_of = [side](int32_t k) { return k < 0 ? 0 : k < side ? 1 : 2; };
     ForPixels({-border, -border, side + 2 * border, side + 2 * border}, [&](int32_t x, int32_t y) {
-      FarCell& cell = cells.At(x, y);
-      cell = known[tile_of(y)][tile_of(x)]
-                 ? map.far[level][map.CellAt(column * side + x, row * side + y, level)]
-                 : FarCell{};
+      FarLight& patch = patches.At(x, y);
+      patch = known[tile_of(y)][tile_of(x)]
+                  ? map.far[level][map.PatchAt(column * side + x, row * side + y, level)]
+                  : FarLight{};
       if (level == kFarLevels - 1) return;
-      // The four cells of the level above that are nearest to the cell, the nearest first.
+      // The four patches of the level above that are nearest to the patch, the nearest first.
       const int32_t u = x >> 1, v = y >> 1;
       const int32_t beside = u + ((x & 1) != 0 ? 1 : -1), next = v + ((y & 1) != 0 ? 1 : -1);
-      const FourCells four = {&above.At(u, v), &above.At(beside, v), &above.At(u, next),
-                              &above.At(beside, next)};
-      const int16_t own = cell.disparity;
-      PushCell(four, level == 0 || cell.weight > 0 ? own : FarthestOf(four), &cell);
-      if (level == 0) cell.disparity = own;
+      const FourPatches four = {&above.At(u, v), &above.At(beside, v), &above.At(u, next),
+                                &above.At(beside, next)};
+      const int16_t own = patch.disparity;
+      PushPatch(four, level == 0 || patch.weight > 0 ? own : FarthestOf(four), &patch);
+      if (level == 0) patch.disparity = own;
     });
   }
 }
@@ -317,7 +318,7 @@ void UnmixFar(const Input& input, int32_t column, int32_t row) {
   const CoverageMap& map = *input.coverage;
   const auto unmix = [&](int32_t x, int32_t y, int32_t alpha, const int16_t*,
                          const ColourSum<int32_t>& near) {
-    FarCell& far = map.FarAt(x, y);
+    FarLight& far = map.FarAt(x, y);
     const int32_t rest = kWhole - alpha;
     // far = mixed + (mixed - near) alpha / (1 - alpha). If the light of the near surface is not
     // known, it is assumed to equal the light of the pixel. The weight is (1 - alpha)^5.

@@ -9,25 +9,25 @@ namespace starfocus {
 
 namespace {
 
-// Radius in cells of the range HairMemory::low to HairMemory::high.
+// Radius in patches of the range HairMemory::low to HairMemory::high.
 constexpr int32_t kSurfaceRadius = 10;
-// Radii in cells. An inside cell has far pixels within kMostInside but not within kBeside. An
-// outside cell has near pixels within kMostInside but not within kBeside.
+// Radii in patches. An inside patch has far pixels within kMostInside but not within kBeside. An
+// outside patch has near pixels within kMostInside but not within kBeside.
 constexpr int32_t kBeside = 1, kMostInside = 4;
 // Squared contrast from which on pixels are compared with it, in squared codes.
 constexpr int32_t kClearContrast = 1600;
 // Squared difference of colours that are nearly equal, in squared codes.
 constexpr int32_t kSame = 100;
-// Hair from which on a cell keeps its disparities.
+// Hair from which on a patch keeps its disparities.
 constexpr uint8_t kHairy = 128;
 
-// Calls add(column, row, weight) for the four of columns x rows cells, with sides of kSide samples,
-// whose centres are nearest to the centre of sample (x, y). The weights are those of bilinear
-// interpolation, and their sum is 4 kSide^2.
+// Calls add(column, row, weight) for the four of columns x rows patches, with sides of kSide
+// samples, whose centres are nearest to the centre of sample (x, y). The weights are those of
+// bilinear interpolation, and their sum is 4 kSide^2.
 template <int32_t kSide, class Add>
 void Interpolate(int32_t columns, int32_t rows, int32_t x, int32_t y, const Add& add) {
   constexpr int32_t kStep = 2 * kSide;  // between two centres, in half samples
-  // Position in half samples, from the centre of the cell before the first cell.
+  // Position in half samples, from the centre of the patch before the first patch.
   const int32_t across = 2 * x + 1 + kSide, down = 2 * y + 1 + kSide;
   const int32_t left = Max(across / kStep - 1, 0), right = Min(across / kStep, columns - 1);
   const int32_t top = Max(down / kStep - 1, 0), bottom = Min(down / kStep, rows - 1);
@@ -38,7 +38,7 @@ void Interpolate(int32_t columns, int32_t rows, int32_t x, int32_t y, const Add&
   add(right, bottom, dx * dy);
 }
 
-// Interpolates the colour of a level at the centre of sample (x, y). Cells have sides of kSide
+// Interpolates the colour of a level at the centre of sample (x, y). Patches have sides of kSide
 // samples.
 template <int32_t kSide>
 void ColourOfLevel(const ColourPyramid& pyramid, int level, int32_t x, int32_t y, int32_t* rgb) {
@@ -51,8 +51,8 @@ void ColourOfLevel(const ColourPyramid& pyramid, int level, int32_t x, int32_t y
   for (int c = 0; c < 3; ++c) rgb[c] /= 4 * kSide * kSide;
 }
 
-// Weights of a pixel or cell in a ColourSum: kFull if its colour is fully known, so that sums of 16
-// pixels fit in 46 bits, and kUnit for the weight 1 of a ColourMean.
+// Weights of a pixel or patch in a ColourSum: kFull if its colour is fully known, so that sums of
+// 16 pixels fit in 46 bits, and kUnit for the weight 1 of a ColourMean.
 constexpr int64_t kFull = int64_t{1} << 28, kUnit = kFull / kFullyKnown;
 
 ColourMean MeanOf(const ColourSum<int64_t>& sum) {
@@ -64,16 +64,17 @@ ColourMean MeanOf(const ColourSum<int64_t>& sum) {
   return mean;
 }
 
-// One pixel of a cell.
-struct CellPixel {
+// One pixel of a patch.
+struct PatchPixel {
   int32_t x, y;  // Position in the picture.
   bool is_near;
   uint8_t* coverage;
   int32_t rgb[3];  // kMeanBits
 };
 
-// Returns true for half of the pixels of a cell, in a pattern that is the same in a mirrored cell.
-bool IsSample(const CellPixel& pixel) {
+// Returns true for half of the pixels of a patch, in a pattern that is the same in a mirrored
+// patch.
+bool IsSample(const PatchPixel& pixel) {
   return ((pixel.x ^ pixel.x >> 1 ^ pixel.y ^ pixel.y >> 1) & 1) == 0;
 }
 
@@ -137,11 +138,11 @@ struct HairSearch {
   const Plane<uint8_t> coverage;
   const HairMemory& memory;
 
-  // Measures the range of the disparities of each cell.
-  void MeasureCells(const Range& blocks) const {
-    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+  // Measures the range of the disparities of each patch.
+  void MeasurePatches(const Range& blocks) const {
+    ForPatches(blocks, [&](int32_t column, int32_t row, size_t at) {
       int16_t least = INT16_MAX, greatest = INT16_MIN;
-      ForPixels(CellAt(column, row), [&](int32_t x, int32_t y) {
+      ForPixels(PatchAt(column, row), [&](int32_t x, int32_t y) {
         least = std::min(least, disparity.Row(y)[x]);
         greatest = std::max(greatest, disparity.Row(y)[x]);
       });
@@ -150,8 +151,8 @@ struct HairSearch {
     });
   }
 
-  // Computes `low` and `high` from the ranges of the cells. Returns true.
-  bool JoinCells() const {
+  // Computes `low` and `high` from the ranges of the patches. Returns true.
+  bool JoinPatches() const {
     const auto least = [](int16_t a, int16_t b) { return std::min(a, b); };
     const auto most = [](int16_t a, int16_t b) { return std::max(a, b); };
     for (int32_t row = 0; row < memory.rows; ++row) {
@@ -165,12 +166,12 @@ struct HairSearch {
     return true;
   }
 
-  // Computes background colours for the first pass, from far cells.
+  // Computes background colours for the first pass, from far patches.
   void PullFar(const Range& blocks) const {
-    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+    ForPatches(blocks, [&](int32_t column, int32_t row, size_t at) {
       ColourSum<int64_t> sum;
       if (memory.HasEdge(at) && !HasWithin(column, row, kBeside, true)) {
-        ForCell(column, row, [&](const CellPixel& pixel) { sum.Add(pixel.rgb, kFull); });
+        ForPatch(column, row, [&](const PatchPixel& pixel) { sum.Add(pixel.rgb, kFull); });
       }
       memory.far.At(0, column, row) = MeanOf(sum);
     });
@@ -179,10 +180,10 @@ struct HairSearch {
   // Computes foreground colours for the first pass, from near pixels weighted by the eighth power
   // of their contrast to the background. A contrast of 181 codes has the full weight.
   void PullNear(const Range& blocks) const {
-    ForCells(blocks, [&](int32_t column, int32_t row, size_t) {
+    ForPatches(blocks, [&](int32_t column, int32_t row, size_t) {
       ColourSum<int64_t> sum;
       if (HasWithin(column, row, 0, true)) {
-        ForCell(column, row, [&](const CellPixel& pixel) {
+        ForPatch(column, row, [&](const PatchPixel& pixel) {
           if (!pixel.is_near || !IsSample(pixel)) return;
           int32_t far[3];
           ColourAt(memory.far, pixel.x, pixel.y, far);
@@ -197,7 +198,7 @@ struct HairSearch {
 
   void CountVotes(const Range& blocks) const {
     std::fill(&memory.VotesAt(0, blocks.first), &memory.VotesAt(0, blocks.last), HairVotes{});
-    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+    ForPatches(blocks, [&](int32_t column, int32_t row, size_t at) {
       memory.hair[at] = 0;
       if (!memory.HasEdge(at)) return;
       const bool near = HasWithin(column, row, kBeside, true);
@@ -205,7 +206,7 @@ struct HairSearch {
       if (!HasWithin(column, row, kMostInside, !near)) return;
       HairVotes* const votes = &memory.VotesAt(column / kHairBlock, row / kHairBlock);
       if (near) return CountInside(column, row, votes);
-      ForCell(column, row, [&](const CellPixel& pixel) {
+      ForPatch(column, row, [&](const PatchPixel& pixel) {
         if (!IsSample(pixel)) return;
         ++votes->outside;
         votes->beyond += Unmix(pixel, 0).share;
@@ -213,7 +214,7 @@ struct HairSearch {
     });
   }
 
-  // Decides which cells show hair. Hair extends to the blocks around those with the colours of
+  // Decides which patches show hair. Hair extends to the blocks around those with the colours of
   // hair, because its tips have few pixels inside outlines. Between the centres of blocks, the
   // degree is interpolated. Returns true if any block has hair.
   bool FillHair() const {
@@ -224,7 +225,7 @@ struct HairSearch {
       any = any || found >= kHairy;
     });
     if (!any) return false;
-    ForCells({0, memory.block_rows}, [&](int32_t column, int32_t row, size_t at) {
+    ForPatches({0, memory.block_rows}, [&](int32_t column, int32_t row, size_t at) {
       if (!memory.HasEdge(at)) return;
       int32_t hair = 0;
       Interpolate<kHairBlock>(memory.block_columns, memory.block_rows, column, row,
@@ -240,14 +241,14 @@ struct HairSearch {
     return true;
   }
 
-  // Writes the coverage of cells with hair. In the second pass (kAgain), the background colour of a
-  // pixel is mixed with the pixel's own colour. The share of the pixel's own colour increases as
+  // Writes the coverage of patches with hair. In the second pass (kAgain), the background colour of
+  // a pixel is mixed with the pixel's own colour. The share of the pixel's own colour increases as
   // the coverage from the first pass decreases.
   template <bool kAgain>
-  void UnmixCells(const Range& blocks) const {
-    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+  void UnmixPatches(const Range& blocks) const {
+    ForPatches(blocks, [&](int32_t column, int32_t row, size_t at) {
       if (memory.hair[at] == 0) return;
-      ForCell(column, row, [&](const CellPixel& pixel) {
+      ForPatch(column, row, [&](const PatchPixel& pixel) {
         const int32_t own = kAgain ? FourthPower(kWhole - ShareOf(*pixel.coverage)) : 0;
         const int32_t texture = pixel.is_near ? 0 : kTexture;
         const int32_t unmixed = Unmix(pixel, own).share;
@@ -260,12 +261,12 @@ struct HairSearch {
   // Computes foreground and background colours for the second pass, from all pixels weighted by the
   // coverage of the first pass.
   void PullBoth(const Range& blocks) const {
-    ForCells(blocks, [&](int32_t column, int32_t row, size_t at) {
+    ForPatches(blocks, [&](int32_t column, int32_t row, size_t at) {
       ColourSum<int64_t> near, far;
       if (memory.HasEdge(at)) {
-        ForCell(column, row, [&](const CellPixel& pixel) {
+        ForPatch(column, row, [&](const PatchPixel& pixel) {
           const int32_t given = pixel.is_near ? kWhole : 0;
-          // The coverage of cells without hair has not been written.
+          // The coverage of patches without hair has not been written.
           const int32_t found = memory.hair[at] == 0 ? given : ShareOf(*pixel.coverage);
           const int32_t share = Faded(given, found, memory.hair[at]);
           near.Add(pixel.rgb, kUnit * FourthPower(share));
@@ -277,35 +278,35 @@ struct HairSearch {
     });
   }
 
-  // Calls act(column, row, at) for all cells of the rows of blocks.
+  // Calls act(column, row, at) for all patches of the rows of blocks.
   template <class Act>
-  void ForCells(const Range& blocks, const Act& act) const {
+  void ForPatches(const Range& blocks, const Act& act) const {
     const int32_t first = kHairBlock * blocks.first;
     const int32_t last = Min(kHairBlock * blocks.last, memory.rows);
     ForPixels({0, first, memory.columns, last - first},
               [&](int32_t column, int32_t row) { act(column, row, memory.At(column, row)); });
   }
 
-  Rect CellAt(int32_t column, int32_t row) const {
-    return Clipped({column * kHairCell, row * kHairCell, kHairCell, kHairCell}, memory.width,
+  Rect PatchAt(int32_t column, int32_t row) const {
+    return Clipped({column * kHairPatch, row * kHairPatch, kHairPatch, kHairPatch}, memory.width,
                    memory.height);
   }
 
-  // Calls act(pixel) for all pixels of a cell.
+  // Calls act(pixel) for all pixels of a patch.
   template <class Act>
-  void ForCell(int32_t column, int32_t row, const Act& act) const {
+  void ForPatch(int32_t column, int32_t row, const Act& act) const {
     const size_t at = memory.At(column, row);
-    ForPixels(CellAt(column, row), [&](int32_t x, int32_t y) {
+    ForPixels(PatchAt(column, row), [&](int32_t x, int32_t y) {
       const bool is_near = memory.IsNear(at, disparity.Row(y)[x]);
-      CellPixel pixel = {x, y, is_near, coverage.Row(y) + x, {}};
+      PatchPixel pixel = {x, y, is_near, coverage.Row(y) + x, {}};
       const uint8_t* from = rgb.Row(y) + 3 * ptrdiff_t{x};
       for (int c = 0; c < 3; ++c) pixel.rgb[c] = from[c] << kMeanBits;
       act(pixel);
     });
   }
 
-  // Returns true if a cell within `reach` of cell (column, row) has pixels of the nearer surface of
-  // an edge or, if `near` is false, of the farther surface.
+  // Returns true if a patch within `reach` of patch (column, row) has pixels of the nearer surface
+  // of an edge or, if `near` is false, of the farther surface.
   bool HasWithin(int32_t column, int32_t row, int32_t reach, bool near) const {
     return AnyPixel(Clipped(Around(column, row, reach), memory.columns, memory.rows),
                     [&](int32_t x, int32_t y) {
@@ -319,7 +320,7 @@ struct HairSearch {
   // Finds the position of a pixel's colour on the line from the background colour to the foreground
   // colour. Without contrast, the share is the one that the map implies. `own` is the share of the
   // pixel's own colour in the background colour, as a fraction of kWhole.
-  Unmixed Unmix(const CellPixel& pixel, int32_t own) const {
+  Unmixed Unmix(const PatchPixel& pixel, int32_t own) const {
     int32_t far[3], near[3];
     ColourAt(memory.far, pixel.x, pixel.y, far);
     ColourAt(memory.near, pixel.x, pixel.y, near);
@@ -337,10 +338,10 @@ struct HairSearch {
     return {given + (share - given) * known / kLeastContrast, beside, contrast};
   }
 
-  // Counts the pixels of an inside cell.
+  // Counts the pixels of an inside patch.
   void CountInside(int32_t column, int32_t row, HairVotes* votes) const {
     int32_t count = 0, sum = 0, squares = 0;
-    ForCell(column, row, [&](const CellPixel& pixel) {
+    ForPatch(column, row, [&](const PatchPixel& pixel) {
       if (!IsSample(pixel)) return;
       const Unmixed unmixed = Unmix(pixel, 0);
       ++count;
@@ -370,7 +371,7 @@ struct HairSearch {
   // Decides to what degree the colours in and around a block are those of hair, 0 to 256. They are
   // if three shares are large: the share of pixels that look like background; the share of pixels
   // that have nearly its colour, which surfaces that happen to resemble the background rarely have;
-  // and the part of the variance of the coverage that lies within cells, because shading varies
+  // and the part of the variance of the coverage that lies within patches, because shading varies
   // slowly. They are not if pixels outside look like foreground: the foreground colour is then one
   // of a pattern of the background, which the map covers by mistake. All limits lie between the
   // values of scenes with hair and those of scenes and photographs without (docs/constants.md).
@@ -389,7 +390,7 @@ struct HairSearch {
     });
     // Product of both shares of colours, in units of 1/16384.
     const int64_t colours = (far << 14) / inside * same / inside;
-    // Strands as wide as a cell are less fine, but many pixels between them have equal colours.
+    // Strands as wide as a patch are less fine, but many pixels between them have equal colours.
     const int64_t fineness = 1024 * fine / coarse + std::min<int64_t>(colours / 16, 120);
     const int32_t like = Fade(colours, 50, 70) * Fade(fineness, 652, 678) / 256;
     return like * (256 - Fade(1024 * beyond / (kWhole * outside), 36, 48)) / 256;
@@ -400,12 +401,12 @@ struct HairSearch {
 
 ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena) {
   ColourPyramid pyramid = {};
-  pyramid.columns = (width + kHairCell - 1) / kHairCell;
-  pyramid.rows = (height + kHairCell - 1) / kHairCell;
-  int32_t cells = 0;
-  for (int32_t k = 0; cells != 1; pyramid.count = ++k) {
-    cells = pyramid.Columns(k) * pyramid.Rows(k);
-    pyramid.levels[k] = arena->Take<ColourMean>(static_cast<size_t>(cells));
+  pyramid.columns = (width + kHairPatch - 1) / kHairPatch;
+  pyramid.rows = (height + kHairPatch - 1) / kHairPatch;
+  int32_t patches = 0;
+  for (int32_t k = 0; patches != 1; pyramid.count = ++k) {
+    patches = pyramid.Columns(k) * pyramid.Rows(k);
+    pyramid.levels[k] = arena->Take<ColourMean>(static_cast<size_t>(patches));
   }
   return pyramid;
 }
@@ -425,13 +426,13 @@ bool CarryOnColours(const ColourPyramid& pyramid) {
   }
   for (int32_t k = last - 1; k >= 0; --k) {
     ForPixels({0, 0, pyramid.Columns(k), pyramid.Rows(k)}, [&](int32_t x, int32_t y) {
-      ColourMean& cell = pyramid.At(k, x, y);
-      const int32_t known = cell.weight;
+      ColourMean& patch = pyramid.At(k, x, y);
+      const int32_t known = patch.weight;
       int32_t around[3];
       ColourOfLevel<2>(pyramid, k + 1, x, y, around);
       for (int c = 0; c < 3; ++c) {
-        const int32_t mixed = known * cell.rgb[c] + (kFullyKnown - known) * around[c];
-        cell.rgb[c] = static_cast<uint16_t>((mixed + kFullyKnown / 2) >> kKnownBits);
+        const int32_t mixed = known * patch.rgb[c] + (kFullyKnown - known) * around[c];
+        patch.rgb[c] = static_cast<uint16_t>((mixed + kFullyKnown / 2) >> kKnownBits);
       }
     });
   }
@@ -439,7 +440,7 @@ bool CarryOnColours(const ColourPyramid& pyramid) {
 }
 
 void ColourAt(const ColourPyramid& pyramid, int32_t x, int32_t y, int32_t* rgb) {
-  ColourOfLevel<kHairCell>(pyramid, 0, x, y, rgb);
+  ColourOfLevel<kHairPatch>(pyramid, 0, x, y, rgb);
 }
 
 HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena) {
@@ -447,15 +448,15 @@ HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena) {
   HairMemory memory = {};
   memory.width = width;
   memory.height = height;
-  memory.columns = divided(width, kHairCell);
-  memory.rows = divided(height, kHairCell);
+  memory.columns = divided(width, kHairPatch);
+  memory.rows = divided(height, kHairPatch);
   memory.block_columns = divided(memory.columns, kHairBlock);
   memory.block_rows = divided(memory.rows, kHairBlock);
-  const size_t cells = memory.At(0, memory.rows);
+  const size_t patches = memory.At(0, memory.rows);
   for (int16_t** range : {&memory.least, &memory.greatest, &memory.low, &memory.high}) {
-    *range = arena->Take<int16_t>(cells);
+    *range = arena->Take<int16_t>(patches);
   }
-  memory.hair = arena->Take<uint8_t>(cells);
+  memory.hair = arena->Take<uint8_t>(patches);
   memory.far = TakeColourPyramid(width, height, arena);
   memory.near = TakeColourPyramid(width, height, arena);
   memory.votes =
@@ -467,7 +468,7 @@ bool FindHairCoverage(const Plane<const uint8_t>& rgb, const Plane<const int16_t
                       const Plane<uint8_t>& coverage, const HairMemory& memory, Sequence* run) {
   const HairSearch search = {rgb, disparity, coverage, memory};
   bool found = true;
-  // Runs a phase of the search. When the phase has finished all cells, `conclude` processes the
+  // Runs a phase of the search. When the phase has finished all patches, `conclude` processes the
   // results for the whole picture. The search ends if `conclude` returns false.
   const auto phase = [&](void (HairSearch::*work)(const Range&) const, const auto& conclude) {
     if (!found) return run->Skip();
@@ -477,21 +478,21 @@ bool FindHairCoverage(const Plane<const uint8_t>& rgb, const Plane<const int16_t
     found = run->status() == STARFOCUS_OK && conclude();
   };
   const auto always = [] { return true; };
-  phase(&HairSearch::MeasureCells, [&] { return search.JoinCells(); });
+  phase(&HairSearch::MeasurePatches, [&] { return search.JoinPatches(); });
   phase(&HairSearch::PullFar, [&] { return CarryOnColours(memory.far); });
   phase(&HairSearch::PullNear, [&] { return CarryOnColours(memory.near); });
   phase(&HairSearch::CountVotes, [&] { return search.FillHair(); });
-  phase(&HairSearch::UnmixCells<false>, always);
+  phase(&HairSearch::UnmixPatches<false>, always);
   phase(&HairSearch::PullBoth,
         [&] { return CarryOnColours(memory.far) && CarryOnColours(memory.near); });
-  phase(&HairSearch::UnmixCells<true>, always);
+  phase(&HairSearch::UnmixPatches<true>, always);
   return found;
 }
 
 bool HasHair(const HairMemory& memory, const Rect& rect) {
-  const int32_t left = rect.x / kHairCell, top = rect.y / kHairCell;
-  const int32_t right = (rect.x + rect.width - 1) / kHairCell;
-  const int32_t bottom = (rect.y + rect.height - 1) / kHairCell;
+  const int32_t left = rect.x / kHairPatch, top = rect.y / kHairPatch;
+  const int32_t right = (rect.x + rect.width - 1) / kHairPatch;
+  const int32_t bottom = (rect.y + rect.height - 1) / kHairPatch;
   return AnyPixel({left, top, right - left + 1, bottom - top + 1},
                   [&](int32_t x, int32_t y) { return memory.hair[memory.At(x, y)] >= kHairy; });
 }
@@ -499,7 +500,7 @@ bool HasHair(const HairMemory& memory, const Rect& rect) {
 void CompleteCoverage(const HairMemory& memory, const Range& columns, int32_t y,
                       const int16_t* disparity, uint8_t* coverage, uint8_t* confidence) {
   for (int32_t k = 0; k < columns.last - columns.first; ++k) {
-    const int32_t column = (columns.first + k) / kHairCell, row = y / kHairCell;
+    const int32_t column = (columns.first + k) / kHairPatch, row = y / kHairPatch;
     const size_t at = memory.At(column, row);
     const uint8_t hair = memory.hair[at];
     const bool is_near = !memory.HasEdge(at) || memory.IsNear(at, disparity[k]);

@@ -18,8 +18,8 @@
 
 namespace starfocus {
 
-// Side of a cell in pixels, and side of a block of cells that vote together.
-inline constexpr int32_t kHairCell = 4, kHairBlock = 8;
+// Side of a patch in pixels, and side of a block of patches that vote together.
+inline constexpr int32_t kHairPatch = 4, kHairBlock = 8;
 // Fractional bits of mean colours.
 inline constexpr int kMeanBits = 6;
 // Weight of a mean colour that is fully known.
@@ -32,11 +32,11 @@ struct ColourMean {
 };
 
 // Extends the colours of a surface from pixels that show the surface to pixels that do not (the
-// pull-push algorithm). Level 0 contains the cells of the picture. Each cell of a higher level
-// contains the weighted mean of 2x2 cells of the level below, and the last level a single cell.
+// pull-push algorithm). Level 0 contains the patches of the picture. Each patch of a higher level
+// contains the weighted mean of 2x2 patches of the level below, and the last level a single patch.
 struct ColourPyramid {
   static constexpr int kMostLevels = 16;
-  int32_t columns, rows, count;  // cells of level 0; number of levels
+  int32_t columns, rows, count;  // patches of level 0; number of levels
   ColourMean* levels[kMostLevels];
 
   int32_t Columns(int level) const { return ((columns - 1) >> level) + 1; }
@@ -48,34 +48,34 @@ struct ColourPyramid {
 // Takes the pyramid of a picture of width x height pixels.
 ColourPyramid TakeColourPyramid(int32_t width, int32_t height, Arena* arena);
 
-// Pulls the means of level 0 up to the single cell and pushes the means down again, which fills in
-// cells of low weight. Returns false if all weights are 0.
+// Pulls the means of level 0 up to the single patch and pushes the means down again, which fills in
+// patches of low weight. Returns false if all weights are 0.
 bool CarryOnColours(const ColourPyramid& pyramid);
 
 // Interpolates the colour of pixel (x, y) bilinearly from level 0, in fixed point (kMeanBits).
 void ColourAt(const ColourPyramid& pyramid, int32_t x, int32_t y, int32_t* rgb);
 
-// Votes of the pixels of a block in cells inside and outside outlines, where it does not matter if
-// outlines are off by a few pixels.
+// Votes of the pixels of a block in patches inside and outside outlines, where it does not matter
+// if outlines are off by a few pixels.
 struct HairVotes {
-  // Number of pixels of inside cells; of those that differ less from the background colour than a
+  // Number of pixels of inside patches; of those that differ less from the background colour than a
   // third of the contrast; of those that have nearly the background colour.
   int32_t inside, far, same;
   // Sum of coverage, sum of squares, and sum of squared differences from the mean of the pixel's
-  // cell; the coverage is in units of 1/256.
+  // patch; the coverage is in units of 1/256.
   int32_t sum, squares, fine;
-  // Number of pixels of outside cells; sum of their coverage, in units of 1/256.
+  // Number of pixels of outside patches; sum of their coverage, in units of 1/256.
   int32_t outside, beyond;
   // To what degree the colours in and around the block are those of hair, 0 to 256.
   int32_t found;
 };
 
-// Memory of the search in cells and blocks of a picture of width x height pixels.
+// Memory of the search in patches and blocks of a picture of width x height pixels.
 struct HairMemory {
   int32_t width, height, columns, rows, block_columns, block_rows;
-  int16_t *least, *greatest;  // Range of the disparities of each cell.
-  int16_t *low, *high;        // Range of the disparities of all cells at most 10 cells away.
-  uint8_t* hair;              // To what degree each cell shows hair, 0 to 255.
+  int16_t *least, *greatest;  // Range of the disparities of each patch.
+  int16_t *low, *high;        // Range of the disparities of all patches at most 10 patches away.
+  uint8_t* hair;              // To what degree each patch shows hair, 0 to 255.
   ColourPyramid far, near;
   HairVotes* votes;  // One element for each block.
 
@@ -88,11 +88,11 @@ struct HairMemory {
   HairVotes& VotesAt(int32_t column, int32_t row) const {
     return votes[row * block_columns + column];
   }
-  // Returns true if there are two surfaces within 10 cells.
-  bool HasEdge(size_t cell) const { return high[cell] - low[cell] > kEdgeStep; }
-  // Returns true if the disparity belongs to the nearer of the two surfaces around a cell.
-  bool IsNear(size_t cell, int32_t disparity) const {
-    return HasEdge(cell) && 2 * disparity > low[cell] + high[cell];
+  // Returns true if there are two surfaces within 10 patches.
+  bool HasEdge(size_t patch) const { return high[patch] - low[patch] > kEdgeStep; }
+  // Returns true if the disparity belongs to the nearer of the two surfaces around a patch.
+  bool IsNear(size_t patch, int32_t disparity) const {
+    return HasEdge(patch) && 2 * disparity > low[patch] + high[patch];
   }
 };
 HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena);
@@ -100,18 +100,20 @@ HairMemory TakeHairMemory(int32_t width, int32_t height, Arena* arena);
 // Number of phases that FindHairCoverage runs or skips.
 inline constexpr int32_t kHairPhases = 7;
 
-// Finds the cells with hair from the R, G and B of each pixel and the map (kDisparityBits), and
-// writes the coverage of their pixels. Returns true if any cell has hair, and false after an error.
+// Finds the patches with hair from the R, G and B of each pixel and the map (kDisparityBits), and
+// writes the coverage of their pixels. Returns true if any patch has hair, and false after an
+// error.
 bool FindHairCoverage(const Plane<const uint8_t>& rgb, const Plane<const int16_t>& disparity,
                       const Plane<uint8_t>& coverage, const HairMemory& memory, Sequence* run);
 
-// Returns true if any cell that overlaps the rectangle has hair.
+// Returns true if any patch that overlaps the rectangle has hair.
 bool HasHair(const HairMemory& memory, const Rect& rect);
 
 // Completes the coverage of the pixels [columns.first, columns.last) of row y. `disparity` has the
-// final disparities of these pixels. Where the cell shows no hair, the coverage is 0 for far pixels
-// and 255 for near pixels. Where the cell shows hair, writes the confidence if `confidence` is not
-// null: 255 minus the difference between the coverage and the coverage that the map alone implies.
+// final disparities of these pixels. Where the patch shows no hair, the coverage is 0 for far
+// pixels and 255 for near pixels. Where the patch shows hair, writes the confidence if `confidence`
+// is not null: 255 minus the difference between the coverage and the coverage that the map alone
+// implies.
 void CompleteCoverage(const HairMemory& memory, const Range& columns, int32_t y,
                       const int16_t* disparity, uint8_t* coverage, uint8_t* confidence);
 

@@ -93,7 +93,7 @@ int32_t LeastShare(const Colour& mixed, const Colour& far) {
 }
 
 // Returns true if the disparity map shows the near surface at a split pixel.
-bool ShowsNear(const Input& input, const FarCell& far, int32_t x, int32_t y) {
+bool ShowsNear(const Input& input, const FarLight& far, int32_t x, int32_t y) {
   return input.disparity.Row(y)[x] > far.disparity;
 }
 
@@ -205,16 +205,16 @@ class PixelSplitter {
   };
 
   // Calls act(x, y) for each pixel of the picture in the field, except its outermost pixels, that
-  // lies in a cell with a rim.
+  // lies in a patch with a rim.
   template <class Act>
   void ForEachInRim(const Act& act) const {
     const Rect inside = Clipped({field_.x + 1, field_.y + 1, field_.width - 2, field_.height - 2},
                                 rims_->width, rims_->height);
     const int32_t right = inside.x + inside.width, bottom = inside.y + inside.height;
     for (int32_t y = inside.y, end; y < bottom; y = end) {
-      end = Min(bottom, (y / kRimCell + 1) * kRimCell);
+      end = Min(bottom, (y / kRimPatch + 1) * kRimPatch);
       for (int32_t x = inside.x, last; x < right; x = last) {
-        last = Min(right, (x / kRimCell + 1) * kRimCell);
+        last = Min(right, (x / kRimPatch + 1) * kRimPatch);
         if (!rims_->RimAt(x, y).IsEmpty()) ForPixels({x, y, last - x, end - y}, act);
       }
     }
@@ -283,19 +283,19 @@ class PixelSplitter {
     pixel->kind = map.alpha[from] == kUnsplit ? SplitPixel::kOneSurface : SplitPixel::kThin;
     if (pixel->kind == SplitPixel::kOneSurface) return;
     const int32_t found = map.alpha[from];
-    const FarCell& cell = map.FarAt(x, y);
+    const FarLight& patch = map.FarAt(x, y);
     const Input& input = centre_.input();
     const bool is_excess = input.captured != nullptr;
     // Noise must not change the number of surfaces, so found coverage does not decide whether a
     // pixel lies inside.
     const bool inside = HasGiven(input) ? found >= kLeastWhole && IsInside(x, y)
-                                        : ShowsNear(input, cell, x, y) && IsOneSurface(x, y);
+                                        : ShowsNear(input, patch, x, y) && IsOneSurface(x, y);
     const int32_t alpha = inside ? kWhole : Min(found + Max(found - kMostExact, 0), kWhole);
     const bool whole = alpha == kWhole;
     // Pixels without coverage have a near surface too, with a share of 0, so that the disparities
     // of all surfaces, and therefore the slices, do not depend on colours.
     pixel->near_disparity = map.near[from];
-    pixel->far_disparity = cell.disparity;
+    pixel->far_disparity = patch.disparity;
     pixel->share = !whole   ? static_cast<uint8_t>(alpha)
                    : inside ? uint8_t{simd::kSliceWhole}
                             : simd::kSliceEnd;
@@ -305,21 +305,21 @@ class PixelSplitter {
     if (whole) {
       // Excess is not divided: the near surface has all the excess of a pixel that it covers.
       if (is_excess) far = {};
-      if (!is_excess) std::memcpy(far.rgb, cell.rgb, sizeof(far.rgb));
+      if (!is_excess) std::memcpy(far.rgb, patch.rgb, sizeof(far.rgb));
     } else if (alpha > 0 && !is_excess) {
       const Colour mixed = near;
       for (int c = 0; c < 3; ++c) {
-        near.rgb[c] = RestOf(mixed[c], cell.rgb[c], kWhole - alpha);
+        near.rgb[c] = RestOf(mixed[c], patch.rgb[c], kWhole - alpha);
         // RestOf may have clipped the near surface's light. The far surface's light compensates for
         // the clipping, so that the mixture of both surfaces still equals the light of the pixel.
         // If the far surface covers less than half of the pixel, it compensates only in part,
         // because it would multiply noise.
-        const int32_t more = RestOf(mixed[c], near.rgb[c], alpha) - cell.rgb[c];
+        const int32_t more = RestOf(mixed[c], near.rgb[c], alpha) - patch.rgb[c];
         const int32_t part = Min(2 * (kWhole - alpha), kWhole);
-        far.rgb[c] = static_cast<int16_t>(cell.rgb[c] + RoundShift(more * part, kAlphaBits));
+        far.rgb[c] = static_cast<int16_t>(patch.rgb[c] + RoundShift(more * part, kAlphaBits));
       }
       if (rims_ != nullptr && HasGiven(centre_.input()) &&
-          std::memcmp(far.rgb, cell.rgb, sizeof(far.rgb)) != 0) {
+          std::memcmp(far.rgb, patch.rgb, sizeof(far.rgb)) != 0) {
         LimitToFar(x, y, &far);
         const int32_t share = Min(Max(alpha, LeastShare(mixed, far)), kWhole - 1);
         pixel->share = static_cast<uint8_t>(share);
@@ -369,8 +369,8 @@ class PixelSplitter {
   // Limits a colour of the far surface at pixel (x, y) to the range of the far colour of the map
   // and of pixels around that the near surface does not cover.
   void LimitToFar(int32_t x, int32_t y, Colour* far) const {
-    const FarCell& cell = map_->FarAt(x, y);
-    int32_t low[3] = {cell.rgb[0], cell.rgb[1], cell.rgb[2]}, high[3] = {low[0], low[1], low[2]};
+    const FarLight& patch = map_->FarAt(x, y);
+    int32_t low[3] = {patch.rgb[0], patch.rgb[1], patch.rgb[2]}, high[3] = {low[0], low[1], low[2]};
     ForPixels(Around(x, y, 6), [&](int32_t column, int32_t row) {
       if (!IsPartial(column, row) || map_->alpha[map_->At(column, row)] != 0) return;
       Widen(field_.Rgb(column - field_.x, row - field_.y), low, high);
@@ -423,7 +423,7 @@ class PixelSplitter {
     constexpr int32_t kWholeRest = 8 << kLightBits;
     if (outline.distance == 0) return;
     const int32_t x = field_.x + pixel->column, y = field_.y + pixel->row;
-    const CellRim& rim = rims_->RimAt(x, y);
+    const PatchRim& rim = rims_->RimAt(x, y);
     const int32_t weight = rim.weight[outline.distance - 1];
     if (weight == 0) return;
     const Colour mixed = centre_.ColourAt(x, y);
@@ -472,7 +472,7 @@ void SetThinDisparities(const Input& input, BlockPixels* field) {
   ForEachThin(map, *field, [&](int32_t x, int32_t y, size_t from) {
     const int32_t alpha = map.alpha[from];
     if (alpha == kUnsplit) return;
-    const FarCell& far = map.FarAt(x, y);
+    const FarLight& far = map.FarAt(x, y);
     const bool is_near = HasGiven(input) ? 2 * alpha >= kWhole : ShowsNear(input, far, x, y);
     *field->Disparity(x - field->x, y - field->y) = is_near ? map.near[from] : far.disparity;
   });

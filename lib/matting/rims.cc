@@ -32,24 +32,24 @@ int64_t Fade(int64_t value, int64_t whole) {
 
 int64_t Larger(int64_t a, int64_t b) { return a > b ? a : b; }
 
-// Sums the lines of the cells of one row.
+// Sums the lines of the patches of one row.
 class RimSummer {
  public:
-  RimSummer(const Input& input, int32_t row) : input_(input), top_(row * kRimCell) {
+  RimSummer(const Input& input, int32_t row) : input_(input), top_(row * kRimPatch) {
     for (int32_t k = 0; k < kSide; ++k) {
       rows_[k] = input.disparity.Row(Clamp(top_ + k - kReach, 0, input.height - 1));
     }
   }
 
-  // Sums the lines of a cell. Cells at the edge of the picture, where lines may leave the picture,
-  // have no lines.
+  // Sums the lines of a patch. Patches at the edge of the picture, where lines may leave the
+  // picture, have no lines.
   void Sum(int32_t column, RimSums* sums) {
     std::memset(sums, 0, sizeof(*sums));
-    left_ = column * kRimCell;
-    if (top_ < kReach || top_ + kRimCell + kReach > input_.height) return;
-    if (left_ < kReach || left_ + kRimCell + kReach > input_.width || !HasStep()) return;
+    left_ = column * kRimPatch;
+    if (top_ < kReach || top_ + kRimPatch + kReach > input_.height) return;
+    if (left_ < kReach || left_ + kRimPatch + kReach > input_.width || !HasStep()) return;
     loaded_ = false;
-    ForPixels({left_, top_, kRimCell, kRimCell}, [&](int32_t x, int32_t y) {
+    ForPixels({left_, top_, kRimPatch, kRimPatch}, [&](int32_t x, int32_t y) {
       const int32_t edge = Disparity(x, y) + kRimStep;
       for (int side = 0; side < kSideCount; ++side) {
         if (Disparity(x + kSides[side][0], y + kSides[side][1]) > edge) AddLine(x, y, side, sums);
@@ -58,24 +58,24 @@ class RimSummer {
   }
 
  private:
-  static constexpr int32_t kReach = kRimEnd - 1, kSide = kRimCell + 2 * kReach;
+  static constexpr int32_t kReach = kRimEnd - 1, kSide = kRimPatch + 2 * kReach;
 
   int32_t Disparity(int32_t x, int32_t y) const { return rows_[y - top_ + kReach][x]; }
   int16_t* Light(int32_t x, int32_t y) {
     return light_[y - top_ + kReach] + 3 * (x - left_ + kReach);
   }
 
-  // Returns false if the disparities of the cell and of the pixels around it are so similar that
+  // Returns false if the disparities of the patch and of the pixels around it are so similar that
   // they contain no outline. The rows of a ring are not contiguous at its end.
   bool HasStep() const {
     int32_t low = INT16_MAX, high = INT16_MIN;
     const auto stride = static_cast<ptrdiff_t>(input_.disparity.stride);
-    constexpr int32_t kEnd = kReach + kRimCell + 1;
+    constexpr int32_t kEnd = kReach + kRimPatch + 1;
     for (int32_t first = kReach - 1, next; first < kEnd; first = next) {
       for (next = first + 1; next < kEnd && rows_[next] - rows_[next - 1] == stride;) ++next;
       simd::DisparityRange range;
       input_.kernels->FindRanges(rows_[first] + left_ - 1, input_.disparity.stride,
-                                 static_cast<size_t>(next - first), kRimCell + 2, &range);
+                                 static_cast<size_t>(next - first), kRimPatch + 2, &range);
       low = Min(low, range.low);
       high = Max(high, range.high);
     }
@@ -142,14 +142,14 @@ class RimSummer {
   }
 
   const Input& input_;
-  const int32_t top_;  // first row of pixels of the cells
-  int32_t left_ = 0;   // first column of pixels of the current cell
+  const int32_t top_;  // first row of pixels of the patches
+  int32_t left_ = 0;   // first column of pixels of the current patch
   const int16_t* rows_[kSide];
-  bool loaded_ = false;  // true if `light_` belongs to the current cell
+  bool loaded_ = false;  // true if `light_` belongs to the current patch
   int16_t light_[kSide][3 * kSide + simd::kPadding / sizeof(int16_t)];
 };
 
-// Sums of the cells around a cell.
+// Sums of the patches around a patch.
 using RimTotal = RimSumsOf<int64_t, int64_t>;
 
 void AddSums(const RimSums& sums, RimTotal* total) {
@@ -201,9 +201,9 @@ int32_t WeightOf(const RimTotal& total, int k) {
       ((clear * aligned * large >> (2 * kFadeBits)) * enough >> kFadeBits) * small >> kFadeBits);
 }
 
-// Finds the rim in a cell. A rim has no gap: no pixel counts more than a pixel between itself and
+// Finds the rim in a patch. A rim has no gap: no pixel counts more than a pixel between itself and
 // the outline. Only the first pixel may count less, because it may be an ordinary mixture.
-void FindRim(const RimMap& map, int32_t column, int32_t row, CellRim* rim) {
+void FindRim(const RimMap& map, int32_t column, int32_t row, PatchRim* rim) {
   *rim = {};
   RimTotal total = {};
   ForPixels(Clipped(Around(column, row, kRimAround), map.columns, map.Rows()),
@@ -229,24 +229,24 @@ void TakeRims(const FullConfig& config, int32_t border, Arena* arena, RimMap* ma
   if (!HasRims(config)) return;
   map->width = config.width;
   map->height = config.height;
-  map->columns = (config.width + kRimCell - 1) / kRimCell;
-  map->rows = (config.superblock + 2 * border) / kRimCell + 2 * kRimAround + 2;
+  map->columns = (config.width + kRimPatch - 1) / kRimPatch;
+  map->rows = (config.superblock + 2 * border) / kRimPatch + 2 * kRimAround + 2;
   const auto columns = static_cast<size_t>(map->columns), rows = static_cast<size_t>(map->rows);
   map->sums = arena->Take<RimSums>(columns, rows);
-  map->rims = arena->Take<CellRim>(columns, rows);
+  map->rims = arena->Take<PatchRim>(columns, rows);
 }
 
 void ForgetRims(RimMap* map) { map->summed = map->found = -1; }
 
 starfocus_status FindRims(const FullConfig& config, const Input& input, const Range& rows,
                           Jobs* jobs, RimMap* map) {
-  const int32_t top = Max(0, rows.first) / kRimCell;
-  const int32_t end = Min(map->Rows(), (rows.last + kRimCell - 1) / kRimCell);
-  const int32_t side = config.superblock / kRimCell;
-  // Calls run(column, row) for all cells of `of_cells` that are not known; *known is the first row
-  // that is not known, or -1.
-  const auto for_each = [&](const Range& of_cells, int32_t* known, const auto& run) {
-    const Range unknown = {*known < 0 ? of_cells.first : *known, of_cells.last};
+  const int32_t top = Max(0, rows.first) / kRimPatch;
+  const int32_t end = Min(map->Rows(), (rows.last + kRimPatch - 1) / kRimPatch);
+  const int32_t side = config.superblock / kRimPatch;
+  // Calls run(column, row) for all patches of `of_patches` that are not known; *known is the first
+  // row that is not known, or -1.
+  const auto for_each = [&](const Range& of_patches, int32_t* known, const auto& run) {
+    const Range unknown = {*known < 0 ? of_patches.first : *known, of_patches.last};
     const starfocus_status status =
         ForEach((map->columns + side - 1) / side, jobs, [&](int32_t index, int32_t) {
           for (int32_t row = unknown.first; row < unknown.last; ++row) {

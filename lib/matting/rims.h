@@ -20,19 +20,20 @@
 
 namespace starfocus {
 
-// Side of a cell in pixels, and the number of cells on each side that decide together with a cell.
-inline constexpr int32_t kRimCell = 8, kRimAround = 2;
+// Side of a patch in pixels, and the number of patches on each side that decide together with a
+// patch.
+inline constexpr int32_t kRimPatch = 8, kRimAround = 2;
 // Largest width of a rim in pixels. A line across an outline is clean from the distance
 // kRimWidth + 1 to the distance kRimEnd.
 inline constexpr int32_t kRimWidth = 4, kRimEnd = 8;
 // Smallest step of disparity at an outline with a rim, kDisparityBits.
 inline constexpr int32_t kRimStep = 3 << kDisparityBits;
-// Number of pixels around a pixel on which its rim depends: the cells around its cell, and the
+// Number of pixels around a pixel on which its rim depends: the patches around its patch, and the
 // lines across their outlines.
-inline constexpr int32_t kRimBorder = (kRimAround + 1) * kRimCell - 1 + kRimEnd - 1;
+inline constexpr int32_t kRimBorder = (kRimAround + 1) * kRimPatch - 1 + kRimEnd - 1;
 
-// Sums over the lines that cross the outlines in a cell, along rows and columns. A line belongs to
-// the cell of its far pixel next to the outline. Element k of an array belongs to the far pixel at
+// Sums over the lines that cross the outlines in a patch, along rows and columns. A line belongs to
+// the patch of its far pixel next to the outline. Element k of an array belongs to the far pixel at
 // a distance of k + 1 pixels. Colours are differences from the mean colour of the clean pixels of
 // the line, in units of white / (8 * 255).
 template <class Sum, class Squares>
@@ -46,8 +47,8 @@ struct RimSumsOf {
 };
 using RimSums = RimSumsOf<int32_t, uint32_t>;
 
-// The rim in a cell.
-struct CellRim {
+// The rim in a patch.
+struct PatchRim {
   uint8_t weight[kRimWidth];     // from 0 for clean pixels to kWholeRim for pixels of a rim
   int16_t excess[kRimWidth][3];  // mean light that the rim adds to the far surface
 
@@ -55,22 +56,25 @@ struct CellRim {
 };
 inline constexpr int32_t kWholeRim = 255;
 
-// Cells of the rows that the blocks of a stripe read: a ring of `rows` rows of cells.
+// Patches of the rows that the blocks of a stripe read: a ring of `rows` rows of patches.
 struct RimMap {
   int32_t width = 0, height = 0;  // size of the picture
-  int32_t columns = 0, rows = 0;  // number of cells in a row; number of rows in memory
+  int32_t columns = 0, rows = 0;  // number of patches in a row; number of rows in memory
   RimSums* sums = nullptr;
-  CellRim* rims = nullptr;
-  // First rows of cells of which the sums and the rims are not known yet; -1 before the first row.
+  PatchRim* rims = nullptr;
+  // First rows of patches of which the sums and the rims are not known yet; -1 before the first
+  // row.
   int32_t summed = -1, found = -1;
 
-  int32_t Rows() const { return (height + kRimCell - 1) / kRimCell; }
+  int32_t Rows() const { return (height + kRimPatch - 1) / kRimPatch; }
   size_t At(int32_t column, int32_t row) const {
     return static_cast<size_t>(row % rows) * static_cast<size_t>(columns) +
            static_cast<size_t>(column);
   }
-  // Returns the rim in the cell of pixel (x, y).
-  const CellRim& RimAt(int32_t x, int32_t y) const { return rims[At(x / kRimCell, y / kRimCell)]; }
+  // Returns the rim in the patch of pixel (x, y).
+  const PatchRim& RimAt(int32_t x, int32_t y) const {
+    return rims[At(x / kRimPatch, y / kRimPatch)];
+  }
 };
 
 // Returns true if an engine of this configuration finds rims: with one view, because side views
@@ -79,7 +83,7 @@ inline bool HasRims(const FullConfig& config) {
   return config.views == 1 && Has(config, STARFOCUS_FEATURE_COVERAGE);
 }
 
-// Allocates the cells for stripes whose blocks read `border` rows above and below.
+// Allocates the patches for stripes whose blocks read `border` rows above and below.
 void TakeRims(const FullConfig& config, int32_t border, Arena* arena, RimMap* map);
 
 // Forgets all rows, so that FindRims starts anew.

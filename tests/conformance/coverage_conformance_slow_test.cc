@@ -122,7 +122,7 @@ std::vector<reference::PartedPixel> EnginesPixels(const test::Scene& scene) {
       reference::PartedPixel pixel;
       pixel.parted = tile.thin != 0 && map.alpha[at] != starfocus::kUnsplit;
       if (pixel.parted) {
-        const starfocus::FarCell& far = map.FarAt(x, y);
+        const starfocus::FarLight& far = map.FarAt(x, y);
         pixel.alpha = double(map.alpha[at]) / starfocus::kWhole;
         pixel.near = map.near[at];
         pixel.far = far.disparity;

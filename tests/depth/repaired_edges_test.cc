@@ -45,10 +45,10 @@ struct Scene {
     setup.columns = columns, setup.rows = rows;
     const size_t tiles = size_t(columns * rows);
     starfocus::OutlineMemory outlines;
-    starfocus::ThinCells thin;
+    starfocus::ThinPatches thin;
     const auto take = [&](starfocus::Arena* arena) {
       outlines = starfocus::TakeOutlines(setup, 1, arena);
-      thin = starfocus::TakeThinCells(setup, arena);
+      thin = starfocus::TakeThinPatches(setup, arena);
     };
     starfocus::Arena count(nullptr);
     take(&count);
