@@ -18,11 +18,11 @@ int16_t* CentreRow(uint32_t* accumulators, int32_t width) {
   return reinterpret_cast<int16_t*>(accumulators) + 3 * static_cast<size_t>(width);
 }
 
-// A part of a tile, so small that all slices of the part are in memory at once.
-class TilePart {
+// A batch of a bucket, so small that all slices of the part are in memory at once.
+class Batch {
  public:
-  TilePart(const RenderJob& job, const SliceStack& stack, const CompositorScratch& scratch,
-           const Rect& rect, uint32_t* accumulators)
+  Batch(const RenderJob& job, const SliceStack& stack, const CompositorScratch& scratch,
+        const Rect& rect, uint32_t* accumulators)
       : job_(job), stack_(stack), scratch_(scratch), rect_(rect), accumulators_(accumulators) {}
 
   // Composites the part. Returns the number of pixels rendered in each view, summed over all
@@ -158,7 +158,7 @@ class TilePart {
   const RenderJob& job_;
   const SliceStack& stack_;
   const CompositorScratch& scratch_;
-  const Rect rect_;               // part of the tile, in pixels of the rectangle to refocus
+  const Rect rect_;               // part of the bucket, in pixels of the rectangle to refocus
   uint32_t* const accumulators_;  // accumulators of the rectangle
   SlicePlane planes_[kMaxSlices];
   int32_t pairs_ = 0;
@@ -185,11 +185,11 @@ Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* ac
   return inner;
 }
 
-// Finds the slices of a tile. `tile` is in pixels of the rectangle to refocus.
-void FindStack(const RenderJob& job, const Rect& tile, const CompositorScratch& scratch,
+// Finds the slices of a bucket. `bucket` is in pixels of the rectangle to refocus.
+void FindStack(const RenderJob& job, const Rect& bucket, const CompositorScratch& scratch,
                SliceStack* stack) {
-  const Rect in_surfaces = {stack->inner.x + tile.x, stack->inner.y + tile.y, tile.width,
-                            tile.height};
+  const Rect in_surfaces = {stack->inner.x + bucket.x, stack->inner.y + bucket.y, bucket.width,
+                            bucket.height};
   stack->count = FindSlices(*job.input->kernels, scratch.surfaces, *job.grid, SliceRuleOf(job),
                             in_surfaces, stack->slices, stack->bands);
   FindOffsets(*job.grid, stack->slices, stack->count, scratch.offsets);
@@ -198,7 +198,7 @@ void FindStack(const RenderJob& job, const Rect& tile, const CompositorScratch& 
 
 int32_t RoundUp(int32_t size, int32_t least) { return (size + least - 1) / least * least; }
 
-// Returns the size in bytes of a pool for tile parts of `columns` x `rows` pixels.
+// Returns the size in bytes of a pool for batches of `columns` x `rows` pixels.
 size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   const auto width = static_cast<size_t>(columns), height = static_cast<size_t>(rows);
   size_t slices = 0, strips = 0, filtered = 0;
@@ -214,10 +214,10 @@ size_t PoolBytes(const SliceStack& stack, int32_t columns, int32_t rows) {
   return slices + (filtered > strips ? filtered : strips);
 }
 
-// Returns the largest size of tile parts whose slices fit into the pool. The function first
+// Returns the largest size of batches whose slices fit into the pool. The function first
 // maximises the width of the parts, then the height.
-Rect ChoosePart(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
-  int32_t width = RoundUp(tile.width, kLeastColumns), height = RoundUp(tile.height, kLeastRows);
+Rect ChooseBatch(const SliceStack& stack, const Rect& bucket, size_t pool_bytes) {
+  int32_t width = RoundUp(bucket.width, kLeastColumns), height = RoundUp(bucket.height, kLeastRows);
   while (width > kLeastColumns && PoolBytes(stack, width, kLeastRows) > pool_bytes) {
     width -= kLeastColumns;
   }
@@ -225,17 +225,18 @@ Rect ChoosePart(const SliceStack& stack, const Rect& tile, size_t pool_bytes) {
   return {0, 0, width, height};
 }
 
-// Composites the slices of a tile. Returns the number of pixels rendered in each view, summed over
-// all slices.
-uint64_t CompositeTile(const RenderJob& job, const SliceStack& stack,
-                       const CompositorScratch& scratch, const Rect& tile, uint32_t* accumulators) {
-  const Rect largest = ChoosePart(stack, tile, scratch.pool_bytes);
+// Composites the slices of a bucket. Returns the number of pixels rendered in each view, summed
+// over all slices.
+uint64_t CompositeBucket(const RenderJob& job, const SliceStack& stack,
+                         const CompositorScratch& scratch, const Rect& bucket,
+                         uint32_t* accumulators) {
+  const Rect largest = ChooseBatch(stack, bucket, scratch.pool_bytes);
   uint64_t pixels = 0;
-  for (int32_t y = 0; y < tile.height; y += largest.height) {
-    for (int32_t x = 0; x < tile.width && GoesOn(job.cancel, 0); x += largest.width) {
-      const Rect part = {tile.x + x, tile.y + y, Min(largest.width, tile.width - x),
-                         Min(largest.height, tile.height - y)};
-      pixels += TilePart(job, stack, scratch, part, accumulators).Refocus();
+  for (int32_t y = 0; y < bucket.height; y += largest.height) {
+    for (int32_t x = 0; x < bucket.width && GoesOn(job.cancel, 0); x += largest.width) {
+      const Rect part = {bucket.x + x, bucket.y + y, Min(largest.width, bucket.width - x),
+                         Min(largest.height, bucket.height - y)};
+      pixels += Batch(job, stack, scratch, part, accumulators).Refocus();
     }
   }
   return pixels;
@@ -262,14 +263,14 @@ uint64_t CompositeRectangle(const RenderJob& given, RendererScratch* scratch,
   stack.grid = &grid;
   ScaleWeights(&stack);
   uint64_t pixels = 0;
-  Rect tile = {0, 0, 0, 0};
-  for (; tile.y < job.rect.height; tile.y += tile.height) {
-    tile.height = SideOfTile(job.rect.height - tile.y);
-    for (tile.x = 0; tile.x < job.rect.width; tile.x += tile.width) {
-      tile.width = SideOfTile(job.rect.width - tile.x);
+  Rect bucket = {0, 0, 0, 0};
+  for (; bucket.y < job.rect.height; bucket.y += bucket.height) {
+    bucket.height = SideOfBucket(job.rect.height - bucket.y);
+    for (bucket.x = 0; bucket.x < job.rect.width; bucket.x += bucket.width) {
+      bucket.width = SideOfBucket(job.rect.width - bucket.x);
       if (!GoesOn(job.cancel, 0)) return 3 * pixels;
-      FindStack(job, tile, memory, &stack);
-      pixels += CompositeTile(job, stack, memory, tile, accumulators);
+      FindStack(job, bucket, memory, &stack);
+      pixels += CompositeBucket(job, stack, memory, bucket, accumulators);
     }
   }
   return 3 * pixels;
@@ -300,7 +301,7 @@ BlockWork MeasureWork(const Rect& rect, const Border& border, const ViewWeights&
   return work;
 }
 
-// Allocates the memory of all data that is computed from a field before the slices of a tile are
+// Allocates the memory of all data that is computed from a field before the slices of a bucket are
 // made. The memory for filling the surfaces overlaps the memory of the field.
 void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   CompositorScratch& scratch = *stack;
@@ -353,13 +354,13 @@ void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena*
   surfaces.hiding = arena->Take<uint64_t>(extended);
   scratch.offsets = arena->Take<simd::SliceOffset>(kMaxSlices * (2 * max_n + 1));
   scratch.pairs = arena->Take<CellPair>(CellPairs(config.superblock));
-  const auto rows = static_cast<size_t>(LargestTile(config.superblock));
+  const auto rows = static_cast<size_t>(LargestBucket(config.superblock));
   scratch.sums = arena->Take<uint32_t>(kPixelSums * simd::kSliceLanes * rows);
   const auto take_pool = [&] {
-    // Memory for parts of a tile of up to 64x64 pixels. With this size, the engine executes 1.7 %
-    // fewer instructions than with smaller parts.
-    const auto tile = static_cast<size_t>(Min(config.superblock, kSliceTile));
-    const size_t pool = Max(LeastPool(config.max_blur), 119 * tile * tile);
+    // Memory for batches of a bucket of up to 64x64 pixels. With this size, the engine executes 1.7
+    // % fewer instructions than with smaller parts.
+    const auto bucket = static_cast<size_t>(Min(config.superblock, kBucket));
+    const size_t pool = Max(LeastPool(config.max_blur), 119 * bucket * bucket);
     scratch.pool_bytes = Max(pool, arena->Rest());
     scratch.pool = arena->Take<uint8_t>(scratch.pool_bytes);
   };

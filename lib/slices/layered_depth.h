@@ -60,7 +60,7 @@ struct LayeredDepth {
 };
 
 // Number of rows in a band, and largest number of bands of the surfaces. For each band, FindSlices
-// finds the range of the disparities of all surfaces around a tile.
+// finds the range of the disparities of all surfaces around a bucket.
 inline constexpr int32_t kBandRows = 8;
 inline constexpr int32_t kMaxBands =
     kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;

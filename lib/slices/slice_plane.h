@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defines the slice: the part of a scene within a range of disparities so narrow that all pixels
-// move together from view to view. Also defines the limits on the size of tiles and on the number
-// of slices in a tile, and divides the surfaces of a tile into slices (slices.cc).
+// move together from view to view. Also defines the limits on the size of buckets and on the number
+// of slices in a bucket, and divides the surfaces of a bucket into slices (slices.cc).
 //
-// A slice plane stores a slice of a part of a tile: the pixels of the part and the surrounding
+// A slice plane stores a slice of a batch of a bucket: the pixels of the part and the surrounding
 // pixels that some view shows. The stored pixels already include the blur of wide subapertures.
 // Also computes the position of the slice in each view.
 #ifndef STARFOCUS_LIB_SLICES_SLICE_PLANE_H_
@@ -20,7 +20,7 @@
 
 namespace starfocus {
 
-// Limits on the number and thickness of the slices of a tile. The compositor makes the slices
+// Limits on the number and thickness of the slices of a bucket. The compositor makes the slices
 // coarser until all limits hold.
 struct SliceRule {
   int32_t most;  // largest number of slices
@@ -36,23 +36,22 @@ inline constexpr SliceRule kSlices = {16, 3 * kShiftOne / 8};
 inline constexpr SliceRule kFineSlices = {32, kShiftOne / 8};  // limits for mode `benchmark`
 inline constexpr int32_t kMaxSlices = simd::kMaxSeen;
 
-// A tile is a part of a rectangle of the picture, and has its own slices. Large blocks are divided
-// into tiles, because a large block may have more disparities than SliceRule::most thin slices can
-// hold. Tiles are kSliceTile pixels wide and high, except that the last tile may have up to
-// kMostSliceTile pixels. A block that measures 68 pixels with its border is therefore one tile, not
-// two tiles of 64 and 4 pixels.
-inline constexpr int32_t kSliceTile = 64;
-inline constexpr int32_t kMostSliceTile = 80;
+// A bucket is a part of a rectangle of the picture, and has its own slices. Large blocks are
+// divided into buckets, because a large block may have more disparities than SliceRule::most thin
+// slices can hold. Buckets are kBucket pixels wide and high, except that the last bucket may have
+// up to kMostBucket pixels. A block that measures 68 pixels with its border is therefore one
+// bucket, not two buckets of 64 and 4 pixels.
+inline constexpr int32_t kBucket = 64;
+inline constexpr int32_t kMostBucket = 80;
 
-// Returns the side of the next tile of a rectangle, of which `rest` pixels are not yet in a tile.
-constexpr int32_t SideOfTile(int32_t rest) { return rest <= kMostSliceTile ? rest : kSliceTile; }
+// Returns the side of the next bucket of a rectangle, of which `rest` pixels are not yet in a
+// bucket.
+constexpr int32_t SideOfBucket(int32_t rest) { return rest <= kMostBucket ? rest : kBucket; }
 
-// Returns the side of the largest tile of rectangles whose sides are at most `side` pixels.
-constexpr int32_t LargestTile(int32_t side) {
-  return side < kMostSliceTile ? side : kMostSliceTile;
-}
+// Returns the side of the largest bucket of rectangles whose sides are at most `side` pixels.
+constexpr int32_t LargestBucket(int32_t side) { return side < kMostBucket ? side : kMostBucket; }
 
-// Size in pixels of the smallest part of a tile for which slices are made.
+// Size in pixels of the smallest batch of a bucket for which slices are made.
 inline constexpr int32_t kLeastColumns = static_cast<int32_t>(simd::kSliceLanes);
 inline constexpr int32_t kLeastRows = 8;
 
@@ -99,14 +98,14 @@ constexpr int32_t LargestSliceReach(double max_blur) {
 }
 
 // Returns an area in pixels that measures the memory and the time that a slice costs. `reach` is
-// the number of pixels by which the slice extends beyond a small part of a tile.
+// the number of pixels by which the slice extends beyond a small batch of a bucket.
 constexpr int32_t SliceArea(int32_t reach) { return (reach + 16) * (reach + 16); }
 
-// Returns the largest sum of SliceArea over the slices of a tile, for a lens with blur radii up to
-// `blur` pixels. The sum allows five slices with a blur radius of `blur` or 32 pixels, whichever is
-// larger. The limit determines how finely a tile is divided into slices, and therefore the output
-// bytes. To keep the output independent of memory, the limit depends only on the lens, not on the
-// available memory or the storage format of slices.
+// Returns the largest sum of SliceArea over the slices of a bucket, for a lens with blur radii up
+// to `blur` pixels. The sum allows five slices with a blur radius of `blur` or 32 pixels, whichever
+// is larger. The limit determines how finely a bucket is divided into slices, and therefore the
+// output bytes. To keep the output independent of memory, the limit depends only on the lens, not
+// on the available memory or the storage format of slices.
 constexpr int32_t MostSliceArea(double blur) {
   constexpr int32_t kLeastBlur = 32, kMargin = 3;
   return 5 * SliceArea(Max(static_cast<int32_t>(blur), kLeastBlur) + kMargin);
@@ -116,12 +115,12 @@ constexpr int32_t MostSliceArea(double blur) {
 // aperture.
 inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
-// Finds the slices of a tile, ordered from the nearest to the farthest. The slices hold all pixels
-// of the surfaces that may splat into the tile, which is in pixels of the surfaces. Also finds the
-// range of disparities in each of the kMaxBands bands of the surfaces, for FillSlice. Returns the
-// number of slices, at most rule.most.
+// Finds the slices of a bucket, ordered from the nearest to the farthest. The slices hold all
+// pixels of the surfaces that may splat into the bucket, which is in pixels of the surfaces. Also
+// finds the range of disparities in each of the kMaxBands bands of the surfaces, for FillSlice.
+// Returns the number of slices, at most rule.most.
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-                   const SliceRule& rule, const Rect& tile, Slice* slices,
+                   const SliceRule& rule, const Rect& bucket, Slice* slices,
                    simd::DisparityRange* bands);
 
 struct SlicePlane {

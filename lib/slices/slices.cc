@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Divides the surfaces of a tile into slices.
+// Divides the surfaces of a bucket into slices.
 #include <cstring>
 
 #include "lib/slices/slice_plane.h"
@@ -12,16 +12,16 @@ namespace {
 // overlap and twice the overlap.
 constexpr int kOverlapParts = 10;
 
-// Finds the slices of a tile from the disparities of the surfaces around the tile.
+// Finds the slices of a bucket from the disparities of the surfaces around the bucket.
 class SliceFinder {
  public:
   SliceFinder(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-              const SliceRule& rule, const Rect& tile, simd::DisparityRange* bands)
+              const SliceRule& rule, const Rect& bucket, simd::DisparityRange* bands)
       : kernels_(kernels),
         surfaces_(surfaces),
         grid_(grid),
         rule_(rule),
-        tile_(tile),
+        bucket_(bucket),
         bands_(bands) {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
@@ -56,21 +56,22 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Finds the region of the surfaces from which pixels may splat into the tile. The region starts
+  // Finds the region of the surfaces from which pixels may splat into the bucket. The region starts
   // at the first row of a band and at the first column of a strip.
   void FindAround() {
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
         Max(Abs(grid_.Shift(move, surfaces_.low)), Abs(grid_.Shift(move, surfaces_.high)));
     const int32_t reach = SliceReach(rim, kWidestSubaperture) + 1;
-    around_.x = Max(tile_.x - reach, 0) / simd::kStripColumns * simd::kStripColumns;
-    around_.y = Max(tile_.y - reach, 0) / kBandRows * kBandRows;
-    around_.width = Min(tile_.x + tile_.width + reach, surfaces_.width) - around_.x;
-    around_.height = Min(tile_.y + tile_.height + reach, surfaces_.height) - around_.y;
+    around_.x = Max(bucket_.x - reach, 0) / simd::kStripColumns * simd::kStripColumns;
+    around_.y = Max(bucket_.y - reach, 0) / kBandRows * kBandRows;
+    around_.width = Min(bucket_.x + bucket_.width + reach, surfaces_.width) - around_.x;
+    around_.height = Min(bucket_.y + bucket_.height + reach, surfaces_.height) - around_.y;
   }
 
-  // Marks the bins of all pixels of a surface that may splat into the tile. One iteration processes
-  // at most one band. Rows without hidden surfaces are skipped for all surfaces but the first.
+  // Marks the bins of all pixels of a surface that may splat into the bucket. One iteration
+  // processes at most one band. Rows without hidden surfaces are skipped for all surfaces but the
+  // first.
   void Mark(int surface) {
     const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
     const int32_t last = around_.y + around_.height;
@@ -95,7 +96,7 @@ class SliceFinder {
       const int32_t least = surfaces_.least_blur[Beyond(pixels)];
       if (least == 0) {
         MarkPixels(surface, pixels, range.low, range.high);
-      } else {  // skips pixels that are too sharp to reach the tile
+      } else {  // skips pixels that are too sharp to reach the bucket
         MarkPixels(surface, pixels, range.low, Min(range.high, grid_.focus.far - least));
         MarkPixels(surface, pixels, Max(range.low, grid_.focus.far + least), range.high);
       }
@@ -122,9 +123,9 @@ class SliceFinder {
     uint8_t* const bins = surfaces_.bins;
     const int32_t* const least_blur = surfaces_.least_blur;
     const int32_t base = base_, bits = bin_bits_, focus = grid_.focus.far;
-    const int32_t left = tile_.x - pixels.x, right = left + tile_.width - 1;
+    const int32_t left = bucket_.x - pixels.x, right = left + bucket_.width - 1;
     for (int32_t y = 0; y < pixels.height; ++y, disparity += surfaces_.stride) {
-      const int32_t in_column = Beyond({tile_.x, pixels.y + y, 1, 1});
+      const int32_t in_column = Beyond({bucket_.x, pixels.y + y, 1, 1});
       ForEachBit(within[y], [=](int32_t k) {
         uint8_t& mark = bins[(disparity[k] - base) >> bits];
         if (mark != 0) return;
@@ -141,13 +142,13 @@ class SliceFinder {
 
   int32_t BinOf(int32_t disparity) const { return (disparity - base_) >> bin_bits_; }
 
-  // Returns the distance in pixels from the tile to the nearest pixel of `pixels`; 0 if `pixels`
-  // touches the tile.
+  // Returns the distance in pixels from the bucket to the nearest pixel of `pixels`; 0 if `pixels`
+  // touches the bucket.
   int32_t Beyond(const Rect& pixels) const {
     const int32_t x =
-        Max(tile_.x - (pixels.x + pixels.width - 1), pixels.x - (tile_.x + tile_.width - 1));
-    const int32_t y =
-        Max(tile_.y - (pixels.y + pixels.height - 1), pixels.y - (tile_.y + tile_.height - 1));
+        Max(bucket_.x - (pixels.x + pixels.width - 1), pixels.x - (bucket_.x + bucket_.width - 1));
+    const int32_t y = Max(bucket_.y - (pixels.y + pixels.height - 1),
+                          pixels.y - (bucket_.y + bucket_.height - 1));
     return Max(Max(x, y), 0);
   }
 
@@ -182,7 +183,7 @@ class SliceFinder {
           static_cast<int16_t>(Min(high + (thickness << bin_bits_) / kOverlapParts, INT16_MAX));
       slice.disparity = static_cast<int16_t>(low + (slice.high - low) / 2);
       SlicePlane placed;
-      PlaceSlice(grid_, slice.disparity, tile_, &placed);
+      PlaceSlice(grid_, slice.disparity, bucket_, &placed);
       area += SliceArea(placed.reach);
       if (area > rule_.area) return 0;
     }
@@ -193,7 +194,7 @@ class SliceFinder {
   const LayeredDepth& surfaces_;
   const ViewGrid& grid_;
   const SliceRule& rule_;
-  const Rect& tile_;
+  const Rect& bucket_;
   simd::DisparityRange* const bands_;
   int32_t range_;         // SliceRule::range, converted to a range of disparities.
   Rect around_;           // Region to search, in pixels of the surfaces.
@@ -204,9 +205,9 @@ class SliceFinder {
 }  // namespace
 
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-                   const SliceRule& rule, const Rect& tile, Slice* slices,
+                   const SliceRule& rule, const Rect& bucket, Slice* slices,
                    simd::DisparityRange* bands) {
-  return SliceFinder(kernels, surfaces, grid, rule, tile, bands).Find(slices);
+  return SliceFinder(kernels, surfaces, grid, rule, bucket, bands).Find(slices);
 }
 
 }  // namespace starfocus

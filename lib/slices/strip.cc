@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composites a strip, which consists of kSliceLanes adjacent pixel columns in a tile. All views of
-// a strip are composited while the slices of the strip are in the L1 cache.
+// Composites a strip, which consists of kSliceLanes adjacent pixel columns in a bucket. All views
+// of a strip are composited while the slices of the strip are in the L1 cache.
 #include <cstring>
 
 #include "lib/slices/compositor.h"

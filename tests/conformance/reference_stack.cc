@@ -373,9 +373,9 @@ Rectangle TileAt(const Rectangle& rectangle, int x, int y) {
 }
 
 // Composites a tile at (left, top) of the picture from the tile's own slices.
-void CompositeTile(const SurfaceMap& map, const Picture& extended, const Lens& lens,
-                   const Rectangle& tile, const Slicing& slicing, int left, int top,
-                   Picture* picture) {
+void CompositeBucket(const SurfaceMap& map, const Picture& extended, const Lens& lens,
+                     const Rectangle& tile, const Slicing& slicing, int left, int top,
+                     Picture* picture) {
   const std::vector<Range> ranges = RangeFinder(map, lens, tile, slicing).Find();
   Stack stack(map, ranges, lens, tile);
   const Plane& sum = stack.AddViews();
@@ -411,7 +411,7 @@ Picture CompositeRectangle(const LightField& field, const Picture& centre, const
   for (int y = 0; y < picture.height; y += tile.height) {
     for (int x = 0; x < picture.width; x += tile.width) {
       tile = TileAt(rectangle, x, y);
-      CompositeTile(map, extended, closed, tile, slicing, x, y, &picture);
+      CompositeBucket(map, extended, closed, tile, slicing, x, y, &picture);
     }
   }
   return picture;

@@ -167,7 +167,7 @@ int rows_filled = 0;
 // Cancels the call as soon as the first row of a slice has been filled.
 int SayNo(void*, int32_t, int32_t) { return rows_filled > 0 ? 1 : 0; }
 
-TEST_CASE("stack: no more tiles are computed after cancellation") {
+TEST_CASE("stack: no more buckets are computed after cancellation") {
   const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
   test::Config config = test::ConfigFor(scene, 32);
   config.superblock = 256;
@@ -185,7 +185,7 @@ TEST_CASE("stack: no more tiles are computed after cancellation") {
   CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) ==
         STARFOCUS_ERROR_CANCELLED);
   CHECK(rows_filled > 0);
-  CHECK(rows_filled < all / 8);  // fewer than two of sixteen tiles were computed
+  CHECK(rows_filled < all / 8);  // fewer than two of sixteen buckets were computed
 }
 
 // With AddressSanitizer, red zones between the parts of a workspace increase its size.

@@ -175,9 +175,9 @@ class BlockArtist {
   void DrawSlices() {
     Rect tile = {0, 0, 0, 0};
     for (; tile.y < rect_.height; tile.y += tile.height) {
-      tile.height = SideOfTile(rect_.height - tile.y);
+      tile.height = SideOfBucket(rect_.height - tile.y);
       for (tile.x = 0; tile.x < rect_.width; tile.x += tile.width) {
-        tile.width = SideOfTile(rect_.width - tile.x);
+        tile.width = SideOfBucket(rect_.width - tile.x);
         DrawSlicesOf(tile);
       }
     }
