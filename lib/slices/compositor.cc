@@ -62,7 +62,7 @@ class Batch {
     }
     int16_t* const behind = reinterpret_cast<int16_t*>(next);
     for (int32_t k = 0; k < stack_.count; ++k) {
-      FillSlice(*job_.input->kernels, scratch_.surfaces, stack_.bands, stack_.slices[k], rect,
+      FillSlice(*job_.input->kernels, scratch_.surfaces, stack_.ranges, stack_.slices[k], rect,
                 behind, planes_[k]);
     }
     return behind;
@@ -191,7 +191,7 @@ void FindStack(const RenderJob& job, const Rect& bucket, const CompositorScratch
   const Rect in_surfaces = {stack->inner.x + bucket.x, stack->inner.y + bucket.y, bucket.width,
                             bucket.height};
   stack->count = FindSlices(*job.input->kernels, scratch.surfaces, *job.grid, SliceRuleOf(job),
-                            in_surfaces, stack->slices, stack->bands);
+                            in_surfaces, stack->slices, stack->ranges);
   FindOffsets(*job.grid, stack->slices, stack->count, scratch.offsets);
   stack->offsets = scratch.offsets;
 }

@@ -33,8 +33,8 @@ struct SliceStack {
   Rect inner;  // rectangle to refocus, which contains the bucket, in pixels of the surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  simd::DisparityRange bands[kMaxBands];  // Disparities of all surfaces in each band.
-  const simd::SliceOffset* offsets;       // One offset per slice, for each column -N to N of views.
+  simd::DisparityRange ranges[kMaxBands];  // Disparities of all surfaces in each kRangeRows rows.
+  const simd::SliceOffset* offsets;  // One offset per slice, for each column -N to N of views.
 
   // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in
   // all views (j, i).

@@ -59,11 +59,11 @@ struct LayeredDepth {
   }
 };
 
-// Number of rows in a band, and largest number of bands of the surfaces. For each band, FindSlices
-// finds the range of the disparities of all surfaces around a bucket.
-inline constexpr int32_t kBandRows = 8;
+// Number of rows in a group of rows, and largest number of ranges of the surfaces. For each
+// kRangeRows rows, FindSlices finds the range of the disparities of all surfaces around a bucket.
+inline constexpr int32_t kRangeRows = 8;
 inline constexpr int32_t kMaxBands =
-    kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kBandRows;
+    kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kRangeRows;
 
 // Extends *all to include `range`.
 inline void Widen(const simd::DisparityRange& range, simd::DisparityRange* all) {

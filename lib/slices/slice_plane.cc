@@ -238,14 +238,14 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
 }
 
 void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const simd::DisparityRange* bands, const Slice& slice, const Rect& rect,
+               const simd::DisparityRange* ranges, const Slice& slice, const Rect& rect,
                int16_t* filtered, const SlicePlane& placed) {
   const int32_t x = rect.x - placed.reach, y = rect.y - placed.reach;
   const int32_t width = rect.width + 2 * placed.reach;
   int16_t* samples = placed.samples;
   for (int32_t row = 0; row < placed.rows; ++row, samples += 4 * placed.plane) {
     const int32_t from = Clamp(y + row, 0, surfaces.height - 1);
-    const simd::DisparityRange& range = bands[from / kBandRows];
+    const simd::DisparityRange& range = ranges[from / kRangeRows];
     if (range.high < slice.low || range.low > slice.overlap) {
       std::memset(samples, 0, 4 * placed.plane * sizeof(*samples));
       placed.cover[row] = {0, 0};

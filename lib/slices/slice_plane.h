@@ -117,11 +117,11 @@ inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
 // Finds the slices of a bucket, ordered from the nearest to the farthest. The slices hold all
 // pixels of the surfaces that may splat into the bucket, which is in pixels of the surfaces. Also
-// finds the range of disparities in each of the kMaxBands bands of the surfaces, for FillSlice.
+// finds the range of disparities in each of the kMaxBands ranges of the surfaces, for FillSlice.
 // Returns the number of slices, at most rule.most.
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
                    const SliceRule& rule, const Rect& bucket, Slice* slices,
-                   simd::DisparityRange* bands);
+                   simd::DisparityRange* ranges);
 
 struct SlicePlane {
   int32_t reach = 0;  // Number of pixels that the slice extends beyond the rectangle on each side.
@@ -172,11 +172,11 @@ void PlaceSlice(const ViewGrid& grid, int16_t disparity, const Rect& rect, Slice
 
 // Copies the slice's pixels in and around `rect`, which is in pixels of the surfaces. Repeats the
 // outermost pixels beyond the ends of the surfaces. For wide subapertures, the function also
-// applies the subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Skips bands
+// applies the subaperture as a filter. `filtered` is scratch memory of FilteredBytes. Skips ranges
 // that contain no disparity of the slice. The caller sets the pointers `samples` and `cover` of
 // `placed`.
 void FillSlice(const simd::Kernels& kernels, const LayeredDepth& surfaces,
-               const simd::DisparityRange* bands, const Slice& slice, const Rect& rect,
+               const simd::DisparityRange* ranges, const Slice& slice, const Rect& rect,
                int16_t* filtered, const SlicePlane& placed);
 
 // Returns the strips of a slice's row that some view shows in the strip at column `x` of the

@@ -16,13 +16,13 @@ constexpr int kOverlapParts = 10;
 class SliceFinder {
  public:
   SliceFinder(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
-              const SliceRule& rule, const Rect& bucket, simd::DisparityRange* bands)
+              const SliceRule& rule, const Rect& bucket, simd::DisparityRange* ranges)
       : kernels_(kernels),
         surfaces_(surfaces),
         grid_(grid),
         rule_(rule),
         bucket_(bucket),
-        bands_(bands) {
+        ranges_(ranges) {
     const int64_t step = grid_.step > 0 ? grid_.step : 1;
     constexpr int kBits = kStepBits + kDisparityBits - kShiftBits;
     range_ = static_cast<int32_t>(Limited((int64_t{rule.range} << kBits) / step));
@@ -57,29 +57,29 @@ class SliceFinder {
   }
 
   // Finds the region of the surfaces from which pixels may splat into the bucket. The region starts
-  // at the first row of a band and at the first column of a strip.
+  // at the first row of a group of rows and at the first column of a strip.
   void FindAround() {
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
         Max(Abs(grid_.Shift(move, surfaces_.low)), Abs(grid_.Shift(move, surfaces_.high)));
     const int32_t reach = SliceReach(rim, kWidestSubaperture) + 1;
     around_.x = Max(bucket_.x - reach, 0) / simd::kStripColumns * simd::kStripColumns;
-    around_.y = Max(bucket_.y - reach, 0) / kBandRows * kBandRows;
+    around_.y = Max(bucket_.y - reach, 0) / kRangeRows * kRangeRows;
     around_.width = Min(bucket_.x + bucket_.width + reach, surfaces_.width) - around_.x;
     around_.height = Min(bucket_.y + bucket_.height + reach, surfaces_.height) - around_.y;
   }
 
   // Marks the bins of all pixels of a surface that may splat into the bucket. One iteration
-  // processes at most one band. Rows without hidden surfaces are skipped for all surfaces but the
-  // first.
+  // processes at most kRangeRows rows. Rows without hidden surfaces are skipped for all surfaces
+  // but the first.
   void Mark(int surface) {
     const auto has = [&](int32_t y) { return surface == 0 || surfaces_.hiding[y] != 0; };
     const int32_t last = around_.y + around_.height;
     for (int32_t y = around_.y, end; y < last; y = end) {
       end = y + 1;
-      if (surface == 0 && y % kBandRows == 0) bands_[y / kBandRows] = {INT16_MAX, INT16_MIN};
+      if (surface == 0 && y % kRangeRows == 0) ranges_[y / kRangeRows] = {INT16_MAX, INT16_MIN};
       if (!has(y)) continue;
-      while (end % kBandRows != 0 && end < last && has(end)) ++end;
+      while (end % kRangeRows != 0 && end < last && has(end)) ++end;
       MarkRows(surface, y, end);
     }
   }
@@ -91,7 +91,7 @@ class SliceFinder {
                         static_cast<size_t>(around_.width), ranges);
     for (int32_t x = 0; x < around_.width; x += simd::kStripColumns) {
       const simd::DisparityRange& range = ranges[x / simd::kStripColumns];
-      Widen(range, &bands_[y / kBandRows]);
+      Widen(range, &ranges_[y / kRangeRows]);
       const Rect pixels = {around_.x + x, y, Min(simd::kStripColumns, around_.width - x), end - y};
       const int32_t least = surfaces_.least_blur[Beyond(pixels)];
       if (least == 0) {
@@ -115,7 +115,7 @@ class SliceFinder {
     const simd::DisparityRange range = {static_cast<int16_t>(Max(low, LowOf(first))),
                                         static_cast<int16_t>(Min(high, LowOf(last + 1) - 1))};
     const int16_t* disparity = surfaces_.disparity[surface] + surfaces_.At(pixels.x, pixels.y);
-    uint16_t within[kBandRows];
+    uint16_t within[kRangeRows];
     kernels_.FindWithin(disparity, static_cast<size_t>(surfaces_.stride),
                         static_cast<size_t>(pixels.height), range, within);
     // Members are copied to local variables, because the compiler must assume that a write to
@@ -195,7 +195,7 @@ class SliceFinder {
   const ViewGrid& grid_;
   const SliceRule& rule_;
   const Rect& bucket_;
-  simd::DisparityRange* const bands_;
+  simd::DisparityRange* const ranges_;
   int32_t range_;         // SliceRule::range, converted to a range of disparities.
   Rect around_;           // Region to search, in pixels of the surfaces.
   int32_t bin_bits_ = 0;  // log2 of the number of disparities in a bin.
@@ -206,8 +206,8 @@ class SliceFinder {
 
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
                    const SliceRule& rule, const Rect& bucket, Slice* slices,
-                   simd::DisparityRange* bands) {
-  return SliceFinder(kernels, surfaces, grid, rule, bucket, bands).Find(slices);
+                   simd::DisparityRange* ranges) {
+  return SliceFinder(kernels, surfaces, grid, rule, bucket, ranges).Find(slices);
 }
 
 }  // namespace starfocus

@@ -98,8 +98,8 @@ TEST_CASE("slices: the range of a band of rows includes the disparities of all s
   for (int band = 1; band < 7; ++band) {
     CAPTURE(band);
     for (const int row : {8 * band, 8 * band + 7}) {
-      CHECK(scene.bands[row / starfocus::kBandRows].low == expected[band][0]);
-      CHECK(scene.bands[row / starfocus::kBandRows].high == expected[band][1]);
+      CHECK(scene.bands[row / starfocus::kRangeRows].low == expected[band][0]);
+      CHECK(scene.bands[row / starfocus::kRangeRows].high == expected[band][1]);
     }
   }
 }
