@@ -121,8 +121,8 @@ void Render(const EngineState& engine, const Block& block, const RenderJob& job,
 void GatherBlock(const EngineState& engine, const Block& block, const Plane<uint8_t>& out,
                  Scratch* scratch) {
   BlockPixels field;
-  field.rgb = scratch->field_rgb;
-  field.disparity = scratch->field_disparity;
+  field.rgb = scratch->block_rgb;
+  field.disparity = scratch->block_disparity;
   const BlockCells cells = {&engine.stripe.plan.gathered, block.rect, block.layer};
   const Tables& tables = *engine.tables;
   const GatherJob job = {&engine.input,      &engine.stripe.cells, cells,
@@ -173,7 +173,7 @@ void RefocusViews(const EngineState& engine, const Block& block, const Plane<uin
   const auto blur = [&](const Input& input) {
     const BlurJob job = {&input,     engine.lens.scale, engine.tables->psfs,
                          block.rect, block.border.left, &scratch->cancel};
-    BlurRectangle(job, scratch->field_rgb, scratch->sums, At(out, block.rect, 0), out.stride);
+    BlurRectangle(job, scratch->block_rgb, scratch->sums, At(out, block.rect, 0), out.stride);
   };
   blur(engine.input);
   if (block.has_highlights) {

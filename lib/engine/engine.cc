@@ -33,8 +33,8 @@ void TakeUpsampling(const FullConfig& config, size_t extended, Arena* arena, Scr
   scratch->layer_samples = arena->Take<int16_t>(3 * half * half);
   const auto gather = [&] {
     const size_t stride = RgbStride(static_cast<int32_t>(extended));
-    scratch->field_rgb = arena->Take<int16_t>(extended * stride);
-    scratch->field_disparity = arena->Take<int16_t>(extended * extended);
+    scratch->block_rgb = arena->Take<int16_t>(extended * stride);
+    scratch->block_disparity = arena->Take<int16_t>(extended * extended);
   };
   const auto upsample = [&] {
     scratch->upsample.line = arena->Take<int16_t>(3 * half);

@@ -87,7 +87,7 @@ struct Scratch {
   uint32_t* sums;                             // 3 R^2 samples.
   uint16_t* aperture_weights;  // With cat's eyes: view weights of a block, for up to the largest N.
   LampLengths* lamp_lengths;   // Cache of runs of highlights, if highlights are enabled.
-  int16_t *field_rgb, *field_disparity;  // Pixels of a block that is blurred without views.
+  int16_t *block_rgb, *block_disparity;  // Pixels of a block that is blurred without views.
   ResampleScratch resample;
   UpsampleScratch upsample;
   int16_t* layer_samples;          // Samples of the rendered rectangle.

@@ -380,8 +380,8 @@ void ScanLine(const Line& line, Direction direction, const Range& part, const Ra
 struct LineScanScratch : RendererScratch {
   const simd::LineScanKernels* kernels;
   // Light of the field and of the transposed field: E rows of RgbStride(E) each.
-  int16_t* field_rgb[2];
-  int16_t* field_disparity[2];  // Disparities of both fields: E^2 each.
+  int16_t* block_rgb[2];
+  int16_t* block_disparity[2];  // Disparities of both fields: E^2 each.
   int16_t* diagonal_rgb;        // Light of a diagonal line: 3 E.
   int16_t* diagonal_disparity;  // Disparities of this line: E.
   int64_t* moves;               // ViewGrid::Move of views 0 to N along an axis: N + 1.

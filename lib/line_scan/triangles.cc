@@ -121,8 +121,8 @@ class Star {
 
   BlockPixels MakeField(int orientation) const {
     BlockPixels field;
-    field.rgb = scratch_->field_rgb[orientation];
-    field.disparity = scratch_->field_disparity[orientation];
+    field.rgb = scratch_->block_rgb[orientation];
+    field.disparity = scratch_->block_disparity[orientation];
     return field;
   }
 
@@ -410,8 +410,8 @@ void TakeScratch(const FullConfig& config, size_t extended, size_t max_n, Arena*
   const size_t area = extended * extended;
   const size_t rgb_stride = RgbStride(static_cast<int32_t>(extended));
   for (int k = 0; k < 2; ++k) {
-    scratch.field_rgb[k] = arena->Take<int16_t>(extended * rgb_stride);
-    scratch.field_disparity[k] = arena->Take<int16_t>(area);
+    scratch.block_rgb[k] = arena->Take<int16_t>(extended * rgb_stride);
+    scratch.block_disparity[k] = arena->Take<int16_t>(area);
   }
   scratch.column_sums = arena->Take<uint32_t>(3 * rectangle * rectangle);
   scratch.diagonal_rgb = arena->Take<int16_t>(3 * extended);

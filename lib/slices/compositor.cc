@@ -168,8 +168,8 @@ class Batch {
 // CentreRow. Returns the position of the rectangle in `scratch->surfaces`, in pixels.
 Rect LoadSurfaces(const RenderJob& job, CompositorScratch* scratch, uint32_t* accumulators) {
   BlockPixels field;
-  field.rgb = scratch->field_rgb;
-  field.disparity = scratch->field_disparity;
+  field.rgb = scratch->block_rgb;
+  field.disparity = scratch->block_disparity;
   LoadBlock(*job.input, job.layer, job.rect, job.border, &field);
   SetThinDisparities(*job.input, &field);
   FindLayeredDepth(*job.input->kernels, *job.input, field, &scratch->surfaces);
@@ -310,8 +310,8 @@ void TakeField(size_t extended, Arena* arena, CompositorScratch* stack) {
   const size_t row = simd::SliceSamples(extended);
   for (uint16_t*& sources : surfaces.sources) sources = arena->Take<uint16_t>(extended * row);
   const auto take_field = [&] {
-    scratch.field_rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
-    scratch.field_disparity = arena->Take<int16_t>(extended * extended);
+    scratch.block_rgb = arena->Take<int16_t>(extended * RgbStride(static_cast<int32_t>(extended)));
+    scratch.block_disparity = arena->Take<int16_t>(extended * extended);
     for (uint8_t*& edges : surfaces.edges) {
       edges = arena->Take<uint8_t>(extended * row + simd::kSliceLanes);
     }

@@ -81,7 +81,7 @@ inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
 // each bucket writes before its slices are made.
 struct CompositorScratch : RendererScratch {
   // Pixels of the block: E rows of RgbStride(E) samples of light, and E^2 disparities.
-  int16_t *field_rgb, *field_disparity;
+  int16_t *block_rgb, *block_disparity;
   LayeredDepth surfaces;       // E^2 pixels per surface.
   FillScratch fill;            // Used only after all reads of the field.
   simd::SliceOffset* offsets;  // kMaxSlices (2 N + 1) elements.
