@@ -229,9 +229,9 @@ EstimateMemory TakeEstimate(const SweepSetup& setup, int32_t max_workers, Arena*
   memory.workers = arena->Take<TileMemory>(static_cast<size_t>(max_workers));
   Rect largest = {0, 0, 0, 0};  // largest width and height of all tiles with their borders
   for (int32_t tile = 0; tile < setup.columns * setup.rows; ++tile) {
-    const Rect region = RegionOf(setup, tile);
-    largest.width = Max(largest.width, region.width);
-    largest.height = Max(largest.height, region.height);
+    const Rect bordered = WithBorder(setup, tile);
+    largest.width = Max(largest.width, bordered.width);
+    largest.height = Max(largest.height, bordered.height);
   }
   for (int32_t worker = 0; worker < max_workers; ++worker) {
     const TileMemory tile = TakeTileMemory(setup, largest, arena);

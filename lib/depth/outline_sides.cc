@@ -226,15 +226,15 @@ int16_t CrestOf(const OutlinePass& pass, int32_t x, int32_t y, bool near) {
 // Bit of SidePlanes::ready for a round.
 uint8_t Bit(int32_t round) { return static_cast<uint8_t>(1 << (round & 1)); }
 
-// Writes the states of the region, the disparities of clean pixels, and the list of the others.
+// Writes the states of the rectangle, the disparities of clean pixels, and the list of the others.
 // Returns their number. Clean pixels outside the band are found only beside it.
 size_t FindClean(const OutlinePass& pass, SidePlanes* planes) {
-  const Rect region = planes->region;
+  const Rect widened = planes->widened;
   const int32_t end = kDistance * pass.band - 2;
   const int32_t clean = pass.IsHard() ? 0 : Min(pass.ramp / 2 + kBesideRamp, end);
-  std::fill_n(planes->state, planes->Stride() * (region.height + 2), kOutside);
+  std::fill_n(planes->state, planes->Stride() * (widened.height + 2), kOutside);
   size_t count = 0;
-  ForBand(pass, region, [&](int32_t x, int32_t y, size_t from) {
+  ForBand(pass, widened, [&](int32_t x, int32_t y, size_t from) {
     const size_t to = planes->At(x, y);
     const int32_t distance = Abs(pass.distance[from]);
     const bool near = IsNearer(pass, x, y), was_near = pass.map[from] > pass.middle[from];
@@ -248,7 +248,7 @@ size_t FindClean(const OutlinePass& pass, SidePlanes* planes) {
     }
     if (distance < end - kDistance) return;
     ForPixels(Widened(*pass.setup, {x, y, 1, 1}, 1), [&](int32_t u, int32_t v) {
-      if (pass.distance[pass.At(u, v)] != 0 || !Contains(region, u, v)) return;
+      if (pass.distance[pass.At(u, v)] != 0 || !Contains(widened, u, v)) return;
       if (!pass.IsHard() && !IsFlat(pass, u, v)) return;
       planes->disparity[planes->At(u, v)] = pass.map[pass.At(u, v)];
       planes->state[planes->At(u, v)] = 0;
@@ -415,7 +415,7 @@ void WriteResult(const OutlinePass& pass, const Rect& tile, SidePlanes* planes) 
     std::copy_n(pass.map + pass.At(tile.x, y), tile.width, pass.result + pass.At(tile.x, y));
   }
   const int32_t rounds = 2 * pass.band + 2;
-  planes->region = Widened(*pass.setup, tile, rounds);
+  planes->widened = Widened(*pass.setup, tile, rounds);
   size_t pending = FindClean(pass, planes);
   const auto write = [&](int32_t at, int32_t x, int32_t y) {
     if (Contains(tile, x, y)) pass.result[pass.At(x, y)] = planes->disparity[at];

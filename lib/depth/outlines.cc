@@ -45,7 +45,7 @@ void JoinWindows(const OutlinePass& pass, const Rect& rect, int32_t radius, int1
   const int32_t side = 2 * radius + 1;
   const auto line = [&](int32_t y) { return out + ptrdiff_t{y} * rect.width; };
   for (int32_t y = 0; y < all.height; ++y) {
-    int16_t buffers[2][kMostRegion + 2 * kMostOutlineRadius];
+    int16_t buffers[2][kMostWidened + 2 * kMostOutlineRadius];
     int16_t *from = buffers[0], *to = buffers[1];
     std::fill_n(from, all.width, outside);
     if (Contains(inside, inside.x, all.y + y)) {
@@ -136,19 +136,19 @@ int32_t MiddleOfStep(const OutlinePass& pass, int32_t x, int32_t y) {
   return middle;
 }
 
-// Finds the pixels beside outlines in a region, and the middles of their two surfaces.
-void FindCrossings(const OutlinePass& pass, const Rect& region, OutlineScratch* scratch) {
+// Finds the pixels beside outlines in a rectangle, and the middles of their two surfaces.
+void FindCrossings(const OutlinePass& pass, const Rect& widened, OutlineScratch* scratch) {
   int32_t* out = scratch->distances.outlines;
   const auto write = [&](int32_t middle) {
     *out++ = middle == INT32_MIN ? kFar : NumberOf(kDistance / 2, middle);
   };
   if (pass.IsHard()) {
-    ForPixels(region, [&](int32_t x, int32_t y) { write(MiddleOfStep(pass, x, y)); });
+    ForPixels(widened, [&](int32_t x, int32_t y) { write(MiddleOfStep(pass, x, y)); });
     return;
   }
-  FindExtremes(pass, region, pass.radius, scratch);
+  FindExtremes(pass, widened, pass.radius, scratch);
   const int16_t *low = scratch->distances.low, *high = scratch->distances.high;
-  ForPixels(region, [&](int32_t x, int32_t y) {
+  ForPixels(widened, [&](int32_t x, int32_t y) {
     const int32_t least = *low++, range = *high++ - least, middle = least + (range >> 1);
     const bool crosses = range > kLeastStep && StepAcross(pass, x, y, middle) > 0 &&
                          !IsSlanted(pass, x, y, range, pass.radius);
@@ -157,9 +157,9 @@ void FindCrossings(const OutlinePass& pass, const Rect& region, OutlineScratch* 
 }
 
 // Extends distances and middles by a chamfer transform with steps of 1 and 1.5 pixels.
-void ExtendDistances(const Rect& region, int32_t* outlines) {
+void ExtendDistances(const Rect& widened, int32_t* outlines) {
   constexpr int32_t kStep = kDistance << kDistanceBits, kAcross = kStep * 3 / 2;
-  const int32_t width = region.width;
+  const int32_t width = widened.width;
   // Takes from a neighbouring row.
   const auto take = [&](int32_t* row, const int32_t* from) {
     const auto from_three = [&](int32_t x, int32_t left, int32_t right) {
@@ -170,28 +170,28 @@ void ExtendDistances(const Rect& region, int32_t* outlines) {
     for (int32_t x = 1; x + 1 < width; ++x) from_three(x, x - 1, x + 1);
     from_three(width - 1, Max(width - 2, 0), width - 1);
   };
-  for (int32_t y = 0; y < region.height; ++y) {
+  for (int32_t y = 0; y < widened.height; ++y) {
     int32_t* row = outlines + ptrdiff_t{y} * width;
     if (y > 0) take(row, row - width);
     for (int32_t x = 1; x < width; ++x) row[x] = std::min(row[x], row[x - 1] + kStep);
   }
-  for (int32_t y = region.height - 1; y >= 0; --y) {
+  for (int32_t y = widened.height - 1; y >= 0; --y) {
     int32_t* row = outlines + ptrdiff_t{y} * width;
-    if (y + 1 < region.height) take(row, row + width);
+    if (y + 1 < widened.height) take(row, row + width);
     for (int32_t x = width - 2; x >= 0; --x) row[x] = std::min(row[x], row[x + 1] + kStep);
   }
 }
 
 // Writes the middles and the signed distances of a tile.
 void MeasureDistances(const OutlinePass& pass, const Rect& tile, OutlineScratch* scratch) {
-  const Rect region = Widened(*pass.setup, tile, pass.band + 2);
-  FindCrossings(pass, region, scratch);
-  ExtendDistances(region, scratch->distances.outlines);
+  const Rect widened = Widened(*pass.setup, tile, pass.band + 2);
+  FindCrossings(pass, widened, scratch);
+  ExtendDistances(widened, scratch->distances.outlines);
   for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
     std::fill_n(pass.distance + pass.At(tile.x, y), tile.width, int8_t{0});
     std::fill_n(pass.side + pass.At(tile.x, y), tile.width, int8_t{0});
     const int32_t* own =
-        scratch->distances.outlines + (y - region.y) * region.width + tile.x - region.x;
+        scratch->distances.outlines + (y - widened.y) * widened.width + tile.x - widened.x;
     for (int32_t x = tile.x; x < tile.x + tile.width; ++x, ++own) {
       const int32_t to_outline = DistanceOf(*own), middle = MiddleOf(*own);
       if (to_outline > kDistance * pass.band + 2) continue;
@@ -199,7 +199,7 @@ void MeasureDistances(const OutlinePass& pass, const Rect& tile, OutlineScratch*
       const bool near = pass.map[at] > middle;
       int32_t ridge = 1;
       ForBeside(pass, x, y, [&](int32_t other, int32_t dx, int32_t dy) {
-        const bool farther = DistanceOf(own[dy * region.width + dx]) > to_outline;
+        const bool farther = DistanceOf(own[dy * widened.width + dx]) > to_outline;
         if (farther && (other > middle) == near) ridge = 0;
       });
       const int32_t distance = to_outline + ridge;

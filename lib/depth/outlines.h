@@ -39,7 +39,7 @@ inline constexpr int32_t kMostBand = 10, kMostOutlineRadius = 12;
 inline constexpr int32_t kVoteRadius = 7, kMostRadius = kMostBand + kVoteRadius;
 // Disparities of a tile follow from the pixels up to kSideRadius pixels around it.
 inline constexpr int32_t kSideRadius = 2 * kMostBand + 4;
-inline constexpr size_t kMostRegion = kMostTileSide + 2 * kSideRadius;
+inline constexpr size_t kMostWidened = kMostTileSide + 2 * kSideRadius;
 // Widths of ramps that are counted apart, in 1/kDistance pixel. The last one includes all wider.
 inline constexpr int32_t kRampCounts = kDistance * 25;
 
@@ -78,32 +78,32 @@ struct VoteBlock {
   int16_t colour[3][kWidth * kWidth], surface[kWidth * kWidth], trust[kWidth * kWidth];
 };
 
-// Planes of a region of at most kMostRegion^2 pixels and a border of one pixel, for
+// Planes of a rectangle of at most kMostWidened^2 pixels and a border of one pixel, for
 // WriteResult, and the pixels that have no disparity yet.
 struct SidePlanes {
-  static constexpr size_t kSamples = (kMostRegion + 2) * (kMostRegion + 2);
+  static constexpr size_t kSamples = (kMostWidened + 2) * (kMostWidened + 2);
 
-  Rect region;
+  Rect widened;
   int16_t disparity[kSamples];
   uint8_t state[kSamples];
   uint8_t ready[kSamples];  // a bit for odd and one for even rounds
   int32_t pending[kSamples];
 
-  int32_t Stride() const { return region.width + 2; }
+  int32_t Stride() const { return widened.width + 2; }
   size_t At(int32_t x, int32_t y) const {
-    return static_cast<size_t>((y - region.y + 1) * Stride() + x - region.x + 1);
+    return static_cast<size_t>((y - widened.y + 1) * Stride() + x - widened.x + 1);
   }
-  int32_t XOf(int32_t at) const { return at % Stride() + region.x - 1; }
-  int32_t YOf(int32_t at) const { return at / Stride() + region.y - 1; }
+  int32_t XOf(int32_t at) const { return at % Stride() + widened.x - 1; }
+  int32_t YOf(int32_t at) const { return at / Stride() + widened.y - 1; }
 };
 
 // Memory of a worker. Each phase uses one of its members.
 union OutlineScratch {
   struct {
-    int32_t outlines[kMostRegion * kMostRegion];
+    int32_t outlines[kMostWidened * kMostWidened];
     // Lowest and highest disparities of windows.
-    int16_t low[(kMostRegion + 2 * kMostOutlineRadius) * kMostRegion];
-    int16_t high[(kMostRegion + 2 * kMostOutlineRadius) * kMostRegion];
+    int16_t low[(kMostWidened + 2 * kMostOutlineRadius) * kMostWidened];
+    int16_t high[(kMostWidened + 2 * kMostOutlineRadius) * kMostWidened];
   } distances;
   VoteBlock block;
   SidePlanes sides;

@@ -130,7 +130,7 @@ Rect TileOf(const SweepSetup& setup, int32_t index) {
           TileBegin(setup.height, setup.rows, row + 1) - y};
 }
 
-Rect RegionOf(const SweepSetup& setup, int32_t index) {
+Rect WithBorder(const SweepSetup& setup, int32_t index) {
   return Widened(setup, TileOf(setup, index), setup.repairs ? kRepairBorder : kTileBorder);
 }
 

@@ -115,9 +115,9 @@ int32_t TileBegin(int32_t length, int32_t count, int32_t k);
 
 // Returns the rectangle of tile `index`; `index` is in [0, columns * rows).
 Rect TileOf(const SweepSetup& setup, int32_t index);
-// Returns the region that is swept for tile `index`, which is the tile extended by the border of
+// Returns the rectangle that is swept for tile `index`, which is the tile extended by the border of
 // the setup.
-Rect RegionOf(const SweepSetup& setup, int32_t index);
+Rect WithBorder(const SweepSetup& setup, int32_t index);
 // Returns the rectangle enlarged by `border` on all sides and clipped to the picture.
 inline Rect Widened(const SweepSetup& setup, const Rect& rect, int32_t border) {
   return Clipped(Extended(rect, {border, border, border, border}), setup.width, setup.height);

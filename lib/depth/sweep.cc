@@ -15,32 +15,32 @@ namespace {
 // by at most kOwnLabels (kDisparityBits).
 constexpr int32_t kOwnLabels = 1 << (kDisparityBits - 1);
 
-// A tile of a sweep: the region that consists of the tile and its border, and the tile's memory.
+// A tile of a sweep: the tile with its border, and the tile's memory.
 struct SweptTile {
   const SweepSetup& setup;
-  const Rect& region;
+  const Rect& bordered;
   const simd::DepthKernels& kernels;
   const TileMemory& memory;
   const uint8_t* swept;  // EstimateMemory::swept
   size_t places;         // Number of elements of a pixel in the arrays of costs (PathLabels).
 
-  // Calls act(begin, end) for each run of swept pixels of row y of the region (ForSwept).
+  // Calls act(begin, end) for each run of swept pixels of row y of the bordered tile (ForSwept).
   template <class Act>
   void ForRow(int32_t y, const Act& act) const {
-    ForSwept(setup, swept, y, region.x, region.x + region.width, act);
+    ForSwept(setup, swept, y, bordered.x, bordered.x + bordered.width, act);
   }
   // Returns the index of the first element of pixel (x, y) in the arrays of costs.
   size_t At(int32_t x, int32_t y) const {
-    const size_t row = static_cast<size_t>(y - region.y) * static_cast<size_t>(region.width);
-    return (row + static_cast<size_t>(x - region.x)) * places;
+    const size_t row = static_cast<size_t>(y - bordered.y) * static_cast<size_t>(bordered.width);
+    return (row + static_cast<size_t>(x - bordered.x)) * places;
   }
 };
 
-// Fills the costs of the pixels of the region. If `one_side` is true, the views on the side whose
-// views fit a pixel best are assumed to see the pixel. Otherwise, all views are assumed to see it,
-// except views in which the pixel is known to be hidden. The caller must have loaded the views
-// around the region, and marked the labels (disparities) that nearer surfaces hide in each view
-// (LoadTileViews, MarkHidden).
+// Fills the costs of the pixels of the bordered tile. If `one_side` is true, the views on the side
+// whose views fit a pixel best are assumed to see the pixel. Otherwise, all views are assumed to
+// see it, except views in which the pixel is known to be hidden. The caller must have loaded the
+// views around the bordered tile, and marked the labels (disparities) that nearer surfaces hide in
+// each view (LoadTileViews, MarkHidden).
 void MeasureCosts(const SweptTile& tile, bool one_side) {
   const SweepSetup& setup = tile.setup;
   const TileViews& views = tile.memory.views;
@@ -63,7 +63,7 @@ void MeasureCosts(const SweptTile& tile, bool one_side) {
   // which a nearer surface hides the pixel. In a repair, such a hidden view remains in use with a
   // limited cost, because the map of a repair may be wrong.
   row.limits = setup.repairs && !one_side;
-  for (int32_t y = tile.region.y; y < tile.region.y + tile.region.height; ++y) {
+  for (int32_t y = tile.bordered.y; y < tile.bordered.y + tile.bordered.height; ++y) {
     tile.ForRow(y, [&](int32_t begin, int32_t end) {
       const size_t at = views.At(begin, y);
       row.pixels = views.Centre(0) + at;
@@ -86,28 +86,28 @@ void BeginAt(const SweptTile& tile, int32_t k, int16_t* path, int16_t* least) {
 // Starts paths at all pixels of row y in columns [first, last) that are not swept.
 void BeginBeside(const SweptTile& tile, int32_t y, int32_t first, int32_t last, int16_t* path,
                  int16_t* least) {
-  const Rect& region = tile.region;
-  const bool inside = y >= region.y && y < region.y + region.height;
+  const Rect& bordered = tile.bordered;
+  const bool inside = y >= bordered.y && y < bordered.y + bordered.height;
   const uint8_t* swept =
       tile.swept == nullptr || !inside ? nullptr : tile.swept + ptrdiff_t{y} * tile.setup.width;
   for (int32_t x = first; x < last; ++x) {
-    const bool goes_on = inside && x >= region.x && x < region.x + region.width &&
+    const bool goes_on = inside && x >= bordered.x && x < bordered.x + bordered.width &&
                          (swept == nullptr || swept[x] != 0);
-    if (!goes_on) BeginAt(tile, x - region.x, path, least);
+    if (!goes_on) BeginAt(tile, x - bordered.x, path, least);
   }
 }
 
-// Adds the costs of the paths from pixels (x - dx, y - dy) to pixels (x, y) of row y of the region
-// to the sums. The paths of the row are stored in path[own] and least[own], those of the previous
-// row at the other index. The paths continue from the swept pixels. If `adds` is false, the sums
-// are overwritten.
+// Adds the costs of the paths from pixels (x - dx, y - dy) to pixels (x, y) of row y of the
+// bordered tile to the sums. The paths of the row are stored in path[own] and least[own], those of
+// the previous row at the other index. The paths continue from the swept pixels. If `adds` is
+// false, the sums are overwritten.
 void AddRow(const SweptTile& tile, int32_t y, int32_t dx, int32_t dy, bool adds, int own) {
   const TileMemory& memory = tile.memory;
   const auto labels = static_cast<size_t>(tile.setup.labels);
   const auto places = static_cast<ptrdiff_t>(tile.places);
   const int from = dy == 0 ? own : 1 - own;
   tile.ForRow(y, [&](int32_t begin, int32_t end) {
-    const int32_t first = dx < 0 ? end - 1 : begin, k = first - tile.region.x;
+    const int32_t first = dx < 0 ? end - 1 : begin, k = first - tile.bordered.x;
     if (dy == 0) {
       BeginAt(tile, k - dx, memory.path[from], memory.least[from]);
     } else {
@@ -117,7 +117,7 @@ void AddRow(const SweptTile& tile, int32_t y, int32_t dx, int32_t dy, bool adds,
     const TileViews& views = memory.views;
     tile.kernels.FindJumps(views.Centre(0) + views.At(begin, y),
                            views.Centre(0) + views.At(begin - dx, y - dy), views.plane, count,
-                           memory.jump + (begin - tile.region.x));
+                           memory.jump + (begin - tile.bordered.x));
     simd::PathRow paths = {};
     paths.cost = memory.cost + tile.At(first, y);
     paths.sum = memory.sum + tile.At(first, y);
@@ -136,27 +136,27 @@ int16_t ToDisparity(const SweepSetup& setup, int32_t choice) {
   return static_cast<int16_t>(setup.low + moved);
 }
 
-// Computes the sums of path costs from the costs of the pixels of the region.
+// Computes the sums of path costs from the costs of the pixels of the bordered tile.
 void AddAllPaths(const SweptTile& tile) {
   const SweepSetup& setup = tile.setup;
-  const Rect& region = tile.region;
+  const Rect& bordered = tile.bordered;
   // Set the element before each pixel's first label to kNoLabel, because this element belongs to no
   // label.
   const auto places = static_cast<ptrdiff_t>(tile.places);
   for (int16_t* path : tile.memory.path) {
-    for (ptrdiff_t k = -1; k <= region.width; ++k) path[k * places - 1] = simd::kNoLabel;
+    for (ptrdiff_t k = -1; k <= bordered.width; ++k) path[k * places - 1] = simd::kNoLabel;
   }
   for (int32_t n = 0; n < setup.directions; ++n) {
     const int8_t* direction = kEightDirections[n * (8 / setup.directions)];
-    for (int32_t k = 0; k < region.height; ++k) {
-      const int32_t y = region.y + (direction[1] < 0 ? region.height - 1 - k : k);
+    for (int32_t k = 0; k < bordered.height; ++k) {
+      const int32_t y = bordered.y + (direction[1] < 0 ? bordered.height - 1 - k : k);
       AddRow(tile, y, direction[0], direction[1], n > 0, k & 1);
     }
   }
 }
 
-// Writes the disparities (kDisparityBits) of the part `tile_rect` of the region, and the certainty
-// of these disparities, to maps of the whole picture. `certainty` may be null.
+// Writes the disparities (kDisparityBits) of the part `tile_rect` of the bordered tile, and the
+// certainty of these disparities, to maps of the whole picture. `certainty` may be null.
 void ChooseDisparities(const SweptTile& tile, const Rect& tile_rect, int16_t* disparity,
                        uint8_t* certainty) {
   const SweepSetup& setup = tile.setup;
@@ -194,15 +194,15 @@ int32_t LabelOf(const SweepSetup& setup, int32_t d) {
   return Max(0, Min(label, setup.labels - 1));
 }
 
-// Adds a prior cost to the cost of each label at the pixels of the region. The prior cost of a
-// label increases with the distance to the nearest trusted pixel with the label's disparity.
+// Adds a prior cost to the cost of each label at the pixels of the bordered tile. The prior cost of
+// a label increases with the distance to the nearest trusted pixel with the label's disparity.
 // `trusted` has the size of the picture.
 void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
   const SweepSetup& setup = tile.setup;
-  const Rect& region = tile.region;
+  const Rect& bordered = tile.bordered;
   const TileMemory& memory = tile.memory;
   const size_t places = tile.places;
-  const ptrdiff_t row_places = region.width * static_cast<ptrdiff_t>(places);
+  const ptrdiff_t row_places = bordered.width * static_cast<ptrdiff_t>(places);
   // Propagates the prior costs of row y along the row in direction `step`. If `from` is not 0,
   // prior costs are also propagated from row y + from to row y.
   const auto spread = [&](int32_t y, ptrdiff_t step, int32_t from) {
@@ -218,8 +218,8 @@ void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
                                   step, static_cast<size_t>(end - begin));
     });
   };
-  const int32_t bottom = region.y + region.height - 1;
-  for (int32_t y = region.y; y <= bottom; ++y) {
+  const int32_t bottom = bordered.y + bordered.height - 1;
+  for (int32_t y = bordered.y; y <= bottom; ++y) {
     const int16_t* disparity = trusted + setup.At(0, y);
     tile.ForRow(y, [&](int32_t begin, int32_t end) {
       for (int32_t x = begin; x < end; ++x) {
@@ -228,10 +228,10 @@ void AddMapPrior(const SweptTile& tile, const int16_t* trusted) {
     });
     // First spread the prior forwards along row y and from the row above, then backwards along row
     // y.
-    spread(y, 1, y > region.y ? -1 : 0);
+    spread(y, 1, y > bordered.y ? -1 : 0);
     spread(y, -1, 0);
   }
-  for (int32_t y = bottom; y >= region.y; --y) {
+  for (int32_t y = bottom; y >= bordered.y; --y) {
     spread(y, -1, y < bottom ? 1 : 0);
     spread(y, 1, 0);
     tile.ForRow(y, [&](int32_t begin, int32_t end) {
@@ -261,12 +261,12 @@ void WeighEvidence(const SweptTile& tile, const Rect& tile_rect, const EstimateM
 
 }  // namespace
 
-TileMemory TakeTileMemory(const SweepSetup& setup, const Rect& region, Arena* arena) {
-  const auto width = static_cast<size_t>(region.width);
-  const size_t area = width * static_cast<size_t>(region.height);
+TileMemory TakeTileMemory(const SweepSetup& setup, const Rect& bordered, Arena* arena) {
+  const auto width = static_cast<size_t>(bordered.width);
+  const size_t area = width * static_cast<size_t>(bordered.height);
   const auto labels = static_cast<size_t>(setup.labels), places = simd::PathLabels(labels);
   TileMemory tile = {};
-  tile.views = TakeTileViews(setup, region, arena);
+  tile.views = TakeTileViews(setup, bordered, arena);
   tile.cost = arena->Take<uint8_t>(area, places);
   tile.prior = setup.repairs ? arena->Take<uint8_t>(area, places) : nullptr;
   tile.sum = arena->Take<int16_t>(area, places);
@@ -289,17 +289,17 @@ void SweepTile(const Sweep& sweep, bool one_side, int32_t index, int32_t worker,
   TileViews* views = &memory.workers[worker].views;
   const Rect tile_rect = TileOf(setup, index);
   if (tile_rect.width == 0 || tile_rect.height == 0) return;
-  const Rect region = RegionOf(setup, index);
-  LoadTileViews(setup, sweep.light_field, region, sweep.kernels, views);
+  const Rect bordered = WithBorder(setup, index);
+  LoadTileViews(setup, sweep.light_field, bordered, sweep.kernels, views);
   FindMoves(setup, *views, memory.workers[worker].moves);
   if (one_side) {
     MarkOutside(setup, views);
   } else if (setup.one_sided()) {
     MarkHiddenInMaps(setup, memory.side_maps, views);
   } else {
-    MarkHidden(setup, memory.first, region, views);
+    MarkHidden(setup, memory.first, bordered, views);
   }
-  const SweptTile tile = {setup,         region,
+  const SweptTile tile = {setup,         bordered,
                           sweep.kernels, memory.workers[worker],
                           memory.swept,  simd::PathLabels(static_cast<size_t>(setup.labels))};
   MeasureCosts(tile, one_side);

@@ -44,13 +44,13 @@ struct TileViews {
   // Returns the plane of a colour of the centre view.
   const uint8_t* Centre(int32_t colour) const { return rgb + static_cast<size_t>(colour) * plane; }
 };
-// Takes the memory of the views around regions of at most the size of `region`.
-TileViews TakeTileViews(const SweepSetup& setup, const Rect& region, Arena* arena);
+// Takes the memory of the views around rectangles of at most the size of `bordered`.
+TileViews TakeTileViews(const SweepSetup& setup, const Rect& bordered, Arena* arena);
 
-// Makes the planes of all views. The planes cover `region` and the pixels around it to which labels
-// can move pixels of the region.
+// Makes the planes of all views. The planes cover `bordered` and the pixels around it to which
+// labels can move pixels of the bordered tile.
 void LoadTileViews(const SweepSetup& setup, const starfocus_light_field& light_field,
-                   const Rect& region, const simd::DepthKernels& kernels, TileViews* views);
+                   const Rect& bordered, const simd::DepthKernels& kernels, TileViews* views);
 
 // Computes, for each label and each side view, the movement of a pixel as an offset in the planes.
 void FindMoves(const SweepSetup& setup, const TileViews& views, simd::ViewMove* moves);
@@ -64,8 +64,9 @@ void MarkOutside(const SweepSetup& setup, TileViews* views);
 void MarkHiddenInMaps(const SweepSetup& setup, const int16_t* side_maps, TileViews* views);
 
 // Marks the labels that the pixels of a map hide in the views, at all positions to which pixels of
-// the region can move. `map` has width * height disparities.
-void MarkHidden(const SweepSetup& setup, const int16_t* map, const Rect& region, TileViews* views);
+// the bordered tile can move. `map` has width * height disparities.
+void MarkHidden(const SweepSetup& setup, const int16_t* map, const Rect& bordered,
+                TileViews* views);
 
 // Scratch memory of a worker for one tile.
 struct TileMemory {
@@ -80,8 +81,8 @@ struct TileMemory {
   simd::ViewMove* moves;  // Movement of each side view for each label.
   int16_t* choice;        // Chosen label of each pixel of a row.
 };
-// Takes the memory of a worker for regions of at most the size of `region`.
-TileMemory TakeTileMemory(const SweepSetup& setup, const Rect& region, Arena* arena);
+// Takes the memory of a worker for rectangles of at most the size of `bordered`.
+TileMemory TakeTileMemory(const SweepSetup& setup, const Rect& bordered, Arena* arena);
 
 // Light field, labels and memory of a sweep.
 struct Sweep {

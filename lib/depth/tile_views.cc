@@ -103,8 +103,9 @@ Rect WithReach(const SweepSetup& setup, const SideView& view, const Rect& rect) 
 
 }  // namespace
 
-TileViews TakeTileViews(const SweepSetup& setup, const Rect& region, Arena* arena) {
-  const auto width = static_cast<size_t>(region.width), height = static_cast<size_t>(region.height);
+TileViews TakeTileViews(const SweepSetup& setup, const Rect& bordered, Arena* arena) {
+  const auto width = static_cast<size_t>(bordered.width),
+             height = static_cast<size_t>(bordered.height);
   const auto beyond = 2 * static_cast<size_t>(setup.reach) + 1;
   TileViews views = {};
   views.stride = simd::SliceSamples(width + beyond) + simd::kPadding;
@@ -116,10 +117,10 @@ TileViews TakeTileViews(const SweepSetup& setup, const Rect& region, Arena* aren
 }
 
 void LoadTileViews(const SweepSetup& setup, const starfocus_light_field& light_field,
-                   const Rect& region, const simd::DepthKernels& kernels, TileViews* views) {
-  views->left = region.x - setup.reach;
-  views->top = region.y - setup.reach;
-  views->rows = region.height + 2 * setup.reach + 1;
+                   const Rect& bordered, const simd::DepthKernels& kernels, TileViews* views) {
+  views->left = bordered.x - setup.reach;
+  views->top = bordered.y - setup.reach;
+  views->rows = bordered.height + 2 * setup.reach + 1;
   ViewPhases whole;  // The centre view does not move.
   whole.count = 1;
   MakePlanes(RowsOf(light_field.views[0]), whole, setup, kernels, *views, views->rgb);
@@ -178,12 +179,13 @@ void MarkHiddenInMaps(const SweepSetup& setup, const int16_t* side_maps, TileVie
   }
 }
 
-void MarkHidden(const SweepSetup& setup, const int16_t* map, const Rect& region, TileViews* views) {
+void MarkHidden(const SweepSetup& setup, const int16_t* map, const Rect& bordered,
+                TileViews* views) {
   MarkOutside(setup, views);
   views->all_seen = false;
   for (int32_t k = 0; k < setup.side_views; ++k) {
     const SideView& view = setup.side[k];
-    const Rect inside = WithReach(setup, view, region), from = WithReach(setup, view, inside);
+    const Rect inside = WithReach(setup, view, bordered), from = WithReach(setup, view, inside);
     uint8_t* hidden =
         views->hidden + static_cast<size_t>(k) * views->plane + views->At(inside.x, inside.y);
     const auto hide = view.at.v == 0   ? HideBehindRow<true, false>

@@ -56,8 +56,8 @@ class SliceFinder {
     bins_ = (range >> bin_bits_) + 1;
   }
 
-  // Finds the region of the surfaces from which pixels may splat into the bucket. The region starts
-  // at the first row of a group of rows and at the first column of a strip.
+  // Finds the rectangle of the surfaces from which pixels may splat into the bucket. The rectangle
+  // starts at the first row of a group of rows and at the first column of a strip.
   void FindAround() {
     const int64_t move = grid_.Move(grid_.n());
     const int32_t rim =
