@@ -177,7 +177,7 @@ HWY_INLINE void StoreSums(hn::Vec<SumsTag> low, hn::Vec<SumsTag> high, int bits,
   hn::StoreU(hn::ShiftLeftSame(both, whole), LightTag(), light);
 }
 
-// Second result that FilterMeansVector computes together with the first result, so that both share
+// Second result that FilterMeansVector computes together with the first result, so that both mix
 // loads of means or weights.
 enum class Beside { kNothing, kNextVector, kSecondDisc };
 
@@ -281,12 +281,12 @@ inline void FilterTwoDiscs(const SampleRows& in, const Disc& less, const Disc& m
 }
 
 inline void MixSamples(const int16_t* HWY_RESTRICT less, const int16_t* HWY_RESTRICT more,
-                       const int16_t* HWY_RESTRICT share, size_t count, int16_t* HWY_RESTRICT out) {
+                       const int16_t* HWY_RESTRICT mix, size_t count, int16_t* HWY_RESTRICT out) {
   const hn::CappedTag<int16_t, kSliceLanes> d16;
   for (size_t n = 0; n < SliceSamples(count); n += hn::Lanes(d16)) {
     const auto from = hn::LoadU(d16, less + n);
     const auto rest = hn::Sub(hn::LoadU(d16, more + n), from);
-    hn::StoreU(hn::Add(from, hn::MulFixedPoint15(rest, hn::LoadU(d16, share + n))), d16, out + n);
+    hn::StoreU(hn::Add(from, hn::MulFixedPoint15(rest, hn::LoadU(d16, mix + n))), d16, out + n);
   }
 }
 

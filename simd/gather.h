@@ -126,12 +126,12 @@ STARFOCUS_REFERENCE void FilterTwoDiscs(const SampleRows& in, const Disc& less, 
 
 // MixSamples and MoveSamples read and write rows in whole groups of kSliceLanes.
 
-// Sets out[n] to less[n] + share[n] (more[n] - less[n]), with share[n] in [0, 1] and 15 fractional
+// Sets out[n] to less[n] + mix[n] (more[n] - less[n]), with mix[n] in [0, 1] and 15 fractional
 // bits. The product is rounded half up. Samples must be in the valid range of resample.h.
-STARFOCUS_REFERENCE void MixSamples(const int16_t* less, const int16_t* more, const int16_t* share,
+STARFOCUS_REFERENCE void MixSamples(const int16_t* less, const int16_t* more, const int16_t* mix,
                                     size_t count, int16_t* out) {
   for (size_t n = 0; n < SliceSamples(count); ++n) {
-    out[n] = static_cast<int16_t>(less[n] + Product15(more[n] - less[n], share[n]));
+    out[n] = static_cast<int16_t>(less[n] + Product15(more[n] - less[n], mix[n]));
   }
 }
 

@@ -63,19 +63,18 @@ Range Slope::RangeOf(const Rect& pixels) const {
   return {nearest, Max(Abs(low), Abs(high))};
 }
 
-void Slope::FindShares(const Range& between, const Rect& pixels, size_t stride,
-                       int16_t* share) const {
+void Slope::FindMix(const Range& between, const Rect& pixels, size_t stride, int16_t* mix) const {
   constexpr int32_t kOne = INT16_MAX;
   const int64_t low = int64_t{between.first} * between.first;
   const int64_t range = int64_t{between.last} * between.last - low;
   const int64_t unit = range > 0 ? (int64_t{kOne} << 32) / range : 0;
   const int bits = ScaledBits();
-  for (int32_t row = 0; row < pixels.height; ++row, share += stride) {
+  for (int32_t row = 0; row < pixels.height; ++row, mix += stride) {
     const int32_t x = pixels.x, y = pixels.y + row;
     int64_t scaled = Scaled(x, y);
     const int64_t step = Scaled(x + 1, y) - scaled;
     scaled += int64_t{1} << (bits - 1);
-    int16_t* to = share;
+    int16_t* to = mix;
     for (int32_t n = 0; n < pixels.width; ++n, to += 3, scaled += step) {
       const int64_t radius = scaled >> bits;
       const int64_t part = ((radius * radius - low) * unit) >> 32;
@@ -248,7 +247,7 @@ class Gather {
   void Mix(const Slope& slope, const Psfs& pair, const Rect& pixels, size_t first) {
     constexpr int kBits = kSlopeBits - kDisparityBits;
     const Range between = {RadiusOfPsf(pair.less) << kBits, RadiusOfPsf(pair.more) << kBits};
-    slope.FindShares(between, pixels, kCell, share_);
+    slope.FindMix(between, pixels, kCell, share_);
     for (int32_t row = 0; row < pixels.height; ++row) {
       const size_t at = first + static_cast<size_t>(row) * kStride;
       job_.input->kernels->MixSamples(less_ + at, more_ + at,
@@ -347,7 +346,7 @@ class Gather {
   int32_t border_ = 0;  // border of the field: the largest PSF size
   uint64_t pixels_ = 0;
   Psfs psfs_[kMaxRowCells * kMaxRowCells];  // PSFs (PsfIndex) of each cell of the block
-  // Results of the smaller and the larger PSF, and the share of the larger PSF.
+  // Results of the smaller and the larger PSF, and the mix of the larger PSF.
   int16_t less_[kCellSize * kStride] = {}, more_[kCellSize * kStride] = {};
   int16_t share_[kCellSize * kCell] = {};
   // Weighted mean of the results of two PSFs, starting one row above the cell.

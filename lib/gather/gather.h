@@ -39,12 +39,12 @@ class Slope {
   // outside the cell.
   Range RangeOf(const Rect& pixels) const;
 
-  // Writes the share of the larger PSF for each pixel, in [0, 1] with 15 fractional bits. Elements
-  // share[3 n] to share[3 n + 2] belong to pixel n of a row. Rows are `stride` samples apart. The
-  // share is the position of the pixel's squared radius between the squares of the radii
-  // `between.first` and `between.last` (kSlopeBits). With this share, a mixture of two PSFs has the
+  // Writes the mix of the larger PSF for each pixel, in [0, 1] with 15 fractional bits. Elements
+  // mix[3 n] to mix[3 n + 2] belong to pixel n of a row. Rows are `stride` samples apart. The
+  // mix is the position of the pixel's squared radius between the squares of the radii
+  // `between.first` and `between.last` (kSlopeBits). With this mix, a mixture of two PSFs has the
   // mean square width of the intermediate PSF.
-  void FindShares(const Range& between, const Rect& pixels, size_t stride, int16_t* share) const;
+  void FindMix(const Range& between, const Rect& pixels, size_t stride, int16_t* mix) const;
 
   // Returns the displacement of the cell's pixels in the mean of all views. The displacement is
   // `spread` times the radius times the gradient of the radius, at most two pixels. `spread` is the

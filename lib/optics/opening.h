@@ -104,13 +104,13 @@ constexpr int32_t PointsOfOctant(int32_t i, int32_t j) {
   return j == 0 || i == j ? 4 : 8;
 }
 
-// Returns the share of one point, if a point of the octant represents `points` points of the plane.
-// `left` is the total share of the represented points, plus the rounding error of earlier points.
-// With `by_size` the share is rounded down: a dark centre cannot compensate for earlier shares that
-// were too large.
-constexpr int64_t ShareOfPoints(int64_t left, int64_t points, bool by_size) {
-  const int64_t share = (left + (by_size ? 0 : points / 2)) / points;
-  return share < 0 ? 0 : share;
+// Returns the portion of one point, if a point of the octant represents `points` points of the
+// plane. `left` is the total portion of the represented points, plus the rounding error of earlier
+// points. With `by_size` the portion is rounded down: a dark centre cannot compensate for earlier
+// portions that were too large.
+constexpr int64_t PortionOfPoints(int64_t left, int64_t points, bool by_size) {
+  const int64_t portion = (left + (by_size ? 0 : points / 2)) / points;
+  return portion < 0 ? 0 : portion;
 }
 
 }  // namespace starfocus

@@ -198,7 +198,7 @@ bool MakePsf(int32_t radius, double mean_square, const ApertureShape& opening, C
     // `one`.
     const auto target = static_cast<int32_t>(sum / total * one + 0.5);
     const auto weight =
-        static_cast<int32_t>(ShareOfPoints(target - given, points, opening.IsRing()));
+        static_cast<int32_t>(PortionOfPoints(target - given, points, opening.IsRing()));
     weights[psf->full ? (m + size) * (2 * size + 1) + n + size : n * (n + 1) / 2 + m] =
         static_cast<uint16_t>(Checked(ranges::kBlurWeight, weight));
     given += weight * points;

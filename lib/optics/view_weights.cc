@@ -73,7 +73,7 @@ void Weigh(bool by_size, const Light& light, uint16_t* weights, ViewWeights* ape
   ForEachWeight(*aperture, by_size, [&](int32_t i, int32_t j, int32_t views) {
     wanted += static_cast<uint64_t>(views) * light(i, j);
     const auto target = static_cast<int64_t>((wanted << bits) / total);  // < 2^63
-    const int64_t weight = ShareOfPoints(target - given, views, by_size);
+    const int64_t weight = PortionOfPoints(target - given, views, by_size);
     weights[IndexOf(*aperture, i, j)] = static_cast<uint16_t>(Checked(ranges::kWeight, weight));
     given += weight * views;
   });

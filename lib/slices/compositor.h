@@ -76,7 +76,7 @@ inline uint32_t* SumsOfRow(uint32_t* sums, int32_t row) {
 // Scratch memory of one worker. E is the largest side of an extended rectangle, and N is the
 // largest number of views along the aperture radius.
 //
-// Members with disjoint lifetimes share memory. `fill` reuses the memory of the field. `pool` may
+// Members with disjoint lifetimes portion memory. `fill` reuses the memory of the field. `pool` may
 // reuse the memory of the field, `fill` and the scratch memory of FindSlices in `surfaces`, which
 // each bucket writes before its slices are made.
 struct CompositorScratch : RendererScratch {

@@ -71,7 +71,7 @@ TEST_CASE("slope: shares interpolate linearly between two squared radii") {
   constexpr size_t kStride = 26;
   int16_t share[2 * kStride];
   const Range between = {4 << kSlopeBits, 6 << kSlopeBits};
-  plane.Middle(0).FindShares(between, {16, 19, 8, 2}, kStride, share);
+  plane.Middle(0).FindMix(between, {16, 19, 8, 2}, kStride, share);
   for (const int16_t* row : {share, share + kStride}) {
     for (int n = 0; n < 8; ++n) {
       const double radius = 5 + 0.1 * (n - 3.5);
@@ -80,11 +80,11 @@ TEST_CASE("slope: shares interpolate linearly between two squared radii") {
       CHECK(row[3 * n + 2] == row[3 * n]);
     }
   }
-  plane.Middle(0).FindShares({5 << kSlopeBits, 5 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
+  plane.Middle(0).FindMix({5 << kSlopeBits, 5 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
   CHECK(share[0] == 0);
-  plane.Middle(0).FindShares({1 << kSlopeBits, 2 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
+  plane.Middle(0).FindMix({1 << kSlopeBits, 2 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
   CHECK(share[0] == 32767);
-  plane.Middle(0).FindShares({7 << kSlopeBits, 8 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
+  plane.Middle(0).FindMix({7 << kSlopeBits, 8 << kSlopeBits}, {16, 20, 8, 1}, kStride, share);
   CHECK(share[0] == 0);
 }
 

@@ -30,7 +30,7 @@ std::vector<int16_t> Behind(const std::vector<int16_t>& before, Draw* draw) {
   return behind;
 }
 
-std::vector<uint8_t> Shares(size_t count, Draw* draw) {
+std::vector<uint8_t> Portions(size_t count, Draw* draw) {
   return Filled<uint8_t>(count, [&] {
     const int kind = draw->Int(0, 2);
     return kind == 0 ? kSliceEnd : kind == 1 ? kSliceWhole : draw->Int(1, kSliceWhole);
@@ -63,7 +63,7 @@ void CopyFarthest(Draw* draw, KernelCall* call) {
     row.rgb[k] = call->Input("rgb", Light(3 * whole, draw));
     if (k > 0) source[k - 1] = call->Input("source", AnySources(whole, draw));
   }
-  row.share = call->Input("share", Shares(whole, draw));
+  row.share = call->Input("share", Portions(whole, draw));
   const FarRow far = OutputOf(whole, draw, call);
   call->run = [=](const Kernels& kernels) -> uint64_t {
     return uint64_t(kernels.CopyFarthest(row, source, count, far));
