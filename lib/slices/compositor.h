@@ -33,7 +33,7 @@ struct SliceStack {
   Rect inner;  // rectangle to refocus, which contains the bucket, in pixels of the surfaces
   int32_t count;
   Slice slices[kMaxSlices];
-  simd::DisparityRange ranges[kMaxBands];  // Disparities of all surfaces in each kRangeRows rows.
+  simd::DisparityRange ranges[kMaxRanges];  // Disparities of all surfaces in each kRangeRows rows.
   const simd::SliceOffset* offsets;  // One offset per slice, for each column -N to N of views.
 
   // Returns the offset of slice k along x in all views (i, j), which is also the offset along y in

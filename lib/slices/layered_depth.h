@@ -62,7 +62,7 @@ struct LayeredDepth {
 // Number of rows in a group of rows, and largest number of ranges of the surfaces. For each
 // kRangeRows rows, FindSlices finds the range of the disparities of all surfaces around a bucket.
 inline constexpr int32_t kRangeRows = 8;
-inline constexpr int32_t kMaxBands =
+inline constexpr int32_t kMaxRanges =
     kMaxStrips * static_cast<int32_t>(simd::kSliceLanes) / kRangeRows;
 
 // Extends *all to include `range`.

@@ -117,7 +117,7 @@ inline constexpr int32_t kSliceBins = 2 * (64 << kDisparityBits) + 1;
 
 // Finds the slices of a bucket, ordered from the nearest to the farthest. The slices hold all
 // pixels of the surfaces that may splat into the bucket, which is in pixels of the surfaces. Also
-// finds the range of disparities in each of the kMaxBands ranges of the surfaces, for FillSlice.
+// finds the range of disparities in every kRangeRows rows of the surfaces, for FillSlice.
 // Returns the number of slices, at most rule.most.
 int32_t FindSlices(const simd::Kernels& kernels, const LayeredDepth& surfaces, const ViewGrid& grid,
                    const SliceRule& rule, const Rect& bucket, Slice* slices,

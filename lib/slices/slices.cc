@@ -152,7 +152,7 @@ class SliceFinder {
     return Max(Max(x, y), 0);
   }
 
-  // Returns the number of bins that a slice may thickness if `bin` is its nearest bin.
+  // Returns the number of bins that a slice may cover if `bin` is its nearest bin.
   int32_t Thickness(int32_t bin, int coarser) const {
     const int32_t blur = Abs(grid_.Shift(grid_.step, base_ + (bin << bin_bits_)));
     const int64_t wider = Max(kSliceSharp, blur - kSliceSharp);

@@ -31,7 +31,7 @@ struct Scene {
   std::vector<uint8_t> bins = std::vector<uint8_t>(starfocus::kSliceBins);
   std::vector<int32_t> least = std::vector<int32_t>(kSize);
   starfocus::LayeredDepth surfaces;
-  starfocus::simd::DisparityRange bands[starfocus::kMaxBands];
+  starfocus::simd::DisparityRange bands[starfocus::kMaxRanges];
 
   Scene() {
     surfaces.width = surfaces.height = surfaces.stride = kSize;

@@ -187,7 +187,7 @@ class BlockArtist {
     const Border& border = planned_.block.border;
     const Rect in_surfaces = {border.left + tile.x, border.top + tile.y, tile.width, tile.height};
     Slice slices[kMaxSlices];
-    simd::DisparityRange bands[kMaxBands];
+    simd::DisparityRange bands[kMaxRanges];
     const int32_t count = FindSlices(*job_.input->kernels, memory_->surfaces, grid_,
                                      SliceRuleOf(job_), in_surfaces, slices, bands);
     for (int32_t y = tile.y; y < tile.y + tile.height; ++y) {
