@@ -138,7 +138,7 @@ format() {
   local licence='SPDX-License-Identifier: Apache-2.0'
   install clang-format
   sources() {
-    find lib simd platform examples tests \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' -o \
+    find lib simd platform examples tests toolchains \( -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cc' -o \
       -name '*.java' \) "$@"
   }
   sources -exec grep -L "$licence" {} + | while read -r file; do sed -i "1i // $licence" "$file"; done

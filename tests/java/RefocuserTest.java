@@ -117,14 +117,14 @@ public final class RefocuserTest {
       check(plain.equals(refocused(1)), "after a call with another shape, the picture is the same");
       check(!plain.equals(pentagon), "a pentagon changes the picture");
       parameters.blades = 65536 + 5;
-      checkThrows(StarfocusException.class, "blades: ",
-          () -> refocuser.refocus(field(picture()), parameters, out(plain)));
+      checkThrows(StarfocusException.class,
+          "blades: ", () -> refocuser.refocus(field(picture()), parameters, out(plain)));
     }
     parameters.blades = 5;
     parameters.catsEye = 0.5;
     try (Refocuser refocuser = new Refocuser(configuration())) {
-      checkThrows(StarfocusException.class, "cats_eye: ",
-          () -> refocuser.refocus(field(picture()), parameters, out(plain)));
+      checkThrows(StarfocusException.class,
+          "cats_eye: ", () -> refocuser.refocus(field(picture()), parameters, out(plain)));
     }
   }
 
@@ -144,8 +144,8 @@ public final class RefocuserTest {
       refocuser.refocus(field(picture()), parameters, out(pixels));
       check(!pixels.equals(centre), "the far side of the range ends at the focus");
       parameters.focusFarther = -1;
-      checkThrows(StarfocusException.class, "focus_farther: ",
-          () -> refocuser.refocus(field(picture()), parameters, out(pixels)));
+      checkThrows(StarfocusException.class,
+          "focus_farther: ", () -> refocuser.refocus(field(picture()), parameters, out(pixels)));
     }
   }
 

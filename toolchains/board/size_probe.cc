@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the memory that the engine requires on a board; used by toolchains/board/board size. `size_probe stack`
-// prints the bytes of stack that calls of the engine use. `size_probe workspace` prints a table of
-// workspaces, and `size_probe parts` prints a table of the parts of workspaces.
+// Prints the memory that the engine requires on a board; used by toolchains/board/board size.
+// `size_probe stack` prints the bytes of stack that calls of the engine use. `size_probe workspace`
+// prints a table of workspaces, and `size_probe parts` prints a table of the parts of workspaces.
 #include <pthread.h>
 
 #include <cstdio>
@@ -51,7 +51,8 @@ void* RunCalls(void* data) {
   size_t needed = 0;
   calls->status = starfocus_workspace_size(&calls->config, &needed, nullptr);
   if (calls->status == STARFOCUS_OK) {
-    calls->status = starfocus_init(&calls->config, calls->workspace, calls->bytes, &engine, nullptr);
+    calls->status =
+        starfocus_init(&calls->config, calls->workspace, calls->bytes, &engine, nullptr);
   }
   if (calls->status == STARFOCUS_OK &&
       !test::Has(calls->config.features, STARFOCUS_FEATURE_STREAMING)) {
@@ -124,7 +125,8 @@ void PrintStack() {
 
 size_t WorkspaceKilobytes(const starfocus_config& config) {
   size_t bytes = 0;
-  Check(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK, "starfocus_workspace_size");
+  Check(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK,
+        "starfocus_workspace_size");
   return (bytes + 1023) / 1024;
 }
 
