@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of a program's subcommands and their options, for the parser, the manual page and the
 // completion script. Strings must outlive the table that contains them.
+//
+// Formats the first level of the help (--help), which contains the options that most users need.
+// The second level (--help-all) contains all options.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_COMMAND_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_COMMAND_H_
 
@@ -108,6 +111,12 @@ bool IsPositional(const Option& option);
 
 // Returns the default that the help shows for an option, or an empty string if the option has none.
 std::string DefaultOf(const Option& option);
+
+// Returns the first level of the help of a program or of one of its commands.
+std::string BasicHelp(const Program& program, const Command& command);
+
+// Returns the first lines of the help of a program, up to the list of its commands.
+std::string FirstLinesOfHelp(const Program& program);
 
 }  // namespace starfocus
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets for tables of options: numbers, choices and other types. Each target parses a text into a
 // variable. The initial value of the variable is the default of the option.
+//
+// Options for the shape of an aperture.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 
@@ -10,8 +12,10 @@
 #include <vector>
 
 #include "examples/command_line/command.h"
+#include "platform/result.h"
 #include "platform/view_files.h"
 #include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 
@@ -98,6 +102,19 @@ Target Choice(const Words<T>& words, Value* value) {
   };
   return Target(read, shown);
 }
+
+struct ShapeOptions {
+  std::string shape = "fall-off";  // name of the shape as typed
+  double theta = 0.26, cats_eye = 0;
+};
+
+void AddShapeOptions(Command* command, ShapeOptions* options);
+
+// Returns a lens with the shape of the options; other fields have their defaults.
+Result<starfocus::Params> ParseShape(const ShapeOptions& options);
+
+// Returns a suffix for file names that identifies the shape, or "" for the default shape.
+std::string ShapeSuffix(const ShapeOptions& options);
 
 }  // namespace starfocus
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parses a command line according to the tables of a program. Only the source file includes CLI11,
 // which takes seconds to compile.
+//
+// Suggests corrections of a wrong command line: the most similar name, and separators that are
+// missing between the parts of a value.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_PARSE_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_PARSE_H_
 
 #include <string>
+#include <vector>
 
 #include "examples/command_line/command.h"
 #include "platform/result.h"
@@ -17,6 +21,14 @@ Error RunCommandLine(const Program& program, int argc, char** argv);
 
 // Returns the first level of the help of a program, or of one of its subcommands.
 std::string HelpText(const Program& program, const Command& command);
+
+// Returns the name that is most similar to `typed`, or an empty string if no name is similar.
+std::string NearestName(const std::string& typed, const std::vector<std::string>& names);
+
+// Rejects values without separators, for example "--focus-at 160 120" if the option's type is X,Y.
+// Values whose parts are separated by ',', ':' or 'x' must be one argument.
+Error CheckSeparators(const std::vector<std::string>& arguments,
+                      const std::vector<Option>& options);
 
 }  // namespace starfocus
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the order in which the inputs of a batch are refocused.
-#include "examples/cli/refocus/turns.h"
+#include "examples/cli/batch.h"
 
 #include <doctest/doctest.h>
 

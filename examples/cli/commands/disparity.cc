@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/disparity/estimate_run.h"
-#include "examples/cli/disparity/map_figures.h"
-#include "examples/cli/input/input.h"
-#include "examples/cli/input/notes.h"
+#include "examples/cli/estimate_run.h"
+#include "examples/cli/input.h"
 #include "examples/command_line/options.h"
-#include "examples/command_line/outputs.h"
+#include "examples/command_line/program.h"
 #include "platform/clock.h"
 #include "platform/console.h"
 #include "platform/helper/decoder_threads.h"

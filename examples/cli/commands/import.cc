@@ -4,11 +4,9 @@
 #include <memory>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/input/describe.h"
-#include "examples/cli/input/input.h"
-#include "examples/cli/input/notes.h"
+#include "examples/cli/input.h"
 #include "examples/command_line/options.h"
-#include "examples/command_line/outputs.h"
+#include "examples/command_line/program.h"
 #include "platform/console.h"
 #include "platform/helper/decoder_threads.h"
 #include "platform/light_field.h"

@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "examples/cli/commands.h"
-#include "examples/cli/disparity/estimate_run.h"
-#include "examples/cli/disparity/map_figures.h"
-#include "examples/cli/input/describe.h"
-#include "examples/cli/input/input.h"
-#include "examples/cli/json/json.h"
+#include "examples/cli/estimate_run.h"
+#include "examples/cli/input.h"
+#include "examples/cli/json.h"
 #include "examples/command_line/options.h"
 #include "platform/console.h"
 #include "platform/light_field.h"

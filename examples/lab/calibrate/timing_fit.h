@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "examples/cli/engine/timing_terms.h"
+#include "examples/cli/engine_run.h"
 #include "starfocus/experimental.h"
 
 namespace starfocus {

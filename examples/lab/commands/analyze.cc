@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "examples/command_line/options.h"
-#include "examples/command_line/outputs.h"
+#include "examples/command_line/program.h"
 #include "examples/lab/analyze/figures.h"
 #include "examples/lab/commands.h"
 #include "platform/folder.h"

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "examples/cli/engine/timing_file.h"
-#include "examples/cli/input/input.h"
-#include "examples/cli/json/json.h"
-#include "examples/command_line/outputs.h"
+#include "examples/cli/engine_run.h"
+#include "examples/cli/input.h"
+#include "examples/cli/json.h"
+#include "examples/command_line/program.h"
 #include "examples/lab/calibrate/scene_times.h"
 #include "examples/lab/commands.h"
 #include "examples/scene/render.h"

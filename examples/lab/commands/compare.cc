@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "examples/cli/json/json.h"
-#include "examples/cli/pictures/difference.h"
-#include "examples/command_line/outputs.h"
+#include "examples/cli/json.h"
+#include "examples/cli/pictures.h"
+#include "examples/command_line/program.h"
 #include "examples/lab/commands.h"
 #include "platform/image_io.h"
 #include "platform/standard_stream.h"

@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "examples/command_line/options.h"
-#include "examples/command_line/outputs.h"
-#include "examples/command_line/shape.h"
+#include "examples/command_line/program.h"
 #include "examples/lab/commands.h"
 #include "examples/scene/render.h"
 #include "platform/file.h"

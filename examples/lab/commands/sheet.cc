@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "examples/cli/pictures/shrink.h"
+#include "examples/cli/pictures.h"
 #include "examples/command_line/options.h"
-#include "examples/command_line/outputs.h"
+#include "examples/command_line/program.h"
 #include "examples/lab/commands.h"
 #include "examples/lab/sheet/label.h"
 #include "platform/image_io.h"

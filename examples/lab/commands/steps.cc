@@ -4,10 +4,10 @@
 #include <memory>
 #include <utility>
 
-#include "examples/cli/disparity/map_figures.h"
-#include "examples/cli/input/input.h"
+#include "examples/cli/estimate_run.h"
+#include "examples/cli/input.h"
 #include "examples/command_line/options.h"
-#include "examples/command_line/outputs.h"
+#include "examples/command_line/program.h"
 #include "examples/lab/commands.h"
 #include "examples/lab/steps/step_pictures.h"
 #include "platform/folder.h"

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds and opens the frames of a video, which are inputs of any format. Frames that are not
+// light-field folders are converted to light-field folders in a temporary folder.
+//
+// Checks all frames of a clip before work begins, and finds what their depth maps have in common.
+//
+// Pairs the frames of a video with depth pictures or mattes in a folder of their own.
+#ifndef STARFOCUS_EXAMPLES_CLI_FRAMES_H_
+#define STARFOCUS_EXAMPLES_CLI_FRAMES_H_
+
+#include <string>
+#include <vector>
+
+#include "examples/cli/input.h"
+#include "examples/cli/input_options.h"
+#include "examples/cli/lens_options.h"
+#include "platform/readers/map_survey.h"
+#include "platform/result.h"
+#include "platform/temporary_folder.h"
+
+namespace starfocus {
+
+struct FrameSource {
+  std::string path;
+  std::string depth;    // path of the depth picture; empty: part of the input, or next to it
+  std::string matte;    // path of the matte; empty: part of the input, or none
+  std::string picture;  // name of the output picture, which is the name of the input
+};
+
+// Returns the frames. If the only input is a folder but not a light field, the frames are the
+// photos and light fields in the folder in natural order, without the folder `out`. A row of
+// pictures with numbers in their names is a clip and not a light field. If options.depth or
+// options.matte is a folder, each frame gets a picture of this folder (depth_folder.h). Prints
+// other files in the folders to stderr.
+Result<std::vector<FrameSource>> FindFrames(const std::vector<std::string>& inputs,
+                                            const InputOptions& options, const std::string& out);
+
+struct FrameFiles {
+  std::string folder;         // light-field folder, which may be temporary
+  std::string where;          // name of the map for error messages
+  Bytes icc;                  // profile of the frame's colours; empty: none
+  ColourDescription colours;  // colours without a profile
+  bool is_linear = false;     // true if the codes of the views are proportional to light
+};
+
+struct Frame {
+  FrameFiles files;
+  FloatMap map;
+  DefaultFocus focus;
+};
+
+// Converts frames to light-field folders, and removes these folders at the end.
+class FrameFolders {
+ public:
+  // Opens a frame whose input is already open. Converts the frame unless it is a light-field folder
+  // whose map needs no processing. Converted frames contain the views at the positions `views`, or
+  // all views if `views` is empty.
+  Result<Frame> Open(const MapOptions& options, const Positions& views, int threads,
+                     Capture* capture);
+
+ private:
+  // Loads the views and the map, processes the map, and writes the folder.
+  Error Convert(const MapOptions& options, const Positions& views, int threads, Capture* capture,
+                Frame* frame);
+
+  TemporaryFolder folder_;
+  int count_ = 0;  // converted frames
+};
+
+// Returns the options that open one frame.
+InputOptions OptionsOf(const InputOptions& options, const FrameSource& frame);
+
+// Opens the frames one after another. Returns an error if a frame has no depth, if its size differs
+// from the first frame, or if the values of its depth map are of another kind. Otherwise returns
+// the sum of the figures of all depth maps, which stands for the figures of each map
+// (DepthOptions::clip). At most one frame is in memory.
+Result<MapSurvey> SurveyClip(const std::vector<FrameSource>& frames, const InputOptions& options);
+
+// Returns the path of the depth picture of each frame or, if `ending` is "matte" and not "depth",
+// of its matte. A picture belongs to a frame
+// - if their names without extension are equal, or the name of the picture ends in -depth, _depth
+//   or .depth (with the given ending) in addition; or
+// - if this pairs not all frames, by the numbers in the names, with or without leading zeros. All
+//   pictures then have one name apart from their numbers. Numbers that all frames have in common,
+//   such as the number of a shot, may be missing in the names of the pictures.
+// Returns an error unless each frame has exactly one picture. Prints a note if the folder has other
+// pictures.
+Result<std::vector<std::string>> PairWithFolder(const std::vector<std::string>& frames,
+                                                const std::string& folder,
+                                                const std::string& ending);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_FRAMES_H_

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Generates a self-contained HTML page: pictures are data URIs, and the page loads no other files.
+//
+// Generates two pictures on top of each other with a movable divider, for a page. Left of the
+// divider the first picture is visible, and right of the divider the second picture.
+//
+// Writes the page of `refocus --compare`, which shows a picture before and after refocusing, its
+// depth, and the pixels in focus.
+#ifndef STARFOCUS_EXAMPLES_CLI_PAGE_H_
+#define STARFOCUS_EXAMPLES_CLI_PAGE_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "examples/cli/engine_run.h"
+#include "examples/command_line/options.h"
+#include "platform/file.h"
+#include "platform/image.h"
+#include "platform/result.h"
+#include "starfocus/starfocus.h"
+
+namespace starfocus {
+
+// A place in a picture, as fractions of the width and the height of the picture.
+struct PagePlace {
+  double x = 0, y = 0;
+};
+
+struct PageFigure {
+  std::string says;  // alternative text of the picture
+  std::string caption;
+  Image picture;
+  std::optional<PagePlace> mark = {};  // centre of a ring over the picture; nullopt: no ring
+  std::string legend = "";             // HTML below the picture (legend.h)
+};
+
+// Builds the page. Callers pass plain text, and this class escapes HTML characters.
+class Page {
+ public:
+  // The title is the file name of the input `path`. `icc` is the colour profile of all pictures
+  // without a legend; empty for sRGB. Pictures with a legend are in sRGB, like the legend.
+  Page(const std::string& path, const Bytes& icc);
+
+  void AddTable(const std::vector<std::pair<std::string, std::string>>& rows);
+
+  // Adds figures under a heading, side by side if they fit. Pictures are reduced to at most `width`
+  // pixels. Error messages start with `path`, which is the file of the page.
+  Error AddFigures(const std::string& path, const std::string& heading,
+                   const std::vector<PageFigure>& figures, int width);
+
+  // Adds two pictures of the same size with a divider (slider.h). A page has at most one slider.
+  // Error messages start with `path`, which is the file of the page.
+  Error AddSlider(const std::string& path, const PageFigure& before, const PageFigure& after);
+
+  // Adds a histogram of bars, and a collapsible table of the numbers.
+  void AddHistogram(const std::string& heading, const std::vector<int64_t>& counts,
+                    const starfocus_disparity_stats& stats);
+
+  // Returns the complete HTML file.
+  std::string Html() const;
+
+ private:
+  std::string title_, style_, script_, body_;
+  const Bytes icc_;
+};
+
+// CSS rules of the slider. The rules use the colours of the page (page.cc).
+extern const char kSliderStyle[];
+
+// Script that moves the divider, and its hash for the content security policy of the page. Without
+// the script, the divider stays in the middle.
+extern const char kSliderScript[];
+extern const char kSliderScriptHash[];
+
+// Returns HTML of the slider. `before` and `after` are <img> elements of `width` x `height` pixels.
+std::string SliderHtml(const std::string& before, const std::string& after, int width, int height);
+
+// A picture that was refocused.
+struct Refocused {
+  std::string input;             // path of the input
+  const EngineTask* task;        // light field and lens
+  const Image* picture;          // result
+  double widest = 1;             // f-stop of an aperture of radius 1
+  std::optional<Pixel> at = {};  // pixel that determined the focus; nullopt: none
+};
+
+// Writes the page to the file `path`, completely or not at all. The picture must have the size of
+// the centre view. `icc` is the colour profile of the pictures.
+Error WriteComparison(const std::string& path, const Refocused& refocused, const Bytes& icc);
+
+}  // namespace starfocus
+
+#endif  // STARFOCUS_EXAMPLES_CLI_PAGE_H_
