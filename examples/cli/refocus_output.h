@@ -3,16 +3,20 @@
 //
 // Writes the output of `refocus`: a picture, a depth photo, the pictures of a sweep, or the page of
 // --compare.
+//
+// Formats the measurements of refocusing as JSON for --report.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_OUTPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_OUTPUT_H_
 
+#include <cstdint>
 #include <future>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "examples/cli/engine_run.h"
-#include "examples/cli/page.h"
+#include "examples/cli/json.h"
+#include "examples/cli/comparison.h"
 #include "examples/command_line/command.h"
 #include "examples/command_line/program.h"
 #include "platform/file.h"
@@ -110,6 +114,23 @@ class StackWriter {
   size_t pictures_ = 0;
   std::vector<Numbered> waiting_;
   std::unique_ptr<WebpWriter> animation_;  // null: numbered files
+};
+
+// Names of the modes, in the order of starfocus_mode.
+inline constexpr const char* kModeNames[] = {"frame", "benchmark", "block", "blur"};
+
+// Returns the report. The task must have run with ThreadNanoseconds as its clock.
+std::string ReportText(const EngineTask& task, const EngineResult& result, double seconds_total);
+
+// Report on several pictures, each with its name.
+class SeriesReport {
+ public:
+  void Add(const std::string& output, const EngineTask& task, const EngineResult& result);
+  std::string Text(double seconds_total) const;
+
+ private:
+  Json pictures_ = Json::Array();
+  uint64_t reused_blocks_ = 0, superblocks_ = 0;
 };
 
 }  // namespace starfocus

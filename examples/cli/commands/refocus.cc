@@ -16,7 +16,6 @@
 #include "examples/cli/pictures.h"
 #include "examples/cli/refocus_output.h"
 #include "examples/cli/refocus_plan.h"
-#include "examples/cli/refocus_report.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/program.h"
 #include "platform/clock.h"

@@ -12,7 +12,7 @@
 #include "examples/cli/frames.h"
 #include "examples/cli/input.h"
 #include "examples/cli/refocus_plan.h"
-#include "examples/cli/refocus_report.h"
+#include "examples/cli/refocus_output.h"
 #include "examples/command_line/program.h"
 #include "platform/clock.h"
 #include "platform/console.h"
