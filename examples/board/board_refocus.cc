@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "examples/board/camera.h"
+#include "examples/board/framebuffer.h"
+#include "examples/board/gpio.h"
 #include "examples/board/panel.h"
 #include "examples/command_line/options.h"
 #include "examples/command_line/parse.h"
@@ -16,8 +18,6 @@
 #include "platform/clock.h"
 #include "platform/console.h"
 #include "platform/file.h"
-#include "platform/framebuffer.h"
-#include "platform/gpio.h"
 #include "platform/image_io.h"
 #include "starfocus/experimental.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets the inputs of a batch overlap: while one input is refocused, the next input is decoded and
-// the previous picture is encoded.
-//
-// Runs a command on many inputs, and continues after errors.
+// Runs a command on many inputs, and continues after errors. The inputs overlap: while one input is
+// refocused, the next input is decoded and the previous picture is encoded.
 #ifndef STARFOCUS_EXAMPLES_CLI_BATCH_H_
 #define STARFOCUS_EXAMPLES_CLI_BATCH_H_
 

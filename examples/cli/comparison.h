@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Generates a self-contained HTML page: pictures are data URIs, and the page loads no other files.
-//
-// Generates two pictures on top of each other with a movable divider, for a page. Left of the
-// divider the first picture is visible, and right of the divider the second picture.
-//
-// Writes the page of `refocus --compare`, which shows a picture before and after refocusing, its
-// depth, and the pixels in focus.
-//
-// Generates the legend of a depth map in colours (DrawDepth) for a page.
-//
-// Computes the pictures of a page by refocusing a light field several times. Finds ground-truth
-// pictures with which the refocused pictures are compared.
+// Pages and strips of several pictures of one light field, for `view` and `refocus --compare`. A
+// page is one HTML file: its pictures are data URIs, and it loads no other files. Ground-truth
+// pictures beside the light field are found and compared.
 #ifndef STARFOCUS_EXAMPLES_CLI_COMPARISON_H_
 #define STARFOCUS_EXAMPLES_CLI_COMPARISON_H_
 

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of the terms of the timing model, for loops over all terms.
-//
-// Reads and writes timing coefficients in JSON files, for `starfocus-lab calibrate` and `refocus
-// --timing`.
-//
 // Runs refocusing through the C API: allocates the engine, selects the functions to call, and
-// measures time.
+// measures time. Also reads and writes the coefficients of the timing model in JSON files, for
+// `starfocus-lab calibrate` and `refocus --timing`.
 #ifndef STARFOCUS_EXAMPLES_CLI_ENGINE_RUN_H_
 #define STARFOCUS_EXAMPLES_CLI_ENGINE_RUN_H_
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visualizes disparity maps.
-//
-// Computes disparity maps from captured views through the C API, and provides the default range,
-// the workspace and the progress line.
+// Computes disparity maps from captured views through the C API, with the default range, the
+// workspace and the progress line, and draws disparity maps.
 #ifndef STARFOCUS_EXAMPLES_CLI_ESTIMATE_RUN_H_
 #define STARFOCUS_EXAMPLES_CLI_ESTIMATE_RUN_H_
 

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the light fields and photos in a folder.
-//
-// Opens the input of a command, which is a folder of views or a depth photo, and obtains the best
-// available map.
-//
-// Describes an input as JSON.
-//
-// Prints notes about inputs on stderr, such as assumptions of the program that options override.
+// Finds the light fields and photos in a folder, opens an input, which is a folder of views or a
+// depth photo, and obtains the best available map. Describes inputs as JSON, and prints notes about
+// them on stderr, such as assumptions of the program that options override.
 #ifndef STARFOCUS_EXAMPLES_CLI_INPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_INPUT_H_
 

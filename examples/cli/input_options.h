@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of commands that open light fields and photos.
-//
-// Computes depth pictures and mattes of photos by commands of the user (--depth-command and
-// --matte-command).
+// Options of commands that open light fields and photos. --depth-command and --matte-command run a
+// command of the user that computes a depth picture or a matte.
 #ifndef STARFOCUS_EXAMPLES_CLI_INPUT_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_CLI_INPUT_OPTIONS_H_
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the aperture from the options and from the lens of the input, within the limit of
-// STARFOCUS_MAX_BLUR pixels of blur. The commands refocus, video and view use this header.
-//
-// Chooses the focus if the command line does not specify a focus.
+// Chooses the aperture and the focus from the options and from the lens of the input, within the
+// limit of STARFOCUS_MAX_BLUR pixels of blur, for the commands refocus, video and view.
 #ifndef STARFOCUS_EXAMPLES_CLI_LENS_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_CLI_LENS_OPTIONS_H_
 

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures and draws the difference between two pictures.
-//
-// Reduces pictures.
-//
-// Tints pixels of pictures.
+// Measures and draws the difference between two pictures, and reduces and tints pictures.
 #ifndef STARFOCUS_EXAMPLES_CLI_PICTURES_H_
 #define STARFOCUS_EXAMPLES_CLI_PICTURES_H_
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the blocks of a refocusing over a picture.
-//
-// Writes the output of `refocus`: a picture, a depth photo, the pictures of a sweep, or the page of
-// --compare.
-//
-// Formats the measurements of refocusing as JSON for --report.
+// Writes the output of `refocus`: a picture, a depth photo, the pictures of a sweep, the page of
+// --compare, the blocks drawn over the picture, or the measurements as JSON for --report.
 #ifndef STARFOCUS_EXAMPLES_CLI_REFOCUS_OUTPUT_H_
 #define STARFOCUS_EXAMPLES_CLI_REFOCUS_OUTPUT_H_
 

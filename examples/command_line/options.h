@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets for tables of options: numbers, choices and other types. Each target parses a text into a
-// variable. The initial value of the variable is the default of the option.
-//
-// Options for the shape of an aperture.
+// Targets for tables of options: numbers, choices, the shape of an aperture, and other types. Each
+// target parses a text into a variable. The initial value of the variable is the default of the
+// option.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_OPTIONS_H_
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses a command line according to the tables of a program. Only the source file includes CLI11,
-// which takes seconds to compile.
-//
-// Suggests corrections of a wrong command line: the most similar name, and separators that are
-// missing between the parts of a value.
+// Parses a command line according to the tables of a program, and suggests corrections of a wrong
+// command line. Only the source file includes CLI11, which takes seconds to compile.
 #ifndef STARFOCUS_EXAMPLES_COMMAND_LINE_PARSE_H_
 #define STARFOCUS_EXAMPLES_COMMAND_LINE_PARSE_H_
 

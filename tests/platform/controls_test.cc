@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the knob and the buttons with clean and bouncing sequences of edges, and with sequences
 // that lack edges.
-#include "platform/controls.h"
+#include "examples/board/panel.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdio>
 #include <vector>
 
-#include "examples/board/panel.h"
-#include "platform/framebuffer.h"
+#include "examples/board/framebuffer.h"
 #include "tests/support/test_scene.h"
 
 namespace starfocus::controls_test {

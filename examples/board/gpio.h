@@ -2,8 +2,8 @@
 // Accesses GPIO lines of Linux boards through libgpiod (1.5 or newer, or 2.x). This module is built
 // only if libgpiod is available. Functions accept the GPIO chip names "gpiochip0", "/dev/gpiochip0"
 // and "0". A line is identified by its offset on the chip.
-#ifndef STARFOCUS_PLATFORM_GPIO_H_
-#define STARFOCUS_PLATFORM_GPIO_H_
+#ifndef STARFOCUS_EXAMPLES_BOARD_GPIO_H_
+#define STARFOCUS_EXAMPLES_BOARD_GPIO_H_
 
 #include <cstdint>
 #include <memory>
@@ -68,4 +68,4 @@ class GpioOutput {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_PLATFORM_GPIO_H_
+#endif  // STARFOCUS_EXAMPLES_BOARD_GPIO_H_

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws pictures on a Linux framebuffer (/dev/fb0).
-#ifndef STARFOCUS_PLATFORM_FRAMEBUFFER_H_
-#define STARFOCUS_PLATFORM_FRAMEBUFFER_H_
+#ifndef STARFOCUS_EXAMPLES_BOARD_FRAMEBUFFER_H_
+#define STARFOCUS_EXAMPLES_BOARD_FRAMEBUFFER_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -35,4 +35,4 @@ Error ShowOnFramebuffer(const std::string& path, const Image& picture);
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_PLATFORM_FRAMEBUFFER_H_
+#endif  // STARFOCUS_EXAMPLES_BOARD_FRAMEBUFFER_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/framebuffer.h"
+#include "examples/board/framebuffer.h"
 
 #include <fcntl.h>
 #include <linux/fb.h>
@@ -14,6 +14,7 @@
 #include "platform/file.h"
 
 namespace starfocus {
+
 namespace {
 
 // Shifts the `field.length` highest bits of an 8-bit sample to the bits of a pixel that start at

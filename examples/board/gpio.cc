@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/gpio.h"
+#include "examples/board/gpio.h"
 
 #include <gpiod.h>
 
@@ -11,6 +11,7 @@
 #include "platform/file.h"
 
 namespace starfocus {
+
 namespace {
 
 constexpr char kConsumer[] = "starfocus";
