@@ -17,7 +17,7 @@
 #include "platform/readers/heic.h"
 #include "platform/readers/xmp.h"
 #include "platform/runner.h"
-#include "tests/cli/session.h"
+#include "tests/programs/session.h"
 #include "tests/support/photo_files.h"
 #include "tests/support/seed_file.h"
 

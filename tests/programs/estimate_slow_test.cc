@@ -10,7 +10,7 @@
 
 #include "platform/image_io.h"
 #include "platform/light_field.h"
-#include "tests/cli/inputs.h"
+#include "tests/programs/inputs.h"
 #include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_scene.h"

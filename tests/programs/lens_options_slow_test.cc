@@ -8,8 +8,8 @@
 
 #include "platform/image_io.h"
 #include "platform/light_field.h"
-#include "tests/cli/inputs.h"
-#include "tests/cli/session.h"
+#include "tests/programs/inputs.h"
+#include "tests/programs/session.h"
 #include "tests/support/error_line.h"
 #include "tests/support/psnr.h"
 #include "tests/support/temp_folder.h"
@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST_CASE("cli: every session of lens_sessions.txt succeeds") {
-  RunSessions("cli/lens_sessions.txt", {{"deep folder", MakeDeepFolder}, {"hair", PrepareHair}});
+  RunSessions("programs/lens_sessions.txt",
+              {{"deep folder", MakeDeepFolder}, {"hair", PrepareHair}});
 }
 
 TEST_CASE("cli: f-stops and strengths select apertures, and strength 0 is the centre view") {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/cli/call_program.h"
+#include "tests/programs/call_program.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/temp_folder.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes inputs that several tests of the programs use.
-#ifndef STARFOCUS_TESTS_CLI_INPUTS_H_
-#define STARFOCUS_TESTS_CLI_INPUTS_H_
+#ifndef STARFOCUS_TESTS_PROGRAMS_INPUTS_H_
+#define STARFOCUS_TESTS_PROGRAMS_INPUTS_H_
 
 #include "platform/light_field.h"
 #include "platform/runner.h"
-#include "tests/cli/call_program.h"
+#include "tests/programs/call_program.h"
 #include "tests/support/closed_hair.h"
 
 namespace starfocus {
@@ -37,4 +37,4 @@ inline void MakeDeepFolder(const TempFolder& folder) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_TESTS_CLI_INPUTS_H_
+#endif  // STARFOCUS_TESTS_PROGRAMS_INPUTS_H_

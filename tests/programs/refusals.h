@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks calls that the programs must reject, and makes malformed inputs for these calls.
-#ifndef STARFOCUS_TESTS_CLI_REFUSALS_H_
-#define STARFOCUS_TESTS_CLI_REFUSALS_H_
+#ifndef STARFOCUS_TESTS_PROGRAMS_REFUSALS_H_
+#define STARFOCUS_TESTS_PROGRAMS_REFUSALS_H_
 
 #include <doctest/doctest.h>
 
@@ -13,7 +13,7 @@
 #include "platform/file.h"
 #include "platform/image_io.h"
 #include "platform/pfm.h"
-#include "tests/cli/call_program.h"
+#include "tests/programs/call_program.h"
 #include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
@@ -40,9 +40,9 @@ inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
   CHECK(folder.count() == before);
 }
 
-// Checks each row of the table tests/cli/NAME.
+// Checks each row of the table tests/programs/NAME.
 inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
-  std::ifstream table(STARFOCUS_SOURCE_DIR "/tests/cli/" + name);
+  std::ifstream table(STARFOCUS_SOURCE_DIR "/tests/programs/" + name);
   int rows = 0;
   for (std::string row; std::getline(table, row);) {
     const size_t arrow = row.find(" -> ");
@@ -92,4 +92,4 @@ inline void Prepare(const TempFolder& folder) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_TESTS_CLI_REFUSALS_H_
+#endif  // STARFOCUS_TESTS_PROGRAMS_REFUSALS_H_

@@ -11,8 +11,8 @@
 #include "platform/file.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
-#include "tests/cli/call_program.h"
-#include "tests/cli/session.h"
+#include "tests/programs/call_program.h"
+#include "tests/programs/session.h"
 #include "tests/support/error_line.h"
 #include "tests/support/temp_folder.h"
 
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST_CASE("cli: every session of slow_sessions.txt succeeds") {
-  RunSessions("cli/slow_sessions.txt", {{"light fields", Prepare}});
+  RunSessions("programs/slow_sessions.txt", {{"light fields", Prepare}});
 }
 
 TEST_CASE("cli: every call of refusals.txt fails with the stated error") {

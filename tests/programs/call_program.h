@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the program STARFOCUS_PROGRAM, or starfocus-lab in the same folder.
-#ifndef STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
-#define STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
+#ifndef STARFOCUS_TESTS_PROGRAMS_CALL_PROGRAM_H_
+#define STARFOCUS_TESTS_PROGRAMS_CALL_PROGRAM_H_
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>
@@ -79,4 +79,4 @@ inline void CheckErrorLine(const std::string& err) {
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_TESTS_CLI_CALL_PROGRAM_H_
+#endif  // STARFOCUS_TESTS_PROGRAMS_CALL_PROGRAM_H_

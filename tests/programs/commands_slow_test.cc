@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "tests/cli/call_program.h"
+#include "tests/programs/call_program.h"
 #include "tests/support/photo_files.h"
 
 namespace commands_slow_test {
@@ -88,7 +88,7 @@ struct Unrun {
 
 std::vector<Unrun> ReadUnrun() {
   std::vector<Unrun> unrun;
-  std::istringstream lines(ReadSource("tests/cli/unrun_commands.txt"));
+  std::istringstream lines(ReadSource("tests/programs/unrun_commands.txt"));
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line[0] == '#') continue;
     const size_t arrow = line.find(" -> ");

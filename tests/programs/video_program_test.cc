@@ -11,7 +11,7 @@
 
 #include "platform/image_io.h"
 #include "platform/writers/png.h"
-#include "tests/cli/session.h"
+#include "tests/programs/session.h"
 #include "tests/support/error_line.h"
 #include "tests/support/photo_files.h"
 
@@ -60,7 +60,7 @@ void MakeClip(const TempFolder& folder) {
 }
 
 TEST_CASE("video: every session of video_sessions.txt succeeds") {
-  RunSessions("cli/video_sessions.txt", {{"clip", MakeClip}});
+  RunSessions("programs/video_sessions.txt", {{"clip", MakeClip}});
 }
 
 TEST_CASE("video: the person stays in focus when something nearer appears") {

@@ -22,8 +22,8 @@
 #include "platform/temporary_file.h"
 #include "platform/text.h"
 #include "starfocus/pool.h"
-#include "tests/cli/call_program.h"
-#include "tests/cli/refusals.h"
+#include "tests/programs/call_program.h"
+#include "tests/programs/refusals.h"
 #include "tests/support/child.h"
 #include "tests/support/error_line.h"
 

@@ -14,7 +14,7 @@
 #include "platform/light_field.h"
 #include "platform/pfm.h"
 #include "platform/writers/webp.h"
-#include "tests/cli/session.h"
+#include "tests/programs/session.h"
 #include "tests/support/error_line.h"
 
 namespace starfocus::writers_program_test {
@@ -27,7 +27,7 @@ void MakeScene(const TempFolder& folder, const std::string& name, const std::str
 }
 
 TEST_CASE("programs: every session of cli/sessions.txt succeeds") {
-  RunSessions("cli/sessions.txt");
+  RunSessions("programs/sessions.txt");
 }
 
 TEST_CASE("writers: a full disk leaves no folder and no part of a light field") {

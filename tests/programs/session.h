@@ -8,14 +8,14 @@
 //   only out TEXT        the last call must have printed only the text; also with err
 //   % COMMAND            runs a shell command, which must succeed
 //   @ NAME               makes inputs with one of the preparations
-#ifndef STARFOCUS_TESTS_CLI_SESSION_H_
-#define STARFOCUS_TESTS_CLI_SESSION_H_
+#ifndef STARFOCUS_TESTS_PROGRAMS_SESSION_H_
+#define STARFOCUS_TESTS_PROGRAMS_SESSION_H_
 
 #include <functional>
 #include <map>
 #include <memory>
 
-#include "tests/cli/refusals.h"
+#include "tests/programs/refusals.h"
 
 namespace starfocus {
 
@@ -68,4 +68,4 @@ inline void RunSessions(const std::string& name, const Preparations& preparation
 
 }  // namespace starfocus
 
-#endif  // STARFOCUS_TESTS_CLI_SESSION_H_
+#endif  // STARFOCUS_TESTS_PROGRAMS_SESSION_H_
