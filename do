@@ -29,7 +29,7 @@
 #   toolchains/board/board        boards: cross builds, an emulated board, instruction counts, sizes
 #   toolchains/packaging/package  Debian packages; beside it wheel (Python), release and bare (a bare Debian)
 #   toolchains/site/site          the web site; beside it web (the npm package and the page to tap)
-#   tests/consumers/run.sh        projects outside the tree that use starfocus
+#   tests/bindings/run.sh         projects outside the tree that use starfocus
 . "$(dirname "$0")/toolchains/steps.sh"
 
 FUZZ_TARGETS="engine depth images files folder heif layouts photo xmp differential"
@@ -172,7 +172,7 @@ case "$1" in
   build) shift && build "$@" ;;
   test) shift && run_tests "$@" ;;
   fuzz) shift && fuzz "$@" ;;
-  mutate) shift && install build python3 && tests/mutation/mutate "$@" ;;
+  mutate) shift && install build python3 && tests/source/mutate "$@" ;;
   bench) shift && examples/lab/bench/run.sh "$@" ;;
   demo | check | golden | format | lint | docs) none "$@" && "$1" ;;
   *) wrong "expected a command, found '$1'" ;;

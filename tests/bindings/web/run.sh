@@ -7,7 +7,7 @@
 # package's types. bundlers/package-lock.json has the versions of all tools.
 set -eu
 [ $# = 2 ] || { echo "usage: $0 BUILD WEB" >&2; exit 2; }
-sources=$(cd "$(dirname "$0")/../.." && pwd)
+sources=$(cd "$(dirname "$0")/../../.." && pwd)
 build=$(cd "$1" && pwd)
 web=$(cd "$2" && pwd)
 work=$(mktemp -d)
@@ -43,7 +43,7 @@ printf '%-40s %d bytes\n' 'the npm package' "$size"
 [ "$size" -le 250000 ] || { echo "web: package too large (expected at most 250000 bytes, found $size)" >&2; exit 1; }
 mkdir -p "$work/project" "$STARFOCUS_SCREENSHOTS"
 cd "$work/project"
-cp "$sources"/tests/web/*.mjs .
+cp "$sources"/tests/bindings/web/*.mjs .
 echo '{"private": true, "type": "module"}' >package.json
 quietly npm install --offline --no-audit --no-fund "$STARFOCUS_PACKAGE"
 run depth_test.mjs
@@ -55,12 +55,12 @@ run photo_test.mjs
 # The projects find the tools, and the unpacked package, in the parent folder. npm keeps the downloads in its cache. After
 # a change of a version, `npm install --package-lock-only --omit-lockfile-registry-resolved` updates the lock file. The
 # lock file must contain no addresses: delete its `funding` fields.
-! grep -n :// "$sources/tests/web/bundlers/package-lock.json" || exit 1
-cp "$sources"/tests/web/bundlers/package*.json "$work"
+! grep -n :// "$sources/tests/bindings/web/bundlers/package-lock.json" || exit 1
+cp "$sources"/tests/bindings/web/bundlers/package*.json "$work"
 (cd "$work" && quietly npm ci --prefer-offline --no-audit --no-fund)
 mkdir "$work/node_modules/starfocus"
 tar -xzf "$STARFOCUS_PACKAGE" -C "$work/node_modules/starfocus" --strip-components=1
-cp -r "$sources/tests/web/bundlers" "$work"
+cp -r "$sources/tests/bindings/web/bundlers" "$work"
 rm "$work"/bundlers/package*.json
 
 # The page uses one core for most of its time, and the bundlers use the other core.

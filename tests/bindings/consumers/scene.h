@@ -2,8 +2,8 @@
 /* Light field of five views that every consumer refocuses: a near square in front of a slope. All
  * numbers of the light field are exact on every machine. The header also defines the checksum of
  * the output. */
-#ifndef STARFOCUS_TESTS_CONSUMERS_SCENE_H_
-#define STARFOCUS_TESTS_CONSUMERS_SCENE_H_
+#ifndef STARFOCUS_TESTS_BINDINGS_SCENE_H_
+#define STARFOCUS_TESTS_BINDINGS_SCENE_H_
 
 #include <starfocus/starfocus.h>
 
@@ -62,4 +62,4 @@ static uint32_t Checksum(const uint8_t* bytes, size_t count) {
   return sum;
 }
 
-#endif /* STARFOCUS_TESTS_CONSUMERS_SCENE_H_ */
+#endif /* STARFOCUS_TESTS_BINDINGS_SCENE_H_ */

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "starfocus/version.h"
-#include "tests/rooms/tree.h"
+#include "tests/source/tree.h"
 
 namespace documents_test {
 namespace {
@@ -222,7 +222,7 @@ TEST_CASE("documents: all commands and options that documents name exist") {
       CHECK_MESSAGE(known, document.filename().string() << " names an unknown option: " << option);
     }
     for (const std::string script :
-         {"./do", "toolchains/board/board", "toolchains/site/web", "tests/consumers/run.sh"}) {
+         {"./do", "toolchains/board/board", "toolchains/site/web", "tests/bindings/run.sh"}) {
       const std::string help = Read(kRoot / script);
       for (const std::string& command : Find(text, script + " ([a-z][a-z0-9-]*)")) {
         CHECK_MESSAGE(help.find("\n#   " + command + " ") != std::string::npos,

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/rooms/tree.h"
+#include "tests/source/tree.h"
 
 namespace includes_test {
 namespace {

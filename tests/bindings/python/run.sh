@@ -5,8 +5,8 @@
 # network.
 set -eu
 [ $# = 1 ] || [ $# = 2 ] || { echo "usage: $0 BUILD [WHEEL]" >&2; exit 2; }
-sources=$(cd "$(dirname "$0")/../.." && pwd)
-tests=$sources/tests/python
+sources=$(cd "$(dirname "$0")/../../.." && pwd)
+tests=$sources/tests/bindings/python
 build=$(cd "$1" && pwd)
 wheel=${2:+$(realpath "$2")}
 work=$(mktemp -d)

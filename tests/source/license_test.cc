@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/rooms/tree.h"
+#include "tests/source/tree.h"
 
 namespace license_test {
 namespace {

@@ -6,7 +6,7 @@
 # folder JRE.
 set -eu
 case $# in 1 | 3) ;; *) echo "usage: $0 BUILD [aarch64 JRE]" >&2; exit 2 ;; esac
-sources=$(cd "$(dirname "$0")/../.." && pwd)
+sources=$(cd "$(dirname "$0")/../../.." && pwd)
 build=$(cd "$1" && pwd)
 preset=${2:-}
 library=$build/lib/libstarfocus_jni.so
@@ -64,14 +64,14 @@ android_routes() {
   [ -n "$headers" ] || { echo "SKIPPED: Android's routes, for which there is no android/bitmap.h"; return; }
   javac=$(readlink -f "$(command -v javac)")
   jni=${javac%/bin/javac}/include
-  double=$sources/tests/java/android_double
+  double=$sources/tests/bindings/java/android_double
   quietly "$cxx" -std=c++17 -Wall -Wextra -Werror -fPIC -shared -o "$work/libdouble.so" \
     "-I$sources" "-I$sources/lib/include" "-I$double" "-isystem$jni" "-isystem$jni/linux" \
     "-isystem$(dirname "$(dirname "$headers")")" "$java_sources"/android/cpp/*.cc \
     "$java_sources/main/cpp/exceptions.cc" "$sources/platform/problem.cc" "$double/android_double.cc" \
     "$library"
   compile "$double"/android/*/*.java "$java_sources"/android/java/dev/starfocus/android/*.java \
-    "$sources/tests/java/AndroidTest.java"
+    "$sources/tests/bindings/java/AndroidTest.java"
   run AndroidTest "$work/libdouble.so"
 }
 
@@ -138,8 +138,8 @@ TEXT
 page_alignment "$library"
 mkdir "$work/classes"
 compile "$java_sources"/main/java/dev/starfocus/*.java
-compile "$sources/examples/java/Refocus.java" "$sources/tests/java/RefocuserTest.java" \
-  "$sources/tests/java/LightFieldTest.java"
+compile "$sources/examples/java/Refocus.java" "$sources/tests/bindings/java/RefocuserTest.java" \
+  "$sources/tests/bindings/java/LightFieldTest.java"
 run dev.starfocus.RefocuserTest
 quietly "$build/starfocus-lab" scene "$work/scene" --name portrait --size 320x240 --views 5
 for focus in -2.5 1.5; do

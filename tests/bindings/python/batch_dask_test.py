@@ -13,7 +13,7 @@ from unittest import mock
 import dask
 from distributed import Client, LocalCluster
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "examples/python"))
+sys.path.insert(0, str(Path(__file__).parents[3] / "examples/python"))
 import batch_dask
 
 INPUTS = 8

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of the NDK's header android/hardware_buffer.h that locked_hardware_buffer.cc uses,
 // according to the NDK's documentation. No Debian package has this header.
-#ifndef STARFOCUS_TESTS_JAVA_HARDWARE_BUFFER_H_
-#define STARFOCUS_TESTS_JAVA_HARDWARE_BUFFER_H_
+#ifndef STARFOCUS_TESTS_BINDINGS_HARDWARE_BUFFER_H_
+#define STARFOCUS_TESTS_BINDINGS_HARDWARE_BUFFER_H_
 
 #include <stdint.h>
 
@@ -51,4 +51,4 @@ int AHardwareBuffer_unlock(AHardwareBuffer* buffer, int32_t* fence);
 }
 #endif
 
-#endif  // STARFOCUS_TESTS_JAVA_HARDWARE_BUFFER_H_
+#endif  // STARFOCUS_TESTS_BINDINGS_HARDWARE_BUFFER_H_

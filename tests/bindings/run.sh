@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: tests/consumers/run.sh [KIND...]
+# usage: tests/bindings/run.sh [KIND...]
 #
 # Builds and runs small projects outside the source tree that use starfocus in all supported ways. All projects must print
 # the same checksums as a program that is linked directly with the library of build/release. The default is every KIND
@@ -47,7 +47,7 @@ sources=$PWD build=$PWD/$BUILD
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
-cp -r "$sources/tests/consumers" "$work"
+cp -r "$sources/tests/bindings/consumers" "$work"
 
 # quietly COMMAND...: runs a command. Prints the output only if the command fails.
 quietly() {
@@ -64,7 +64,7 @@ same() {
   printf '%-40s %s\n' "$1" "$(paste -s -d ' ' "$work/sums")"
 }
 
-# project KIND FOLDER ARGUMENT...: configures, builds and runs a project of tests/consumers.
+# project KIND FOLDER ARGUMENT...: configures, builds and runs a project of tests/bindings/consumers.
 project() {
   kind=$1
   folder=$2
@@ -177,7 +177,7 @@ java_aarch64() {
   step configure-aarch64 "configuring build/aarch64" cmake --preset aarch64
   step build-aarch64 "building starfocus_jni in build/aarch64" \
     cmake --build --preset aarch64 --parallel "$(nproc)" --target starfocus_jni
-  tests/java/run.sh "$build" aarch64 build/sysroot/java-arm64
+  tests/bindings/java/run.sh "$build" aarch64 build/sysroot/java-arm64
 }
 
 # Compiles the module map of the Swift package with clang. No other part of the package is tested.
@@ -221,8 +221,8 @@ for kind in "$@"; do
     source) source_tree ;;
     m32) m32 ;;
     wasm) wasm ;;
-    python) "$sources/tests/python/run.sh" "$build" ;;
-    java) "$sources/tests/java/run.sh" "$build" ;;
+    python) "$sources/tests/bindings/python/run.sh" "$build" ;;
+    java) "$sources/tests/bindings/java/run.sh" "$build" ;;
     java-aarch64) java_aarch64 ;;
     swift) swift ;;
     *) preset "$kind" ;;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists and reads the files of the project. The tests in tests/rooms use these functions.
-#ifndef STARFOCUS_TESTS_ROOMS_TREE_H_
-#define STARFOCUS_TESTS_ROOMS_TREE_H_
+// Lists and reads the files of the project. The tests in tests/source use these functions.
+#ifndef STARFOCUS_TESTS_SOURCE_TREE_H_
+#define STARFOCUS_TESTS_SOURCE_TREE_H_
 
 #include <filesystem>
 #include <fstream>
@@ -44,4 +44,4 @@ inline std::vector<std::filesystem::path> Files(const std::vector<std::string>& 
 
 }  // namespace tree
 
-#endif  // STARFOCUS_TESTS_ROOMS_TREE_H_
+#endif  // STARFOCUS_TESTS_SOURCE_TREE_H_

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# terminal_test.sh SOURCES: checks that ./do prints the progress of a step in one line of a terminal of any width.
+# do_terminal_test.sh SOURCES: checks that ./do prints the progress of a step in one line of a terminal of any width.
 set -eu
 export LC_ALL=C.UTF-8
 sources=$(cd "$1" && pwd)
@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 fail() {
-  echo "terminal_test: $1" >&2
+  echo "do_terminal_test: $1" >&2
   exit 1
 }
 

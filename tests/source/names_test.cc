@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "tests/rooms/tree.h"
+#include "tests/source/tree.h"
 
 namespace names_test {
 namespace {

@@ -54,14 +54,14 @@ cd "$sources"
   commands ./do
   commands toolchains/board/board
   commands toolchains/site/web
-  commands tests/consumers/run.sh
+  commands tests/bindings/run.sh
   printf 'toolchains/%s\n' packaging/package packaging/release packaging/wheel site/site
 } | grep -vx './do help' | sort -u >"$work/commands"
 toolchains/packaging/bare --list | awk '{ print (/packaging|site\/site/ ? $1 : $1 " " $2) }' | sort -u >"$work/tried"
 diff "$work/commands" "$work/tried" >"$work/said" || fail "the helps (<) and toolchains/packaging/bare (>) differ"
 
 # Each of these scripts explains itself, and rejects a wrong argument in one line that names it.
-for script in ./do $(find toolchains tests/consumers -type f -perm -u+x -exec grep -l help_if_asked {} +); do
+for script in ./do $(find toolchains tests/bindings -type f -perm -u+x -exec grep -l help_if_asked {} +); do
   "$script" --help | grep -q "^usage: $script" || fail "$script --help does not begin with its usage"
   case $script in *install.sh | *bare) continue ;; esac
   ! "$script" --nonsense >"$work/said" 2>&1 || fail "$script accepts --nonsense"
