@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Test and benchmark calls of the kernels in simd/matting.h.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "tests/kernels/kernel_cases.h"
+
+namespace test::kernel_cases {
+namespace {
+
+int Saturated(int value) { return std::clamp(value, -32768, 32767); }
+
+// Returns a * b with 15 fractional bits, rounded half up, computed with real numbers.
+int Product(int a, int b) { return int(std::floor(double(a) * b / 32768 + 0.5)); }
+
+CoverView DrawView(Draw* draw) {
+  const int move = draw->Int(-64, 64);
+  return {int16_t(draw->Int(-16384, 16384)), int16_t(move * 32), int16_t(draw->Int(0, 64)),
+          int16_t(draw->Int(0, 200))};
+}
+
+std::vector<int16_t> Weights(size_t count, Draw* draw) {
+  return Filled<int16_t>(count, [&] {
+    const int kind = draw->Int(0, 3);
+    return kind == 0 ? 0 : kind == 1 ? 256 : draw->Int(0, 256);
+  });
+}
+
+// Returns disparities of two surfaces, and a few arbitrary disparities.
+std::vector<int16_t> TwoSurfaces(size_t count, Draw* draw) {
+  return Filled<int16_t>(count, [&] {
+    if (draw->Rarely(20)) return draw->Int(-32768, 32767);
+    return (draw->Int(0, 1) == 1 ? 640 : -700) + draw->Int(-40, 40);
+  });
+}
+
+}  // namespace
+
+void FindBeyond(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Size(1, 3, 64), height = rows + 2 * kBeyondRadius;
+  const size_t width = kSliceLanes + 2 * kBeyondRadius, stride = width + draw->Size(0, 5, 0);
+  // Half of the fields have one surface, so that some pixels have no edge within reach.
+  std::vector<int16_t> disparities = TwoSurfaces(height * stride, draw);
+  for (int16_t& d : disparities) d = int16_t(draw->Rarely(30) ? d : std::abs(d % 100));
+  const int16_t* field = call->Input("field", disparities) + kBeyondRadius * stride + kBeyondRadius;
+  call->IgnoreRows(field - kBeyondRadius * stride - kBeyondRadius + width, height, stride,
+                   stride - width);
+  const auto step = int16_t(draw->Int(0, 400));
+  auto* beyond = call->Results<int16_t>("beyond", rows * kSliceLanes);
+  auto* square = call->Results<int16_t>("square", rows * kSliceLanes);
+  call->Runs([=](const Kernels& kernels) {
+    for (size_t y = 0; y < rows; ++y) {
+      const size_t at = y * kSliceLanes;
+      kernels.FindBeyond(field + y * stride, ptrdiff_t(stride), step, beyond + at, square + at);
+    }
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    return AllRight(rows * kSliceLanes, [&](size_t i) {
+      const int16_t* here = field + i / kSliceLanes * stride + i % kSliceLanes;
+      // Compares a squared distance and the negative disparity, so that the least pair is right.
+      std::pair<int, int> least = {1000, -*here};
+      for (int y = -kBeyondRadius; y <= kBeyondRadius; ++y) {
+        for (int x = -kBeyondRadius; x <= kBeyondRadius; ++x) {
+          const int there = here[y * ptrdiff_t(stride) + x];
+          if (std::abs(there - *here) > step) least = std::min(least, {x * x + y * y, -there});
+        }
+      }
+      (*met)["edges"] += least.first < 1000;
+      (*met)["no edge"] += least.first == 1000;
+      return square[i] == least.first % 1000 && beyond[i] == -least.second;
+    });
+  };
+}
+
+void CoverPlaces(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Size(1, 4, 64);
+  const int16_t* near = call->Input("near", TwoSurfaces(rows * kSliceLanes, draw));
+  const uint8_t* coverage = call->Input("coverage", RandomBytes(rows * kSliceLanes, draw));
+  const int16_t* far = call->Input("far", TwoSurfaces(rows * kSliceLanes, draw));
+  const CoverView view = DrawView(draw);
+  auto* covered = call->Results<int16_t>("covered", rows * kSliceLanes);
+  call->Runs([=](const Kernels& kernels) {
+    std::fill(covered, covered + rows * kSliceLanes, int16_t{100});
+    for (size_t y = 0; y < rows; ++y) {
+      const size_t at = y * kSliceLanes;
+      kernels.CoverPlaces(near + at, coverage + at, far + at, view, covered + at);
+    }
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    return AllRight(rows * kSliceLanes, [&](size_t n) {
+      const int nearer = Saturated(near[n] - far[n]);
+      const int beside = std::abs(Saturated(Product(nearer, view.along) - view.place));
+      const bool covers = nearer > view.least && beside <= view.within;
+      (*met)["covered"] += covers;
+      return covered[n] == (covers ? std::max<int>(100, coverage[n]) : 100);
+    });
+  };
+}
+
+void SumNear(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Size(1, 3, 16), height = rows + 2 * kNearRadius;
+  const size_t width = kSliceLanes + 2 * kNearRadius, stride = width + draw->Size(0, 5, 0);
+  const size_t at = kNearRadius * stride + kNearRadius;
+  std::array<const int16_t*, 3> lights;
+  for (const int16_t*& light : lights) {
+    light = call->Input("light", Light(height * stride, draw)) + at;
+  }
+  const int16_t* disparity = call->Input("disparity", TwoSurfaces(height * stride, draw)) + at;
+  const int16_t* weights = call->Input("weight", Weights(height * stride, draw)) + at;
+  const auto most_step = int16_t(draw->Int(0, 400));
+  for (const int16_t* plane : {lights[0], lights[1], lights[2], disparity, weights}) {
+    call->IgnoreRows(plane - at + width, height, stride, stride - width);
+  }
+  auto* sums = call->Results<int16_t>("sums", rows * 4 * kSliceLanes);
+  call->Runs([=](const Kernels& kernels) {
+    for (size_t y = 0; y < rows; ++y) {
+      const size_t row = y * stride;
+      const int16_t* const light[] = {lights[0] + row, lights[1] + row, lights[2] + row};
+      int16_t of_row[4][kSliceLanes];
+      kernels.SumNear(light, disparity + row, weights + row, ptrdiff_t(stride), most_step, of_row);
+      std::copy_n(of_row[0], 4 * kSliceLanes, sums + y * 4 * kSliceLanes);
+    }
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    return AllRight(rows * kSliceLanes, [&](size_t i) {
+      const size_t y = i / kSliceLanes, n = i % kSliceLanes, here = y * stride + n;
+      int expected[4] = {0, 0, 0, 0};
+      for (int dy = -kNearRadius; dy <= kNearRadius; ++dy) {
+        for (int dx = -kNearRadius; dx <= kNearRadius; ++dx) {
+          const ptrdiff_t there = ptrdiff_t(here) + dy * ptrdiff_t(stride) + dx;
+          const int step = Saturated(disparity[there] - disparity[here]);
+          if (std::abs(step) > most_step) continue;
+          const int weight = weights[there] * kNearTaps[std::abs(dy)][std::abs(dx)];
+          expected[3] += weight;
+          for (int c = 0; c < 3; ++c) expected[c] += Product(lights[size_t(c)][there], weight);
+          (*met)["same surface"] += dx != 0;
+        }
+      }
+      bool right = true;
+      for (size_t c = 0; c < 4; ++c) {
+        right = right && sums[(4 * y + c) * kSliceLanes + n] == expected[c];
+      }
+      return right;
+    });
+  };
+}
+
+}  // namespace test::kernel_cases
