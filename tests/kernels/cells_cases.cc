@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernel in simd/cells.h.
+// Test and benchmark calls of the kernels for disparities (simd/disparities.h) and for the cells of
+// a plan (simd/cells.h).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "tests/kernels/kernel_cases.h"
 
 namespace test::kernel_cases {
@@ -65,6 +70,147 @@ void MeasureCell(Draw* draw, KernelCall* call) {
       ++(*met)[measures[cell].edge_low > measures[cell].edge_high ? "no edge" : "edges"];
     }
     return true;
+  };
+}
+
+namespace {
+
+// Returns a random reach of a cell's blur, in pixels. In the benchmark, all reaches are small.
+int Reach(int around, Draw* draw) {
+  const int far = draw->Rarely(3) ? kCellPixels * around : 20;
+  return draw->Int(0, 3) == 0 && !draw->timed() ? draw->Int(1, far) : draw->Int(1, 9);
+}
+
+// Makes planes of cells, `plane` apart, whose rows are `stride` apart, with a border of `around`
+// cells. Returns the first cell inside the border.
+const int16_t* MakeCells(size_t plane, size_t stride, size_t around, Draw* draw, KernelCall* call) {
+  const int most = draw->Rarely(4) ? 32000 : 300;
+  std::vector<int16_t> samples(kCellPlanes * plane);
+  for (size_t n = 0; n < plane; ++n) {
+    const auto set = [&](size_t index, int value) { samples[index * plane + n] = int16_t(value); };
+    const int reach = Reach(int(around), draw), low = draw->Int(-most, most);
+    for (size_t side = 0; side < 4; ++side) {
+      set(kReachLeft + side, draw->Int(-8, reach));
+      set(kInsideLeft + side, draw->Int(0, kCellPixels));
+    }
+    set(kReachPlane, reach);
+    set(kRadiusPlane, 64 * reach);
+    set(kEdgePlane, draw->Int(0, 9) == 0 ? 60 * reach : 0);
+    set(kLowPlane, low);
+    set(kHighPlane, draw->Int(low, most));
+  }
+  const int16_t* cells = call->Input("cells", samples, kPadding);
+  return cells + around * (stride + 1);
+}
+
+}  // namespace
+
+void ReachBlock(Draw* draw, KernelCall* call) {
+  const size_t blocks = draw->Size(1, 3, 48);  // in one row
+  const auto around = int32_t(draw->Length(1, 12, 2));
+  const size_t stride = 2 * blocks + 2 * size_t(around), plane = stride * (2 + 2 * size_t(around));
+  const int16_t* cells = MakeCells(plane, stride, size_t(around), draw, call);
+  auto* reaches = call->Results<BlockReach>("reach", blocks);
+  call->Runs([=](const Kernels& kernels) {
+    constexpr int16_t kMargins[3] = {0, 4, 12};
+    for (size_t block = 0; block < blocks; ++block) {
+      kernels.ReachBlock(cells + 2 * block, plane, stride, around, kMargins, &reaches[block]);
+    }
+  });
+}
+
+void SurroundCells(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 33, 48), whole = SliceSamples(count);
+  const auto around = int32_t(draw->Size(1, 8, 2));
+  const size_t stride = count + 2 * size_t(around), plane = stride * (1 + 2 * size_t(around));
+  const int16_t* cells = MakeCells(plane, stride, size_t(around), draw, call);
+  auto* low = call->Results<int16_t>("low", count, whole - count);
+  auto* high = call->Results<int16_t>("high", count, whole - count);
+  auto* widest = call->Results<uint16_t>("widest", count, whole - count);
+  auto* edge = call->Results<int16_t>("edge", count, whole - count);
+  call->Runs([=](const Kernels& kernels) {
+    kernels.SurroundCells(cells, plane, stride, around, count, low, high, widest, edge);
+  });
+}
+
+namespace {
+
+// Returns disparities in [low, high]: the limits, values halfway between steps of 1/64, and
+// arbitrary values.
+std::vector<float> DisparitiesWithin(size_t count, float low, float high, Draw* draw) {
+  return Filled<float>(count, [&] {
+    const int kind = draw->Int(0, 4);
+    const double exact = draw->Real(low, high), tie = (std::floor(exact * 64) + 0.5) / 64;
+    if (kind < 2) return kind == 0 ? low : high;
+    return std::clamp(float(kind == 2 ? tie : exact), low, high);
+  });
+}
+
+}  // namespace
+
+void ConvertDisparity(Draw* draw, KernelCall* call) {
+  constexpr float kLimits[] = {500, 7.3f, 0, 511},
+                  kInfinity = std::numeric_limits<float>::infinity();
+  const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
+  const float high = kLimits[draw->Int(0, 3)], low = draw->Int(0, 1) == 0 ? -high : high / 2;
+  std::vector<float> values = DisparitiesWithin(count, low, high, draw);
+  const float outside[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity,
+                           std::nextafter(high, kInfinity), std::nextafter(low, -kInfinity)};
+  const bool spoilt = draw->Rarely(3);
+  if (spoilt) values[size_t(draw->Int(0, int(count) - 1))] = outside[draw->Int(0, 4)];
+  const float* disparity = call->Input("disparity", values, kPadding);
+  auto* out = call->Results<int16_t>("out", count);
+  call->run = [=](const Kernels& kernels) -> uint64_t {
+    return kernels.ConvertDisparity(disparity, count, low, high, out);
+  };
+  call->is_right = [=](uint64_t all_within, Met* met) {
+    if (all_within == 0) call->Free(out, count);
+    (*met)["refused"] += all_within == 0;
+    return all_within == !spoilt;
+  };
+}
+
+void FindRanges(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, 128), whole = SliceSamples(count);
+  const size_t rows = draw->Size(1, 9, kTimedSamples / 128);
+  const size_t stride = count + size_t(draw->Int(0, 5));
+  const int most = draw->Int(0, 2) == 0 ? 32767 : 90, absent = draw->Int(0, 4);
+  const auto in = Filled<int16_t>((rows - 1) * stride + whole, [&] {
+    return draw->Int(0, 3) < absent ? kNoSurface : draw->Int(-most, most);
+  });
+  const int16_t* disparity = call->Input("disparity", in);
+  call->IgnoreRows(disparity + count, rows - 1, stride, stride - count);
+  call->Ignore(disparity + (rows - 1) * stride + count, whole - count);
+  auto* ranges = call->Results<DisparityRange>("ranges", whole / kSliceLanes);
+  call->Runs(
+      [=](const Kernels& kernels) { kernels.FindRanges(disparity, stride, rows, count, ranges); });
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t k = 0; k < whole / kSliceLanes; ++k) {
+      (*met)[ranges[k].low > ranges[k].high ? "no surface" : "a range"] += 1;
+    }
+    return true;
+  };
+}
+
+void FindWithin(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Length(1, 9, kTimedSamples / kSliceLanes);
+  const size_t stride = draw->Size(16, 40, kSliceLanes);
+  const auto in = Filled<int16_t>((rows - 1) * stride + kSliceLanes, [&] {
+    return draw->Int(-40, 40) * (draw->Int(0, 3) == 0 ? 819 : 1);
+  });
+  const int16_t* disparity = call->Input("disparity", in);
+  const auto low = int16_t(draw->Int(-45, 35));
+  const auto high = int16_t(draw->Int(0, 3) == 0 ? INT16_MAX : draw->Int(low, 45));
+  auto* within = call->Results<uint16_t>("within", rows);
+  call->Runs([=](const Kernels& kernels) {
+    kernels.FindWithin(disparity, stride, rows, {low, high}, within);
+  });
+  call->is_right = [=](uint64_t, Met*) {
+    return AllRight(rows * kSliceLanes, [&](size_t k) {
+      const int16_t d = disparity[k / kSliceLanes * stride + k % kSliceLanes];
+      const int bit = within[k / kSliceLanes] >> k % kSliceLanes & 1;
+      return bit == int(d >= low && d <= high);
+    });
   };
 }
 

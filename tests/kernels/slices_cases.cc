@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/slices.h.
+// Test and benchmark calls of the kernels that make slices (simd/slices.h) and composite them
+// (simd/composite.h).
 #include <algorithm>
 
 #include "tests/kernels/kernel_cases.h"
@@ -93,6 +94,197 @@ void SpreadSlice(Draw* draw, KernelCall* call) {
       [=](const Kernels& kernels) { kernels.SpreadSlice(in, ptrdiff_t(step), taps, count, out); });
   call->is_right = [=](uint64_t, Met* met) {
     (*met)["saturated"] += std::count(out, out + whole, kSliceOne);
+    return true;
+  };
+}
+
+namespace {
+
+// Returns a position with a shift by `whole` and a random filter: one sample, two samples, or three
+// or four samples. With two samples, the weights at edges and inside surfaces may be equal or
+// different.
+SliceOffset Offset(int whole, Draw* draw) {
+  const int taps = draw->timed() ? 2 : draw->Int(1, 5), first = draw->Int(0, 32767);
+  if (taps == 1) return SliceOffset::Of(whole, INT16_MIN, INT16_MIN, 0, 0);
+  const auto edge = int16_t(-first);
+  if (taps == 2) return SliceOffset::Of(whole, edge, edge, 0, 0);
+  if (taps == 3) return SliceOffset::Of(whole, int16_t(draw->Int(-32768, 0)), edge, 0, 0);
+  const int third = draw->Int(1, 32768 - first);
+  const int fourth = taps == 4 ? 0 : draw->Int(0, third);
+  return SliceOffset::Of(whole, edge, edge, int16_t(-third), int16_t(-fourth));
+}
+
+// Returns rows of samples; each row has four adjacent planes, three colours and the coverage. In
+// each sample, no colour exceeds the coverage. `share` is the percentage of sequences of samples in
+// a row that are partly or fully covered. If `share` is kFull, all samples are fully covered.
+constexpr int kFull = 101;
+std::vector<int16_t> Planes(size_t rows, size_t plane, int share, Draw* draw) {
+  std::vector<int16_t> samples(4 * rows * plane);
+  for (size_t row = 0; row < rows; ++row) {
+    int cover = share == kFull ? kSliceOne : 0;
+    for (size_t n = 0; n < plane; ++n) {
+      if (share < kFull && draw->Int(0, 4) == 0) {
+        cover = draw->Int(0, 99) >= share ? 0
+                : draw->Int(0, 1) == 0    ? kSliceOne
+                                          : draw->Int(0, kSliceOne);
+      }
+      int16_t* at = samples.data() + 4 * row * plane + n;
+      for (size_t c = 0; c < 3; ++c) at[c * plane] = int16_t(cover * draw->Int(0, 255) / 256);
+      at[3 * plane] = int16_t(cover);
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+void ShiftSlice(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Length(1, 19, kTimedSamples / 4 / kSliceLanes);
+  const size_t more = draw->Size(0, 48, 0), in_plane = kSliceLanes + 3 + more;
+  const size_t plane = kSliceLanes * (rows + draw->Size(0, 4, 0));
+  std::vector<int16_t> samples = Planes(rows, in_plane, draw->Int(0, 1) == 0 ? 20 : kFull, draw);
+  const size_t empty = size_t(draw->Int(0, int(rows) - 1));
+  std::fill_n(samples.begin() + ptrdiff_t(4 * empty * in_plane), 4 * in_plane, int16_t{0});
+  const size_t first = size_t(draw->Int(0, int(more)));
+  // The memory of `in` ends with the last sample that the kernel reads.
+  samples.resize(samples.size() - (more - first));
+  const int16_t* in = call->Input("in", samples) + first;
+  const SliceOffset offset = Offset(draw->Int(-3, 3), draw);
+  auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
+  call->ResultRows(out, 4, plane, rows * kSliceLanes);
+  auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
+  constexpr int8_t kLeft = 9;
+  std::fill_n(near, kRowsAhead + rows, kLeft);
+  call->Runs([=](const Kernels& kernels) {
+    kernels.ShiftSlice(in - offset.whole, in_plane, offset, rows, plane, out, near + kRowsAhead);
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    const int8_t *begin = near, *end = near + kRowsAhead + rows;
+    (*met)["covered"] += std::count(begin, end, kCoveredNear);
+    (*met)["left as it was"] += std::count(begin, end, kLeft);
+    return true;
+  };
+}
+
+namespace {
+
+// Returns the marks of the rows of a strip (composite.h). `covered` holds the number of covered
+// samples of each row. If `full` is true, a row that is not empty covers all of its pixels.
+std::vector<int8_t> NearOf(const std::vector<int>& covered, bool full) {
+  std::vector<int8_t> near(covered.size() - kRowsAhead);
+  for (size_t row = 0; row < near.size(); ++row) {
+    const auto first = covered.begin() + ptrdiff_t(row), end = first + ptrdiff_t(kRowsAhead) + 1;
+    const auto shown = std::find_if(first, end, [](int count) { return count > 0; });
+    near[row] = full && std::find(first, end, 0) == end ? kCoveredNear : int8_t(shown - first);
+  }
+  return near;
+}
+
+// Makes the samples of a slice in a strip, with some empty rows. The returned pointers point to the
+// row with the index `before`.
+StripSlice MakeTile(size_t rows, size_t before, Draw* draw, KernelCall* call, Met* met) {
+  const bool full = draw->Int(0, 1) == 0;
+  const auto in = Planes(rows, kSliceLanes, full ? kFull : draw->Int(5, 100), draw);
+  const size_t plane = kSliceLanes * rows;
+  std::vector<int16_t> samples(4 * plane);
+  std::vector<int> covered(rows + kRowsAhead);  // number of covered samples of each row
+  for (size_t row = 0; row < rows; ++row) {
+    if (draw->Rarely(full ? 12 : 4)) continue;
+    for (size_t n = 0; n < 4 * kSliceLanes; ++n) {
+      const int16_t sample = in[4 * row * kSliceLanes + n];
+      samples[n / kSliceLanes * plane + row * kSliceLanes + n % kSliceLanes] = sample;
+      covered[row] += sample != 0;
+    }
+  }
+  const std::vector<int8_t> near = NearOf(covered, full);
+  (*met)["covered"] += std::count(near.begin(), near.end(), kCoveredNear);
+  return {call->Input("slice", samples) + before * kSliceLanes, call->Input("near", near) + before,
+          plane};
+}
+
+// In each slice, kSkipped rows precede the first composited row. Views move slices by at most kMost
+// rows.
+constexpr size_t kSkipped = 1, kMost = 4;
+
+SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
+  const size_t count = draw->Size(1, 6, 2), view_count = draw->Size(1, 9, 5);
+  std::vector<StripSlice> slices;
+  for (size_t k = 0; k < count; ++k) {
+    slices.push_back(
+        MakeTile(kMost + kSkipped + rows + kMost + kRowsAhead, kMost, draw, call, met));
+  }
+  const auto weights = Filled<int16_t>(
+      view_count, [&] { return draw->Int(0, std::min(16383, 58000 / int(view_count))); });
+  std::vector<SliceOffset> offsets;
+  for (size_t n = 0; n < view_count * count; ++n) {
+    offsets.push_back(Offset(draw->Int(-int(kMost), int(kMost)), draw));
+  }
+  std::vector<uint8_t> shown;
+  for (size_t k = 0; k < count; ++k) {
+    if (!draw->Rarely(5)) shown.push_back(uint8_t(k));
+  }
+  return {call->Input("weights", weights),
+          call->Input("offsets", offsets),
+          view_count,
+          call->Input("slices", slices),
+          count,
+          call->Input("shown", shown),
+          shown.size(),
+          kSkipped,
+          draw->Rarely(2) ? draw->Int(0, 4) : 0};
+}
+
+}  // namespace
+
+void Composite(Draw* draw, KernelCall* call) {
+  const size_t rows = draw->Length(1, 9, kTimedSamples / 4 / kSliceLanes);
+  Met covered;
+  const SliceViews views = MakeViews(rows, draw, call, &covered);
+  auto* sums = call->Results<uint32_t>("sums", 4 * rows * kSliceLanes);
+  for (size_t n = 0; n < 4 * rows * kSliceLanes; ++n) sums[n] = uint32_t(draw->Int(0, 1 << 30));
+  call->Runs([=](const Kernels& kernels) { kernels.Composite(views, rows, sums); });
+  call->is_right = [=](uint64_t, Met* met) {
+    for (const auto& one : covered) (*met)[one.first] += one.second;
+    return true;
+  };
+}
+
+// The coverage of a pixel mostly equals the coverage of the previous pixel; otherwise it is full,
+// zero, arbitrary or near the limit. In the benchmark, coverage changes from pixel to pixel as
+// seldom as in pictures.
+void FinishComposite(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
+  const size_t plane = whole + draw->Size(0, 5, 0);
+  const auto least = uint32_t(draw->Int(1, 90000));
+  const int bits = draw->Int(kLightBits, 24);
+  const uint32_t all = 4 * least + uint32_t(draw->Int(0, 5));
+  std::vector<uint32_t> values(3 * plane + whole);
+  uint32_t covered = all;
+  for (size_t n = 0; n < whole; ++n) {
+    const int kind = draw->Int(0, draw->timed() ? 199 : 19);
+    if (kind < 2) covered = all;
+    if (kind == 2) covered = 0;
+    if (kind == 3) covered = uint32_t(draw->Int(0, int(all)));
+    if (kind == 4) covered = least - uint32_t(draw->Int(0, 1));
+    values[3 * plane + n] = covered;
+    for (size_t c = 0; c < 3; ++c) {
+      const int colour = kind == 5 ? 256 : kind == 6 ? 255 : draw->Int(0, 255);
+      values[c * plane + n] = uint32_t(uint64_t{covered} * uint64_t(colour) / 256);
+    }
+  }
+  const uint32_t* sums = call->Input("sums", values);
+  for (size_t c = 0; c < 4; ++c) {
+    call->Ignore(sums + c * plane + count, (c < 3 ? plane : whole) - count);
+  }
+  const int16_t* centre = call->Input("centre", Light(3 * count, draw), kPadding);
+  auto* out = call->Results<uint32_t>("out", 3 * count);
+  call->Runs([=](const Kernels& kernels) {
+    kernels.FinishComposite(sums, plane, centre, least, bits, count, out);
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    for (size_t n = 0; n < count; ++n) {
+      (*met)[sums[3 * plane + n] < least ? "missing" : "covered"] += 1;
+    }
     return true;
   };
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "simd/matting.h"
 #include "tests/kernels/kernel_cases.h"
 
 namespace test::kernel_cases {
@@ -150,3 +151,111 @@ void SumNear(Draw* draw, KernelCall* call) {
 }
 
 }  // namespace test::kernel_cases
+
+namespace test::depth_cases {
+
+// Pixels with few or many colours and disparities, so that similar colours are frequent.
+void SumVotes(Draw* draw, DepthCall* call) {
+  const int reach = draw->Int(0, 17);
+  int step = draw->timed() ? 2 : draw->Int(1, 3);
+  while (2 * reach / step >= kMostVoteSide) ++step;
+  const ptrdiff_t stride = ptrdiff_t(kSliceLanes) + 2 * reach + draw->Int(0, 9);
+  const size_t samples = size_t(stride) * size_t(2 * reach + 1);
+  const size_t own = size_t(stride) * size_t(reach) + size_t(reach);
+  const int spread = draw->Int(0, 383), rarity = draw->timed() ? 1 : draw->Int(1, 9);
+  std::array<const int16_t*, 3> colours;
+  for (const int16_t*& colour : colours) {
+    colour =
+        call->Input("colour",
+                    Filled<int16_t>(samples, [&] { return int16_t(draw->Int(-spread, spread)); })) +
+        own;
+  }
+  const auto disparity = [&] { return int16_t(draw->Int(-100, 100)); };
+  const int16_t* surface = call->Input("surface", Filled<int16_t>(samples, disparity)) + own;
+  const int16_t* trust =
+      call->Input(
+          "trust",
+          Filled<int16_t>(
+              samples,
+              [&] { return int16_t(draw->Int(1, rarity) > 1 ? 0 : draw->Int(0, kMostTrust)); })) +
+      own;
+  const int16_t* middle = call->Input("middle", Filled<int16_t>(kSliceLanes, disparity));
+  const int16_t* closeness =
+      call->Input("closeness", Filled<int16_t>(kMostVoteSide * kMostVoteSide, [&] {
+                    return int16_t(draw->Int(0, kMostCloseness * kClosenessUnit));
+                  }));
+  auto* sums = call->Results<uint16_t>("sums", 4 * kSliceLanes);
+  call->Runs([=](const DepthKernels& kernels) {
+    VoteSums votes;
+    kernels.SumVotes(colours.data(), surface, trust, middle, stride, reach, step, closeness,
+                     &votes);
+    for (size_t n = 0; n < kSliceLanes; ++n) {
+      for (size_t side = 0; side < 2; ++side) {
+        sums[2 * side * kSliceLanes + n] = votes.similar[side][n];
+        sums[(2 * side + 1) * kSliceLanes + n] = votes.weight[side][n];
+      }
+    }
+  });
+  // No sample counts more than with equal colours.
+  call->is_right = [=](uint64_t, Met* met) {
+    return AllRight(2 * kSliceLanes, [&](size_t k) {
+      const size_t at = k / kSliceLanes * 2 * kSliceLanes + k % kSliceLanes;
+      ++(*met)[sums[at] == 0 ? "none" : "similar"];
+      return 16 * sums[at] <= kMostSimilar * sums[at + kSliceLanes];
+    });
+  };
+}
+
+namespace {
+
+constexpr int kTimedRow = 512, kLongestRow = 2 * 16 + 3;
+constexpr int kFarthest = 500 * 64;  // largest disparity
+
+// Returns the four planes of a row: the disparity and three values of the colour. The disparities
+// are either near `disparity` or arbitrary.
+std::vector<int32_t> AnyRow(size_t plane, int disparity, int colours, Draw* draw) {
+  std::vector<int32_t> row(4 * plane);
+  for (size_t n = 0; n < plane; ++n) {
+    const int nearby = disparity + draw->Int(-200, 200);
+    row[n] = draw->Int(0, 3) == 0 ? draw->Int(-kFarthest, kFarthest)
+                                  : std::min(kFarthest, std::max(-kFarthest, nearby));
+    const int red = draw->Int(0, colours), green = draw->Int(0, colours);
+    const int blue = draw->Int(0, colours);
+    row[plane + n] = red + green + blue;
+    row[2 * plane + n] = red - green;
+    row[3 * plane + n] = green - blue;
+  }
+  return row;
+}
+
+}  // namespace
+
+void SmoothDisparity(Draw* draw, DepthCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, kTimedRow);
+  const int radius = draw->timed() ? 3 : draw->Int(0, 4);
+  const int drawn_step = draw->timed() ? 1 : draw->Int(1, 2);
+  const int step = radius % drawn_step == 0 ? drawn_step : 1;
+  const int tolerance = draw->Int(0, 1023);
+  const size_t height = draw->Size(1, int(kMostSmoothRows), int(kMostSmoothRows));
+  const size_t first = size_t(radius);
+  const size_t plane = count + 2 * first + draw->Size(0, 9, 0);
+  const int disparity = draw->Int(-kFarthest, kFarthest), colours = draw->Int(0, 255);
+  std::array<const int32_t*, kMostSmoothRows> rows = {};
+  for (size_t k = 0; k < height; ++k) {
+    rows[k] = call->Input("row", AnyRow(plane, disparity, colours, draw), kPadding) + first;
+  }
+  const int32_t* own = rows[height / 2];
+  auto* smooth = call->Results<int16_t>("smooth", count);
+  call->Runs([=](const DepthKernels& kernels) {
+    kernels.SmoothDisparity(own, rows.data(), height, plane, radius, step, tolerance, count,
+                            smooth);
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    return AllRight(count, [&](size_t n) {
+      ++(*met)[smooth[n] != own[n] ? "smoothed" : "as it was"];
+      return std::abs(smooth[n] - own[n]) <= tolerance;
+    });
+  };
+}
+
+}  // namespace test::depth_cases
