@@ -65,12 +65,6 @@ void MeasureCell(Draw* draw, KernelCall* call) {
       kernels.MeasureCell(rows + 10 * cell, limits, &measures[cell]);
     }
   });
-  call->is_right = [=](uint64_t, Met* met) {
-    for (size_t cell = 0; cell < cells; ++cell) {
-      ++(*met)[measures[cell].edge_low > measures[cell].edge_high ? "no edge" : "edges"];
-    }
-    return true;
-  };
 }
 
 namespace {
@@ -128,9 +122,8 @@ void SurroundCells(Draw* draw, KernelCall* call) {
   auto* high = call->Results<int16_t>("high", count, whole - count);
   auto* widest = call->Results<uint16_t>("widest", count, whole - count);
   auto* edge = call->Results<int16_t>("edge", count, whole - count);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.SurroundCells(cells, plane, stride, around, count, low, high, widest, edge);
-  });
+  call->Calls(&Kernels::SurroundCells, cells, plane, stride, around, count, low, high, widest,
+              edge);
 }
 
 namespace {
@@ -160,9 +153,7 @@ void ConvertDisparity(Draw* draw, KernelCall* call) {
   if (spoilt) values[size_t(draw->Int(0, int(count) - 1))] = outside[draw->Int(0, 4)];
   const float* disparity = call->Input("disparity", values, kPadding);
   auto* out = call->Results<int16_t>("out", count);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    return kernels.ConvertDisparity(disparity, count, low, high, out);
-  };
+  call->Calls(&Kernels::ConvertDisparity, disparity, count, low, high, out);
   call->is_right = [=](uint64_t all_within, Met* met) {
     if (all_within == 0) call->Free(out, count);
     (*met)["refused"] += all_within == 0;
@@ -182,14 +173,7 @@ void FindRanges(Draw* draw, KernelCall* call) {
   call->IgnoreRows(disparity + count, rows - 1, stride, stride - count);
   call->Ignore(disparity + (rows - 1) * stride + count, whole - count);
   auto* ranges = call->Results<DisparityRange>("ranges", whole / kSliceLanes);
-  call->Runs(
-      [=](const Kernels& kernels) { kernels.FindRanges(disparity, stride, rows, count, ranges); });
-  call->is_right = [=](uint64_t, Met* met) {
-    for (size_t k = 0; k < whole / kSliceLanes; ++k) {
-      (*met)[ranges[k].low > ranges[k].high ? "no surface" : "a range"] += 1;
-    }
-    return true;
-  };
+  call->Calls(&Kernels::FindRanges, disparity, stride, rows, count, ranges);
 }
 
 void FindWithin(Draw* draw, KernelCall* call) {
@@ -202,16 +186,7 @@ void FindWithin(Draw* draw, KernelCall* call) {
   const auto low = int16_t(draw->Int(-45, 35));
   const auto high = int16_t(draw->Int(0, 3) == 0 ? INT16_MAX : draw->Int(low, 45));
   auto* within = call->Results<uint16_t>("within", rows);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.FindWithin(disparity, stride, rows, {low, high}, within);
-  });
-  call->is_right = [=](uint64_t, Met*) {
-    return AllRight(rows * kSliceLanes, [&](size_t k) {
-      const int16_t d = disparity[k / kSliceLanes * stride + k % kSliceLanes];
-      const int bit = within[k / kSliceLanes] >> k % kSliceLanes & 1;
-      return bit == int(d >= low && d <= high);
-    });
-  };
+  call->Calls(&Kernels::FindWithin, disparity, stride, rows, DisparityRange{low, high}, within);
 }
 
 }  // namespace test::kernel_cases

@@ -67,8 +67,7 @@ std::vector<int16_t> LineDisparities(size_t count, Draw* draw) {
 void Blend(Draw* draw, LineScanCall* call) {
   const Spans spans = MakeSpans(true, draw, call);
   auto* line = MakeTarget<int16_t>("line", spans, call);
-  call->Runs(
-      [=](const LineScanKernels& kernels) { kernels.Blend(spans.spans, spans.count, line); });
+  call->Calls(&LineScanKernels::Blend, spans.spans, spans.count, line);
 }
 
 void FindRuns(Draw* draw, LineScanCall* call) {
@@ -94,9 +93,8 @@ void FindRuns(Draw* draw, LineScanCall* call) {
   for (const uint16_t* words : {marks.starts, marks.edges}) {
     call->ResultRows(words, rows, marks.stride, count, whole - count);
   }
-  call->Runs([=](const LineScanKernels& kernels) {
-    kernels.FindRuns(first, step, length, count, int16_t(spread), int16_t(edge), marks);
-  });
+  call->Calls(&LineScanKernels::FindRuns, first, step, length, count, int16_t(spread),
+              int16_t(edge), marks);
 }
 
 }  // namespace line_scan_cases
@@ -107,8 +105,7 @@ void Accumulate(Draw* draw, KernelCall* call) {
   const line_scan_cases::Spans spans = line_scan_cases::MakeSpans(false, draw, call);
   auto* accumulators = line_scan_cases::MakeTarget<uint32_t>("accumulators", spans, call);
   for (size_t n = 0; n < spans.end; ++n) accumulators[n] = draw->Next() >> 4;
-  call->Runs(
-      [=](const Kernels& kernels) { kernels.Accumulate(spans.spans, spans.count, accumulators); });
+  call->Calls(&Kernels::Accumulate, spans.spans, spans.count, accumulators);
 }
 
 }  // namespace kernel_cases
@@ -185,17 +182,13 @@ void FilterDisc(Draw* draw, KernelCall* call) {
   const Filtered filtered(draw, call);
   const auto encoding = AnyEncoding(draw, call);
   auto* out = filtered.Output<uint8_t>(call);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.FilterDisc(filtered.in, filtered.disc, encoding, out, filtered.out_stride);
-  });
+  call->Calls(&Kernels::FilterDisc, filtered.in, filtered.disc, encoding, out, filtered.out_stride);
 }
 
 void FilterDiscLayer(Draw* draw, KernelCall* call) {
   const Filtered filtered(draw, call);
   auto* out = filtered.Output<int16_t>(call);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.FilterDiscLayer(filtered.in, filtered.disc, out, filtered.out_stride);
-  });
+  call->Calls(&Kernels::FilterDiscLayer, filtered.in, filtered.disc, out, filtered.out_stride);
 }
 
 // In FilterTwoDiscs, disc `less` takes most weights from disc `more`, and has a few weights where
@@ -213,9 +206,8 @@ void FilterTwoDiscs(Draw* draw, KernelCall* call) {
   less.bits = BitsOf(less.size, weights);
   less.weights = call->Input("weights of less", weights);
   auto *out_less = filtered.Output<int16_t>(call), *out_more = filtered.Output<int16_t>(call);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.FilterTwoDiscs(filtered.in, less, more, out_less, out_more, filtered.out_stride);
-  });
+  call->Calls(&Kernels::FilterTwoDiscs, filtered.in, less, more, out_less, out_more,
+              filtered.out_stride);
 }
 
 namespace {
@@ -240,7 +232,7 @@ void MixSamples(Draw* draw, KernelCall* call) {
   const auto shares = Filled<int16_t>(whole, [&] { return Between(draw, 0, 32767); });
   const int16_t* share = call->Input("share", shares);
   auto* out = call->Results<int16_t>("out", whole);
-  call->Runs([=](const Kernels& kernels) { kernels.MixSamples(less, more, share, count, out); });
+  call->Calls(&Kernels::MixSamples, less, more, share, count, out);
 }
 
 void MoveSamples(Draw* draw, KernelCall* call) {
@@ -257,9 +249,8 @@ void MoveSamples(Draw* draw, KernelCall* call) {
   const int16_t* in = call->Input("in", values);
   auto* out = call->Output<int16_t>("out", rows * out_stride);
   call->ResultRows(out, rows, out_stride, whole);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.MoveSamples({in + stride + 3, stride, rows, count}, move, out, out_stride);
-  });
+  call->Calls(&Kernels::MoveSamples, SampleRows{in + stride + 3, stride, rows, count}, move, out,
+              out_stride);
 }
 
 }  // namespace test::kernel_cases

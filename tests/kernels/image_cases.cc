@@ -23,9 +23,7 @@ void PixelsToRgb(Draw* draw, ImageCall* call) {
   // byte.
   const uint8_t* pixels = call->Input("pixels", RandomBytes(step * (count - 1) + 3, draw));
   auto* rgb = call->Results<uint8_t>("rgb", 3 * count);
-  call->Runs([=](const ImageKernels& kernels) {
-    kernels.PixelsToRgb(pixels, count, step, blue_first, rgb);
-  });
+  call->Calls(&ImageKernels::PixelsToRgb, pixels, count, step, blue_first, rgb);
 }
 
 void RgbToPixels(Draw* draw, ImageCall* call) {
@@ -34,9 +32,7 @@ void RgbToPixels(Draw* draw, ImageCall* call) {
   const bool blue_first = draw->Int(0, 1) != 0;
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
   auto* pixels = call->Results<uint8_t>("pixels", step * count);
-  call->Runs([=](const ImageKernels& kernels) {
-    kernels.RgbToPixels(rgb, count, step, blue_first, pixels);
-  });
+  call->Calls(&ImageKernels::RgbToPixels, rgb, count, step, blue_first, pixels);
 }
 
 namespace {
@@ -76,7 +72,7 @@ void YuvToRgb(Draw* draw, ImageCall* call) {
   const uint8_t* u = call->Input("u", RandomBytes(half, draw));
   const uint8_t* v = call->Input("v", RandomBytes(half, draw));
   auto* rgb = call->Results<uint8_t>("rgb", 3 * count);
-  call->Runs([=](const ImageKernels& kernels) { kernels.YuvToRgb(y, u, v, count, m, rgb); });
+  call->Calls(&ImageKernels::YuvToRgb, y, u, v, count, m, rgb);
 }
 
 void RgbToLuma(Draw* draw, ImageCall* call) {
@@ -84,7 +80,7 @@ void RgbToLuma(Draw* draw, ImageCall* call) {
   const YuvMatrix m = AnyMatrix(draw);
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
   auto* y = call->Results<uint8_t>("y", count);
-  call->Runs([=](const ImageKernels& kernels) { kernels.RgbToLuma(rgb, count, m, y); });
+  call->Calls(&ImageKernels::RgbToLuma, rgb, count, m, y);
 }
 
 void RgbToChroma(Draw* draw, ImageCall* call) {
@@ -94,8 +90,7 @@ void RgbToChroma(Draw* draw, ImageCall* call) {
   const uint8_t* lower = call->Input("lower", RandomBytes(3 * count, draw));
   auto* u = call->Results<uint8_t>("u", half);
   auto* v = call->Results<uint8_t>("v", half);
-  call->Runs(
-      [=](const ImageKernels& kernels) { kernels.RgbToChroma(upper, lower, count, m, u, v); });
+  call->Calls(&ImageKernels::RgbToChroma, upper, lower, count, m, u, v);
 }
 
 void DeinterleavePairs(Draw* draw, ImageCall* call) {
@@ -103,8 +98,7 @@ void DeinterleavePairs(Draw* draw, ImageCall* call) {
   const uint8_t* pairs = call->Input("pairs", RandomBytes(2 * count, draw));
   auto* first = call->Results<uint8_t>("first", count);
   auto* second = call->Results<uint8_t>("second", count);
-  call->Runs(
-      [=](const ImageKernels& kernels) { kernels.DeinterleavePairs(pairs, count, first, second); });
+  call->Calls(&ImageKernels::DeinterleavePairs, pairs, count, first, second);
 }
 
 void JoinPairs(Draw* draw, ImageCall* call) {
@@ -112,7 +106,7 @@ void JoinPairs(Draw* draw, ImageCall* call) {
   const uint8_t* first = call->Input("first", RandomBytes(count, draw));
   const uint8_t* second = call->Input("second", RandomBytes(count, draw));
   auto* pairs = call->Results<uint8_t>("pairs", 2 * count);
-  call->Runs([=](const ImageKernels& kernels) { kernels.JoinPairs(first, second, count, pairs); });
+  call->Calls(&ImageKernels::JoinPairs, first, second, count, pairs);
 }
 
 namespace {
@@ -205,9 +199,7 @@ void DepthToDisparity(Draw* draw, ImageCall* call) {
   const size_t count = all.size();
   const float* z = call->Input("z", all);
   auto* out = call->Results<int16_t>("out", count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    return kernels.DepthToDisparity(z, count, rule, out);
-  };
+  call->Calls(&ImageKernels::DepthToDisparity, z, count, rule, out);
   call->is_right = [=](uint64_t flags, Met* met) {
     ++(*met)[(flags & kUnknownDepth) != 0 ? "unknown" : "all known"];
     ++(*met)[(flags & kDepthOutside) != 0 ? "outside" : "inside"];
@@ -239,15 +231,7 @@ void BlendRows(Draw* draw, ImageCall* call) {
   const int16_t* a = call->Input("a", first);
   const int16_t* b = call->Input("b", second);
   auto* out = call->Results<int16_t>("out", count);
-  call->Runs([=](const ImageKernels& kernels) { kernels.BlendRows(a, b, count, share, out); });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(count, [&](size_t n) {
-      const bool apart = std::abs(a[n] - b[n]) > kBlendStep;
-      ++(*met)[apart ? "nearer" : "between"];
-      if (apart) return out[n] == (share < kColumnOne / 2 ? a[n] : b[n]);
-      return out[n] >= std::min(a[n], b[n]) && out[n] <= std::max(a[n], b[n]);
-    });
-  };
+  call->Calls(&ImageKernels::BlendRows, a, b, count, share, out);
 }
 
 void UpsampleRow(Draw* draw, ImageCall* call) {
@@ -264,8 +248,7 @@ void UpsampleRow(Draw* draw, ImageCall* call) {
   const int16_t* row = call->Input("row", Row(used + kUpsampleSpare, draw));
   const uint32_t* columns = call->Input("columns", places);
   auto* out = call->Results<int16_t>("out", count);
-  call->Runs(
-      [=](const ImageKernels& kernels) { kernels.UpsampleRow(row, columns, count, first, out); });
+  call->Calls(&ImageKernels::UpsampleRow, row, columns, count, first, out);
 }
 
 }  // namespace test::image_cases

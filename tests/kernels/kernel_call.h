@@ -201,6 +201,19 @@ class CallOf : public CallMemory {
     };
   }
 
+  // Sets `run` to a call of `kernel` with copies of the arguments.
+  template <class Result, class... Parameters, class... Arguments>
+  void Calls(Result (*Table::*kernel)(Parameters...), const Arguments&... arguments) {
+    run = [=](const Table& table) -> uint64_t {
+      if constexpr (std::is_void_v<Result>) {
+        (table.*kernel)(arguments...);
+        return 0;
+      } else {
+        return uint64_t((table.*kernel)(arguments...));
+      }
+    };
+  }
+
   // Compares the kernel of each table in `tables` with the reference kernel.
   std::string Check(const Table& reference, const std::vector<const Table*>& tables, Met* met) {
     const auto of = [this](const Table& table) {

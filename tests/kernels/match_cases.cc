@@ -21,8 +21,7 @@ void DeinterleaveRow(Draw* draw, DepthCall* call) {
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
   uint8_t* plane = call->Output<uint8_t>("planes", 3 * stride);
   call->ResultRows(plane, 3, stride, count);
-  call->Runs(
-      [=](const DepthKernels& kernels) { kernels.DeinterleaveRow(rgb, count, stride, plane); });
+  call->Calls(&DepthKernels::DeinterleaveRow, rgb, count, stride, plane);
 }
 
 void InterpolateRow(Draw* draw, DepthCall* call) {
@@ -32,16 +31,7 @@ void InterpolateRow(Draw* draw, DepthCall* call) {
   const uint8_t* row = call->Input("row", RandomBytes(count + 1, draw), kPadding);
   const uint8_t* next = call->Input("next", RandomBytes(count + 1, draw), kPadding);
   uint8_t* out = call->Results<uint8_t>("out", count, SliceSamples(count) - count);
-  call->Runs([=](const DepthKernels& kernels) {
-    kernels.InterpolateRow(row, next, across, down, count, out);
-  });
-  // Each interpolated value must lie between the four surrounding samples.
-  call->is_right = [=](uint64_t, Met*) {
-    return AllRight(count, [&](size_t n) {
-      const auto range = std::minmax({row[n], row[n + 1], next[n], next[n + 1]});
-      return out[n] >= range.first && out[n] <= range.second;
-    });
-  };
+  call->Calls(&DepthKernels::InterpolateRow, row, next, across, down, count, out);
 }
 
 namespace {
@@ -91,7 +81,7 @@ void CostLabels(Draw* draw, DepthCall* call) {
   const size_t places = SliceSamples(row.labels) + 16 * draw->Size(0, 1, 0);
   uint8_t* cost = call->Output<uint8_t>("cost", count * places);
   call->ResultRows(cost, count, places, row.labels, SliceSamples(row.labels) - row.labels);
-  call->Runs([=](const DepthKernels& kernels) { kernels.CostLabels(row, count, places, cost); });
+  call->Calls(&DepthKernels::CostLabels, row, count, places, cost);
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(count * places, [&](size_t n) {
       if (n % places >= row.labels) return true;
@@ -159,7 +149,7 @@ void AddPaths(Draw* draw, DepthCall* call) {
     row.before = start;
     row.before_least = row.least - step;
   }
-  call->Runs([=](const DepthKernels& kernels) { kernels.AddPaths(row, labels, step, count); });
+  call->Calls(&DepthKernels::AddPaths, row, labels, step, count);
 }
 
 void FindJumps(Draw* draw, DepthCall* call) {
@@ -172,8 +162,7 @@ void FindJumps(Draw* draw, DepthCall* call) {
   const uint8_t* here = pixels();
   const uint8_t* before = pixels();
   auto* jump = call->Results<int16_t>("jump", count);
-  call->Runs(
-      [=](const DepthKernels& kernels) { kernels.FindJumps(here, before, plane, count, jump); });
+  call->Calls(&DepthKernels::FindJumps, here, before, plane, count, jump);
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(count, [&](size_t n) {
       ++(*met)[jump[n] == kLeastJump ? "other colours" : "alike"];
@@ -194,9 +183,7 @@ void ChooseLabels(Draw* draw, DepthCall* call) {
   auto* choice = call->Results<int16_t>("choice", count);
   const bool rates = draw->timed() || draw->Int(0, 3) > 0;
   uint8_t* margin = rates ? call->Results<uint8_t>("margin", count) : nullptr;
-  call->Runs([=](const DepthKernels& kernels) {
-    kernels.ChooseLabels(sum, labels, count, choice, margin);
-  });
+  call->Calls(&DepthKernels::ChooseLabels, sum, labels, count, choice, margin);
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(count, [&](size_t n) {
       const int label = (choice[n] + 32) >> 6;
@@ -226,9 +213,7 @@ void PropagatePrior(Draw* draw, DepthCall* call) {
   std::copy(own.begin(), own.end(), prior);
   const uint8_t* before = nullptr;
   if (!draw->Rarely(4)) before = call->Input("before", Priors(size, draw)) + first;
-  call->Runs([=](const DepthKernels& kernels) {
-    kernels.PropagatePrior(prior + first, before, places, step, count);
-  });
+  call->Calls(&DepthKernels::PropagatePrior, prior + first, before, places, step, count);
   // PropagatePrior must not increase the cost of any label.
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(size, [&](size_t k) {
@@ -242,7 +227,7 @@ void AddPrior(Draw* draw, DepthCall* call) {
   const size_t count = kSliceLanes * draw->Length(1, 9, 64);
   const uint8_t* prior = call->Input("prior", Priors(count, draw));
   auto* cost = call->Results<uint8_t>("cost", count);
-  call->Runs([=](const DepthKernels& kernels) { kernels.AddPrior(prior, count, cost); });
+  call->Calls(&DepthKernels::AddPrior, prior, count, cost);
 }
 
 }  // namespace test::depth_cases

@@ -13,11 +13,6 @@
 namespace test::kernel_cases {
 namespace {
 
-int Saturated(int value) { return std::clamp(value, -32768, 32767); }
-
-// Returns a * b with 15 fractional bits, rounded half up, computed with real numbers.
-int Product(int a, int b) { return int(std::floor(double(a) * b / 32768 + 0.5)); }
-
 CoverView DrawView(Draw* draw) {
   const int move = draw->Int(-64, 64);
   return {int16_t(draw->Int(-16384, 16384)), int16_t(move * 32), int16_t(draw->Int(0, 64)),
@@ -59,22 +54,6 @@ void FindBeyond(Draw* draw, KernelCall* call) {
       kernels.FindBeyond(field + y * stride, ptrdiff_t(stride), step, beyond + at, square + at);
     }
   });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(rows * kSliceLanes, [&](size_t i) {
-      const int16_t* here = field + i / kSliceLanes * stride + i % kSliceLanes;
-      // Compares a squared distance and the negative disparity, so that the least pair is right.
-      std::pair<int, int> least = {1000, -*here};
-      for (int y = -kBeyondRadius; y <= kBeyondRadius; ++y) {
-        for (int x = -kBeyondRadius; x <= kBeyondRadius; ++x) {
-          const int there = here[y * ptrdiff_t(stride) + x];
-          if (std::abs(there - *here) > step) least = std::min(least, {x * x + y * y, -there});
-        }
-      }
-      (*met)["edges"] += least.first < 1000;
-      (*met)["no edge"] += least.first == 1000;
-      return square[i] == least.first % 1000 && beyond[i] == -least.second;
-    });
-  };
 }
 
 void CoverPlaces(Draw* draw, KernelCall* call) {
@@ -91,15 +70,6 @@ void CoverPlaces(Draw* draw, KernelCall* call) {
       kernels.CoverPlaces(near + at, coverage + at, far + at, view, covered + at);
     }
   });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(rows * kSliceLanes, [&](size_t n) {
-      const int nearer = Saturated(near[n] - far[n]);
-      const int beside = std::abs(Saturated(Product(nearer, view.along) - view.place));
-      const bool covers = nearer > view.least && beside <= view.within;
-      (*met)["covered"] += covers;
-      return covered[n] == (covers ? std::max<int>(100, coverage[n]) : 100);
-    });
-  };
 }
 
 void SumNear(Draw* draw, KernelCall* call) {
@@ -126,28 +96,6 @@ void SumNear(Draw* draw, KernelCall* call) {
       std::copy_n(of_row[0], 4 * kSliceLanes, sums + y * 4 * kSliceLanes);
     }
   });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(rows * kSliceLanes, [&](size_t i) {
-      const size_t y = i / kSliceLanes, n = i % kSliceLanes, here = y * stride + n;
-      int expected[4] = {0, 0, 0, 0};
-      for (int dy = -kNearRadius; dy <= kNearRadius; ++dy) {
-        for (int dx = -kNearRadius; dx <= kNearRadius; ++dx) {
-          const ptrdiff_t there = ptrdiff_t(here) + dy * ptrdiff_t(stride) + dx;
-          const int step = Saturated(disparity[there] - disparity[here]);
-          if (std::abs(step) > most_step) continue;
-          const int weight = weights[there] * kNearTaps[std::abs(dy)][std::abs(dx)];
-          expected[3] += weight;
-          for (int c = 0; c < 3; ++c) expected[c] += Product(lights[size_t(c)][there], weight);
-          (*met)["same surface"] += dx != 0;
-        }
-      }
-      bool right = true;
-      for (size_t c = 0; c < 4; ++c) {
-        right = right && sums[(4 * y + c) * kSliceLanes + n] == expected[c];
-      }
-      return right;
-    });
-  };
 }
 
 }  // namespace test::kernel_cases
@@ -240,16 +188,15 @@ void SmoothDisparity(Draw* draw, DepthCall* call) {
   const size_t first = size_t(radius);
   const size_t plane = count + 2 * first + draw->Size(0, 9, 0);
   const int disparity = draw->Int(-kFarthest, kFarthest), colours = draw->Int(0, 255);
-  std::array<const int32_t*, kMostSmoothRows> rows = {};
+  std::vector<const int32_t*> rows;
   for (size_t k = 0; k < height; ++k) {
-    rows[k] = call->Input("row", AnyRow(plane, disparity, colours, draw), kPadding) + first;
+    rows.push_back(call->Input("row", AnyRow(plane, disparity, colours, draw), kPadding) + first);
   }
+  const int32_t* const* all = call->Input("rows", rows);
   const int32_t* own = rows[height / 2];
   auto* smooth = call->Results<int16_t>("smooth", count);
-  call->Runs([=](const DepthKernels& kernels) {
-    kernels.SmoothDisparity(own, rows.data(), height, plane, radius, step, tolerance, count,
-                            smooth);
-  });
+  call->Calls(&DepthKernels::SmoothDisparity, own, all, height, plane, radius, step, tolerance,
+              count, smooth);
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(count, [&](size_t n) {
       ++(*met)[smooth[n] != own[n] ? "smoothed" : "as it was"];

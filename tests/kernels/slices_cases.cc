@@ -90,12 +90,7 @@ void SpreadSlice(Draw* draw, KernelCall* call) {
   });
   const int16_t* in = call->Input("in", samples) + before;
   auto* out = call->Results<int16_t>("out", whole);
-  call->Runs(
-      [=](const Kernels& kernels) { kernels.SpreadSlice(in, ptrdiff_t(step), taps, count, out); });
-  call->is_right = [=](uint64_t, Met* met) {
-    (*met)["saturated"] += std::count(out, out + whole, kSliceOne);
-    return true;
-  };
+  call->Calls(&Kernels::SpreadSlice, in, ptrdiff_t(step), taps, count, out);
 }
 
 namespace {
@@ -155,9 +150,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
   constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.ShiftSlice(in - offset.whole, in_plane, offset, rows, plane, out, near + kRowsAhead);
-  });
+  call->Calls(&Kernels::ShiftSlice, in - offset.whole, in_plane, offset, rows, plane, out,
+              near + kRowsAhead);
   call->is_right = [=](uint64_t, Met* met) {
     const int8_t *begin = near, *end = near + kRowsAhead + rows;
     (*met)["covered"] += std::count(begin, end, kCoveredNear);
@@ -242,7 +236,7 @@ void Composite(Draw* draw, KernelCall* call) {
   const SliceViews views = MakeViews(rows, draw, call, &covered);
   auto* sums = call->Results<uint32_t>("sums", 4 * rows * kSliceLanes);
   for (size_t n = 0; n < 4 * rows * kSliceLanes; ++n) sums[n] = uint32_t(draw->Int(0, 1 << 30));
-  call->Runs([=](const Kernels& kernels) { kernels.Composite(views, rows, sums); });
+  call->Calls(&Kernels::Composite, views, rows, sums);
   call->is_right = [=](uint64_t, Met* met) {
     for (const auto& one : covered) (*met)[one.first] += one.second;
     return true;
@@ -278,15 +272,7 @@ void FinishComposite(Draw* draw, KernelCall* call) {
   }
   const int16_t* centre = call->Input("centre", Light(3 * count, draw), kPadding);
   auto* out = call->Results<uint32_t>("out", 3 * count);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.FinishComposite(sums, plane, centre, least, bits, count, out);
-  });
-  call->is_right = [=](uint64_t, Met* met) {
-    for (size_t n = 0; n < count; ++n) {
-      (*met)[sums[3 * plane + n] < least ? "missing" : "covered"] += 1;
-    }
-    return true;
-  };
+  call->Calls(&Kernels::FinishComposite, sums, plane, centre, least, bits, count, out);
 }
 
 }  // namespace test::kernel_cases
