@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "simd/kernels.h"
-#include "tests/simd/kernel_cases.h"
+#include "tests/kernels/kernel_cases.h"
 #include "tests/support/simd_targets.h"
 
 namespace {

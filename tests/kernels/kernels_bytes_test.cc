@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares every kernel with its reference on every SIMD target of this machine.
+// Compares every kernel with its reference on every SIMD target of this machine. The cases of the
+// kernels of simd/X.h are in X_cases.cc.
 #include <doctest/doctest.h>
 #include <hwy/highway.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "simd/kernels.h"
-#include "tests/simd/check_kernels.h"
-#include "tests/simd/kernel_cases.h"
+#include "tests/kernels/kernel_cases.h"
 #include "tests/support/inside.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
@@ -36,71 +37,78 @@ TEST_CASE("kernels: ListTargets throws if no SIMD target runs on this machine") 
   CHECK_THROWS(test::ListTargets(+[](size_t) -> const Kernels* { return nullptr; }));
 }
 
-TEST_CASE("kernels: every target returns the bits of the reference and writes nothing else") {
-  test::CheckKernels<test::KernelCall>(test::kernel_cases::kAll, ReferenceKernels(),
-                                       test::SimdTargets());
-  CHECK(test::LineScanTargets()[0] == &BestLineScanKernels());
-  test::CheckKernels<test::LineScanCall>(test::line_scan_cases::kAll, ReferenceLineScanKernels(),
-                                         test::LineScanTargets());
-}
-
-const Kernels& ReferenceOf(const Kernels*) { return ReferenceKernels(); }
-const LineScanKernels& ReferenceOf(const LineScanKernels*) { return ReferenceLineScanKernels(); }
-
+// Checks calls of the cases with random arguments, and the calls that the benchmark times. All
+// targets must return the bits that the reference returns, and write nothing else. `targets` begins
+// with the target `best`, which the engine uses.
 template <class Table, class Cases>
-void CheckTimedCalls(const Cases& cases, const std::vector<const Table*>& targets) {
+void CheckKernels(const Cases& cases, const Table& reference, const Table& best,
+                  const std::vector<const Table*>& targets) {
+  constexpr int kRounds = STARFOCUS_EMULATED ? 200 : 1000;
+  CHECK(targets[0] == &best);
+  uint64_t seed = 0;
   for (const auto& one : cases) {
+    const std::string name = one.kernel;
+    CAPTURE(name);
+    test::Met met, met_timed;
+    const auto check = [&](test::Draw draw, test::Met* of_draw) {
+      test::CallOf<Table> call(&draw);
+      one.make(&draw, &call);
+      const std::string wrong = call.Check(reference, targets, of_draw);
+      REQUIRE_MESSAGE(wrong.empty(), wrong);
+    };
+    ++seed;
+    for (int round = 0; round < kRounds; ++round) {
+      CAPTURE(round);
+      check(test::Draw::ForTest(seed, round), &met);
+    }
+    // Each situation in `met` must occur more than kRounds / 50 times, so that the random calls
+    // test the situation.
+    for (const auto& what : met) {
+      CAPTURE(what.first);
+      CHECK(what.second > kRounds / 50);
+    }
+    check(test::Draw::ForBench(), &met_timed);
+    // The case must call the kernel that it is named after.
     test::Draw draw = test::Draw::ForBench();
     test::CallOf<Table> call(&draw);
     one.make(&draw, &call);
-    test::Met met;
-    const std::string wrong = call.Check(ReferenceOf(targets[0]), targets, &met);
-    CHECK_MESSAGE(wrong.empty(), (one.kernel + (": " + wrong)));
+    Table replaced = reference;
+    one.replace(&replaced);
+    CHECK_THROWS_AS(call.run(replaced), test::KernelCalled);
   }
 }
 
-TEST_CASE("kernels: the timed calls of the benchmark return correct results") {
-  CheckTimedCalls(test::kernel_cases::kAll, test::SimdTargets());
-  CheckTimedCalls(test::line_scan_cases::kAll, test::LineScanTargets());
+TEST_CASE("kernels: every target returns the bits of the reference and writes nothing else") {
+  CheckKernels(test::kernel_cases::kAll, ReferenceKernels(), BestKernels(), test::SimdTargets());
+  CheckKernels(test::line_scan_cases::kAll, ReferenceLineScanKernels(), BestLineScanKernels(),
+               test::LineScanTargets());
+  CheckKernels(test::depth_cases::kAll, ReferenceDepthKernels(), BestDepthKernels(),
+               test::DepthTargets());
+  CheckKernels(test::image_cases::kAll, ReferenceImageKernels(), BestImageKernels(),
+               test::ImageTargets());
 }
 
-// Replaces one kernel of a table by a function that counts calls.
-template <auto kKernel>
-struct Counted;
-template <class TableType, class Result, class... Args, Result (*TableType::*kKernel)(Args...)>
-struct Counted<kKernel> {
-  static inline int calls = 0;
-
-  static Result Call(Args... args) {
-    ++calls;
-    return (ReferenceOf(static_cast<TableType*>(nullptr)).*kKernel)(args...);
+TEST_CASE("kernels: on every target, HalvesToDepth converts all half floats correctly") {
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  std::vector<uint16_t> halves(65536);
+  for (size_t k = 0; k < halves.size(); ++k) halves[k] = uint16_t(k);
+  for (const ImageKernels* kernels : test::ImageTargets()) {
+    std::vector<float> z(halves.size());
+    kernels->HalvesToDepth(halves.data(), z.size(), z.data());
+    int wrong = 0;
+    for (size_t k = 0; k < z.size(); ++k) {
+      const int exponent = int(k >> 10) & 31, fraction = int(k) & 1023;
+      const double size =
+          exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+      if (exponent == 31) {
+        const bool right = fraction != 0 ? std::isnan(z[k]) : z[k] == (k >= 32768 ? -kInf : kInf);
+        wrong += right ? 0 : 1;
+      } else {
+        wrong += double(z[k]) == (k >= 32768 ? -size : size) ? 0 : 1;
+      }
+    }
+    CHECK(wrong == 0);
   }
-  static TableType Table() {
-    TableType kernels = ReferenceOf(static_cast<TableType*>(nullptr));
-    kernels.*kKernel = Call;
-    return kernels;
-  }
-};
-
-TEST_CASE("kernels: each case calls the kernel that it is named after") {
-  const auto check = [](const auto& one, const auto& table, const int* calls) {
-    test::Draw draw = test::Draw::ForBench();
-    test::CallOf<std::decay_t<decltype(table)>> call(&draw);
-    one.make(&draw, &call);
-    call.run(table);
-    CHECK_MESSAGE(*calls > 0, std::string(one.kernel));
-  };
-  const auto* one = test::kernel_cases::kAll;
-#define STARFOCUS_COUNT_CALLS(Kernel) \
-  check(*one++, Counted<&Kernels::Kernel>::Table(), &Counted<&Kernels::Kernel>::calls);
-  STARFOCUS_KERNELS(STARFOCUS_COUNT_CALLS)
-#undef STARFOCUS_COUNT_CALLS
-  const auto* of_lines = test::line_scan_cases::kAll;
-#define STARFOCUS_COUNT_CALLS(Kernel)                            \
-  check(*of_lines++, Counted<&LineScanKernels::Kernel>::Table(), \
-        &Counted<&LineScanKernels::Kernel>::calls);
-  STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_COUNT_CALLS)
-#undef STARFOCUS_COUNT_CALLS
 }
 
 // A function that makes a call of the kernel Narrow wrong, and the start of the expected complaint.

@@ -2,7 +2,7 @@
 // Test and benchmark calls of the kernels in simd/hidden_fill.h.
 #include <algorithm>
 
-#include "tests/simd/kernel_cases.h"
+#include "tests/kernels/kernel_cases.h"
 
 namespace test::kernel_cases {
 namespace {
@@ -65,20 +65,7 @@ void CopyFarthest(Draw* draw, KernelCall* call) {
   }
   row.share = call->Input("share", Portions(whole, draw));
   const FarRow far = OutputOf(whole, draw, call);
-  call->run = [=](const Kernels& kernels) -> uint64_t {
-    return uint64_t(kernels.CopyFarthest(row, source, count, far));
-  };
-  call->is_right = [=](uint64_t returned, Met* met) {
-    int most = 0;
-    const bool right = AllRight(whole, [&](size_t n) {
-      const int distance = far.source[n] >> kSourceDistance;
-      most = std::max(most, distance);
-      (*met)["repeated"] += distance != 0;
-      (*met)["hidden"] += far.disparity[n] < row.disparity[0][n];
-      return far.disparity[n] <= row.disparity[0][n] && (distance != 0) == (far.source[n] != 0);
-    });
-    return right && returned == uint64_t(most);
-  };
+  call->Calls(&Kernels::CopyFarthest, row, source, count, far);
 }
 
 namespace {
@@ -113,29 +100,13 @@ ThreeRows RowsOf(Draw* draw, KernelCall* call) {
 
 void LimitFar(Draw* draw, KernelCall* call) {
   const ThreeRows made = RowsOf(draw, call);
-  call->Runs([=](const Kernels& kernels) { kernels.LimitFar(made.rows, made.count, made.out); });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(made.whole, [&](size_t n) {
-      const uint16_t source = made.rows.source[n];
-      const bool changed = made.out[n] != 77;
-      ++(*met)[changed ? "limited" : "left"];
-      return !changed || ((source & 3) != 0) != ((source & 12) != 0);
-    });
-  };
+  call->Calls(&Kernels::LimitFar, made.rows, made.count, made.out);
 }
 
 void SmoothFar(Draw* draw, KernelCall* call) {
   const ThreeRows made = RowsOf(draw, call);
   const int32_t step = 1 << draw->Int(0, 4);
-  call->Runs(
-      [=](const Kernels& kernels) { kernels.SmoothFar(made.rows, step, made.count, made.out); });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(made.whole, [&](size_t n) {
-      const bool takes = 2 * (made.rows.source[n] >> kSourceDistance) >= step;
-      ++(*met)[takes ? "smoothed" : "left"];
-      return takes || made.out[n] == 77;
-    });
-  };
+  call->Calls(&Kernels::SmoothFar, made.rows, step, made.count, made.out);
 }
 
 void PutFarthest(Draw* draw, KernelCall* call) {
@@ -154,16 +125,7 @@ void PutFarthest(Draw* draw, KernelCall* call) {
   auto* out = call->Output<int16_t>("out", 3 * plane);
   std::fill_n(out, 3 * plane, int16_t{-1});
   call->ResultRows(out, 3, plane, whole);
-  call->Runs(
-      [=](const Kernels& kernels) { kernels.PutFarthest(far, surface, hiding, plane, out); });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(whole, [&](size_t n) {
-      const bool puts = (hiding >> n / kSliceLanes & 1) != 0 && far.source[n] != 0 &&
-                        far.disparity[n] == surface[n];
-      ++(*met)[puts ? "put" : "left"];
-      return out[n] == (puts ? far.rgb[n] : -1);
-    });
-  };
+  call->Calls(&Kernels::PutFarthest, far, surface, hiding, plane, out);
 }
 
 }  // namespace test::kernel_cases

@@ -1,47 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test and benchmark cases, one for each kernel. A case makes calls with any size and contents for
 // the test, and one call of a typical size for the benchmark.
-#ifndef STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
-#define STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
+#ifndef STARFOCUS_TESTS_KERNELS_KERNEL_CASES_H_
+#define STARFOCUS_TESTS_KERNELS_KERNEL_CASES_H_
 
-#include "tests/simd/kernel_call.h"
+#include "tests/kernels/kernel_call.h"
 
 namespace test {
 
 // A case for one kernel of a table.
-template <class Call>
+template <class Table>
 struct CaseOf {
   const char* kernel;
-  void (*make)(Draw* draw, Call* call);
+  void (*make)(Draw* draw, CallOf<Table>* call);
+  // Replaces the kernel in `table` by a function that throws KernelCalled.
+  void (*replace)(Table* table);
 };
+
+struct KernelCalled {};
+
+template <class Table, class Result, class... Arguments>
+void ThrowIn(Result (*Table::*kernel)(Arguments...), Table* table) {
+  table->*kernel = [](Arguments...) -> Result { throw KernelCalled(); };
+}
 
 // Each case is defined in the file of its family, such as cells_cases.cc. A kernel without a case
 // causes a linker error.
-#define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, Call* call);
-#define STARFOCUS_LIST_CASE(Kernel) {#Kernel, Kernel},
+#define STARFOCUS_DECLARE_CASE(Kernel) void Kernel(Draw* draw, CallOf<Table>* call);
+#define STARFOCUS_LIST_CASE(Kernel) \
+  {#Kernel, Kernel, [](Table* table) { ThrowIn(&Table::Kernel, table); }},
 namespace kernel_cases {
 using namespace starfocus::simd;
-using Call = KernelCall;
+using Table = Kernels;
 STARFOCUS_KERNELS(STARFOCUS_DECLARE_CASE)
-inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_KERNELS(STARFOCUS_LIST_CASE)};
+inline constexpr CaseOf<Table> kAll[] = {STARFOCUS_KERNELS(STARFOCUS_LIST_CASE)};
 }  // namespace kernel_cases
 namespace depth_cases {
 using namespace starfocus::simd;
-using Call = DepthCall;
+using Table = DepthKernels;
 STARFOCUS_DEPTH_KERNELS(STARFOCUS_DECLARE_CASE)
-inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_DEPTH_KERNELS(STARFOCUS_LIST_CASE)};
+inline constexpr CaseOf<Table> kAll[] = {STARFOCUS_DEPTH_KERNELS(STARFOCUS_LIST_CASE)};
 }  // namespace depth_cases
 namespace image_cases {
 using namespace starfocus::simd;
-using Call = ImageCall;
+using Table = ImageKernels;
 STARFOCUS_IMAGE_KERNELS(STARFOCUS_DECLARE_CASE)
-inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_CASE)};
+inline constexpr CaseOf<Table> kAll[] = {STARFOCUS_IMAGE_KERNELS(STARFOCUS_LIST_CASE)};
 }  // namespace image_cases
 namespace line_scan_cases {
 using namespace starfocus::simd;
-using Call = LineScanCall;
+using Table = LineScanKernels;
 STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_DECLARE_CASE)
-inline constexpr CaseOf<Call> kAll[] = {STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_LIST_CASE)};
+inline constexpr CaseOf<Table> kAll[] = {STARFOCUS_LINE_SCAN_KERNELS(STARFOCUS_LIST_CASE)};
 }  // namespace line_scan_cases
 #undef STARFOCUS_DECLARE_CASE
 #undef STARFOCUS_LIST_CASE
@@ -94,4 +104,4 @@ inline std::vector<int16_t> Disparities(size_t count, Draw* draw) {
 
 }  // namespace test
 
-#endif  // STARFOCUS_TESTS_SIMD_KERNEL_CASES_H_
+#endif  // STARFOCUS_TESTS_KERNELS_KERNEL_CASES_H_

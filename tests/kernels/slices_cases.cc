@@ -1,10 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/composite.h.
+// Test and benchmark calls of the kernels that make slices (simd/slices.h) and composite them
+// (simd/composite.h).
 #include <algorithm>
 
-#include "tests/simd/kernel_cases.h"
+#include "tests/kernels/kernel_cases.h"
 
 namespace test::kernel_cases {
+namespace {
+
+std::vector<uint8_t> MostlyWholeShares(size_t count, Draw* draw) {
+  return Filled<uint8_t>(count, [&] {
+    const int kind = draw->Int(0, 3);
+    return kind < 2 ? kSliceWhole : kind == 2 ? kSliceEnd : draw->Int(1, kSliceWhole - 1);
+  });
+}
+
+// Makes a row of `count` pixels with surfaces; hidden surfaces are often missing. Values that the
+// kernel does not read are arbitrary.
+SurfaceRow MakeSurfaces(size_t count, Draw* draw, KernelCall* call) {
+  const size_t whole = SliceSamples(count);
+  SurfaceRow row = {};
+  row.plane = whole + draw->Size(0, 20, 0);
+  for (size_t group = 0; group < 64; ++group) {
+    row.hiding |= uint64_t{draw->Int(0, 2) > 0} << group;
+  }
+  const uint8_t* share = call->Input("share", MostlyWholeShares(whole, draw));
+  row.share = share;
+  for (int k = 0; k < kSurfaces; ++k) {
+    std::vector<int16_t> disparities = Disparities(whole, draw);
+    for (int16_t& d : disparities) d = k > 0 && draw->Int(0, 1) == 0 ? kNoSurface : d;
+    const int16_t* disparity = call->Input("disparity", disparities);
+    const int16_t* rgb = call->Input("rgb", Light(2 * row.plane + whole, draw));
+    for (size_t n = 0; n < whole; ++n) {
+      const bool counts = n < count && (k == 0 || (row.hiding >> n / kSliceLanes & 1) != 0);
+      if (!counts) call->Ignore(disparity + n, 1);
+      if (counts && disparity[n] != kNoSurface) continue;
+      for (size_t c = 0; c < 3; ++c) call->Ignore(rgb + c * row.plane + n, 1);
+    }
+    row.disparity[k] = disparity;
+    row.rgb[k] = rgb;
+  }
+  for (size_t n = 0; n < whole; ++n) {
+    if (n >= count || (row.hiding >> n / kSliceLanes & 1) == 0) call->Ignore(share + n, 1);
+  }
+  return row;
+}
+
+}  // namespace
+
+void SelectSlice(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 100, kTimedSamples / 4), whole = SliceSamples(count);
+  const size_t plane = whole + draw->Size(0, 20, 0);
+  const SurfaceRow row = MakeSurfaces(count, draw, call);
+  const int middle = row.disparity[0][count / 2], more = draw->Int(0, 400);
+  const auto low = int16_t(std::max(-32700, middle - more));
+  const auto high = int16_t(std::min(32700, middle + more / 2));
+  const auto overlap = int16_t(std::min(32700, middle + more));
+  auto* out = call->Output<int16_t>("out", 3 * plane + whole);
+  call->ResultRows(out, 4, plane, count, whole - count);
+  auto* cover = call->Results<SliceCover>("cover", 1);
+  call->Runs([=](const Kernels& kernels) {
+    *cover = kernels.SelectSlice(row, low, high, overlap, count, plane, out);
+  });
+  call->is_right = [=](uint64_t, Met* met) {
+    SliceCover expected = {0, (uint64_t{1} << whole / kSliceLanes) - 1};
+    for (size_t n = 0; n < count; ++n) {
+      const uint64_t bit = uint64_t{1} << n / kSliceLanes;
+      const int16_t covered = out[3 * plane + n];
+      if (covered > 0) expected.some |= bit;
+      if (covered < kSliceOne) expected.all &= ~bit;
+      (*met)[covered == 0 ? "none" : covered < kSliceOne ? "a part" : "all"] += 1;
+    }
+    (*met)["groups covered"] += expected.all != 0;
+    return cover->some == expected.some && cover->all == expected.all;
+  };
+}
+
+// SpreadSlice spreads samples that are `step` apart, either in a row or in a column of planes.
+void SpreadSlice(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 160, kTimedSamples), whole = SliceSamples(count);
+  SliceTaps taps = {int32_t(draw->Size(1, kMaxSpread, 2)), 0, 0, 0};
+  taps.inner = int16_t(taps.reach == 1 ? 0 : draw->Int(0, 32767 / taps.reach));
+  taps.outer = int16_t(draw->Int(0, taps.inner == 0 ? 20000 : taps.inner));
+  taps.centre = int16_t(std::min(32767, 32768 - (taps.reach - 1) * taps.inner - taps.outer));
+  const size_t step = draw->Rarely(2) ? 4 * 48 : 1, before = size_t(taps.reach) * step;
+  const int bright = draw->Int(0, 4);
+  const auto samples = Filled<int16_t>(whole + 2 * before, [&] {
+    return draw->Int(0, 4) < bright ? kSliceOne : draw->Int(0, kSliceOne);
+  });
+  const int16_t* in = call->Input("in", samples) + before;
+  auto* out = call->Results<int16_t>("out", whole);
+  call->Calls(&Kernels::SpreadSlice, in, ptrdiff_t(step), taps, count, out);
+}
+
 namespace {
 
 // Returns a position with a shift by `whole` and a random filter: one sample, two samples, or three
@@ -62,9 +150,8 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
   constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
-  call->Runs([=](const Kernels& kernels) {
-    kernels.ShiftSlice(in - offset.whole, in_plane, offset, rows, plane, out, near + kRowsAhead);
-  });
+  call->Calls(&Kernels::ShiftSlice, in - offset.whole, in_plane, offset, rows, plane, out,
+              near + kRowsAhead);
   call->is_right = [=](uint64_t, Met* met) {
     const int8_t *begin = near, *end = near + kRowsAhead + rows;
     (*met)["covered"] += std::count(begin, end, kCoveredNear);
@@ -149,11 +236,43 @@ void Composite(Draw* draw, KernelCall* call) {
   const SliceViews views = MakeViews(rows, draw, call, &covered);
   auto* sums = call->Results<uint32_t>("sums", 4 * rows * kSliceLanes);
   for (size_t n = 0; n < 4 * rows * kSliceLanes; ++n) sums[n] = uint32_t(draw->Int(0, 1 << 30));
-  call->Runs([=](const Kernels& kernels) { kernels.Composite(views, rows, sums); });
+  call->Calls(&Kernels::Composite, views, rows, sums);
   call->is_right = [=](uint64_t, Met* met) {
     for (const auto& one : covered) (*met)[one.first] += one.second;
     return true;
   };
+}
+
+// The coverage of a pixel mostly equals the coverage of the previous pixel; otherwise it is full,
+// zero, arbitrary or near the limit. In the benchmark, coverage changes from pixel to pixel as
+// seldom as in pictures.
+void FinishComposite(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, 70, kTimedSamples / 3), whole = SliceSamples(count);
+  const size_t plane = whole + draw->Size(0, 5, 0);
+  const auto least = uint32_t(draw->Int(1, 90000));
+  const int bits = draw->Int(kLightBits, 24);
+  const uint32_t all = 4 * least + uint32_t(draw->Int(0, 5));
+  std::vector<uint32_t> values(3 * plane + whole);
+  uint32_t covered = all;
+  for (size_t n = 0; n < whole; ++n) {
+    const int kind = draw->Int(0, draw->timed() ? 199 : 19);
+    if (kind < 2) covered = all;
+    if (kind == 2) covered = 0;
+    if (kind == 3) covered = uint32_t(draw->Int(0, int(all)));
+    if (kind == 4) covered = least - uint32_t(draw->Int(0, 1));
+    values[3 * plane + n] = covered;
+    for (size_t c = 0; c < 3; ++c) {
+      const int colour = kind == 5 ? 256 : kind == 6 ? 255 : draw->Int(0, 255);
+      values[c * plane + n] = uint32_t(uint64_t{covered} * uint64_t(colour) / 256);
+    }
+  }
+  const uint32_t* sums = call->Input("sums", values);
+  for (size_t c = 0; c < 4; ++c) {
+    call->Ignore(sums + c * plane + count, (c < 3 ? plane : whole) - count);
+  }
+  const int16_t* centre = call->Input("centre", Light(3 * count, draw), kPadding);
+  auto* out = call->Results<uint32_t>("out", 3 * count);
+  call->Calls(&Kernels::FinishComposite, sums, plane, centre, least, bits, count, out);
 }
 
 }  // namespace test::kernel_cases

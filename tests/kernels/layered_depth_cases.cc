@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/simd/kernel_cases.h"
+#include "tests/kernels/kernel_cases.h"
 
 namespace test::kernel_cases {
 namespace {
@@ -31,10 +31,7 @@ void Deinterleave(Draw* draw, KernelCall* call) {
   const int16_t* rgb = call->Input("rgb", Light(3 * count, draw), kPadding);
   auto* out = call->Output<int16_t>("out", 3 * plane);
   call->ResultRows(out, 3, plane, count);
-  call->Runs([=](const Kernels& kernels) { kernels.Deinterleave(rgb, count, plane, out); });
-  call->is_right = [=](uint64_t, Met*) {
-    return AllRight(3 * count, [&](size_t i) { return out[i % 3 * plane + i / 3] == rgb[i]; });
-  };
+  call->Calls(&Kernels::Deinterleave, rgb, count, plane, out);
 }
 
 // Each call of FindEdges finds the edges of a row from the edges of the previous row.
@@ -55,11 +52,6 @@ void FindEdges(Draw* draw, KernelCall* call) {
       kernels.FindEdges(near, near - whole, step, unit_bits, count, moved, behind, distances);
     }
   });
-  call->is_right = [=](uint64_t, Met* met) {
-    (*met)["hidden"] += std::count_if(distance, distance + (rows - 1) * whole,
-                                      [](uint8_t pixels) { return pixels > 1; });
-    return true;
-  };
 }
 
 void FindSteps(Draw* draw, KernelCall* call) {
@@ -67,17 +59,7 @@ void FindSteps(Draw* draw, KernelCall* call) {
                strips = SliceSamples(count) / kSliceLanes;
   const int16_t* row = call->Input("row", Disparities(count + 1, draw), kPadding);
   auto* steps = call->Results<StepBits>("steps", strips);
-  call->Runs([=](const Kernels& kernels) { kernels.FindSteps(row, count, kStep, steps); });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(strips * kSliceLanes, [&](size_t n) {
-      const StepBits& bits = steps[n / kSliceLanes];
-      const bool fall = n < count && row[n] - row[n + 1] > kStep;
-      const bool rise = n < count && row[n + 1] - row[n] > kStep;
-      (*met)["steps"] += fall || rise;
-      return (bits.falls >> n % kSliceLanes & 1) == int(fall) &&
-             (bits.rises >> n % kSliceLanes & 1) == int(rise);
-    });
-  };
+  call->Calls(&Kernels::FindSteps, row, count, kStep, steps);
 }
 
 void FindCopies(Draw* draw, KernelCall* call) {
@@ -97,23 +79,6 @@ void FindCopies(Draw* draw, KernelCall* call) {
                                      copies + y * samples);
     }
   });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(rows * samples, [&](size_t i) {
-      const size_t n = i % samples, y = i / samples;
-      const int16_t* at = first + y * stride + n;
-      int expected = kNoSurface;
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          const int next = at[dy * ptrdiff_t(stride) + dx], step = *at - next;
-          if (n >= count || step < least || step > most) continue;
-          expected = expected == kNoSurface ? next : std::min(expected, next);
-        }
-      }
-      (*met)["copies"] += expected != kNoSurface;
-      return copies[i] == expected &&
-             (expected == kNoSurface || (strips[y] >> (n / kSliceLanes) & 1) != 0);
-    });
-  };
 }
 
 void ColourCopies(Draw* draw, KernelCall* call) {
@@ -134,32 +99,6 @@ void ColourCopies(Draw* draw, KernelCall* call) {
                            groups * kSliceLanes, out + n);
     }
   });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(3 * groups * kSliceLanes, [&](size_t i) {
-      const size_t c = i / (groups * kSliceLanes), n = i % (groups * kSliceLanes);
-      const int16_t *at = row + n, *colour = rgb + c * plane + n;
-      double means = 0;
-      int axes = 0;
-      // The diagonals count only if no neighbour in the row or column has the disparity of the
-      // copy.
-      for (const ptrdiff_t step :
-           {ptrdiff_t{1}, ptrdiff_t(stride), ptrdiff_t(stride) + 1, ptrdiff_t(stride) - 1}) {
-        if (step == ptrdiff_t(stride) + 1 && axes > 0) break;
-        double sum = 0;
-        int found = 0;
-        for (const ptrdiff_t next : {step, -step}) {
-          if (at[next] != copies[n]) continue;
-          sum += colour[next];
-          ++found;
-        }
-        if (found == 0) continue;
-        means += sum / found;
-        ++axes;
-      }
-      (*met)["colours of neighbours"] += axes > 0;
-      return axes == 0 || std::abs(out[i] - means / axes) <= 1;
-    });
-  };
 }
 
 void BesideSteps(Draw* draw, KernelCall* call) {
@@ -174,17 +113,6 @@ void BesideSteps(Draw* draw, KernelCall* call) {
       kernels.BesideSteps(first + y * stride, ptrdiff_t(stride), count, kStep, beside + y * strips);
     }
   });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(rows * strips * kSliceLanes, [&](size_t i) {
-      const size_t n = i % (strips * kSliceLanes), y = i / (strips * kSliceLanes);
-      const int16_t* at = first + y * stride + n;
-      const bool expected =
-          n < count &&
-          std::max(std::max(at[-1], at[1]), std::max(*(at - stride), at[stride])) - *at > kStep;
-      (*met)["steps"] += expected;
-      return (beside[i / kSliceLanes] >> n % kSliceLanes & 1) == int(expected);
-    });
-  };
 }
 
 namespace {

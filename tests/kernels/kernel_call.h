@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One call of a kernel: the memory, the permitted accesses, and the call itself. kernels_bytes_test
 // checks the results of kernel calls, and starfocus-bench-micro measures their time.
-#ifndef STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
-#define STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
+#ifndef STARFOCUS_TESTS_KERNELS_KERNEL_CALL_H_
+#define STARFOCUS_TESTS_KERNELS_KERNEL_CALL_H_
 
 #include <algorithm>
 #include <cstddef>
@@ -201,6 +201,19 @@ class CallOf : public CallMemory {
     };
   }
 
+  // Sets `run` to a call of `kernel` with copies of the arguments.
+  template <class Result, class... Parameters, class... Arguments>
+  void Calls(Result (*Table::*kernel)(Parameters...), const Arguments&... arguments) {
+    run = [=](const Table& table) -> uint64_t {
+      if constexpr (std::is_void_v<Result>) {
+        (table.*kernel)(arguments...);
+        return 0;
+      } else {
+        return uint64_t((table.*kernel)(arguments...));
+      }
+    };
+  }
+
   // Compares the kernel of each table in `tables` with the reference kernel.
   std::string Check(const Table& reference, const std::vector<const Table*>& tables, Met* met) {
     const auto of = [this](const Table& table) {
@@ -219,4 +232,4 @@ using LineScanCall = CallOf<starfocus::simd::LineScanKernels>;
 
 }  // namespace test
 
-#endif  // STARFOCUS_TESTS_SIMD_KERNEL_CALL_H_
+#endif  // STARFOCUS_TESTS_KERNELS_KERNEL_CALL_H_

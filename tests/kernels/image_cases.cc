@@ -1,12 +1,114 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/depth_values.h.
+// Test and benchmark calls of the kernels that convert pictures (simd/pixels.h) and depth values
+// (simd/depth_values.h).
 #include <cmath>
 #include <limits>
 
 #include "simd/depth_values.h"
-#include "tests/simd/kernel_cases.h"
+#include "simd/pixels.h"
+#include "tests/kernels/kernel_cases.h"
 
 namespace test::image_cases {
+namespace {
+
+constexpr int kLongestPixels = 2 * 64 + 67;
+
+}  // namespace
+
+void PixelsToRgb(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongestPixels, 1024);
+  const size_t step = draw->Size(3, 4, 3);
+  const bool blue_first = draw->Int(0, 1) != 0;
+  // The memory of `pixels` ends with the colours of the last pixel, even if pixels have a fourth
+  // byte.
+  const uint8_t* pixels = call->Input("pixels", RandomBytes(step * (count - 1) + 3, draw));
+  auto* rgb = call->Results<uint8_t>("rgb", 3 * count);
+  call->Calls(&ImageKernels::PixelsToRgb, pixels, count, step, blue_first, rgb);
+}
+
+void RgbToPixels(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongestPixels, 1024);
+  const size_t step = draw->Size(3, 4, 3);
+  const bool blue_first = draw->Int(0, 1) != 0;
+  const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
+  auto* pixels = call->Results<uint8_t>("pixels", step * count);
+  call->Calls(&ImageKernels::RgbToPixels, rgb, count, step, blue_first, pixels);
+}
+
+namespace {
+
+// Longest row in pixels: more than two of the widest vectors.
+constexpr int kLongestRow = 2 * 64 + 67;
+
+// Returns random coefficients. The largest random coefficients slightly exceed the coefficients of
+// all formats.
+YuvMatrix AnyMatrix(Draw* draw) {
+  YuvMatrix m = {};
+  m.black = int16_t(16 * draw->Int(0, 1));
+  m.y = int16_t(draw->Int(16384, 19100));
+  m.rv = int16_t(draw->Int(11000, 15000));
+  m.gu = int16_t(draw->Int(-4000, 0));
+  m.gv = int16_t(draw->Int(-7000, 0));
+  m.bu = int16_t(draw->Int(14000, 17400));
+  const int most = m.black == 0 ? 32768 : 30000;  // keeps white at 255 or less
+  m.yr = int16_t(draw->Int(6000, 9798));
+  m.yb = int16_t(draw->Int(2000, 3735));
+  m.yg = int16_t(draw->Int(0, 1) == 0 ? most - m.yr - m.yb : draw->Int(12000, 16000));
+  m.ub = int16_t(draw->Int(14000, 16384));
+  m.ug = int16_t(-draw->Int(9000, 12000));
+  m.ur = int16_t(-m.ub - m.ug);
+  m.vr = int16_t(draw->Int(14000, 16384));
+  m.vg = int16_t(-draw->Int(11000, 14000));
+  m.vb = int16_t(-m.vr - m.vg);
+  return m;
+}
+
+}  // namespace
+
+void YuvToRgb(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024), half = (count + 1) / 2;
+  const YuvMatrix m = AnyMatrix(draw);
+  const uint8_t* y = call->Input("y", RandomBytes(count, draw));
+  const uint8_t* u = call->Input("u", RandomBytes(half, draw));
+  const uint8_t* v = call->Input("v", RandomBytes(half, draw));
+  auto* rgb = call->Results<uint8_t>("rgb", 3 * count);
+  call->Calls(&ImageKernels::YuvToRgb, y, u, v, count, m, rgb);
+}
+
+void RgbToLuma(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024);
+  const YuvMatrix m = AnyMatrix(draw);
+  const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
+  auto* y = call->Results<uint8_t>("y", count);
+  call->Calls(&ImageKernels::RgbToLuma, rgb, count, m, y);
+}
+
+void RgbToChroma(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024), half = (count + 1) / 2;
+  const YuvMatrix m = AnyMatrix(draw);
+  const uint8_t* upper = call->Input("upper", RandomBytes(3 * count, draw));
+  const uint8_t* lower = call->Input("lower", RandomBytes(3 * count, draw));
+  auto* u = call->Results<uint8_t>("u", half);
+  auto* v = call->Results<uint8_t>("v", half);
+  call->Calls(&ImageKernels::RgbToChroma, upper, lower, count, m, u, v);
+}
+
+void DeinterleavePairs(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024);
+  const uint8_t* pairs = call->Input("pairs", RandomBytes(2 * count, draw));
+  auto* first = call->Results<uint8_t>("first", count);
+  auto* second = call->Results<uint8_t>("second", count);
+  call->Calls(&ImageKernels::DeinterleavePairs, pairs, count, first, second);
+}
+
+void JoinPairs(Draw* draw, ImageCall* call) {
+  const size_t count = draw->Length(1, kLongestRow, 1024);
+  const uint8_t* first = call->Input("first", RandomBytes(count, draw));
+  const uint8_t* second = call->Input("second", RandomBytes(count, draw));
+  auto* pairs = call->Results<uint8_t>("pairs", 2 * count);
+  call->Calls(&ImageKernels::JoinPairs, first, second, count, pairs);
+}
+
 namespace {
 
 constexpr int kLongestDepths = 2 * 32 + 35;
@@ -97,9 +199,7 @@ void DepthToDisparity(Draw* draw, ImageCall* call) {
   const size_t count = all.size();
   const float* z = call->Input("z", all);
   auto* out = call->Results<int16_t>("out", count);
-  call->run = [=](const ImageKernels& kernels) -> uint64_t {
-    return kernels.DepthToDisparity(z, count, rule, out);
-  };
+  call->Calls(&ImageKernels::DepthToDisparity, z, count, rule, out);
   call->is_right = [=](uint64_t flags, Met* met) {
     ++(*met)[(flags & kUnknownDepth) != 0 ? "unknown" : "all known"];
     ++(*met)[(flags & kDepthOutside) != 0 ? "outside" : "inside"];
@@ -131,15 +231,7 @@ void BlendRows(Draw* draw, ImageCall* call) {
   const int16_t* a = call->Input("a", first);
   const int16_t* b = call->Input("b", second);
   auto* out = call->Results<int16_t>("out", count);
-  call->Runs([=](const ImageKernels& kernels) { kernels.BlendRows(a, b, count, share, out); });
-  call->is_right = [=](uint64_t, Met* met) {
-    return AllRight(count, [&](size_t n) {
-      const bool apart = std::abs(a[n] - b[n]) > kBlendStep;
-      ++(*met)[apart ? "nearer" : "between"];
-      if (apart) return out[n] == (share < kColumnOne / 2 ? a[n] : b[n]);
-      return out[n] >= std::min(a[n], b[n]) && out[n] <= std::max(a[n], b[n]);
-    });
-  };
+  call->Calls(&ImageKernels::BlendRows, a, b, count, share, out);
 }
 
 void UpsampleRow(Draw* draw, ImageCall* call) {
@@ -156,8 +248,7 @@ void UpsampleRow(Draw* draw, ImageCall* call) {
   const int16_t* row = call->Input("row", Row(used + kUpsampleSpare, draw));
   const uint32_t* columns = call->Input("columns", places);
   auto* out = call->Results<int16_t>("out", count);
-  call->Runs(
-      [=](const ImageKernels& kernels) { kernels.UpsampleRow(row, columns, count, first, out); });
+  call->Calls(&ImageKernels::UpsampleRow, row, columns, count, first, out);
 }
 
 }  // namespace test::image_cases

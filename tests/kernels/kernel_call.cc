@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/simd/kernel_call.h"
+#include "tests/kernels/kernel_call.h"
 
 #include <algorithm>
 #include <cstring>

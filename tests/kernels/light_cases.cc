@@ -1,9 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test and benchmark calls of the kernels in simd/resample.h.
+// Test and benchmark calls of the kernels for light and codes (simd/light.h) and for layers
+// (simd/resample.h).
 #include "lib/io/layers.h"
-#include "tests/simd/kernel_cases.h"
+#include "tests/kernels/kernel_cases.h"
 
 namespace test::kernel_cases {
+
+void Decode(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
+  const uint8_t* codes = call->Input("codes", RandomBytes(count, draw), kPadding);
+  const Encoding encoding = AnyEncoding(draw, call);
+  auto* light = call->Results<int16_t>("light", count);
+  call->Calls(&Kernels::Decode, codes, count, encoding, light);
+}
+
+void Encode(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
+  const int16_t* light = call->Input("light", Light(count, draw), kPadding);
+  const Encoding encoding = AnyEncoding(draw, call);
+  auto* codes = call->Results<uint8_t>("codes", count);
+  call->Calls(&Kernels::Encode, light, count, encoding, codes);
+}
+
+void Finish(Draw* draw, KernelCall* call) {
+  const size_t count = draw->Length(1, kLongestBytes, kTimedSamples);
+  const int shift = draw->Int(kLightBits + 1, 24);
+  const uint32_t largest = uint32_t{255} << shift;
+  const auto sums = Filled<uint32_t>(count, [&] {
+    const int kind = draw->Int(0, 4);
+    const uint32_t half = (uint32_t(draw->Int(0, 254)) << shift) + (1u << (shift - 1));
+    return kind == 0 ? largest : kind == 1 ? half : kind == 2 ? half - 1 : draw->Next() % largest;
+  });
+  const uint32_t* accumulators = call->Input("accumulators", sums, kPadding);
+  const Encoding encoding = AnyEncoding(draw, call);
+  auto* out = call->Results<uint8_t>("out", count);
+  call->Calls(&Kernels::Finish, accumulators, count, shift, encoding, out);
+}
+
 namespace {
 
 // Returns black, white and arbitrary samples. If `in_range` is false, samples exceed the range as
@@ -55,16 +88,14 @@ void WidenPhases(Draw* draw, KernelCall* call) {
   const uint8_t* in = call->Input("in", RandomBytes(6 * pairs, draw));
   const auto encoding = AnyEncoding(draw, call);
   const Phases out(pairs, 0, call);
-  call->Runs(
-      [=](const Kernels& kernels) { kernels.WidenPhases(in, pairs, encoding, out.even, out.odd); });
+  call->Calls(&Kernels::WidenPhases, in, pairs, encoding, out.even, out.odd);
 }
 
 void DeinterleavePhases(Draw* draw, KernelCall* call) {
   const size_t pairs = draw->Length(0, kLongestSamples, kTimedSamples / 6);
   const int16_t* in = call->Input("in", Samples(6 * pairs, false, draw), kPadding);
   const Phases out(pairs, 1, call);
-  call->Runs(
-      [=](const Kernels& kernels) { kernels.DeinterleavePhases(in, pairs, out.even, out.odd); });
+  call->Calls(&Kernels::DeinterleavePhases, in, pairs, out.even, out.odd);
 }
 
 void Narrow(Draw* draw, KernelCall* call) {
@@ -77,7 +108,7 @@ void Narrow(Draw* draw, KernelCall* call) {
   const int16_t* in = call->Input("in", samples, kPadding);
   const auto encoding = AnyEncoding(draw, call);
   auto* out = call->Results<uint8_t>("out", count);
-  call->Runs([=](const Kernels& kernels) { kernels.Narrow(in, count, encoding, out); });
+  call->Calls(&Kernels::Narrow, in, count, encoding, out);
 }
 
 void FinishLayer(Draw* draw, KernelCall* call) {
@@ -88,7 +119,7 @@ void FinishLayer(Draw* draw, KernelCall* call) {
   });
   const uint32_t* accumulators = call->Input("accumulators", sums, kPadding);
   auto* out = call->Results<int16_t>("out", count);
-  call->Runs([=](const Kernels& kernels) { kernels.FinishLayer(accumulators, count, shift, out); });
+  call->Calls(&Kernels::FinishLayer, accumulators, count, shift, out);
 }
 
 void FilterHalfBand(Draw* draw, KernelCall* call) {
@@ -101,7 +132,7 @@ void Halve(Draw* draw, KernelCall* call) {
   const int16_t* odd = call->Input("odd", Samples(count + 9, true, draw), kPadding) + 6;
   const HalfBand taps = Taps(draw);
   auto* out = call->Results<int16_t>("out", count);
-  call->Runs([=](const Kernels& kernels) { kernels.Halve(even, odd, taps, count, out); });
+  call->Calls(&Kernels::Halve, even, odd, taps, count, out);
 }
 
 void Between(Draw* draw, KernelCall* call) {
