@@ -8,7 +8,7 @@
 #include "lib/gather/gather.h"
 #include "lib/optics/opening.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/plan/measured_cells.h"
+#include "tests/lib/measured_cells.h"
 
 namespace slope_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/line_scan/line_scan_recorder.h"
+#include "tests/lib/line_scan_recorder.h"
 #include "tests/support/test_scene.h"
 
 namespace lines_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes lines to scan, and records the results of a line scan.
-#ifndef STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
-#define STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
+#ifndef STARFOCUS_TESTS_LIB_LINE_SCAN_RECORDER_H_
+#define STARFOCUS_TESTS_LIB_LINE_SCAN_RECORDER_H_
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "lib/line_scan/line_scan.h"
-#include "tests/line_scan/find_runs.h"
+#include "tests/lib/find_runs.h"
 
 namespace test {
 
@@ -134,4 +134,4 @@ inline Depths MakeLine(const std::vector<Stretch>& stretches) {
 
 }  // namespace test
 
-#endif  // STARFOCUS_TESTS_LINE_SCAN_LINE_SCAN_RECORDER_H_
+#endif  // STARFOCUS_TESTS_LIB_LINE_SCAN_RECORDER_H_

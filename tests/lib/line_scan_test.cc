@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/conformance/reference_line.h"
-#include "tests/line_scan/line_scan_recorder.h"
+#include "tests/lib/line_scan_recorder.h"
 #include "tests/support/test_scene.h"
 
 namespace line_scan_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the runs of lines with the engine's functions, in memory of exactly the required size.
-#ifndef STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
-#define STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
+#ifndef STARFOCUS_TESTS_LIB_FIND_RUNS_H_
+#define STARFOCUS_TESTS_LIB_FIND_RUNS_H_
 
 #include <doctest/doctest.h>
 
@@ -51,4 +51,4 @@ inline std::vector<starfocus::Run> FindRuns(const Depths& line, const starfocus:
 
 }  // namespace test
 
-#endif  // STARFOCUS_TESTS_LINE_SCAN_FIND_RUNS_H_
+#endif  // STARFOCUS_TESTS_LIB_FIND_RUNS_H_

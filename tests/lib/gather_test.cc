@@ -14,7 +14,7 @@
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/plan/measured_cells.h"
+#include "tests/lib/measured_cells.h"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"

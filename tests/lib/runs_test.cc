@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/line_scan/line_scan.h"
-#include "tests/line_scan/find_runs.h"
+#include "tests/lib/find_runs.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 
