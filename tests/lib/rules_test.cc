@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -19,29 +20,19 @@ using namespace starfocus;
 double Below(double value) { return std::nextafter(value, 0.0); }
 double Above(double value) { return std::nextafter(value, 1e9); }
 
-TEST_CASE("rules: below a radius of 4, N by (9) is the ceiling of the radius") {
+TEST_CASE("rules: N by (9) is the ceiling of a radius below 4, and 4 up to 4 / 0.787") {
   CHECK(ViewsByPaper(0) == 0);
   CHECK(ViewsByPaper(std::numeric_limits<double>::denorm_min()) == 1);
-  CHECK(ViewsByPaper(0.5) == 1);
-  for (int r = 1; r <= 3; ++r) {
+  for (int r = 1; r <= 4; ++r) {
     CAPTURE(r);
     CHECK(ViewsByPaper(Below(r)) == r);
     CHECK(ViewsByPaper(r) == r);
-    CHECK(ViewsByPaper(Above(r)) == r + 1);
+    CHECK(ViewsByPaper(Above(r)) == std::min(r + 1, 4));
   }
-}
-
-TEST_CASE("rules: from a radius of 4 to 4 / 0.787, N by (9) is 4") {
-  CHECK(ViewsByPaper(Below(4)) == 4);
-  CHECK(ViewsByPaper(4) == 4);
-  CHECK(ViewsByPaper(Above(4)) == 4);
-  CHECK(ViewsByPaper(5) == 4);
-  CHECK(ViewsByPaper(5.08) == 4);
-  const double threshold = 4 / 0.787;
-  CHECK(ViewsByPaper(Below(threshold)) == 4);
-  CHECK(ViewsByPaper(threshold) == 4);
-  CHECK(ViewsByPaper(threshold * (1 + 1e-12)) == 5);
-  CHECK(ViewsByPaper(5.09) == 5);
+  constexpr double kThreshold = 4 / 0.787;
+  CHECK(ViewsByPaper(Below(kThreshold)) == 4);
+  CHECK(ViewsByPaper(kThreshold) == 4);
+  CHECK(ViewsByPaper(kThreshold * (1 + 1e-12)) == 5);
 }
 
 TEST_CASE("rules: above a radius of 4 / 0.787, N by (9) is the ceiling of 0.787 times the radius") {
@@ -58,20 +49,6 @@ TEST_CASE("rules: above a radius of 4 / 0.787, N by (9) is the ceiling of 0.787 
     CAPTURE(n);
     CHECK(ViewsByPaper(step * (1 - 1e-12)) == n);
     CHECK(ViewsByPaper(step * (1 + 1e-12)) == n + 1);
-  }
-}
-
-TEST_CASE("rules: N by (9) matches a table") {
-  constexpr int kTable[][2] = {{2, 2},   {4, 4},   {5, 4},   {6, 5},   {8, 7},  {10, 8},
-                               {12, 10}, {16, 13}, {20, 16}, {24, 19}, {32, 26}};
-  for (const auto& row : kTable) CHECK(ViewsByPaper(row[0]) == row[1]);
-}
-
-TEST_CASE("rules: N by (9) never decreases with the radius") {
-  int last = 0;
-  for (double r = 0; r <= STARFOCUS_MAX_BLUR; r += 1.0 / 64) {
-    REQUIRE(ViewsByPaper(r) >= last);
-    last = ViewsByPaper(r);
   }
 }
 
@@ -116,64 +93,58 @@ TEST_CASE("rules: N by the rule for subapertures matches the table") {
   }
 }
 
-TEST_CASE("rules: by (12), layer 1 begins at radius 3 and layer 2 at radius 6") {
-  CHECK(LayerByPaper(0) == 0);
-  CHECK(LayerByPaper(Below(3)) == 0);
+// Radii at which layers 1 and 2 begin, by (12) and by subapertures.
+constexpr struct {
+  Demand demand;
+  double paper[2], subaperture[2];
+} kFirstRadii[] = {{Demand::kFallOff, {3, 6}, {7, 24}},
+                   {Demand::kDisc, {4, 8}, {12, 12 * 24 / 7.0}},
+                   {Demand::kPolygon, {5, 10}, {14, 14 * 24 / 7.0}},
+                   {Demand::kRing, {6, 12}, {16, 16 * 24 / 7.0}}};
+
+TEST_CASE("rules: the more an opening demands, the larger are the first radii of layers") {
+  for (const auto& first : kFirstRadii) {
+    CAPTURE(int(first.demand));
+    CHECK(LayerByPaper(0, first.demand) == 0);
+    CHECK(LayerByPaper(STARFOCUS_MAX_BLUR, first.demand) == 2);
+    CHECK(LayerBySubaperture(0, false, first.demand) == 0);
+    CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, false, first.demand) == 2);
+    // Depth edges have no layer 2.
+    CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true, first.demand) == 1);
+    for (int layer = 1; layer <= 2; ++layer) {
+      const double paper = first.paper[layer - 1], radius = first.subaperture[layer - 1];
+      CHECK(LayerByPaper(Below(paper), first.demand) == layer - 1);
+      CHECK(LayerByPaper(paper, first.demand) == layer);
+      CHECK(LayerBySubaperture(radius * (1 - 1e-12), false, first.demand) == layer - 1);
+      CHECK(LayerBySubaperture(radius * (1 + 1e-12), false, first.demand) == layer);
+      CHECK(LayerBySubaperture(radius * (1 - 1e-12), true, first.demand) == layer - 1);
+      CHECK(LayerBySubaperture(radius * (1 + 1e-12), true, first.demand) == 1);
+    }
+  }
   CHECK(LayerByPaper(3) == 1);
-  CHECK(LayerByPaper(Below(6)) == 1);
-  CHECK(LayerByPaper(6) == 2);
-  CHECK(LayerByPaper(STARFOCUS_MAX_BLUR) == 2);
-}
-
-TEST_CASE("rules: by subapertures, layers 1 and 2 begin at radii 7 and 24; edges have no layer 2") {
-  CHECK(LayerBySubaperture(0, false) == 0);
-  CHECK(LayerBySubaperture(Below(7), false) == 0);
   CHECK(LayerBySubaperture(7, false) == 1);
-  CHECK(LayerBySubaperture(Below(24), false) == 1);
   CHECK(LayerBySubaperture(24, false) == 2);
-  CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, false) == 2);
-  CHECK(LayerBySubaperture(0, true) == 0);
-  CHECK(LayerBySubaperture(Below(7), true) == 0);
-  CHECK(LayerBySubaperture(7, true) == 1);
-  CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true) == 1);
 }
 
-TEST_CASE("rules: the more an opening demands, the larger are N and the first radii of layers") {
-  using starfocus::ApertureShape;
-  using starfocus::Demand;
+TEST_CASE("rules: the more an opening demands, the larger is N") {
   ApertureShape opening;
-  CHECK(starfocus::DemandOf(opening) == Demand::kFallOff);
-  opening.shape = STARFOCUS_SHAPE_DISC;
-  CHECK(starfocus::DemandOf(opening) == Demand::kDisc);
-  opening.shape = STARFOCUS_SHAPE_POLYGON;
-  CHECK(starfocus::DemandOf(opening) == Demand::kPolygon);
-  opening.shape = STARFOCUS_SHAPE_RING;
-  CHECK(starfocus::DemandOf(opening) == Demand::kRing);
+  CHECK(DemandOf(opening) == Demand::kFallOff);
   opening.cats_eye = 1;
-  CHECK(starfocus::DemandOf(opening) == Demand::kRing);
-  opening.shape = STARFOCUS_SHAPE_FALL_OFF;
-  CHECK(starfocus::DemandOf(opening) == Demand::kPolygon);
+  CHECK(DemandOf(opening) == Demand::kPolygon);
+  opening.shape = STARFOCUS_SHAPE_RING;
+  CHECK(DemandOf(opening) == Demand::kRing);
+  opening.cats_eye = 0;
+  CHECK(DemandOf(opening) == Demand::kRing);
+  opening.shape = STARFOCUS_SHAPE_POLYGON;
+  CHECK(DemandOf(opening) == Demand::kPolygon);
+  opening.shape = STARFOCUS_SHAPE_DISC;
+  CHECK(DemandOf(opening) == Demand::kDisc);
   for (const double r : {0.0, 0.5, 0.6, 5.0, 5.2, 5.5, 11.0, 11.5, 25.0, 30.0, 34.5, 128.0}) {
     CAPTURE(r);
     const int plain = ViewsBySubaperture(r), even = r > 0.5 ? 4 : 0, narrow = r > 5 ? 6 : even;
-    CHECK(ViewsBySubaperture(r, Demand::kDisc) == (plain > even ? plain : even));
-    CHECK(ViewsBySubaperture(r, Demand::kPolygon) == (plain > narrow ? plain : narrow));
+    CHECK(ViewsBySubaperture(r, Demand::kDisc) == std::max(plain, even));
+    CHECK(ViewsBySubaperture(r, Demand::kPolygon) == std::max(plain, narrow));
     CHECK(ViewsBySubaperture(r, Demand::kRing) == ViewsBySubaperture(r, Demand::kPolygon));
-  }
-  constexpr struct {
-    Demand demand;
-    double paper, subaperture;
-  } kFirst[] = {{Demand::kDisc, 4, 12}, {Demand::kPolygon, 5, 14}, {Demand::kRing, 6, 16}};
-  for (const auto& first : kFirst) {
-    CHECK(LayerByPaper(Below(first.paper), first.demand) == 0);
-    CHECK(LayerByPaper(first.paper, first.demand) == 1);
-    CHECK(LayerByPaper(Below(2 * first.paper), first.demand) == 1);
-    CHECK(LayerByPaper(2 * first.paper, first.demand) == 2);
-    CHECK(LayerBySubaperture(Below(first.subaperture), false, first.demand) == 0);
-    CHECK(LayerBySubaperture(first.subaperture, true, first.demand) == 1);
-    CHECK(LayerBySubaperture(first.subaperture * 3.42, false, first.demand) == 1);
-    CHECK(LayerBySubaperture(first.subaperture * 3.43, false, first.demand) == 2);
-    CHECK(LayerBySubaperture(STARFOCUS_MAX_BLUR, true, first.demand) == 1);
   }
 }
 
