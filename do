@@ -17,7 +17,7 @@
 #           --check   only compares instruction counts with examples/lab/bench/baseline.txt
 #           --record  writes that file anew
 #           --micro   only times kernels, the line scan and small pictures
-#   golden  record tests/engine/golden.txt anew, after an intended change of the engine's output
+#   golden  record tests/lib/golden.txt anew, after an intended change of the engine's output
 #   format  clang-format every source file, and name the licence in new ones
 #   lint    check that no file or function is too large, and print the sizes of lib and simd by room
 #   docs    make the HTML reference of the public headers: build/docs/html/index.html
@@ -128,10 +128,10 @@ fuzz() {
   done
 }
 
-# Updates the checksums in tests/engine/golden.txt.
+# Updates the checksums in tests/lib/golden.txt.
 golden() {
-  build starfocus_engine_byte_tests
-  STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/engine_byte_tests --no-intro=true '--source-file=*/golden_bytes_test.cc'
+  build starfocus_lib_byte_tests
+  STARFOCUS_RECORD_GOLDEN=1 $BUILD/tests/lib_byte_tests --no-intro=true '--source-file=*/golden_bytes_test.cc'
 }
 
 format() {

@@ -15,7 +15,7 @@
 
 #include "lib/optics/psf.h"
 #include "lib/plan/partition.h"
-#include "tests/plan/measured_cells.h"
+#include "tests/lib/measured_cells.h"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that the package computes the same bytes as the library, by all checksums of tests/engine/golden.txt. The
-// names in that file encode the light field and the lens, as tests/engine/golden_bytes_test.cc defines them.
+// Checks that the package computes the same bytes as the library, by all checksums of tests/lib/golden.txt. The
+// names in that file encode the light field and the lens, as tests/lib/golden_bytes_test.cc defines them.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';

@@ -14,7 +14,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 STARFOCUS_PROGRAM=$build/starfocus STARFOCUS_FIELD=$work/field STARFOCUS_SITE=$web/site
-STARFOCUS_GOLDEN_FILE=$sources/tests/engine/golden.txt STARFOCUS_SERVER=$sources/examples/web/serve.mjs
+STARFOCUS_GOLDEN_FILE=$sources/tests/lib/golden.txt STARFOCUS_SERVER=$sources/examples/web/serve.mjs
 STARFOCUS_SCREENSHOTS=$web/screenshots
 export STARFOCUS_PROGRAM STARFOCUS_FIELD STARFOCUS_SITE STARFOCUS_GOLDEN_FILE STARFOCUS_SERVER STARFOCUS_SCREENSHOTS
 

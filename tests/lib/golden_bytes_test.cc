@@ -149,7 +149,7 @@ std::string Refocus(const Case& one, const test::Scene& scene,
   return text;
 }
 
-constexpr char kGolden[] = STARFOCUS_SOURCE_DIR "/tests/engine/golden.txt";
+constexpr char kGolden[] = STARFOCUS_SOURCE_DIR "/tests/lib/golden.txt";
 using Golden = std::map<std::string, std::string>;
 
 Golden ReadGolden() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the cells of a whole disparity map in the same way as the engine.
-#ifndef STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_
-#define STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_
+#ifndef STARFOCUS_TESTS_LIB_MEASURED_CELLS_H_
+#define STARFOCUS_TESTS_LIB_MEASURED_CELLS_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -67,4 +67,4 @@ inline starfocus::CellKind KindOf(const starfocus::CellGrid& grid,
 
 }  // namespace test
 
-#endif  // STARFOCUS_TESTS_PLAN_MEASURED_CELLS_H_
+#endif  // STARFOCUS_TESTS_LIB_MEASURED_CELLS_H_

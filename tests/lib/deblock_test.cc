@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lib/plan/partition.h"
-#include "tests/filter/deblock_reference.h"
+#include "tests/lib/deblock_reference.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "starfocus/experimental.h"
-#include "tests/plan/measured_cells.h"
+#include "tests/lib/measured_cells.h"
 #include "tests/support/inside.h"
 #include "tests/support/partition_plan.h"
 #include "tests/support/test_scene.h"

@@ -14,7 +14,7 @@
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/filter/deblock_reference.h"
+#include "tests/lib/deblock_reference.h"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/layered_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference of deblocking, as in the paper (V-C), for a whole picture at once.
-#ifndef STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_
-#define STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_
+#ifndef STARFOCUS_TESTS_LIB_DEBLOCK_REFERENCE_H_
+#define STARFOCUS_TESTS_LIB_DEBLOCK_REFERENCE_H_
 
 #include <cstddef>
 #include <cstdint>
@@ -96,4 +96,4 @@ inline void DeblockPicture(LayeredPicture* picture, int beta, int transfer) {
 
 }  // namespace test
 
-#endif  // STARFOCUS_TESTS_FILTER_DEBLOCK_REFERENCE_H_
+#endif  // STARFOCUS_TESTS_LIB_DEBLOCK_REFERENCE_H_

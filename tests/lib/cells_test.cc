@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "lib/plan/partition.h"
-#include "tests/plan/measured_cells.h"
+#include "tests/lib/measured_cells.h"
 #include "tests/support/inside.h"
 #include "tests/support/test_scene.h"
 

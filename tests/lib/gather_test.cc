@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the cells of block mode that are blurred by a filter, without rendering views. Exactly the
-// smooth cells of a picture must be blurred by the filter. The filter must blur a cell in the same
-// way as the blur mode does.
+// Tests the blur mode against the ideal PSF (4) in double precision. Tests the cells of block mode
+// that are blurred by a filter, without rendering views: exactly the smooth cells of a picture.
 #include "lib/gather/gather.h"
 
 #include <doctest/doctest.h>
@@ -14,13 +13,14 @@
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/plan/measured_cells.h"
+#include "tests/conformance/reference_blur.h"
+#include "tests/lib/measured_cells.h"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
-#include "tests/support/layered_scene.h"
-#include "tests/support/psnr.h"
 #include "tests/support/refocused.h"
+#include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/transfer_curve.h"
 
 namespace gather_test {
 namespace {
@@ -122,63 +122,6 @@ TEST_CASE("gather: the kind of each cell (mixed, sloped or flat) matches the def
   CHECK(found[int(CellKind::kFlat)] > 500);
 }
 
-int LargestDifference(const Refocused& a, const Refocused& b) {
-  int largest = 0;
-  for (size_t i = 0; i < a.rgb.size(); ++i)
-    largest = std::max(largest, std::abs(a.rgb[i] - b.rgb[i]));
-  return largest;
-}
-
-TEST_CASE("gather: for a flat surface, block mode gives the same picture as blur mode") {
-  for (const double radius : {0.6, 1.0, 2.5, 4.0, 7.3, 12.0}) {
-    for (const int block : {32, 64, 256}) {
-      test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 62);
-      test::Config config = test::ConfigFor(scene, 16);
-      config.superblock = block;
-      config.transfer = STARFOCUS_TRANSFER_NONE;
-      const Refocused gathered =
-          RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLOCK));
-      const Refocused blurred =
-          RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLUR));
-      CAPTURE(radius);
-      CHECK(gathered.rgb == blurred.rgb);
-      // With sRGB, light is not an integer code, so both pictures may differ by a level after
-      // rounding.
-      test::Config light = config;
-      light.transfer = STARFOCUS_TRANSFER_SRGB;
-      CHECK(LargestDifference(
-                RefocusScene(scene, light, test::Params(radius, 1, STARFOCUS_MODE_BLOCK)),
-                RefocusScene(scene, light, test::Params(radius, 1, STARFOCUS_MODE_BLUR))) <= 1);
-      CHECK(gathered.report.gathered_pixels == 70 * 45);
-      CHECK(gathered.report.n == 0);
-      CHECK(gathered.report.rendered_samples == 0);
-      config.tuning.gather = 0;
-      const Refocused views =
-          RefocusScene(scene, config, test::Params(radius, 1, STARFOCUS_MODE_BLOCK));
-      CHECK(views.report.gathered_pixels == 0);
-      CHECK(views.report.n > 0);
-    }
-  }
-}
-
-TEST_CASE(
-    "gather: only block mode with slices blurs cells without views, for blurs from 1/16 to 48 "
-    "pixels") {
-  const test::Scene scene = test::RandomScene(70, 45, 5, 0, 0, 63);
-  const test::Config config = test::ConfigFor(scene, 49);
-  const auto gathered = [&](double focus, starfocus_mode mode, starfocus_renderer renderer) {
-    starfocus::Params params = test::Params(focus, 1, mode, renderer);
-    return RefocusScene(scene, config, params).report.gathered_pixels;
-  };
-  CHECK(gathered(48.1, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);
-  CHECK(gathered(48, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO) == 70 * 45);
-  CHECK(gathered(1.0 / 16, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 70 * 45);
-  CHECK(gathered(3.0 / 64, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES) == 0);
-  CHECK(gathered(3, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_LINE_SCAN) == 0);
-  CHECK(gathered(3, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES) == 0);
-  CHECK(gathered(3, STARFOCUS_MODE_BENCHMARK, STARFOCUS_RENDERER_SLICES) == 0);
-}
-
 TEST_CASE("gather: the borders of a layer include all rows that the PSFs read") {
   std::vector<uint16_t> weights(starfocus::BlurWeightCount(false, starfocus::kMaxGather));
   std::vector<starfocus::Psf> kernels(size_t(starfocus::PsfCount(starfocus::kMaxGather)));
@@ -195,26 +138,100 @@ TEST_CASE("gather: the borders of a layer include all rows that the PSFs read") 
   }
 }
 
-TEST_CASE(
-    "gather: cells at depth edges use rendered views, and gathering does not reduce the PSNR") {
-  for (const uint64_t seed : {64, 65, 66}) {
-    const test::Scene scene = test::LayeredScene(180, 130, 9, 6, seed);
-    test::Config config = test::ConfigFor(scene, 16);
-    const Refocused benchmark =
-        RefocusScene(scene, config, test::Params(1, 1, STARFOCUS_MODE_BENCHMARK));
-    const Refocused gathered =
-        RefocusScene(scene, config, test::Params(1, 1, STARFOCUS_MODE_BLOCK));
-    config.tuning.gather = 0;
-    const Refocused views = RefocusScene(scene, config, test::Params(1, 1, STARFOCUS_MODE_BLOCK));
-    CHECK(gathered.report.gathered_pixels > 0);
-    CHECK(gathered.report.gathered_pixels < 180 * 130);
-    CHECK(gathered.rgb != views.rgb);
-    CAPTURE(seed);
-    MESSAGE("PSNR in dB with and without gathering: ", test::Psnr(gathered.rgb, benchmark.rgb), " ",
-            test::Psnr(views.rgb, benchmark.rgb), ", gathered ", gathered.report.gathered_pixels);
-    // At 52 dB, half of the difference comes from rounding both pictures to bytes.
-    CHECK(test::Psnr(gathered.rgb, benchmark.rgb) >
-          std::min(test::Psnr(views.rgb, benchmark.rgb) - 0.2, 52.0));
+// Returns the reference of a picture in blur mode. PSFs of pixels behind the focus are rotated by
+// 180 degrees.
+std::vector<double> BlurredByReference(const test::Scene& scene, const starfocus::Params& params,
+                                       int transfer) {
+  const reference::ApertureShape opening(params);
+  double light[256];
+  for (int code = 0; code < 256; ++code) light[code] = test::LightOf(code, transfer);
+  const auto rounded = [](double disparity) { return int(std::floor(disparity * kOne + 0.5)); };
+  const int far = rounded(params.focus - params.focus_farther);
+  const int near = rounded(params.focus + params.focus_nearer);
+  std::vector<double> out;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      const int disparity = rounded(double(scene.Disparity(x, y)));
+      const int distance = disparity - std::clamp(disparity, far, near),
+                side = distance < 0 ? -1 : 1;
+      const double r =
+          reference::NearestRadius(int(std::floor(params.aperture * std::abs(distance))));
+      const reference::Psf& kernel = reference::PsfOf(r, opening);
+      double sums[3] = {0, 0, 0};
+      for (int m = -kernel.size; m <= kernel.size; ++m) {
+        for (int n = -kernel.size; n <= kernel.size; ++n) {
+          const uint8_t* pixel = scene.Pixel(0, std::clamp(x + n, 0, scene.width - 1),
+                                             std::clamp(y + m, 0, scene.height - 1));
+          const double weight = kernel.At(side * n, side * m);
+          for (int c = 0; c < 3; ++c) sums[c] += weight * light[pixel[c]];
+        }
+      }
+      for (const double sum : sums) out.push_back(test::CodeOf(sum, transfer));
+    }
+  }
+  return out;
+}
+
+// Returns a picture of noise, of black and white noise, or of two areas. Steps between black and
+// white are the most sensitive test of the shape of a PSF. If `flat` is true, the scene has one
+// disparity.
+test::Scene AnyScene(bool flat, test::Random* random) {
+  const float depth = flat ? 0 : float(random->Real(0, 12)), low = float(random->Real(-6, 1));
+  test::Scene scene = test::EmptyScene(random->Int(1, 60), random->Int(1, 45),
+                                       1 + 4 * random->Int(0, 1), low, low + depth);
+  if (random->Int(0, 1) == 0) {
+    test::RandomDisparity(&scene, random);
+  } else {
+    test::NoisyDisparity(&scene, random);
+  }
+  const int colours = random->Int(0, 2), edge = random->Int(0, 60);
+  for (auto& picture : scene.pictures) {
+    for (size_t n = 0; n < picture.size(); ++n) {
+      const auto x = int(n / 3) % scene.width, y = int(n / 3) / scene.width;
+      picture[n] = colours == 0   ? random->Byte()
+                   : colours == 1 ? uint8_t(random->Int(0, 1) * 255)
+                                  : uint8_t(x < edge || y > 20 ? 255 : 0);
+    }
+  }
+  return scene;
+}
+
+starfocus::Params AnyLens(const test::Scene& scene, bool flat, test::Random* random) {
+  const double away = flat ? random->Real(0, 1) * random->Real(0, 24) : random->Real(-8, 8);
+  const double aperture = random->Int(0, 1) == 0 ? 1 : random->Real(0.1, 1);
+  starfocus::Params lens = test::Params(scene.disparity_min - away, aperture, STARFOCUS_MODE_BLUR);
+  const double thetas[] = {lens.theta, STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA,
+                           random->Real(0.1, 0.4) * 3.14159};
+  lens.theta = thetas[random->Int(0, 3)];
+  if (random->Int(0, 1) == 0) test::RandomShape(&lens, random);
+  if (random->Int(0, 3) == 0) lens.focus_nearer = random->Real(0, 4);
+  if (random->Int(0, 3) == 0) lens.focus_farther = random->Real(0, 4);
+  return lens;
+}
+
+TEST_CASE("blur: random pictures and lenses match the reference, with any size of blocks") {
+  test::Random random(18);
+  for (int round = 0; round < 40; ++round) {
+    const bool flat = round % 2 == 0;
+    const test::Scene scene = AnyScene(flat, &random);
+    const starfocus::Params lens = AnyLens(scene, flat, &random);
+    test::Config config = test::ConfigFor(scene, 40);
+    config.transfer = random.Int(0, 1) == 0 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
+    test::ReserveFor(lens, &config);
+    const std::vector<double> expected = BlurredByReference(scene, lens, config.transfer);
+    std::vector<uint8_t> pictures[2];
+    for (auto& picture : pictures) {
+      config.superblock = 32 << random.Int(0, 3);
+      picture = test::OutputOf(config, lens, scene).bytes;
+    }
+    double largest = 0;
+    for (size_t i = 0; i < expected.size(); ++i) {
+      largest = std::max(largest, std::abs(pictures[0][i] - std::floor(expected[i] + 0.5)));
+    }
+    CAPTURES(round, lens.focus, lens.aperture, lens.theta);
+    CAPTURE(test::ShapeText(lens));
+    CHECK(largest <= 1);
+    CHECK(pictures[0] == pictures[1]);
   }
 }
 
