@@ -4,23 +4,25 @@
 // error must name the field with this value, and the call must not write to the output.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/api/illegal_values.h"
-#include "tests/api/refusals.h"
+#include "tests/api/field_values.h"
 #include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
-namespace abi_bytes_test {
+namespace configuration_bytes_test {
 namespace {
 
-using namespace illegal_values;
+using namespace field_values;
 
 constexpr int kWidth = 20, kHeight = 12;
 
@@ -30,32 +32,141 @@ struct Fixture {
   starfocus::Params params = test::Params(0.5);
   starfocus_light_field field = scene.Field();
   test::Output out{kWidth, kHeight, 4};
-  starfocus_report report = starfocus::NewReport();
+  test::Report report;
 
   starfocus_status Refocus(starfocus_engine* engine) {
     return test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report);
   }
 };
 
-TEST_CASE("configuration: illegal values are rejected and named") {
-  Fixture f;
-  test::Engine legal(f.config);
-  REQUIRE(legal.status() == STARFOCUS_OK);
-  for (const Bad<test::Config>& bad : kBadConfigs) {
-    CAPTURE(bad.field);
-    starfocus_problem problem = {};
-    test::Config config = f.config;
-    bad.spoil(&config);
-    size_t bytes = 4711;
-    CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == bad.status);
-    CHECK(bytes == 4711);
-    starfocus_engine* engine = legal.get();
-    std::vector<uint8_t> before(legal.workspace(), legal.workspace() + legal.bytes());
-    CHECK(starfocus_init(&config, legal.workspace(), legal.bytes(), &engine, &problem) ==
-          bad.status);
-    if (bad.field[0] != 0) refusals::CheckProblem(&problem, bad.status, bad.field);
-    CHECK(engine == nullptr);
-    CHECK(std::memcmp(before.data(), legal.workspace(), before.size()) == 0);
+Field FieldOf(test::Config* config, const char* path) {
+  return FieldAt("starfocus_config", static_cast<starfocus_config*>(config), path);
+}
+
+// Checks that no function accepts a configuration, and that none writes anything. Returns the
+// problem.
+starfocus_problem Refused(const test::Config& config, const char* field) {
+  static const Fixture f;
+  static test::Engine legal(f.config);
+  CAPTURE(field);
+  starfocus_problem problem = {};
+  size_t bytes = 4711;
+  CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(bytes == 4711);
+  starfocus_engine* engine = legal.get();
+  const std::vector<uint8_t> before(legal.workspace(), legal.workspace() + legal.bytes());
+  CHECK(starfocus_init(&config, legal.workspace(), legal.bytes(), &engine, &problem) ==
+        STARFOCUS_ERROR_RANGE);
+  CheckProblem(&problem, STARFOCUS_ERROR_RANGE, field);
+  CHECK(engine == nullptr);
+  CHECK(std::memcmp(before.data(), legal.workspace(), before.size()) == 0);
+  return problem;
+}
+
+// Numeric fields, their smallest and their largest legal values.
+const struct Range {
+  const char* path;
+  double low, high;
+} kRanges[] = {
+    {"width", 1, STARFOCUS_MAX_SIZE},
+    {"height", 1, STARFOCUS_MAX_SIZE},
+    {"disparity_min", -STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY},
+    {"disparity_max", -STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY},
+    {"max_workers", 1, STARFOCUS_MAX_WORKERS},
+    {"tuning.max_layer", 0, STARFOCUS_LAYERS - 1},
+    {"tuning.deblocking", 0, 255},
+    {"tuning.gather", 0, 1},
+    {"tuning.n_scale", STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE},
+    {"tuning.timing.block", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.field", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.a", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.b", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.c", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.upsample", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.span", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.hole", 0, STARFOCUS_MAX_TIMING},
+    {"unknown", 0, STARFOCUS_UNKNOWN_FILL},
+    {"previews", 0, STARFOCUS_MAX_PREVIEW},
+    {"transfer", 0, STARFOCUS_TRANSFER_NONE},
+    {"highlights", 1, STARFOCUS_MAX_HIGHLIGHTS},
+};
+
+// Values that are illegal although they lie between legal values, or that have no closed range.
+const struct Values {
+  const char* path;
+  std::vector<double> values;
+} kBadValues[] = {
+    {"views", {0, -1, 2, 16, 18}},
+    {"superblock", {1, -64, 16, 48, 512}},
+    {"max_blur", {0, -1, 128.5, kNan, kInf}},
+    {"features", {64, 0x80000000}},
+};
+
+TEST_CASE("configuration: values at the ends of a range are legal, and values beyond are named") {
+  size_t bytes = 0;
+  for (const Range& row : kRanges) {
+    CAPTURE(row.path);
+    test::Config config;
+    config.width = config.height = 20;
+    config.disparity_min = -STARFOCUS_MAX_DISPARITY;
+    config.disparity_max = STARFOCUS_MAX_DISPARITY;
+    Field field = FieldOf(&config, row.path);
+    for (const double limit : {row.low, row.high}) {
+      field.Set(limit);
+      CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);
+    }
+    for (const double value : Outside(field.type, row.low, row.high)) {
+      field.Set(value);
+      const starfocus_problem problem = Refused(config, row.path);
+      CheckRange(&problem, row.path, value, row.low, row.high);
+    }
+  }
+}
+
+TEST_CASE("configuration: illegal values between legal values are rejected and named") {
+  const Fixture f;
+  for (const Values& row : kBadValues) {
+    for (const double value : row.values) {
+      test::Config config = f.config;
+      FieldOf(&config, row.path).Set(value);
+      const double named = Refused(config, row.path).value;
+      CHECK((named == value || std::isnan(value)));
+    }
+  }
+  test::Config config = f.config;
+  config.disparity_min = 5;  // above disparity_max
+  CHECK(Refused(config, "disparity_max").low == 5);
+  size_t bytes = 0;
+  starfocus_problem problem;
+  for (const int32_t repairs : {-1, 0, 1, 2}) {
+    const bool good = repairs == 0 || repairs == 1;
+    CHECK((starfocus_map_workspace_size(&f.config, repairs, &bytes, &problem) == STARFOCUS_OK) ==
+          good);
+    CHECK(problem.field == std::string(good ? "" : "repairs"));
+  }
+}
+
+TEST_CASE("configuration: bad positions of views are rejected and named") {
+  const struct {
+    const char* field;  // "" if the positions are legal
+    starfocus_position positions[2];
+  } rows[] = {
+      {"", {{0, 0}, {-1, 1}}},
+      // Without positions, a light field of two views is illegal, since no star set has two views.
+      {"views", {{0, 0}, {0, 0}}},
+      {"positions[].u", {{0, 0}, {1.5, 0}}},
+      {"positions[].v", {{0, 0}, {0, kNan}}},
+      {"positions[]", {{0.5, 0}, {1, 0}}},
+  };
+  for (const auto& row : rows) {
+    test::Config config = Fixture().config;
+    config.views = 2;
+    std::copy_n(row.positions, 2, config.positions);
+    size_t bytes = 0;
+    if (row.field[0] != 0)
+      Refused(config, row.field);
+    else
+      CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);
   }
 }
 
@@ -68,12 +179,12 @@ TEST_CASE("configuration: null pointers and uninitialized structures are rejecte
   CHECK(starfocus_workspace_size(&f.config, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
   starfocus_problem problem = {};
   CHECK(starfocus_workspace_size(&zero, &bytes, &problem) == STARFOCUS_ERROR_STRUCTURE);
-  refusals::CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "config.size");
+  CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "config.size");
   starfocus_tuning tuning = {};
   starfocus_config tuned = f.config;
   tuned.tuning = &tuning;
   CHECK(starfocus_workspace_size(&tuned, &bytes, &problem) == STARFOCUS_ERROR_STRUCTURE);
-  refusals::CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "tuning.size");
+  CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "tuning.size");
   REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
   std::vector<uint8_t> memory(bytes + STARFOCUS_ALIGNMENT);
   CHECK(starfocus_init(nullptr, memory.data(), bytes, &engine, nullptr) == STARFOCUS_ERROR_NULL);
@@ -83,34 +194,45 @@ TEST_CASE("configuration: null pointers and uninitialized structures are rejecte
   starfocus_params_init(nullptr);
 }
 
-TEST_CASE("configuration: values at the limits of their ranges are legal") {
+TEST_CASE("configuration: all limits together are legal") {
   test::Config config;
   config.width = config.height = STARFOCUS_MAX_SIZE;
   config.views = STARFOCUS_MAX_VIEWS;
-  config.disparity_min = static_cast<float>(-STARFOCUS_MAX_DISPARITY);
-  config.disparity_max = static_cast<float>(STARFOCUS_MAX_DISPARITY);
+  config.disparity_min = -STARFOCUS_MAX_DISPARITY;
+  config.disparity_max = STARFOCUS_MAX_DISPARITY;
   config.max_blur = STARFOCUS_MAX_BLUR;
   config.superblock = 256;
   config.max_workers = STARFOCUS_MAX_WORKERS;
   config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_SHAPES;
-  config.highlights = static_cast<float>(STARFOCUS_MAX_HIGHLIGHTS);
+  config.highlights = STARFOCUS_MAX_HIGHLIGHTS;
   size_t bytes = 0;
-  // Each value is legal, but the workspace for all limits together exceeds a 32-bit address space.
+  // The workspace for all limits together exceeds a 32-bit address space.
   const starfocus_status legal = sizeof(size_t) == 4 ? STARFOCUS_ERROR_TOO_LARGE : STARFOCUS_OK;
   CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == legal);
   CHECK((bytes > 0) == (legal == STARFOCUS_OK));
-  for (const double n_scale : {STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE}) {
-    config.tuning.n_scale = n_scale;
-    CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == legal);
-  }
-  for (const int max_layer : {0, 1, 2}) {
-    for (const int deblocking : {0, 1, 255}) {
-      for (const uint32_t timing : {0u, 1u, STARFOCUS_MAX_TIMING}) {
-        config.tuning.max_layer = max_layer;
-        config.tuning.deblocking = deblocking;
-        config.tuning.timing = {timing, timing, timing, timing, timing, timing, timing, timing};
-        CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == legal);
-      }
+}
+
+TEST_CASE("configuration: features that are left out need less memory") {
+  const auto size_of = [](const test::Config& config) {
+    size_t bytes = 0;
+    REQUIRE(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);
+    return bytes;
+  };
+  for (const int block : {32, 64, 128, 256}) {
+    for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
+      CAPTURES(block, blur);
+      test::Config config;
+      config.width = config.height = 500;
+      config.superblock = block;
+      config.max_blur = blur;
+      test::Config slices = config, shapes = config, shapes_of_slices;
+      slices.tuning.line_scan = nullptr;
+      shapes.features |= STARFOCUS_FEATURE_SHAPES;
+      shapes_of_slices = shapes;
+      shapes_of_slices.tuning.line_scan = nullptr;
+      CHECK(size_of(slices) < size_of(config));
+      CHECK(size_of(config) < size_of(shapes));
+      CHECK(size_of(shapes_of_slices) < size_of(shapes));
     }
   }
 }
@@ -126,7 +248,7 @@ TEST_CASE(
     config.superblock = width < 1536 ? 64 : 128;
     test::Engine told(config);
     CHECK(chosen.bytes() == told.bytes());
-    starfocus_report report = starfocus::NewReport();
+    test::Report report;
     const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
     const test::Output a = test::OutputOf(&chosen, params, scene, &report);
     const test::Output b = test::OutputOf(&told, params, scene);
@@ -161,18 +283,6 @@ TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
   starfocus_engine* engine = nullptr;
   CHECK(starfocus_init(&f.config, aligned, bytes + 64, &engine, nullptr) == STARFOCUS_OK);
   CHECK(engine != nullptr);
-}
-
-TEST_CASE("refocus: parameters at the limits of their ranges are legal") {
-  Fixture f;
-  test::Engine engine(f.config);
-  f.params = test::Params(6);  // the blur radius is 8, the configured maximum
-  f.params.curvature = 1;
-  f.params.ring_inner = STARFOCUS_MAX_RING_INNER;
-  f.params.blades = STARFOCUS_MAX_BLADES;
-  f.params.rotation = 360;
-  CHECK(f.Refocus(engine.get()) == STARFOCUS_OK);
-  CHECK(f.report.r_max == 8);
 }
 
 TEST_CASE("refocus: output may be adjacent to the inputs, but must not overlap them") {
@@ -222,16 +332,8 @@ TEST_CASE(
   CHECK(f.report.rendered_samples > 0);
 }
 
-}  // namespace
-}  // namespace abi_bytes_test
-
-// Tests the descriptions that starfocus_status_string returns.
-
 // If the switch in WordsOf omits a status, the compilation must fail.
 #pragma GCC diagnostic error "-Wswitch"
-
-namespace status_test {
-namespace {
 
 // Returns words that appear only in the description of `status`, or null if `status` is not a
 // defined value.
@@ -305,4 +407,4 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace status_test
+}  // namespace configuration_bytes_test
