@@ -1,46 +1,340 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests a table of illegal arguments for the functions that refocus, prepare and stream pictures.
+// Tests tables of illegal arguments for the functions that refocus, prepare and stream pictures. A
+// call must return the expected status, name the illegal field, and write nothing.
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <regex>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "starfocus/depth.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/api/illegal_values.h"
-#include "tests/api/refusals.h"
+#include "tests/api/field_values.h"
+#include "tests/support/config.h"
+#include "tests/support/image_field.h"
+#include "tests/support/prepared_memory.h"
+#include "tests/support/refocused.h"
+#include "tests/support/stream_steps.h"
 
 namespace refusals_bytes_test {
 namespace {
 
-using namespace refusals;
-using namespace illegal_values;
+using namespace field_values;
 
-struct Row {
-  unsigned functions;
-  const char* field;
-  starfocus_status status;
-  void (*spoil)(Call*);
+constexpr int kHeight = 12;
+
+// Bits for the public functions under test, and sets of these functions.
+enum : unsigned {
+  kRefocus = 1,
+  kAfter = 2,  // starfocus_refocus with params.previous
+  kPrepared = 4,
+  kPreview = 8,  // starfocus_refocus_prepared with params.preview_shift
+  kBegin = 16,
+  kPrepare = 32,
+  kPush = 64,
+  kPull = 128,
+  kAll = 255,
+  kTakesParams = kRefocus | kAfter | kPrepared | kPreview | kBegin,
+  kTakesField = kRefocus | kAfter | kPrepare | kPush,
+  kTakesOut = kRefocus | kAfter | kPrepared | kPreview | kPull,
 };
+
+// A light field, either of R, G, B or of images in three formats, and the engines and memory that
+// the calls use.
+struct Fixture {
+  explicit Fixture(bool with_images) : images(with_images) {}
+
+  test::ImageField MakeImages() const {
+    test::Random random(61);
+    test::ImageKind kinds[3];
+    kinds[1].format = STARFOCUS_FORMAT_NV12;
+    kinds[2].format = STARFOCUS_FORMAT_I420;
+    return test::MakeImageField(
+        scene, {kinds, kinds + 3},
+        test::MakeDepth(scene, 10, 9, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0), &random);
+  }
+  test::Config MakeConfig(uint32_t features) const {
+    test::Config made = images ? test::ImageConfig(image) : test::ConfigFor(scene, 8);
+    made.features = (made.features & ~STARFOCUS_FEATURE_IMAGES) | features;
+    made.previews = 2;
+    return made;
+  }
+
+  const bool images;
+  const int width = images ? 21 : 20;
+  test::Scene scene = images ? test::LayeredScene(width, kHeight, 5, 7, 3)
+                             : test::RandomScene(width, kHeight, 17, -2, 2, 1);
+  test::ImageField image = MakeImages();
+  starfocus_light_field field = images ? image.Field() : scene.Field();
+  test::Config config = MakeConfig(STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES);
+  test::Engine engine{config}, plain{MakeConfig(STARFOCUS_FEATURE_STREAMING)};
+  test::PreparedMemory memory{engine}, free{engine};
+  starfocus_prepared* prepared = memory.Prepare(engine.get(), field);
+  test::ImageMemory blank{width, kHeight, image.views[images ? 2 : 0].kind()};
+};
+
+// A call of one of the functions; the constructor makes all arguments legal.
+struct Call {
+  Call(Fixture* of, unsigned to) : f(*of), function(to) {
+    Poison(&report);
+    if (function == kAfter) params.previous = &before;
+    if (function == kPreview) params.preview_shift = 1;
+    for (test::Engine* one : {&f.engine, &f.plain}) {
+      if (function != kPush && function != kPull) continue;
+      REQUIRE(starfocus_stream_begin(one->get(), &params) == STARFOCUS_OK);
+      if (function != kPull || (f.images && one == &f.plain)) continue;
+      REQUIRE(starfocus_stream_push(one->get(), &field, kHeight, &count) == STARFOCUS_OK);
+    }
+    count = -1;
+  }
+  starfocus_status Run() {
+    switch (function) {
+      case kRefocus:
+      case kAfter:
+        return starfocus_refocus(engine, params_at, field_at, out_at, &report);
+      case kPrepared:
+      case kPreview:
+        return starfocus_refocus_prepared(engine, params_at, prepared, out_at, &report);
+      case kBegin:
+        return starfocus_stream_begin(engine, params_at);
+      case kPrepare:
+        return starfocus_prepare(engine, field_at, memory, bytes, made_at);
+      case kPush:
+        return starfocus_stream_push(engine, field_at, rows, count_at);
+      default:
+        return starfocus_stream_pull(engine, out_at, rows, count_at, &report);
+    }
+  }
+  static void Poison(starfocus_report* report) {
+    std::memset(report, test::kPoison, sizeof *report);
+    report->size = sizeof *report;
+    report->layers = nullptr;
+  }
+  // Returns the field with a path as errors name it, with indices: "out.strides[0]", "aperture".
+  Field At(std::string path) {
+    const auto begins = [&](const std::string& root) {
+      return path.compare(0, root.size(), root) == 0;
+    };
+    const auto in = [&](const std::string& root, const char* structure, void* at) {
+      return FieldAt(structure, at, begins(root) ? path.substr(root.size()) : path);
+    };
+    if (begins("out.")) return in("out.", "starfocus_image", &out);
+    if (begins("report.")) return in("report.", "starfocus_report", &report);
+    if (begins("previous.")) return in("previous.", "starfocus_previous", &before);
+    if (begins("light_field.") || begins("views") || begins("depth")) {
+      return in("light_field.", "starfocus_light_field", &field);
+    }
+    return in("params.", "starfocus_params", static_cast<starfocus_params*>(&params));
+  }
+  // Returns true if no output was written.
+  bool Untouched() const {
+    starfocus_report poison;
+    Poison(&poison);
+    poison.size = report.size;  // tests may spoil the size
+    return picture == f.blank && std::memcmp(&report, &poison, sizeof report) == 0;
+  }
+
+  Fixture& f;
+  unsigned function;
+  starfocus_engine* engine = f.engine.get();
+  starfocus::Params params = test::Params(0.5);
+  starfocus_light_field field = f.field;
+  test::ImageMemory picture = f.blank, picture_before = f.blank;
+  starfocus_image out = picture.Out();
+  starfocus_light_field field_before = field;
+  starfocus_image out_before = picture_before.Out();
+  starfocus_previous before = {sizeof before, &field_before, &out_before};
+  starfocus_report report;
+  uint8_t* memory = f.free.get();
+  size_t bytes = f.free.bytes;
+  starfocus_prepared* made = f.prepared;
+  int32_t rows = kHeight, count = -1;
+
+  const starfocus_params* params_at = &params;
+  const starfocus_light_field* field_at = &field;
+  const starfocus_image* out_at = &out;
+  const starfocus_prepared* prepared = f.prepared;
+  starfocus_prepared** made_at = &made;
+  int32_t* count_at = &count;
+};
+
+// Returns the name by which errors call the field with a path: "views[].planes" of
+// "views[1].planes[0]".
+std::string NameOf(const std::string& path) {
+  const std::string field = std::regex_replace(path, std::regex("\\[\\d+\\]$"), "");
+  return std::regex_replace(field, std::regex("\\[\\d+\\]"), "[]");
+}
+
+// Checks a call with an illegal argument, for each function of the set `functions`. If `path` has
+// an index, the problem must report the index.
+template <class Spoil>
+void Check(Fixture* f, unsigned functions, const Spoil& spoil, starfocus_status status,
+           const std::string& path) {
+  const bool refused = status != STARFOCUS_OK;
+  for (unsigned function = 1; function < kAll; function *= 2) {
+    if ((functions & function) == 0) continue;
+    CAPTURES(function, path);
+    Call call(f, function);
+    const test::Scene scene = f->scene;
+    spoil(&call);
+    CHECK(call.Run() == status);
+    if (call.engine != nullptr) {
+      const starfocus_problem* const problem = starfocus_engine_problem(call.engine);
+      CheckProblem(problem, status, refused ? NameOf(path) : "");
+      const size_t view = path.find("views[");
+      if (refused && view != std::string::npos && path[view + 6] != ']') {
+        CHECK(problem->index == std::atoi(path.c_str() + view + 6));
+      }
+    }
+    CHECK(call.Untouched() == (refused || (function & kTakesOut) == 0));
+    CHECK(f->scene.pictures == scene.pictures);
+    CHECK(std::memcmp(f->scene.disparity.data(), scene.disparity.data(),
+                      4 * scene.disparity.size()) == 0);
+    if (function == kPrepare && call.made_at != nullptr) CHECK((call.made == nullptr) == refused);
+    if (function == kPush || function == kPull) CHECK((call.count <= 0) == refused);
+  }
+}
 
 constexpr starfocus_status kNull = STARFOCUS_ERROR_NULL, kStructure = STARFOCUS_ERROR_STRUCTURE,
                            kRange = STARFOCUS_ERROR_RANGE, kStride = STARFOCUS_ERROR_STRIDE,
                            kOverlap = STARFOCUS_ERROR_OVERLAP, kFeature = STARFOCUS_ERROR_FEATURE,
                            kOk = STARFOCUS_OK, kWorkspace = STARFOCUS_ERROR_WORKSPACE,
                            kOther = STARFOCUS_ERROR_PREPARED;
+constexpr unsigned kInPlace = kRefocus | kAfter;
+// Functions whose arguments the fixture of images spoils.
+constexpr unsigned kViews = kRefocus | kPrepare | kPush, kOuts = kRefocus | kPrepared | kPull;
+
+// Numeric fields, their smallest and their largest legal values.
+struct Range {
+  unsigned functions;
+  const char* path;
+  double low, high;
+};
+
+const Range kLensRanges[] = {
+    {kTakesParams, "study.mode", 0, STARFOCUS_MODE_BLUR},
+    {kTakesParams, "study.renderer", 0, STARFOCUS_RENDERER_SLICES},
+    {kTakesParams, "focus", -STARFOCUS_MAX_FOCUS, STARFOCUS_MAX_FOCUS},
+    {kTakesParams, "focus_nearer", 0, STARFOCUS_MAX_FOCUS - 0.5},  // the focus is 0.5
+    {kTakesParams, "focus_farther", 0, STARFOCUS_MAX_FOCUS + 0.5},
+    {kTakesParams, "aperture", 0, 1},
+    {kTakesParams, "shape", 0, STARFOCUS_SHAPE_RING},
+    {kTakesParams, "blades", STARFOCUS_MIN_BLADES, STARFOCUS_MAX_BLADES},
+    {kTakesParams, "theta", STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA},
+    {kTakesParams, "rotation", -360, 360},
+    {kTakesParams, "curvature", 0, 1},
+    {kTakesParams, "ring_inner", 0, STARFOCUS_MAX_RING_INNER},
+    {kTakesParams, "cats_eye", 0, 1},
+};
+
+const Range kImageRanges[] = {
+    {kViews, "views[0].format", 0, STARFOCUS_FORMAT_YUV_420_888},
+    {kViews, "views[1].matrix", 0, STARFOCUS_MATRIX_BT709},
+    {kViews, "views[1].range", 0, STARFOCUS_RANGE_FULL},
+    {kOuts | kPreview, "out.format", 0, STARFOCUS_FORMAT_YUV_420_888},
+    {kOuts, "out.matrix", 0, STARFOCUS_MATRIX_BT709},
+    {kOuts, "out.range", 0, STARFOCUS_RANGE_FULL},
+    {kViews, "depth.type", 0, STARFOCUS_DEPTH_DEPTH16},
+    {kViews, "depth.meaning", 0, STARFOCUS_DEPTH_RECIPROCAL},
+    {kViews, "depth.has_invalid", 0, 1},
+    {kViews, "depth.width", 1, 21},
+    {kViews, "depth.height", 1, kHeight},
+};
+
+// Values of a field that the functions reject, or accept if the status is kOk.
+struct Values {
+  unsigned functions;
+  starfocus_status status;
+  const char* path;
+  std::vector<double> values;
+};
+
+constexpr double kQuarter = double(std::numeric_limits<size_t>::max() / 4);
+
+const Values kPictureValues[] = {
+    {kTakesParams, kStructure, "params.size", {0, -1}},
+    {kTakesField, kStructure, "light_field.size", {0}},
+    {kTakesOut, kStructure, "report.size", {0}},
+    {kAfter, kStructure, "previous.size", {0}},
+    {kAfter, kStructure, "previous.light_field.size", {0}},
+
+    {kTakesField, kNull, "views[0].planes[0]", {0}},
+    {kTakesField, kNull, "views[16].planes[0]", {0}},
+    {kTakesField, kNull, "depth.data", {0}},
+    {kTakesOut, kNull, "out.planes[0]", {0}},
+    {kAfter, kNull, "previous.light_field", {0}},
+    {kAfter, kNull, "previous.out", {0}},
+    {kAfter, kNull, "previous.out.planes[0]", {0}},
+    {kAfter, kNull, "previous.light_field.views[4].planes[0]", {0}},
+
+    {kTakesField, kStride, "views[0].strides[0]", {0}},
+    {kTakesField, kStride, "views[16].strides[0]", {59}},
+    {kTakesField, kStride, "views[3].strides[0]", {-1}},
+    {kTakesField, kStride, "depth.stride", {0, 76, 82, -4}},
+    {kTakesOut, kStride, "out.strides[0]", {0, 1, -1, kQuarter}},
+    {kTakesOut & ~kPreview, kStride, "out.strides[0]", {59}},
+    {kPreview, kStride, "out.strides[0]", {29}},
+    {kAfter, kStride, "previous.out.strides[0]", {59}},
+    {kAfter, kStride, "previous.light_field.depth.stride", {4}},
+
+    {kAfter, kFeature, "out.format", {STARFOCUS_FORMAT_BGR}},
+    {kAfter, kRange, "previous.out.format", {99}},
+    {kAfter, kFeature, "previous.out.format", {STARFOCUS_FORMAT_BGR}},
+    {kAfter, kRange, "previous.out.pixel_stride", {2}},
+    {kAfter, kFeature, "previous.light_field.views[2].format", {STARFOCUS_FORMAT_BGR}},
+    {kInPlace | kBegin, kRange, "preview_shift", {1}},
+    {kPreview, kOther, "preview_shift", {-1, 3, 32}},
+    {kTakesParams, kFeature, "shape", {STARFOCUS_SHAPE_POLYGON}},
+    {kTakesParams, kFeature, "cats_eye", {1e-9}},
+};
+
+const Values kImageValues[] = {
+    {kViews, kNull, "views[1].planes[0]", {0}},
+    {kViews, kNull, "views[1].planes[1]", {0}},
+    {kViews, kOk, "views[1].planes[2]", {0}},  // NV12 has two planes
+    {kViews, kNull, "depth.data", {0}},
+    {kOuts, kNull, "out.planes[2]", {0}},
+    {kViews, kStride, "views[1].strides[0]", {20}},
+    {kViews, kStride, "views[1].strides[1]", {21}},
+    {kViews, kStride, "depth.stride", {18, 21}},
+    {kOuts, kStride, "out.strides[2]", {10}},
+    {kOuts, kStride, "out.strides[0]", {kQuarter}},
+    {kViews, kRange, "views[0].pixel_stride", {2, -3, 257}},
+    {kViews, kRange, "views[1].pixel_stride", {1}},
+    {kViews, kOk, "views[1].pixel_stride", {2}},
+    {kOuts, kRange, "out.pixel_stride", {2}},
+    {kViews, kRange, "depth.scale", {0, kNan}},
+    {kViews, kRange, "depth.offset", {kNan}},
+};
+
+// Other changes that make a call illegal.
+struct Change {
+  unsigned functions;
+  const char* path;
+  starfocus_status status;
+  void (*spoil)(Call*);
+};
 
 void PutOut(Call* c, const void* to) {
   c->out.planes[0] = static_cast<uint8_t*>(const_cast<void*>(to));
 }
 uint8_t* LastOf(test::Engine* engine) { return engine->workspace() + engine->bytes() - 1; }
+void SetRegion(Call* c, size_t stride) {
+  c->params.region = {3, 4, 5, 6};
+  c->out.strides[0] = stride;
+}
 
-const Row kPictures[] = {
+const Change kPictureChanges[] = {
     {kAll, "", kOk, [](Call*) {}},
     {kAll, "", kNull, [](Call* c) { c->engine = nullptr; }},
     {kTakesParams, "params", kNull, [](Call* c) { c->params_at = nullptr; }},
     {kTakesField, "light_field", kNull, [](Call* c) { c->field_at = nullptr; }},
     {kTakesOut, "out", kNull, [](Call* c) { c->out_at = nullptr; }},
-    {kTakesOut, "out.planes", kNull, [](Call* c) { c->out.planes[0] = nullptr; }},
     {kPrepared | kPreview, "prepared", kNull, [](Call* c) { c->prepared = nullptr; }},
     {kPrepare, "prepared", kNull, [](Call* c) { c->made_at = nullptr; }},
     {kPrepare, "memory", kNull, [](Call* c) { c->memory = nullptr; }},
@@ -53,12 +347,23 @@ const Row kPictures[] = {
     {kPush, "rows", kRange, [](Call* c) { c->rows = INT32_MAX; }},
     {kPrepare, "bytes", kWorkspace, [](Call* c) { --c->bytes; }},
     {kPrepare, "memory", kWorkspace, [](Call* c) { c->memory += 8; }},
-    {kTakesOut, "out.strides", kStride, [](Call* c) { c->out.strides[0] = 0; }},
-    {kTakesOut, "out.strides", kStride, [](Call* c) { c->out.strides[0] = 1; }},
-    {kTakesOut & ~kPreview, "out.strides", kStride, [](Call* c) { c->out.strides[0] = 59; }},
-    {kPreview, "out.strides", kStride, [](Call* c) { c->out.strides[0] = 29; }},
-    {kTakesOut, "out.strides", kStride, [](Call* c) { c->out.strides[0] = kHuge; }},
-    {kTakesOut, "out.strides", kStride, [](Call* c) { c->out.strides[0] = kHuge / 4; }},
+    {kTakesParams, "aperture", STARFOCUS_ERROR_BLUR, [](Call* c) { c->params.focus = 6.5; }},
+    {kTakesParams, "aperture", STARFOCUS_ERROR_BLUR, [](Call* c) { c->params.focus = -6.5; }},
+    {kTakesParams, "aperture", STARFOCUS_ERROR_BLUR, [](Call* c) { c->params.focus = 1e6; }},
+    // A prepared light field and an engine are told apart.
+    {kPrepared | kPreview, "prepared", kOther,
+     [](Call* c) { c->prepared = reinterpret_cast<starfocus_prepared*>(c->engine); }},
+    {kPrepared | kPreview | kBegin, "previous", kRange,
+     [](Call* c) { c->params.previous = &c->before; }},
+    {kTakesField, "depth.data", kStride,
+     [](Call* c) { c->field.depth.data = static_cast<const char*>(c->field.depth.data) + 1; }},
+    {kAfter, "previous.light_field.coverage_stride", kStride,
+     [](Call* c) {
+       c->field_before.coverage = c->f.scene.pictures[0].data();
+       c->field_before.coverage_stride = 19;
+     }},
+    {kAfter, "previous.light_field.depth", kFeature,
+     [](Call* c) { c->field_before.depth.scale = 2; }},
 
     {kPrepare, "memory", kOverlap, [](Call* c) { c->memory = c->f.engine.workspace(); }},
     {kPrepare, "memory", kOverlap, [](Call* c) { c->field.depth.data = c->memory; }},
@@ -66,53 +371,19 @@ const Row kPictures[] = {
     {kTakesOut, "out", kOverlap, [](Call* c) { PutOut(c, LastOf(&c->f.engine)); }},
     {kPrepared | kPreview, "out", kOverlap,
      [](Call* c) { PutOut(c, c->f.memory.get() + c->f.memory.bytes - 1); }},
-    {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, c->f.scene.pictures[0].data()); }},
-    {kRefocus | kAfter, "out", kOverlap,
-     [](Call* c) { PutOut(c, &c->f.scene.pictures[16].back()); }},
-    {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, c->f.scene.disparity.data()); }},
-    {kRefocus | kAfter, "out", kOverlap, [](Call* c) { PutOut(c, &c->f.scene.disparity.back()); }},
-
-    {kAfter, "previous.size", kStructure, [](Call* c) { c->before.size = 0; }},
-    {kAfter, "previous.light_field", kNull, [](Call* c) { c->before.light_field = nullptr; }},
-    {kAfter, "previous.out", kNull, [](Call* c) { c->before.out = nullptr; }},
-    {kAfter, "previous.light_field.size", kStructure, [](Call* c) { c->field_before.size = 0; }},
-    {kTakesField, "light_field.size", kStructure, [](Call* c) { c->field.size = 0; }},
-    {kRefocus | kAfter | kPrepared | kPreview | kPull, "report.size", kStructure,
-     [](Call* c) { c->report.size = 0; }},
-    {kAfter, "previous.out.planes", kNull, [](Call* c) { c->out_before.planes[0] = nullptr; }},
-    {kAfter, "previous.out.strides", kStride, [](Call* c) { c->out_before.strides[0] = 59; }},
-    {kAfter, "previous.light_field.views[].planes", kNull,
-     [](Call* c) { c->field_before.views[4].planes[0] = nullptr; }},
-    {kAfter, "previous.light_field.depth.stride", kStride,
-     [](Call* c) { c->field_before.depth.stride = 4; }},
+    {kInPlace, "out", kOverlap, [](Call* c) { PutOut(c, c->f.scene.pictures[0].data()); }},
+    {kInPlace, "out", kOverlap, [](Call* c) { PutOut(c, &c->f.scene.pictures[16].back()); }},
+    {kInPlace, "out", kOverlap, [](Call* c) { PutOut(c, c->f.scene.disparity.data()); }},
+    {kInPlace, "out", kOverlap, [](Call* c) { PutOut(c, &c->f.scene.disparity.back()); }},
     {kAfter, "out", kOverlap, [](Call* c) { PutOut(c, c->picture_before.Colour(1, 0, 0)); }},
     {kAfter, "out", kOverlap,
      [](Call* c) {
        c->field_before = c->f.image.converted.Field();
        PutOut(c, c->f.image.converted.pictures[2].data());
      }},
-    {kAfter, "previous.out.format", kRange, [](Call* c) { c->out_before.format = 99; }},
-    {kAfter, "out.format", kFeature, [](Call* c) { c->out.format = STARFOCUS_FORMAT_BGR; }},
-    {kAfter, "previous.out.pixel_stride", kRange, [](Call* c) { c->out_before.pixel_stride = 2; }},
-    {kAfter, "previous.light_field.coverage_stride", kStride,
-     [](Call* c) {
-       c->field_before.coverage = c->f.scene.pictures[0].data();
-       c->field_before.coverage_stride = 19;
-     }},
-    {kAfter, "previous.out.format", kFeature,
-     [](Call* c) { c->out_before.format = STARFOCUS_FORMAT_BGR; }},
-    {kAfter, "previous.light_field.views[].format", kFeature,
-     [](Call* c) { c->field_before.views[2].format = STARFOCUS_FORMAT_BGR; }},
-    {kAfter, "previous.light_field.depth", kFeature,
-     [](Call* c) { c->field_before.depth.scale = 2; }},
-    {kPrepared | kPreview | kBegin, "previous", kRange,
-     [](Call* c) { c->params.previous = &c->before; }},
-    {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = -1; }},
-    {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = 3; }},
-    {kPreview, "preview_shift", kOther, [](Call* c) { c->params.preview_shift = 32; }},
 
     // Arguments that only an engine without STARFOCUS_FEATURE_IMAGES rejects.
-    {kTakesField, "views[].format", kFeature,
+    {kTakesField, "views[0].format", kFeature,
      [](Call* c) {
        c->engine = c->f.plain.get();
        c->field.views[0].format = STARFOCUS_FORMAT_BGR;
@@ -129,81 +400,30 @@ const Row kPictures[] = {
      }},
 
     // Output pictures must be exactly as large as the region.
-    {kBegin, "region", kRange,
-     [](Call* c) {
-       c->params.region = {0, 0, 20, kHeight};
-     }},
-    {kRefocus | kPrepared, "out.strides", kStride,
-     [](Call* c) {
-       c->params.region = {3, 4, 5, 6};
-       c->out.strides[0] = 14;
-     }},
-    {kRefocus | kPrepared, "", kOk,
-     [](Call* c) {
-       c->params.region = {3, 4, 5, 6};
-       c->out.strides[0] = 15;
-     }},
+    {kRefocus | kPrepared, "out.strides", kStride, [](Call* c) { SetRegion(c, 14); }},
+    {kRefocus | kPrepared, "", kOk, [](Call* c) { SetRegion(c, 15); }},
     {kRefocus | kPrepared, "out", kOverlap,
      [](Call* c) {
-       c->params.region = {3, 4, 5, 6};
-       c->out.strides[0] = 15;
+       SetRegion(c, 15);
        PutOut(c, c->f.engine.workspace() - 1);
      }},
 };
 
 // All views and the output are images of 21x12 pixels. View 0 is R, G, B. Views 1 and 4 are NV12.
 // View 2 and the output are I420.
-constexpr unsigned kViews = kRefocus | kPrepare | kPush, kOuts = kRefocus | kPrepared | kPull;
-const Row kImages[] = {
+const Change kImageChanges[] = {
     {kAll & ~kAfter, "", kOk, [](Call*) {}},
-    {kViews, "views[].format", kRange, [](Call* c) { c->field.views[0].format = -1; }},
-    {kViews, "views[].format", kRange, [](Call* c) { c->field.views[4].format = 8; }},
-    {kOuts | kPreview, "out.format", kRange, [](Call* c) { c->out.format = 99; }},
-    {kViews, "views[].matrix", kRange, [](Call* c) { c->field.views[1].matrix = 2; }},
-    {kOuts, "out.matrix", kRange, [](Call* c) { c->out.matrix = -1; }},
-    {kOuts, "out.range", kRange, [](Call* c) { c->out.range = 2; }},
-    {kViews, "views[].range", kRange, [](Call* c) { c->field.views[1].range = -1; }},
-    {kViews, "views[].planes", kNull, [](Call* c) { c->field.views[1].planes[0] = nullptr; }},
-    {kViews, "views[].planes", kNull, [](Call* c) { c->field.views[1].planes[1] = nullptr; }},
-    {kOuts, "out.planes", kNull, [](Call* c) { c->out.planes[2] = nullptr; }},
-    // NV12 has two planes.
-    {kViews, "", kOk, [](Call* c) { c->field.views[1].planes[2] = nullptr; }},
-    {kViews, "views[].strides", kStride, [](Call* c) { c->field.views[1].strides[0] = 20; }},
-    {kViews, "views[].strides", kStride, [](Call* c) { c->field.views[1].strides[1] = 21; }},
-    {kOuts, "out.strides", kStride, [](Call* c) { c->out.strides[2] = 10; }},
-    {kOuts, "out.strides", kStride, [](Call* c) { c->out.strides[0] = SIZE_MAX / 2; }},
-    {kViews, "views[].pixel_stride", kRange, [](Call* c) { c->field.views[1].pixel_stride = 1; }},
-    {kViews, "", kOk, [](Call* c) { c->field.views[1].pixel_stride = 2; }},
-    {kOuts, "out.pixel_stride", kRange, [](Call* c) { c->out.pixel_stride = 2; }},
-    {kViews, "views[].pixel_stride", kRange, [](Call* c) { c->field.views[0].pixel_stride = 2; }},
-    {kViews, "views[].pixel_stride", kRange, [](Call* c) { c->field.views[0].pixel_stride = -3; }},
-    {kViews, "views[].pixel_stride", kRange, [](Call* c) { c->field.views[0].pixel_stride = 257; }},
-    {kViews, "views[].strides", kStride, [](Call* c) { c->field.views[0].pixel_stride = 4; }},
-    {kViews, "views[].pixel_stride", kRange,
+    {kViews, "views[0].strides", kStride, [](Call* c) { c->field.views[0].pixel_stride = 4; }},
+    {kViews, "views[0].pixel_stride", kRange,
      [](Call* c) {
        c->field.views[0].format = STARFOCUS_FORMAT_RGBX;
        c->field.views[0].pixel_stride = 3;
      }},
-    {kViews, "views[].strides", kStride,
+    {kViews, "views[0].strides", kStride,
      [](Call* c) {
        c->field.views[0].format = STARFOCUS_FORMAT_RGBX;
        c->field.views[0].strides[0] = 4 * 21 - 1;
      }},
-    {kViews, "depth.data", kNull, [](Call* c) { c->field.depth.data = nullptr; }},
-    {kViews, "depth.type", kRange, [](Call* c) { c->field.depth.type = 5; }},
-    {kViews, "depth.type", kRange, [](Call* c) { c->field.depth.type = -1; }},
-    {kViews, "depth.meaning", kRange, [](Call* c) { c->field.depth.meaning = 2; }},
-    {kViews, "depth.meaning", kRange, [](Call* c) { c->field.depth.meaning = -1; }},
-    {kViews, "depth.has_invalid", kRange, [](Call* c) { c->field.depth.has_invalid = 2; }},
-    {kViews, "depth.scale", kRange, [](Call* c) { c->field.depth.scale = 0; }},
-    {kViews, "depth.scale", kRange, [](Call* c) { c->field.depth.scale = kNanF; }},
-    {kViews, "depth.offset", kRange, [](Call* c) { c->field.depth.offset = kNanF; }},
-    {kViews, "depth.width", kRange, [](Call* c) { c->field.depth.width = 22; }},
-    {kViews, "depth.height", kRange, [](Call* c) { c->field.depth.height = kHeight + 1; }},
-    {kViews, "depth.width", kRange, [](Call* c) { c->field.depth.width = 0; }},
-    {kViews, "depth.height", kRange, [](Call* c) { c->field.depth.height = -1; }},
-    {kViews, "depth.stride", kStride, [](Call* c) { c->field.depth.stride = 2 * 10 - 2; }},
-    {kViews, "depth.stride", kStride, [](Call* c) { c->field.depth.stride += 1; }},
     {kViews, "depth.data", kStride,  // an odd address
      [](Call* c) { c->field.depth.data = static_cast<const char*>(c->field.depth.data) + 1; }},
     {kOuts | kPreview, "out", kOverlap, [](Call* c) { PutOut(c, c->f.engine.workspace()); }},
@@ -237,43 +457,66 @@ const std::pair<const char*, starfocus_region> kBadRegions[] = {
     {"region.x", {kLeast, kLeast, kMost, kMost}},
 };
 
-TEST_CASE("calls: null pointers and illegal pictures, memory, row counts and shifts are rejected") {
-  Fixture pictures(false), images(true);
-  for (const Row& row : kPictures)
-    Check(&pictures, row.functions, row.spoil, row.status, row.field);
-  for (const Row& row : kImages) Check(&images, row.functions, row.spoil, row.status, row.field);
+template <class Ranges>
+void CheckRanges(Fixture* f, const Ranges& ranges) {
+  for (const Range& row : ranges) {
+    for (const double value : Outside(Call(f, kRefocus).At(row.path).type, row.low, row.high)) {
+      CAPTURE(value);
+      const auto spoil = [&](Call* c) { c->At(row.path).Set(value); };
+      Check(f, row.functions, spoil, kRange, row.path);
+      CheckRange(starfocus_engine_problem(f->engine.get()), NameOf(row.path), value, row.low,
+                 row.high);
+    }
+  }
 }
 
-TEST_CASE("calls: illegal parameters, light fields and regions are rejected") {
-  Fixture f(false);
-  for (const Bad<starfocus::Params>& bad : kBadParams) {
-    const unsigned previews = std::string(bad.field) == "preview_shift" ? kPrepared | kPreview : 0;
-    Check(
-        &f, kTakesParams & ~previews, [&](Call* c) { bad.spoil(&c->params); }, bad.status,
-        bad.field);
+template <class Rows>
+void CheckValues(Fixture* f, const Rows& rows) {
+  for (const Values& row : rows) {
+    for (const double value : row.values) {
+      CAPTURE(value);
+      const auto spoil = [&](Call* c) { c->At(row.path).Set(value); };
+      Check(f, row.functions, spoil, row.status, row.path);
+    }
   }
-  for (const Bad<starfocus_light_field>& bad : kBadFields) {
-    Check(
-        &f, kTakesField, [&](Call* c) { bad.spoil(&c->field); }, bad.status, bad.field);
+}
+
+TEST_CASE("calls: illegal pictures, light fields, lenses and memory are rejected and named") {
+  Fixture pictures(false);
+  CheckRanges(&pictures, kLensRanges);
+  CheckValues(&pictures, kPictureValues);
+  for (const Change& row : kPictureChanges) {
+    Check(&pictures, row.functions, row.spoil, row.status, row.path);
   }
-  for (const auto& [field, region] : kBadRegions) {
-    const starfocus_region at = region;
-    const auto spoil = [&](Call* c) { c->params.region = at; };
-    Check(&f, kTakesParams & ~kBegin, spoil, kRange, field);
-    Check(&f, kBegin, spoil, kRange, "region");  // a stream has no region
+  for (const auto& row : kBadRegions) {
+    const auto spoil = [&](Call* c) { c->params.region = row.second; };
+    Check(&pictures, kTakesParams & ~kBegin, spoil, kRange, row.first);
+    Check(&pictures, kBegin, spoil, kRange, "region");  // a stream has no region
+  }
+  const auto whole = [](Call* c) { c->params.region = {0, 0, 20, kHeight}; };
+  Check(&pictures, kBegin, whole, kRange, "region");
+}
+
+TEST_CASE("calls: illegal images and depth maps are rejected and named") {
+  Fixture images(true);
+  CheckRanges(&images, kImageRanges);
+  CheckValues(&images, kImageValues);
+  for (const Change& row : kImageChanges) {
+    Check(&images, row.functions, row.spoil, row.status, row.path);
   }
 }
 
 TEST_CASE("calls: illegal disparity values are rejected at any position") {
   Fixture f(false);
-  for (const float bad : {kNanF, kInfF, -kInfF, 2.0001f, -2.0001f, 3e38f, -3e38f}) {
-    const bool finite = std::abs(bad) < kInfF;
+  const float inf = float(kInf);
+  for (const float bad : {float(kNan), inf, -inf, 2.0001f, -2.0001f, 3e38f, -3e38f}) {
+    const bool finite = std::abs(bad) < inf;
     for (const int y : {0, kHeight / 2, kHeight - 1}) {
       for (const int x : {0, 7, 19}) {
         const float good = f.scene.Disparity(x, y);
         f.scene.Disparity(x, y) = bad;
         Check(
-            &f, kRefocus | kAfter | kPrepare, [](Call*) {},
+            &f, kInPlace | kPrepare, [](Call*) {},
             finite ? STARFOCUS_ERROR_DISPARITY : STARFOCUS_ERROR_NOT_FINITE, "disparity");
         const starfocus_problem& problem = *starfocus_engine_problem(f.engine.get());
         CHECK(problem.x == x);
@@ -281,6 +524,142 @@ TEST_CASE("calls: illegal disparity values are rejected at any position") {
         CHECK((finite ? problem.value == double(bad) : problem.value != problem.value));
         f.scene.Disparity(x, y) = good;
       }
+    }
+  }
+}
+
+TEST_CASE("calls: the limits of the ranges of a lens are legal, and the report has the blur") {
+  const test::Scene scene = test::RandomScene(20, kHeight, 17, -2, 2, 1);
+  test::Config config = test::ConfigFor(scene, 8);
+  config.features |= STARFOCUS_FEATURE_SHAPES | STARFOCUS_FEATURE_STREAMING;
+  test::Engine engine(config);
+  for (const Range& row : kLensRanges) {
+    for (const double limit : {row.low, row.high}) {
+      CAPTURES(row.path, limit);
+      starfocus::Params params = test::Params(0.5, 0);
+      FieldAt("starfocus_params", static_cast<starfocus_params*>(&params), row.path).Set(limit);
+      CHECK(starfocus_stream_begin(engine.get(), &params) == kOk);
+    }
+  }
+  starfocus::Params params = test::Params(6);  // the blur radius is 8, the configured maximum
+  params.curvature = 1;
+  params.ring_inner = STARFOCUS_MAX_RING_INNER;
+  params.blades = STARFOCUS_MAX_BLADES;
+  params.rotation = 360;
+  test::Report report;
+  test::OutputOf(&engine, params, scene, &report);
+  CHECK(report.r_max == 8);
+}
+
+TEST_CASE("calls: problems report the limits of preview_shift and rows, and what is expected") {
+  Fixture f(false);
+  const auto problem_of = [&](unsigned function, void (*spoil)(Call*)) {
+    Call call(&f, function);
+    spoil(&call);
+    CHECK(call.Run() != kOk);
+    return *starfocus_engine_problem(f.engine.get());
+  };
+  const auto shift = problem_of(kPreview, [](Call* c) { c->params.preview_shift = 3; });
+  CHECK(shift.low == 0);
+  CHECK(shift.high == 2);
+  const auto pulled = problem_of(kPull, [](Call* c) { c->rows = -1; });
+  CHECK(pulled.expected == std::string("at least 0"));
+  CHECK(pulled.high >= STARFOCUS_MAX_SIZE);
+  const auto pushed = problem_of(kPush, [](Call* c) { c->rows = kHeight + 1; });
+  CHECK(pushed.high == kHeight);
+  const auto memory = problem_of(kPrepare, [](Call* c) { c->memory += 8; });
+  CHECK(std::isnan(memory.value));
+  const auto prepared = problem_of(
+      kPrepared, [](Call* c) { c->prepared = reinterpret_cast<starfocus_prepared*>(c->engine); });
+  CHECK(prepared.expected == std::string("prepared with the engine's size, views, positions, "
+                                         "disparity range, max_layer and transfer"));
+}
+
+TEST_CASE("stream: calls with wrong arguments do not end a stream, and accepted calls do") {
+  Fixture f(false);
+  const auto check = [&](unsigned function, auto&& spoil, starfocus_status status, bool ends) {
+    CAPTURE(function);
+    Call other(&f, function), pull(&f, kPull);
+    spoil(&other);
+    CHECK(other.Run() == status);
+    CHECK(pull.Run() == (ends ? STARFOCUS_ERROR_STATE : kOk));
+    CHECK(pull.count == (ends ? 0 : kHeight));
+  };
+  const auto legal = [](Call*) {};
+  const auto null = [](Call* c) { c->out_at = nullptr, c->field_at = nullptr; };
+  const auto blurred = [](Call* c) { c->params.focus = 6.5; };
+  for (const unsigned function : {kRefocus, kPrepared, kPreview, kPrepare}) {
+    check(function, legal, kOk, true);
+    check(function, null, kNull, false);
+    if (function != kPrepare) check(function, blurred, STARFOCUS_ERROR_BLUR, false);
+  }
+  float& disparity = f.scene.Disparity(7, 3);
+  const float good = disparity;
+  for (const unsigned function : {kRefocus, kPrepare}) {
+    check(
+        function, [&](Call*) { disparity = 100; }, STARFOCUS_ERROR_DISPARITY, true);
+    disparity = good;
+  }
+}
+
+TEST_CASE("stream: without the feature or an accepted begin, pushes and pulls fail") {
+  Fixture f(false);
+  for (const bool streaming : {true, false}) {
+    CAPTURE(streaming);
+    test::Engine engine(f.MakeConfig(streaming ? STARFOCUS_FEATURE_STREAMING : 0));
+    Call begin(&f, kBegin), push(&f, kPush), pull(&f, kPull);
+    begin.engine = push.engine = pull.engine = engine.get();
+    CHECK(push.Run() == STARFOCUS_ERROR_STATE);
+    if (streaming) begin.params.aperture = 2;
+    CHECK(begin.Run() == (streaming ? kRange : kFeature));
+    CHECK(push.Run() == STARFOCUS_ERROR_STATE);
+    CHECK(pull.Run() == STARFOCUS_ERROR_STATE);
+    CHECK(pull.Untouched());
+  }
+}
+
+TEST_CASE("stream: a rejected push consumes nothing, and begin restarts a stopped stream") {
+  Fixture f(false);
+  Call push(&f, kPush);
+  const auto pushed = [&](int32_t rows, starfocus_status status) {
+    push.rows = rows;
+    CHECK(push.Run() == status);
+    return push.count;
+  };
+  pushed(kHeight + 1, kRange);
+  CHECK(pushed(0, kOk) == 0);
+  CHECK(pushed(5, kOk) == 5);
+  pushed(kHeight - 4, kRange);
+  const test::Output whole = test::OutputOf(&f.plain, push.params, f.scene);
+  test::Output streamed(f.width, kHeight);
+  REQUIRE(test::Stream(&f.engine, push.params, f.scene, &streamed, 7, 9) == kOk);
+  CHECK(streamed.bytes == whole.bytes);
+  pushed(1, kRange);  // all rows have been pushed
+}
+
+TEST_CASE("stream: a row with a bad disparity is rejected, and the preceding rows are accepted") {
+  Fixture f(false);
+  test::Output expected(f.width, kHeight);
+  const starfocus::Params params = test::Params(0.5);
+  REQUIRE(test::Stream(&f.engine, params, f.scene, &expected, 8, 8) == kOk);
+  for (const float bad : {float(kNan), float(kInf), 2.5f}) {
+    for (const int row : {0, 1, 3}) {
+      CAPTURES(bad, row);
+      float& disparity = f.scene.Disparity(f.width - 1, row);
+      const float good = std::exchange(disparity, bad);
+      REQUIRE(starfocus_stream_begin(f.engine.get(), &params) == kOk);
+      int32_t consumed = -1;
+      CHECK(starfocus_stream_push(f.engine.get(), &f.field, 5, &consumed) ==
+            (bad == 2.5f ? STARFOCUS_ERROR_DISPARITY : STARFOCUS_ERROR_NOT_FINITE));
+      CHECK(consumed == row);
+      CHECK(starfocus_engine_problem(f.engine.get())->x == f.width - 1);
+      CHECK(starfocus_engine_problem(f.engine.get())->y == row);
+      // After a rejected row, the caller may correct the disparities of this row and continue.
+      disparity = good;
+      test::Output out(f.width, kHeight);
+      test::StreamSteps steps = {&f.engine, f.scene, &out, consumed};
+      while (!steps.Ended()) REQUIRE(steps.Step() == kOk);
+      CHECK(out.bytes == expected.bytes);
     }
   }
 }

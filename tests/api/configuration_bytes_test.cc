@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests illegal and extreme configurations, workspaces and outputs. refusals_bytes_test.cc tests
+// the arguments of the functions that refocus, prepare and stream. For each illegal value, the
+// error must name the field with this value, and the call must not write to the output.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "starfocus/depth.h"
+#include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/api/field_values.h"
+#include "tests/support/config.h"
+#include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
+
+namespace configuration_bytes_test {
+namespace {
+
+using namespace field_values;
+
+constexpr int kWidth = 20, kHeight = 12;
+
+struct Fixture {
+  test::Scene scene = test::RandomScene(kWidth, kHeight, 17, -2, 2, 1);
+  test::Config config = test::ConfigFor(scene, 8);
+  starfocus::Params params = test::Params(0.5);
+  starfocus_light_field field = scene.Field();
+  test::Output out{kWidth, kHeight, 4};
+  test::Report report;
+
+  starfocus_status Refocus(starfocus_engine* engine) {
+    return test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report);
+  }
+};
+
+Field FieldOf(test::Config* config, const char* path) {
+  return FieldAt("starfocus_config", static_cast<starfocus_config*>(config), path);
+}
+
+// Checks that no function accepts a configuration, and that none writes anything. Returns the
+// problem.
+starfocus_problem Refused(const test::Config& config, const char* field) {
+  static const Fixture f;
+  static test::Engine legal(f.config);
+  CAPTURE(field);
+  starfocus_problem problem = {};
+  size_t bytes = 4711;
+  CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_ERROR_RANGE);
+  CHECK(bytes == 4711);
+  starfocus_engine* engine = legal.get();
+  const std::vector<uint8_t> before(legal.workspace(), legal.workspace() + legal.bytes());
+  CHECK(starfocus_init(&config, legal.workspace(), legal.bytes(), &engine, &problem) ==
+        STARFOCUS_ERROR_RANGE);
+  CheckProblem(&problem, STARFOCUS_ERROR_RANGE, field);
+  CHECK(engine == nullptr);
+  CHECK(std::memcmp(before.data(), legal.workspace(), before.size()) == 0);
+  return problem;
+}
+
+// Numeric fields, their smallest and their largest legal values.
+const struct Range {
+  const char* path;
+  double low, high;
+} kRanges[] = {
+    {"width", 1, STARFOCUS_MAX_SIZE},
+    {"height", 1, STARFOCUS_MAX_SIZE},
+    {"disparity_min", -STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY},
+    {"disparity_max", -STARFOCUS_MAX_DISPARITY, STARFOCUS_MAX_DISPARITY},
+    {"max_workers", 1, STARFOCUS_MAX_WORKERS},
+    {"tuning.max_layer", 0, STARFOCUS_LAYERS - 1},
+    {"tuning.deblocking", 0, 255},
+    {"tuning.gather", 0, 1},
+    {"tuning.n_scale", STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE},
+    {"tuning.timing.block", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.field", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.a", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.b", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.c", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.upsample", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.span", 0, STARFOCUS_MAX_TIMING},
+    {"tuning.timing.hole", 0, STARFOCUS_MAX_TIMING},
+    {"unknown", 0, STARFOCUS_UNKNOWN_FILL},
+    {"previews", 0, STARFOCUS_MAX_PREVIEW},
+    {"transfer", 0, STARFOCUS_TRANSFER_NONE},
+    {"highlights", 1, STARFOCUS_MAX_HIGHLIGHTS},
+};
+
+// Values that are illegal although they lie between legal values, or that have no closed range.
+const struct Values {
+  const char* path;
+  std::vector<double> values;
+} kBadValues[] = {
+    {"views", {0, -1, 2, 16, 18}},
+    {"superblock", {1, -64, 16, 48, 512}},
+    {"max_blur", {0, -1, 128.5, kNan, kInf}},
+    {"features", {64, 0x80000000}},
+};
+
+TEST_CASE("configuration: values at the ends of a range are legal, and values beyond are named") {
+  size_t bytes = 0;
+  for (const Range& row : kRanges) {
+    CAPTURE(row.path);
+    test::Config config;
+    config.width = config.height = 20;
+    config.disparity_min = -STARFOCUS_MAX_DISPARITY;
+    config.disparity_max = STARFOCUS_MAX_DISPARITY;
+    Field field = FieldOf(&config, row.path);
+    for (const double limit : {row.low, row.high}) {
+      field.Set(limit);
+      CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);
+    }
+    for (const double value : Outside(field.type, row.low, row.high)) {
+      field.Set(value);
+      const starfocus_problem problem = Refused(config, row.path);
+      CheckRange(&problem, row.path, value, row.low, row.high);
+    }
+  }
+}
+
+TEST_CASE("configuration: illegal values between legal values are rejected and named") {
+  const Fixture f;
+  for (const Values& row : kBadValues) {
+    for (const double value : row.values) {
+      test::Config config = f.config;
+      FieldOf(&config, row.path).Set(value);
+      const double named = Refused(config, row.path).value;
+      CHECK((named == value || std::isnan(value)));
+    }
+  }
+  test::Config config = f.config;
+  config.disparity_min = 5;  // above disparity_max
+  CHECK(Refused(config, "disparity_max").low == 5);
+  size_t bytes = 0;
+  starfocus_problem problem;
+  for (const int32_t repairs : {-1, 0, 1, 2}) {
+    const bool good = repairs == 0 || repairs == 1;
+    CHECK((starfocus_map_workspace_size(&f.config, repairs, &bytes, &problem) == STARFOCUS_OK) ==
+          good);
+    CHECK(problem.field == std::string(good ? "" : "repairs"));
+  }
+}
+
+TEST_CASE("configuration: bad positions of views are rejected and named") {
+  const struct {
+    const char* field;  // "" if the positions are legal
+    starfocus_position positions[2];
+  } rows[] = {
+      {"", {{0, 0}, {-1, 1}}},
+      // Without positions, a light field of two views is illegal, since no star set has two views.
+      {"views", {{0, 0}, {0, 0}}},
+      {"positions[].u", {{0, 0}, {1.5, 0}}},
+      {"positions[].v", {{0, 0}, {0, kNan}}},
+      {"positions[]", {{0.5, 0}, {1, 0}}},
+  };
+  for (const auto& row : rows) {
+    test::Config config = Fixture().config;
+    config.views = 2;
+    std::copy_n(row.positions, 2, config.positions);
+    size_t bytes = 0;
+    if (row.field[0] != 0)
+      Refused(config, row.field);
+    else
+      CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);
+  }
+}
+
+TEST_CASE("configuration: null pointers and uninitialized structures are rejected") {
+  Fixture f;
+  size_t bytes = 0;
+  starfocus_engine* engine = nullptr;
+  const starfocus_config zero = {};
+  CHECK(starfocus_workspace_size(nullptr, &bytes, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_workspace_size(&f.config, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
+  starfocus_problem problem = {};
+  CHECK(starfocus_workspace_size(&zero, &bytes, &problem) == STARFOCUS_ERROR_STRUCTURE);
+  CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "config.size");
+  starfocus_tuning tuning = {};
+  starfocus_config tuned = f.config;
+  tuned.tuning = &tuning;
+  CHECK(starfocus_workspace_size(&tuned, &bytes, &problem) == STARFOCUS_ERROR_STRUCTURE);
+  CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "tuning.size");
+  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
+  std::vector<uint8_t> memory(bytes + STARFOCUS_ALIGNMENT);
+  CHECK(starfocus_init(nullptr, memory.data(), bytes, &engine, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_init(&f.config, nullptr, bytes, &engine, nullptr) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_init(&f.config, memory.data(), bytes, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
+  starfocus_config_init(nullptr);
+  starfocus_params_init(nullptr);
+}
+
+TEST_CASE("configuration: all limits together are legal") {
+  test::Config config;
+  config.width = config.height = STARFOCUS_MAX_SIZE;
+  config.views = STARFOCUS_MAX_VIEWS;
+  config.disparity_min = -STARFOCUS_MAX_DISPARITY;
+  config.disparity_max = STARFOCUS_MAX_DISPARITY;
+  config.max_blur = STARFOCUS_MAX_BLUR;
+  config.superblock = 256;
+  config.max_workers = STARFOCUS_MAX_WORKERS;
+  config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_SHAPES;
+  config.highlights = STARFOCUS_MAX_HIGHLIGHTS;
+  size_t bytes = 0;
+  // The workspace for all limits together exceeds a 32-bit address space.
+  const starfocus_status legal = sizeof(size_t) == 4 ? STARFOCUS_ERROR_TOO_LARGE : STARFOCUS_OK;
+  CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == legal);
+  CHECK((bytes > 0) == (legal == STARFOCUS_OK));
+}
+
+TEST_CASE("configuration: features that are left out need less memory") {
+  const auto size_of = [](const test::Config& config) {
+    size_t bytes = 0;
+    REQUIRE(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);
+    return bytes;
+  };
+  for (const int block : {32, 64, 128, 256}) {
+    for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
+      CAPTURES(block, blur);
+      test::Config config;
+      config.width = config.height = 500;
+      config.superblock = block;
+      config.max_blur = blur;
+      test::Config slices = config, shapes = config, shapes_of_slices;
+      slices.tuning.line_scan = nullptr;
+      shapes.features |= STARFOCUS_FEATURE_SHAPES;
+      shapes_of_slices = shapes;
+      shapes_of_slices.tuning.line_scan = nullptr;
+      CHECK(size_of(slices) < size_of(config));
+      CHECK(size_of(config) < size_of(shapes));
+      CHECK(size_of(shapes_of_slices) < size_of(shapes));
+    }
+  }
+}
+
+TEST_CASE(
+    "configuration: superblock = 0 selects 128 pixels for widths >= 1536, and 64 pixels "
+    "otherwise") {
+  for (const int width : {1, 1535, 1536, 1700}) {
+    CAPTURE(width);
+    const test::Scene scene = test::RandomScene(width, 3, 1, -2, 2, 9);
+    test::Config config = test::ConfigFor(scene, 4);
+    test::Engine chosen(config);
+    config.superblock = width < 1536 ? 64 : 128;
+    test::Engine told(config);
+    CHECK(chosen.bytes() == told.bytes());
+    test::Report report;
+    const starfocus::Params params = test::Params(1, 1, STARFOCUS_MODE_BLOCK);
+    const test::Output a = test::OutputOf(&chosen, params, scene, &report);
+    const test::Output b = test::OutputOf(&told, params, scene);
+    CHECK(report.superblock == config.superblock);
+    CHECK(a.bytes == b.bytes);
+  }
+}
+
+TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
+  Fixture f;
+  size_t bytes = 0;
+  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
+  test::Engine legal(f.config);
+  REQUIRE(legal.status() == STARFOCUS_OK);
+  uint8_t* workspace = legal.workspace();
+  for (size_t size : {size_t{0}, size_t{1}, size_t{64}, bytes / 2, bytes - 1}) {
+    starfocus_engine* engine = legal.get();
+    CHECK(starfocus_init(&f.config, workspace, size, &engine, nullptr) ==
+          STARFOCUS_ERROR_WORKSPACE);
+    CHECK(engine == nullptr);
+  }
+  std::vector<uint8_t> larger(bytes + 2 * STARFOCUS_ALIGNMENT);
+  const size_t address = reinterpret_cast<uintptr_t>(larger.data());
+  uint8_t* aligned =
+      larger.data() + (STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT) % STARFOCUS_ALIGNMENT;
+  for (int offset : {1, 2, 8, 16, 32, 63}) {
+    starfocus_engine* engine = legal.get();
+    CHECK(starfocus_init(&f.config, aligned + offset, bytes, &engine, nullptr) ==
+          STARFOCUS_ERROR_WORKSPACE);
+    CHECK(engine == nullptr);
+  }
+  starfocus_engine* engine = nullptr;
+  CHECK(starfocus_init(&f.config, aligned, bytes + 64, &engine, nullptr) == STARFOCUS_OK);
+  CHECK(engine != nullptr);
+}
+
+TEST_CASE("refocus: output may be adjacent to the inputs, but must not overlap them") {
+  Fixture f;
+  test::Engine engine(f.config);
+  REQUIRE(engine.status() == STARFOCUS_OK);
+  const size_t stride = 3 * kWidth;
+  const auto run = [&](void* out) {
+    return test::RefocusRgb(engine.get(), &f.params, &f.field, static_cast<uint8_t*>(out), stride,
+                            nullptr);
+  };
+  // The disparity map ends with the last byte of its last row, so an output may start at the next
+  // byte.
+  std::vector<float> map(size_t(kWidth * kHeight) + stride * kHeight);
+  std::copy(f.scene.disparity.begin(), f.scene.disparity.end(), map.begin());
+  f.field.depth.data = map.data();
+  uint8_t* const behind = reinterpret_cast<uint8_t*>(map.data() + kWidth * kHeight);
+  for (const size_t bytes : {size_t{1}, size_t{3}, size_t{kWidth}, stride - 1, stride}) {
+    CHECK(run(behind - bytes) == STARFOCUS_ERROR_OVERLAP);
+  }
+  CHECK(run(behind) == STARFOCUS_OK);
+
+  // An output that is adjacent to an input picture does not overlap the input.
+  std::vector<uint8_t> joined(3 * stride * kHeight, test::kPoison);
+  uint8_t* view = joined.data() + stride * kHeight;
+  std::memcpy(view, f.scene.pictures[0].data(), stride * kHeight);
+  f.field.views[0].planes[0] = view;
+  CHECK(run(joined.data()) == STARFOCUS_OK);
+  CHECK(run(joined.data() + 2 * stride * kHeight) == STARFOCUS_OK);
+  CHECK(run(joined.data() + 1) == STARFOCUS_ERROR_OVERLAP);
+}
+
+TEST_CASE(
+    "refocus: the report contains the largest blur, N and the numbers of rendered views and "
+    "samples") {
+  Fixture f;
+  test::Engine engine(f.config);
+  f.params = test::Params(-3, 0.5);  // largest blur radius: 0.5 * 5 pixels
+  REQUIRE(f.Refocus(engine.get()) == STARFOCUS_OK);
+  CHECK(f.report.r_max == doctest::Approx(2.5));
+  CHECK(f.report.n == 3);
+  CHECK(f.report.rendered_views == 29);
+  f.params.study.mode = STARFOCUS_MODE_BENCHMARK;
+  REQUIRE(f.Refocus(engine.get()) == STARFOCUS_OK);
+  CHECK(f.report.n == 6);
+  CHECK(f.report.rendered_views == 101);
+  CHECK(f.report.rendered_samples > 0);
+}
+
+// If the switch in WordsOf omits a status, the compilation must fail.
+#pragma GCC diagnostic error "-Wswitch"
+
+// Returns words that appear only in the description of `status`, or null if `status` is not a
+// defined value.
+const char* WordsOf(starfocus_status status) {
+  switch (status) {
+    case STARFOCUS_OK:
+      return "success";
+    case STARFOCUS_ERROR_NULL:
+      return "pointer is null";
+    case STARFOCUS_ERROR_STRUCTURE:
+      return "init function";
+    case STARFOCUS_ERROR_RANGE:
+      return "outside its range";
+    case STARFOCUS_ERROR_FEATURE:
+      return "needs a feature";
+    case STARFOCUS_ERROR_STATE:
+      return "starfocus_stream_begin";
+    case STARFOCUS_ERROR_WORKSPACE:
+      return "STARFOCUS_ALIGNMENT";
+    case STARFOCUS_ERROR_TOO_LARGE:
+      return "can address";
+    case STARFOCUS_ERROR_MEMORY:
+      return "out of memory";
+    case STARFOCUS_ERROR_STRIDE:
+      return "stride is smaller";
+    case STARFOCUS_ERROR_OVERLAP:
+      return "overlaps";
+    case STARFOCUS_ERROR_BLUR:
+      return "exceeds max_blur";
+    case STARFOCUS_ERROR_DISPARITY:
+      return "outside the configured disparity range";
+    case STARFOCUS_ERROR_NOT_FINITE:
+      return "NaN or infinity";
+    case STARFOCUS_ERROR_ALL_INVALID:
+      return "no finite value";
+    case STARFOCUS_ERROR_PREPARED:
+      return "prepared light field";
+    case STARFOCUS_ERROR_RUNNER:
+      return "runner";
+    case STARFOCUS_ERROR_CANCELLED:
+      return "cancelled";
+  }
+  return nullptr;
+}
+
+TEST_CASE(
+    "statuses: each status has a unique description, and other numbers are unknown statuses") {
+  std::set<std::string> sentences;
+  int statuses = 0;
+  for (int number = -1000; number <= 1000; ++number) {
+    CAPTURE(number);
+    const auto status = static_cast<starfocus_status>(number);
+    const std::string sentence = starfocus_status_string(status);
+    if (WordsOf(status) == nullptr) {
+      CHECK(sentence == "unknown status");
+      continue;
+    }
+    ++statuses;
+    CAPTURE(sentence);
+    CHECK(sentence != "unknown status");
+    CHECK(sentences.insert(sentence).second);
+    // The description must not contain the words of other statuses.
+    for (int other = 0; other < 100; ++other) {
+      const char* const words = WordsOf(static_cast<starfocus_status>(other));
+      if (words == nullptr) continue;
+      CAPTURE(words);
+      CHECK((sentence.find(words) != std::string::npos) == (other == number));
+    }
+  }
+  CHECK(statuses == 18);
+}
+
+}  // namespace
+}  // namespace configuration_bytes_test
