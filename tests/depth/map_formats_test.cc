@@ -11,7 +11,7 @@
 #include "starfocus/depth.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
-#include "tests/properties/operations.h"
+#include "tests/operations/operations.h"
 #include "tests/support/config.h"
 #include "tests/support/image_field.h"
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "tests/fuzz/input.h"
-#include "tests/stress/families.h"
+#include "tests/operations/families.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   test::Random random(data, size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // starfocus-lab stress: tests the engine with random cases for a given time.
-#include "tests/stress/stress.h"
+#include "tests/operations/stress.h"
 
 #include <algorithm>
 #include <cinttypes>
@@ -14,7 +14,7 @@
 #include "platform/console.h"
 #include "platform/file.h"
 #include "platform/progress.h"
-#include "tests/stress/rig.h"
+#include "tests/operations/rig.h"
 
 namespace starfocus {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declarations shared by the calls of the differential family.
-#ifndef STARFOCUS_TESTS_STRESS_DIFFERENTIAL_H_
-#define STARFOCUS_TESTS_STRESS_DIFFERENTIAL_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_DIFFERENTIAL_H_
+#define STARFOCUS_TESTS_OPERATIONS_DIFFERENTIAL_H_
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "tests/stress/rig.h"
-#include "tests/stress/setup.h"
+#include "tests/operations/rig.h"
+#include "tests/operations/setup.h"
 
 namespace starfocus::stress {
 
@@ -39,4 +39,4 @@ std::string After(const Asked& asked, test::Random* random);
 
 }  // namespace starfocus::stress
 
-#endif  // STARFOCUS_TESTS_STRESS_DIFFERENTIAL_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_DIFFERENTIAL_H_

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "tests/depth/map_operations.h"
+#include "tests/operations/map_operations.h"
 #include "tests/support/simd_targets.h"
 
 namespace maps_bytes_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/stress/setup.h"
+#include "tests/operations/setup.h"
 
 #include <algorithm>
 #include <cmath>

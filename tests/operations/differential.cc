@@ -2,7 +2,7 @@
 // Family of calls that must return the same picture: whole, streamed, as regions, from a prepared
 // light field, and as a frame of a video. The engines may have been used before, and their runners
 // may have failed before.
-#include "tests/stress/differential.h"
+#include "tests/operations/differential.h"
 
 #include <cmath>
 #include <functional>
@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "starfocus/starfocus.hpp"
-#include "tests/stress/families.h"
+#include "tests/operations/families.h"
 #include "tests/support/config.h"
 
 namespace starfocus::stress {

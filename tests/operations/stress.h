@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stress test: families of random refocusings, each with a property that must hold. A family and a
 // number identify a case, so that every failure can be repeated.
-#ifndef STARFOCUS_TESTS_STRESS_STRESS_H_
-#define STARFOCUS_TESTS_STRESS_STRESS_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_STRESS_H_
+#define STARFOCUS_TESTS_OPERATIONS_STRESS_H_
 
 #include <cstdint>
 #include <functional>
@@ -56,4 +56,4 @@ Report RunStress(const Options& options, const std::function<void(const std::str
 
 }  // namespace starfocus::stress
 
-#endif  // STARFOCUS_TESTS_STRESS_STRESS_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_STRESS_H_

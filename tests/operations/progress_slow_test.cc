@@ -5,7 +5,7 @@
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/properties/picture_operations.h"
+#include "tests/operations/picture_operations.h"
 #include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/stream_steps.h"

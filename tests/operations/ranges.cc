@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/stress/ranges.h"
+#include "tests/operations/ranges.h"
 
 #include "lib/base/fixed.h"
 

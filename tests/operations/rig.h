@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs an engine in different variants, such as SIMD targets, orders of jobs, and streams. The
 // bytes of a picture must not depend on the variant.
-#ifndef STARFOCUS_TESTS_STRESS_RIG_H_
-#define STARFOCUS_TESTS_STRESS_RIG_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_RIG_H_
+#define STARFOCUS_TESTS_OPERATIONS_RIG_H_
 
 #include <cstdint>
 #include <memory>
@@ -11,7 +11,7 @@
 
 #include "simd/kernels.h"
 #include "starfocus/starfocus.h"
-#include "tests/stress/setup.h"
+#include "tests/operations/setup.h"
 #include "tests/support/config.h"
 #include "tests/support/test_scene.h"
 
@@ -105,4 +105,4 @@ std::vector<uint8_t> Refocused(const Setup& setup, const Variant& variant,
 
 }  // namespace starfocus::stress
 
-#endif  // STARFOCUS_TESTS_STRESS_RIG_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_RIG_H_

@@ -2,8 +2,8 @@
 // Operations that make pictures or maps, and checks of the properties that each operation must
 // have. The bytes of a result must not depend on the workers, on the order of jobs, or on earlier
 // results. Calls that were cancelled or whose runner failed must not affect later results.
-#ifndef STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
-#define STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_OPERATIONS_H_
+#define STARFOCUS_TESTS_OPERATIONS_OPERATIONS_H_
 
 #include <doctest/doctest.h>
 
@@ -182,4 +182,4 @@ inline void CheckCancelling(const Operation& operation) {
 
 }  // namespace properties
 
-#endif  // STARFOCUS_TESTS_PROPERTIES_OPERATIONS_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_OPERATIONS_H_

@@ -5,9 +5,9 @@
 #include <cstdlib>
 
 #include "starfocus/starfocus.hpp"
-#include "tests/stress/families.h"
-#include "tests/stress/rig.h"
-#include "tests/stress/setup.h"
+#include "tests/operations/families.h"
+#include "tests/operations/rig.h"
+#include "tests/operations/setup.h"
 #include "tests/support/config.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/transfer_curve.h"

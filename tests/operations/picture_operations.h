@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operations that make a picture, with lenses of every kind and images of every format.
-#ifndef STARFOCUS_TESTS_PROPERTIES_PICTURE_OPERATIONS_H_
-#define STARFOCUS_TESTS_PROPERTIES_PICTURE_OPERATIONS_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_PICTURE_OPERATIONS_H_
+#define STARFOCUS_TESTS_OPERATIONS_PICTURE_OPERATIONS_H_
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "starfocus/starfocus.hpp"
-#include "tests/properties/operations.h"
+#include "tests/operations/operations.h"
 #include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/inside.h"
@@ -244,4 +244,4 @@ inline std::vector<Operation> PictureOperations(bool all_formats = true) {
 
 }  // namespace properties
 
-#endif  // STARFOCUS_TESTS_PROPERTIES_PICTURE_OPERATIONS_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_PICTURE_OPERATIONS_H_

@@ -3,8 +3,8 @@
 // function, and that the engine is then unchanged.
 #include <doctest/doctest.h>
 
-#include "tests/properties/operations.h"
-#include "tests/properties/picture_operations.h"
+#include "tests/operations/operations.h"
+#include "tests/operations/picture_operations.h"
 
 namespace cancelling_slow_test {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "starfocus/depth.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/stress/families.h"
-#include "tests/stress/rig.h"
+#include "tests/operations/families.h"
+#include "tests/operations/rig.h"
 #include "tests/support/config.h"
 #include "tests/support/symmetry.h"
 

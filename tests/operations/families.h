@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declares the families of stress cases.
-#ifndef STARFOCUS_TESTS_STRESS_FAMILIES_H_
-#define STARFOCUS_TESTS_STRESS_FAMILIES_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_FAMILIES_H_
+#define STARFOCUS_TESTS_OPERATIONS_FAMILIES_H_
 
-#include "tests/stress/setup.h"
-#include "tests/stress/stress.h"
+#include "tests/operations/setup.h"
+#include "tests/operations/stress.h"
 
 namespace starfocus::stress {
 
@@ -35,4 +35,4 @@ Outcome Maps(test::Random* random);
 
 }  // namespace starfocus::stress
 
-#endif  // STARFOCUS_TESTS_STRESS_FAMILIES_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_FAMILIES_H_

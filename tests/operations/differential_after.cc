@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "starfocus/starfocus.hpp"
-#include "tests/stress/differential.h"
+#include "tests/operations/differential.h"
 
 namespace starfocus::stress {
 namespace {

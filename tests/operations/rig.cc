@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/stress/rig.h"
+#include "tests/operations/rig.h"
 
 #include <algorithm>
 #include <cstring>

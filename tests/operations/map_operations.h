@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists operations that estimate or repair disparity maps, from star sets of every size, from other
 // sets of views, or from one view.
-#ifndef STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
-#define STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_MAP_OPERATIONS_H_
+#define STARFOCUS_TESTS_OPERATIONS_MAP_OPERATIONS_H_
 
 #include <doctest/doctest.h>
 
@@ -21,7 +21,7 @@
 #include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"
-#include "tests/properties/operations.h"
+#include "tests/operations/operations.h"
 #include "tests/support/closed_hair.h"
 #include "tests/support/config.h"
 
@@ -207,4 +207,4 @@ inline std::vector<Operation> MapOperations() {
 
 }  // namespace properties
 
-#endif  // STARFOCUS_TESTS_DEPTH_MAP_OPERATIONS_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_MAP_OPERATIONS_H_

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the properties of tests/properties/operations.h for every operation that makes a map.
+// Checks the properties of tests/operations/operations.h for every operation that makes a map.
 #include <doctest/doctest.h>
 
-#include "tests/depth/map_operations.h"
+#include "tests/operations/map_operations.h"
 
 namespace maps_test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random refocusings for the stress families.
-#ifndef STARFOCUS_TESTS_STRESS_SETUP_H_
-#define STARFOCUS_TESTS_STRESS_SETUP_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_SETUP_H_
+#define STARFOCUS_TESTS_OPERATIONS_SETUP_H_
 
 #include <cstdint>
 #include <string>
@@ -64,4 +64,4 @@ void FitBlur(Setup* setup);
 
 }  // namespace starfocus::stress
 
-#endif  // STARFOCUS_TESTS_STRESS_SETUP_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_SETUP_H_

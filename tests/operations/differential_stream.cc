@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "starfocus/starfocus.hpp"
-#include "tests/stress/differential.h"
+#include "tests/operations/differential.h"
 
 namespace starfocus::stress {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/stress/stress.h"
+#include "tests/operations/stress.h"
 
 #include <chrono>
 #include <stdexcept>
 
-#include "tests/stress/families.h"
-#include "tests/stress/ranges.h"
+#include "tests/operations/families.h"
+#include "tests/operations/ranges.h"
 
 namespace starfocus::stress {
 

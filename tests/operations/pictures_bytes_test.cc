@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "tests/properties/operations.h"
-#include "tests/properties/picture_operations.h"
+#include "tests/operations/operations.h"
+#include "tests/operations/picture_operations.h"
 #include "tests/support/simd_targets.h"
 
 namespace pictures_bytes_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Collects failures of the engine's range checks, in builds that have these checks.
-#ifndef STARFOCUS_TESTS_STRESS_RANGES_H_
-#define STARFOCUS_TESTS_STRESS_RANGES_H_
+#ifndef STARFOCUS_TESTS_OPERATIONS_RANGES_H_
+#define STARFOCUS_TESTS_OPERATIONS_RANGES_H_
 
 #include <string>
 
@@ -14,4 +14,4 @@ void ForgetRangeFailure();
 
 }  // namespace starfocus::stress
 
-#endif  // STARFOCUS_TESTS_STRESS_RANGES_H_
+#endif  // STARFOCUS_TESTS_OPERATIONS_RANGES_H_

@@ -2,8 +2,8 @@
 // Checks the properties of operations.h for every operation that makes a picture.
 #include <doctest/doctest.h>
 
-#include "tests/properties/operations.h"
-#include "tests/properties/picture_operations.h"
+#include "tests/operations/operations.h"
+#include "tests/operations/picture_operations.h"
 #include "tests/support/rounds.h"
 
 namespace pictures_test {
