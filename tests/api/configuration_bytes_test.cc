@@ -39,13 +39,13 @@ struct Fixture {
   }
 };
 
-Field FieldOf(test::Config* config, const char* path) {
+Field FieldOf(test::Config* config, const std::string& path) {
   return FieldAt("starfocus_config", static_cast<starfocus_config*>(config), path);
 }
 
 // Checks that no function accepts a configuration, and that none writes anything. Returns the
 // problem.
-starfocus_problem Refused(const test::Config& config, const char* field) {
+starfocus_problem Refused(const test::Config& config, const std::string& field) {
   static const Fixture f;
   static test::Engine legal(f.config);
   CAPTURE(field);
@@ -65,7 +65,7 @@ starfocus_problem Refused(const test::Config& config, const char* field) {
 
 // Numeric fields, their smallest and their largest legal values.
 const struct Range {
-  const char* path;
+  std::string path;
   double low, high;
 } kRanges[] = {
     {"width", 1, STARFOCUS_MAX_SIZE},
@@ -93,7 +93,7 @@ const struct Range {
 
 // Values that are illegal although they lie between legal values, or that have no closed range.
 const struct Values {
-  const char* path;
+  std::string path;
   std::vector<double> values;
 } kBadValues[] = {
     {"views", {0, -1, 2, 16, 18}},
@@ -148,7 +148,7 @@ TEST_CASE("configuration: illegal values between legal values are rejected and n
 
 TEST_CASE("configuration: bad positions of views are rejected and named") {
   const struct {
-    const char* field;  // "" if the positions are legal
+    std::string field;  // "" if the positions are legal
     starfocus_position positions[2];
   } rows[] = {
       {"", {{0, 0}, {-1, 1}}},
@@ -163,7 +163,7 @@ TEST_CASE("configuration: bad positions of views are rejected and named") {
     config.views = 2;
     std::copy_n(row.positions, 2, config.positions);
     size_t bytes = 0;
-    if (row.field[0] != 0)
+    if (!row.field.empty())
       Refused(config, row.field);
     else
       CHECK(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);

@@ -73,7 +73,7 @@ constexpr unsigned kViews = kRefocus | kPrepare | kPush, kOuts = kRefocus | kPre
 // Numeric fields, their smallest and their largest legal values.
 struct Range {
   unsigned functions;
-  const char* path;
+  std::string path;
   double low, high;
 };
 
@@ -111,7 +111,7 @@ const Range kImageRanges[] = {
 struct Values {
   unsigned functions;
   starfocus_status status;
-  const char* path;
+  std::string path;
   std::vector<double> values;
 };
 
@@ -176,7 +176,7 @@ const Values kImageValues[] = {
 // Other changes that make a call illegal.
 struct Change {
   unsigned functions;
-  const char* path;
+  std::string path;
   starfocus_status status;
   void (*spoil)(Call*);
 };

@@ -63,7 +63,7 @@ class LastPage {
 
 // A call of a public function with a structure at `at`.
 struct Row {
-  const char* structure;
+  std::string structure;
   unsigned functions;  // a set of the functions of Call, which are called after Put
   // Sets the structure of a call to `at`, or calls another function with it.
   starfocus_status (*put)(Call* c, void* at);
@@ -197,7 +197,7 @@ TEST_CASE("structures: no entry point touches memory after a structure of any si
     for (unsigned function = 1; function < kAll; function *= 2) {
       if (row.functions == 0 ? function > 1 : (row.functions & function) == 0) continue;
       CAPTURES(&row - kRows, row.structure, function);
-      const size_t whole = starfocus_fields(row.structure, nullptr, nullptr);
+      const size_t whole = starfocus_fields(row.structure.c_str(), nullptr, nullptr);
       const auto run = [&](size_t bytes, size_t size) {
         Call call(&f, function);
         void* const at = page.Put(WholeOf(row.structure, &call, &observer), bytes, uint32_t(size));
@@ -209,7 +209,7 @@ TEST_CASE("structures: no entry point touches memory after a structure of any si
         CAPTURE(size);
         CHECK(run(size, size) != STARFOCUS_ERROR_STRUCTURE);
       }
-      if (row.structure == std::string("starfocus_light_field")) {
+      if (row.structure == "starfocus_light_field") {
         const size_t without_coverage = offsetof(starfocus_light_field, coverage);
         CHECK(run(without_coverage, without_coverage) == STARFOCUS_OK);
       }
@@ -427,7 +427,7 @@ TEST_CASE("structures: starfocus_fields lists every field of the headers with it
 
 TEST_CASE("structures: the defaults match the documentation in the headers") {
   const struct {
-    const char *structure, *field;
+    std::string structure, field;
     double value;
   } rows[] = {{"starfocus_config", "size", sizeof(starfocus_config)},
               {"starfocus_config", "max_blur", 32},
@@ -461,8 +461,9 @@ TEST_CASE("structures: the defaults match the documentation in the headers") {
               {"starfocus_params", "region.width", 0}};
   for (const auto& row : rows) {
     CAPTURES(row.structure, row.field);
-    std::vector<uint8_t> memory(starfocus_fields(row.structure, nullptr, nullptr), test::kPoison);
-    REQUIRE(starfocus_defaults(row.structure, memory.data(), uint32_t(memory.size())) ==
+    std::vector<uint8_t> memory(starfocus_fields(row.structure.c_str(), nullptr, nullptr),
+                                test::kPoison);
+    REQUIRE(starfocus_defaults(row.structure.c_str(), memory.data(), uint32_t(memory.size())) ==
             STARFOCUS_OK);
     const double value = field_values::FieldAt(row.structure, memory.data(), row.field).Get();
     CHECK(value == doctest::Approx(row.value).epsilon(1e-12));
