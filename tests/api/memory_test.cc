@@ -13,8 +13,11 @@
 #include <cstdlib>
 #include <initializer_list>
 #include <limits>
+#include <map>
+#include <memory>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "starfocus/matte.h"
@@ -22,8 +25,8 @@
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
 #include "tests/support/image_field.h"
-#include "tests/support/layered_scene.h"
 #include "tests/support/prepared_memory.h"
+#include "tests/support/refocused.h"
 #include "tests/support/rgb_calls.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/test_scene.h"
@@ -133,31 +136,34 @@ struct Counter {
   int allocations = 0, releases = 0, wrong = 0;
   bool empty = false;
   size_t offset = 0;  // misalignment of the returned memory, bytes
-  std::vector<uint8_t> memory;
-  void* given = nullptr;
-  size_t bytes = 0;
-  Counter* next = nullptr;  // if not null, receives the calls for other memory
+  size_t bytes = 0;   // size of the last allocation
+  std::map<void*, std::vector<uint8_t>> memory;
+  std::map<void*, size_t> given;
 
   starfocus_allocator Allocator() { return {this, Allocate, Release}; }
+  bool Did(int expected_allocations, int expected_releases) const {
+    return allocations == expected_allocations && releases == expected_releases && wrong == 0;
+  }
 
   static void* Allocate(void* data, size_t bytes, size_t alignment) {
     Counter& self = *static_cast<Counter*>(data);
-    if (self.next != nullptr) return Allocate(self.next, bytes, alignment);
     ++self.allocations;
     if (alignment != STARFOCUS_ALIGNMENT) ++self.wrong;
     if (self.empty) return nullptr;
-    self.memory.assign(bytes + 2 * alignment, test::kPoison);
-    const auto begin = reinterpret_cast<uintptr_t>(self.memory.data());
-    const size_t skipped = (alignment - begin % alignment) % alignment + self.offset;
-    self.bytes = bytes;
-    return self.given = self.memory.data() + skipped;
+    std::vector<uint8_t> block(bytes + 2 * alignment, test::kPoison);
+    const auto begin = reinterpret_cast<uintptr_t>(block.data());
+    uint8_t* const at = block.data() + (alignment - begin % alignment) % alignment + self.offset;
+    self.memory[at] = std::move(block);
+    self.given[at] = self.bytes = bytes;
+    return at;
   }
   static void Release(void* data, void* memory, size_t bytes) {
     Counter& self = *static_cast<Counter*>(data);
-    if (self.next != nullptr) return Release(self.next, memory, bytes);
     ++self.releases;
-    if (memory != self.given || bytes != self.bytes) ++self.wrong;
-    self.memory.assign(self.memory.size(), 0xEE);
+    if (self.given.count(memory) == 0 || self.given[memory] != bytes) ++self.wrong;
+    self.given.erase(memory);
+    std::vector<uint8_t>& block = self.memory[memory];
+    std::fill(block.begin(), block.end(), 0xEE);
   }
 };
 
@@ -165,17 +171,28 @@ struct Fixture {
   test::Scene scene = test::RandomScene(70, 50, 5, -3, 6, 4);
   test::Config config = test::ConfigFor(scene, 12);
   starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
-  test::Output expected{70, 50};
+  starfocus_light_field field = scene.Field();
+  test::Output expected = test::OutputOf(config, params, scene);
 
-  Fixture() {
-    test::Engine engine(config);
-    REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
+  starfocus_engine* Create(const starfocus_allocator* allocator) const {
+    starfocus_engine* engine = nullptr;
+    REQUIRE(starfocus_create(&config, allocator, &engine, nullptr) == STARFOCUS_OK);
+    CHECK(reinterpret_cast<uintptr_t>(engine) % STARFOCUS_ALIGNMENT == 0);
+    return engine;
   }
-  void CheckPicture(starfocus_engine* engine) const {
-    const starfocus_light_field field = scene.Field();
+  starfocus_prepared* Prepare(starfocus_engine* engine) const {
+    starfocus_prepared* prepared = nullptr;
+    REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
+    CHECK(reinterpret_cast<uintptr_t>(prepared) % STARFOCUS_ALIGNMENT == 0);
+    return prepared;
+  }
+  // Checks the picture of an engine, from a prepared light field if there is one.
+  void CheckPicture(starfocus_engine* engine, const starfocus_prepared* prepared = nullptr) const {
     test::Output out(70, 50);
-    CHECK(test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, nullptr) ==
-          STARFOCUS_OK);
+    uint8_t* const to = out.bytes.data();
+    CHECK((prepared == nullptr ? test::RefocusRgb(engine, &params, &field, to, out.stride, nullptr)
+                               : test::RefocusPreparedRgb(engine, &params, prepared, to, out.stride,
+                                                          nullptr)) == STARFOCUS_OK);
     CHECK(out.bytes == expected.bytes);
   }
 };
@@ -185,160 +202,104 @@ TEST_CASE("create: the only allocation has the size of the workspace and is rele
   Counter counter;
   size_t bytes = 0;
   REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
-  starfocus_engine* engine = nullptr;
-  {
-    // The engine copies the allocator, so the structure may become invalid after starfocus_create.
-    const starfocus_allocator allocator = counter.Allocator();
-    REQUIRE(starfocus_create(&f.config, &allocator, &engine, nullptr) == STARFOCUS_OK);
-  }
+  // The engine copies the allocator, so the structure may become invalid after starfocus_create.
+  auto allocator = std::make_unique<starfocus_allocator>(counter.Allocator());
+  starfocus_engine* const engine = f.Create(allocator.get());
+  allocator.reset();
   CHECK(counter.bytes == bytes);
   for (int round = 0; round < 2; ++round) f.CheckPicture(engine);
-  CHECK(counter.allocations == 1);
-  CHECK(counter.releases == 0);
+  CHECK(counter.Did(1, 0));
   starfocus_destroy(engine);
-  CHECK(counter.allocations == 1);
-  CHECK(counter.releases == 1);
-  CHECK(counter.wrong == 0);
+  CHECK(counter.Did(1, 1));
 }
 
-TEST_CASE("create: without an allocator, memory comes from the heap and is aligned") {
+TEST_CASE("create: without an allocator, memory comes from the heap, and may outlive its engine") {
   const Fixture f;
-  std::vector<starfocus_engine*> engines(5);
-  for (starfocus_engine*& engine : engines) {
-    REQUIRE(starfocus_create(&f.config, nullptr, &engine, nullptr) == STARFOCUS_OK);
-    CHECK(reinterpret_cast<uintptr_t>(engine) % STARFOCUS_ALIGNMENT == 0);
-  }
+  std::vector<starfocus_engine*> engines;
+  for (int k = 0; k < 5; ++k) engines.push_back(f.Create(nullptr));
   for (starfocus_engine* engine : engines) f.CheckPicture(engine);
+  starfocus_prepared* const prepared = f.Prepare(engines[0]);
   for (starfocus_engine* engine : engines) starfocus_destroy(engine);
+  const test::Engine other(f.config);
+  f.CheckPicture(other.get(), prepared);
+  starfocus_destroy_prepared(prepared);
 }
 
-TEST_CASE(
-    "create: if the allocation fails or is misaligned, or after other errors, no memory leaks") {
-  Fixture f;
-  starfocus_problem problem = {};
-  const auto field = [&problem] { return std::string(problem.field); };
+TEST_CASE("create: after a failed or misaligned allocation and other errors, no memory leaks") {
+  const Fixture f;
   Counter counter;
   const starfocus_allocator allocator = counter.Allocator();
-  starfocus_engine* const poison = reinterpret_cast<starfocus_engine*>(&counter);
-  starfocus_engine* engine = poison;
-  counter.empty = true;
-  CHECK(starfocus_create(&f.config, &allocator, &engine, &problem) == STARFOCUS_ERROR_MEMORY);
-  CHECK(problem.status == STARFOCUS_ERROR_MEMORY);
-  CHECK(field() == "allocator");
-  CHECK(engine == nullptr);
-  CHECK(counter.allocations == 1);
-  CHECK(counter.releases == 0);
-
-  counter.empty = false;
-  counter.offset = 8;
-  engine = poison;
-  CHECK(starfocus_create(&f.config, &allocator, &engine, &problem) == STARFOCUS_ERROR_WORKSPACE);
-  CHECK(engine == nullptr);
-  CHECK(counter.releases == 1);
-  CHECK(counter.wrong == 0);
-
+  const starfocus_allocator halves[] = {{&counter, nullptr, Counter::Release},
+                                        {&counter, Counter::Allocate, nullptr}};
   test::Config bad = f.config;
   bad.views = 3;
-  engine = poison;
-  CHECK(starfocus_create(&bad, &allocator, &engine, &problem) == STARFOCUS_ERROR_RANGE);
-  CHECK(engine == nullptr);
-  CHECK(starfocus_create(nullptr, &allocator, &engine, &problem) == STARFOCUS_ERROR_NULL);
+  const auto check = [&](const starfocus_config* config, const starfocus_allocator* from,
+                         starfocus_status status, const std::string& field) {
+    starfocus_engine* engine = reinterpret_cast<starfocus_engine*>(&counter);
+    starfocus_problem problem = {};
+    CHECK(starfocus_create(config, from, &engine, &problem) == status);
+    CHECK(problem.status == status);
+    CHECK(problem.field == field);
+    CHECK(engine == nullptr);
+  };
+  counter.empty = true;
+  check(&f.config, &allocator, STARFOCUS_ERROR_MEMORY, "allocator");
+  CHECK(counter.Did(1, 0));
+  counter.empty = false;
+  counter.offset = 8;
+  check(&f.config, &allocator, STARFOCUS_ERROR_WORKSPACE, "workspace");
+  CHECK(counter.Did(2, 1));
+  check(&bad, &allocator, STARFOCUS_ERROR_RANGE, "views");
+  check(nullptr, &allocator, STARFOCUS_ERROR_NULL, "config");
+  check(&f.config, &halves[0], STARFOCUS_ERROR_NULL, "allocator.allocate");
+  check(&f.config, &halves[1], STARFOCUS_ERROR_NULL, "allocator.release");
+  starfocus_problem problem = {};
   CHECK(starfocus_create(&f.config, &allocator, nullptr, &problem) == STARFOCUS_ERROR_NULL);
-  CHECK(field() == "engine");
-  const starfocus_allocator without[] = {{&counter, nullptr, Counter::Release},
-                                         {&counter, Counter::Allocate, nullptr}};
-  for (const starfocus_allocator& half : without) {
-    CHECK(starfocus_create(&f.config, &half, &engine, &problem) == STARFOCUS_ERROR_NULL);
-    CHECK(field() == (half.allocate == nullptr ? "allocator.allocate" : "allocator.release"));
-  }
-  CHECK(counter.allocations == 2);
+  CHECK(problem.field == std::string("engine"));
+  CHECK(counter.Did(2, 1));
 }
 
 TEST_CASE("prepare: without memory, the allocator of the engine provides the memory") {
-  const Fixture f;
-  Counter workspace, counter;
-  starfocus_engine* engine = nullptr;
-  const starfocus_allocator allocator = workspace.Allocator();
-  REQUIRE(starfocus_create(&f.config, &allocator, &engine, nullptr) == STARFOCUS_OK);
-  // The memory of the engine stays, and `counter` provides the memory of prepared light fields.
-  workspace.next = &counter;
+  Fixture f;
+  Counter counter;
+  const starfocus_allocator allocator = counter.Allocator();
+  starfocus_engine* const engine = f.Create(&allocator);
   size_t bytes = 0;
   REQUIRE(starfocus_prepared_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
-  const starfocus_light_field field = f.scene.Field();
-  starfocus_prepared* prepared = nullptr;
-  REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
+  starfocus_prepared* prepared = f.Prepare(engine);
   CHECK(counter.bytes == bytes);
-  test::Output out(70, 50);
-  CHECK(test::RefocusPreparedRgb(engine, &f.params, prepared, out.bytes.data(), out.stride,
-                                 nullptr) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
+  f.CheckPicture(engine, prepared);
   starfocus_destroy_prepared(prepared);
-  CHECK(counter.allocations == 1);
-  CHECK(counter.releases == 1);
+  CHECK(counter.Did(2, 1));
 
   // After an error, the memory is released.
-  starfocus_prepared* const poison = prepared;
-  test::Scene wrong = f.scene;
-  wrong.Disparity(3, 4) = 100;
-  const starfocus_light_field bad = wrong.Field();
-  CHECK(starfocus_prepare(engine, &bad, nullptr, 0, &prepared) == STARFOCUS_ERROR_DISPARITY);
+  f.scene.Disparity(3, 4) = 100;
+  CHECK(starfocus_prepare(engine, &f.field, nullptr, 0, &prepared) == STARFOCUS_ERROR_DISPARITY);
   CHECK(prepared == nullptr);
-  CHECK(counter.allocations == 2);
-  CHECK(counter.releases == 2);
+  CHECK(counter.Did(3, 2));
   counter.empty = true;
-  prepared = poison;
-  CHECK(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_ERROR_MEMORY);
+  prepared = reinterpret_cast<starfocus_prepared*>(&counter);
+  CHECK(starfocus_prepare(engine, &f.field, nullptr, 0, &prepared) == STARFOCUS_ERROR_MEMORY);
   CHECK(starfocus_engine_problem(engine)->status == STARFOCUS_ERROR_MEMORY);
   CHECK(prepared == nullptr);
-  CHECK(counter.releases == 2);
-  CHECK(counter.wrong == 0);
-  workspace.next = nullptr;
+  CHECK(counter.Did(4, 2));
   starfocus_destroy(engine);
-  CHECK(workspace.allocations == 1);
-  CHECK(workspace.releases == 1);
-  CHECK(workspace.wrong == 0);
+  CHECK(counter.Did(4, 3));
 }
 
-TEST_CASE("prepare: a prepared light field from the heap may outlive its engine") {
-  const Fixture f;
-  starfocus_engine* engine = nullptr;
-  REQUIRE(starfocus_create(&f.config, nullptr, &engine, nullptr) == STARFOCUS_OK);
-  const starfocus_light_field field = f.scene.Field();
-  starfocus_prepared* prepared = nullptr;
-  REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
-  CHECK(reinterpret_cast<uintptr_t>(prepared) % STARFOCUS_ALIGNMENT == 0);
-  starfocus_destroy(engine);
-  test::Engine other(f.config);
-  test::Output out(70, 50);
-  CHECK(test::RefocusPreparedRgb(other.get(), &f.params, prepared, out.bytes.data(), out.stride,
-                                 nullptr) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
-  starfocus_destroy_prepared(prepared);
-}
-
-TEST_CASE("prepare: an engine in memory of the caller requires memory of the caller") {
+TEST_CASE("prepare, destroy: memory of the caller is required for its engines, and not released") {
   const Fixture f;
   test::Engine engine(f.config);
-  const starfocus_light_field field = f.scene.Field();
   starfocus_prepared* prepared = reinterpret_cast<starfocus_prepared*>(&engine);
-  CHECK(starfocus_prepare(engine.get(), &field, nullptr, 0, &prepared) == STARFOCUS_ERROR_NULL);
+  CHECK(starfocus_prepare(engine.get(), &f.field, nullptr, 0, &prepared) == STARFOCUS_ERROR_NULL);
   CHECK(std::string(starfocus_engine_problem(engine.get())->field) == "memory");
   CHECK(prepared == nullptr);
   test::PreparedMemory memory(engine);
-  prepared = memory.Prepare(engine.get(), field);
+  prepared = memory.Prepare(engine.get(), f.field);
   starfocus_destroy_prepared(prepared);
   starfocus_destroy_prepared(nullptr);
-  test::Output out(70, 50);
-  CHECK(test::RefocusPreparedRgb(engine.get(), &f.params, prepared, out.bytes.data(), out.stride,
-                                 nullptr) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
-}
-
-TEST_CASE("destroy: null pointers are ignored, and memory of the caller is not released") {
-  const Fixture f;
+  f.CheckPicture(engine.get(), prepared);
   starfocus_destroy(nullptr);
-  test::Engine engine(f.config);
-  REQUIRE(engine.status() == STARFOCUS_OK);
   starfocus_destroy(engine.get());
   f.CheckPicture(engine.get());
 }
