@@ -58,6 +58,7 @@ class HeapWatch {
 
 }  // namespace
 
+// The forms of new and delete call the following functions.
 extern "C" {
 
 void* __libc_malloc(size_t);
@@ -97,34 +98,6 @@ void free(void* memory) noexcept {
 }
 
 }  // extern "C"
-
-// All other forms of new and delete call the following forms (C++17 [new.delete]).
-void* operator new(size_t size) {
-  Count();
-  if (void* memory = __libc_malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(size_t size, std::align_val_t alignment) {
-  Count();
-  if (void* memory = __libc_memalign(static_cast<size_t>(alignment), size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  Count();
-  __libc_free(memory);
-}
-void operator delete(void* memory, size_t) noexcept {
-  Count();
-  __libc_free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  Count();
-  __libc_free(memory);
-}
-void operator delete(void* memory, size_t, std::align_val_t) noexcept {
-  Count();
-  __libc_free(memory);
-}
 
 #endif
 
