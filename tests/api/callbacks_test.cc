@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests how long the engine uses the functions that starfocus_set_callbacks sets.
+// Tests how long the engine uses the functions that starfocus_set_callbacks sets, what the progress
+// function may rely on, and runners that break their contract. Calls with such a runner must return
+// STARFOCUS_ERROR_RUNNER, and the engine must remain usable.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,7 +23,7 @@
 namespace callbacks_test {
 namespace {
 
-constexpr int kWidth = 70, kHeight = 75;
+constexpr int kWidth = 130, kHeight = 75, kWorkers = 2;
 
 // Counts the calls of each callback.
 struct Calls {
@@ -53,62 +55,90 @@ struct Calls {
 };
 
 struct Fixture {
-  test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 9, 8);
-  starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
+  test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 6, 4);
+  test::Config config = MakeConfig();
+  test::Engine engine{config};
+  starfocus::Params params = test::Params(-9, 1, STARFOCUS_MODE_BLOCK);
   starfocus_light_field field = scene.Field();
-  test::Output out{kWidth, kHeight};
+  test::Output out{kWidth, kHeight}, expected = test::OutputOf(config, params, scene);
   Calls calls;
 
-  test::Config Config() const {
-    test::Config config = test::ConfigFor(scene, 12);
-    config.superblock = 32;
-    config.features |= STARFOCUS_FEATURE_STREAMING;
-    config.previews = 1;
-    return config;
+  test::Config MakeConfig() const {
+    test::Config made = test::ConfigFor(scene, 20);
+    made.superblock = 32;
+    made.max_workers = kWorkers;
+    made.features |= STARFOCUS_FEATURE_STREAMING;
+    made.previews = 1;
+    made.tuning.gather = 0;
+    return made;
   }
-  starfocus_status Refocus(test::Engine* engine) {
-    return test::RefocusRgb(engine->get(), &params, &field, out.bytes.data(), out.stride, nullptr);
+  void Set(const starfocus_callbacks& callbacks) {
+    REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+  }
+  // Refocuses with the callbacks that are set.
+  starfocus_status Refocus() {
+    return test::RefocusRgb(engine.get(), &params, &field, out.bytes.data(), out.stride, nullptr);
+  }
+  // Refocuses with a runner.
+  starfocus_status RunBy(starfocus_runner runner, void* data = nullptr) {
+    return test::Refocus(&engine, params, scene, &out, runner, data);
+  }
+  // Checks that the next call without callbacks returns the right picture.
+  void CheckUsable() {
+    out = test::Output(kWidth, kHeight);
+    CHECK(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+    CHECK(out.bytes == expected.bytes);
   }
 };
 
 TEST_CASE("callbacks: the engine calls the set functions until other functions are set") {
   Fixture f;
-  test::Engine engine(f.Config());
   starfocus_callbacks callbacks = f.calls.All();
-  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
+  f.Set(callbacks);
   callbacks = {};  // the engine keeps a copy of the callbacks
   for (int round = 0; round < 2; ++round) {
-    REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
+    REQUIRE(f.Refocus() == STARFOCUS_OK);
     CHECK(f.calls.Take());
   }
-  test::PreparedMemory memory(engine);
-  const starfocus_prepared* prepared = memory.Prepare(engine.get(), f.field);
+  test::PreparedMemory memory(f.engine);
+  const starfocus_prepared* prepared = memory.Prepare(f.engine.get(), f.field);
   CHECK(f.calls.runner > 0);
   CHECK(f.calls.progress > 0);
-  test::Output preview((kWidth + 1) / 2, (kHeight + 1) / 2);
-  REQUIRE(test::PreviewRgb(engine.get(), &f.params, prepared, 1, preview.bytes.data(),
-                           preview.stride, nullptr) == STARFOCUS_OK);
-  CHECK(f.calls.Take());
-  REQUIRE(test::RefocusPreparedRgb(engine.get(), &f.params, prepared, f.out.bytes.data(),
-                                   f.out.stride, nullptr) == STARFOCUS_OK);
-  CHECK(f.calls.Take());
-  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
-  REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
+  for (const int shift : {0, 1}) {
+    f.calls = Calls{0, 0, 0, f.calls.observer};
+    REQUIRE(test::PreviewRgb(f.engine.get(), &f.params, prepared, shift, f.out.bytes.data(),
+                             f.out.stride, nullptr) == STARFOCUS_OK);
+    CHECK(f.calls.Take());
+  }
+  f.Set(callbacks);
+  REQUIRE(f.Refocus() == STARFOCUS_OK);
   CHECK(f.calls.None());
 }
 
 TEST_CASE("callbacks: wrong pointers are rejected, and the previous functions remain in use") {
   Fixture f;
-  test::Engine engine(f.Config());
   const starfocus_callbacks callbacks = f.calls.All();
   CHECK(starfocus_set_callbacks(nullptr, &callbacks) == STARFOCUS_ERROR_NULL);
-  REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
-  CHECK(starfocus_set_callbacks(engine.get(), nullptr) == STARFOCUS_ERROR_NULL);
+  f.Set(callbacks);
+  CHECK(starfocus_set_callbacks(f.engine.get(), nullptr) == STARFOCUS_ERROR_NULL);
   const starfocus_observer not_initialized = {};
   const starfocus_callbacks wrong = {nullptr, nullptr, nullptr, nullptr, &not_initialized};
-  CHECK(starfocus_set_callbacks(engine.get(), &wrong) == STARFOCUS_ERROR_STRUCTURE);
-  REQUIRE(f.Refocus(&engine) == STARFOCUS_OK);
+  CHECK(starfocus_set_callbacks(f.engine.get(), &wrong) == STARFOCUS_ERROR_STRUCTURE);
+  REQUIRE(f.Refocus() == STARFOCUS_OK);
   CHECK(f.calls.Take());
+}
+
+TEST_CASE("callbacks: the functions of a stream may change between two pulls") {
+  Fixture f;
+  REQUIRE(starfocus_stream_begin(f.engine.get(), &f.params) == STARFOCUS_OK);
+  test::StreamSteps steps = {&f.engine, f.scene, &f.out};
+  for (int round = 0; !steps.Ended(); ++round) {
+    f.Set(round % 2 == 0 ? f.calls.All() : starfocus_callbacks());
+    REQUIRE(steps.Step() == STARFOCUS_OK);
+    CHECK(f.calls.None() == (round % 2 != 0));
+    f.calls = Calls();
+  }
+  CHECK(f.out.bytes == f.expected.bytes);
 }
 
 // Copies the finished rows of a picture whenever the progress callback runs.
@@ -127,16 +157,6 @@ struct FinishedRows {
   }
 };
 
-// Runs jobs with even indices as worker 0 and jobs with odd indices as worker 1.
-int RunOnTwo(void*, starfocus_job job, void* data, int32_t count) {
-  std::thread other([=] {
-    for (int32_t i = 1; i < count; i += 2) job(data, i, 1);
-  });
-  for (int32_t i = 0; i < count; i += 2) job(data, i, 0);
-  other.join();
-  return 0;
-}
-
 TEST_CASE("callbacks: rows that are reported as finished are complete and do not change") {
   constexpr int kSide = 32;
   test::Scene scene = test::LayeredScene(100, 170, 5, 12, 5);
@@ -154,7 +174,7 @@ TEST_CASE("callbacks: rows that are reported as finished are complete and do not
     test::Output out(region.width > 0 ? region.width : 100, region.width > 0 ? region.height : 170);
     FinishedRows rows = {&out, {}};
     starfocus_callbacks callbacks = {};
-    callbacks.runner = RunOnTwo;
+    callbacks.runner = test::RunOnTwo;
     callbacks.progress = FinishedRows::Copy;
     callbacks.progress_data = &rows;
     REQUIRE(test::Refocus(&engine, params, scene, &out, callbacks, nullptr) == STARFOCUS_OK);
@@ -164,33 +184,6 @@ TEST_CASE("callbacks: rows that are reported as finished are complete and do not
     }
   }
 }
-
-TEST_CASE("callbacks: the functions of a stream may change between two pulls") {
-  Fixture f;
-  test::Engine engine(f.Config());
-  const test::Output expected = test::OutputOf(&engine, f.params, f.scene);
-  REQUIRE(starfocus_stream_begin(engine.get(), &f.params) == STARFOCUS_OK);
-  test::StreamSteps steps = {&engine, f.scene, &f.out};
-  for (int round = 0; !steps.Ended(); ++round) {
-    const starfocus_callbacks callbacks = round % 2 == 0 ? f.calls.All() : starfocus_callbacks();
-    REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
-    REQUIRE(steps.Step() == STARFOCUS_OK);
-    CHECK(f.calls.None() == (round % 2 != 0));
-    f.calls = Calls();
-  }
-  CHECK(f.out.bytes == expected.bytes);
-}
-
-}  // namespace
-}  // namespace callbacks_test
-
-// Tests runners that break their contract. Calls with such a runner must return
-// STARFOCUS_ERROR_RUNNER, and the engine must remain usable.
-
-namespace runner_misuse_test {
-namespace {
-
-constexpr int kWidth = 130, kHeight = 70, kWorkers = 2;
 
 // Arguments that the engine passes to a runner: one set of jobs.
 struct Set {
@@ -252,103 +245,72 @@ struct Runner {
   }
 };
 
-struct Fixture {
-  test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -3, 6, 4);
-  test::Config config = test::ConfigFor(scene, 20);
-  starfocus::Params params = test::Params(-9, 1, STARFOCUS_MODE_BLOCK);
-  test::Output expected{kWidth, kHeight};
-
-  Fixture() {
-    config.max_workers = kWorkers;
-    config.superblock = 32;
-    config.tuning.gather = 0;
-    test::Engine engine(config);
-    REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
-  }
-};
-
 TEST_CASE("runner: misuse of any set of jobs is an error and does not affect later calls") {
   Fixture f;
-  test::Engine engine(f.config);
   Runner good = {nullptr, -1};
-  test::Output out(kWidth, kHeight);
-  REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &good) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
+  REQUIRE(f.RunBy(Runner::Run, &good) == STARFOCUS_OK);
+  CHECK(f.out.bytes == f.expected.bytes);
   CHECK(good.sets > 6);
   for (const Misuse& misuse : kMisuses) {
     CAPTURE(misuse.what);
     for (int set = 0; set < good.sets; set += set < 6 ? 1 : 5) {
       CAPTURE(set);
       Runner bad = {misuse.run, set};
-      CHECK(test::Refocus(&engine, f.params, f.scene, &out, Runner::Run, &bad) ==
-            STARFOCUS_ERROR_RUNNER);
+      CHECK(f.RunBy(Runner::Run, &bad) == STARFOCUS_ERROR_RUNNER);
       CHECK(bad.sets == set + 1);
-      const starfocus_problem* const problem = starfocus_engine_problem(engine.get());
+      const starfocus_problem* const problem = starfocus_engine_problem(f.engine.get());
       CHECK(problem->status == STARFOCUS_ERROR_RUNNER);
       CHECK(std::string(problem->field) == "runner");
     }
-    out = test::Output(kWidth, kHeight);
-    CHECK(test::Refocus(&engine, f.params, f.scene, &out) == STARFOCUS_OK);
-    CHECK(out.bytes == f.expected.bytes);
+    f.CheckUsable();
   }
 }
 
-// The set of jobs that a runner has received. The clock callback, which jobs call, starts one of
-// the stored jobs while another job runs.
-struct {
-  starfocus_job job;
-  void* data;
-  bool nested;
-} running;
+// The set of jobs that a runner has received most recently.
+Set running;
+bool nested = false;
 
 TEST_CASE("runner: a job for a worker that is busy is rejected with STARFOCUS_ERROR_RUNNER") {
   Fixture f;
-  test::Engine engine(f.config);
-  test::Output out(kWidth, kHeight);
-  running.nested = false;
-  starfocus_callbacks callbacks = {};
+  nested = false;
   starfocus_observer observer;
   starfocus_observer_init(&observer);
-  callbacks.observer = &observer;
+  // Jobs call the clock, which starts another job while the first job runs. The nested call
+  // simulates another thread that uses worker 0 at the same time.
   observer.clock = [](void*) -> uint64_t {
-    // The nested call simulates another thread that uses worker 0 at the same time.
-    if (!running.nested) running.job(running.data, 2, 0);
-    running.nested = true;
+    if (!nested) running.job(running.data, 2, 0);
+    nested = true;
     return 0;
   };
+  starfocus_callbacks callbacks = test::ObservedBy(&observer);
   callbacks.runner = [](void*, starfocus_job job, void* data, int32_t count) {
-    running.job = job;
-    running.data = data;
-    for (int32_t i = 0; i < count; ++i) job(data, i, 0);
+    running = {job, data, count};
+    running.AllBy(0);
     return 0;
   };
-  CHECK(test::Refocus(&engine, f.params, f.scene, &out, callbacks) == STARFOCUS_ERROR_RUNNER);
-  CHECK(running.nested);
+  CHECK(test::Refocus(&f.engine, f.params, f.scene, &f.out, callbacks) == STARFOCUS_ERROR_RUNNER);
+  CHECK(nested);
 }
 
 TEST_CASE("runner: a job called after its runner has returned does nothing") {
   Fixture f;
-  test::Engine engine(f.config);
-  test::Output out(kWidth, kHeight);
   const starfocus_runner keeps = [](void*, starfocus_job job, void* data, int32_t count) {
-    running.job = job;
-    running.data = data;
-    Set{job, data, count}.All();
+    running = {job, data, count};
+    running.All();
     return 0;
   };
-  REQUIRE(test::Refocus(&engine, f.params, f.scene, &out, keeps) == STARFOCUS_OK);
+  REQUIRE(f.RunBy(keeps) == STARFOCUS_OK);
   for (const int worker : {-1, 0, 1, kWorkers, STARFOCUS_MAX_WORKERS}) {
     for (const int index : {-1, 0, 1, 1000}) running.job(running.data, index, worker);
   }
-  CHECK(out.bytes == f.expected.bytes);
+  CHECK(f.out.bytes == f.expected.bytes);
   // Jobs that a runner starts too late must not affect the next refocusing.
-  CHECK(test::Refocus(&engine, f.params, f.scene, &out, keeps) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
+  CHECK(f.RunBy(keeps) == STARFOCUS_OK);
+  CHECK(f.out.bytes == f.expected.bytes);
 }
 
 TEST_CASE("runner: the engine waits for jobs that still run when their runner returns") {
   Fixture f;
-  test::Engine engine(f.config);
   // The runner omits the last job, so that no set is complete, however fast the thread is.
   const starfocus_runner leaves = [](void* data_of_runner, starfocus_job job, void* data,
                                      int32_t count) {
@@ -364,17 +326,13 @@ TEST_CASE("runner: the engine waits for jobs that still run when their runner re
   };
   for (int round = 0; round < 50; ++round) {
     std::thread thread;
-    test::Output out(kWidth, kHeight);
-    CHECK(test::Refocus(&engine, f.params, f.scene, &out, leaves, &thread) ==
-          STARFOCUS_ERROR_RUNNER);
-    const std::vector<uint8_t> left = out.bytes;
+    CHECK(f.RunBy(leaves, &thread) == STARFOCUS_ERROR_RUNNER);
+    const std::vector<uint8_t> left = f.out.bytes;
     thread.join();
-    CHECK(out.bytes == left);
+    CHECK(f.out.bytes == left);
   }
-  test::Output out(kWidth, kHeight);
-  CHECK(test::Refocus(&engine, f.params, f.scene, &out) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
+  f.CheckUsable();
 }
 
 }  // namespace
-}  // namespace runner_misuse_test
+}  // namespace callbacks_test

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Usage: cmake -DSOURCE=… -DBUILD=… -DCC=… -DCXX=… -P document_code_test.cmake
-# Compiles the C and C++ code of README.md and docs/library.md as C11 and C++17. Each code block becomes the body of a
-# function, after declarations of the variables that the documents do not declare.
+# Compiles the C and C++ code of README.md and docs/library.md, and the examples in the comments of the public headers,
+# as C11 and C++17. Each code block of a document becomes the body of a function, after declarations of the variables
+# that the documents do not declare.
 set(of_readme [[
 static uint8_t view[320 * 200 * 3], out[320 * 200 * 3];
 static float disparity[320 * 200];
@@ -63,20 +64,36 @@ function(write_code document language declarations file)
   set(count ${blocks} PARENT_SCOPE)
 endfunction()
 
+# Compiles a file with a compiler and its options, with warnings as errors. The file contains the code of `name`.
+function(compile_file name file compiler)
+  execute_process(COMMAND ${compiler} ${ARGN} -pedantic -Wall -Wextra -Werror -fsyntax-only "-I${SOURCE}/lib/include"
+    "-I${SOURCE}/platform/pool/include" "${file}" RESULT_VARIABLE result ERROR_VARIABLE output)
+  if(result)
+    message(FATAL_ERROR "the code of ${name} does not compile:\n${output}")
+  endif()
+endfunction()
+
 # Compiles the code of a document with a compiler. The document must have `least` blocks or more.
 function(compile document language declarations least compiler)
   string(MAKE_C_IDENTIFIER "${document}" name)
   set(file "${BUILD}/tests/${name}.${language}")
   write_code("${document}" ${language} "${declarations}" "${file}")
-  execute_process(COMMAND ${compiler} ${ARGN} -pedantic -Wall -Wextra -Werror -Wno-unused -Wno-uninitialized
-    -fsyntax-only "-I${SOURCE}/lib/include" "-I${SOURCE}/platform/pool/include" "${file}"
-    RESULT_VARIABLE result ERROR_VARIABLE output)
-  if(result OR count LESS least)
-    message(FATAL_ERROR "${document}: expected ${least} or more blocks of ${language} that compile, found ${count}:\n"
-      "${output}")
+  compile_file(${document} "${file}" ${compiler} ${ARGN} -Wno-unused -Wno-uninitialized)
+  if(count LESS least)
+    message(FATAL_ERROR "${document}: expected ${least} or more blocks of ${language}, found ${count}")
   endif()
 endfunction()
 
 compile(README.md c "${of_readme}" 1 ${CC} -std=c11)
 compile(docs/library.md c "${of_library}" 10 ${CC} -std=c11)
 compile(docs/library.md cpp "${of_library_cpp}" 1 ${CXX} -std=c++17)
+foreach(header starfocus depth matte)
+  file(READ ${SOURCE}/lib/include/starfocus/${header}.h text)
+  if(NOT text MATCHES "@code\n(.*)@endcode")
+    message(FATAL_ERROR "${header}.h: expected an example between @code and @endcode, found none")
+  endif()
+  string(REGEX REPLACE "\n \\* ?" "\n" example "\n${CMAKE_MATCH_1}")
+  set(file ${BUILD}/tests/${header}_example.c)
+  file(WRITE ${file} "${example}\n")
+  compile_file(${header}.h ${file} ${CC} -std=c11)
+endforeach()

@@ -30,6 +30,18 @@ struct Field {
   void Put(Value value) {
     std::memcpy(at, &value, sizeof value);
   }
+  template <class Value>
+  double As() const {
+    Value value;
+    std::memcpy(&value, at, sizeof value);
+    return double(value);
+  }
+  // Returns the number, or 0 if the field is a null pointer.
+  double Get() const {
+    if (type == STARFOCUS_FIELD_DOUBLE) return As<double>();
+    if (type == STARFOCUS_FIELD_POINTER) return As<uintptr_t>();
+    return type == STARFOCUS_FIELD_INT32 ? As<int32_t>() : As<uint32_t>();
+  }
   // Writes a number, or a null pointer if the field is a pointer. The number -1 in a field without
   // a sign is the largest value of its type.
   void Set(double value) {

@@ -24,8 +24,8 @@ namespace {
 
 constexpr int kSize = 12;
 
-// A light field of one view. The view has a single colour, so every refocused picture is equal to
-// the view.
+// A light field of one view. The view has a single colour, so every refocused picture has only this
+// colour.
 struct Field {
   std::vector<uint8_t> picture = std::vector<uint8_t>(3 * kSize * kSize, 50);
   std::vector<float> disparity = std::vector<float>(kSize * kSize, 0.5f);
@@ -44,63 +44,56 @@ struct Field {
     params.focus = 3;
   }
 
-  // Returns true if all ways to refocus succeed and return the picture of the view.
+  // Returns true if refocus(out) succeeds and writes a picture of `size` x `size` pixels.
+  template <class Refocus>
+  static bool Writes(size_t size, const Refocus& refocus) {
+    std::vector<uint8_t> out(3 * size * size);
+    return refocus(starfocus_image_rgb(out.data(), 3 * size)) == STARFOCUS_OK &&
+           out == std::vector<uint8_t>(out.size(), 50);
+  }
   bool Refocuses(starfocus::Engine* engine) const {
-    std::vector<uint8_t> out(picture.size());
-    return engine->Refocus(params, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
-               STARFOCUS_OK &&
-           out == picture;
+    return Writes(kSize, [&](const auto& out) { return engine->Refocus(params, field, out); });
   }
   bool RefocusesPrepared(starfocus::Engine* engine) const {
-    std::vector<uint8_t> out(picture.size());
-    return engine->RefocusPrepared(params, starfocus_image_rgb(out.data(), 3 * kSize)) ==
-               STARFOCUS_OK &&
-           out == picture;
+    return Writes(kSize, [&](const auto& out) { return engine->RefocusPrepared(params, out); });
   }
   bool RefocusesPreview(starfocus::Engine* engine) const {
-    constexpr size_t kHalf = (kSize + 1) / 2;
-    const std::vector<uint8_t> expected(3 * kHalf * kHalf, 50);
-    std::vector<uint8_t> out(expected.size());
-    starfocus::Params reduced = params;
-    reduced.preview_shift = 1;
-    return engine->RefocusPrepared(reduced, starfocus_image_rgb(out.data(), 3 * kHalf)) ==
-               STARFOCUS_OK &&
-           out == expected;
+    starfocus::Params half = params;
+    half.preview_shift = 1;
+    return Writes(kSize / 2, [&](const auto& out) { return engine->RefocusPrepared(half, out); });
   }
   bool RefocusesAfter(starfocus::Engine* engine) const {
-    std::vector<uint8_t> out(picture.size());
-    const starfocus_image image = starfocus_image_rgb(picture.data(), 3 * kSize);
-    const starfocus_previous previous = {sizeof previous, &field, &image};
+    const starfocus_previous previous = {sizeof previous, &field, &field.views[0]};
     starfocus::Params after = params;
     after.previous = &previous;
-    return engine->Refocus(after, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
-               STARFOCUS_OK &&
-           out == picture;
+    return Writes(kSize, [&](const auto& out) { return engine->Refocus(after, field, out); });
   }
   bool Streams(starfocus::Engine* engine) const {
-    std::vector<uint8_t> out(picture.size());
     int32_t consumed = 0, written = 0;
     return engine->StreamBegin(params) == STARFOCUS_OK &&
            engine->StreamPush(field, kSize, &consumed) == STARFOCUS_OK && consumed == kSize &&
-           engine->StreamPull(starfocus_image_rgb(out.data(), 3 * kSize), kSize, &written) ==
-               STARFOCUS_OK &&
-           written == kSize && out == picture;
+           Writes(kSize,
+                  [&](const auto& out) { return engine->StreamPull(out, kSize, &written); }) &&
+           written == kSize;
   }
 
+  // Returns true if `engine` has no prepared light field.
+  bool IsUnprepared(starfocus::Engine* engine) const {
+    std::vector<uint8_t> out(picture.size());
+    return engine->RefocusPrepared(params, starfocus_image_rgb(out.data(), 3 * kSize)) ==
+           STARFOCUS_ERROR_NULL;
+  }
   // Returns true if `engine` is empty: all calls must return STARFOCUS_ERROR_NULL.
   bool IsEmpty(starfocus::Engine* engine) const {
     std::vector<uint8_t> out(picture.size());
+    const starfocus_image image = starfocus_image_rgb(out.data(), 3 * kSize);
     int32_t rows = 0;
-    return engine->get() == nullptr &&
-           engine->Refocus(params, field, starfocus_image_rgb(out.data(), 3 * kSize)) ==
-               STARFOCUS_ERROR_NULL &&
+    return engine->get() == nullptr && IsUnprepared(engine) &&
+           engine->Refocus(params, field, image) == STARFOCUS_ERROR_NULL &&
            engine->Prepare(field) == STARFOCUS_ERROR_NULL &&
-           engine->RefocusPrepared(params, starfocus_image_rgb(out.data(), 3 * kSize)) ==
-               STARFOCUS_ERROR_NULL &&
            engine->StreamBegin(params) == STARFOCUS_ERROR_NULL &&
            engine->StreamPush(field, kSize, &rows) == STARFOCUS_ERROR_NULL &&
-           engine->StreamPull(starfocus_image_rgb(out.data(), 3 * kSize), kSize, &rows) ==
-               STARFOCUS_ERROR_NULL;
+           engine->StreamPull(image, kSize, &rows) == STARFOCUS_ERROR_NULL;
   }
 };
 
@@ -132,10 +125,7 @@ bool SecondInit() {
   if (status != STARFOCUS_ERROR_MEMORY) return false;
   if (!f.Refocuses(&engine) || !f.RefocusesPrepared(&engine)) return false;
   if (engine.Init(f.config) != STARFOCUS_OK) return false;
-  std::vector<uint8_t> out(f.picture.size());
-  return engine.RefocusPrepared(f.params, starfocus_image_rgb(out.data(), 3 * kSize)) ==
-             STARFOCUS_ERROR_NULL &&
-         f.Refocuses(&engine);
+  return f.IsUnprepared(&engine) && f.Refocuses(&engine);
 }
 
 bool Moves() {
@@ -165,7 +155,6 @@ bool SecondPrepare() {
   Field f;
   starfocus::Engine engine;
   if (engine.Init(f.config) != STARFOCUS_OK) return false;
-  std::vector<uint8_t> out(f.picture.size());
   for (int round = 0; round < 2; ++round) {
     if (engine.Prepare(f.field) != STARFOCUS_OK || !f.RefocusesPrepared(&engine)) return false;
     no_memory = round == 0;
@@ -174,9 +163,7 @@ bool SecondPrepare() {
     f.disparity[7] = 0.5f;
     no_memory = false;
     if (status != (round == 0 ? STARFOCUS_ERROR_MEMORY : STARFOCUS_ERROR_DISPARITY)) return false;
-    if (engine.RefocusPrepared(f.params, starfocus_image_rgb(out.data(), 3 * kSize)) !=
-        STARFOCUS_ERROR_NULL)
-      return false;
+    if (!f.IsUnprepared(&engine)) return false;
   }
   return f.Refocuses(&engine);
 }

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests changes of the lens between calls of one engine. The bytes must equal the bytes from an
-// engine that has used no other lens.
+// Tests the lens of an engine. After a change of the lens, the bytes must equal the bytes from an
+// engine that has used no other lens. The largest aperture is the largest that the engine accepts.
+// At aperture 0, the picture is the centre view.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
 #include "tests/support/layered_scene.h"
+#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
-#include "tests/support/ways.h"
 
 namespace lens_test {
 namespace {
@@ -79,22 +81,32 @@ std::vector<uint8_t> Expected(const test::Scene& scene, const starfocus::Params&
 
 TEST_CASE("lens: after a change of shape, an engine returns the bytes of a new engine") {
   const test::Scene scene = MakeScene();
-  test::Engine engine(Config(scene));
+  test::Engine engine(Config(scene)), other(Config(scene));
+  test::PreparedMemory memory(other);
+  const starfocus_prepared* const prepared = memory.Prepare(other.get(), scene.Field());
   int index = 0;
   for (const starfocus::Params& lens : Lenses()) {
     CAPTURE(index);
     ++index;
+    // The light field that another engine has prepared belongs to no lens.
+    const starfocus::Params block = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
+    test::Output of_prepared(kWidth, kHeight);
+    REQUIRE(test::RefocusPreparedRgb(engine.get(), &block, prepared, of_prepared.bytes.data(),
+                                     of_prepared.stride, nullptr) == STARFOCUS_OK);
+    CHECK((of_prepared.bytes == Expected(scene, block)));
     // In the second iteration, the engine must use the tables that it made for this lens in the
     // same mode.
+    std::vector<std::vector<uint8_t>> expected;
     for (const int round : {0, 1}) {
+      size_t picture = 0;
       for (const starfocus_mode mode : test::kModes) {
         for (const starfocus_renderer renderer : test::kRenderers) {
           if (mode == STARFOCUS_MODE_BLUR && renderer == STARFOCUS_RENDERER_LINE_SCAN)
             continue;  // blur mode ignores the renderer
           CAPTURES(round, mode, renderer);
           const starfocus::Params params = ParamsOf(lens, mode, renderer);
-          const test::Output out = test::OutputOf(&engine, params, scene);
-          CHECK((out.bytes == Expected(scene, params)));
+          if (round == 0) expected.push_back(Expected(scene, params));
+          CHECK((test::OutputOf(&engine, params, scene).bytes == expected[picture++]));
         }
       }
     }
@@ -129,33 +141,6 @@ TEST_CASE("lens: a call with another shape does not use the tables of a cancelle
   }
 }
 
-TEST_CASE("lens: engines share a prepared light field, each with different lenses") {
-  const test::Scene scene = MakeScene();
-  const test::Config config = Config(scene);
-  test::Engine first(config), second(config);
-  size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(&config, &bytes, nullptr) == STARFOCUS_OK);
-  std::vector<uint8_t> memory(bytes + STARFOCUS_ALIGNMENT);
-  uint8_t* const aligned = memory.data() + STARFOCUS_ALIGNMENT -
-                           reinterpret_cast<uintptr_t>(memory.data()) % STARFOCUS_ALIGNMENT;
-  const starfocus_light_field field = scene.Field();
-  starfocus_prepared* prepared = nullptr;
-  REQUIRE(starfocus_prepare(first.get(), &field, aligned, bytes, &prepared) == STARFOCUS_OK);
-  const std::vector<starfocus::Params> lenses = Lenses();
-  for (size_t k = 0; k < lenses.size(); ++k) {
-    CAPTURE(k);
-    for (const bool ahead : {false, true}) {
-      const starfocus::Params& lens = lenses[(k + (ahead ? 1 : 0)) % lenses.size()];
-      const starfocus::Params params =
-          ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
-      test::Output out(kWidth, kHeight);
-      REQUIRE(test::RefocusPreparedRgb((ahead ? second : first).get(), &params, prepared,
-                                       out.bytes.data(), out.stride, nullptr) == STARFOCUS_OK);
-      CHECK((out.bytes == Expected(scene, params)));
-    }
-  }
-}
-
 TEST_CASE("lens: a stream keeps the lens that was given to begin") {
   const test::Scene scene = MakeScene();
   test::Engine engine(Config(scene));
@@ -175,105 +160,80 @@ TEST_CASE("lens: a stream keeps the lens that was given to begin") {
   }
 }
 
-TEST_CASE("lens: the missing fields of a shorter starfocus_params get their defaults") {
-  constexpr uint32_t kShort = offsetof(starfocus_params, theta);
-  const test::Scene scene = MakeScene();
-  const starfocus::Params expected = test::Params(-3.5, 1, STARFOCUS_MODE_BLOCK);
-  std::vector<uint8_t> memory(kShort);
-  starfocus_params* const params = reinterpret_cast<starfocus_params*>(memory.data());
-  starfocus_defaults("starfocus_params", params, kShort);
-  CHECK(params->size == kShort);
-  params->focus = expected.focus;
-  test::Engine engine(Config(scene));
-  test::Output out(kWidth, kHeight);
-  const starfocus_light_field field = scene.Field();
-  REQUIRE(test::RefocusRgb(engine.get(), params, &field, out.bytes.data(), out.stride, nullptr) ==
-          STARFOCUS_OK);
-  CHECK((out.bytes == Expected(scene, expected)));
-}
-
-TEST_CASE("lens: without STARFOCUS_FEATURE_SHAPES, only polygons and cat's eyes are rejected") {
-  const test::Scene scene = MakeScene();
-  test::Config config = Config(scene);
-  config.features &= ~STARFOCUS_FEATURE_SHAPES;
-  test::Engine engine(config);
-  for (const starfocus::Params& lens : Lenses()) {
-    const bool refused = lens.shape == STARFOCUS_SHAPE_POLYGON || lens.cats_eye > 0;
-    const starfocus::Params params = ParamsOf(lens, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_AUTO);
-    test::Output out(kWidth, kHeight);
-    const starfocus_status status = test::Refocus(&engine, params, scene, &out);
-    CHECK(status == (refused ? STARFOCUS_ERROR_FEATURE : STARFOCUS_OK));
-    CHECK(out.Untouched() == refused);
-  }
-}
-
-TEST_CASE(
-    "lens: only with STARFOCUS_FEATURE_SHAPES, the workspace has memory for polygons and cat's "
-    "eyes") {
-  for (const int block : {32, 64, 128}) {
-    for (const double blur : {0.5, 8.0, 32.0, 128.0}) {
-      test::Config config;
-      config.width = config.height = 500;
-      config.superblock = block;
-      config.max_blur = blur;
-      size_t without = 0, with = 0;
-      REQUIRE(starfocus_workspace_size(&config, &without, nullptr) == STARFOCUS_OK);
-      config.features |= STARFOCUS_FEATURE_SHAPES;
-      REQUIRE(starfocus_workspace_size(&config, &with, nullptr) == STARFOCUS_OK);
-      CAPTURES(block, blur);
-      CHECK(with > without);
+TEST_CASE("largest aperture: the engine accepts it and no larger one, for every max_blur") {
+  double aperture = -77;
+  for (const double max_blur :
+       {5e-324, 1e-310, 2.2250738585072014e-308, 1e-300, 1e-9, 0.3, 7.0, 128.0}) {
+    test::Config config;
+    config.width = config.height = 16;
+    config.views = 1;
+    config.disparity_min = -3;
+    config.disparity_max = 10;
+    config.max_blur = max_blur;
+    config.features |= STARFOCUS_FEATURE_STREAMING;
+    const test::Engine engine(config);
+    std::vector<double> planes = {-STARFOCUS_MAX_FOCUS, STARFOCUS_MAX_FOCUS};
+    for (double focus = -20; focus <= 20; focus += 0.37) planes.push_back(focus);
+    for (const double focus : planes) {
+      CAPTURES(max_blur, focus);
+      starfocus::Params params = test::Params(focus);
+      REQUIRE(starfocus_largest_aperture(engine.get(), &params, &params.aperture) == STARFOCUS_OK);
+      const double distance = std::max(10 - focus, focus + 3),
+                   next = std::nextafter(params.aperture, 1);
+      CHECK(params.aperture * distance <= max_blur);
+      CHECK((params.aperture == 1 || next * distance > max_blur || next > max_blur / distance));
+      CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_OK);
+      if (params.aperture == 1 || max_blur < 1e-9) continue;
+      params.aperture *= 1 + 1e-14;
+      CHECK(starfocus_stream_begin(engine.get(), &params) == STARFOCUS_ERROR_BLUR);
     }
+    starfocus::Params params = test::Params(2 * STARFOCUS_MAX_FOCUS);
+    CHECK(starfocus_largest_aperture(engine.get(), &params, &aperture) == STARFOCUS_ERROR_RANGE);
+    CHECK(starfocus_engine_problem(engine.get())->field == std::string("focus"));
+    CHECK(starfocus_largest_aperture(engine.get(), nullptr, &aperture) == STARFOCUS_ERROR_NULL);
+    CHECK(starfocus_largest_aperture(engine.get(), &params, nullptr) == STARFOCUS_ERROR_NULL);
+    CHECK(starfocus_largest_aperture(nullptr, &params, &aperture) == STARFOCUS_ERROR_NULL);
   }
+  CHECK(aperture == -77);
 }
 
-}  // namespace
-}  // namespace lens_test
-
-// Tests aperture 0: the result must be the centre view, byte for byte, in every mode and through
-// every way to refocus.
-
-namespace pinhole_test {
-namespace {
-
-// Returns a scene of random pictures; its map consists of flat areas and edges, or of noise.
-test::Scene AnyScene(int width, int height, uint64_t seed) {
-  const int views = test::kStars[seed % 4];
-  if (seed % 3 == 0) return test::LayeredScene(width, height, views, 7, seed);
-  test::Random random(seed);
-  test::Scene scene = test::RandomScene(width, height, views, -7, 7, seed, int(seed % 5));
-  if (seed % 3 == 1) test::NoisyDisparity(&scene, &random);
-  return scene;
-}
-
-test::Config AnyConfig(const test::Scene& scene, test::Random* random) {
-  test::Config config = test::ConfigFor(scene, 20);
-  config.superblock = 32 << random->Int(0, 3);
-  config.tuning.max_layer = random->Int(0, 2);
-  config.tuning.deblocking = random->Int(0, 1) * 255;
-  config.tuning.gather = random->Int(0, 1);
-  config.tuning.n_scale = random->Real(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE);
-  return config;
-}
-
-TEST_CASE("pinhole: every mode, renderer and way to refocus returns the centre view to the byte") {
+TEST_CASE("pinhole: every mode, renderer and entry point returns the centre view to the byte") {
   constexpr int kSizes[][2] = {{1, 1}, {3, 70}, {41, 31}, {64, 64}, {130, 67}, {97, 140}};
   test::Random random(51);
   uint64_t seed = 0;
   for (const auto& size : kSizes) {
     for (const starfocus_mode mode : test::kModes) {
-      const test::Scene scene = AnyScene(size[0], size[1], ++seed);
-      const test::Config config = AnyConfig(scene, &random);
+      CAPTURE(++seed);
+      const int views = test::kStars[seed % 4];
+      test::Scene scene = test::LayeredScene(size[0], size[1], views, 7, seed);
+      if (seed % 3 == 1) test::NoisyDisparity(&scene, &random);
+      test::Config config = test::ConfigFor(scene, 20);
+      config.superblock = 32 << random.Int(0, 3);
+      config.tuning.max_layer = random.Int(0, 2);
+      config.tuning.deblocking = random.Int(0, 1) * 255;
+      config.tuning.gather = random.Int(0, 1);
+      config.tuning.n_scale = random.Real(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE);
+      config.features |= STARFOCUS_FEATURE_STREAMING;
       starfocus::Params params = test::Params(random.Real(-9, 9), 0, mode);
       params.study.renderer = random.Int(0, 2);
       params.theta = random.Real(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA);
       // At aperture 0, any focus is legal.
       if (seed % 4 == 0) params.focus = -STARFOCUS_MAX_FOCUS;
-      CAPTURE(seed);
-      const test::Output whole = test::CheckWays(scene, config, params);
-      for (int y = 0; y < scene.height; ++y) {
-        CHECK(std::equal(scene.Pixel(0, 0, y), scene.Pixel(0, 0, y) + 3 * scene.width,
-                         whole.Pixel(0, y)));
+      test::Output centre(size[0], size[1]), streamed = centre, of_prepared = centre;
+      for (int y = 0; y < size[1]; ++y) {
+        std::copy_n(scene.Pixel(0, 0, y), 3 * size[0], &centre.bytes[size_t(y) * centre.stride]);
       }
+      test::Engine engine(config);
+      CHECK(test::OutputOf(&engine, params, scene).bytes == centre.bytes);
+      REQUIRE(test::Stream(&engine, params, scene, &streamed, 7, 11) == STARFOCUS_OK);
+      CHECK(streamed.bytes == centre.bytes);
+      test::PreparedMemory memory(engine);
+      REQUIRE(test::RefocusPreparedRgb(
+                  engine.get(), &params, memory.Prepare(engine.get(), scene.Field()),
+                  of_prepared.bytes.data(), of_prepared.stride, nullptr) == STARFOCUS_OK);
+      CHECK(of_prepared.bytes == centre.bytes);
+      params.region = {size[0] / 3, size[1] / 4, size[0] - size[0] / 3, (size[1] + 3) / 4};
+      CHECK(test::IsPartOf(test::OutputOf(&engine, params, scene), centre, params.region));
     }
   }
 }
@@ -301,4 +261,4 @@ TEST_CASE("pinhole: the report counts one copied view, and bad maps are rejected
 }
 
 }  // namespace
-}  // namespace pinhole_test
+}  // namespace lens_test

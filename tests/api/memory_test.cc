@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests starfocus_create, starfocus_prepare and the functions that destroy their results: each
-// result is one piece of memory from the allocator, which is released later.
+// Tests where the memory of the library comes from. The results of starfocus_create and
+// starfocus_prepare are one piece of memory each from the allocator, which is released later. All
+// other calls allocate nothing on the heap: this program replaces malloc and related functions, and
+// counts their calls while the engine works.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,9 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <initializer_list>
 #include <limits>
+#include <map>
+#include <memory>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "starfocus/matte.h"
@@ -20,264 +26,10 @@
 #include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/prepared_memory.h"
+#include "tests/support/refocused.h"
 #include "tests/support/rgb_calls.h"
 #include "tests/support/sanitizers.h"
 #include "tests/support/test_scene.h"
-
-namespace create_test {
-namespace {
-
-// Allocator that counts calls, returns memory with arbitrary contents, and checks released memory.
-struct Counter {
-  int allocations = 0, releases = 0, wrong = 0;
-  bool empty = false;
-  size_t offset = 0;  // misalignment of the returned memory, bytes
-  std::vector<uint8_t> memory;
-  void* given = nullptr;
-  size_t bytes = 0;
-  Counter* next = nullptr;  // if not null, receives the calls for other memory
-
-  starfocus_allocator Allocator() { return {this, Allocate, Release}; }
-
-  static void* Allocate(void* data, size_t bytes, size_t alignment) {
-    Counter& self = *static_cast<Counter*>(data);
-    if (self.next != nullptr) return Allocate(self.next, bytes, alignment);
-    ++self.allocations;
-    if (alignment != STARFOCUS_ALIGNMENT) ++self.wrong;
-    if (self.empty) return nullptr;
-    self.memory.assign(bytes + 2 * alignment, test::kPoison);
-    const auto begin = reinterpret_cast<uintptr_t>(self.memory.data());
-    const size_t skipped = (alignment - begin % alignment) % alignment + self.offset;
-    self.bytes = bytes;
-    return self.given = self.memory.data() + skipped;
-  }
-  static void Release(void* data, void* memory, size_t bytes) {
-    Counter& self = *static_cast<Counter*>(data);
-    if (self.next != nullptr) return Release(self.next, memory, bytes);
-    ++self.releases;
-    if (memory != self.given || bytes != self.bytes) ++self.wrong;
-    self.memory.assign(self.memory.size(), 0xEE);
-  }
-};
-
-struct Fixture {
-  test::Scene scene = test::RandomScene(70, 50, 5, -3, 6, 4);
-  test::Config config = test::ConfigFor(scene, 12);
-  starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
-  test::Output expected{70, 50};
-
-  Fixture() {
-    test::Engine engine(config);
-    REQUIRE(test::Refocus(&engine, params, scene, &expected) == STARFOCUS_OK);
-  }
-  void CheckPicture(starfocus_engine* engine) const {
-    const starfocus_light_field field = scene.Field();
-    test::Output out(70, 50);
-    CHECK(test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, nullptr) ==
-          STARFOCUS_OK);
-    CHECK(out.bytes == expected.bytes);
-  }
-};
-
-TEST_CASE("configuration: the missing fields of a shorter structure get their defaults") {
-  constexpr uint32_t kShort = offsetof(starfocus_config, superblock);
-  std::vector<uint8_t> memory(kShort);
-  starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
-  starfocus_defaults("starfocus_config", config, kShort);
-  CHECK(config->size == kShort);
-  config->width = config->height = 20;
-  starfocus_config whole;
-  starfocus_config_init(&whole);
-  whole.width = whole.height = 20;
-  size_t bytes = 0, expected = 0;
-  REQUIRE(starfocus_workspace_size(config, &bytes, nullptr) == STARFOCUS_OK);
-  REQUIRE(starfocus_workspace_size(&whole, &expected, nullptr) == STARFOCUS_OK);
-  CHECK(bytes == expected);
-  starfocus_engine* engine = nullptr;
-  REQUIRE(starfocus_create(config, nullptr, &engine, nullptr) == STARFOCUS_OK);
-  starfocus_destroy(engine);
-}
-
-TEST_CASE(
-    "configuration: init zeroes unknown fields of a longer structure, and calls reject its size") {
-  std::vector<uint8_t> memory(sizeof(starfocus_config) + 24, test::kPoison);
-  starfocus_config* const config = reinterpret_cast<starfocus_config*>(memory.data());
-  starfocus_defaults("starfocus_config", config, uint32_t(memory.size()));
-  CHECK(config->size == memory.size());
-  CHECK(std::count(memory.end() - 24, memory.end(), 0) == 24);
-  config->width = config->height = 20;
-  size_t bytes = 0;
-  CHECK(starfocus_workspace_size(config, &bytes, nullptr) == STARFOCUS_ERROR_STRUCTURE);
-}
-
-TEST_CASE("create: the only allocation has the size of the workspace and is released once") {
-  const Fixture f;
-  Counter counter;
-  size_t bytes = 0;
-  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
-  starfocus_engine* engine = nullptr;
-  {
-    // The engine copies the allocator, so the structure may become invalid after starfocus_create.
-    const starfocus_allocator allocator = counter.Allocator();
-    REQUIRE(starfocus_create(&f.config, &allocator, &engine, nullptr) == STARFOCUS_OK);
-  }
-  CHECK(counter.bytes == bytes);
-  for (int round = 0; round < 2; ++round) f.CheckPicture(engine);
-  CHECK(counter.allocations == 1);
-  CHECK(counter.releases == 0);
-  starfocus_destroy(engine);
-  CHECK(counter.allocations == 1);
-  CHECK(counter.releases == 1);
-  CHECK(counter.wrong == 0);
-}
-
-TEST_CASE("create: without an allocator, memory comes from the heap and is aligned") {
-  const Fixture f;
-  std::vector<starfocus_engine*> engines(5);
-  for (starfocus_engine*& engine : engines) {
-    REQUIRE(starfocus_create(&f.config, nullptr, &engine, nullptr) == STARFOCUS_OK);
-    CHECK(reinterpret_cast<uintptr_t>(engine) % STARFOCUS_ALIGNMENT == 0);
-  }
-  for (starfocus_engine* engine : engines) f.CheckPicture(engine);
-  for (starfocus_engine* engine : engines) starfocus_destroy(engine);
-}
-
-TEST_CASE(
-    "create: if the allocation fails or is misaligned, or after other errors, no memory leaks") {
-  Fixture f;
-  starfocus_problem problem = {};
-  const auto field = [&problem] { return std::string(problem.field); };
-  Counter counter;
-  const starfocus_allocator allocator = counter.Allocator();
-  starfocus_engine* const poison = reinterpret_cast<starfocus_engine*>(&counter);
-  starfocus_engine* engine = poison;
-  counter.empty = true;
-  CHECK(starfocus_create(&f.config, &allocator, &engine, &problem) == STARFOCUS_ERROR_MEMORY);
-  CHECK(problem.status == STARFOCUS_ERROR_MEMORY);
-  CHECK(field() == "allocator");
-  CHECK(engine == nullptr);
-  CHECK(counter.allocations == 1);
-  CHECK(counter.releases == 0);
-
-  counter.empty = false;
-  counter.offset = 8;
-  engine = poison;
-  CHECK(starfocus_create(&f.config, &allocator, &engine, &problem) == STARFOCUS_ERROR_WORKSPACE);
-  CHECK(engine == nullptr);
-  CHECK(counter.releases == 1);
-  CHECK(counter.wrong == 0);
-
-  test::Config bad = f.config;
-  bad.views = 3;
-  engine = poison;
-  CHECK(starfocus_create(&bad, &allocator, &engine, &problem) == STARFOCUS_ERROR_RANGE);
-  CHECK(engine == nullptr);
-  CHECK(starfocus_create(nullptr, &allocator, &engine, &problem) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_create(&f.config, &allocator, nullptr, &problem) == STARFOCUS_ERROR_NULL);
-  CHECK(field() == "engine");
-  const starfocus_allocator without[] = {{&counter, nullptr, Counter::Release},
-                                         {&counter, Counter::Allocate, nullptr}};
-  for (const starfocus_allocator& half : without) {
-    CHECK(starfocus_create(&f.config, &half, &engine, &problem) == STARFOCUS_ERROR_NULL);
-    CHECK(field() == (half.allocate == nullptr ? "allocator.allocate" : "allocator.release"));
-  }
-  CHECK(counter.allocations == 2);
-}
-
-TEST_CASE("prepare: without memory, the allocator of the engine provides the memory") {
-  const Fixture f;
-  Counter workspace, counter;
-  starfocus_engine* engine = nullptr;
-  const starfocus_allocator allocator = workspace.Allocator();
-  REQUIRE(starfocus_create(&f.config, &allocator, &engine, nullptr) == STARFOCUS_OK);
-  // The memory of the engine stays, and `counter` provides the memory of prepared light fields.
-  workspace.next = &counter;
-  size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
-  const starfocus_light_field field = f.scene.Field();
-  starfocus_prepared* prepared = nullptr;
-  REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
-  CHECK(counter.bytes == bytes);
-  test::Output out(70, 50);
-  CHECK(test::RefocusPreparedRgb(engine, &f.params, prepared, out.bytes.data(), out.stride,
-                                 nullptr) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
-  starfocus_destroy_prepared(prepared);
-  CHECK(counter.allocations == 1);
-  CHECK(counter.releases == 1);
-
-  // After an error, the memory is released.
-  starfocus_prepared* const poison = prepared;
-  test::Scene wrong = f.scene;
-  wrong.Disparity(3, 4) = 100;
-  const starfocus_light_field bad = wrong.Field();
-  CHECK(starfocus_prepare(engine, &bad, nullptr, 0, &prepared) == STARFOCUS_ERROR_DISPARITY);
-  CHECK(prepared == nullptr);
-  CHECK(counter.allocations == 2);
-  CHECK(counter.releases == 2);
-  counter.empty = true;
-  prepared = poison;
-  CHECK(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_ERROR_MEMORY);
-  CHECK(starfocus_engine_problem(engine)->status == STARFOCUS_ERROR_MEMORY);
-  CHECK(prepared == nullptr);
-  CHECK(counter.releases == 2);
-  CHECK(counter.wrong == 0);
-  workspace.next = nullptr;
-  starfocus_destroy(engine);
-  CHECK(workspace.allocations == 1);
-  CHECK(workspace.releases == 1);
-  CHECK(workspace.wrong == 0);
-}
-
-TEST_CASE("prepare: a prepared light field from the heap may outlive its engine") {
-  const Fixture f;
-  starfocus_engine* engine = nullptr;
-  REQUIRE(starfocus_create(&f.config, nullptr, &engine, nullptr) == STARFOCUS_OK);
-  const starfocus_light_field field = f.scene.Field();
-  starfocus_prepared* prepared = nullptr;
-  REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
-  CHECK(reinterpret_cast<uintptr_t>(prepared) % STARFOCUS_ALIGNMENT == 0);
-  starfocus_destroy(engine);
-  test::Engine other(f.config);
-  test::Output out(70, 50);
-  CHECK(test::RefocusPreparedRgb(other.get(), &f.params, prepared, out.bytes.data(), out.stride,
-                                 nullptr) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
-  starfocus_destroy_prepared(prepared);
-}
-
-TEST_CASE("prepare: an engine in memory of the caller requires memory of the caller") {
-  const Fixture f;
-  test::Engine engine(f.config);
-  const starfocus_light_field field = f.scene.Field();
-  starfocus_prepared* prepared = reinterpret_cast<starfocus_prepared*>(&engine);
-  CHECK(starfocus_prepare(engine.get(), &field, nullptr, 0, &prepared) == STARFOCUS_ERROR_NULL);
-  CHECK(std::string(starfocus_engine_problem(engine.get())->field) == "memory");
-  CHECK(prepared == nullptr);
-  test::PreparedMemory memory(engine);
-  prepared = memory.Prepare(engine.get(), field);
-  starfocus_destroy_prepared(prepared);
-  starfocus_destroy_prepared(nullptr);
-  test::Output out(70, 50);
-  CHECK(test::RefocusPreparedRgb(engine.get(), &f.params, prepared, out.bytes.data(), out.stride,
-                                 nullptr) == STARFOCUS_OK);
-  CHECK(out.bytes == f.expected.bytes);
-}
-
-TEST_CASE("destroy: null pointers are ignored, and memory of the caller is not released") {
-  const Fixture f;
-  starfocus_destroy(nullptr);
-  test::Engine engine(f.config);
-  REQUIRE(engine.status() == STARFOCUS_OK);
-  starfocus_destroy(engine.get());
-  f.CheckPicture(engine.get());
-}
-
-}  // namespace
-}  // namespace create_test
-
-// Checks that the engine allocates nothing on the heap. This program replaces malloc and related
-// functions, and counts their calls while the engine works.
 
 #if defined(__GLIBC__) && !defined(STARFOCUS_SANITIZED)
 
@@ -306,6 +58,7 @@ class HeapWatch {
 
 }  // namespace
 
+// The forms of new and delete call the following functions.
 extern "C" {
 
 void* __libc_malloc(size_t);
@@ -346,37 +99,187 @@ void free(void* memory) noexcept {
 
 }  // extern "C"
 
-// All other forms of new and delete call the following forms (C++17 [new.delete]).
-void* operator new(size_t size) {
-  Count();
-  if (void* memory = __libc_malloc(size ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(size_t size, std::align_val_t alignment) {
-  Count();
-  if (void* memory = __libc_memalign(static_cast<size_t>(alignment), size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  Count();
-  __libc_free(memory);
-}
-void operator delete(void* memory, size_t) noexcept {
-  Count();
-  __libc_free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-  Count();
-  __libc_free(memory);
-}
-void operator delete(void* memory, size_t, std::align_val_t) noexcept {
-  Count();
-  __libc_free(memory);
-}
+#endif
 
+namespace memory_test {
 namespace {
 
-TEST_CASE("HeapWatch counts every kind of heap call") {
+// Allocator that counts calls, returns memory with arbitrary contents, and checks released memory.
+struct Counter {
+  int allocations = 0, releases = 0, wrong = 0;
+  bool empty = false;
+  size_t offset = 0;  // misalignment of the returned memory, bytes
+  size_t bytes = 0;   // size of the last allocation
+  std::map<void*, std::vector<uint8_t>> memory;
+  std::map<void*, size_t> given;
+
+  starfocus_allocator Allocator() { return {this, Allocate, Release}; }
+  bool Did(int expected_allocations, int expected_releases) const {
+    return allocations == expected_allocations && releases == expected_releases && wrong == 0;
+  }
+
+  static void* Allocate(void* data, size_t bytes, size_t alignment) {
+    Counter& self = *static_cast<Counter*>(data);
+    ++self.allocations;
+    if (alignment != STARFOCUS_ALIGNMENT) ++self.wrong;
+    if (self.empty) return nullptr;
+    std::vector<uint8_t> block(bytes + 2 * alignment, test::kPoison);
+    const auto begin = reinterpret_cast<uintptr_t>(block.data());
+    uint8_t* const at = block.data() + (alignment - begin % alignment) % alignment + self.offset;
+    self.memory[at] = std::move(block);
+    self.given[at] = self.bytes = bytes;
+    return at;
+  }
+  static void Release(void* data, void* memory, size_t bytes) {
+    Counter& self = *static_cast<Counter*>(data);
+    ++self.releases;
+    if (self.given.count(memory) == 0 || self.given[memory] != bytes) ++self.wrong;
+    self.given.erase(memory);
+    std::vector<uint8_t>& block = self.memory[memory];
+    std::fill(block.begin(), block.end(), 0xEE);
+  }
+};
+
+struct Fixture {
+  test::Scene scene = test::RandomScene(70, 50, 5, -3, 6, 4);
+  test::Config config = test::ConfigFor(scene, 12);
+  starfocus::Params params = test::Params(-3, 1, STARFOCUS_MODE_BLOCK);
+  starfocus_light_field field = scene.Field();
+  test::Output expected = test::OutputOf(config, params, scene);
+
+  starfocus_engine* Create(const starfocus_allocator* allocator) const {
+    starfocus_engine* engine = nullptr;
+    REQUIRE(starfocus_create(&config, allocator, &engine, nullptr) == STARFOCUS_OK);
+    CHECK(reinterpret_cast<uintptr_t>(engine) % STARFOCUS_ALIGNMENT == 0);
+    return engine;
+  }
+  starfocus_prepared* Prepare(starfocus_engine* engine) const {
+    starfocus_prepared* prepared = nullptr;
+    REQUIRE(starfocus_prepare(engine, &field, nullptr, 0, &prepared) == STARFOCUS_OK);
+    CHECK(reinterpret_cast<uintptr_t>(prepared) % STARFOCUS_ALIGNMENT == 0);
+    return prepared;
+  }
+  // Checks the picture of an engine, from a prepared light field if there is one.
+  void CheckPicture(starfocus_engine* engine, const starfocus_prepared* prepared = nullptr) const {
+    test::Output out(70, 50);
+    uint8_t* const to = out.bytes.data();
+    CHECK((prepared == nullptr ? test::RefocusRgb(engine, &params, &field, to, out.stride, nullptr)
+                               : test::RefocusPreparedRgb(engine, &params, prepared, to, out.stride,
+                                                          nullptr)) == STARFOCUS_OK);
+    CHECK(out.bytes == expected.bytes);
+  }
+};
+
+TEST_CASE("create: the only allocation has the size of the workspace and is released once") {
+  const Fixture f;
+  Counter counter;
+  size_t bytes = 0;
+  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
+  // The engine copies the allocator, so the structure may become invalid after starfocus_create.
+  auto allocator = std::make_unique<starfocus_allocator>(counter.Allocator());
+  starfocus_engine* const engine = f.Create(allocator.get());
+  allocator.reset();
+  CHECK(counter.bytes == bytes);
+  for (int round = 0; round < 2; ++round) f.CheckPicture(engine);
+  CHECK(counter.Did(1, 0));
+  starfocus_destroy(engine);
+  CHECK(counter.Did(1, 1));
+}
+
+TEST_CASE("create: without an allocator, memory comes from the heap, and may outlive its engine") {
+  const Fixture f;
+  std::vector<starfocus_engine*> engines;
+  for (int k = 0; k < 5; ++k) engines.push_back(f.Create(nullptr));
+  for (starfocus_engine* engine : engines) f.CheckPicture(engine);
+  starfocus_prepared* const prepared = f.Prepare(engines[0]);
+  for (starfocus_engine* engine : engines) starfocus_destroy(engine);
+  const test::Engine other(f.config);
+  f.CheckPicture(other.get(), prepared);
+  starfocus_destroy_prepared(prepared);
+}
+
+TEST_CASE("create: after a failed or misaligned allocation and other errors, no memory leaks") {
+  const Fixture f;
+  Counter counter;
+  const starfocus_allocator allocator = counter.Allocator();
+  const starfocus_allocator halves[] = {{&counter, nullptr, Counter::Release},
+                                        {&counter, Counter::Allocate, nullptr}};
+  test::Config bad = f.config;
+  bad.views = 3;
+  const auto check = [&](const starfocus_config* config, const starfocus_allocator* from,
+                         starfocus_status status, const std::string& field) {
+    starfocus_engine* engine = reinterpret_cast<starfocus_engine*>(&counter);
+    starfocus_problem problem = {};
+    CHECK(starfocus_create(config, from, &engine, &problem) == status);
+    CHECK(problem.status == status);
+    CHECK(problem.field == field);
+    CHECK(engine == nullptr);
+  };
+  counter.empty = true;
+  check(&f.config, &allocator, STARFOCUS_ERROR_MEMORY, "allocator");
+  CHECK(counter.Did(1, 0));
+  counter.empty = false;
+  counter.offset = 8;
+  check(&f.config, &allocator, STARFOCUS_ERROR_WORKSPACE, "workspace");
+  CHECK(counter.Did(2, 1));
+  check(&bad, &allocator, STARFOCUS_ERROR_RANGE, "views");
+  check(nullptr, &allocator, STARFOCUS_ERROR_NULL, "config");
+  check(&f.config, &halves[0], STARFOCUS_ERROR_NULL, "allocator.allocate");
+  check(&f.config, &halves[1], STARFOCUS_ERROR_NULL, "allocator.release");
+  starfocus_problem problem = {};
+  CHECK(starfocus_create(&f.config, &allocator, nullptr, &problem) == STARFOCUS_ERROR_NULL);
+  CHECK(problem.field == std::string("engine"));
+  CHECK(counter.Did(2, 1));
+}
+
+TEST_CASE("prepare: without memory, the allocator of the engine provides the memory") {
+  Fixture f;
+  Counter counter;
+  const starfocus_allocator allocator = counter.Allocator();
+  starfocus_engine* const engine = f.Create(&allocator);
+  size_t bytes = 0;
+  REQUIRE(starfocus_prepared_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
+  starfocus_prepared* prepared = f.Prepare(engine);
+  CHECK(counter.bytes == bytes);
+  f.CheckPicture(engine, prepared);
+  starfocus_destroy_prepared(prepared);
+  CHECK(counter.Did(2, 1));
+
+  // After an error, the memory is released.
+  f.scene.Disparity(3, 4) = 100;
+  CHECK(starfocus_prepare(engine, &f.field, nullptr, 0, &prepared) == STARFOCUS_ERROR_DISPARITY);
+  CHECK(prepared == nullptr);
+  CHECK(counter.Did(3, 2));
+  counter.empty = true;
+  prepared = reinterpret_cast<starfocus_prepared*>(&counter);
+  CHECK(starfocus_prepare(engine, &f.field, nullptr, 0, &prepared) == STARFOCUS_ERROR_MEMORY);
+  CHECK(starfocus_engine_problem(engine)->status == STARFOCUS_ERROR_MEMORY);
+  CHECK(prepared == nullptr);
+  CHECK(counter.Did(4, 2));
+  starfocus_destroy(engine);
+  CHECK(counter.Did(4, 3));
+}
+
+TEST_CASE("prepare, destroy: memory of the caller is required for its engines, and not released") {
+  const Fixture f;
+  test::Engine engine(f.config);
+  starfocus_prepared* prepared = reinterpret_cast<starfocus_prepared*>(&engine);
+  CHECK(starfocus_prepare(engine.get(), &f.field, nullptr, 0, &prepared) == STARFOCUS_ERROR_NULL);
+  CHECK(std::string(starfocus_engine_problem(engine.get())->field) == "memory");
+  CHECK(prepared == nullptr);
+  test::PreparedMemory memory(engine);
+  prepared = memory.Prepare(engine.get(), f.field);
+  starfocus_destroy_prepared(prepared);
+  starfocus_destroy_prepared(nullptr);
+  f.CheckPicture(engine.get(), prepared);
+  starfocus_destroy(nullptr);
+  starfocus_destroy(engine.get());
+  f.CheckPicture(engine.get());
+}
+
+#if defined(__GLIBC__) && !defined(STARFOCUS_SANITIZED)
+
+TEST_CASE("heap: HeapWatch counts every kind of heap call") {
   HeapWatch watch;
   void* volatile memory = std::malloc(10);
   memory = std::realloc(memory, 1000);
@@ -390,52 +293,98 @@ TEST_CASE("HeapWatch counts every kind of heap call") {
   CHECK(watch.Stop() >= 9);
 }
 
-int wrong = 0;  // number of engine calls with an unexpected status
+// Checks that `calls` makes no heap call. `calls` returns the number of engine calls with an
+// unexpected status, because CHECK may allocate memory.
+template <class Calls>
+void CheckNoHeapCall(const Calls& calls) {
+  HeapWatch watch;
+  const int wrong = calls();
+  const int counted = watch.Stop();
+  CHECK(wrong == 0);
+  CHECK(counted == 0);
+}
 
-// Counts wrong statuses; used instead of CHECK, which may allocate memory.
-void Expect(starfocus_status expected, starfocus_status status) { wrong += status != expected; }
+// Statuses of calls; counts the unexpected ones.
+struct Statuses {
+  void Are(starfocus_status expected, std::initializer_list<starfocus_status> found) {
+    for (const starfocus_status status : found) wrong += status != expected;
+  }
+  int wrong = 0;
+};
 
-TEST_CASE("size queries, initialisation, refocusing and streaming make no heap call") {
-  for (int views : {17, 9, 5, 1}) {
-    for (starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK,
-                                STARFOCUS_MODE_BLOCK, STARFOCUS_MODE_BLUR}) {
-      CAPTURE(views);
-      const test::Scene scene = test::RandomScene(70, 50, views, -3, 3, 5);
-      test::Config config = test::ConfigFor(scene, 16);
+TEST_CASE("heap: an engine, its streams, regions, previews and observers make no heap call") {
+  for (const int views : test::kStars) {
+    for (const starfocus_mode mode : test::kModes) {
+      CAPTURES(views, mode);
+      // The left part of the scene is in focus, and the right part is strongly blurred.
+      test::Scene scene = test::RandomScene(160, 96, views, -1, 26, 8);
+      test::SetDisparity(&scene, [](int x, int) { return x < 48 ? 0.0f : x < 80 ? 6.0f : 26.0f; });
+      test::Config config = test::ConfigFor(scene, 28);
+      config.superblock = 32;
       config.features |= STARFOCUS_FEATURE_STREAMING;
-      test::Engine holder(config);  // The test uses only the memory of this engine.
+      config.tuning.gather = 0;  // without gathering, blocks use all layers
+      config.previews = 1;
+      test::Engine holder(config);  // the test uses the memory of this engine, and its stream
       REQUIRE(holder.status() == STARFOCUS_OK);
-      const starfocus::Params params = test::Params(1.25, 0.9, mode);
+      test::PreparedMemory prepared_memory(holder);
+      const starfocus_allocator allocator = {holder.workspace(),
+                                             [](void* memory, size_t, size_t) { return memory; },
+                                             [](void*, void*, size_t) {}};
+      const starfocus::Params params = test::Params(0, 1, mode);
+      starfocus::Params region = params;
+      region.region = {30, 20, 50, 50};
       const starfocus_light_field field = scene.Field();
-      test::Output out(70, 50);
-      const starfocus_callbacks callbacks =
-          test::RunBy([](void*, starfocus_job job, void* data, int32_t count) {
-            for (int32_t i = count - 1; i >= 0; --i) job(data, i, 0);
-            return 0;
-          });
-
-      HeapWatch watch;
-      size_t bytes = 0;
-      starfocus_engine* engine = nullptr;
+      test::Output out(160, 96);
+      uint8_t* const at = out.bytes.data();
+      int blocks = 0, left = 30;
+      starfocus_observer observer = test::Visitor(
+          [](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &blocks);
+      observer.clock = [](void*) -> uint64_t { return 7; };
+      starfocus_callbacks callbacks = test::ObservedBy(&observer);
+      callbacks.runner = [](void*, starfocus_job job, void* data, int32_t count) {
+        for (int32_t i = count - 1; i >= 0; --i) job(data, i, 0);
+        return 0;
+      };
+      const starfocus_callbacks cancels = test::ToldTo(
+          [](void* data, int32_t, int32_t) { return --*static_cast<int*>(data) <= 0 ? 1 : 0; },
+          &left);
       test::Report report;
-      Expect(STARFOCUS_OK, starfocus_workspace_size(&config, &bytes, nullptr));
-      Expect(STARFOCUS_OK, starfocus_init(&config, holder.workspace(), bytes, &engine, nullptr));
-      Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
-      Expect(STARFOCUS_OK,
-             test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report));
-      Expect(STARFOCUS_OK, test::Stream(&holder, params, scene, &out, 13, 7));
-      Expect(STARFOCUS_ERROR_NULL, test::RefocusRgb(engine, &params, &field, nullptr, 0, nullptr));
-      starfocus_status_string(STARFOCUS_ERROR_NULL);
-      starfocus_simd_target();
-      const int counted = watch.Stop();
-
-      CHECK(wrong == 0);
-      CHECK(counted == 0);
+      CheckNoHeapCall([&] {
+        Statuses statuses;
+        size_t bytes = 0;
+        starfocus_engine* engine = nullptr;
+        starfocus_prepared* prepared = nullptr;
+        statuses.Are(STARFOCUS_OK,
+                     {starfocus_workspace_size(&config, &bytes, nullptr),
+                      starfocus_init(&config, holder.workspace(), bytes, &engine, nullptr),
+                      starfocus_set_callbacks(engine, &callbacks),
+                      test::RefocusRgb(engine, &params, &field, at, out.stride, &report),
+                      test::RefocusRgb(engine, &region, &field, at, out.stride, nullptr),
+                      starfocus_prepare(engine, &field, prepared_memory.get(),
+                                        prepared_memory.bytes, &prepared),
+                      test::RefocusPreparedRgb(engine, &region, prepared, at, out.stride, nullptr),
+                      test::PreviewRgb(engine, &params, prepared, 1, at, out.stride, nullptr),
+                      test::Stream(&holder, params, scene, &out, 13, 7)});
+        statuses.Are(STARFOCUS_ERROR_NULL,
+                     {test::RefocusRgb(engine, &params, &field, nullptr, 0, nullptr)});
+        starfocus_status_string(STARFOCUS_ERROR_NULL);
+        starfocus_simd_target();
+        statuses.Are(STARFOCUS_OK, {starfocus_create(&config, &allocator, &engine, nullptr),
+                                    starfocus_set_callbacks(engine, &cancels)});
+        statuses.Are(STARFOCUS_ERROR_CANCELLED,
+                     {test::RefocusRgb(engine, &params, &field, at, out.stride, nullptr)});
+        starfocus_destroy(engine);
+        return statuses.wrong;
+      });
+      CHECK(left == 0);
+      CHECK(blocks > 0);
+      if (mode != STARFOCUS_MODE_BLOCK) continue;
+      for (const starfocus_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
     }
   }
 }
 
-TEST_CASE("refocusing and streaming images make no heap call") {
+TEST_CASE("heap: refocusing and streaming images make no heap call") {
   test::Random random(3);
   const test::Scene scene = test::RandomScene(70, 50, 5, -3, 3, 5);
   test::ImageKind nv12;
@@ -451,138 +400,26 @@ TEST_CASE("refocusing and streaming images make no heap call") {
   const starfocus_image out = image.Out();
   const starfocus::Params params = test::Params(1.25, 0.9, STARFOCUS_MODE_BLOCK);
   int32_t taken = 0, given = 0;
-  HeapWatch watch;
-  Expect(STARFOCUS_OK, starfocus_refocus(engine.get(), &params, &images, &out, nullptr));
-  Expect(STARFOCUS_OK, starfocus_stream_begin(engine.get(), &params));
-  Expect(STARFOCUS_OK, starfocus_stream_push(engine.get(), &images, 50, &taken));
-  Expect(STARFOCUS_OK, starfocus_stream_pull(engine.get(), &out, 50, &given, nullptr));
-  const int counted = watch.Stop();
+  CheckNoHeapCall([&] {
+    Statuses statuses;
+    statuses.Are(STARFOCUS_OK, {starfocus_refocus(engine.get(), &params, &images, &out, nullptr),
+                                starfocus_stream_begin(engine.get(), &params),
+                                starfocus_stream_push(engine.get(), &images, 50, &taken),
+                                starfocus_stream_pull(engine.get(), &out, 50, &given, nullptr)});
+    return statuses.wrong;
+  });
   CHECK(given == 50);
-  CHECK(wrong == 0);
-  CHECK(counted == 0);
 }
 
-TEST_CASE("block mode with all layers, deblocking, visitor and clock makes no heap call") {
-  // The left part of the scene is in focus, and the right part is strongly blurred.
-  test::Scene scene = test::RandomScene(160, 96, 5, -1, 26, 8);
-  for (int y = 0; y < scene.height; ++y) {
-    for (int x = 0; x < scene.width; ++x) {
-      scene.Disparity(x, y) = x < 48 ? 0.0f : x < 80 ? 6.0f : 26.0f;
-    }
-  }
-  test::Config config = test::ConfigFor(scene, 28);
-  config.superblock = 32;
-  config.features |= STARFOCUS_FEATURE_STREAMING;
-  config.tuning.gather = 0;     // Without gathering, blocks use all layers.
-  test::Engine holder(config);  // The test uses only the memory of this engine.
-  REQUIRE(holder.status() == STARFOCUS_OK);
-  const starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
-  int told = 0;
-  starfocus_observer observer =
-      test::Visitor([](void* data, const starfocus_block*) { ++*static_cast<int*>(data); }, &told);
-  observer.clock = [](void*) -> uint64_t { return 7; };
-  const starfocus_callbacks callbacks = test::ObservedBy(&observer);
-  const starfocus_light_field field = scene.Field();
-  test::Output out(scene.width, scene.height);
-
-  HeapWatch watch;
-  starfocus_engine* engine = nullptr;
-  test::Report report;
-  Expect(STARFOCUS_OK,
-         starfocus_init(&config, holder.workspace(), holder.bytes(), &engine, nullptr));
-  Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
-  Expect(STARFOCUS_OK,
-         test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, &report));
-  Expect(STARFOCUS_OK, test::Stream(&holder, params, scene, &out, 13, 7));
-  const int counted = watch.Stop();
-
-  CHECK(wrong == 0);
-  CHECK(counted == 0);
-  CHECK(told > 0);
-  for (const starfocus_layer_report& layer : report.layers) CHECK(layer.blocks > 0);
-}
-
-TEST_CASE("creating an engine with an allocator, and cancelling, make no heap call") {
-  const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
-  const test::Config config = test::ConfigFor(scene, 16);
-  test::Engine holder(config);  // The test uses only the memory of this engine.
-  const starfocus_allocator allocator = {holder.workspace(),
-                                         [](void* memory, size_t, size_t) { return memory; },
-                                         [](void*, void*, size_t) {}};
-  const starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
-  int progress_calls = 0;
-  const starfocus_callbacks callbacks =
-      test::ToldTo([](void* data, int32_t, int32_t) { return ++*static_cast<int*>(data) / 30; },
-                   &progress_calls);
-  const starfocus_light_field field = scene.Field();
-  test::Output out(160, 96);
-
-  HeapWatch watch;
-  starfocus_engine* engine = nullptr;
-  Expect(STARFOCUS_OK, starfocus_create(&config, &allocator, &engine, nullptr));
-  Expect(STARFOCUS_OK, starfocus_set_callbacks(engine, &callbacks));
-  Expect(STARFOCUS_ERROR_CANCELLED,
-         test::RefocusRgb(engine, &params, &field, out.bytes.data(), out.stride, nullptr));
-  starfocus_destroy(engine);
-  const int counted = watch.Stop();
-
-  CHECK(progress_calls == 30);
-  CHECK(wrong == 0);
-  CHECK(counted == 0);
-}
-
-TEST_CASE("preparing a light field and refocusing regions make no heap call") {
-  const test::Scene scene = test::RandomScene(160, 96, 5, -3, 5, 8);
-  const test::Config config = test::ConfigFor(scene, 16);
-  test::Engine holder(config), memory(config);
-  size_t bytes = 0;
-  REQUIRE(starfocus_prepared_size(&config, &bytes, nullptr) == STARFOCUS_OK);
-  REQUIRE(bytes <= memory.bytes());  // the memory of this engine holds the prepared light field
-  starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_BLOCK);
-  params.region = {30, 20, 50, 50};
-  const starfocus_light_field field = scene.Field();
-  test::Output out(50, 50);
-
-  HeapWatch watch;
-  starfocus_prepared* prepared = nullptr;
-  Expect(STARFOCUS_OK,
-         starfocus_prepare(holder.get(), &field, memory.workspace(), memory.bytes(), &prepared));
-  Expect(STARFOCUS_OK, test::RefocusPreparedRgb(holder.get(), &params, prepared, out.bytes.data(),
-                                                out.stride, nullptr));
-  Expect(STARFOCUS_OK,
-         test::RefocusRgb(holder.get(), &params, &field, out.bytes.data(), out.stride, nullptr));
-  const int counted = watch.Stop();
-
-  CHECK(wrong == 0);
-  CHECK(counted == 0);
-}
-
-TEST_CASE("measuring, filling and focusing with disparity maps make no heap call") {
-  test::Scene scene = test::RandomScene(40, 30, 1, -3, 3, 6);
+TEST_CASE("heap: maps, focus at a pixel, and coverage from mattes make no heap call") {
+  test::Scene scene = test::RandomScene(40, 30, 1, -30, 30, 6);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (int x = 0; x < 40; ++x) scene.Disparity(x, 11) = nan;
   scene.Disparity(4, 4) = nan;
   const starfocus_depth_map depth = starfocus_depth_float(scene.disparity.data(), 160, 40, 30);
-  HeapWatch watch;
-  starfocus_disparity_stats stats;
-  const starfocus_status measured = starfocus_measure_disparity(&depth, &stats, nullptr);
-  const starfocus_status filled =
-      starfocus_fill_disparity(scene.disparity.data(), 160, 40, 30, nullptr);
-  double focus = 0;
-  const starfocus_status tapped = starfocus_focus_at(&depth, 40, 30, 4, 4, &focus, nullptr);
-  CHECK(watch.Stop() == 0);
-  CHECK(tapped == STARFOCUS_OK);
-  CHECK(measured == STARFOCUS_OK);
-  CHECK(filled == STARFOCUS_OK);
-  CHECK(stats.invalid == 41);
-}
-
-TEST_CASE("maps and coverage from mattes make no heap call") {
-  const test::Scene scene = test::RandomScene(40, 30, 1, -30, 30, 6);
   const std::vector<uint8_t> alpha(90 * 20, 200);
   const starfocus_matte matte = {alpha.data(), 90, 1, 90, 20};
   const starfocus_matte_depth surfaces = {20, 0, 0.4, 0.9};
-  const starfocus_depth_map depth = starfocus_depth_float(scene.disparity.data(), 160, 40, 30);
   std::vector<float> disparity(40 * 30);
   std::vector<uint8_t> coverage(40 * 30);
   starfocus_disparity_output out = {};
@@ -590,25 +427,30 @@ TEST_CASE("maps and coverage from mattes make no heap call") {
   out.disparity_stride = 160;
   out.coverage = coverage.data();
   out.coverage_stride = 40;
-  HeapWatch watch;
-  starfocus_matte_stats stats;
-  const starfocus_status measured = starfocus_measure_matte(&matte, &stats, nullptr);
-  const starfocus_status field =
-      starfocus_matte_field(&matte, &surfaces, 40, 30, nullptr, &out, nullptr);
-  const starfocus_status covered =
-      starfocus_matte_coverage(&matte, &depth, 40, 30, nullptr, &out, nullptr);
-  CHECK(watch.Stop() == 0);
-  CHECK(measured == STARFOCUS_OK);
-  CHECK(field == STARFOCUS_OK);
-  CHECK(covered == STARFOCUS_OK);
+  starfocus_disparity_stats stats;
+  CheckNoHeapCall([&] {
+    Statuses statuses;
+    starfocus_matte_stats matte_stats;
+    double focus = 0;
+    statuses.Are(STARFOCUS_OK,
+                 {starfocus_measure_disparity(&depth, &stats, nullptr),
+                  starfocus_fill_disparity(scene.disparity.data(), 160, 40, 30, nullptr),
+                  starfocus_focus_at(&depth, 40, 30, 4, 4, &focus, nullptr),
+                  starfocus_measure_matte(&matte, &matte_stats, nullptr),
+                  starfocus_matte_field(&matte, &surfaces, 40, 30, nullptr, &out, nullptr),
+                  starfocus_matte_coverage(&matte, &depth, 40, 30, nullptr, &out, nullptr)});
+    return statuses.wrong;
+  });
+  CHECK(stats.invalid == 41);
 }
-
-}  // namespace
 
 #else
 
-TEST_CASE("heap calls cannot be counted in this build") {
+TEST_CASE("heap: calls cannot be counted in this build") {
   MESSAGE("SKIPPED: malloc cannot be interposed here (not glibc, or a sanitizer)");
 }
 
 #endif
+
+}  // namespace
+}  // namespace memory_test

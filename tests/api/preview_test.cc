@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests previews. A preview must equal the picture refocused from a reduced light field, byte for
-// byte. A preview must be close to the refocused full picture, reduced to the size of the preview.
-// Functions for previews must reject bad input.
+// byte. refusals_bytes_test.cc tests bad input.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -100,66 +99,32 @@ starfocus_region ReducedRegion(const starfocus_region& region, int shift) {
 }
 
 // An engine, and a light field that the engine has prepared.
-class Prepared {
- public:
-  Prepared(const test::Scene& scene, const test::Config& config, starfocus_runner runner = nullptr)
-      : engine(config), memory(engine), scene_(scene) {
-    const starfocus_callbacks callbacks = test::RunBy(runner);
-    REQUIRE(starfocus_set_callbacks(engine.get(), &callbacks) == STARFOCUS_OK);
-    field_ = memory.Prepare(engine.get(), scene.Field());
-  }
+struct Prepared {
+  Prepared(const test::Scene& scene, const test::Config& config)
+      : engine(config), memory(engine), field(memory.Prepare(engine.get(), scene.Field())) {}
 
-  starfocus_status Preview(const starfocus::Params& params, int shift, test::Output* out,
-                           const starfocus_callbacks& callbacks = {},
-                           starfocus_report* report = nullptr) {
-    const starfocus_status status = starfocus_set_callbacks(engine.get(), &callbacks);
-    if (status != STARFOCUS_OK) return status;
-    return test::PreviewRgb(engine.get(), &params, field_, shift, out->bytes.data(), out->stride,
-                            report);
-  }
   // Returns the preview of the whole picture or of params.region.
   test::Output Preview(const starfocus::Params& params, int shift,
-                       const starfocus_callbacks& callbacks = {},
                        starfocus_report* report = nullptr) {
     const starfocus_region region = ReducedRegion(params.region, shift);
     const bool whole = region.width == 0;
-    test::Output out(whole ? Ceil(scene_.width, shift) : region.width,
-                     whole ? Ceil(scene_.height, shift) : region.height, 3);
-    REQUIRE(Preview(params, shift, &out, callbacks, report) == STARFOCUS_OK);
+    test::Output out(whole ? Ceil(engine.config().width, shift) : region.width,
+                     whole ? Ceil(engine.config().height, shift) : region.height, 3);
+    REQUIRE(test::PreviewRgb(engine.get(), &params, field, shift, out.bytes.data(), out.stride,
+                             report) == STARFOCUS_OK);
     return out;
   }
-  const starfocus_prepared* field() const { return field_; }
 
   test::Engine engine;
   test::PreparedMemory memory;
-
- private:
-  const test::Scene& scene_;
-  starfocus_prepared* field_ = nullptr;
+  const starfocus_prepared* field;
 };
-
-// Returns the PSNR in dB between a preview and the full picture, reduced to the size of the
-// preview.
-double Psnr(const test::Output& got, const test::Output& full, int shift, int32_t transfer) {
-  double sum = 0;
-  for (int y = 0; y < got.height; ++y) {
-    for (int x = 0; x < got.width; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        const double error =
-            double(got.Pixel(x, y)[c]) - MeanSample(full.bytes.data(), full.stride, full.width,
-                                                    full.height, x, y, c, shift, transfer);
-        sum += error * error;
-      }
-    }
-  }
-  return 10 * std::log10(255.0 * 255 * 3 * got.width * got.height / sum);
-}
 
 // Returns true if a preview has the same bytes as the refocused light field `reduced`.
 bool IsOfReduced(Prepared* prepared, starfocus::Params params, int shift,
                  const test::Config& config, const test::Scene& reduced) {
   starfocus_report report = starfocus::NewReport();
-  const test::Output got = prepared->Preview(params, shift, test::RunBy(test::RunOnTwo), &report);
+  const test::Output got = prepared->Preview(params, shift, &report);
   test::Engine small(ReducedConfig(config, shift, report.superblock));
   params.focus /= 1 << shift;
   params.focus_nearer /= 1 << shift;
@@ -172,12 +137,20 @@ bool IsOfReduced(Prepared* prepared, starfocus::Params params, int shift,
 
 TEST_CASE("preview: a preview equals the picture of a light field that is reduced as documented") {
   test::Random random(231);
-  constexpr int kSizes[][2] = {{1, 1},    {1, 70},   {90, 1},    {31, 33},   {65, 63},
-                               {100, 37}, {67, 190}, {129, 128}, {150, 141}, {203, 90}};
+  constexpr int kSizes[][2] = {{1, 1},     {1, 70},    {90, 1},   {31, 33},
+                               {65, 63},   {100, 37},  {67, 190}, {129, 128},
+                               {150, 141}, {330, 270}, {203, 90}, {330, 200}};
+  constexpr float kOffsets[] = {0, 16, 0, -12, 4.5F};
   int round = 0;
   for (const auto& size : kSizes) {
-    const test::Scene scene =
+    test::Scene scene =
         test::LayeredScene(size[0], size[1], test::kStars[round % 4], 7, uint64_t(round) + 90);
+    // If the disparity range does not contain 0, the range of the preview is partly or wholly
+    // outside the full picture's range.
+    const float offset = kOffsets[round % 5];
+    scene.disparity_min += offset;
+    scene.disparity_max += offset;
+    for (float& disparity : scene.disparity) disparity += offset;
     test::Config config = test::ConfigFor(scene, 20);
     config.superblock = 32 << random.Int(0, 2);
     config.tuning.max_layer = round % 4 == 0 ? random.Int(0, 1) : 2;
@@ -189,13 +162,15 @@ TEST_CASE("preview: a preview equals the picture of a light field that is reduce
     config.previews = 3;
     CAPTURE(round);
     ++round;
-    Prepared prepared(scene, config, test::RunOnTwo);
+    Prepared prepared(scene, config);
+    const starfocus_callbacks callbacks = test::RunBy(test::RunOnTwo);
+    REQUIRE(starfocus_set_callbacks(prepared.engine.get(), &callbacks) == STARFOCUS_OK);
     for (int shift = 1; shift <= 3; ++shift) {
       CAPTURE(shift);
       const test::Scene reduced = Reduced(scene, shift, config.transfer);
       for (int lens = 0; lens < test::Rounds(4); ++lens) {
         starfocus::Params params =
-            test::Params(random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
+            test::Params(offset + random.Real(-12, 12), random.Real(0.3, 1), STARFOCUS_MODE_BLOCK);
         params.study.renderer = random.Int(0, 2);
         if (test::Has(config.features, STARFOCUS_FEATURE_SHAPES)) params.cats_eye = 0.5;
         if (lens == 2)
@@ -215,32 +190,6 @@ TEST_CASE("preview: a preview equals the picture of a light field that is reduce
   }
 }
 
-// If the disparity range does not contain 0, the range of the preview is partly or wholly outside
-// the full picture's range.
-TEST_CASE("preview: a streaming engine accepts scenes whose disparities all have one sign") {
-  for (const float offset : {16.0F, -12.0F, 4.5F}) {
-    CAPTURE(offset);
-    test::Scene scene = test::LayeredScene(330, 270, 5, 4, 17);
-    scene.disparity_min += offset;
-    scene.disparity_max += offset;
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) scene.Disparity(x, y) += offset;
-    }
-    test::Config config = test::ConfigFor(scene, 8);
-    config.superblock = 32;
-    config.features |= STARFOCUS_FEATURE_STREAMING;
-    config.max_workers = 2;
-    config.previews = 3;
-    Prepared prepared(scene, config, test::RunOnTwo);
-    for (int shift = 1; shift <= 3; ++shift) {
-      CAPTURE(shift);
-      const test::Scene reduced = Reduced(scene, shift, config.transfer);
-      const starfocus::Params params = test::Params(offset + 1, 1, STARFOCUS_MODE_BLOCK);
-      CHECK(IsOfReduced(&prepared, params, shift, config, reduced));
-    }
-  }
-}
-
 TEST_CASE("preview: previews neither change the engine nor need a larger workspace") {
   const test::Scene scene = test::LayeredScene(170, 130, 5, 7, 3);
   test::Config config = test::ConfigFor(scene, 20);
@@ -255,12 +204,10 @@ TEST_CASE("preview: previews neither change the engine nor need a larger workspa
   test::Output streamed(170, 130);
   const test::Output before = test::OutputOf(&prepared.engine, params, scene);
   const test::Output first = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
-  const test::Output after = test::OutputOf(&prepared.engine, params, scene);
-  CHECK(after.bytes == before.bytes);
+  CHECK(test::OutputOf(&prepared.engine, params, scene).bytes == before.bytes);
   // A preview ends a stream, which the caller must then begin again.
   REQUIRE(starfocus_stream_begin(prepared.engine.get(), &params) == STARFOCUS_OK);
-  const test::Output again = prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2);
-  CHECK(again.bytes == first.bytes);
+  CHECK(prepared.Preview(test::Params(5, 1, STARFOCUS_MODE_BLOCK), 2).bytes == first.bytes);
   int32_t written = 0;
   CHECK(test::PullRgb(prepared.engine.get(), streamed.bytes.data(), streamed.stride, 1, &written,
                       nullptr) == STARFOCUS_ERROR_STATE);
@@ -279,66 +226,21 @@ TEST_CASE("preview: the memory has the documented size") {
   }
 }
 
-// Returns a wall and a nearer disc, both with waves. All views show one consistent scene.
-test::Scene SmoothScene(int width, int height) {
-  test::Scene scene = test::EmptyScene(width, height, 5, -12, 12);
-  for (int view = 0; view < 5; ++view) {
-    double u = 0, v = 0;
-    starfocus_view_position(view, &u, &v, nullptr);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const double nx = x + 9 * u - 0.5 * width, ny = y + 9 * v - 0.5 * height;
-        const bool nearer = nx * nx + ny * ny < 0.06 * width * width;
-        const double d = nearer ? 9 : -9, px = x + u * d, py = y + v * d;
-        for (int c = 0; c < 3; ++c) {
-          const double wave = std::sin(px / (9 + c)) + std::cos(py / 11 + px / 40);
-          scene.Pixel(view, x, y)[c] = uint8_t((nearer ? 150 : 90) + 35 * wave);
-        }
-        if (view == 0) scene.Disparity(x, y) = float(d);
-      }
-    }
-  }
-  return scene;
-}
-
-TEST_CASE("preview: the preview is close to the full picture, reduced to the size of the preview") {
-  const test::Scene scene = SmoothScene(512, 384);
-  test::Config config = test::ConfigFor(scene, 24);
-  config.previews = 3;
-  Prepared prepared(scene, config);
-  // The PSNR of the smallest preview is low, since waves of 9 pixels hardly survive at 1/8 of the
-  // size.
-  constexpr double kLeast[] = {0, 53.5, 51.5, 43};
-  for (const double focus : {9.0, 0.0, -9.0}) {
-    const starfocus::Params params = test::Params(focus, 1, STARFOCUS_MODE_BLOCK);
-    const test::Output full = test::OutputOf(&prepared.engine, params, scene);
-    for (int shift = 1; shift <= 3; ++shift) {
-      CAPTURES(focus, shift);
-      CHECK(Psnr(prepared.Preview(params, shift), full, shift, config.transfer) >= kLeast[shift]);
-    }
-  }
-}
-
-TEST_CASE("preview: the light field must be prepared for previews by an engine of the same size") {
+TEST_CASE("preview: the light field must be prepared for previews, the engine need not be") {
   const test::Scene scene = test::LayeredScene(50, 40, 5, 3, 12);
   test::Config config = test::ConfigFor(scene, 8);
-  Prepared none(scene, config);
+  Prepared without(scene, config);
   config.previews = 2;
-  Prepared prepared(scene, config);
-  config.width = 49;
-  test::Engine another(config);
+  Prepared with(scene, config);
   const starfocus::Params params = test::Params(1);
   test::Output out(25, 20);
-  CHECK(none.Preview(params, 1, &out) == STARFOCUS_ERROR_PREPARED);
-  const auto run = [&](const test::Engine& engine) {
-    return test::PreviewRgb(engine.get(), &params, prepared.field(), 1, out.bytes.data(),
+  const auto run = [&](const Prepared& engine, const Prepared& field) {
+    return test::PreviewRgb(engine.engine.get(), &params, field.field, 1, out.bytes.data(),
                             out.stride, nullptr);
   };
-  CHECK(run(another) == STARFOCUS_ERROR_PREPARED);
+  CHECK(run(with, without) == STARFOCUS_ERROR_PREPARED);
   CHECK(out.Untouched());
-  // The light field must be prepared for previews, but the engine may be configured without
-  // previews.
-  CHECK(run(none.engine) == STARFOCUS_OK);
+  CHECK(run(without, with) == STARFOCUS_OK);
 }
 
 }  // namespace

@@ -12,156 +12,17 @@
 #include <utility>
 #include <vector>
 
-#include "starfocus/depth.h"
 #include "starfocus/starfocus.hpp"
+#include "tests/api/calls.h"
 #include "tests/api/field_values.h"
-#include "tests/support/config.h"
-#include "tests/support/image_field.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
 #include "tests/support/stream_steps.h"
 
 namespace refusals_bytes_test {
 namespace {
 
+using namespace calls;
 using namespace field_values;
-
-constexpr int kHeight = 12;
-
-// Bits for the public functions under test, and sets of these functions.
-enum : unsigned {
-  kRefocus = 1,
-  kAfter = 2,  // starfocus_refocus with params.previous
-  kPrepared = 4,
-  kPreview = 8,  // starfocus_refocus_prepared with params.preview_shift
-  kBegin = 16,
-  kPrepare = 32,
-  kPush = 64,
-  kPull = 128,
-  kAll = 255,
-  kTakesParams = kRefocus | kAfter | kPrepared | kPreview | kBegin,
-  kTakesField = kRefocus | kAfter | kPrepare | kPush,
-  kTakesOut = kRefocus | kAfter | kPrepared | kPreview | kPull,
-};
-
-// A light field, either of R, G, B or of images in three formats, and the engines and memory that
-// the calls use.
-struct Fixture {
-  explicit Fixture(bool with_images) : images(with_images) {}
-
-  test::ImageField MakeImages() const {
-    test::Random random(61);
-    test::ImageKind kinds[3];
-    kinds[1].format = STARFOCUS_FORMAT_NV12;
-    kinds[2].format = STARFOCUS_FORMAT_I420;
-    return test::MakeImageField(
-        scene, {kinds, kinds + 3},
-        test::MakeDepth(scene, 10, 9, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_RECIPROCAL, 0), &random);
-  }
-  test::Config MakeConfig(uint32_t features) const {
-    test::Config made = images ? test::ImageConfig(image) : test::ConfigFor(scene, 8);
-    made.features = (made.features & ~STARFOCUS_FEATURE_IMAGES) | features;
-    made.previews = 2;
-    return made;
-  }
-
-  const bool images;
-  const int width = images ? 21 : 20;
-  test::Scene scene = images ? test::LayeredScene(width, kHeight, 5, 7, 3)
-                             : test::RandomScene(width, kHeight, 17, -2, 2, 1);
-  test::ImageField image = MakeImages();
-  starfocus_light_field field = images ? image.Field() : scene.Field();
-  test::Config config = MakeConfig(STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES);
-  test::Engine engine{config}, plain{MakeConfig(STARFOCUS_FEATURE_STREAMING)};
-  test::PreparedMemory memory{engine}, free{engine};
-  starfocus_prepared* prepared = memory.Prepare(engine.get(), field);
-  test::ImageMemory blank{width, kHeight, image.views[images ? 2 : 0].kind()};
-};
-
-// A call of one of the functions; the constructor makes all arguments legal.
-struct Call {
-  Call(Fixture* of, unsigned to) : f(*of), function(to) {
-    Poison(&report);
-    if (function == kAfter) params.previous = &before;
-    if (function == kPreview) params.preview_shift = 1;
-    for (test::Engine* one : {&f.engine, &f.plain}) {
-      if (function != kPush && function != kPull) continue;
-      REQUIRE(starfocus_stream_begin(one->get(), &params) == STARFOCUS_OK);
-      if (function != kPull || (f.images && one == &f.plain)) continue;
-      REQUIRE(starfocus_stream_push(one->get(), &field, kHeight, &count) == STARFOCUS_OK);
-    }
-    count = -1;
-  }
-  starfocus_status Run() {
-    switch (function) {
-      case kRefocus:
-      case kAfter:
-        return starfocus_refocus(engine, params_at, field_at, out_at, &report);
-      case kPrepared:
-      case kPreview:
-        return starfocus_refocus_prepared(engine, params_at, prepared, out_at, &report);
-      case kBegin:
-        return starfocus_stream_begin(engine, params_at);
-      case kPrepare:
-        return starfocus_prepare(engine, field_at, memory, bytes, made_at);
-      case kPush:
-        return starfocus_stream_push(engine, field_at, rows, count_at);
-      default:
-        return starfocus_stream_pull(engine, out_at, rows, count_at, &report);
-    }
-  }
-  static void Poison(starfocus_report* report) {
-    std::memset(report, test::kPoison, sizeof *report);
-    report->size = sizeof *report;
-    report->layers = nullptr;
-  }
-  // Returns the field with a path as errors name it, with indices: "out.strides[0]", "aperture".
-  Field At(std::string path) {
-    const auto begins = [&](const std::string& root) {
-      return path.compare(0, root.size(), root) == 0;
-    };
-    const auto in = [&](const std::string& root, const char* structure, void* at) {
-      return FieldAt(structure, at, begins(root) ? path.substr(root.size()) : path);
-    };
-    if (begins("out.")) return in("out.", "starfocus_image", &out);
-    if (begins("report.")) return in("report.", "starfocus_report", &report);
-    if (begins("previous.")) return in("previous.", "starfocus_previous", &before);
-    if (begins("light_field.") || begins("views") || begins("depth")) {
-      return in("light_field.", "starfocus_light_field", &field);
-    }
-    return in("params.", "starfocus_params", static_cast<starfocus_params*>(&params));
-  }
-  // Returns true if no output was written.
-  bool Untouched() const {
-    starfocus_report poison;
-    Poison(&poison);
-    poison.size = report.size;  // tests may spoil the size
-    return picture == f.blank && std::memcmp(&report, &poison, sizeof report) == 0;
-  }
-
-  Fixture& f;
-  unsigned function;
-  starfocus_engine* engine = f.engine.get();
-  starfocus::Params params = test::Params(0.5);
-  starfocus_light_field field = f.field;
-  test::ImageMemory picture = f.blank, picture_before = f.blank;
-  starfocus_image out = picture.Out();
-  starfocus_light_field field_before = field;
-  starfocus_image out_before = picture_before.Out();
-  starfocus_previous before = {sizeof before, &field_before, &out_before};
-  starfocus_report report;
-  uint8_t* memory = f.free.get();
-  size_t bytes = f.free.bytes;
-  starfocus_prepared* made = f.prepared;
-  int32_t rows = kHeight, count = -1;
-
-  const starfocus_params* params_at = &params;
-  const starfocus_light_field* field_at = &field;
-  const starfocus_image* out_at = &out;
-  const starfocus_prepared* prepared = f.prepared;
-  starfocus_prepared** made_at = &made;
-  int32_t* count_at = &count;
-};
 
 // Returns the name by which errors call the field with a path: "views[].planes" of
 // "views[1].planes[0]".
@@ -212,7 +73,7 @@ constexpr unsigned kViews = kRefocus | kPrepare | kPush, kOuts = kRefocus | kPre
 // Numeric fields, their smallest and their largest legal values.
 struct Range {
   unsigned functions;
-  const char* path;
+  std::string path;
   double low, high;
 };
 
@@ -230,6 +91,11 @@ const Range kLensRanges[] = {
     {kTakesParams, "curvature", 0, 1},
     {kTakesParams, "ring_inner", 0, STARFOCUS_MAX_RING_INNER},
     {kTakesParams, "cats_eye", 0, 1},
+    // A region of one pixel at (3, 4); streams have no region.
+    {kTakesParams & ~kBegin, "region.x", 0, 19},
+    {kTakesParams & ~kBegin, "region.y", 0, kHeight - 1},
+    {kTakesParams & ~kBegin, "region.width", 1, 20 - 3},
+    {kTakesParams & ~kBegin, "region.height", 1, kHeight - 4},
 };
 
 const Range kImageRanges[] = {
@@ -246,76 +112,66 @@ const Range kImageRanges[] = {
     {kViews, "depth.height", 1, kHeight},
 };
 
-// Values of a field that the functions reject, or accept if the status is kOk.
+// Values of one or more fields that the functions reject, or accept if the status is kOk.
 struct Values {
   unsigned functions;
   starfocus_status status;
-  const char* path;
+  std::vector<std::string> paths;
   std::vector<double> values;
 };
 
 constexpr double kQuarter = double(std::numeric_limits<size_t>::max() / 4);
 
 const Values kPictureValues[] = {
-    {kTakesParams, kStructure, "params.size", {0, -1}},
-    {kTakesField, kStructure, "light_field.size", {0}},
-    {kTakesOut, kStructure, "report.size", {0}},
-    {kAfter, kStructure, "previous.size", {0}},
-    {kAfter, kStructure, "previous.light_field.size", {0}},
+    {kTakesParams, kStructure, {"params.size"}, {0, -1}},
+    {kTakesField, kStructure, {"light_field.size"}, {0}},
+    {kTakesOut, kStructure, {"report.size"}, {0}},
+    {kAfter, kStructure, {"previous.size", "previous.light_field.size"}, {0}},
 
-    {kTakesField, kNull, "views[0].planes[0]", {0}},
-    {kTakesField, kNull, "views[16].planes[0]", {0}},
-    {kTakesField, kNull, "depth.data", {0}},
-    {kTakesOut, kNull, "out.planes[0]", {0}},
-    {kAfter, kNull, "previous.light_field", {0}},
-    {kAfter, kNull, "previous.out", {0}},
-    {kAfter, kNull, "previous.out.planes[0]", {0}},
-    {kAfter, kNull, "previous.light_field.views[4].planes[0]", {0}},
+    {kTakesField, kNull, {"views[0].planes[0]", "views[16].planes[0]", "depth.data"}, {0}},
+    {kTakesOut, kNull, {"out.planes[0]"}, {0}},
+    {kAfter, kNull, {"previous.light_field", "previous.out", "previous.out.planes[0]"}, {0}},
+    {kAfter, kNull, {"previous.light_field.views[4].planes[0]"}, {0}},
 
-    {kTakesField, kStride, "views[0].strides[0]", {0}},
-    {kTakesField, kStride, "views[16].strides[0]", {59}},
-    {kTakesField, kStride, "views[3].strides[0]", {-1}},
-    {kTakesField, kStride, "depth.stride", {0, 76, 82, -4}},
-    {kTakesOut, kStride, "out.strides[0]", {0, 1, -1, kQuarter}},
-    {kTakesOut & ~kPreview, kStride, "out.strides[0]", {59}},
-    {kPreview, kStride, "out.strides[0]", {29}},
-    {kAfter, kStride, "previous.out.strides[0]", {59}},
-    {kAfter, kStride, "previous.light_field.depth.stride", {4}},
+    {kTakesField, kStride, {"views[0].strides[0]", "views[16].strides[0]"}, {0, 59, -1}},
+    {kTakesField, kStride, {"depth.stride"}, {0, 76, 82, -4}},
+    {kTakesOut, kStride, {"out.strides[0]"}, {0, 1, -1, kQuarter}},
+    {kTakesOut & ~kPreview, kStride, {"out.strides[0]"}, {59}},
+    {kPreview, kStride, {"out.strides[0]"}, {29}},
+    {kAfter, kStride, {"previous.out.strides[0]"}, {59}},
+    {kAfter, kStride, {"previous.light_field.depth.stride"}, {4}},
 
-    {kAfter, kFeature, "out.format", {STARFOCUS_FORMAT_BGR}},
-    {kAfter, kRange, "previous.out.format", {99}},
-    {kAfter, kFeature, "previous.out.format", {STARFOCUS_FORMAT_BGR}},
-    {kAfter, kRange, "previous.out.pixel_stride", {2}},
-    {kAfter, kFeature, "previous.light_field.views[2].format", {STARFOCUS_FORMAT_BGR}},
-    {kInPlace | kBegin, kRange, "preview_shift", {1}},
-    {kPreview, kOther, "preview_shift", {-1, 3, 32}},
-    {kTakesParams, kFeature, "shape", {STARFOCUS_SHAPE_POLYGON}},
-    {kTakesParams, kFeature, "cats_eye", {1e-9}},
+    {kAfter, kFeature, {"out.format", "previous.out.format"}, {STARFOCUS_FORMAT_BGR}},
+    {kAfter, kFeature, {"previous.light_field.views[2].format"}, {STARFOCUS_FORMAT_BGR}},
+    {kAfter, kRange, {"previous.out.format"}, {99}},
+    {kAfter, kRange, {"previous.out.pixel_stride"}, {2}},
+    {kInPlace | kBegin, kRange, {"preview_shift"}, {1}},
+    {kPreview, kOther, {"preview_shift"}, {-1, 3, 32}},
+    {kTakesParams, kFeature, {"shape"}, {STARFOCUS_SHAPE_POLYGON}},
+    {kTakesParams, kFeature, {"cats_eye"}, {1e-9}},
 };
 
 const Values kImageValues[] = {
-    {kViews, kNull, "views[1].planes[0]", {0}},
-    {kViews, kNull, "views[1].planes[1]", {0}},
-    {kViews, kOk, "views[1].planes[2]", {0}},  // NV12 has two planes
-    {kViews, kNull, "depth.data", {0}},
-    {kOuts, kNull, "out.planes[2]", {0}},
-    {kViews, kStride, "views[1].strides[0]", {20}},
-    {kViews, kStride, "views[1].strides[1]", {21}},
-    {kViews, kStride, "depth.stride", {18, 21}},
-    {kOuts, kStride, "out.strides[2]", {10}},
-    {kOuts, kStride, "out.strides[0]", {kQuarter}},
-    {kViews, kRange, "views[0].pixel_stride", {2, -3, 257}},
-    {kViews, kRange, "views[1].pixel_stride", {1}},
-    {kViews, kOk, "views[1].pixel_stride", {2}},
-    {kOuts, kRange, "out.pixel_stride", {2}},
-    {kViews, kRange, "depth.scale", {0, kNan}},
-    {kViews, kRange, "depth.offset", {kNan}},
+    {kViews, kNull, {"views[1].planes[0]", "views[1].planes[1]", "depth.data"}, {0}},
+    {kViews, kOk, {"views[1].planes[2]"}, {0}},  // NV12 has two planes
+    {kOuts, kNull, {"out.planes[2]"}, {0}},
+    {kViews, kStride, {"views[1].strides[0]"}, {20}},
+    {kViews, kStride, {"views[1].strides[1]"}, {21}},
+    {kViews, kStride, {"depth.stride"}, {18, 21}},
+    {kOuts, kStride, {"out.strides[2]"}, {10}},
+    {kOuts, kStride, {"out.strides[0]"}, {kQuarter}},
+    {kViews, kRange, {"views[0].pixel_stride"}, {2, -3, 257}},
+    {kViews, kRange, {"views[1].pixel_stride"}, {1}},
+    {kViews, kOk, {"views[1].pixel_stride"}, {2}},
+    {kOuts, kRange, {"out.pixel_stride"}, {2}},
+    {kViews, kRange, {"depth.scale"}, {0, kNan}},
+    {kViews, kRange, {"depth.offset"}, {kNan}},
 };
 
 // Other changes that make a call illegal.
 struct Change {
   unsigned functions;
-  const char* path;
+  std::string path;
   starfocus_status status;
   void (*spoil)(Call*);
 };
@@ -400,6 +256,7 @@ const Change kPictureChanges[] = {
      }},
 
     // Output pictures must be exactly as large as the region.
+    {kTakesParams & ~kBegin, "region.width", kRange, [](Call* c) { c->params.region.x = 1; }},
     {kRefocus | kPrepared, "out.strides", kStride, [](Call* c) { SetRegion(c, 14); }},
     {kRefocus | kPrepared, "", kOk, [](Call* c) { SetRegion(c, 15); }},
     {kRefocus | kPrepared, "out", kOverlap,
@@ -438,31 +295,15 @@ const Change kImageChanges[] = {
      }},
 };
 
-constexpr int kMost = std::numeric_limits<int32_t>::max(), kLeast = -kMost - 1;
-const std::pair<const char*, starfocus_region> kBadRegions[] = {
-    {"region.height", {0, 0, 1, 0}},
-    {"region.width", {0, 0, 0, 1}},
-    {"region.width", {1, 0, 0, 0}},
-    {"region.x", {-1, 0, 4, 4}},
-    {"region.y", {0, -1, 4, 4}},
-    {"region.width", {0, 0, -1, 4}},
-    {"region.height", {0, 0, 4, -1}},
-    {"region.width", {0, 0, 21, 12}},
-    {"region.height", {0, 0, 20, 13}},
-    {"region.x", {20, 0, 1, 1}},
-    {"region.y", {0, 12, 1, 1}},
-    {"region.width", {19, 0, 2, 1}},
-    {"region.x", {kMost, 0, 1, 1}},
-    {"region.width", {1, 1, kMost, kMost}},
-    {"region.x", {kLeast, kLeast, kMost, kMost}},
-};
-
 template <class Ranges>
 void CheckRanges(Fixture* f, const Ranges& ranges) {
   for (const Range& row : ranges) {
     for (const double value : Outside(Call(f, kRefocus).At(row.path).type, row.low, row.high)) {
       CAPTURE(value);
-      const auto spoil = [&](Call* c) { c->At(row.path).Set(value); };
+      const auto spoil = [&](Call* c) {
+        if (row.path.find("region") == 0) c->params.region = {3, 4, 1, 1};
+        c->At(row.path).Set(value);
+      };
       Check(f, row.functions, spoil, kRange, row.path);
       CheckRange(starfocus_engine_problem(f->engine.get()), NameOf(row.path), value, row.low,
                  row.high);
@@ -473,10 +314,12 @@ void CheckRanges(Fixture* f, const Ranges& ranges) {
 template <class Rows>
 void CheckValues(Fixture* f, const Rows& rows) {
   for (const Values& row : rows) {
-    for (const double value : row.values) {
-      CAPTURE(value);
-      const auto spoil = [&](Call* c) { c->At(row.path).Set(value); };
-      Check(f, row.functions, spoil, row.status, row.path);
+    for (const std::string& path : row.paths) {
+      for (const double value : row.values) {
+        CAPTURE(value);
+        const auto spoil = [&](Call* c) { c->At(path).Set(value); };
+        Check(f, row.functions, spoil, row.status, path);
+      }
     }
   }
 }
@@ -487,11 +330,6 @@ TEST_CASE("calls: illegal pictures, light fields, lenses and memory are rejected
   CheckValues(&pictures, kPictureValues);
   for (const Change& row : kPictureChanges) {
     Check(&pictures, row.functions, row.spoil, row.status, row.path);
-  }
-  for (const auto& row : kBadRegions) {
-    const auto spoil = [&](Call* c) { c->params.region = row.second; };
-    Check(&pictures, kTakesParams & ~kBegin, spoil, kRange, row.first);
-    Check(&pictures, kBegin, spoil, kRange, "region");  // a stream has no region
   }
   const auto whole = [](Call* c) { c->params.region = {0, 0, 20, kHeight}; };
   Check(&pictures, kBegin, whole, kRange, "region");
@@ -534,6 +372,7 @@ TEST_CASE("calls: the limits of the ranges of a lens are legal, and the report h
   config.features |= STARFOCUS_FEATURE_SHAPES | STARFOCUS_FEATURE_STREAMING;
   test::Engine engine(config);
   for (const Range& row : kLensRanges) {
+    if (row.path.find("region") == 0) continue;
     for (const double limit : {row.low, row.high}) {
       CAPTURES(row.path, limit);
       starfocus::Params params = test::Params(0.5, 0);

@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
-# Usage: cmake -DNM=… -DSTATIC=… -P symbols_test.cmake
-# Checks the external symbols of lib/ and simd/. Allowed symbols are memory copies, a few functions of <math.h>, helpers
-# of the compiler, and Highway's choice of target. Symbols of libstdc++ (exceptions, RTTI, streams, operator new) and of
-# I/O are forbidden. Only starfocus_create, in a separate translation unit, may use the heap, if the caller passes no
-# allocator.
+# Usage: cmake -DNM=… -DSTATIC=… -DSHARED=… -DSOURCE=… -DBUILD=… -DPROGRAMS=ON|OFF -P symbols_test.cmake
+# Checks the symbols that the library needs, exports, and adds to programs.
 cmake_minimum_required(VERSION 3.20)
-execute_process(COMMAND "${NM}" -P "${STATIC}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
-if(NOT result EQUAL 0)
-  message(FATAL_ERROR "nm failed on ${STATIC}")
-endif()
 
+# Sets `lines` to the symbols of a file that nm prints with the given options.
+function(list_symbols file)
+  execute_process(COMMAND "${NM}" ${ARGN} "${file}" OUTPUT_VARIABLE listing RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "nm failed on ${file}")
+  endif()
+  string(REPLACE "\n" ";" listing "${listing}")
+  set(lines "${listing}" PARENT_SCOPE)
+endfunction()
+
+# The external symbols that lib/ and simd/ need are memory copies, a few functions of <math.h>, helpers of the compiler,
+# and Highway's choice of target. Symbols of libstdc++ (exceptions, RTTI, streams, operator new) and of I/O are
+# forbidden. Only starfocus_create, in a separate translation unit, may use the heap, if the caller passes no allocator.
+list_symbols("${STATIC}" -P)
 set(defined "")
 set(needed "")
-string(REPLACE "\n" ";" lines "${listing}")
 set(unit "")
 set(heap "")
 foreach(line IN LISTS lines)
@@ -26,12 +32,10 @@ foreach(line IN LISTS lines)
     list(APPEND defined "${CMAKE_MATCH_1}")
   endif()
 endforeach()
-list(LENGTH defined defined_count)
-if(defined_count LESS 50)
-  message(FATAL_ERROR "only ${defined_count} symbols found in ${STATIC}")
+list(LENGTH defined count)
+if(count LESS 50)
+  message(FATAL_ERROR "only ${count} symbols found in ${STATIC}")
 endif()
-
-list(REMOVE_DUPLICATES needed)
 list(REMOVE_ITEM needed ${defined})
 set(math "tan|sin|cos|exp|log|log2|pow|sqrt|floor|ceil|fabs|round|rint|lrint|lround|trunc|fmin|fmax")
 foreach(name IN LISTS needed)
@@ -45,5 +49,51 @@ list(SORT heap)
 if(NOT heap STREQUAL "free;malloc")
   message(SEND_ERROR "the unit of starfocus_create needs of the heap: ${heap}")
 endif()
-list(JOIN needed " " text)
-message(STATUS "needed: ${text}")
+
+# The shared library exports exactly the STARFOCUS_API functions of the headers, and a version node of exports.map.
+file(GLOB files "${SOURCE}/lib/include/starfocus/*.h")
+set(expected "")
+foreach(file IN LISTS files)
+  file(READ "${file}" text)
+  string(REGEX MATCHALL "STARFOCUS_API [^;(]*starfocus_[a-z_]+\\(" declarations "${text}")
+  foreach(declaration IN LISTS declarations)
+    string(REGEX REPLACE ".*[ *\n](starfocus_[a-z_]+)\\($" "\\1" name "${declaration}")
+    list(APPEND expected "${name}")
+  endforeach()
+endforeach()
+list_symbols("${SHARED}" -D --defined-only)
+list(FILTER lines INCLUDE REGEX " [A-Za-z] [^ ]+$")
+list(TRANSFORM lines REPLACE "^.* [A-Za-z] ([^ @]+)(@.*)?$" "\\1" OUTPUT_VARIABLE exported)
+list(FILTER exported EXCLUDE REGEX "^STARFOCUS_[0-9]+$")
+list(SORT expected)
+list(SORT exported)
+list(LENGTH expected count)
+if(count LESS 10 OR NOT exported STREQUAL expected)
+  message(SEND_ERROR "exported: ${exported}\nin the headers: ${expected}")
+endif()
+
+# Checks that a program has (or lacks) symbols that match each of the names.
+function(expect program expected)
+  list_symbols("${BUILD}/${program}" -C)
+  foreach(name IN LISTS ARGN)
+    set(found lacks)
+    if(lines MATCHES "${name}")
+      set(found has)
+    endif()
+    if(NOT found STREQUAL expected)
+      message(SEND_ERROR "${program} ${found} symbols like ${name} (expected: ${expected})")
+    endif()
+  endforeach()
+endfunction()
+
+# A program that only refocuses in its own memory must not contain lib/depth, the renderer of the paper and
+# starfocus_create. The program starfocus must not contain examples/lab/analysis, the ray tracer or tests.
+if(PROGRAMS)
+  set(depth "starfocus_(estimate|repair)_|DepthKernels|AddPaths")
+  set(developers "analysis::" "RayTracer" "stress::")
+  expect(minimal has "starfocus_init")
+  expect(minimal lacks "starfocus_create" "LineScan|line_scan" "FindRuns" ${depth})
+  expect(starfocus has "LineScan" "FindRuns" ${depth})
+  expect(starfocus lacks ${developers})
+  expect(starfocus-lab has ${developers})
+endif()
