@@ -11,7 +11,6 @@
 #include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
-#include "tests/support/ways.h"
 
 namespace fill_unknown_bytes_test {
 namespace {
@@ -75,34 +74,21 @@ TEST_CASE("fill unknown: in every mode, gaps get the farther known value of the 
   }
 }
 
-TEST_CASE("fill unknown: all ways to refocus fill unknown disparities with equal values") {
-  const Scenes scenes = WithGaps(5);
-  const test::Config config = FillingConfig(scenes.unknown);
-  const starfocus::Params params = test::Params(0.5, 0.5, STARFOCUS_MODE_BLOCK);
-  test::CheckWays(scenes.unknown, config, params);
-  const starfocus_report report = test::RefocusScene(scenes.unknown, config, params).report;
-  CHECK(report.unknown_pixels == uint64_t(scenes.count));
-}
-
 TEST_CASE(
-    "fill unknown: known values outside the range are rejected, even next to unknown values") {
+    "fill unknown: values out of range, and unknown values without the option, are rejected") {
   Scenes scenes = WithGaps(1);
+  const auto status = [&](const test::Config& config) {
+    test::Engine engine(config);
+    test::Output out(scenes.unknown.width, scenes.unknown.height);
+    const starfocus::Params params = test::Params(0, 0.5, STARFOCUS_MODE_BLOCK);
+    const starfocus_status found = test::Refocus(&engine, params, scenes.unknown, &out);
+    CHECK(out.Untouched());
+    return found;
+  };
+  CHECK(status(test::ConfigFor(scenes.unknown, 32)) == STARFOCUS_ERROR_NOT_FINITE);
+  // The rejected value lies next to unknown values.
   scenes.unknown.Disparity(70, 10) = scenes.unknown.disparity_max + 1;
-  const test::Config config = FillingConfig(scenes.unknown);
-  test::Engine engine(config);
-  test::Output out(scenes.unknown.width, scenes.unknown.height);
-  CHECK(test::Refocus(&engine, test::Params(0, 0.5, STARFOCUS_MODE_BLOCK), scenes.unknown, &out) ==
-        STARFOCUS_ERROR_DISPARITY);
-  CHECK(out.Untouched());
-}
-
-TEST_CASE("fill unknown: without STARFOCUS_UNKNOWN_FILL, unknown values are rejected") {
-  const Scenes scenes = WithGaps(1);
-  test::Engine engine(test::ConfigFor(scenes.unknown, 32));
-  test::Output out(scenes.unknown.width, scenes.unknown.height);
-  CHECK(test::Refocus(&engine, test::Params(0, 0.5, STARFOCUS_MODE_BLOCK), scenes.unknown, &out) ==
-        STARFOCUS_ERROR_NOT_FINITE);
-  CHECK(out.Untouched());
+  CHECK(status(FillingConfig(scenes.unknown)) == STARFOCUS_ERROR_DISPARITY);
 }
 
 }  // namespace
