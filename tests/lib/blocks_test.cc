@@ -163,7 +163,7 @@ TEST_CASE("blocks: layers that no block reads are not computed") {
 }
 
 struct Told {
-  int width, height;
+  int width = 0, height = 0;
   std::vector<int> covered;
   uint64_t blocks = 0, views = 0;
   int largest_n = 0;
@@ -183,13 +183,10 @@ TEST_CASE("blocks: the visited blocks cover the picture once and agree with the 
         test::Params(random.Real(-10, 10), aperture, STARFOCUS_MODE_BLOCK, random.Int(0, 2));
     test::Engine engine(config);
     REQUIRE(engine.status() == STARFOCUS_OK);
-    Told told = {scene.width,
-                 scene.height,
-                 {},
-                 0,
-                 0,
-                 0,
-                 params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN};
+    Told told;
+    told.width = scene.width;
+    told.height = scene.height;
+    told.subapertures = params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN;
     told.covered.assign(size_t(scene.width) * size_t(scene.height), 0);
     const auto visitor = [](void* data, const starfocus_block* block) {
       Told& to = *static_cast<Told*>(data);
