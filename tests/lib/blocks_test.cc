@@ -5,9 +5,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "lib/optics/rules.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
@@ -222,6 +224,35 @@ TEST_CASE("blocks: the visited blocks cover the picture once and agree with the 
           uint64_t(scene.width) * uint64_t(scene.height));
     // A block visitor must not change the picture.
     CHECK((test::OutputOf(config, params, scene).bytes == out.bytes));
+  }
+}
+
+TEST_CASE("blocks: the scale multiplies N of both renderers, but not N of the benchmark") {
+  const test::Scene scene = test::RandomScene(40, 36, 5, 0, 0, 1);
+  for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
+    for (const double scale : {0.5, 0.7, 1.0, 1.4, 2.0}) {
+      for (const starfocus_renderer renderer : test::kRenderers) {
+        test::Config config = test::ConfigFor(scene);
+        config.tuning.n_scale = scale;
+        config.tuning.max_layer = 0;
+        config.tuning.gather = 0;  // All cells are rendered from views.
+        const auto views = [&](starfocus_mode mode) {
+          starfocus_report report = starfocus::NewReport();
+          test::OutputOf(config, test::Params(radius, 1, mode, renderer), scene, &report);
+          return report.n;
+        };
+        const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN
+                          ? starfocus::ViewsByPaper(radius)
+                          : starfocus::ViewsBySubaperture(radius);
+        const int scaled = int(std::ceil(n * scale - 1e-9));
+        CAPTURES(radius, scale, renderer);
+        CHECK(views(STARFOCUS_MODE_FRAME) == scaled);
+        CHECK(views(STARFOCUS_MODE_BLOCK) == scaled);
+        if (radius < 10) {
+          CHECK(views(STARFOCUS_MODE_BENCHMARK) == starfocus::ViewsOfBenchmark(radius));
+        }
+      }
+    }
   }
 }
 

@@ -342,6 +342,28 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("cells: the borders for a constant blur equal the blur, to within a pixel and a cell") {
+  Map map = EmptyMap(64, 64, 0, 1);
+  for (const double r : {0.0, 0.25, 1.0, 2.5, 7.0, 11.5, 30.0}) {
+    std::fill(map.disparity.begin(), map.disparity.end(), Fixed(r));
+    const int around = test::BordersOf(r).cells;
+    const Cells cells(map, 0, 64, around);
+    const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, 2, 2, around);
+    CAPTURE(r);
+    CHECK(stats.r_min == int(r * kDisparityOne));
+    CHECK(stats.r_max == int(r * kDisparityOne));
+    for (int layer = 0; layer < 3; ++layer) {
+      const int needed = int(std::floor(r + 0.5)) + (r >= 0.5 ? kUpsampleBorder[layer] : 0);
+      const Border& border = stats.border[layer];
+      for (const int side : {border.left, border.right, border.top, border.bottom}) {
+        CHECK(side >= needed);
+        CHECK(side <=
+              needed + (needed == 0 && layer == 0 ? 1 : kCellSize + kUpsampleBorder[layer]));
+      }
+    }
+  }
+}
+
 TEST_CASE("cells: the border of a pixel with a large blur is measured from the pixel's position") {
   Map map = EmptyMap(24, 24, 0, 1);
   const auto reach = [&](int side) {
