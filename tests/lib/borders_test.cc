@@ -130,7 +130,7 @@ class Superblock {
   Borders Limits() const { return test::BordersOf(way_.Config(scene_)); }
   const test::Report& report() const { return report_; }
 
-  bool FrameDiff(const Kept& kept, test::Random* random) {
+  bool ChangesWith(const Kept& kept, test::Random* random) {
     return Refocus(Poisoned(scene_, rect_, kept, random), nullptr) != bytes_;
   }
 
@@ -185,7 +185,7 @@ TEST_CASE("borders: values beyond the borders of a superblock do not affect its 
     gathered += superblock.report().gathered_pixels;
     CAPTURES(round, way.mode, way.renderer, way.views, way.max_layer, way.limit);
     const int centre = way.highlights > 1 ? borders.views : borders.centre;
-    const bool changes = superblock.FrameDiff({centre, borders.centre, borders.views}, &random);
+    const bool changes = superblock.ChangesWith({centre, borders.centre, borders.views}, &random);
     CHECK(!changes);
   }
   for (const uint64_t of_layer : pixels) CHECK(of_layer > 0);
@@ -256,9 +256,9 @@ TEST_CASE("borders: if a border is one pixel too narrow, the bytes of superblock
       const int border = superblock.Limits().*sum.border;
       Kept kept;
       kept.*sum.kept = border;
-      beyond = beyond || superblock.FrameDiff(kept, &random);
+      beyond = beyond || superblock.ChangesWith(kept, &random);
       kept.*sum.kept = border - sum.unused - 1;
-      within = superblock.FrameDiff(kept, &random);
+      within = superblock.ChangesWith(kept, &random);
     }
     const std::string name = sum.name;
     CAPTURE(name);

@@ -1,28 +1,113 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests deblocking on hand-made boundaries, and compares stripes with the reference, which filters
-// the whole picture at once as in the paper (V-C).
+// Compares deblocking, of stripes and of refocused pictures, with a reference that filters the
+// whole picture at once as in the paper (V-C).
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
 
 #include "lib/plan/partition.h"
-#include "tests/lib/deblock_reference.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
 #include "tests/support/inside.h"
+#include "tests/support/layered_scene.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
+#include "tests/support/transfer_curve.h"
 
 namespace deblock_test {
 namespace {
 
 using namespace starfocus;
-using test::DeblockPicture;
-using Picture = test::LayeredPicture;
+using test::CodeOf;
+using test::LightOf;
+
+constexpr int kUnit = 16;
+
+// A picture and the layers of its smallest blocks.
+struct LayeredPicture {
+  LayeredPicture(int w, int h)
+      : width(w),
+        height(h),
+        columns((w + kUnit - 1) / kUnit),
+        rows((h + kUnit - 1) / kUnit),
+        rgb(3 * size_t(w) * size_t(h)),
+        layers(size_t(columns) * size_t(rows)) {}
+
+  uint8_t* Pixel(int x, int y) { return rgb.data() + 3 * (size_t(y) * size_t(width) + size_t(x)); }
+  uint8_t& Layer(int column, int row) {
+    return layers[size_t(row) * size_t(columns) + size_t(column)];
+  }
+  int LayerOf(int x, int y) { return Layer(x / kUnit, y / kUnit); }
+
+  int width, height, columns, rows;
+  std::vector<uint8_t> rgb;
+  std::vector<uint8_t> layers;
+};
+
+// Returns true if the condition of equations (16) and (17) holds.
+bool Artificial(const uint8_t* a, const uint8_t* b, int beta) {
+  bool all = true;
+  for (int c = 0; c < 3; ++c) all = all && std::abs(int(a[c]) - int(b[c])) < beta;
+  return all;
+}
+
+// Filters a line of pixels p0, q0, q1, q2, q3. The line starts with p0 at (x, y) and runs in
+// direction (dx, dy) within the picture. Interpolates linearly between p0 and q3 if p0 is at layer
+// 2 and the strong condition holds, otherwise between p0 and q1.
+void FilterLine(LayeredPicture* picture, int x, int y, int dx, int dy, int beta, int transfer) {
+  const auto inside = [&](int k) {
+    const int qx = x + dx * (k + 1), qy = y + dy * (k + 1);
+    return qx >= 0 && qx < picture->width && qy >= 0 && qy < picture->height;
+  };
+  const auto q = [&](int k) { return picture->Pixel(x + dx * (k + 1), y + dy * (k + 1)); };
+  const uint8_t* p0 = picture->Pixel(x, y);
+  const bool strong = picture->LayerOf(x, y) == 2;
+  int last = 0;  // q[last] does not change
+  if (strong && inside(3) && Artificial(p0, q(3), beta)) {
+    last = 3;
+  } else if (inside(1) && Artificial(p0, q(1), beta)) {
+    last = 1;
+  }
+  for (int c = 0; c < 3; ++c) {
+    // Rounds samples to the engine's grid of light, since the conditions of later lines depend on
+    // the result.
+    const auto light = [&](int code) { return std::floor(128 * LightOf(code, transfer) + 0.5); };
+    const double from = light(p0[c]), to = last > 0 ? light(q(last)[c]) : 0;
+    for (int k = 0; k < last; ++k) {
+      const double mixed = std::floor((from * (last - k) + to * (k + 1)) / (last + 1) + 0.5);
+      q(k)[c] = uint8_t(CodeOf(mixed / 128, transfer) + 0.5);
+    }
+  }
+}
+
+// Filters the side of the lower layer at two adjacent pixels of a boundary.
+void FilterPair(LayeredPicture* picture, int x0, int y0, int x1, int y1, int beta, int transfer) {
+  const int before = picture->LayerOf(x0, y0), after = picture->LayerOf(x1, y1);
+  if (before > after) FilterLine(picture, x0, y0, x1 - x0, y1 - y0, beta, transfer);
+  if (before < after) FilterLine(picture, x1, y1, x0 - x1, y0 - y1, beta, transfer);
+}
+
+// Filters all horizontal boundaries of the picture, then all vertical boundaries.
+void DeblockPicture(LayeredPicture* picture, int beta, int transfer) {
+  for (int y = kUnit; y < picture->height; y += kUnit) {
+    for (int x = 0; x < picture->width; ++x) {
+      FilterPair(picture, x, y - 1, x, y, beta, transfer);
+    }
+  }
+  for (int y = 0; y < picture->height; ++y) {
+    for (int x = kUnit; x < picture->width; x += kUnit) {
+      FilterPair(picture, x - 1, y, x, y, beta, transfer);
+    }
+  }
+}
 
 // Deblocks as the engine does, stripe by stripe. The columns of smallest blocks are divided into
 // `parts` jobs, which run from right to left.
-void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta, int transfer) {
+void DeblockStripes(LayeredPicture* picture, int stripe_height, int parts, int beta, int transfer) {
   const int most_rows = stripe_height / kSmallestBlock;
   std::vector<uint8_t> layers(size_t(picture->columns) * size_t(most_rows + 1), 0xEE);
   LayerMap map;
@@ -56,8 +141,8 @@ void DeblockStripes(Picture* picture, int stripe_height, int parts, int beta, in
   }
 }
 
-Picture RandomPicture(int width, int height, test::Random* random) {
-  Picture picture(width, height);
+LayeredPicture RandomPicture(int width, int height, test::Random* random) {
+  LayeredPicture picture(width, height);
   const int contrast = std::vector<int>{1, 20, 36, 60, 255}[size_t(random->Int(0, 4))];
   const int base = random->Int(0, 255 - contrast);
   for (uint8_t& sample : picture.rgb) sample = uint8_t(base + random->Int(0, contrast));
@@ -74,14 +159,14 @@ TEST_CASE("deblock: stripes give the same result as the whole picture") {
   for (int round = 0; round < 1500; ++round) {
     const int width = kEdges[random.Int(0, 18)] + 32 * random.Int(0, 2);
     const int height = kEdges[random.Int(0, 18)] + 32 * random.Int(0, 4);
-    const Picture before = RandomPicture(width, height, &random);
+    const LayeredPicture before = RandomPicture(width, height, &random);
     const int beta = std::vector<int>{1, 10, 35, 35, 255}[size_t(random.Int(0, 4))];
-    Picture expected = before;
+    LayeredPicture expected = before;
     const int transfer = random.Int(0, 1) == 0 ? STARFOCUS_TRANSFER_SRGB : STARFOCUS_TRANSFER_NONE;
     DeblockPicture(&expected, beta, transfer);
     changed += expected.rgb != before.rgb;
     for (const int stripe : kStripes) {
-      Picture got = before;
+      LayeredPicture got = before;
       DeblockStripes(&got, stripe, random.Int(1, 3), beta, transfer);
       CAPTURES(width, height, stripe, beta, transfer);
       const bool same = got.rgb == expected.rgb;
@@ -91,143 +176,45 @@ TEST_CASE("deblock: stripes give the same result as the whole picture") {
   CHECK(changed > 500);
 }
 
-// Returns the deblocked row of a picture whose rows are all equal to `levels`. The two blocks of
-// the picture are at the layers `before` and `after`.
-std::vector<int> DeblockedRow(const std::vector<int>& levels, int before, int after, int beta,
-                              bool vertical) {
-  const int length = int(levels.size());
-  Picture picture(vertical ? 16 : length, vertical ? length : 16);
-  for (int along = 0; along < length; ++along) {
-    for (int across = 0; across < 16; ++across) {
-      uint8_t* pixel = vertical ? picture.Pixel(across, along) : picture.Pixel(along, across);
-      for (int c = 0; c < 3; ++c) pixel[c] = uint8_t(levels[size_t(along)]);
-    }
-  }
-  picture.layers[0] = uint8_t(before);
-  if (picture.layers.size() > 1) picture.layers[1] = uint8_t(after);
-  DeblockStripes(&picture, vertical ? 16 : 32, 1, beta, STARFOCUS_TRANSFER_NONE);
-  std::vector<int> out;
-  for (int along = 0; along < length; ++along) {
-    const uint8_t* first = vertical ? picture.Pixel(0, along) : picture.Pixel(along, 0);
-    for (int across = 0; across < 16; ++across) {
-      const uint8_t* pixel = vertical ? picture.Pixel(across, along) : picture.Pixel(along, across);
-      for (int c = 0; c < 3; ++c) REQUIRE(pixel[c] == first[0]);
-    }
-    out.push_back(first[0]);
-  }
-  return out;
-}
-
-// Returns 16 pixels of level 100, followed by the levels of `after`.
-std::vector<int> Step(const std::vector<int>& after) {
-  std::vector<int> levels(16, 100);
-  levels.insert(levels.end(), after.begin(), after.end());
-  return levels;
-}
-
-TEST_CASE("deblock: boundaries between all pairs of layers have the expected levels") {
-  const std::vector<int> before = Step({120, 120, 120, 120, 120, 120});
-  for (const bool vertical : {false, true}) {
-    CAPTURE(vertical);
-    const auto deblocked = [&](int p, int q) { return DeblockedRow(before, p, q, 35, vertical); };
-    CHECK(deblocked(0, 0) == before);
-    CHECK(deblocked(1, 1) == before);
-    CHECK(deblocked(2, 2) == before);
-    // Weak filter: q0 = (p0 + q1) / 2, on the side of the lower layer.
-    CHECK(deblocked(1, 0) == Step({110, 120, 120, 120, 120, 120}));
-    std::vector<int> mirrored = before;
-    mirrored[15] = 110;
-    CHECK(deblocked(0, 1) == mirrored);
-    // Strong filter: a line from p0 to q3.
-    CHECK(deblocked(2, 0) == Step({105, 110, 115, 120, 120, 120}));
-    CHECK(deblocked(2, 1) == Step({105, 110, 115, 120, 120, 120}));
-    std::vector<int> strong = before;
-    strong[15] = 115;
-    strong[14] = 110;
-    strong[13] = 105;
-    CHECK(deblocked(0, 2) == strong);
-    CHECK(deblocked(1, 2) == strong);
-  }
-}
-
-TEST_CASE("deblock: the filter applies only if the difference is below beta") {
-  for (const bool vertical : {false, true}) {
-    for (const int sign : {1, -1}) {
-      const auto step = [&](std::vector<int> after) {
-        for (int& level : after) level = 100 + sign * level;
-        return Step(after);
-      };
-      const auto row = [&](const std::vector<int>& levels, int p, int beta) {
-        return DeblockedRow(levels, p, 0, beta, vertical);
-      };
-      // The weak filter applies if |p0 - q1| < beta.
-      CHECK(row(step({40, 20, 40, 40}), 1, 20) == step({40, 20, 40, 40}));
-      CHECK(row(step({40, 20, 40, 40}), 1, 19) == step({40, 20, 40, 40}));
-      CHECK(row(step({40, 20, 40, 40}), 1, 21) == step({10, 20, 40, 40}));
-      // The strong filter applies if |p0 - q3| < beta, with any pixels in between.
-      CHECK(row(step({40, 90, 40, 20}), 2, 21) == step({5, 10, 15, 20}));
-      CHECK(row(step({40, 90, 40, 20}), 2, 20) == step({40, 90, 40, 20}));
-      // If the condition of the strong filter fails, the condition of the weak filter may still
-      // hold.
-      CHECK(row(step({40, 10, 40, 20}), 2, 20) == step({5, 10, 40, 20}));
-      CHECK(row(step({40, 20, 40, 20}), 2, 20) == step({40, 20, 40, 20}));
-      // With a beta of 0 no filter applies.
-      CHECK(row(step({0, 0, 0, 0}), 2, 0) == step({0, 0, 0, 0}));
+// Adds the layer of a block to a picture.
+void AddLayer(void* data, const starfocus_block* block) {
+  auto* to = static_cast<LayeredPicture*>(data);
+  for (int y = block->y; y < block->y + block->height; y += kUnit) {
+    for (int x = block->x; x < block->x + block->width; x += kUnit) {
+      to->Layer(x / kUnit, y / kUnit) = uint8_t(block->layer);
     }
   }
 }
 
-TEST_CASE("deblock: the filter applies only if all three channels differ by less than beta") {
-  for (int c = 0; c < 3; ++c) {
-    Picture picture(32, 1);
-    std::fill(picture.rgb.begin(), picture.rgb.end(), uint8_t{100});
-    picture.layers = {2, 0};
-    for (int x = 16; x < 32; ++x) picture.Pixel(x, 0)[c] = 140;
-    Picture same = picture;
-    DeblockStripes(&picture, 32, 1, 40, STARFOCUS_TRANSFER_NONE);
-    CHECK(picture.rgb == same.rgb);
-    DeblockStripes(&picture, 32, 1, 41, STARFOCUS_TRANSFER_NONE);
-    CHECK(picture.rgb != same.rgb);
-    CHECK(int(picture.Pixel(16, 0)[c]) == 110);
-    CHECK(int(picture.Pixel(18, 0)[c]) == 130);
-    CHECK(int(picture.Pixel(19, 0)[c]) == 140);
+TEST_CASE("deblock: refocused pictures are deblocked like whole pictures") {
+  test::Random random(39);
+  int changed = 0;
+  for (int round = 0; round < 40; ++round) {
+    const test::Scene scene = test::LayeredScene(random.Int(20, 200), random.Int(40, 200),
+                                                 test::kStars[round % 4], 8, uint64_t(round) + 600);
+    test::Config config = test::ConfigFor(scene, 40);
+    config.superblock = 32 << random.Int(0, 1);
+    config.tuning.max_layer = random.Int(0, 4) == 0 ? 1 : 2;
+    config.tuning.deblocking = 0;
+    const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.2, 1);
+    const starfocus::Params params =
+        test::Params(random.Real(-10, 10), aperture, STARFOCUS_MODE_BLOCK, random.Int(0, 2));
+    test::Engine engine(config);
+    LayeredPicture picture(scene.width, scene.height);
+    const starfocus_observer observer = test::Visitor(AddLayer, &picture);
+    test::Output out(scene.width, scene.height);
+    REQUIRE(test::Refocus(&engine, params, scene, &out, test::ObservedBy(&observer)) ==
+            STARFOCUS_OK);
+    for (const int beta : {35, 255}) {
+      picture.rgb = out.bytes;
+      DeblockPicture(&picture, beta, config.transfer);
+      changed += picture.rgb != out.bytes;
+      config.tuning.deblocking = beta;
+      CAPTURES(round, beta);
+      CHECK((test::OutputOf(config, params, scene).bytes == picture.rgb));
+    }
   }
-}
-
-TEST_CASE("deblock: blocks at the right and bottom edges may be narrower than the filter") {
-  for (const bool vertical : {false, true}) {
-    const auto row = [&](const std::vector<int>& after, int p) {
-      return DeblockedRow(Step(after), p, 0, 35, vertical);
-    };
-    CHECK(row({120}, 1) == Step({120}));
-    CHECK(row({120}, 2) == Step({120}));
-    CHECK(row({120, 120}, 1) == Step({110, 120}));
-    CHECK(row({120, 120}, 2) == Step({110, 120}));
-    CHECK(row({120, 120, 120}, 2) == Step({110, 120, 120}));
-    CHECK(row({120, 120, 120, 120}, 2) == Step({105, 110, 115, 120}));
-    // A block of the higher layer smooths its neighbour even if the block is narrower than the
-    // filter.
-    std::vector<int> strong = Step({120});
-    strong[15] = 115;
-    strong[14] = 110;
-    strong[13] = 105;
-    CHECK(DeblockedRow(Step({120}), 0, 2, 35, vertical) == strong);
-  }
-}
-
-TEST_CASE("deblock: constant pictures and pictures of one block do not change") {
-  test::Random random(6);
-  for (int round = 0; round < 50; ++round) {
-    Picture picture = RandomPicture(random.Int(1, 80), random.Int(1, 80), &random);
-    std::fill(picture.rgb.begin(), picture.rgb.end(), uint8_t(round * 5));
-    const std::vector<uint8_t> before = picture.rgb;
-    DeblockStripes(&picture, 32, 1, 255, STARFOCUS_TRANSFER_NONE);
-    CHECK(picture.rgb == before);
-    Picture small = RandomPicture(random.Int(1, 16), random.Int(1, 16), &random);
-    const std::vector<uint8_t> small_before = small.rgb;
-    DeblockStripes(&small, 32, 1, 255, STARFOCUS_TRANSFER_NONE);
-    CHECK(small.rgb == small_before);
-  }
+  CHECK(changed > 20);
 }
 
 }  // namespace

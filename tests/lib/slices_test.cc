@@ -1,154 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the division of the surfaces of a rectangle into slices.
+// Tests the limits of slices: their reach, their memory, and their cancellation.
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
 #include "lib/slices/compositor.h"
 #include "lib/slices/slice_plane.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/support/config.h"
+#include "tests/support/inside.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 
 namespace slices_test {
 namespace {
 
-using namespace starfocus;
+constexpr int kWidth = 96, kHeight = 64;
 
-constexpr int kSize = 64;
+struct Views {
+  explicit Views(int n)
+      : weights(starfocus::ViewWeightsSize(n)),
+        aperture(starfocus::MakeSubapertures(n, starfocus::ApertureFallOff(0.8), weights.data())) {}
 
-// Returns the rule without its limit on the total area of all slices.
-SliceRule Ample(SliceRule rule) {
-  rule.area = INT32_MAX;
-  return rule;
-}
-
-// A map with one surface, or with further surfaces behind the first, as FindLayeredDepth returns
-// maps.
-struct Scene {
-  std::vector<int16_t> planes[3];
-  std::vector<uint64_t> hiding = std::vector<uint64_t>(kSize);
-  std::vector<uint8_t> bins = std::vector<uint8_t>(starfocus::kSliceBins);
-  std::vector<int32_t> least = std::vector<int32_t>(kSize);
-  starfocus::LayeredDepth surfaces;
-  starfocus::simd::DisparityRange bands[starfocus::kMaxRanges];
-
-  Scene() {
-    surfaces.width = surfaces.height = surfaces.stride = kSize;
-    for (int k = 0; k < 3; ++k) {
-      planes[k].assign(kSize * kSize + starfocus::simd::kSliceLanes,
-                       k == 0 ? int16_t{0} : starfocus::kNoSurface);
-      surfaces.disparity[k] = planes[k].data();
-    }
-    surfaces.hiding = hiding.data();
-    surfaces.bins = bins.data();
-    surfaces.least_blur = least.data();
-  }
-
-  int16_t& At(int x, int y, int surface = 0) {
-    if (surface > 0) hiding[size_t(y)] |= uint64_t{1} << (x / 16);
-    return planes[surface][size_t(y * kSize + x)];
-  }
-
-  // Returns the slices of the middle 16 x 16 pixels.
-  std::vector<Slice> Cut(double focus, double aperture = 1,
-                         const SliceRule& rule = Ample(starfocus::kSlices)) {
-    starfocus::ViewWeights views;
-    views.n = views.last = 4;
-    const auto grid = starfocus::MakeViewGrid(views, starfocus::MakeFocusRange(focus), aperture, 0);
-    const auto range = std::minmax_element(planes[0].begin(), planes[0].end());
-    surfaces.low = *range.first;
-    surfaces.high = *range.second;
-    std::vector<Slice> slices(kMaxSlices);
-    const int count = starfocus::FindSlices(starfocus::simd::BestKernels(), surfaces, grid, rule,
-                                            {24, 24, 16, 16}, slices.data(), bands);
-    REQUIRE(count > 0);
-    REQUIRE(count <= rule.most);
-    slices.resize(size_t(count));
-    for (size_t k = 0; k < slices.size(); ++k) {
-      CHECK(slices[k].low <= slices[k].disparity);
-      CHECK(slices[k].disparity <= slices[k].high);
-      CHECK(slices[k].high <= slices[k].overlap);
-      if (k > 0) CHECK(slices[k].high < slices[k - 1].low);
-    }
-    return slices;
-  }
+  std::vector<uint16_t> weights;
+  starfocus::ViewWeights aperture;
 };
 
-TEST_CASE("slices: one surface is one slice, moved by its own disparity") {
-  for (const int disparity : {-333, 0, 1, 517}) {
-    Scene scene;
-    std::fill(scene.planes[0].begin(), scene.planes[0].end(), int16_t(disparity));
-    const std::vector<Slice> slices = scene.Cut(2.25);
-    CHECK(slices.size() == 1);
-    CHECK(slices[0].disparity == disparity);
-  }
+// Returns the number of pixels by which the slice of `disparity` exceeds a rectangle.
+int ReachOf(const Views& views, double focus, double aperture, int disparity) {
+  const starfocus::ViewGrid grid = starfocus::MakeViewGrid(
+      views.aperture, starfocus::MakeFocusRange(focus), aperture * views.aperture.extent, 0);
+  starfocus::SlicePlane placed;
+  starfocus::PlaceSlice(grid, int16_t(disparity), {0, 0, 64, 64}, &placed);
+  return placed.reach;
 }
 
-TEST_CASE("slices: the range of a band of rows includes the disparities of all surfaces") {
-  Scene scene;
-  scene.At(15, 15) = 20;
-  scene.At(51, 17) = -40;
-  scene.At(63, 18) = -50;   // The pixel is too far away to be visible in the middle of the picture.
-  scene.At(20, 51) = -300;  // The pixel extends the range of disparities to hidden surfaces.
-  for (int y = 30; y < 35; ++y) scene.At(40, y, 1) = int16_t(-100 - y);
-  scene.At(0, 31, 2) = -200;
-  scene.Cut(2.25);
-  const int expected[7][2] = {{0, 0}, {0, 20}, {-40, 0}, {-200, 0}, {-134, 0}, {}, {-300, 0}};
-  for (int band = 1; band < 7; ++band) {
-    CAPTURE(band);
-    for (const int row : {8 * band, 8 * band + 7}) {
-      CHECK(scene.bands[row / starfocus::kRangeRows].low == expected[band][0]);
-      CHECK(scene.bands[row / starfocus::kRangeRows].high == expected[band][1]);
+TEST_CASE("slices: for any N, the reach of a slice is at most LargestSliceReach") {
+  test::Random random(7);
+  std::vector<Views> all;
+  for (int n = 1; n <= 26; ++n) all.emplace_back(n);
+  double nearest = 9;  // smallest distance of a slice to the limit, pixels
+  for (int round = 0; round < 40000; ++round) {
+    const double blur =
+        random.Int(0, 3) == 0 ? random.Int(1, 128) : random.Real(0.5, STARFOCUS_MAX_BLUR);
+    const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.3, 1);
+    // Rounding of the focus increases the distance between focus and disparity, and so does
+    // rounding of the disparity.
+    const double away = std::min(blur / aperture, 500.0);
+    const double focus = std::floor(random.Real(-10, 10) * 64) / 64 + 0.5 / 64;
+    const int disparity = int(std::floor((focus - away) * 64 + 0.5)) - random.Int(0, 2);
+    if (std::abs(disparity) > 500 * 64) continue;
+    for (const int n : {4, 4 + random.Int(-3, 22)}) {
+      const Views& views = all[size_t(n - 1)];
+      const int reach = ReachOf(views, focus, aperture, disparity);
+      const int most = starfocus::LargestSliceReach(aperture * away);
+      CAPTURES(n, blur, aperture);
+      CHECK(reach <= most);
+      nearest = std::min(nearest, double(most - reach));
     }
   }
-}
-
-TEST_CASE("slices: the nearest slice is first, and hidden surfaces also have slices") {
-  Scene scene;
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 30; x < kSize; ++x) scene.At(x, y) = 400;
-  }
-  // This pixel is too far away to be visible, but extends the range of disparities to hidden
-  // surfaces.
-  scene.At(0, 0) = -300;
-  scene.At(35, 32, 1) = -200;
-  scene.At(35, 32, 2) = -300;
-  const std::vector<Slice> slices = scene.Cut(0);
-  REQUIRE(slices.size() == 4);
-  CHECK(slices[0].disparity == 400);
-  CHECK(slices[1].disparity == 0);
-  CHECK(slices[2].disparity == -200);
-  CHECK(slices[3].disparity == -300);
-}
-
-TEST_CASE("slices: pixels that cannot splat into the rectangle are omitted") {
-  Scene scene;
-  scene.At(10, 30) = 64 * 12;  // the pixel is 14 columns away, and interpolation adds one column
-  CHECK(scene.Cut(0).size() == 1);
-  scene.At(10, 30) = 64 * 13;
-  CHECK(scene.Cut(0).size() == 2);
-  CHECK(scene.Cut(0, 0.5).size() == 1);
-}
-
-TEST_CASE("slices: ranges of disparity are 3/8 pixel or more for large blur, without gaps") {
-  Scene scene;
-  for (int y = 0; y < kSize; ++y) {
-    // The disparities are from -2 to 2 pixels.
-    for (int x = 0; x < kSize; ++x) scene.At(x, y) = int16_t(4 * (x - 32));
-  }
-  std::vector<bool> held(4 * 64);
-  for (const Slice& slice : scene.Cut(0)) {
-    CHECK(slice.high - slice.low < 24);
-    for (int d = slice.low; d <= slice.high; ++d) held[size_t(d + 128)] = true;
-  }
-  for (int x = 24; x < 40; ++x) CHECK(held[size_t(scene.At(x, 30) + 128)]);
-  const std::vector<Slice> blurred = scene.Cut(-40);
-  for (const Slice& slice : blurred) CHECK(slice.high - slice.low <= 24 * (42 - 4) / 4);
-  CHECK(blurred.size() < scene.Cut(0).size());
-  for (const Slice& slice : scene.Cut(0, 1, Ample(starfocus::kFineSlices))) {
-    CHECK(slice.high - slice.low < 8);
-  }
+  CHECK(nearest == 0);
 }
 
 TEST_CASE("slices: the limit of the total area of slices depends only on the blur of the lens") {
@@ -170,16 +84,68 @@ TEST_CASE("slices: the memory of a slice is at most kAreaBytes times its area") 
   }
 }
 
-TEST_CASE("slices: the ranges of slices become wider if slices are too many or too large") {
-  test::Random random(5);
-  Scene scene;
-  for (int16_t& disparity : scene.planes[0]) disparity = int16_t(random.Int(-2000, 2000));
-  const size_t all = scene.Cut(0).size();
-  CHECK(all > 4);
-  for (const SliceRule& tight : {SliceRule{int(all) - 1, starfocus::kSlices.range, INT32_MAX},
-                                 SliceRule{16, starfocus::kSlices.range, 8 * 30 * 30}}) {
-    CHECK(scene.Cut(0, 1, tight).size() < all);
+TEST_CASE("slices: slices that are computed in several parts give the same picture") {
+  test::Scene scene = test::RandomScene(kWidth, kHeight, 5, -9, 9, 4);
+  test::SetDisparity(&scene, [](int x, int) { return x < kWidth / 2 ? 9.0F : -9.0F; });
+  test::Engine engine(test::ConfigFor(scene, 20));
+  size_t& pool = test::PoolBytes(engine.get());
+  const auto reach = size_t(starfocus::SliceReach(16 * starfocus::kShiftOne, starfocus::kShiftOne));
+  const size_t whole = starfocus::SliceBytes(64, 64, reach) + starfocus::StripBytes(64, reach);
+  const size_t least = starfocus::SliceBytes(16, 8, reach) + starfocus::StripBytes(8, reach);
+  REQUIRE(pool > 2 * whole);
+  for (const double focus : {0.0, 6.0}) {
+    const starfocus::Params params = test::Params(focus, 1, STARFOCUS_MODE_BENCHMARK);
+    test::Output out(kWidth, kHeight);
+    const test::Output expected = test::OutputOf(&engine, params, scene);
+    const size_t ample = pool;
+    for (const size_t bytes : {whole, (whole + least) / 2, 2 * least}) {
+      pool = bytes;
+      REQUIRE(test::Refocus(&engine, params, scene, &out) == STARFOCUS_OK);
+      CAPTURES(focus, bytes);
+      CHECK(out.bytes == expected.bytes);
+    }
+    pool = ample;
   }
+}
+
+int rows_filled = 0;
+
+// Cancels the call as soon as the first row of a slice has been filled.
+int SayNo(void*, int32_t, int32_t) { return rows_filled > 0 ? 1 : 0; }
+
+TEST_CASE("slices: no more buckets are computed after cancellation") {
+  const test::Scene scene = test::RandomScene(256, 256, 5, -3, 9, 8);
+  test::Config config = test::ConfigFor(scene, 32);
+  config.superblock = 256;
+  test::Engine engine(config);
+  starfocus::simd::Kernels counting = starfocus::simd::BestKernels();
+  counting.SelectSlice = [](auto... arguments) {
+    ++rows_filled;
+    return starfocus::simd::BestKernels().SelectSlice(arguments...);
+  };
+  test::UseKernels(&counting, engine.get());
+  starfocus::Params params = test::Params(0, 1, STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES);
+  test::Output out = test::OutputOf(&engine, params, scene);
+  const int all = rows_filled;
+  rows_filled = 0;
+  CHECK(test::Refocus(&engine, params, scene, &out, test::ToldTo(SayNo)) ==
+        STARFOCUS_ERROR_CANCELLED);
+  CHECK(rows_filled > 0);
+  CHECK(rows_filled < all / 8);  // fewer than two of sixteen buckets were computed
+}
+
+// With AddressSanitizer, red zones between the parts of a workspace increase its size.
+TEST_CASE(
+    "slices: a worker requires 1.15 MiB for blocks of 64 pixels and blurs of up to 32 pixels" *
+    doctest::skip(starfocus::kRedZone > 0)) {
+  size_t bytes[2];
+  for (int workers = 1; workers <= 2; ++workers) {
+    test::Config config = test::ConfigFor(test::EmptyScene(kWidth, kHeight, 17, -16, 16), 32);
+    config.superblock = 64;
+    config.max_workers = workers;
+    REQUIRE(starfocus_workspace_size(&config, &bytes[workers - 1], nullptr) == STARFOCUS_OK);
+  }
+  CHECK(bytes[1] - bytes[0] <= size_t{1180} << 10);
 }
 
 }  // namespace

@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the work that the engine omits because its result is known. Blocks in which no view moves a
-// pixel are copied, and layers that no block reads are not computed.
+// Tests the blocks that the engine reports to a visitor, and the work that the engine omits because
+// its result is known: blocks in which no view moves a pixel are copied, and layers that no block
+// reads are not computed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "lib/optics/rules.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
+#include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
 
-namespace left_out_test {
+namespace blocks_test {
 namespace {
 
 constexpr int kBlocks[] = {32, 64, 128, 256};
@@ -71,7 +75,7 @@ uint64_t CheckRendered(const test::Scene& scene, const test::Config& config,
   return report.copied_pixels;
 }
 
-TEST_CASE("omitted work: in every mode, a copied block has the bytes of a rendered block") {
+TEST_CASE("blocks: in every mode, a copied block has the bytes of a rendered block") {
   test::Random random(51);
   uint64_t copied = 0;
   for (int round = 0; round < test::Rounds(400); ++round) {
@@ -108,8 +112,7 @@ test::Scene ColumnScene(int width, int height, int x, float other) {
   return scene;
 }
 
-TEST_CASE(
-    "omitted work: in frame modes, blocks in focus are copied unless other pixels blur into them") {
+TEST_CASE("blocks: in frame modes, blocks in focus are copied unless other pixels blur into them") {
   for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
     test::Scene scene = ColumnScene(256, 64, 250, 8);
     starfocus::Params params = test::Params(0, 1, mode);
@@ -124,7 +127,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("omitted work: the line scan copies blocks with a blur radius below a third of a pixel") {
+TEST_CASE("blocks: the line scan copies blocks with a blur radius below a third of a pixel") {
   for (const double radius : {0.1, 0.32, 0.36, 0.4}) {
     const test::Scene scene = test::RandomScene(64, 64, 5, 1, 1, 3);
     const starfocus::Params params =
@@ -144,7 +147,7 @@ test::Scene FlatScene() {
   return scene;
 }
 
-TEST_CASE("omitted work: layers that no block reads are not computed") {
+TEST_CASE("blocks: layers that no block reads are not computed") {
   const test::Scene scene = FlatScene();
   test::Config config = test::ConfigFor(scene, 40);
   const auto columns = [&](double focus) {
@@ -161,5 +164,116 @@ TEST_CASE("omitted work: layers that no block reads are not computed") {
   CHECK(columns(27) == 3);
 }
 
+struct Told {
+  int width = 0, height = 0;
+  std::vector<int> covered;
+  uint64_t blocks = 0, views = 0;
+  int largest_n = 0;
+  bool subapertures = false;  // true if blocks are rendered by subapertures
+};
+
+TEST_CASE("blocks: the visited blocks cover the picture once and agree with the report") {
+  test::Random random(36);
+  for (int round = 0; round < 20; ++round) {
+    const test::Scene scene =
+        test::LayeredScene(random.Int(1, 200), random.Int(1, 150), 5, 8, uint64_t(round) + 400);
+    test::Config config = test::ConfigFor(scene, 40);
+    config.superblock = kBlocks[random.Int(0, 3)];
+    config.tuning.max_layer = random.Int(0, 3) == 0 ? random.Int(0, 1) : 2;
+    const double aperture = random.Int(0, 1) == 0 ? 1 : random.Real(0.2, 1);
+    const starfocus::Params params =
+        test::Params(random.Real(-10, 10), aperture, STARFOCUS_MODE_BLOCK, random.Int(0, 2));
+    test::Engine engine(config);
+    REQUIRE(engine.status() == STARFOCUS_OK);
+    Told told;
+    told.width = scene.width;
+    told.height = scene.height;
+    told.subapertures = params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN;
+    told.covered.assign(size_t(scene.width) * size_t(scene.height), 0);
+    const auto visitor = [](void* data, const starfocus_block* block) {
+      Told& to = *static_cast<Told*>(data);
+      for (int y = block->y; y < block->y + block->height; ++y) {
+        for (int x = block->x; x < block->x + block->width; ++x) {
+          if (x < to.width && y < to.height) ++to.covered[size_t(y) * size_t(to.width) + size_t(x)];
+        }
+      }
+      ++to.blocks;
+      to.largest_n = std::max(to.largest_n, block->n);
+      for (int i = -block->n; i <= block->n; ++i) {
+        for (int j = -block->n; j <= block->n; ++j) {
+          const int most =
+              to.subapertures ? starfocus::MostOfSubapertures(block->n) : block->n * block->n;
+          to.views += i * i + j * j <= most;
+        }
+      }
+    };
+    const starfocus_observer observer = test::Visitor(visitor, &told);
+    test::Output out(scene.width, scene.height);
+    test::Report report;
+    REQUIRE(test::Refocus(&engine, params, scene, &out, test::ObservedBy(&observer), &report) ==
+            STARFOCUS_OK);
+    CAPTURE(round);
+    CHECK(std::all_of(told.covered.begin(), told.covered.end(), [](int n) { return n == 1; }));
+    CHECK(told.blocks ==
+          report.layers[0].blocks + report.layers[1].blocks + report.layers[2].blocks);
+    CHECK(told.largest_n == report.n);
+    const uint64_t views = report.layers[0].views + report.layers[1].views + report.layers[2].views;
+    CHECK(told.views >= views);  // the report does not count views of copied blocks
+    if (report.copied_pixels == 0) CHECK(told.views == views);
+    CHECK(report.layers[0].pixels + report.layers[1].pixels + report.layers[2].pixels ==
+          uint64_t(scene.width) * uint64_t(scene.height));
+    // A block visitor must not change the picture.
+    CHECK((test::OutputOf(config, params, scene).bytes == out.bytes));
+  }
+}
+
+TEST_CASE("blocks: the scale multiplies N of both renderers, but not N of the benchmark") {
+  const test::Scene scene = test::RandomScene(40, 36, 5, 0, 0, 1);
+  for (const double radius : {0.0, 0.25, 0.9, 3.5, 9.0, 17.0, 25.0}) {
+    for (const double scale : {0.5, 0.7, 1.0, 1.4, 2.0}) {
+      for (const starfocus_renderer renderer : test::kRenderers) {
+        test::Config config = test::ConfigFor(scene);
+        config.tuning.n_scale = scale;
+        config.tuning.max_layer = 0;
+        config.tuning.gather = 0;  // All cells are rendered from views.
+        const auto views = [&](starfocus_mode mode) {
+          starfocus_report report = starfocus::NewReport();
+          test::OutputOf(config, test::Params(radius, 1, mode, renderer), scene, &report);
+          return report.n;
+        };
+        const int n = renderer == STARFOCUS_RENDERER_LINE_SCAN
+                          ? starfocus::ViewsByPaper(radius)
+                          : starfocus::ViewsBySubaperture(radius);
+        const int scaled = int(std::ceil(n * scale - 1e-9));
+        CAPTURES(radius, scale, renderer);
+        CHECK(views(STARFOCUS_MODE_FRAME) == scaled);
+        CHECK(views(STARFOCUS_MODE_BLOCK) == scaled);
+        if (radius < 10) {
+          CHECK(views(STARFOCUS_MODE_BENCHMARK) == starfocus::ViewsOfBenchmark(radius));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "blocks: with twice as many views, the smallest and a large workspace give equal pictures") {
+  const test::Scene scene = test::RandomScene(40, 36, 5, 0, 0, 2);
+  for (const double radius : {0.3, 0.51, 1.0, 2.5}) {
+    for (const starfocus_renderer renderer : test::kRenderers) {
+      for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLOCK}) {
+        const auto picture = [&](double max_blur) {
+          test::Config config = test::ConfigFor(scene, max_blur);
+          config.tuning.n_scale = 2;
+          config.tuning.gather = 0;
+          return test::OutputOf(config, test::Params(radius, 1, mode, renderer), scene).bytes;
+        };
+        CAPTURES(radius, renderer, mode);
+        CHECK((picture(radius) == picture(64)));
+      }
+    }
+  }
+}
+
 }  // namespace
-}  // namespace left_out_test
+}  // namespace blocks_test

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests highlights: clipped lamps must regain their brightness, and white walls must not become
-// brighter.
+// brighter. Tests that maps with unknown values are either rejected or filled along rows.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <vector>
 
+#include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
 #include "tests/support/refocused.h"
+#include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
-#include "tests/support/ways.h"
 
-namespace highlights_test {
+namespace input_test {
 namespace {
 
 constexpr int kSide = 120;
@@ -34,47 +35,30 @@ test::Scene WhiteRect(int x0, int y0, int width, int height, int code = 255, int
 }
 
 std::vector<uint8_t> Picture(const test::Scene& scene, double blur, double highlights,
-                             starfocus_mode mode = STARFOCUS_MODE_BLOCK,
-                             starfocus_renderer renderer = STARFOCUS_RENDERER_AUTO,
-                             starfocus_transfer transfer = STARFOCUS_TRANSFER_SRGB) {
+                             starfocus_mode mode = STARFOCUS_MODE_BLOCK) {
   test::Config config = test::ConfigFor(scene, 20);
   config.superblock = 32;
   // The test disables layers 1 and 2 and the blurring of cells without views, which the engine does
   // not use near highlights.
   config.tuning.max_layer = config.tuning.gather = 0;
   config.highlights = float(highlights);
-  config.transfer = transfer;
-  starfocus::Params params = test::Params(blur, 1, mode, renderer);
+  starfocus::Params params = test::Params(blur, 1, mode);
   return test::RefocusScene(scene, config, params).rgb;
 }
 
-double LightIn(const std::vector<uint8_t>& picture, starfocus_transfer transfer) {
+// Returns the sum of the light of all red samples.
+double LightIn(const std::vector<uint8_t>& picture) {
   double sum = 0;
-  for (size_t i = 0; i < picture.size(); i += 3) sum += test::LightOf(picture[i], transfer);
-  return sum;
-}
-
-TEST_CASE("highlights: the disc of a blurred lamp has all of the lamp's light") {
-  const test::Scene lamp = WhiteRect(58, 59, 3, 3);
-  for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_SRGB, STARFOCUS_TRANSFER_NONE}) {
-    for (const starfocus_mode mode : test::kModes) {
-      for (const starfocus_renderer renderer : test::kRenderers) {
-        const auto light = [&](double highlights) {
-          return LightIn(Picture(lamp, 11, highlights, mode, renderer, transfer), transfer);
-        };
-        CAPTURES(transfer, mode, renderer);
-        const double clipped = light(1);
-        CHECK(light(4) - clipped == doctest::Approx(9 * 3 * 255).epsilon(0.04));
-        CHECK(light(8) - clipped == doctest::Approx(9 * 7 * 255).epsilon(0.04));
-      }
-    }
+  for (size_t i = 0; i < picture.size(); i += 3) {
+    sum += test::LightOf(picture[i], STARFOCUS_TRANSFER_SRGB);
   }
+  return sum;
 }
 
 TEST_CASE(
     "highlights: codes from 251 are brightened, most of all 255, and lower codes are unchanged") {
   const auto light = [&](int code, double highlights) {
-    return LightIn(Picture(WhiteRect(58, 58, 4, 4, code), 10, highlights), STARFOCUS_TRANSFER_SRGB);
+    return LightIn(Picture(WhiteRect(58, 58, 4, 4, code), 10, highlights));
   };
   double before = 0;
   for (int code = 249; code <= 255; ++code) {
@@ -93,14 +77,6 @@ TEST_CASE(
     for (int x = 58; x < 62; ++x) red.Pixel(0, x, y)[1] = red.Pixel(0, x, y)[2] = 200;
   }
   CHECK((Picture(red, 10, 8) == Picture(red, 10, 1)));
-}
-
-TEST_CASE("highlights: a factor that rounds to 1 changes no byte") {
-  const test::Scene lamp = WhiteRect(58, 59, 3, 3);
-  for (const starfocus_mode mode : test::kModes) {
-    CAPTURE(mode);
-    CHECK((Picture(lamp, 11, 1.001, mode) == Picture(lamp, 11, 1, mode)));
-  }
 }
 
 TEST_CASE("highlights: white areas larger than lamps are not brightened") {
@@ -123,8 +99,7 @@ TEST_CASE("highlights: white areas larger than lamps are not brightened") {
   }
   // A white area that is long in only one direction, such as a fluorescent tube, counts as a lamp.
   const test::Scene tube = WhiteRect(20, 60, 80, 4);
-  CHECK(LightIn(Picture(tube, 11, 4), STARFOCUS_TRANSFER_SRGB) >
-        2 * LightIn(Picture(tube, 11, 1), STARFOCUS_TRANSFER_SRGB));
+  CHECK(LightIn(Picture(tube, 11, 4)) > 2 * LightIn(Picture(tube, 11, 1)));
 }
 
 TEST_CASE("highlights: for a white picture, the excess of highlights is not rendered") {
@@ -144,7 +119,7 @@ TEST_CASE("highlights: for a white picture, the excess of highlights is not rend
   }
 }
 
-TEST_CASE("highlights: the factor changes no byte of a picture without highlights") {
+TEST_CASE("highlights: neither a picture without highlights nor a factor of 1 changes any byte") {
   for (const int views : {1, 5, 17}) {
     test::Scene scene = test::RandomScene(70, 60, views, -4, 4, 77);
     for (auto& picture : scene.pictures) {
@@ -155,28 +130,91 @@ TEST_CASE("highlights: the factor changes no byte of a picture without highlight
       CHECK((Picture(scene, 3, 64, mode) == Picture(scene, 3, 1, mode)));
     }
   }
+  // A factor that rounds to 1 changes no byte of a picture with highlights.
+  const test::Scene lamp = WhiteRect(58, 59, 3, 3);
+  for (const starfocus_mode mode : test::kModes) {
+    CAPTURE(mode);
+    CHECK((Picture(lamp, 11, 1.001, mode) == Picture(lamp, 11, 1, mode)));
+  }
 }
 
-TEST_CASE("highlights: all ways to refocus return the same bytes") {
-  for (const int views : {1, 5}) {
-    test::Scene scene = test::RandomScene(97, 150, views, -3, 5, 78);
-    for (int lamp = 0; lamp < 12; ++lamp) {
-      for (int view = 0; view < views; ++view) {
-        for (int y = 12 * lamp; y < 12 * lamp + 2 + lamp; ++y) {
-          std::fill_n(scene.Pixel(view, 5 + 6 * lamp, y), 3 * (1 + lamp % 4), uint8_t(255));
-        }
-      }
+// --- Unknown values of maps ---
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// A scene with partly unknown disparities, and this scene with the expected filled disparities.
+struct Scenes {
+  test::Scene unknown, filled;
+  int64_t count = 0;
+
+  Scenes(int width, int height, int views, uint64_t seed)
+      : unknown(test::RandomScene(width, height, views, -3, 3, seed)), filled(unknown) {}
+
+  // Makes the disparities of columns [first, end) of row y unknown. The expected filled disparity
+  // is `value`.
+  void Forget(int y, int first, int end, float value, float as = kNaN) {
+    for (int x = first; x < end; ++x) {
+      unknown.Disparity(x, y) = as;
+      filled.Disparity(x, y) = value;
     }
+    count += end - first;
+  }
+};
+
+// Makes gaps at both ends, gaps in the middle with the farther surface on either side, and an
+// unknown row.
+Scenes WithGaps(int views) {
+  Scenes scenes(150, 90, views, 5);
+  for (int y = 3; y < 90; y += 7) {
+    const auto at = [&](int x) { return scenes.filled.Disparity(x, y); };
+    scenes.Forget(y, 0, 9, at(9));
+    scenes.Forget(y, 40, 63, std::min(at(39), at(63)), y % 2 == 0 ? kInfinity : -kInfinity);
+    scenes.Forget(y, 141, 150, at(140));
+  }
+  scenes.Forget(50, 0, 150, scenes.unknown.disparity_min);
+  return scenes;
+}
+
+test::Config FillingConfig(const test::Scene& scene) {
+  test::Config config = test::ConfigFor(scene, 32);
+  config.unknown = STARFOCUS_UNKNOWN_FILL;
+  return config;
+}
+
+TEST_CASE("fill unknown: in every mode, gaps get the farther known value of the row") {
+  for (const int views : {1, 5}) {
+    const Scenes scenes = WithGaps(views);
     for (const starfocus_mode mode : test::kModes) {
-      test::Config config = test::ConfigFor(scene, 9);
-      config.superblock = 32;
-      config.highlights = 6;
-      const starfocus::Params params = test::Params(-4, 1, mode);
+      const starfocus::Params params = test::Params(0.5, 0.5, mode);
+      const test::Refocused filled =
+          test::RefocusScene(scenes.unknown, FillingConfig(scenes.unknown), params);
+      const test::Refocused by_hand =
+          test::RefocusScene(scenes.filled, test::ConfigFor(scenes.filled, 32), params);
       CAPTURES(views, mode);
-      test::CheckWays(scene, config, params);
+      CHECK(filled.rgb == by_hand.rgb);
+      CHECK(filled.report.unknown_pixels == uint64_t(scenes.count));
+      CHECK(by_hand.report.unknown_pixels == 0);
     }
   }
 }
 
+TEST_CASE(
+    "fill unknown: values out of range, and unknown values without the option, are rejected") {
+  Scenes scenes = WithGaps(1);
+  const auto status = [&](const test::Config& config) {
+    test::Engine engine(config);
+    test::Output out(scenes.unknown.width, scenes.unknown.height);
+    const starfocus::Params params = test::Params(0, 0.5, STARFOCUS_MODE_BLOCK);
+    const starfocus_status found = test::Refocus(&engine, params, scenes.unknown, &out);
+    CHECK(out.Untouched());
+    return found;
+  };
+  CHECK(status(test::ConfigFor(scenes.unknown, 32)) == STARFOCUS_ERROR_NOT_FINITE);
+  // The rejected value lies next to unknown values.
+  scenes.unknown.Disparity(70, 10) = scenes.unknown.disparity_max + 1;
+  CHECK(status(FillingConfig(scenes.unknown)) == STARFOCUS_ERROR_DISPARITY);
+}
+
 }  // namespace
-}  // namespace highlights_test
+}  // namespace input_test
