@@ -13,7 +13,7 @@
 #include "lib/optics/psf.h"
 #include "lib/optics/view_weights.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/conformance/reference_opening.h"
+#include "tests/conformance/reference_line.h"
 #include "tests/support/shapes.h"
 
 namespace aperture_shape_slow_test {
