@@ -1,151 +1,187 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the engine with the double-precision reference. Samples must differ by at most one grey
-// level.
+// Compares pictures of the engine with the double-precision reference, which gets the engine's own
+// partition. Samples must differ by at most one grey level.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/conformance/conformance.h"
-#include "tests/conformance/reference.h"
 #include "tests/support/config.h"
 #include "tests/support/error_line.h"
 #include "tests/support/rounds.h"
 #include "tests/support/test_scene.h"
+#ifdef STARFOCUS_PROGRAM
+#include "examples/scene/render.h"
+#include "platform/light_field.h"
+#endif
 
 namespace conformance_slow_test {
 namespace {
 
 using namespace conformance;
 
-// Refocuses with the engine and the reference, and checks their distance.
-Distance Check(const test::Scene& scene, const starfocus::Params& params,
-               const test::Config& config) {
-  const int block = config.superblock;
-  test::Engine engine(config);
-  test::Output out(scene.width, scene.height);
-  starfocus_report report = starfocus::NewReport();
-  REQUIRE(test::Refocus(&engine, params, scene, &out, nullptr, nullptr, &report) == STARFOCUS_OK);
-  const reference::Result expected = reference::Refocus(scene, params, config, block);
-  CAPTURE(TextOf(scene, params, config));
-  CHECK(report.n == expected.n);
-  CHECK(report.rendered_views == expected.views);
-  const Distance distance = Compare(out.Tight(), expected.rgb);
-  CHECK(distance.largest <= 1);
-  if (distance.samples >= kEnoughSamples) CHECK(distance.mean() < kMeanLimit);
-  return distance;
+// Checks that trials had pixels at all layers, and pixels that are blurred without rendering views.
+void ReportAllLayers(const char* name, const Distance& all) {
+  all.Report(name);
+  for (const int64_t pixels : all.at_layer) CHECK(pixels > 0);
+  CHECK(all.gathered > 0);
 }
 
-// Checks the line scan with both transfer functions. block_conformance_slow_test checks slices.
-Distance Check(const test::Scene& scene, starfocus::Params params, int block, double theta) {
-  params.study.renderer = STARFOCUS_RENDERER_LINE_SCAN;
-  test::Config config = test::ConfigFor(scene, 16);
-  config.superblock = block;
-  params.theta = theta;
+TEST_CASE("conformance: random light fields and lenses match the reference") {
+  const uint64_t last = test::kSlow ? 20 : 60;
+  ReportAllLayers("random stars", CheckRandom(1, last, Kind::kStar));
+  ReportAllLayers("random positions", CheckRandom(1, last, Kind::kAnywhere));
+  ReportAllLayers("larger light fields", CheckRandom(1, last, Kind::kLarge));
+}
+
+TEST_CASE("conformance: whole pictures rendered by line scans match the reference") {
+  CheckRandom(1, test::kSlow ? 50 : 150, Kind::kPaper).Report("line scans");
+}
+
+// The largest subapertures, and the smallest and largest blocks, which the cost of a block decides.
+TEST_CASE("conformance: subapertures and blocks of all sizes match the reference") {
+  test::Random random(52);
   Distance all;
-  for (const starfocus_transfer transfer : {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
-    config.transfer = transfer;
-    all.Add(Check(scene, params, config));
-  }
-  return all;
-}
-
-Distance Check(const test::Scene& scene, const starfocus::Params& params, int block = 32) {
-  return Check(scene, params, block, 0.26 * 3.14159265358979323846);
-}
-
-// Widths and heights of the random scenes. The scenes are small, because the reference is slow.
-constexpr int kSizes[][2] = {{1, 1}, {7, 5}, {40, 33}, {96, 64}};
-// Returns parameters with a random lens whose largest blur radius is r_max.
-starfocus::Params RandomLens(const test::Scene& scene, starfocus_mode mode, double r_max,
-                             test::Random* random) {
-  const double aperture = random->Int(0, 2) == 0 ? 1 : random->Real(0.3, 1);
-  const double reach = r_max / aperture;
-  const double half = 0.5 * double(scene.disparity_max - scene.disparity_min);
-  const double centre = 0.5 * double(scene.disparity_min + scene.disparity_max);
-  const double offset = std::max(0.0, reach - half);
-  return test::Params(centre + (random->Int(0, 1) == 0 ? offset : -offset), aperture, mode);
-}
-
-TEST_CASE(
-    "conformance: random scenes with every star set match the reference in frame and benchmark "
-    "mode") {
-  Distance all[2];
-  for (const starfocus_mode mode : {STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BENCHMARK}) {
-    test::Random random(41 + uint64_t(mode));
-    for (const auto& size : kSizes) {
-      for (const int views : kStars) {
-        for (const Depth depth : kDepths) {
-          const double low = random.Real(-4, 3);
-          const Range range = {float(low), float(low + random.Real(0.5, 5))};
-          const test::Scene scene = MakeScene(size[0], size[1], views, range, depth, &random);
-          const double r_max = mode == STARFOCUS_MODE_FRAME ? random.Real(2, 9) : random.Real(1, 5);
-          all[mode].Add(Check(scene, RandomLens(scene, mode, r_max, &random)));
+  for (const uint32_t block_cost : {0u, 1000u, STARFOCUS_MAX_TIMING}) {
+    for (const Depth depth : {Depth::kConstant, Depth::kSlanted}) {
+      const test::Scene scene = MakeScene(64, 48, 5, {0, 4}, depth, &random, Colours::kRandom);
+      for (const double focus : {-25.0, -7.0, -2.0}) {
+        for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
+          Trial trial = MakeTrial(scene, focus, STARFOCUS_MODE_BLOCK, STARFOCUS_RENDERER_SLICES,
+                                  max_layer, 32);
+          trial.config.tuning.timing.block = block_cost;
+          all.Add(Check(trial));
         }
       }
     }
   }
-  all[STARFOCUS_MODE_FRAME].Print("random scenes, frame");
-  all[STARFOCUS_MODE_BENCHMARK].Print("random scenes, benchmark");
-  CHECK(all[STARFOCUS_MODE_FRAME].mean() < kMeanLimit);
-  CHECK(all[STARFOCUS_MODE_BENCHMARK].mean() < kMeanLimit);
+  ReportAllLayers("subapertures and partitions", all);
 }
 
-TEST_CASE("conformance: many small scenes match the reference") {
-  constexpr int kSmall = 36;
+TEST_CASE("conformance: scenes at the limits of slices and subaperture width match the reference") {
+  struct Lens {
+    float low, high;
+    double focus, max_blur;
+  };
+  // The first two lenses blur surfaces on both sides of the focus. The first lens requires more
+  // slices than the limit, and the second requires more slices than fit into the memory. The third
+  // lens has subapertures that are almost as wide as the widest supported subaperture.
+  constexpr Lens kLenses[] = {{-10, 10, 0, 24}, {-23, 23, 0, 24}, {0, 4, -104, 109}};
+  test::Random random(53);
   Distance all;
-  for (uint64_t seed = 0; seed < (test::kSlow ? 100 : 300); ++seed) {
-    test::Random random(1000 + seed);
-    const double low = random.Real(-6, 5);
-    const Range range = {float(low), float(low + random.Real(0, 7))};
-    const test::Scene scene =
-        MakeScene(random.Int(1, kSmall), random.Int(1, kSmall), kStars[random.Int(0, 3)], range,
-                  kDepths[random.Int(0, 3)], &random);
-    const starfocus_mode mode =
-        random.Int(0, 3) == 0 ? STARFOCUS_MODE_BENCHMARK : STARFOCUS_MODE_FRAME;
-    const double r_max = mode == STARFOCUS_MODE_FRAME ? random.Real(0.1, 9) : random.Real(0.1, 4);
-    CAPTURE(seed);
-    all.Add(Check(scene, RandomLens(scene, mode, r_max, &random)));
-  }
-  all.Print("small scenes");
-  CHECK(all.mean() < kMeanLimit);
-}
-
-TEST_CASE(
-    "conformance: blocks of 64 pixels match the reference at the widest and narrowest aperture") {
-  Distance all;
-  for (const double theta : {STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA}) {
-    for (const int views : kStars) {
-      test::Random random(77 + uint64_t(views));
-      const test::Scene scene = MakeScene(96, 64, views, {-2, 3}, Depth::kPiecewise, &random);
-      all.Add(Check(scene, test::Params(0.7), 64, theta));
-      all.Add(Check(scene, test::Params(-1.9, 0.8), 64, theta));
+  for (const Lens& lens : kLenses) {
+    for (const Depth depth : {Depth::kPiecewise, Depth::kNoisy}) {
+      for (const int views : {1, 17}) {
+        const test::Scene scene =
+            MakeScene(64, 48, views, {lens.low, lens.high}, depth, &random, Colours::kRandom);
+        for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
+          all.Add(Check(MakeTrial(scene, lens.focus, STARFOCUS_MODE_BLOCK,
+                                  STARFOCUS_RENDERER_SLICES, max_layer, lens.max_blur)));
+        }
+      }
     }
   }
-  all.Print("blocks of 64");
+  all.Report("many slices and wide subapertures");
+}
+
+// The block has three tiles across and two tiles down; the last column of tiles is 72 pixels wide.
+// The first range of disparities requires few slices, and the second range requires many slices.
+TEST_CASE("conformance: each tile of a large block has its own slices") {
+  test::Random random(55);
+  Distance all;
+  for (const float range : {4.0F, 24.0F}) {
+    for (const Depth depth : {Depth::kSlanted, Depth::kNoisy}) {
+      const test::Scene scene =
+          MakeScene(200, 90, 5, {-range / 2, range / 2}, depth, &random, Colours::kRandom);
+      Trial trial =
+          MakeTrial(scene, random.Real(-1, 1), STARFOCUS_MODE_FRAME, STARFOCUS_RENDERER_SLICES, 0);
+      trial.config.superblock = 256;
+      all.Add(Check(trial));
+    }
+  }
+  all.Report("tiles of large blocks");
 }
 
 #ifdef STARFOCUS_PROGRAM
-TEST_CASE("conformance: parts of the data set wires match the reference" *
-          doctest::test_suite("data_sets")) {
-  const std::string folder = test::DataSet("wires");
-  if (folder.empty()) return;
-  starfocus::LightField field = starfocus::ValueOf(starfocus::LoadLightField(folder, {}));
-  Distance all;
-  for (const int x : {0, 192, 384}) {
-    const test::Scene scene = Crop(field, x, 128, 128, 128);
-    for (const double focus : {0.0, 3.0, 7.0}) all.Add(Check(scene, test::Params(focus), 64));
+// Returns the part of a light field at (x0, y0).
+test::Scene Crop(const starfocus::LightField& field, int x0, int y0) {
+  constexpr int kWidth = 64, kHeight = 48;
+  float low = field.disparity.at(x0, y0), high = low;
+  test::Scene scene = test::EmptyScene(kWidth, kHeight, int(field.views.size()), low, high);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int view = 0; view < scene.views(); ++view) {
+      const starfocus::Image& picture = field.views[size_t(view)];
+      std::copy_n(picture.pixels.data() + size_t(y0 + y) * picture.stride() + size_t(3 * x0),
+                  3 * kWidth, scene.Pixel(view, 0, y));
+    }
+    for (int x = 0; x < kWidth; ++x) {
+      const float disparity = field.disparity.at(x0 + x, y0 + y);
+      scene.Disparity(x, y) = disparity;
+      low = std::min(low, disparity);
+      high = std::max(high, disparity);
+    }
   }
-  const test::Scene scene = Crop(field, 200, 100, 64, 64);
-  all.Add(Check(scene, test::Params(3, 1, STARFOCUS_MODE_BENCHMARK), 64));
-  all.Print("wires");
+  scene.disparity_min = low;
+  scene.disparity_max = high;
+  return scene;
+}
+
+// Checks a part of a light field with both renderers, all maximum layers and both transfer
+// functions. The second focus lies far outside the disparities of the part.
+Distance CheckPart(const test::Scene& scene) {
+  Distance all;
+  const double middle = 0.5 * double(scene.disparity_min + scene.disparity_max);
+  for (const double focus : {middle, scene.disparity_min - 6.5}) {
+    const double reach = std::max(scene.disparity_max - focus, focus - scene.disparity_min);
+    for (const starfocus_renderer renderer : test::kRenderers) {
+      for (int max_layer = 0; max_layer < STARFOCUS_LAYERS; ++max_layer) {
+        for (const starfocus_transfer transfer :
+             {STARFOCUS_TRANSFER_NONE, STARFOCUS_TRANSFER_SRGB}) {
+          Trial trial = MakeTrial(scene, focus, STARFOCUS_MODE_BLOCK, renderer, max_layer);
+          trial.params.aperture = std::min(1.0, 16 / reach);
+          trial.config.transfer = transfer;
+          all.Add(Check(trial));
+        }
+      }
+    }
+  }
+  return all;
+}
+
+TEST_CASE("conformance: parts of the demo's scenes match the reference") {
+  constexpr int kWidth = 192, kHeight = kWidth * 3 / 4;
+  starfocus::ThreadRunner runner(1);
+  Distance all;
+  for (const char* name : {"portrait", "wires", "ramp"}) {
+    const starfocus::Scene drawn = starfocus::MakeScene(name).value();
+    const starfocus::RayTracer renderer(drawn, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
+    starfocus::LightField field;
+    for (int i = 0; i < 5; ++i) {
+      double u = 0, v = 0;
+      starfocus_view_position(i, &u, &v, nullptr);
+      field.views.push_back(renderer.View(u, v, nullptr));
+    }
+    field.disparity = renderer.Disparity();
+    all.Add(CheckPart(Crop(field, kWidth / 3, kHeight / 3)));
+  }
+  ReportAllLayers("demo scenes", all);
+}
+
+TEST_CASE("conformance: parts of the data sets match the reference" *
+          doctest::test_suite("data_sets")) {
+  Distance all;
+  for (const char* name : {"wires", "stilllife", "microcity", "chess", "dino"}) {
+    const std::string folder = test::DataSet(name);
+    if (folder.empty()) continue;
+    CAPTURE(name);
+    const starfocus::LightField field = starfocus::ValueOf(starfocus::LoadLightField(folder, {}));
+    for (const int x : {200, 330}) all.Add(CheckPart(Crop(field, x, 180)));
+  }
+  if (all.samples > 0) ReportAllLayers("data sets", all);
 }
 #endif
 

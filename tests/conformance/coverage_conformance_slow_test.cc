@@ -10,7 +10,7 @@
 
 #include "starfocus/experimental.h"
 #include "starfocus/starfocus.h"
-#include "tests/conformance/reference_coverage.h"
+#include "tests/conformance/reference.h"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
 #include "tests/support/strands.h"

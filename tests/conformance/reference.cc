@@ -2,9 +2,6 @@
 #include "tests/conformance/reference.h"
 
 #include "starfocus/starfocus.hpp"
-#include "tests/conformance/reference_gather.h"
-#include "tests/conformance/reference_rectangle.h"
-#include "tests/conformance/reference_stack.h"
 #include "tests/support/config.h"
 #include "tests/support/transfer_curve.h"
 
@@ -219,20 +216,21 @@ Picture Finished(const Block& block, const Picture& rendered) {
   return part.picture;
 }
 
-void Put(const Picture& from, int x0, int y0, int width, Result* result) {
+void Put(const Picture& from, int x0, int y0, int width, std::vector<double>* rgb) {
   for (int y = 0; y < from.height; ++y) {
     for (int x = 0; x < from.width; ++x) {
       std::copy_n(from.colours[from.At(x, y)].data(), 3,
-                  &result->rgb[3 * (size_t(y0 + y) * size_t(width) + size_t(x0 + x))]);
+                  &(*rgb)[3 * (size_t(y0 + y) * size_t(width) + size_t(x0 + x))]);
     }
   }
 }
 
 // Converts light to codes and adds the excess of highlights. `excess` is empty if there are no
 // highlights.
-void Encode(const test::Config& config, const std::vector<double>& excess, Result* result) {
-  for (size_t i = 0; i < result->rgb.size(); ++i) {
-    double& value = result->rgb[i];
+void Encode(const test::Config& config, const std::vector<double>& excess,
+            std::vector<double>* rgb) {
+  for (size_t i = 0; i < rgb->size(); ++i) {
+    double& value = (*rgb)[i];
     if (!excess.empty()) value = std::min(255.0, value + (config.highlights - 1) * excess[i]);
     value = test::CodeOf(value, config.transfer);
   }
@@ -270,49 +268,6 @@ int ViewsAlongRadius(double r_max, int mode) {
 
 namespace {
 
-// Refocuses all blocks by line scans; all blocks have the same size.
-void RefocusFrame(const LightField& field, const Lens& lens, int border, int block,
-                  Result* result) {
-  const Picture& centre = field.at({0, 0});
-  for (int y = 0; y < centre.height; y += block) {
-    for (int x = 0; x < centre.width; x += block) {
-      const Rectangle rectangle = {x,
-                                   y,
-                                   std::min(block, centre.width - x),
-                                   std::min(block, centre.height - y),
-                                   border,
-                                   border,
-                                   border,
-                                   border};
-      Put(RefocusRectangle(field, centre, lens, rectangle), x, y, centre.width, result);
-    }
-  }
-}
-
-}  // namespace
-
-Result Refocus(const test::Scene& scene, const starfocus::Params& params,
-               const test::Config& config, int block) {
-  const double r_max = LargestBlur(params, scene.disparity_min, scene.disparity_max);
-  const int n = ViewsAlongRadius(r_max, params.study.mode), border = int(std::ceil(r_max)) + 2;
-  const Lens lens = MakeLens(params, params, n, 0);
-  Result result;
-  result.n = n;
-  result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
-  for (int j = -n; j <= n; ++j) {
-    for (int i = -n; i <= n; ++i) result.views += lens.Contains(i, j);
-  }
-  Result excess = result;
-  RefocusFrame(Load(scene, config.transfer), lens, border, block, &result);
-  if (config.highlights > 1 && HasHighlights(scene)) {
-    RefocusFrame(LoadExcess(scene, config.transfer), lens, border, block, &excess);
-  }
-  Encode(config, excess.rgb, &result);
-  return result;
-}
-
-namespace {
-
 // Copies `from` to position (x0, y0) of `to`.
 void Paste(const Picture& from, int x0, int y0, Picture* to) {
   for (int y = 0; y < from.height; ++y) {
@@ -327,7 +282,7 @@ void Paste(const Picture& from, int x0, int y0, Picture* to) {
 // show highlights are at layer 0 and are rendered completely from views.
 void RefocusAll(const LightField& field, const starfocus::Params& params,
                 const test::Config& config, const std::vector<Block>& blocks, bool excess,
-                Result* result) {
+                std::vector<double>* rgb) {
   const Picture& centre = field.at({0, 0});
   const std::vector<Picture> layers = MakeLayers(centre);
   const bool benchmark = params.study.mode == STARFOCUS_MODE_BENCHMARK;
@@ -359,7 +314,7 @@ void RefocusAll(const LightField& field, const starfocus::Params& params,
       Paste(rendered, rectangle.x - framed.rendered_x, rectangle.y - framed.rendered_y, &frame);
     }
     GatherCells(field, layer, block, lens, r_max, framed.rendered_x, framed.rendered_y, &frame);
-    Put(Finished(framed, frame), block.x, block.y, centre.width, result);
+    Put(Finished(framed, frame), block.x, block.y, centre.width, rgb);
   }
 }
 
@@ -367,15 +322,14 @@ void RefocusAll(const LightField& field, const starfocus::Params& params,
 
 std::vector<double> RefocusBlocks(const test::Scene& scene, const starfocus::Params& params,
                                   const test::Config& config, const std::vector<Block>& blocks) {
-  Result result;
-  result.rgb.assign(3 * size_t(scene.width) * size_t(scene.height), 0);
-  Result excess = result;
-  RefocusAll(Load(scene, config.transfer), params, config, blocks, false, &result);
+  std::vector<double> rgb(3 * size_t(scene.width) * size_t(scene.height)), excess;
+  RefocusAll(Load(scene, config.transfer), params, config, blocks, false, &rgb);
   if (config.highlights > 1 && HasHighlights(scene)) {
+    excess.resize(rgb.size());
     RefocusAll(LoadExcess(scene, config.transfer), params, config, blocks, true, &excess);
   }
-  Encode(config, excess.rgb, &result);
-  return result.rgb;
+  Encode(config, excess, &rgb);
+  return rgb;
 }
 
 }  // namespace reference

@@ -11,7 +11,7 @@
 #include <map>
 #include <vector>
 
-#include "tests/conformance/reference_opening.h"
+#include "tests/conformance/reference_line.h"
 
 namespace reference {
 

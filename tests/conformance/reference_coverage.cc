@@ -1,14 +1,303 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/conformance/reference_coverage.h"
-
+// Coverage of thin structures in the reference: large edges of a map and the two surfaces that meet
+// there, the light of the far surface, and the share of each surface.
 #include <functional>
+#include <limits>
 #include <set>
+#include <utility>
+#include <vector>
 
-#include "tests/conformance/reference_edges.h"
-#include "tests/conformance/reference_far.h"
-#include "tests/conformance/reference_field.h"
+#include "tests/conformance/reference.h"
+#include "tests/conformance/reference_line.h"
 
 namespace reference {
+
+// Threshold of edges of thin structures: a larger step of disparity, in 1/64 pixel, is an edge.
+inline constexpr int kThinEdge = 5 * 64;
+
+class ThinMap {
+ public:
+  explicit ThinMap(const Picture& picture) : picture_(picture) {}
+
+  // Returns the disparity of a pixel. Beyond the picture, the outermost pixels are repeated.
+  int Disparity(int x, int y) const;
+  bool IsBesideNearer(int x, int y) const;
+  // Returns true if two opposite neighbours of a pixel are farther.
+  bool IsStrand(int x, int y) const;
+  // Returns true if the disparity of a pixel lies between the disparities of two opposite pixels.
+  bool IsRamp(int x, int y) const;
+  // FindGiven and FindEdge find the disparities of the two surfaces of a pixel, and return false if
+  // the pixel has only one surface. FindGiven, for given coverage, uses the nearest surfaces within
+  // 32 pixels, without ramps. FindEdge uses the surfaces at the nearest edge within 3 pixels.
+  // `square` receives the squared distance to the pixel beyond the edge.
+  bool FindGiven(int x, int y, int* low, int* high) const;
+  bool FindEdge(int x, int y, int* low, int* high, int* square) const;
+  // Returns the mean of the disparities within 2 pixels that are close to the disparity `near`.
+  double SmoothNear(int x, int y, int near) const;
+
+ private:
+  using Is = std::function<bool(int x, int y)>;
+  std::pair<int, int> Nearest(int x, int y, int reach, const Is& is) const;
+
+  const Picture& picture_;
+};
+
+int ThinMap::Disparity(int x, int y) const {
+  return picture_.disparities[picture_.At(std::clamp(x, 0, picture_.width - 1),
+                                          std::clamp(y, 0, picture_.height - 1))];
+}
+
+bool ThinMap::IsBesideNearer(int x, int y) const {
+  for (const Direction& side : kDirections) {
+    if (Disparity(x + side.x, y + side.y) - Disparity(x, y) > kThinEdge) return true;
+  }
+  return false;
+}
+
+// Returns the offset of the nearest pixel within `reach` for which `is` returns true, or (0, 0) if
+// no pixel is found. Among equally near pixels, the pixel with the smaller maximum of |dx| and |dy|
+// is chosen, then the first in row order.
+std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) const {
+  std::pair<int, int> nearest = {0, 0};
+  std::pair<int, int> least = {INT32_MAX, 0};
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const std::pair<int, int> rank = {dx * dx + dy * dy, std::max(std::abs(dx), std::abs(dy))};
+      if (rank.first == 0 || !(rank < least) || !is(x + dx, y + dy)) continue;
+      least = rank;
+      nearest = {dx, dy};
+    }
+  }
+  return nearest;
+}
+
+// Returns true if the disparity of the pixel lies between the disparities of two opposite pixels at
+// an equal distance of 1 to 3 pixels. Either both steps must be edges, or the pixels must be
+// adjacent, both steps at least half a pixel, and the larger step at most 4 times the smaller one.
+bool ThinMap::IsRamp(int x, int y) const {
+  constexpr Direction kOpposite[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
+  for (const Direction& to : kOpposite) {
+    for (int k = 1; k <= 3; ++k) {
+      const int here = Disparity(x, y);
+      const int before = here - Disparity(x - k * to.x, y - k * to.y);
+      const int after = Disparity(x + k * to.x, y + k * to.y) - here;
+      const int least = std::min(std::abs(before), std::abs(after));
+      const int most = std::max(std::abs(before), std::abs(after));
+      const bool ramp = least > kThinEdge || (k == 1 && least >= 32 && most <= 4 * least);
+      if ((before > 0) == (after > 0) && ramp) return true;
+    }
+  }
+  return false;
+}
+
+bool ThinMap::FindGiven(int x, int y, int* low, int* high) const {
+  const int here = Disparity(x, y);
+  const auto find = [&](int from, int to) {
+    return Nearest(x, y, 32, [&](int column, int row) {
+      const int there = Disparity(column, row);
+      return there >= from && there <= to && !IsRamp(column, row);
+    });
+  };
+  const auto disparity = [&](const std::pair<int, int>& at) {
+    return Disparity(x + at.first, y + at.second);
+  };
+  if (IsRamp(x, y)) {
+    *high = disparity(find(here + 1, INT16_MAX));
+    *low = disparity(find(INT16_MIN, here - 1));
+    if (*high - *low > kThinEdge) return true;
+  }
+  const auto nearer = find(here + kThinEdge + 1, INT16_MAX);
+  const auto farther = find(INT16_MIN, here - kThinEdge - 1);
+  const auto square = [](const std::pair<int, int>& at) {
+    const int sum = at.first * at.first + at.second * at.second;
+    return sum == 0 ? INT32_MAX : sum;
+  };
+  const bool is_near = square(farther) <= square(nearer);
+  *high = is_near ? here : disparity(nearer);
+  *low = is_near ? disparity(farther) : here;
+  return std::min(square(nearer), square(farther)) != INT32_MAX;
+}
+
+bool ThinMap::FindEdge(int x, int y, int* low, int* high, int* square) const {
+  const int here = Disparity(x, y);
+  int other = here;
+  *square = 0;
+  for (int dy = -3; dy <= 3; ++dy) {
+    for (int dx = -3; dx <= 3; ++dx) {
+      const int there = Disparity(x + dx, y + dy), distance = dx * dx + dy * dy;
+      if (std::abs(there - here) <= kThinEdge || (*square != 0 && distance > *square)) continue;
+      // Among equally near pixels, the one with the largest disparity counts.
+      other = distance == *square ? std::max(other, there) : there;
+      *square = distance;
+    }
+  }
+  *low = std::min(here, other);
+  *high = std::max(here, other);
+  return *square != 0;
+}
+
+bool ThinMap::IsStrand(int x, int y) const {
+  for (const Direction& to : {kDirections[0], kDirections[2]}) {
+    const int beside = std::max(Disparity(x - to.x, y - to.y), Disparity(x + to.x, y + to.y));
+    if (Disparity(x, y) - beside > kThinEdge) return true;
+  }
+  return false;
+}
+
+double ThinMap::SmoothNear(int x, int y, int near) const {
+  constexpr int kWeights[] = {6, 4, 1};
+  double sum = 0, weights = 0;
+  for (int dy = -2; dy <= 2; ++dy) {
+    for (int dx = -2; dx <= 2; ++dx) {
+      if (std::abs(Disparity(x + dx, y + dy) - near) > 2 * 64) continue;
+      const double weight = kWeights[std::abs(dx)] * kWeights[std::abs(dy)];
+      sum += weight * (Disparity(x + dx, y + dy) - near);
+      weights += weight;
+    }
+  }
+  return weights == 0 ? near : near + std::round(sum / weights);
+}
+
+// Side of the tiles that are tested for thin structure, in pixels.
+inline constexpr int kTile = 16;
+
+struct FarLight {
+  Colour light = {0, 0, 0};
+  double known = 0;      // Certainty of `light`, 0 to 1.
+  double disparity = 0;  // Disparity of the farther surface, in units of 1/64 pixel.
+};
+
+// Planes of cells with sides of 1, 2, 4, 8 and 16 pixels. The planes extend beyond the picture by
+// one tile on each side.
+class FarPyramid {
+ public:
+  FarPyramid(int columns, int rows);  // numbers of tiles
+
+  FarLight& Pixel(int x, int y) { return At(0, x, y); }
+  // Averages cells into cells of twice their side, and fills cells without known light.
+  void Fill();
+  // Returns the light of a pixel. Where the light of the pixel is not known, the light of the
+  // larger cells around the pixel is used.
+  FarLight Filled(int x, int y) const;
+
+ private:
+  struct Level {
+    int margin, width, height;
+    std::vector<FarLight> cells;
+  };
+  FarLight& At(int level, int x, int y);
+  FarLight Get(const std::vector<Level>& levels, int level, int x, int y) const;
+  FarLight Pushed(int level, int x, int y, FarLight cell, double disparity) const;
+  std::vector<FarLight> Above(int level, int x, int y) const;
+
+  std::vector<Level> levels_, filled_;
+};
+
+namespace {
+
+constexpr int kLastLevel = 4;
+
+// Returns the disparity of the farthest surface with known light in any of the cells, or infinity.
+double Farthest(const std::vector<FarLight>& cells) {
+  double farthest = std::numeric_limits<double>::infinity();
+  for (const FarLight& cell : cells) {
+    if (cell.known > 0) farthest = std::min(farthest, cell.disparity);
+  }
+  return farthest;
+}
+
+// Returns the weighted mean of the light of the cells that show the surface at `disparity`. The
+// weight of a cell is the product of its element of `parts` and FarLight::known. FarLight::known of
+// the result is the sum of the weights of all averaged cells.
+FarLight MeanOf(const std::vector<FarLight>& cells, const std::vector<double>& parts,
+                double disparity) {
+  FarLight mean;
+  for (size_t k = 0; k < cells.size(); ++k) {
+    if (cells[k].known == 0 || std::fabs(cells[k].disparity - disparity) > kThinEdge) continue;
+    const double weight = parts[k] * cells[k].known;
+    for (size_t c = 0; c < 3; ++c) mean.light[c] += weight * cells[k].light[c];
+    mean.disparity += weight * cells[k].disparity;
+    mean.known += weight;
+  }
+  if (mean.known == 0) return mean;
+  for (double& light : mean.light) light /= mean.known;
+  mean.disparity /= mean.known;
+  return mean;
+}
+
+}  // namespace
+
+FarPyramid::FarPyramid(int columns, int rows) {
+  for (int level = 0; level <= kLastLevel; ++level) {
+    const int side = kTile >> level, width = (columns + 2) * side, height = (rows + 2) * side;
+    levels_.push_back({side, width, height, std::vector<FarLight>(size_t(width) * size_t(height))});
+  }
+}
+
+FarLight& FarPyramid::At(int level, int x, int y) {
+  Level& plane = levels_[size_t(level)];
+  return plane.cells[size_t(y + plane.margin) * size_t(plane.width) + size_t(x + plane.margin)];
+}
+
+FarLight FarPyramid::Get(const std::vector<Level>& levels, int level, int x, int y) const {
+  const Level& plane = levels[size_t(level)];
+  const int column = x + plane.margin, row = y + plane.margin;
+  if (column < 0 || column >= plane.width || row < 0 || row >= plane.height) return {};
+  return plane.cells[size_t(row) * size_t(plane.width) + size_t(column)];
+}
+
+// Returns the filled cells of the next coarser level that surround a cell. The first returned cell
+// contains the given cell.
+std::vector<FarLight> FarPyramid::Above(int level, int x, int y) const {
+  const int column = int(std::floor(x / 2.0)), row = int(std::floor(y / 2.0));
+  const int beside = x == 2 * column ? column - 1 : column + 1;
+  const int next = y == 2 * row ? row - 1 : row + 1;
+  return {Get(filled_, level + 1, column, row), Get(filled_, level + 1, beside, row),
+          Get(filled_, level + 1, column, next), Get(filled_, level + 1, beside, next)};
+}
+
+FarLight FarPyramid::Pushed(int level, int x, int y, FarLight cell, double disparity) const {
+  if (cell.known >= 1) return cell;
+  const FarLight mean = MeanOf(Above(level, x, y), {9, 3, 3, 1}, disparity);
+  if (mean.known == 0) return cell;
+  for (size_t c = 0; c < 3; ++c) {
+    cell.light[c] = mean.light[c] + (cell.light[c] - mean.light[c]) * cell.known;
+  }
+  if (cell.known == 0) cell.disparity = mean.disparity;
+  cell.known = 1;
+  return cell;
+}
+
+void FarPyramid::Fill() {
+  for (int level = 1; level <= kLastLevel; ++level) {
+    const Level& plane = levels_[size_t(level)];
+    for (int y = -plane.margin; y < plane.height - plane.margin; ++y) {
+      for (int x = -plane.margin; x < plane.width - plane.margin; ++x) {
+        const std::vector<FarLight> below = {
+            At(level - 1, 2 * x, 2 * y), At(level - 1, 2 * x + 1, 2 * y),
+            At(level - 1, 2 * x, 2 * y + 1), At(level - 1, 2 * x + 1, 2 * y + 1)};
+        FarLight& cell = At(level, x, y) = MeanOf(below, {1, 1, 1, 1}, Farthest(below));
+        cell.known = std::min(cell.known, 1.0);
+      }
+    }
+  }
+  filled_ = levels_;
+  for (int level = kLastLevel - 1; level > 0; --level) {
+    Level& plane = filled_[size_t(level)];
+    for (size_t n = 0; n < plane.cells.size(); ++n) {
+      const int x = int(n) % plane.width - plane.margin, y = int(n) / plane.width - plane.margin;
+      FarLight& cell = plane.cells[n];
+      const double disparity = cell.known > 0 ? cell.disparity : Farthest(Above(level, x, y));
+      cell = Pushed(level, x, y, cell, disparity);
+    }
+  }
+}
+
+FarLight FarPyramid::Filled(int x, int y) const {
+  const FarLight cell = Get(levels_, 0, x, y);
+  return Pushed(0, x, y, cell, cell.disparity);
+}
+
 namespace {
 
 // Smallest numbers of pixels with a nearer neighbour, and of pixels of strands one pixel wide, in a

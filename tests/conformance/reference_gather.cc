@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/conformance/reference_gather.h"
-
+// Gathering in the reference: flat cells of one surface are blurred from the centre view by the
+// ideal PSF (4). In cells on a slope, each pixel is blurred by the PSF of its own radius.
 #include <algorithm>
 #include <cmath>
 
+#include "tests/conformance/reference.h"
 #include "tests/conformance/reference_blur.h"
 
 namespace reference {

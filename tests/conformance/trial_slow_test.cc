@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the engine with the double-precision reference on random trials. Samples must differ by
-// at most one grey level.
+// Compares the engine with the double-precision reference on more random trials than
+// conformance_slow_test, and on trials that failed once.
 #include <doctest/doctest.h>
 
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/conformance/trial.h"
+#include "tests/conformance/conformance.h"
 #include "tests/support/rounds.h"
 #include "tests/support/sanitizers.h"
 
@@ -38,32 +38,20 @@ constexpr Pinned kPinned[] = {
 
 TEST_CASE("trials: seeds of earlier failures match the reference") {
   for (const Pinned& pinned : kPinned) {
-    const Trial trial = MakeTrial(pinned.seed, false);
     CAPTURE(pinned.what);
-    CAPTURE(trial.Text());
-    CHECK(Measure(trial).largest <= MostLevels(trial));
+    Check(RandomTrial(pinned.seed, Kind::kStar));
   }
 }
 
-// For longer runs of this test, the environment variable STARFOCUS_TRIALS=FIRST:COUNT selects other
+// For longer runs of this test, the environment variable STARFOCUS_TRIALS=FIRST:LAST selects other
 // seeds.
 TEST_CASE("trials: random light fields and lenses match the reference") {
   // With sanitizers, a few trials suffice.
-  unsigned first = 1, count = test::kSanitized ? 60 : test::kSlow ? 120 : 400;
+  unsigned first = 61, last = test::kSanitized ? 75 : test::kSlow ? 90 : 200;
   const char* asked = std::getenv("STARFOCUS_TRIALS");
-  if (asked != nullptr) REQUIRE(std::sscanf(asked, "%u:%u", &first, &count) == 2);
-  Distance all;
-  for (uint64_t seed = first; seed < uint64_t(first) + count; ++seed) {
-    const Trial trial = MakeTrial(seed, seed % 2 == 0);
-    CAPTURE(seed);
-    CAPTURE(trial.Text());
-    const Distance distance = Measure(trial);
-    CAPTURE(distance.unrounded);
-    CHECK(distance.largest <= MostLevels(trial));
-    all.Add(distance);
-  }
-  all.Print("random trials");
-  CHECK(all.mean() < kMeanLimit);
+  if (asked != nullptr) REQUIRE(std::sscanf(asked, "%u:%u", &first, &last) == 2);
+  CheckRandom(first, last, Kind::kStar).Report("random stars");
+  CheckRandom(first, last, Kind::kAnywhere).Report("random positions");
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/conformance/reference_stack.h"
-
+// Refocuses one rectangle in the reference with slices and subapertures. The pixels of each tile
+// are divided into a stack of slices. Each view moves the slices of a stack by different distances.
 #include <set>
 
 #include "lib/slices/slice_plane.h"
-#include "tests/conformance/reference_surfaces.h"
+#include "tests/conformance/reference.h"
 
 namespace reference {
 namespace {
