@@ -11,7 +11,7 @@
 #include "platform/base64.h"
 #include "platform/image_io.h"
 #include "platform/light_field.h"
-#include "tests/programs/refusals.h"
+#include "tests/programs/session.h"
 #include "tests/support/terminal.h"
 
 namespace starfocus::looking_program_test {

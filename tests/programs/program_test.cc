@@ -22,8 +22,7 @@
 #include "platform/temporary_file.h"
 #include "platform/text.h"
 #include "starfocus/pool.h"
-#include "tests/programs/call_program.h"
-#include "tests/programs/refusals.h"
+#include "tests/programs/session.h"
 #include "tests/support/child.h"
 #include "tests/support/error_line.h"
 

@@ -14,7 +14,7 @@
 #include "platform/image_io.h"
 #include "platform/light_field.h"
 #include "platform/runner.h"
-#include "tests/programs/call_program.h"
+#include "tests/programs/session.h"
 #include "tests/support/error_line.h"
 
 namespace starfocus::steps_program_test {
