@@ -41,7 +41,7 @@ LightField Make(int views, int width, int height) {
   return light_field;
 }
 
-Result<LightField> Load(const TempFolder& folder, const std::vector<ViewPosition>& positions = {}) {
+Result<LightField> Load(const TempFolder& folder, const Positions& positions = {}) {
   return LoadLightField(folder.path(), positions);
 }
 
