@@ -11,7 +11,7 @@
 #include <set>
 #include <sstream>
 
-#include "tests/programs/call_program.h"
+#include "tests/programs/session.h"
 #include "tests/support/photo_files.h"
 
 namespace commands_slow_test {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "platform/image_io.h"
-#include "tests/programs/call_program.h"
+#include "tests/programs/session.h"
 #include "tests/support/sanitizers.h"
 
 namespace starfocus::memory_limit_slow_test {

@@ -1,25 +1,250 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads sessions from tables, and runs the programs as the sessions state. Each session starts in
-// an empty folder, and consists of the line "== NAME" followed by these lines:
+// Runs the program STARFOCUS_PROGRAM, or starfocus-lab in the same folder, as tables of command
+// lines state.
+//
+// A table of refusals has lines "ARGUMENTS -> TEXT", which CheckRefusals checks. A table of
+// sessions has sessions, each of which starts in an empty folder. A session consists of the line
+// "== NAME" followed by these lines:
 //   $ ARGUMENTS          calls the program, which must succeed
 //   ! ARGUMENTS -> TEXT  calls the program, which must fail with this text (CheckRefused)
 //   out TEXT, err TEXT   the last call must have printed the text
 //   no out TEXT          the last call must not have printed the text; also with err
 //   only out TEXT        the last call must have printed only the text; also with err
-//   % COMMAND            runs a shell command, which must succeed
+//   % COMMAND            runs a shell command, which must succeed; `starfocus` and `lab` are
+//   programs psnr A B LEAST       the pictures A and B must agree to this PSNR in dB (inf: be
+//   equal) closer T A B GAIN    the PSNR of T and A must exceed that of T and B by more than the
+//   gain in dB map DIR [VALUE] [X,Y,W,H=VALUE]...
+//                        sets all disparities of a light field, and those in rectangles
 //   @ NAME               makes inputs with one of the preparations
 #ifndef STARFOCUS_TESTS_PROGRAMS_SESSION_H_
 #define STARFOCUS_TESTS_PROGRAMS_SESSION_H_
 
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
+#include <sstream>
+#include <string>
 
-#include "tests/programs/refusals.h"
+#include "platform/file.h"
+#include "platform/image_io.h"
+#include "platform/light_field.h"
+#include "platform/pfm.h"
+#include "platform/runner.h"
+#include "tests/support/closed_hair.h"
+#include "tests/support/error_line.h"
+#include "tests/support/temp_folder.h"
 
 namespace starfocus {
 
+// Returns the program that has the subcommand at the start of `arguments`.
+inline std::string ProgramFor(const std::string& arguments) {
+  const std::string command = arguments.substr(0, arguments.find(' '));
+  for (const char* one : {"analyze", "calibrate", "compare", "scene", "sheet", "steps", "stress"}) {
+    if (command == one) return STARFOCUS_PROGRAM "-lab";
+  }
+  return STARFOCUS_PROGRAM;
+}
+
+struct Outcome {
+  int code = -1;  // exit code, or -1 if a signal ended the program
+  std::string out, err;
+};
+
+inline std::string Text(const std::string& path) {
+  const Bytes bytes = ValueOf(ReadFile(path));
+  return std::string(bytes.begin(), bytes.end());
+}
+
+// Runs a program in `folder` with shell-quoted arguments. The shell runs the command `before`
+// first.
+inline Outcome Call(const TempFolder& folder, const std::string& arguments,
+                    const std::string& before = "") {
+  TempFolder logs;
+  const std::string command = "cd '" + folder.path() + "' && " + before +
+                              " exec " STARFOCUS_EMULATOR " '" + ProgramFor(arguments) + "' " +
+                              arguments;
+  const int status = std::system(
+      ("exec >'" + logs.file("out") + "' 2>'" + logs.file("err") + "'; " + command).c_str());
+  Outcome outcome;
+  if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+  outcome.out = Text(logs.file("out"));
+  outcome.err = Text(logs.file("err"));
+  return outcome;
+}
+
+// Runs a call that must succeed.
+inline void Succeed(const TempFolder& folder, const std::string& arguments) {
+  CAPTURE(arguments);
+  REQUIRE(Call(folder, arguments).code == 0);
+}
+
+// Returns an error line without the name of the program at its start.
+inline std::string ErrorOf(const std::string& err) {
+  const size_t begin = err.rfind("starfocus-lab: ", 0) == 0 ? 15 : 11;
+  CHECK((begin == 15 || err.rfind("starfocus: ", 0) == 0));
+  return err.substr(std::min(begin, err.size()));
+}
+
+// Checks that stderr is one line that begins with the name of the program. The line must state what
+// was expected and found, what the program cannot do and why, what it does not support, or "out of
+// memory".
+inline void CheckErrorLine(const std::string& err) {
+  CHECK(err.find('\n') == err.size() - 1);
+  const auto has = [&err](const char* part) { return err.find(part) != std::string::npos; };
+  const bool cannot =
+      ErrorOf(err).rfind("cannot ", 0) == 0 || has(" is not supported: ") || has(": out of memory");
+  CHECK((cannot || has("expected ")));
+  CHECK((cannot || has(", found ")));
+}
+
+// Checks that a call fails with an error line that contains `mention`, prints nothing to stdout and
+// writes no file. The exit code must be 2 for an error in the command line, and 1 for an error in a
+// file.
+inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
+                         const std::string& mention) {
+  CAPTURE(arguments);
+  const int before = folder.count();
+  const Outcome outcome = Call(folder, arguments);
+  CAPTURE(outcome.err);
+  bool usage = false;
+  for (const char* what :
+       {"-", "command line: ", "DIR: ", "SRC: ", "COMMAND: ", "A: ", "B: ", "IMG: "}) {
+    usage = usage || ErrorOf(outcome.err).rfind(what, 0) == 0;
+  }
+  CHECK(outcome.code == (usage ? 2 : 1));
+  CHECK(outcome.out == "");
+  CheckErrorLine(outcome.err);
+  CHECK(Contains(outcome.err, mention));
+  CHECK(folder.count() == before);
+}
+
+// Checks each row of the table tests/programs/NAME.
+inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
+  std::ifstream table(STARFOCUS_SOURCE_DIR "/tests/programs/" + name);
+  int rows = 0;
+  for (std::string row; std::getline(table, row);) {
+    const size_t arrow = row.find(" -> ");
+    if (row.rfind("#", 0) == 0 || arrow == std::string::npos) continue;
+    CheckRefused(folder, row.substr(0, arrow), row.substr(arrow + 4));
+    ++rows;
+  }
+  CHECK(rows > 50);
+}
+
+// Writes malformed files and the light field `lf`, which has 40x30 pixels and 5 views. `bare` is a
+// copy of `lf` without map, and `grid` is a copy of `lf` with other names of views. `link` is a
+// link to `lf`.
+inline void Prepare(const TempFolder& folder) {
+  namespace fs = std::filesystem;
+  Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");
+  REQUIRE(WriteFile(folder.file("text.png"), Bytes{'h', 'e', 'l', 'l', 'o'}) == "");
+  REQUIRE(WriteImage(folder.file("small.png"), Image(4, 4)) == "");
+  REQUIRE(WriteImage(folder.file("large.png"), Image(5, 4)) == "");
+  for (const char* name : {"missing", "broken", "nan", "huge", "short", "bare", "linked"}) {
+    fs::copy(folder.file("lf"), folder.file(name));
+  }
+  fs::rename(folder.file("linked/view_+1.0_+0.0.png"), folder.file("target.png"));
+  fs::create_symlink("../target.png", folder.file("linked/view_+1.0_+0.0.png"));
+  fs::create_symlink("../target.png", folder.file("linked/out.png"));
+  fs::remove(folder.file("missing/view_+0.0_+0.0.png"));
+  REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
+  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
+  map.values[45] = std::numeric_limits<float>::quiet_NaN();
+  REQUIRE(WritePfm(folder.file("nan/disparity.pfm"), map) == "");
+  map.values[45] = 1e9f;
+  REQUIRE(WritePfm(folder.file("huge/disparity.pfm"), map) == "");
+  fs::resize_file(folder.file("short/disparity.pfm"), 100);
+  fs::create_directory(folder.file("taken_002.png"));
+  fs::remove(folder.file("bare/disparity.pfm"));
+  fs::create_directory_symlink("lf", folder.file("link"));
+  fs::create_directory(folder.file("grid"));
+  for (const char* name : {"v_0_0.png", "v_0_1.png", "v_0_2.png"}) {
+    fs::copy_file(folder.file("lf/view_+0.0_+0.0.png"), folder.file(std::string("grid/") + name));
+  }
+  fs::copy_file(folder.file("lf/disparity.pfm"), folder.file("grid/disparity.pfm"));
+  fs::create_hard_link(folder.file("grid/v_0_1.png"), folder.file("hard.png"));
+  Succeed(folder, "scene truths --size 40x30 --views 1 --truth 1,1");
+  Succeed(folder, "scene tiny --size 20x10 --views 5");
+  Succeed(folder, "scene single --size 40x30 --views 1");
+}
+
+// Writes two folders with a portrait: `truth` has the coverage of the hair, and `closed` has no
+// coverage.
+inline void PrepareHair(const TempFolder& folder) {
+  const test::ClosedHair portrait = test::MakeClosedHair();
+  LightField field;
+  field.views.emplace_back(test::ClosedHair::kWidth, test::ClosedHair::kHeight);
+  field.views[0].pixels = portrait.rgb;
+  field.disparity.width = test::ClosedHair::kWidth;
+  field.disparity.height = test::ClosedHair::kHeight;
+  field.disparity.values = portrait.map;
+  ThreadRunner runner(1);
+  REQUIRE(SaveLightField(folder.file("closed"), field, &runner) == "");
+  field.coverage = portrait.coverage;
+  REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
+}
+
 using Preparations = std::map<std::string, std::function<void(const TempFolder&)>>;
+
+// Changes the map of a light field: "DIR [VALUE] [X,Y,W,H=VALUE]...".
+inline void ChangeMap(const TempFolder& folder, const std::string& change) {
+  std::istringstream words(change);
+  std::string light_field;
+  words >> light_field;
+  const std::string path = folder.file(light_field + "/disparity.pfm");
+  FloatMap map = ValueOf(ReadPfm(path));
+  for (std::string word; words >> word;) {
+    int x = 0, y = 0, width = map.width, height = map.height;
+    const size_t is = word.find('=');
+    if (is != std::string::npos) {
+      REQUIRE(std::sscanf(word.c_str(), "%d,%d,%d,%d=", &x, &y, &width, &height) == 4);
+    }
+    const float value = std::stof(word.substr(is == std::string::npos ? 0 : is + 1));
+    for (int row = y; row < y + height; ++row) {
+      std::fill_n(map.values.begin() + ptrdiff_t(row) * map.width + x, width, value);
+    }
+  }
+  REQUIRE(WritePfm(path, map) == "");
+}
+
+// Returns the PSNR of two pictures in dB as the subcommand compare measures it.
+inline double PsnrOf(const TempFolder& folder, const std::string& a, const std::string& b) {
+  const Outcome outcome = Call(folder, "compare " + a + " " + b);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.out.rfind("PSNR ", 0) == 0);
+  return std::stod(outcome.out.substr(5));
+}
+
+// Checks a line "psnr A B LEAST" or "closer T A B GAIN" of a session.
+inline void CheckCloseness(const TempFolder& folder, const std::string& line) {
+  std::istringstream words(line);
+  std::string kind, truth, good, bad, limit;
+  words >> kind >> truth >> good;
+  if (kind == "closer") words >> bad;
+  words >> limit;
+  const double found = PsnrOf(folder, truth, good);
+  const double other = bad.empty() ? 0 : PsnrOf(folder, truth, bad);
+  CAPTURE(found);
+  CAPTURE(other);
+  CHECK((bad.empty() ? found >= std::stod(limit) : found > other + std::stod(limit)));
+}
+
+// Runs a shell command, in which `starfocus` and `lab` are the programs. Returns its exit status.
+inline int RunShell(const TempFolder& folder, const std::string& command) {
+  const std::string programs =
+      "starfocus() { " STARFOCUS_EMULATOR " '" STARFOCUS_PROGRAM
+      "' \"$@\"; }; lab() { " STARFOCUS_EMULATOR " '" STARFOCUS_PROGRAM "-lab' \"$@\"; }; ";
+  return std::system(
+      ("cd '" + folder.path() + "' && { " + programs + command + "; } >/dev/null").c_str());
+}
 
 // Checks the output of the last call against an out or err line of a session.
 inline void CheckOutcome(std::string line, const Outcome& last) {
@@ -55,8 +280,11 @@ inline void RunSessions(const std::string& name, const Preparations& preparation
       const size_t arrow = rest.find(" -> ");
       CheckRefused(*folder, rest.substr(0, arrow), rest.substr(arrow + 4));
     } else if (line[0] == '%') {
-      CHECK(std::system(("cd '" + folder->path() + "' && { " + rest + "; } >/dev/null").c_str()) ==
-            0);
+      CHECK(RunShell(*folder, rest) == 0);
+    } else if (line.rfind("psnr ", 0) == 0 || line.rfind("closer ", 0) == 0) {
+      CheckCloseness(*folder, line);
+    } else if (line.rfind("map ", 0) == 0) {
+      ChangeMap(*folder, line.substr(4));
     } else if (line[0] == '@') {
       preparations.at(rest)(*folder);
     } else {

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests the lines of the programs on terminals of any width: lines never continue the progress
-// line, the progress line never wraps, and no text contains control characters.
-#include "platform/console.h"
+// line, the progress line never wraps, and no text contains control characters. Tests how the
+// answers of terminals with graphics are read, and that a signal restores the terminal.
+#include "tests/support/terminal.h"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <string>
-#include <vector>
+#include <thread>
 
+#include "platform/console.h"
 #include "platform/progress.h"
 #include "platform/result.h"
+#include "platform/signal_cleanup.h"
+#include "platform/terminal_graphics.h"
 #include "platform/text.h"
-#include "tests/support/terminal.h"
+#include "tests/support/child.h"
 
-namespace starfocus::console_test {
+namespace starfocus::terminal_test {
 namespace {
 
 // Connects stderr to a terminal until the object is destroyed.
@@ -82,6 +87,10 @@ TEST_CASE("console: a line replaces the progress line, which appears again below
   CHECK(terminal.Read() == std::string(kErase) +
                                "a note that is longer than the terminal is wide is not cut\r\n"
                                "refocusing: 43 %");
+  TellLine("a\x1b[31m\nb\xc2\x9b");
+  CHECK(terminal.Read() == std::string(kErase) + "a [31m b  \r\nrefocusing: 43 %");
+  ShowProgress("a\x1b]0;b\a", ": 1 %");
+  CHECK(terminal.Read() == std::string(kErase) + "a ]0;b : 1 %");
   EraseProgress();
   TellLine("last");
   CHECK(terminal.Read() == std::string(kErase) + "last\r\n");
@@ -105,35 +114,26 @@ TEST_CASE("console: the progress line is narrower than the terminal at every wid
 }
 
 TEST_CASE("console: texts of any characters are cut between characters, to the exact width") {
-  struct Case {
+  const struct {
     const char* text;
     int columns;
     const char* fits;
+  } rows[] = {
+      {"", 0, ""},
+      {"abc", 3, "abc"},
+      {"abcd", 3, "..."},
+      {"abcdef", 5, "ab..."},
+      {"abcdef", 1, "."},
+      {"abcdef", 0, ""},
+      {"\xc3\xa4\xc3\xb6\xc3\xbc\xc3\xa4\xc3\xb6\xc3\xbc", 5, "\xc3\xa4\xc3\xb6..."},
+      {"\xe5\x86\x99\xe7\x9c\x9f", 4, "\xe5\x86\x99\xe7\x9c\x9f"},  // two wide characters
+      {"\xe5\x86\x99\xe7\x9c\x9f\xe5\x86\x99", 5, "\xe5\x86\x99..."},
+      {"\xe5\x86\x99\xe7\x9c\x9f\xe5\x86\x99", 4, "..."},
+      {"o\xcc\x81o\xcc\x81", 2, "o\xcc\x81o\xcc\x81"},  // combining accents
+      {"o\xcc\x81o\xcc\x81xyz", 4, "o\xcc\x81..."},
+      {"\xff\xfewxyz", 5, "\xff\xfe..."},
   };
-  for (const Case& one : std::vector<Case>{
-           {"", 0, ""},
-           {"abc", 3, "abc"},
-           {"abcd", 3, "..."},
-           {"abcdef", 5, "ab..."},
-           {"abcdef", 1, "."},
-           {"abcdef", 0, ""},
-           {"\xc3\xa4\xc3\xb6\xc3\xbc\xc3\xa4\xc3\xb6\xc3\xbc", 5, "\xc3\xa4\xc3\xb6..."},
-           {"\xe5\x86\x99\xe7\x9c\x9f", 4, "\xe5\x86\x99\xe7\x9c\x9f"},  // two wide characters
-           {"\xe5\x86\x99\xe7\x9c\x9f\xe5\x86\x99", 5, "\xe5\x86\x99..."},
-           {"\xe5\x86\x99\xe7\x9c\x9f\xe5\x86\x99", 4, "..."},
-           {"e\xcc\x81"
-            "e\xcc\x81",
-            2,
-            "e\xcc\x81"
-            "e\xcc\x81"},  // combining accents
-           {"e\xcc\x81"
-            "e\xcc\x81"
-            "abc",
-            4, "e\xcc\x81..."},
-           {"\xff\xfe"
-            "abcd",
-            5, "\xff\xfe..."},
-       }) {
+  for (const auto& one : rows) {
     CAPTURE(one.text);
     CAPTURE(one.columns);
     CHECK(FitColumns(one.text, one.columns) == one.fits);
@@ -154,17 +154,6 @@ TEST_CASE("console: lines and errors contain no control characters, and keep all
   }
 }
 
-TEST_CASE("console: terminals receive no control characters of names" *
-          doctest::test_suite("terminal")) {
-  const StderrTerminal terminal;
-  terminal.Resize(40);
-  TellLine("a\x1b[31m\nb\xc2\x9b");
-  CHECK(terminal.Read() == "a [31m b  \r\n");
-  ShowProgress("a\x1b]0;b\a", ": 1 %");
-  CHECK(terminal.Read() == std::string(kErase) + "a ]0;b : 1 %");
-  EraseProgress();
-}
-
 TEST_CASE("progress: the line shows the share and, after a second, the remaining time") {
   CHECK(Progress::State(43, 100, 0.5) == ": 43 %");
   CHECK(Progress::State(0, 100, 5) == ": 0 %");
@@ -173,5 +162,62 @@ TEST_CASE("progress: the line shows the share and, after a second, the remaining
   CHECK(Progress::State(100, 100, 60) == ": 100 %, 0 s left");
 }
 
+TEST_CASE("terminal: an answer is complete when the device attributes have arrived") {
+  const std::string whole = "\x1b_Gi=31;OK\x1b\\\x1b[4;600;800t\x1b[?2;0;1000;900S\x1b[?62;4;22c";
+  for (size_t length = 0; length < whole.size(); ++length) {
+    CHECK_FALSE(ReadTerminalAnswers(whole.substr(0, length)).done);
+  }
+  const TerminalAnswers answers = ReadTerminalAnswers("key" + whole + "key");
+  CHECK(answers.done);
+  CHECK(answers.kitty);
+  CHECK(answers.sixel);
+  CHECK(answers.attributes == "62;4;22");
+  CHECK(answers.width == 800);
+  CHECK(answers.height == 600);
+  CHECK(answers.sixel_width == 1000);
+  CHECK(answers.sixel_height == 900);
+}
+
+TEST_CASE("terminal: a signal during the query restores the echo" *
+          doctest::test_suite("terminal")) {
+  const int terminal = OpenPseudoterminal();
+  const int program = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+  REQUIRE(program >= 0);
+  const auto echoes = [program] {
+    termios mode = {};
+    return tcgetattr(program, &mode) == 0 && (mode.c_lflag & ECHO) != 0;
+  };
+  REQUIRE(echoes());
+  const int status = EndBySignal(SIGINT, [&](const auto& begun) {
+    SignalCleanup::Install();
+    dup2(program, STDIN_FILENO);
+    dup2(program, STDOUT_FILENO);
+    std::thread query([] { (void)FindGraphicsTerminal("--show"); });
+    for (int i = 0; i < 1000 && echoes(); ++i) usleep(1000);
+    const bool is_quiet = !echoes();
+    if (begun()) query.join();
+    if (!is_quiet) _exit(1);
+  });
+  CHECK(WIFSIGNALED(status));
+  CHECK(echoes());
+  close(program);
+  close(terminal);
+}
+
+TEST_CASE("terminal: sixels need attribute 4, and kitty graphics need the answer OK") {
+  for (const char* without : {"\x1b[?64;14;40c", "\x1b[?6c", "\x1b[?c", "\x1b[?44;24c"}) {
+    CAPTURE(without);
+    CHECK(ReadTerminalAnswers(without).done);
+    CHECK_FALSE(ReadTerminalAnswers(without).sixel);
+  }
+  for (const char* with : {"\x1b[?4c", "\x1b[?4;6c", "\x1b[?62;4c"}) {
+    CAPTURE(with);
+    CHECK(ReadTerminalAnswers(with).sixel);
+  }
+  CHECK_FALSE(ReadTerminalAnswers("\x1b_Gi=31;ENOTSUP:no\x1b\\\x1b[?6c").kitty);
+  CHECK(ReadTerminalAnswers("\x1b[4;123456;800t\x1b[?6c").width == 0);
+  CHECK(ReadTerminalAnswers("\x1b[?2;3;0S\x1b[?6c").sixel_width == 0);
+}
+
 }  // namespace
-}  // namespace starfocus::console_test
+}  // namespace starfocus::terminal_test

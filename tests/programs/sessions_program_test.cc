@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the command `video` on folders of photos: the order and the names of frames, the scale that
-// their depth maps share, and the pairing with a folder of depth pictures.
+// Runs the sessions that take little time. Tests the pairing of frames with a folder of depth
+// pictures, and the colours of frames.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include "tests/support/error_line.h"
 #include "tests/support/photo_files.h"
 
-namespace starfocus::video_program_test {
+namespace starfocus::sessions_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,29 +59,12 @@ void MakeClip(const TempFolder& folder) {
   }
 }
 
-TEST_CASE("video: every session of video_sessions.txt succeeds") {
-  RunSessions("programs/video_sessions.txt", {{"clip", MakeClip}});
+TEST_CASE("sessions: every session of sessions.txt succeeds") {
+  RunSessions("programs/sessions.txt");
 }
 
-TEST_CASE("video: the person stays in focus when something nearer appears") {
-  TempFolder folder;
-  MakeClip(folder);
-  for (const std::string near : {" --near white", ""}) {
-    Succeed(folder, "video clip -o out --no-repair --focus-at 16,20" + near);
-    for (int frame = kFirst; frame <= kLast; ++frame) {
-      const Image in = MakeFrame(frame);
-      const std::string name = "out/frame_" + std::to_string(frame) + ".png";
-      const Image out = ValueOf(ReadImage(folder.file(name)));
-      CAPTURE(name);
-      int largest = 0;
-      for (int y = 12; y < kHeight; ++y) {
-        for (int i = 3 * 14; i < 3 * 20; ++i) {
-          largest = std::max(largest, std::abs(out.row(y)[i] - in.row(y)[i]));
-        }
-      }
-      CHECK(largest <= 1);
-    }
-  }
+TEST_CASE("sessions: every session of video_sessions.txt succeeds") {
+  RunSessions("programs/video_sessions.txt", {{"clip", MakeClip}});
 }
 
 std::string Name(const std::string& pattern, int number) {
@@ -201,4 +184,4 @@ TEST_CASE("video: frames keep their colours, and light is averaged as the colour
 }
 
 }  // namespace
-}  // namespace starfocus::video_program_test
+}  // namespace starfocus::sessions_program_test
