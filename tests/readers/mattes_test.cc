@@ -18,6 +18,7 @@
 #include "platform/readers/heif_boxes.h"
 #include "platform/readers/matte.h"
 #include "platform/readers/orientation.h"
+#include "platform/readers/photo_scale.h"
 #include "platform/readers/xmp.h"
 #include "tests/readers/depth_scene.h"
 #include "tests/support/error_line.h"

@@ -2,7 +2,7 @@
 // Table of valid depth photos in JPEG files: each row has a file, made as the specification of its
 // format defines, and the disparities and the note that opening this file must give. A new kind of
 // photo is a new row. photo_refusals_test.cc has the files that are rejected, heif_test.cc the HEIF
-// files, depth_picture_test.cc the separate depth pictures, and layouts_test.cc the folders.
+// files, depth_picture_test.cc the separate depth pictures, and layouts.txt the folders.
 #include <doctest/doctest.h>
 
 #include <algorithm>
