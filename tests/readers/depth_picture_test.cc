@@ -2,7 +2,7 @@
 // Tables of depth pictures in separate files: each row has a file, the options, the disparities of
 // some pixels, and the notes. The rows test unknown values, units, infinite distances and near
 // ends. photo_refusals_test.cc has the depth pictures that are rejected, and tests/platform the
-// formats of arrays. Further cases test the filling, the orientation, and the names of files.
+// formats of arrays. Further cases test the filling and the orientation.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -426,28 +426,6 @@ TEST_CASE("depth pictures: by its proportions and edges, a picture is rotated wi
   }
 }
 #endif
-
-TEST_CASE("depth pictures: a picture is found by its name next to the photo") {
-  for (const char* name :
-       {"photo-depth.png", "photo_depth.png", "photo.depth.png", "photo-depth.PNG",
-        "PHOTO_Depth.Png", "Photo-DEPTH.png", "photo-depth.npy", "photo-depth.npz",
-        "photo-depth.exr", "photo-depth.tif", "photo-depth.tiff"}) {
-    CAPTURE(name);
-    TempFolder folder;
-    Write(folder.file("photo.jpg"), Encode(Plain(kColumns, kRows, 128), ".jpg"));
-    Write(folder.file("photodepth.png"), "no picture");
-    Write(folder.file("photo2-depth.png"), "no picture");
-    Write(folder.file("depth.png"), "no picture");
-    Write(folder.file(name), Encode(Ramp(kColumns, kRows), ".png"));
-    Capture capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {}));
-    CHECK(capture.map_path == folder.file(name));
-    CHECK(capture.notes.size() == 1);
-    Write(folder.file("photo-depth.jpg"), Encode(Ramp(kColumns, kRows), ".jpg"));
-    capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {"", NearIs(Near::kWhite)}));
-    REQUIRE(capture.notes.size() == 1);
-    CHECK(Contains(capture.notes[0], "2 depth pictures"));
-  }
-}
 
 }  // namespace
 }  // namespace starfocus::depth_picture_test

@@ -423,21 +423,7 @@ TEST_CASE("captions: XMP and IPTC of a photo are kept, except properties of its 
   CHECK(none.iptc.empty());
 }
 
-TEST_CASE("photos: pixels of more than 8 bits are named, in photos and in folders of views") {
-  const std::vector<uint16_t> grey(size_t(kWidth) * kHeight, 40000);
-  const std::string note = "the pixels have 16 bits for each colour, of which the program";
-  TempFolder folder;
-  std::filesystem::create_directory(folder.file("lf"));
-  for (const bool deep : {false, true}) {
-    CAPTURE(deep);
-    const std::string png =
-        deep ? Png16(kWidth, kHeight, grey) : Encode(Ramp(kWidth, kHeight), ".png");
-    Write(folder.file("a.png"), png);
-    Write(folder.file("a-depth.png"), RampPng());
-    Write(folder.file("lf/view_+0.0_+0.0.png"), png);
-    CHECK(HasNote(ValueOf(OpenCapture(folder.file("a.png"), {})), note) == deep);
-    CHECK(HasNote(ValueOf(OpenCapture(folder.file("lf"), {})), note) == deep);
-  }
+TEST_CASE("photos: PPM states the number of bits, and other files have 8") {
   const std::pair<std::string, int> kBits[] = {{"P6 1 1 255\n", 8},
                                                {"P6 1 1 256\n", 9},
                                                {"P5\n# 1\n1 1 1023\n", 10},

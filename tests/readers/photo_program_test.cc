@@ -43,18 +43,13 @@ std::string GdepthPhoto() {
                 "GDepth:Data=\"" + Base64(Encode(map, ".png")) + "\"");
 }
 
-// Writes a photo of 96 x 64 pixels whose left half is near, and a depth picture next to it.
-void MakePhoto(const TempFolder& folder, const std::string& exif) {
-  Image map(96, 64);
-  for (int y = 0; y < map.height; ++y) std::fill_n(map.row(y), 3 * 48, uint8_t{255});
-  Write(folder.file("a.jpg"), Insert(Encode(Ramp(96, 64), ".jpg"), exif));
-  Write(folder.file("a-depth.png"), Encode(map, ".png"));
-}
-
 // Writes a grey photo, a photo of noise and depth pictures. In the first picture, the left half is
 // near. In the second picture, all rows except the top rows are near.
 void MakePhotoAndMap(const TempFolder& folder) {
-  MakePhoto(folder, "");
+  Image near_left(96, 64);
+  for (int y = 0; y < 64; ++y) std::fill_n(near_left.row(y), 3 * 48, uint8_t{255});
+  Write(folder.file("a.jpg"), Encode(Ramp(96, 64), ".jpg"));
+  Write(folder.file("a-depth.png"), Encode(near_left, ".png"));
   Write(folder.file("a.png"), Encode(Ramp(96, 64), ".png"));
   Write(folder.file("noise.png"), Encode(Noise(96, 64), ".png"));
   Image map = Plain(96, 64, 255);
@@ -69,6 +64,35 @@ void MakeViews(const TempFolder& folder) {
   }
   Require(WritePfm(folder.file("map.pfm"), {4, 3, std::vector<float>(12, 0.75F)}));
   Require(WritePfm(folder.file("inf.pfm"), {4, 3, std::vector<float>(12, HUGE_VALF)}));
+}
+
+// Adds photos whose EXIF contains an orientation and a subject, and may contain the size of the
+// picture that the subject refers to.
+void MakeSubjects(const TempFolder& folder) {
+  MakePhotoAndMap(folder);
+  constexpr int kArea = 0x9214, kLocation = 0xa214;  // tags of EXIF
+  const std::pair<const char*, std::string> kPhotos[] = {
+      {"point", SubjectSegment(1, kArea, {72, 20})},
+      {"circle", SubjectSegment(1, kArea, {72, 20, 9})},
+      {"box", SubjectSegment(1, kArea, {72, 20, 9, 5})},
+      {"location", SubjectSegment(1, kLocation, {72, 20})},
+      {"turned3", SubjectSegment(3, kArea, {72, 20}, 96, 64)},
+      {"turned6", SubjectSegment(6, kArea, {72, 20, 9, 5})},
+      {"location6", SubjectSegment(6, kLocation, {72, 20, 5}, 96, 64)},
+      {"turned8", SubjectSegment(8, kArea, {72, 20})},
+      {"half", SubjectSegment(1, kArea, {144, 40}, 192, 128)},
+      {"half6", SubjectSegment(6, kLocation, {144, 40}, 192, 128)},
+      {"cropped", SubjectSegment(1, kArea, {72, 20}, 128, 128)},
+      {"outside", SubjectSegment(1, kArea, {96, 20})},
+      {"number", SubjectSegment(1, kArea, {72})},
+      {"sized", SubjectSegment(1, kArea, {72, 20}, 96, 64)},
+      {"sized_location", SubjectSegment(1, kLocation, {72, 20}, 96, 64)},
+      {"sized_box", SubjectSegment(1, kArea, {72, 20, 5, 9}, 96, 64)},
+      {"doubled", SubjectSegment(1, kArea, {72, 20}, 192, 128)}};
+  const std::string photo = Text(folder.file("a.jpg"));
+  for (const auto& [name, exif] : kPhotos) {
+    Write(folder.file(name + std::string(".jpg")), Insert(photo, exif));
+  }
 }
 
 TEST_CASE("photos: every session of the tables succeeds") {
@@ -90,6 +114,9 @@ TEST_CASE("photos: every session of the tables succeeds") {
     RunSessions(table, {{"photo and map", MakePhotoAndMap}});
   }
   RunSessions("readers/layouts.txt", {{"views", MakeViews}});
+#ifdef STARFOCUS_HAS_EXIF
+  RunSessions("readers/subjects.txt", {{"subjects", MakeSubjects}});
+#endif
   if (!CanReadXmp()) return;
   RunSessions("readers/sessions.txt",
               {{"GDepth photo", write_photo}, {"stored mattes", copy_seeds}});
@@ -165,84 +192,6 @@ TEST_CASE("photos: captions are copied to every output, and only depth photos de
     }
   }
 }
-
-#ifdef STARFOCUS_HAS_EXIF
-constexpr int kArea = 0x9214, kLocation = 0xa214;  // tags of EXIF
-
-TEST_CASE("photos: the default focus is the EXIF subject, rotated and scaled like the photo") {
-  const struct {
-    std::string exif;
-    const char* origin;
-    const char* pixel;
-  } kinds[] = {{SubjectSegment(1, kArea, {72, 20}), "the subject in the photo's EXIF", "72,20"},
-               {SubjectSegment(1, kArea, {72, 20, 9}), "the subject", "72,20"},
-               {SubjectSegment(1, kArea, {72, 20, 9, 5}), "the subject", "72,20"},
-               {SubjectSegment(1, kLocation, {72, 20}), "the subject", "72,20"},
-               {SubjectSegment(3, kArea, {72, 20}), "the subject", "23,43"},
-               {SubjectSegment(6, kArea, {72, 20, 9, 5}), "the subject", "43,72"},
-               {SubjectSegment(8, kArea, {72, 20}), "the subject", "20,23"},
-               {SubjectSegment(1, kArea, {144, 40}, 192, 128), "the subject", "72,20"},
-               {SubjectSegment(6, kLocation, {144, 40}, 192, 128), "the subject", "43,72"},
-               // The following subjects refer to a picture that was cropped, or lie outside the
-               // picture.
-               {SubjectSegment(1, kArea, {72, 20}, 128, 128), "the nearest large surface", nullptr},
-               {SubjectSegment(1, kArea, {96, 20}), "the nearest large surface", nullptr},
-               {SubjectSegment(1, kArea, {72}), "the nearest large surface", nullptr},
-               {"", "the nearest large surface", nullptr}};
-  const std::string map = " --near white --depth-orientation photo";
-  for (const auto& photo : kinds) {
-    TempFolder folder;
-    MakePhoto(folder, photo.exif);
-    const Outcome outcome = Call(folder, "refocus a.jpg" + map + " -o default.png");
-    CAPTURE(photo.origin);
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 0);
-    CHECK(Contains(outcome.err, std::string("a.jpg: focused at ") + photo.origin));
-    const size_t begin = outcome.err.find("default.png: focus ") + 19;
-    CHECK(outcome.err.find("focused at ", begin) == std::string::npos);
-    const std::string pixel = outcome.err.substr(begin, outcome.err.find(" (", begin) - begin);
-    if (photo.pixel != nullptr) CHECK(pixel == photo.pixel);
-    Succeed(folder, "refocus a.jpg" + map + " -o at.png --focus-at " + pixel);
-    CHECK(Text(folder.file("default.png")) == Text(folder.file("at.png")));
-    // With depth, a matte has precedence over the nearest surface only.
-    const Outcome matted = Call(folder, "refocus a.jpg" + map + " --matte a-depth.png -o m.png");
-    const bool in_exif = Contains(photo.origin, "the subject");
-    CHECK(Contains(matted.err, std::string("a.jpg: focused at ") +
-                                   (in_exif ? photo.origin : "the subject of the matte")));
-    if (in_exif) CHECK(!Contains(matted.err, "of the matte"));
-  }
-}
-
-TEST_CASE("photos: the EXIF subject is kept only if the output has the same pixel grid") {
-  const struct {
-    std::string exif;
-    const char* options;
-    bool stays;
-  } kinds[] = {{SubjectSegment(1, kArea, {72, 20}, 96, 64), "", true},
-               {SubjectSegment(1, kLocation, {72, 20}, 96, 64), "", true},
-               {SubjectSegment(3, kArea, {72, 20}, 96, 64), "", false},
-               {SubjectSegment(6, kLocation, {72, 20, 5}, 96, 64), "", false},
-               {SubjectSegment(1, kArea, {72, 20, 5, 9}, 96, 64), "--region 10,0,80,64", false},
-               {SubjectSegment(1, kArea, {72, 20}, 192, 128), "", false},
-               {SubjectSegment(1, kArea, {72, 20}), "", false}};
-  for (const auto& kind : kinds) {
-    TempFolder folder;
-    MakePhoto(folder, kind.exif);
-    const std::string refocus = "refocus a.jpg --near white --focus-at 30,30 -o b.jpg ";
-    Succeed(folder, refocus + kind.options);
-    Image picture = ValueOf(ReadImage(folder.file("b.jpg")));
-    Image map(picture.width, picture.height);
-    std::fill_n(map.pixels.begin(), map.pixels.size() / 2, uint8_t{255});
-    Write(folder.file("b-depth.png"), Encode(map, ".png"));
-    const Outcome again = Call(folder, "refocus b.jpg --near white -o c.jpg");
-    CAPTURE(again.err);
-    CHECK(again.code == 0);
-    CHECK(Contains(again.err, kind.stays ? "at the subject" : "at the nearest large surface"));
-    CHECK(Contains(again.err, "c.jpg: focus 72,20 (") == kind.stays);
-  }
-}
-
-#endif
 
 // Writes a folder of one view: a random picture whose disparities decrease from `high` to `low` in
 // steps.

@@ -129,25 +129,6 @@ TEST_CASE("stereo pair: the time does not depend on the height") {
   CHECK(MeasureAlignment(tall, tall).corners < 2000);
 }
 
-TEST_CASE("stereo pair: two files are the views at (0, 0) and (1, 0)") {
-  TempFolder folder;
-  const std::string left = folder.file("a.png"), right = folder.file("b.png");
-  Require(WriteImage(left, Texture(0, 0, 0)));
-  Require(WriteImage(right, Texture(4, 0, 0)));
-  CaptureOptions options;
-  options.right = right;
-  const Capture capture = ValueOf(OpenCapture(left, options));
-  CHECK(capture.format == "stereo pair (two files)");
-  CHECK(capture.light_field.views[0].pixels == Texture(0, 0, 0).pixels);
-  CHECK(capture.light_field.views[1].pixels == Texture(4, 0, 0).pixels);
-  CHECK(capture.light_field.positions[1].u == 1);
-  CHECK(CaptureFiles(capture) == std::vector<std::string>{left, right});
-  Require(WriteImage(right, Plain(kSide, kSide + 1, 90)));
-  CHECK(Contains(OpenCapture(left, options), "b.png: expected a picture of 160x160, as"));
-  options.right = folder.file("absent.png");
-  CHECK(Contains(OpenCapture(left, options), "absent.png"));
-}
-
 TEST_CASE("stereo pair: a file with a sign of a pair has two views and no map") {
   const std::string second = Encode(Ramp(kWidth, kHeight), ".jpg");
   const std::string gain = "xmlns:hdrgm=\"http://ns.adobe.com/hdr-gain-map/1.0/\"";
