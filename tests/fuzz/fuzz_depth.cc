@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: estimates and repairs maps with any configuration, size, stride and content, and
-// computes maps and coverage from mattes. Every buffer is on the heap and has exactly the required
-// size, so that AddressSanitizer reports all accesses outside it.
+// computes maps and coverage from mattes.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -11,15 +10,12 @@
 #include "starfocus/depth.h"
 #include "starfocus/matte.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/fuzz/input.h"
-#include "tests/support/config.h"
+#include "tests/fuzz/engine_input.h"
 #include "tests/support/strands.h"
 
 namespace {
 
-using starfocus::fuzz::Input;
-
-constexpr int kViews[] = {1, 5, 9, 17};
+using namespace starfocus::fuzz;
 
 // Makes a configuration. Most configurations are valid; a few have arbitrary bytes in one field.
 test::Config MakeConfig(Input* input) {
@@ -34,64 +30,16 @@ test::Config MakeConfig(Input* input) {
       config.positions[k] = {input->Real(-1, 1), input->Real(-1, 1)};
     }
   }
-  const double most = input->Rarely() ? STARFOCUS_MAX_DISPARITY : 12;
-  const double a = input->Real(-most, most), b = input->Real(-most, most);
-  config.disparity_min = static_cast<float>(std::min(a, b));
-  config.disparity_max = static_cast<float>(std::max(a, b));
+  DrawDisparities(input, &config);
   config.max_workers = input->Rarely() ? STARFOCUS_MAX_WORKERS : 1;
-  if (input->Rarely()) {
-    // The fuzzer does not select pointers, which must be valid.
-    constexpr size_t kNumbers = offsetof(starfocus_config, tuning);
-    uint8_t* bytes = reinterpret_cast<uint8_t*>(static_cast<starfocus_config*>(&config));
-    input->Bytes(bytes + input->Int(0, static_cast<int>(kNumbers / 4) - 1) * 4, 4);
-  }
+  SpoilRarely(input, &config);
   return config;
 }
 
-// Makes callbacks, which may cancel the call.
-starfocus_callbacks MakeCallbacks(Input* input) {
-  static int32_t left;  // number of calls of progress before the cancellation
-  left = input->Int(0, 20);
-  starfocus_callbacks callbacks = {};
-  callbacks.progress_data = &left;
-  if (input->Rarely()) {
-    callbacks.progress = [](void* data, int32_t, int32_t) -> int {
-      return (*static_cast<int32_t*>(data))-- == 0;
-    };
-  }
-  return callbacks;
-}
-
-// Owns rows with any stride. No memory follows the last row.
-template <class T>
-struct Rows {
-  Rows(size_t width, int32_t height, Input* input)
-      : stride(width + static_cast<size_t>(input->Int(0, 5))),
-        count(stride * static_cast<size_t>(height - 1) + width),
-        values(new T[count]()) {}
-
-  size_t stride, count;
-  std::unique_ptr<T[]> values;
-};
-
-void FillPicture(Input* input, Rows<uint8_t>* picture) {
-  uint8_t step[16];
-  input->Bytes(step, sizeof(step));
-  for (size_t i = 0; i < picture->count; ++i) {
-    picture->values[i] = static_cast<uint8_t>(step[i % 16] + (i >> 4) * step[0]);
-  }
-}
-
 void FillMap(const test::Config& config, Input* input, Rows<float>* map) {
-  uint8_t levels[32];
-  input->Bytes(levels, sizeof(levels));
-  const auto length = static_cast<size_t>(input->Int(1, 40));
-  const float range = config.disparity_max - config.disparity_min;
-  for (size_t i = 0; i < map->count; ++i) {
-    const float level = static_cast<float>(levels[i / length % 32]) / 255.0F;
-    map->values[i] = std::clamp(config.disparity_min + range * level, config.disparity_min,
-                                config.disparity_max);
-  }
+  Rows<uint8_t> levels(map->count, 1, 0, input);
+  FillRuns(input, &levels);
+  for (size_t i = 0; i < map->count; ++i) map->values[i] = DisparityOf(config, levels.values[i]);
   while (input->Rarely()) {
     map->values[input->Value<uint32_t>() % map->count] = input->Value<float>();
   }
@@ -130,15 +78,15 @@ void CheckMap(const test::Config& config, const Rows<float>& map) {
 // Computes coverage from a matte and a map of known values, and both planes from the matte alone.
 void UseMatte(const test::Config& config, const Rows<float>& map, Input* input) {
   const int32_t width = input->Int(1, 90), height = input->Int(1, 90), step = input->Int(0, 4);
-  Rows<uint8_t> samples(static_cast<size_t>((width - 1) * std::max(step, 1) + 1), height, input);
+  Rows<uint8_t> samples(static_cast<size_t>((width - 1) * std::max(step, 1) + 1), height, 5, input);
   FillPicture(input, &samples);
   const starfocus_matte matte = {samples.values.get(), samples.stride, step, width, height};
   starfocus_region region = {input->Int(0, config.width - 1), input->Int(0, config.height - 1), 1,
                              1};
   region.width = input->Int(1, config.width - region.x);
   region.height = input->Int(1, config.height - region.y);
-  Rows<float> field(static_cast<size_t>(region.width), region.height, input);
-  Rows<uint8_t> coverage(static_cast<size_t>(region.width), region.height, input);
+  Rows<float> field(static_cast<size_t>(region.width), region.height, 5, input);
+  Rows<uint8_t> coverage(static_cast<size_t>(region.width), region.height, 5, input);
   starfocus_disparity_output out = {};
   out.disparity = field.values.get();
   out.disparity_stride = field.stride * sizeof(float);
@@ -163,7 +111,7 @@ void UseMatte(const test::Config& config, const Rows<float>& map, Input* input) 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Input input(data, size);
   const test::Config config = MakeConfig(&input);
-  const starfocus_callbacks callbacks = MakeCallbacks(&input);
+  const starfocus_callbacks callbacks = DrawCallbacks(20, &input);
   const bool repairs = input.Int(0, 1) == 1;
   size_t bytes = 0;
   if (starfocus_map_workspace_size(&config, repairs ? 1 : 0, &bytes, nullptr) != STARFOCUS_OK ||
@@ -171,19 +119,18 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     return 0;
   }
   if (int64_t{config.width} * config.height > 20000) return 0;
-  void* workspace = nullptr;
-  if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
-  const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
+  const auto workspace = TakeMemory(bytes);
+  if (!workspace) return 0;
   starfocus_light_field field = starfocus::NewLightField();
   std::vector<Rows<uint8_t>> pictures;
   const auto width = static_cast<size_t>(config.width);
   for (int view = 0; view < config.views; ++view) {
-    pictures.emplace_back(3 * width, config.height, &input);
+    pictures.emplace_back(3 * width, config.height, 5, &input);
     FillPicture(&input, &pictures.back());
     field.views[view] = starfocus_image_rgb(pictures.back().values.get(), pictures.back().stride);
   }
-  Rows<float> given(width, config.height, &input), map(width, config.height, &input);
-  Rows<uint8_t> sure(width, config.height, &input), coverage(width, config.height, &input);
+  Rows<float> given(width, config.height, 5, &input), map(width, config.height, 5, &input);
+  Rows<uint8_t> sure(width, config.height, 5, &input), coverage(width, config.height, 5, &input);
   FillMap(config, &input, &given);
   if (config.views == 1 && input.Int(0, 1) == 1) {
     FillHair(config, &input, &pictures[0], &given);
@@ -201,7 +148,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (input.Rarely()) out.confidence = nullptr;
   if (input.Rarely()) out.coverage = nullptr;
   const starfocus_status status =
-      make(&config, &callbacks, &field, &out, workspace, bytes, nullptr);
+      make(&config, &callbacks, &field, &out, workspace.get(), bytes, nullptr);
   if (status == STARFOCUS_OK) {
     CheckMap(config, map);
     UseMatte(config, map, &input);

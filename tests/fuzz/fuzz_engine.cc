@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: the C ABI with any configuration, parameters, sizes, strides and contents, for whole
-// pictures and streams. Every buffer is on the heap and has exactly the required size, so that
-// AddressSanitizer reports all accesses outside it.
+// pictures and streams.
 #include <algorithm>
 #include <cstdlib>
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/fuzz/input.h"
-#include "tests/support/config.h"
+#include "tests/fuzz/engine_input.h"
 #include "tests/support/features.h"
 #include "tests/support/rgb_calls.h"
 #include "tests/support/strands.h"
 
 namespace {
 
-using starfocus::fuzz::Input;
+using namespace starfocus::fuzz;
 using test::Strands;
 
-constexpr int kViews[] = {1, 5, 9, 17};
 constexpr int kBlocks[] = {32, 64, 128, 256};
 // Limits the product of rendered views and pixels, so that every input runs fast.
 constexpr double kMostWork = 300000;
@@ -59,10 +54,7 @@ test::Config MakeConfig(bool strands, Input* input, starfocus_params* lens) {
   config.width = input->Int(strands ? 16 : 1, side);
   config.height = input->Int(strands ? 16 : 1, side);
   config.views = kViews[input->Int(0, 3)];
-  const double most = input->Rarely() ? STARFOCUS_MAX_DISPARITY : 12;
-  const double a = input->Real(-most, most), b = input->Real(-most, most);
-  config.disparity_min = static_cast<float>(std::min(a, b));
-  config.disparity_max = static_cast<float>(std::max(a, b));
+  DrawDisparities(input, &config);
   if (strands) SetDepths(input, &config);
   config.max_blur = input->Rarely() ? input->Real(1, STARFOCUS_MAX_BLUR) : input->Real(0.01, 14);
   config.superblock = kBlocks[input->Int(0, 3)];
@@ -87,12 +79,7 @@ test::Config MakeConfig(bool strands, Input* input, starfocus_params* lens) {
   }
   if (config.tuning.deblocking % 6 == 1) SetPositions(config.tuning.deblocking, &config);
   if (config.tuning.deblocking % 8 == 3) config.features = 0;
-  if (input->Rarely()) {
-    // The caller passes only valid pointers.
-    constexpr size_t kNumbers = offsetof(starfocus_config, tuning);
-    uint8_t* bytes = reinterpret_cast<uint8_t*>(static_cast<starfocus_config*>(&config));
-    input->Bytes(bytes + input->Int(0, static_cast<int>(kNumbers / 4) - 1) * 4, 4);
-  }
+  SpoilRarely(input, &config);
   return config;
 }
 
@@ -123,112 +110,65 @@ void SetParams(const test::Config& config, Input* input, starfocus::Params* give
   }
 }
 
-// Sets a progress function that cancels, or leaves the progress function unset.
-void SetProgress(starfocus_engine* engine, Input* input) {
-  starfocus_callbacks callbacks = {};
-  if (input->Rarely()) {
-    static int32_t left;  // number of calls of progress before the cancellation
-    left = input->Int(0, 100);
-    callbacks.progress = [](void* data, int32_t, int32_t) -> int {
-      return (*static_cast<int32_t*>(data))-- == 0;
-    };
-    callbacks.progress_data = &left;
-  }
-  if (starfocus_set_callbacks(engine, &callbacks) != STARFOCUS_OK) std::abort();
-}
-
 struct Pictures {
-  std::vector<std::unique_ptr<uint8_t[]>> bytes;
-  std::unique_ptr<float[]> disparity;
-  std::unique_ptr<uint8_t[]> coverage;  // or null
+  std::vector<Rows<uint8_t>> views, coverage;
+  std::vector<float> disparity;
   starfocus_light_field field = starfocus::NewLightField();
 };
 
-// Returns the size in bytes of a picture that ends with its last pixel.
-size_t Needed(size_t stride, int rows, size_t row) {
-  return stride * static_cast<size_t>(rows - 1) + row;
-}
-
-// Samples of coverage or of a similar plane, from 0 to 255.
-struct Levels {
-  size_t stride, count;
-  std::unique_ptr<uint8_t[]> samples;
-};
-
 // Makes runs of random levels, or the levels of the strands.
-Levels MakeLevels(const test::Config& config, const Strands& strands,
-                  int (Strands::*level_at)(int x, int y) const, Input* input) {
-  const auto width = static_cast<size_t>(config.width);
-  Levels levels;
-  levels.stride = width + static_cast<size_t>(input->Int(0, 3));
-  levels.count = Needed(levels.stride, config.height, width);
-  levels.samples.reset(new uint8_t[levels.count]);
-  uint8_t runs[32];
-  input->Bytes(runs, sizeof(runs));
-  const auto length = static_cast<size_t>(input->Int(1, 40));
-  for (size_t i = 0; i < levels.count; ++i) {
+Rows<uint8_t> MakeLevels(const test::Config& config, const Strands& strands,
+                         int (Strands::*level_at)(int x, int y) const, Input* input) {
+  Rows<uint8_t> levels(static_cast<size_t>(config.width), config.height, 3, input);
+  FillRuns(input, &levels);
+  for (size_t i = 0; strands.any() && i < levels.count; ++i) {
     const auto x = static_cast<int>(i % levels.stride), y = static_cast<int>(i / levels.stride);
-    const int level = strands.any() ? (strands.*level_at)(x, y) : runs[i / length % 32];
-    levels.samples[i] = static_cast<uint8_t>(level);
+    levels.values[i] = static_cast<uint8_t>((strands.*level_at)(x, y));
   }
   return levels;
 }
 
 void MakeDisparity(const test::Config& config, const Strands& strands, Input* input,
                    Pictures* pictures) {
-  const Levels levels = MakeLevels(config, strands, &Strands::DepthAt, input);
-  pictures->disparity.reset(new float[levels.count]);
-  const auto low = static_cast<float>(config.disparity_min);
-  const auto high = static_cast<float>(config.disparity_max);
-  for (size_t i = 0; i < levels.count; ++i) {
-    const float value = low + (high - low) * static_cast<float>(levels.samples[i]) / 255.0f;
-    pictures->disparity[i] = std::clamp(value, low, high);
-  }
-  if (input->Rarely()) {
-    pictures->disparity[input->Value<uint32_t>() % levels.count] = input->Value<float>();
-  }
-  pictures->field.depth = starfocus_depth_float(
-      pictures->disparity.get(), levels.stride * sizeof(float), config.width, config.height);
-}
-
-void MakeCoverage(const test::Config& config, const Strands& strands, Input* input,
-                  Pictures* pictures) {
-  if (input->Int(0, 2) != 0) return;
-  Levels levels = MakeLevels(config, strands, &Strands::CoverageAt, input);
-  pictures->coverage = std::move(levels.samples);
-  pictures->field.coverage = pictures->coverage.get();
-  pictures->field.coverage_stride = levels.stride;
+  const Rows<uint8_t> levels = MakeLevels(config, strands, &Strands::DepthAt, input);
+  std::vector<float>& disparity = pictures->disparity;
+  disparity.resize(levels.count);
+  for (size_t i = 0; i < levels.count; ++i) disparity[i] = DisparityOf(config, levels.values[i]);
+  if (input->Rarely()) disparity[input->Value<uint32_t>() % levels.count] = input->Value<float>();
+  pictures->field.depth = starfocus_depth_float(disparity.data(), levels.stride * sizeof(float),
+                                                config.width, config.height);
 }
 
 // Makes a view with any bytes, or with strands of one colour in front of another colour.
-void MakeView(const Strands& strands, size_t stride, size_t bytes, Input* input, uint8_t* picture) {
-  uint8_t step[16];
-  input->Bytes(step, sizeof(step));
-  for (size_t i = 0; i < bytes; ++i) {
-    const auto x = static_cast<int>(i % stride / 3), y = static_cast<int>(i / stride);
-    const size_t c = i % stride % 3;
-    picture[i] = strands.any() ? test::Mixture(strands.CoverageAt(x, y), step[c], step[3 + c])
-                               : static_cast<uint8_t>(step[i % 16] + (i >> 4) * step[0]);
+Rows<uint8_t> MakeView(const test::Config& config, const Strands& strands, Input* input) {
+  Rows<uint8_t> view(3 * static_cast<size_t>(config.width), config.height, 5, input);
+  FillPicture(input, &view);
+  const std::vector<uint8_t> colours(view.values.get(),
+                                     view.values.get() + std::min<size_t>(view.count, 6));
+  for (size_t i = 0; strands.any() && i < view.count; ++i) {
+    const auto x = static_cast<int>(i % view.stride / 3), y = static_cast<int>(i / view.stride);
+    const size_t c = i % view.stride % 3;
+    view.values[i] = test::Mixture(strands.CoverageAt(x, y), colours[c], colours[3 + c]);
   }
+  return view;
 }
 
 Pictures MakePictures(const test::Config& config, const Strands& strands, Input* input) {
   Pictures pictures;
-  const size_t row = 3 * static_cast<size_t>(config.width);
   for (int view = 0; view < config.views; ++view) {
-    const size_t stride = row + static_cast<size_t>(input->Int(0, 5));
-    const size_t bytes = Needed(stride, config.height, row);
-    pictures.bytes.emplace_back(new uint8_t[bytes]);
-    uint8_t* picture = pictures.bytes.back().get();
-    MakeView(strands, stride, bytes, input, picture);
-    pictures.field.views[view] = starfocus_image_rgb(picture, stride);
+    pictures.views.push_back(MakeView(config, strands, input));
+    pictures.field.views[view] =
+        starfocus_image_rgb(pictures.views.back().values.get(), pictures.views.back().stride);
   }
   MakeDisparity(config, strands, input, &pictures);
-  MakeCoverage(config, strands, input, &pictures);
+  if (input->Int(0, 2) != 0) return pictures;
+  pictures.coverage.push_back(MakeLevels(config, strands, &Strands::CoverageAt, input));
+  pictures.field.coverage = pictures.coverage[0].values.get();
+  pictures.field.coverage_stride = pictures.coverage[0].stride;
   return pictures;
 }
 
-starfocus_light_field Rows(const starfocus_light_field& field, int views, int row) {
+starfocus_light_field From(const starfocus_light_field& field, int views, int row) {
   starfocus_light_field from = field;
   for (int view = 0; view < views; ++view) {
     starfocus_image& image = from.views[view];
@@ -253,7 +193,7 @@ void Stream(starfocus_engine* engine, const test::Config& config, const starfocu
   for (int round = 0; round < 200 && pulled < config.height; ++round) {
     int32_t moved = 0;
     if (pushed < config.height) {
-      const starfocus_light_field rows = Rows(pictures.field, config.views, pushed);
+      const starfocus_light_field rows = From(pictures.field, config.views, pushed);
       const int count = RowCount(config.height - pushed, input);
       if (starfocus_stream_push(engine, &rows, count, &moved) != STARFOCUS_OK) return;
       pushed += moved;
@@ -280,9 +220,8 @@ void Refocus(starfocus_engine* engine, const test::Config& config, const starfoc
   }
   if (input->Int(0, 1) == 0) {
     const Pictures before = MakePictures(config, Strands(), input);
-    const size_t bytes = Needed(stride, config.height, 3 * static_cast<size_t>(config.width));
-    const std::unique_ptr<uint8_t[]> picture(new uint8_t[bytes]());
-    const starfocus_image image = starfocus_image_rgb(picture.get(), stride);
+    const Rows<uint8_t> picture(3 * static_cast<size_t>(config.width), config.height, 5, input);
+    const starfocus_image image = starfocus_image_rgb(picture.values.get(), picture.stride);
     const starfocus_previous previous = {
         sizeof previous, input->Int(0, 1) == 0 ? &before.field : &pictures.field, &image};
     test::RefocusAfterRgb(engine, &params, &pictures.field, &previous, out, stride, &report);
@@ -290,12 +229,11 @@ void Refocus(starfocus_engine* engine, const test::Config& config, const starfoc
   }
   size_t bytes = 0;
   if (starfocus_prepared_size(&config, &bytes, nullptr) != STARFOCUS_OK) std::abort();
-  void* memory = nullptr;
-  if (posix_memalign(&memory, STARFOCUS_ALIGNMENT, bytes) != 0) return;
-  const std::unique_ptr<void, void (*)(void*)> owner(memory, std::free);
+  const auto memory = TakeMemory(bytes);
+  if (!memory) return;
   starfocus_prepared* prepared = nullptr;
   const starfocus_status status =
-      starfocus_prepare(engine, &pictures.field, memory, bytes, &prepared);
+      starfocus_prepare(engine, &pictures.field, memory.get(), bytes, &prepared);
   if (status != STARFOCUS_OK) return;
   // A preview is not larger than the picture and does not change the engine.
   test::PreviewRgb(engine, &params, prepared, config.previews, out, stride, &report);
@@ -314,19 +252,18 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       bytes > (size_t{200} << 20))
     return 0;
   if (int64_t{config.width} * config.height > 20000) return 0;
-  void* workspace = nullptr;
-  if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
-  const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
+  const auto workspace = TakeMemory(bytes);
+  if (!workspace) return 0;
   starfocus_engine* engine = nullptr;
-  if (starfocus_init(&config, workspace, bytes, &engine, nullptr) != STARFOCUS_OK) std::abort();
+  if (starfocus_init(&config, workspace.get(), bytes, &engine, nullptr) != STARFOCUS_OK)
+    std::abort();
   const Pictures pictures = MakePictures(config, strands, &input);
-  const size_t row = 3 * static_cast<size_t>(config.width);
-  const size_t stride = row + static_cast<size_t>(input.Int(0, 5));
-  const std::unique_ptr<uint8_t[]> out(new uint8_t[Needed(stride, config.height, row)]);
+  const Rows<uint8_t> out(3 * static_cast<size_t>(config.width), config.height, 5, &input);
   for (int round = 0; round < 2; ++round) {
     starfocus::Params params = lens;
     SetParams(config, &input, &params);
-    SetProgress(engine, &input);
+    const starfocus_callbacks callbacks = DrawCallbacks(100, &input);
+    if (starfocus_set_callbacks(engine, &callbacks) != STARFOCUS_OK) std::abort();
     const double scale = params.study.mode == STARFOCUS_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
     const bool frame = params.study.mode == STARFOCUS_MODE_FRAME;
     const bool by_default =
@@ -338,9 +275,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const double n = scale * (subapertures ? std::min(config.max_blur, 13.0) : config.max_blur);
     if (3.2 * n * n * config.width * config.height > kMostWork) continue;
     if (test::Has(config.features, STARFOCUS_FEATURE_STREAMING) && input.Int(0, 1) == 1) {
-      Stream(engine, config, params, pictures, out.get(), stride, &input);
+      Stream(engine, config, params, pictures, out.values.get(), out.stride, &input);
     } else {
-      Refocus(engine, config, params, pictures, out.get(), stride, &input);
+      Refocus(engine, config, params, pictures, out.values.get(), out.stride, &input);
     }
   }
   return 0;

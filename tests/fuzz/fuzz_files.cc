@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: readers of single files. The files are maps in PFM, NPY, NPZ and TIFF, pictures in
-// PNG, PPM and JPEG, and small texts.
+// Three fuzz targets of files that a decoder of photos does not read: `files` for maps in PFM, NPY,
+// NPZ and TIFF, pictures in PNG, PPM and JPEG, and small texts; `folder` for light-field folders,
+// whose files and contents the input selects; and `layouts` for the names of views and the texts
+// beside them, and for the segments of JPEG files. Each target is built from this file with its
+// name in STARFOCUS_FUZZ_TARGET.
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "platform/container.h"
 #include "platform/depth_file.h"
+#include "platform/icc_profile.h"
 #include "platform/image_io.h"
 #include "platform/levels.h"
+#include "platform/light_field.h"
 #include "platform/pfm.h"
+#include "platform/readers/jpeg_parts.h"
+#include "platform/readers/key_values.h"
+#include "platform/readers/multi_picture.h"
+#include "platform/readers/view_array.h"
 #include "tests/fuzz/input.h"
+#include "tests/support/temp_folder.h"
 
+namespace starfocus::fuzz {
 namespace {
 
 // A file in memory, and a path that opens this file.
@@ -32,36 +47,175 @@ class MemoryFile {
   int handle_;
 };
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+void CheckFile(const uint8_t* data, size_t size) {
   const MemoryFile file(data, size);
-  if (const auto map = starfocus::ReadPfm(file.path())) {
+  if (const auto map = ReadPfm(file.path())) {
     if (map->values.size() != size_t(map->width) * size_t(map->height)) std::abort();
   }
-  const auto small = starfocus::ReadSmallFile(file.path());
-  if (bool(small) != (size <= starfocus::kMostSmallBytes) || (small && small->size() != size))
-    std::abort();
-  if (starfocus::DescribeFile(*small).empty()) std::abort();
-  if (const auto image = starfocus::ReadImage(file.path())) {
+  const auto small = ReadSmallFile(file.path());
+  if (bool(small) != (size <= kMostSmallBytes) || (small && small->size() != size)) std::abort();
+  if (DescribeFile(*small).empty()) std::abort();
+  if (const auto image = ReadImage(file.path())) {
     if (image->pixels.size() != image->stride() * size_t(image->height)) std::abort();
   }
   const starfocus::Bytes bytes(data, data + size);
-  if (const auto levels = starfocus::DecodeLevels("levels", bytes)) {
+  if (const auto levels = DecodeLevels("levels", bytes)) {
     if (levels->values.size() != size_t(levels->width) * size_t(levels->height)) std::abort();
     for (const float level : levels->values) {
       if (level < 0 || level > 1) std::abort();
     }
   }
-  if (const auto samples =
-          starfocus::DecodeDepthFile("depth", starfocus::Alpha::kTransparent, bytes)) {
-    const starfocus::FloatMap& map = samples->map;
+  if (const auto samples = DecodeDepthFile("depth", Alpha::kTransparent, bytes)) {
+    const FloatMap& map = samples->map;
     if (map.values.size() != size_t(map.width) * size_t(map.height)) std::abort();
   }
-  if (const auto samples = starfocus::DecodeSamples("coverage", starfocus::Alpha::kTaken, bytes)) {
+  if (const auto samples = DecodeSamples("coverage", Alpha::kTaken, bytes)) {
     for (const float sample : samples->map.values) {
       if (!(sample >= 0 && sample <= static_cast<float>(samples->largest))) std::abort();
     }
   }
+}
+
+constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
+
+void Write(const std::string& path, const void* data, size_t size) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) std::abort();
+  if (size != 0) std::fwrite(data, 1, size, file);
+  std::fclose(file);
+}
+
+void Write(const std::string& path, std::string bytes, Input* input) {
+  if (input->Rarely()) bytes.resize(bytes.size() / 2);
+  Write(path, bytes.data(), bytes.size());
+}
+
+// Writes a valid picture of one colour, or bytes of the input.
+void WriteView(const std::string& path, int side, Input* input) {
+  if (input->Rarely()) {
+    const size_t wanted = input->Value<uint8_t>(), size = std::min(wanted, input->size());
+    Write(path, input->data(), size);
+    input->Skip(size);
+    return;
+  }
+  const std::string header = "P6 " + std::to_string(side) + " 2 255\n";
+  const std::string pixels(static_cast<size_t>(6 * side), static_cast<char>(input->Int(0, 255)));
+  Write(path, header + pixels, input);
+}
+
+void WriteMap(const std::string& path, int side, Input* input) {
+  const std::string header = "Pf\n" + std::to_string(side) + " 2\n-1\n";
+  Write(path, header + std::string(static_cast<size_t>(8 * side), '\0'), input);
+}
+
+// Returns the file name of a view of a star set, or of a view at any position. In a few cases, the
+// name only starts like the name of a view. A position may be out of range or occur twice.
+std::string NameOf(int view, Input* input) {
+  if (!input->Rarely()) {
+    return ViewName(StarPositions(STARFOCUS_MAX_VIEWS)[static_cast<size_t>(view)]);
+  }
+  if (!input->Rarely()) {
+    return ViewName({input->Int(-120, 120) / 100.0, input->Int(-10, 10) / 10.0});
+  }
+  constexpr char kLetters[] = "+-_.0123456789e";
+  std::string name = "view_";
+  for (int left = input->Int(1, 14); left > 0; --left) {
+    name += kLetters[input->Value<uint8_t>() % (sizeof(kLetters) - 1)];
+  }
+  return name;
+}
+
+void CheckFolder(const uint8_t* data, size_t size) {
+  static const TempFolder folder;
+  static const std::string map = DisparityPath(folder.path());
+  Input input(data, size);
+  std::vector<std::string> written;
+  const int side = input.Int(1, 4), views = input.Int(0, STARFOCUS_MAX_VIEWS);
+  for (int view = 0; view < views; ++view) {
+    if (input.Rarely()) continue;
+    const char* extension = kExtensions[input.Rarely() ? input.Int(0, 2) : 1];
+    written.push_back(folder.file(NameOf(view, &input) + extension));
+    WriteView(written.back(), input.Rarely() ? input.Int(1, 4) : side, &input);
+  }
+  if (!input.Rarely()) {
+    WriteMap(map, input.Rarely() ? input.Int(1, 4) : side, &input);
+    written.push_back(map);
+  }
+  constexpr int kWanted[] = {0, 1, 5, 9, 17};
+  const Positions wanted = StarPositions(kWanted[input.Int(0, 4)]);
+  if (const auto field = LoadLightField(folder.path(), wanted)) {
+    const size_t loaded = field->views.size();
+    if (loaded < 1 || loaded > STARFOCUS_MAX_VIEWS || field->positions.size() != loaded)
+      std::abort();
+    if (!wanted.empty() && loaded != wanted.size()) std::abort();
+    for (const Image& image : field->views) {
+      if (image.width != field->width() || image.height != field->height()) std::abort();
+    }
+  }
+  for (const std::string& path : written) unlink(path.c_str());
+}
+
+void CheckArray(const std::string& text) {
+  std::vector<std::string> names(1);
+  for (const char c : text) {
+    if (c == '\n') {
+      names.emplace_back();
+    } else {
+      names.back() += c;
+    }
+  }
+  const auto array = FindArray("folder", names);
+  if (!array || array->paths.empty()) return;
+  if (array->paths.size() != size_t(array->rows) * size_t(array->columns)) std::abort();
+  Facts facts;
+  const auto star = ChooseStar("folder", *array, &facts);
+  if (!star) return;
+  if (star->views.empty() || star->views.size() > STARFOCUS_MAX_VIEWS) std::abort();
+  if (star->views[0].position.u != 0 || star->views[0].position.v != 0) std::abort();
+  for (const ViewFile& view : star->views) {
+    if (view.position.u < -1 || view.position.u > 1) std::abort();
+    if (view.position.v < -1 || view.position.v > 1) std::abort();
+  }
+}
+
+// Reads the segments and indices of a JPEG file without decoding a picture.
+void CheckParts(const uint8_t* data, size_t size) {
+  const auto read = ReadJpegParts("photo", {data, size});
+  if (!read) return;
+  const JpegParts& parts = *read;
+  if (parts.end > size) std::abort();
+  const MultiPictures listed =
+      ListMultiPictures({data, size}, parts, ListAppendedPictures({data, size}, parts.end));
+  for (const MultiPicture& picture : listed.pictures) {
+    const Span& file = picture.file;
+    if (file.data < data + parts.end || file.data + file.size > data + size) std::abort();
+    if (file.size != picture.parts.end) std::abort();
+  }
+  if (!parts.metadata.icc.empty() && !IsRgbProfile(parts.metadata.icc)) std::abort();
+  if (parts.metadata.iptc.size() > size) std::abort();
+  if (!parts.extensions.empty()) {
+    const auto text = JoinExtensions("photo", parts, parts.extensions[0].guid);
+    if (text && text->size() > size) std::abort();
+  }
+}
+
+void CheckLayout(const uint8_t* data, size_t size) {
+  if (size < 1) return;
+  const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  if (data[0] == 'n') CheckArray(text);
+  if (data[0] == 0xff) CheckParts(data, size);
+  if (data[0] != 'k') return;
+  const KeyValues values = ParseKeyValues(text);
+  for (const auto& value : values) NumberOf(values, value.first);
+}
+
+}  // namespace
+}  // namespace starfocus::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  constexpr std::string_view kTarget = STARFOCUS_FUZZ_TARGET;
+  if (kTarget == "files") starfocus::fuzz::CheckFile(data, size);
+  if (kTarget == "folder") starfocus::fuzz::CheckFolder(data, size);
+  if (kTarget == "layouts") starfocus::fuzz::CheckLayout(data, size);
   return 0;
 }

@@ -1,38 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: images and depth maps of any format, size, stride and content. Every plane is on the
-// heap and has exactly the required size, so that AddressSanitizer reports all accesses outside it.
+// Fuzz target: images and depth maps of any format, size, stride and content.
 #include <algorithm>
 #include <cstdlib>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/fuzz/input.h"
-#include "tests/support/config.h"
+#include "tests/fuzz/engine_input.h"
 #include "tests/support/features.h"
 
 namespace {
 
-using starfocus::fuzz::Input;
+using namespace starfocus::fuzz;
 
 struct Size {
   int32_t width, height;
 };
 
 // Owns the memory of image planes.
-using Planes = std::vector<std::unique_ptr<uint8_t[]>>;
+using Planes = std::vector<Rows<uint8_t>>;
 
 uint8_t* TakePlane(int32_t rows, size_t row_bytes, Input* input, size_t* stride, Planes* planes) {
-  *stride = row_bytes + static_cast<size_t>(input->Int(0, 9));
-  const size_t bytes = *stride * static_cast<size_t>(rows - 1) + row_bytes;
-  planes->emplace_back(new uint8_t[bytes]);
-  uint8_t step[8];
-  input->Bytes(step, sizeof(step));
-  for (size_t k = 0; k < bytes; ++k) {
-    planes->back()[k] = static_cast<uint8_t>(step[k % 8] + (k >> 3) * step[0]);
-  }
-  return planes->back().get();
+  Rows<uint8_t> plane(row_bytes, rows, 9, input);
+  FillPicture<8>(input, &plane);
+  *stride = plane.stride;
+  planes->push_back(std::move(plane));
+  return planes->back().values.get();
 }
 
 starfocus_image MakeImage(const Size& size, Input* input, Planes* planes) {
@@ -121,11 +115,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   params.study.mode = input.Rarely() ? STARFOCUS_MODE_BLUR : STARFOCUS_MODE_BLOCK;
   size_t bytes = 0;
   if (starfocus_workspace_size(&config, &bytes, nullptr) != STARFOCUS_OK) std::abort();
-  void* workspace = nullptr;
-  if (posix_memalign(&workspace, STARFOCUS_ALIGNMENT, bytes) != 0) return 0;
-  const std::unique_ptr<void, void (*)(void*)> memory(workspace, std::free);
+  const auto workspace = TakeMemory(bytes);
+  if (!workspace) return 0;
   starfocus_engine* engine = nullptr;
-  if (starfocus_init(&config, workspace, bytes, &engine, nullptr) != STARFOCUS_OK) std::abort();
+  if (starfocus_init(&config, workspace.get(), bytes, &engine, nullptr) != STARFOCUS_OK)
+    std::abort();
   Planes planes;
   starfocus_light_field field = starfocus::NewLightField();
   for (int view = 0; view < config.views; ++view) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads depth pictures in separate files. Tests unknown values and their filling, units, near ends,
-// orientations, and the names of files that are found next to a photo.
+// Tables of depth pictures in separate files: each row has a file, the options, the disparities of
+// some pixels, and the notes. The rows test unknown values, units, infinite distances and near
+// ends. photo_refusals_test.cc has the depth pictures that are rejected, and tests/platform the
+// formats of arrays. Further cases test the filling and the orientation.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <limits>
 #include <string>
+#include <vector>
 
 #include "platform/levels.h"
 #include "platform/readers/capture.h"
@@ -14,77 +16,134 @@
 #include "platform/readers/unknown_depth.h"
 #include "tests/readers/depth_scene.h"
 #include "tests/support/error_line.h"
+#include "tests/support/seed_file.h"
 
 namespace starfocus::depth_picture_test {
 namespace {
 
 using namespace depth_scene;
-using namespace photos;
+
+// Expected disparity of a pixel.
+struct Point {
+  int x, y;
+  double disparity;
+  double tolerance = 1e-5;  // relative, and absolute below 1; 0 means equality
+};
+using Points = std::vector<Point>;
+
+struct Row {
+  std::string name, file;
+  DepthOptions options;
+  Points points;
+  // Parts of notes. "!TEXT" means that no note has the text, and "-" that there is no note.
+  std::vector<std::string> notes = {};
+};
+
+void CheckRows(const std::vector<Row>& rows) {
+  for (size_t k = 0; k < rows.size(); ++k) {
+    const Row& row = rows[k];
+    CAPTURE(row.name);
+    CAPTURE(k);
+    const Opened opened("map", row.file, row.options);
+    REQUIRE(opened.error == "");
+    for (const Point& point : row.points) {
+      CAPTURE(point.x);
+      CAPTURE(point.y);
+      const double found = opened.At(point.x, point.y);
+      if (point.tolerance == 0) CHECK(found == point.disparity);
+      if (point.tolerance > 0)
+        CHECK(found == doctest::Approx(point.disparity).epsilon(point.tolerance));
+    }
+    for (const std::string& note : row.notes) {
+      CAPTURE(note);
+      if (note == "-") CHECK(opened.capture.notes.empty());
+      if (note[0] == '!') CHECK(!opened.HasNote(note.substr(1)));
+      if (note != "-" && note[0] != '!') CHECK(opened.HasNote(note));
+    }
+  }
+}
+
+Points operator+(Points points, const Points& more) {
+  points.insert(points.end(), more.begin(), more.end());
+  return points;
+}
+
+// Disparity of a distance in metres.
+double OfMetres(double metres) { return kNearest * 1.5 / metres; }
+
+// Wall, floor and box of a map that defines only an order, and of a map of 3, 1.5 and 0.9 metres.
+const Points kOrder = {{40, 4, 0}, {40, 35, kNearest * 1500 / 2100, 1e-3}, {20, 15, kNearest}};
+const Points kMetres = {{40, 4, OfMetres(3)}, {40, 35, OfMetres(1.5)}, {20, 15, OfMetres(0.9)}};
+constexpr Scene kScene = {3, 1.5, 0.9};
+
+const DepthOptions kBlack = NearIs(Near::kBlack), kWhite = NearIs(Near::kWhite);
+
+// Returns the options by which all finite values are depths.
+DepthOptions AllKnown(DepthOptions options) {
+  options.has_unknown = true;
+  options.alpha = Alpha::kIgnored;
+  return options;
+}
+
+DepthOptions Unknown(DepthOptions options, double value) {
+  options.has_unknown = true;
+  options.unknown = {value};
+  return options;
+}
+
+FloatMap WithColumns(FloatMap map, int from, int to, float value) {
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = from; x < to; ++x) map.values[Index(x, y)] = value;
+  }
+  return map;
+}
+
+FloatMap WithRows(FloatMap map, int from, int to, float value) {
+  std::fill(map.values.begin() + from * kColumns, map.values.begin() + to * kColumns, value);
+  return map;
+}
+
+// Returns the map with another value instead of `value` in all rows above `below`.
+FloatMap Replaced(FloatMap map, float value, float other, int below = kRows) {
+  std::replace(map.values.begin(), map.values.begin() + below * kColumns, value, other);
+  return map;
+}
+
+std::string GreyOfMap(const FloatMap& map) {
+  return GreyPng({map.values.begin(), map.values.end()});
+}
 
 TEST_CASE(
-    "unknown depth: 0 and 65535 in 16 bits are unknown, and are filled with the surface behind") {
+    "unknown depth: 0 and 65535 in 16 bits are unknown, unless the map uses the whole range") {
+  std::vector<Row> rows;
   for (const uint16_t unknown : {uint16_t{0}, uint16_t{65535}}) {
-    CAPTURE(unknown);
-    std::vector<uint16_t> levels = LevelsOf(kMillimetres);
-    for (int y = 0; y < kRows; ++y) {
-      for (int x = 0; x < 5; ++x) levels[Index(x, y)] = unknown;    // The left border.
-      for (int x = 28; x < 31; ++x) levels[Index(x, y)] = unknown;  // A gap next to the box.
-    }
-    const Opened opened("map.png", GreyPng(levels), NearIs(Near::kBlack));
-    CheckScene(opened);
-    CHECK(opened.At(0, 4) == doctest::Approx(0));
-    // The pixel is filled with the wall, not with the box.
-    CHECK(opened.At(28, 15) == doctest::Approx(0));
-    CHECK(opened.At(0, 35) == doctest::Approx(opened.At(40, 35)));
-    CHECK(opened.HasNote("288 of 1728 pixels of the depth map are unknown"));
-    CHECK(opened.HasNote("--unknown none"));
-    DepthOptions none = NearIs(Near::kBlack);
-    none.has_unknown = true;
-    none.alpha = Alpha::kIgnored;
-    const Opened known("map.png", GreyPng(levels), none);
-    REQUIRE(known.error == "");
-    CHECK(known.capture.notes.empty());
-    CHECK(known.At(0, 4) == doctest::Approx(unknown == 0 ? kNearest : 0));
+    // The left border, and a gap next to the box, which is filled with the wall.
+    const std::string file =
+        GreyOfMap(WithColumns(WithColumns(MapOf(kMillimetres), 0, 5, unknown), 28, 31, unknown));
+    rows.push_back({"unknown",
+                    file,
+                    kBlack,
+                    kOrder + Points{{0, 4, 0}, {28, 15, 0}, {0, 35, kNearest * 1500 / 2100, 1e-3}},
+                    {"288 of 1728 pixels of the depth map are unknown", "--unknown none"}});
+    rows.push_back({"known", file, AllKnown(kBlack), {{0, 4, unknown == 0 ? kNearest : 0}}, {"-"}});
   }
+  const std::vector<std::string> known = {"as a known depth", "--unknown"};
+  rows.push_back({"white", GreyOfMap(MapOf({0, 46811, 65535})), kWhite, kOrder, known});
+  rows.push_back({"black", GreyOfMap(MapOf({65535, 18725, 0})), kBlack, kOrder, known});
+  FloatMap both = MapOf(kMillimetres);
+  both.values[Index(40, 2)] = 65535;
+  both.values[Index(41, 2)] = 0;
+  rows.push_back({"sensor", GreyOfMap(both), kBlack, kOrder, {"0 and 65535 are taken as unknown"}});
+  CheckRows(rows);
 }
 
-TEST_CASE("unknown depth: 0 and 65535 are depths in a map that uses the whole range") {
-  for (const bool inverted : {false, true}) {
-    CAPTURE(inverted);
-    const Scene scene = inverted ? Scene{65535, 18725, 0} : Scene{0, 46811, 65535};
-    const Opened opened("map.png", GreyPng(LevelsOf(scene)),
-                        NearIs(inverted ? Near::kBlack : Near::kWhite));
-    CheckScene(opened);
-    CHECK(opened.HasNote("as a known depth"));
-    CHECK(opened.HasNote("--unknown"));
-  }
-  // In this map of a sensor, both 0 and 65535 are unknown.
-  std::vector<uint16_t> both = LevelsOf(kMillimetres);
-  both[Index(40, 2)] = 65535;
-  both[Index(41, 2)] = 0;
-  const Opened sensor("map.png", GreyPng(both), NearIs(Near::kBlack));
-  CheckScene(sensor);
-  CHECK(sensor.HasNote("0 and 65535 are taken as unknown"));
-}
-
-TEST_CASE("unknown depth: in 8 bits, only values that an option names are unknown") {
+TEST_CASE("unknown depth: in 8 bits, only values of an option and transparent pixels are unknown") {
   Image map = Plain(kColumns, kRows, 100);
   std::fill_n(map.row(0), map.stride(), uint8_t{0});
   std::fill_n(map.row(35), map.stride(), uint8_t{200});
-  const Opened own("map.png", Encode(map, ".png"), NearIs(Near::kWhite));
-  REQUIRE(own.error == "");
-  CHECK(own.capture.notes.empty());
-  CHECK(own.At(3, 5) == doctest::Approx(kNearest / 2));
-  DepthOptions zero = NearIs(Near::kWhite);
-  zero.has_unknown = true;
-  zero.unknown = {0};
-  const Opened named("map.png", Encode(map, ".png"), zero);
-  REQUIRE(named.error == "");
-  CHECK(named.At(3, 0) == doctest::Approx(0));
-  CHECK(named.At(3, 5) == doctest::Approx(0));
-}
-
-TEST_CASE("unknown depth: transparent pixels are unknown, by alpha channel, colour or palette") {
+  std::vector<Row> rows = {
+      {"grey", Encode(map, ".png"), kWhite, {{3, 5, kNearest / 2}}, {"-"}},
+      {"option", Encode(map, ".png"), Unknown(kWhite, 0), {{3, 0, 0}, {3, 5, 0}}}};
   const Scene scene = {50, 160, 204};
   const auto make = [&](int depth, int colour) {
     std::string samples;
@@ -112,39 +171,173 @@ TEST_CASE("unknown depth: transparent pixels are unknown, by alpha channel, colo
       Png(kColumns, kRows, {16, 0, Chunk("tRNS", Big(7 * 257, 2))}, make(16, 0), 2 * kColumns),
       Png(kColumns, kRows, {8, 3, Chunk("PLTE", palette) + Chunk("tRNS", opacities)}, make(8, 3),
           kColumns)};
-  for (size_t k = 0; k < std::size(files); ++k) {
-    CAPTURE(k);
-    const Opened opened("map.png", files[k], NearIs(Near::kWhite));
-    REQUIRE(opened.error == "");
-    CHECK(opened.At(40, 4) == doctest::Approx(0));
-    CHECK(opened.At(0, 4) == doctest::Approx(0));
-    CHECK(opened.At(20, 15) == doctest::Approx(kNearest));
-    CHECK(opened.At(40, 35) == doctest::Approx(kNearest * 110 / 154));
-    CHECK(opened.HasNote("216 of 1728 pixels"));
-    DepthOptions none = NearIs(Near::kWhite);
-    none.has_unknown = true;
-    none.alpha = Alpha::kIgnored;
-    CHECK(Opened("map.png", files[k], none).At(40, 4) == doctest::Approx(kNearest * 43 / 197));
+  for (const std::string& file : files) {
+    rows.push_back({"transparent",
+                    file,
+                    kWhite,
+                    {{40, 4, 0}, {0, 4, 0}, {20, 15, kNearest}, {40, 35, kNearest * 110 / 154}},
+                    {"216 of 1728 pixels"}});
+    rows.push_back({"opaque", file, AllKnown(kWhite), {{40, 4, kNearest * 43 / 197}}});
   }
+  CheckRows(rows);
 }
 
-TEST_CASE("unknown depth: in PFM, values that are not finite and single outliers are unknown") {
+TEST_CASE("unknown depth: NaN, outliers, 0 and negative floats are unknown in maps of distances") {
+  std::vector<Row> rows;
   for (const ByteOrder order : {ByteOrder::kLittle, ByteOrder::kBig}) {
     FloatMap map = MapOf({5, 5 + 25.0F * 1500 / 2100, 30});
-    for (int y = 0; y < kRows; ++y) {
-      map.values[Index(0, y)] = HUGE_VALF;
-      map.values[Index(1, y)] = -HUGE_VALF;
-      map.values[Index(47, y)] = kNan;
-    }
+    map = WithColumns(WithColumns(map, 0, 1, HUGE_VALF), 1, 2, -HUGE_VALF);
+    map = WithColumns(map, 47, 48, kNan);
     map.values[Index(30, 1)] = 1e6F;  // an outlier: one pixel of 1728
-    const Opened opened("map.pfm", PfmOf(map, order), {});
-    CheckScene(opened);
-    CHECK(opened.At(0, 4) == doctest::Approx(0));
-    CHECK(opened.At(30, 1) == doctest::Approx(kNearest));
-    CHECK(opened.HasNote("108 of 1728 pixels"));
+    rows.push_back({"not finite",
+                    PfmOf(map, order),
+                    {},
+                    kOrder + Points{{0, 4, 0}, {30, 1, kNearest}},
+                    {"108 of 1728 pixels"}});
   }
-  const Opened nothing("map.pfm", PfmOf({kColumns, kRows, std::vector<float>(1728, kNan)}), {});
-  CHECK(Contains(nothing.error, "a map with known depths"));
+  for (const float marker : {0.0F, -0.0F, -1.0F, -HUGE_VALF}) {
+    const std::string name = std::to_string(marker);
+    FloatMap map = WithColumns(WithColumns(MapOf(kScene), 2, 3, marker), 28, 29, marker);
+    // The marker in the upper rows would turn the guess of the near end.
+    map = WithRows(map, 0, 4, marker);
+    const std::string npy = NpyOf(map), note = "--unknown none overrides this";
+    const bool finite = std::isfinite(marker);
+    for (const DepthOptions& options : {DepthOptions(), kBlack}) {
+      // The gap is filled with the wall, not with the box.
+      rows.push_back(
+          {name, npy, options, kOrder + Points{{28, 15, 0}}, {finite ? note : "!" + note}});
+    }
+    rows.push_back({name, npy, UnitIs(DepthUnit::kDistance), {{28, 15, OfMetres(3)}}});
+    if (!finite) continue;
+    rows.push_back({name, npy, AllKnown(kBlack), {{28, 15, kNearest}}});
+    rows.push_back(
+        {name, npy, UnitIs(DepthUnit::kDisparity), {{28, 15, double(marker), 0}}, {"-"}});
+    // If larger values are nearer, 0 is the inverse distance of infinitely distant points.
+    const std::vector<std::string> notes = {"taken as a known depth", "!were filled"};
+    rows.push_back({name, npy, kWhite, {{28, 15, 0}, {20, 2, 0}}, notes});
+    rows.push_back({name, PfmOf(map), {}, {{28, 15, 0}, {20, 2, 0}}, notes});
+  }
+  FloatMap relative = MapOf({1, 0.3, 0.01});  // Normalized depth of a network: 0 is the nearest.
+  relative.values[Index(20, 15)] = 0;
+  rows.push_back({"relative", NpyOf(relative), kBlack, {{20, 15, kNearest}}, {"-"}});
+  CheckRows(rows);
+}
+
+TEST_CASE("depth units: distances in any unit give the disparities of metres, and +inf gives 0") {
+  std::vector<Row> rows;
+  const Points far = {{0, 0, 0, 0}, {20, 0, 0, 0}, {47, 0, 0, 0}, {28, 15, 0, 0}};
+  for (const double metres : {1.0, 0.001, 0.0002, 1.0 / 256, 0.3048}) {
+    const DepthOptions unit = UnitIs(DepthUnit::kDistance, metres);
+    const auto wall = static_cast<float>(3 / metres);
+    FloatMap map = Replaced(MapOf({wall, 1.5 / metres, 0.9 / metres}), wall, HUGE_VALF);
+    map.values[Index(20, 16)] = kNan;  // Within the box.
+    for (const std::string& file : {NpyOf(map), PfmOf(map), PfmOf(map, ByteOrder::kBig)}) {
+      rows.push_back({"unit " + std::to_string(metres),
+                      file,
+                      unit,
+                      far + Points{kMetres[1], kMetres[2]},
+                      {"1 of 1728 pixels"}});
+    }
+    CHECK(Opened("map", NpyOf(map), Unknown(unit, HUGE_VAL)).At(kWall[0], kWall[1]) > 0.1);
+  }
+  // Without a unit, +inf is the farthest distance, or an unknown disparity.
+  const std::string npy = NpyOf(Replaced(MapOf({4, 2, 1}), 4, HUGE_VALF));
+  const Points ends = {{28, 15, 0, 0}, {20, 15, kNearest}};
+  const std::string distances = "only distances are infinite",
+                    unknown = "are unknown and were filled";
+  rows.push_back({"guess", npy, {}, ends, {distances, "!" + unknown}});
+  rows.push_back({"black", npy, kBlack, ends, {"!" + distances, "!" + unknown}});
+  rows.push_back({"white", npy, kWhite, {}, {unknown}});
+  rows.push_back({"disparity", npy, UnitIs(DepthUnit::kDisparity), {}, {unknown}});
+  CheckRows(rows);
+}
+
+TEST_CASE("depth units: the values of each format are distances, disparities or an order") {
+  FloatMap unknown = MapOf(kMillimetres);
+  unknown.values[0] = 0;
+  std::vector<uint16_t> depth16 = LevelsOf(kMillimetres);
+  depth16[Index(28, 15)] = 0;  // Next to the box.
+  for (size_t k = 0; k < depth16.size(); ++k) {
+    depth16[k] = static_cast<uint16_t>(depth16[k] | (k * 5 % 8) << 13);  // confidence
+  }
+  std::string pgm = "P5\n48 36\n4095\n";
+  for (const uint16_t level : LevelsOf(kMillimetres)) pgm += Big(level, 2);
+  const std::string pfm = PfmOf(MapOf(kScene)), npy = NpyOf(MapOf(kScene));
+  const DepthOptions disparity = UnitIs(DepthUnit::kDisparity);
+  std::vector<Row> rows = {
+      {"PFM", pfm, kBlack, kOrder},
+      {"PFM, m", pfm, UnitIs(DepthUnit::kDistance), kMetres},
+      {"PNG, mm", GreyOfMap(unknown), UnitIs(DepthUnit::kDistance, 0.001),
+       kMetres + Points{{0, 0, OfMetres(3)}}},
+      {"PFM, pixels", PfmOf(MapOf({-2, 3, 17.5})), disparity, {{40, 4, -2, 0}, {20, 15, 17.5, 0}}},
+      {"NPY", npy, {}, kOrder, {"black is taken as near"}},
+      {"NPY, black", npy, kBlack, kOrder},
+      {"NPY, pixels", npy, disparity, {{20, 15, 0.9}}},
+      {"PGM", pgm, kBlack, kOrder},
+      {"DEPTH16",
+       GreyPng(depth16),
+       UnitIs(DepthUnit::kDepth16),
+       kMetres + Points{{28, 15, OfMetres(3)}},
+       {"1 of 1728 pixels"}},
+      // Grey pictures stay grey after JPEG compression.
+      {"JPEG", Encode(Ramp(kColumns, kRows), ".jpg"), {}, {}}};
+  // Proportions may differ from the photo by rounding.
+  for (const auto& [width, height] : {std::pair<int, int>{24, 18}, {16, 12}, {11, 8}, {518, 392}}) {
+    rows.push_back({"size", Encode(Ramp(width, height), ".png"), kWhite, {}});
+  }
+  CheckRows(rows);
+}
+
+TEST_CASE("near end: a note names values that look like distances, and the guess uses known rows") {
+  std::vector<Row> rows;
+  const FloatMap metres = MapOf({6, 2.5, 1.5}), relative = MapOf({1, 0.4, 0.001});
+  const std::string none = "!look like distances", as_mm = "(--depth-unit mm reads them";
+  for (const DepthOptions& options : {DepthOptions(), kBlack}) {
+    rows.push_back({"NPY", NpyOf(metres), options, {}, {"look like distances", "!" + as_mm}});
+    rows.push_back({"PNG", GreyOfMap(MapOf(kMillimetres)), options, {}, {as_mm}});
+    rows.push_back({"relative", NpyOf(relative), options, {}, {none}});
+    rows.push_back({"levels", GreyOfMap(MapOf({65000, 30000, 10})), options, {}, {none}});
+    rows.push_back({"8 bits", Encode(Ramp(kColumns, kRows), ".png"), options, {}, {none}});
+    rows.push_back({"PFM", PfmOf(metres), options, {}, {"look like distances", "!" + as_mm}});
+  }
+  // Larger values are nearer in disparities and inverse distances.
+  rows.push_back({"white", NpyOf(metres), kWhite, {}, {none}});
+  rows.push_back({"PFM", PfmOf(MapOf({1.5, 2.5, 6})), {}, {}, {none}});
+  // Unmeasured: the first rows, or the wall around the box, so that only the box is known above.
+  for (const Scene& scene : {kScene, kMillimetres}) {
+    const bool whole = scene.wall > 100;  // the values are millimetres in whole numbers
+    for (const FloatMap& map : {WithRows(MapOf(scene), 0, 14, 0),
+                                Replaced(MapOf(scene), static_cast<float>(scene.wall), 0, 18)}) {
+      rows.push_back({"unmeasured",
+                      whole ? GreyOfMap(map) : NpyOf(map),
+                      {},
+                      {{20, 15, kNearest}, {40, 4, 0}, {20, 2, 0}},
+                      {"black is taken as near", "look like distances in"}});
+    }
+  }
+  // 0 is the farthest value of a normalized inverse depth.
+  const std::string inverse = NpyOf(Replaced(MapOf({0.2, 0.5, 1}), 0.2F, 0, 12));
+  for (const DepthOptions& options : {DepthOptions(), kWhite}) {
+    rows.push_back(
+        {"inverse",
+         inverse,
+         options,
+         {{40, 4, 0}, {40, 15, kNearest / 5}, {40, 35, kNearest / 2}, {20, 15, kNearest}},
+         {none, "!were filled"}});
+  }
+  CheckRows(rows);
+}
+
+TEST_CASE("samples: 16 bits are kept, and alpha is used instead of the grey levels if wanted") {
+  const auto read = [](const std::string& name, Alpha alpha) {
+    const std::string file = Seed("files/" + name);
+    return ValueOf(DecodeSamples(name, alpha, Bytes(file.begin(), file.end())));
+  };
+  const Samples coverage = read("rgba16.png", Alpha::kTaken);
+  CHECK(coverage.largest == 65535);
+  CHECK(coverage.map.values[0] == 0x0607);
+  CHECK(coverage.map.values[1] == 0x0e0f);
+  CHECK(read("gray.png", Alpha::kTaken).map.values == read("gray.png", Alpha::kIgnored).map.values);
 }
 
 TEST_CASE("unknown depth: a gap is filled along its shorter direction, from its farther end") {
@@ -165,61 +358,6 @@ TEST_CASE("unknown depth: a gap is filled along its shorter direction, from its 
   one.values[4] = 3;
   CHECK(FillBehind(&one) == 8);
   CHECK(one.values == std::vector<float>(9, 3));
-}
-
-TEST_CASE("depth pictures: PFM follows --near, and units keep the values unchanged") {
-  const Scene metres = {3, 1.5, 0.9};
-  CheckScene(Opened("map.pfm", PfmOf(MapOf(metres)), NearIs(Near::kBlack)));
-  DepthOptions options = UnitIs(DepthUnit::kDistance);
-  const Opened by_metre("map.pfm", PfmOf(MapOf(metres)), options);
-  REQUIRE(by_metre.error == "");
-  CHECK(by_metre.At(kWall[0], kWall[1]) == doctest::Approx(kNearest * 1.5 / 3));
-  CHECK(by_metre.At(kBox[0], kBox[1]) == doctest::Approx(kNearest * 1.5 / 0.9));
-  options.metres = 0.001;
-  std::vector<uint16_t> levels = LevelsOf(kMillimetres);
-  levels[0] = 0;
-  const Opened by_millimetre("map.png", GreyPng(levels), options);
-  REQUIRE(by_millimetre.error == "");
-  CHECK(by_millimetre.At(0, 0) == doctest::Approx(kNearest * 1.5 / 3));
-  CHECK(by_millimetre.At(kBox[0], kBox[1]) == doctest::Approx(kNearest * 1.5 / 0.9));
-  options.unit = DepthUnit::kDisparity;
-  const Opened pixels("map.pfm", PfmOf(MapOf({-2, 3, 17.5})), options);
-  REQUIRE(pixels.error == "");
-  CHECK(pixels.At(kWall[0], kWall[1]) == -2);
-  CHECK(pixels.At(kBox[0], kBox[1]) == 17.5);
-  CHECK(Contains(Opened("map.pfm", PfmOf(MapOf({2, 3, 501})), options).error,
-                 "disparities from -500 to 500"));
-}
-
-TEST_CASE("depth pictures: in NPY, the near end is guessed, and units keep the values unchanged") {
-  const FloatMap map = MapOf({3, 1.5, 0.9});
-  const Opened by_order("map.npy", NpyOf(map), {});
-  CHECK(by_order.HasNote("black is taken as near"));
-  CheckScene(Opened("map.npy", NpyOf(map), NearIs(Near::kBlack)));
-  CHECK(Opened("map.npy", NpyOf(map), UnitIs(DepthUnit::kDisparity)).At(kBox[0], kBox[1]) ==
-        doctest::Approx(0.9));
-}
-
-TEST_CASE("depth pictures: PGM keeps 16 bits, and colour pictures are rejected") {
-  std::string pgm = "P5\n48 36\n4095\n";
-  for (const uint16_t level : LevelsOf(kMillimetres)) pgm += Big(level, 2);
-  CheckScene(Opened("map.pgm", pgm, NearIs(Near::kBlack)));
-  Bytes bytes(pgm.begin(), pgm.end());
-  Samples samples = ValueOf(DecodeSamples("x", Alpha::kTransparent, bytes));
-  CHECK(samples.largest == 4095);
-  CHECK(samples.map.values[Index(kBox[0], kBox[1])] == 900);
-  Image colours(kColumns, kRows);
-  for (size_t k = 0; k < colours.pixels.size(); k += 3) {
-    colours.pixels[k] = static_cast<uint8_t>(k / 21);
-    colours.pixels[k + 2] = static_cast<uint8_t>(255 - k / 21);
-  }
-  for (const std::string extension : {".png", ".jpg", ".ppm"}) {
-    CAPTURE(extension);
-    CHECK(Contains(Opened("map" + extension, Encode(colours, extension), {}).error,
-                   "a colour picture"));
-  }
-  // Grey pictures stay grey after JPEG compression.
-  CHECK(Opened("map.jpg", Encode(Ramp(kColumns, kRows), ".jpg"), {}).error == "");
 }
 
 Image GreyOf(const FloatMap& map) {
@@ -288,42 +426,6 @@ TEST_CASE("depth pictures: by its proportions and edges, a picture is rotated wi
   }
 }
 #endif
-
-TEST_CASE(
-    "depth pictures: proportions that differ from the photo by more than rounding are rejected") {
-  const auto open = [](int width, int height) {
-    return Opened("map.png", Encode(Ramp(width, height), ".png"), NearIs(Near::kWhite)).error;
-  };
-  CHECK(open(24, 18) == "");
-  CHECK(open(16, 12) == "");
-  CHECK(open(11, 8) == "");
-  CHECK(open(518, 392) == "");
-  for (const auto& [width, height] : {std::pair<int, int>{48, 32}, {48, 40}, {36, 36}, {36, 48}}) {
-    CHECK(Contains(open(width, height), "a depth map with the proportions of the picture"));
-  }
-}
-
-TEST_CASE("depth pictures: a picture is found by its name next to the photo") {
-  for (const char* name :
-       {"photo-depth.png", "photo_depth.png", "photo.depth.png", "photo-depth.PNG",
-        "PHOTO_Depth.Png", "Photo-DEPTH.png", "photo-depth.npy", "photo-depth.npz",
-        "photo-depth.exr", "photo-depth.tif", "photo-depth.tiff"}) {
-    CAPTURE(name);
-    TempFolder folder;
-    Write(folder.file("photo.jpg"), Encode(Plain(kColumns, kRows, 128), ".jpg"));
-    Write(folder.file("photodepth.png"), "no picture");
-    Write(folder.file("photo2-depth.png"), "no picture");
-    Write(folder.file("depth.png"), "no picture");
-    Write(folder.file(name), Encode(Ramp(kColumns, kRows), ".png"));
-    Capture capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {}));
-    CHECK(capture.map_path == folder.file(name));
-    CHECK(capture.notes.size() == 1);
-    Write(folder.file("photo-depth.jpg"), Encode(Ramp(kColumns, kRows), ".jpg"));
-    capture = ValueOf(OpenCapture(folder.file("photo.jpg"), {"", NearIs(Near::kWhite)}));
-    REQUIRE(capture.notes.size() == 1);
-    CHECK(Contains(capture.notes[0], "2 depth pictures"));
-  }
-}
 
 }  // namespace
 }  // namespace starfocus::depth_picture_test

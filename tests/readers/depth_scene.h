@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -89,6 +90,31 @@ inline std::string NpyOf(const FloatMap& map) {
                           "{'descr': '<f4', 'fortran_order': False, 'shape': (36, 48), }\n";
   return npy + std::string(reinterpret_cast<const char*>(map.values.data()),
                            map.values.size() * sizeof(float));
+}
+
+// Returns an NPY file of 32-bit integers.
+inline std::string IntegerNpyOf(FloatMap map) {
+  for (float& value : map.values) {
+    const auto integer = static_cast<int32_t>(std::lround(value));
+    std::memcpy(&value, &integer, sizeof value);
+  }
+  const std::string npy = NpyOf(map);
+  return std::string(npy).replace(npy.find("<f4"), 3, "<i4");
+}
+
+// Returns a PNG file whose alpha channel, or whose grey channel if `channels` is 1, is the matte.
+// The colours are random.
+inline std::string AlphaPng(const FloatMap& matte, int channels) {
+  const int colour = channels == 4 ? 6 : 0;
+  const Image noise = Noise(matte.width, matte.height);
+  std::string samples;
+  for (size_t k = 0; k < matte.values.size(); ++k) {
+    if (channels == 4)
+      samples.append(noise.pixels.begin() + int(3 * k), noise.pixels.begin() + int(3 * k + 3));
+    samples += static_cast<char>(std::lround(255 * double(matte.values[k])));
+  }
+  return Png(uint32_t(matte.width), uint32_t(matte.height), {8, colour}, samples,
+             size_t(matte.width) * size_t(channels));
 }
 
 inline DepthOptions UnitIs(DepthUnit unit, double metres = 1) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the frames of a clip, whose depth maps share one scale and one near end. The reference is
-// one photo that contains all frames next to each other.
+// Turns, resizes and scales the map of a photo, and scales the maps of the frames of a clip, which
+// share one scale and one near end. The reference of a clip is one photo that contains all frames
+// next to each other.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,10 +11,13 @@
 
 #include "platform/pfm.h"
 #include "platform/readers/capture.h"
+#include "platform/readers/orientation.h"
+#include "platform/readers/photo_scale.h"
+#include "starfocus/starfocus.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 
-namespace starfocus::clip_test {
+namespace starfocus::photo_map_test {
 namespace {
 
 using namespace photos;
@@ -126,5 +130,60 @@ TEST_CASE("clip: 0 and 65535 are depths in all frames or in none") {
   CHECK(!HasNote(frame, "filled"));
 }
 
+TEST_CASE("ApplyOrientation: each corner moves to the place that EXIF defines") {
+  // EXIF 2.32, tag 274: the sides of the picture at which row 0 and column 0 of the file are.
+  constexpr const char* kRows[] = {"top",  "top",   "bottom", "bottom",
+                                   "left", "right", "right",  "left"};
+  constexpr const char* kColumns[] = {"left", "right", "right",  "left",
+                                      "top",  "top",   "bottom", "bottom"};
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    DepthPhoto photo;
+    photo.orientation = orientation;
+    photo.picture = Plain(3, 2, 0);
+    photo.map = {3, 2, {1, 2, 3, 4, 5, 6}};
+    photo.picture.row(0)[0] = 200;  // pixel in row 0 and column 0 of the file
+    photo.focus_x = photo.focus_y = 0.1;
+    ApplyOrientation(&photo);
+    const std::string row = kRows[orientation - 1], column = kColumns[orientation - 1];
+    const Image& picture = photo.picture;
+    CHECK(picture.width == (orientation < 5 ? 3 : 2));
+    const bool right = row == "right" || column == "right",
+               below = row == "bottom" || column == "bottom";
+    const int x = right ? picture.width - 1 : 0, y = below ? picture.height - 1 : 0;
+    CHECK(picture.row(y)[3 * x] == 200);
+    CHECK(photo.map.at(x, y) == 1);
+    CHECK(photo.focus_x == doctest::Approx(right ? 0.9 : 0.1));
+    CHECK(photo.focus_y == doctest::Approx(below ? 0.9 : 0.1));
+  }
+}
+
+TEST_CASE("Resize: maps are interpolated to the size of the picture, without unknown values") {
+  const FloatMap map = {2, 2, {0, 4, NAN, 8}};
+  const FloatMap large = Resize(map, 4, 2);
+  CHECK(large.at(0, 0) == 0);
+  CHECK(large.at(1, 0) == 1);
+  CHECK(large.at(2, 0) == 3);
+  CHECK(large.at(3, 0) == 4);
+  CHECK(std::isnan(large.at(0, 1)));
+  CHECK(large.at(1, 1) == 8);
+}
+
+TEST_CASE("MakePhotoField: interpolated disparities of a photo stay within the limit") {
+  DepthPhoto photo;
+  photo.picture = Plain(97, 61, 128);
+  // All inverse distances are 1e6 per metre, so all points are at a distance of one micrometre.
+  photo.map = {5, 3, std::vector<float>(15, 1e6F)};
+  photo.meaning = MapMeaning::kInverseMetres;
+  Result<LightField> made = MakePhotoField("photo", &photo);
+  REQUIRE(made.error() == "");
+  LightField& field = *made;
+  FitMap(&field);
+  REQUIRE(field.disparity.values.size() == 97 * 61);
+  const auto [low, high] =
+      std::minmax_element(field.disparity.values.begin(), field.disparity.values.end());
+  CHECK(*low == float(STARFOCUS_MAX_DISPARITY));
+  CHECK(*high == float(STARFOCUS_MAX_DISPARITY));
+}
+
 }  // namespace
-}  // namespace starfocus::clip_test
+}  // namespace starfocus::photo_map_test

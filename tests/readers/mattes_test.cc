@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens photos whose files store mattes: Apple's mattes in HEIC and JPEG files, and masks of
-// Dynamic Depth. The seed heif/mattes.heic shows a person, with a depth map and the mattes of the
-// person, the hair, the skin and the sky, all of 128x64 pixels.
+// Opens photos with mattes: separate files, as segmentation programs write them, and the mattes
+// that photos store, which are Apple's mattes in HEIC and JPEG files, and masks of Dynamic Depth.
+// The seed heif/mattes.heic shows a person, with a depth map and the mattes of the person, the
+// hair, the skin and the sky, all of 128x64 pixels.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -14,17 +16,186 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/heif_boxes.h"
+#include "platform/readers/matte.h"
+#include "platform/readers/orientation.h"
+#include "platform/readers/photo_scale.h"
 #include "platform/readers/xmp.h"
+#include "tests/readers/depth_scene.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
 #include "tests/support/portrait_files.h"
 #include "tests/support/seed_file.h"
 
-namespace starfocus::stored_matte_test {
+namespace starfocus::mattes_test {
 namespace {
 
-using namespace photos;
+using namespace depth_scene;
+
+// Alpha of a subject that is opaque in the box of the scene. Its left border is half covered.
+FloatMap MatteMap() {
+  FloatMap matte = MapOf({0, 0, 1});
+  for (int y = 8; y < 26; ++y) matte.values[Index(16, y)] = 0.4F;
+  return matte;
+}
+
+FloatMap Times(FloatMap map, float factor) {
+  for (float& value : map.values) value *= factor;
+  return map;
+}
+
+// Returns a dark picture with a bright box where the matte has the subject.
+Image PictureOfBox() {
+  Image picture = Plain(kColumns, kRows, 60);
+  for (int y = 8; y < 26; ++y) std::fill_n(picture.row(y) + 3 * 16, 3 * 12, uint8_t{200});
+  return picture;
+}
+
+// Opens a photo with the orientation, a matte, and a depth picture unless its content is empty.
+Capture OpenMatted(int orientation, const std::string& matte, CaptureOptions options = {},
+                   const std::string& depth = "") {
+  TempFolder folder;
+  Write(folder.file("photo.jpg"),
+        Insert(Encode(PictureOfBox(), ".jpg"), ExifSegment(orientation, 0)));
+  Write(folder.file("matte"), matte);
+  Write(folder.file("depth"), depth);
+  options.matte = folder.file("matte");
+  if (!depth.empty()) options.depth = folder.file("depth");
+  return ValueOf(OpenCapture(folder.file("photo.jpg"), options));
+}
+
+TEST_CASE("mattes: a photo without depth becomes two surfaces with the matte as coverage") {
+  const Capture capture = OpenMatted(1, AlphaPng(MatteMap(), 1));
+  const LightField& field = capture.light_field;
+  REQUIRE(field.coverage.size() == size_t(kColumns) * kRows);
+  for (size_t k = 0; k < field.coverage.size(); ++k) {
+    const float alpha = MatteMap().values[k];
+    CHECK(int(field.coverage[k]) == std::lround(255 * double(alpha)));
+    // The engine rounds disparities to 1/64 pixel.
+    CHECK(double(field.disparity.values[k]) ==
+          doctest::Approx(alpha > 0.5F ? kNearest : 0).epsilon(0.5 / 64 / kNearest));
+  }
+  CHECK(capture.care == MapCare::kNone);
+  CHECK(capture.format == "photo and matte");
+}
+
+TEST_CASE("mattes: every format of one matte gives the same light field") {
+  // Values of 102/255 are exact in all formats.
+  const FloatMap matte = MatteMap();
+  std::string grey_and_opaque;
+  for (const float alpha : matte.values) {
+    grey_and_opaque += Big(uint32_t(std::lround(255 * double(alpha))), 1) + '\xff';
+  }
+  const LightField field = OpenMatted(1, AlphaPng(matte, 1)).light_field;
+  for (const std::string& file :
+       {AlphaPng(matte, 4), PfmOf(matte), PfmOf(Times(matte, 255)), NpyOf(matte),
+        NpyOf(Times(matte, 255)), NpyOf(Times(matte, 1.005F)), IntegerNpyOf(Times(matte, 255)),
+        Png(kColumns, kRows, {8, 4}, grey_and_opaque, 2 * size_t(kColumns))}) {
+    const LightField other = OpenMatted(1, file).light_field;
+    CHECK(other.disparity.values == field.disparity.values);
+    CHECK(std::equal(field.coverage.begin(), field.coverage.end(), other.coverage.begin(),
+                     [](int a, int b) { return std::abs(a - b) <= 1; }));
+  }
+  // Masks of labels contain 0 and 1 only.
+  for (const std::string& file :
+       {AlphaPng(MapOf({0, 0, 1.0 / 255}), 1), IntegerNpyOf(MapOf({0, 0, 1}))}) {
+    CHECK(OpenMatted(1, file).light_field.coverage[Index(kBox[0], kBox[1])] == 255);
+  }
+}
+
+#ifdef STARFOCUS_HAS_EXIF
+TEST_CASE("mattes: a matte is rotated with its photo, unless it is upright already") {
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    CAPTURE(orientation);
+    FloatMap upright = MatteMap();
+    TurnMap(orientation, &upright);
+    CaptureOptions told;
+    told.map.orientation = DepthOrientation::kUpright;
+    const Capture captures[] = {OpenMatted(orientation, AlphaPng(MatteMap(), 4)),
+                                OpenMatted(orientation, AlphaPng(upright, 1)),
+                                OpenMatted(orientation, AlphaPng(upright, 1), told)};
+    for (const Capture& capture : captures) {
+      CHECK(capture.light_field.disparity.width == upright.width);
+      CHECK(capture.light_field.disparity.values == captures[0].light_field.disparity.values);
+      CHECK(capture.light_field.coverage == Matte(upright).alpha);
+    }
+    const bool judged = orientation > 1 && orientation < 5;
+    CHECK(HasNote(captures[1], "the matte is taken to be upright already") == judged);
+    CHECK(captures[2].notes.empty());
+  }
+}
+
+TEST_CASE("mattes: depth picture and matte are rotated independently") {
+  // The map and the matte show the same box, which is not symmetric in any orientation.
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    for (const int upright : {0, 1, 2, 3}) {
+      CAPTURE(orientation);
+      CAPTURE(upright);
+      FloatMap expected = MatteMap();
+      TurnMap(orientation, &expected);
+      const std::string depth = PfmOf((upright & 1) != 0 ? expected : MatteMap());
+      const std::string matte = AlphaPng((upright & 2) != 0 ? expected : MatteMap(), 1);
+      // The picture that a command receives is upright, and so is its map.
+      CaptureOptions computed;
+      computed.map.near = Near::kWhite;
+      computed.map.estimate = [&](const Image&) -> Result<Samples> { return Samples{expected}; };
+      for (const Capture& capture :
+           {OpenMatted(orientation, matte, {}, depth), OpenMatted(orientation, matte, computed)}) {
+        CHECK(capture.matte.alpha == Matte(expected).alpha);
+        CHECK(capture.light_field.disparity.width == expected.width);
+        for (size_t k = 0; k < expected.values.size(); ++k) {
+          REQUIRE((capture.light_field.disparity.values[k] > 0.5 * kNearest) ==
+                  (expected.values[k] > 0.5F));
+        }
+      }
+    }
+  }
+}
+#endif
+
+TEST_CASE("mattes: a square matte is stretched over the picture, with a note") {
+  for (const int orientation : {1, 6}) {
+    const FloatMap square = Resize(MatteMap(), 2 * kColumns, 2 * kColumns);
+    const Capture capture = OpenMatted(orientation, AlphaPng(square, 1));
+    FloatMap upright = MatteMap();
+    TurnMap(orientation, &upright);
+    CHECK(HasNote(capture, "is stretched over the picture"));
+    const std::vector<uint8_t>&given = capture.light_field.coverage,
+          expected = Matte(upright).alpha;
+    REQUIRE(given.size() == expected.size());
+    int differing = 0;  // pixels beside outlines, which resampling softens
+    for (size_t k = 0; k < given.size(); ++k) differing += std::abs(given[k] - expected[k]) > 60;
+    CHECK(differing < 20);
+  }
+}
+
+TEST_CASE("mattes: the floor reaches the subject at its feet") {
+  CaptureOptions options;
+  options.map.floor = true;
+  const FloatMap map = OpenMatted(1, AlphaPng(MatteMap(), 1), options).light_field.disparity;
+  // The subject is in rows 8 to 25 of 36, so that the horizon is at row 17 and the feet at row 26.
+  CHECK(map.at(0, 16) == 0);
+  CHECK(map.at(0, 17) > 0);
+  CHECK(map.at(0, 21) == doctest::Approx(kNearest * 4.5 / 9).epsilon(0.05));
+  for (const int y : {26, 35})
+    CHECK(double(map.at(0, y)) == doctest::Approx(kNearest).epsilon(0.05));
+}
+
+TEST_CASE("mattes: with a map, the matte is the coverage of the outline that both share") {
+  LightField field;
+  field.views = {Plain(kColumns, kRows, 90)};
+  // The map has a second surface at the right, which the matte does not contain.
+  field.disparity = MapOf({0, 0, 20});
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = 40; x < kColumns; ++x) field.disparity.values[Index(x, y)] = 20;
+  }
+  ThreadRunner runner(2);
+  REQUIRE(CoverByMatte("photo", Matte(MatteMap()), &runner, &field) == "");
+  CHECK(field.coverage[Index(20, 15)] == 255);
+  CHECK(std::abs(field.coverage[Index(16, 15)] - 102) <= 10);
+  CHECK(field.coverage[Index(34, 15)] == 0);
+  CHECK(field.coverage[Index(45, 15)] == 255);
+}
 
 // Returns the mean difference between the levels of a matte and the expected levels, 0 to 255.
 template <class Level>
@@ -76,8 +247,13 @@ TEST_CASE("HEIC: beside a depth map, the portrait effects matte gives the matte 
   REQUIRE(capture.matte.width == 128);
   REQUIRE(capture.matte.height == 64);
   CHECK(Apart(capture.matte, Person) < 2);
-  const FloatMap& map = capture.light_field.disparity;
-  CHECK(map.at(48, 24) > 2 * map.at(100, 24));
+  CHECK(capture.light_field.disparity.at(48, 24) > 2 * capture.light_field.disparity.at(100, 24));
+  // Mattes turn with the picture.
+  REQUIRE(Open(Changed(Seed("heif/mattes.heic"), "irot", 0, "\1"), &capture) == "");
+  REQUIRE(capture.matte.width == 64);
+  REQUIRE(capture.matte.height == 128);
+  CHECK(capture.light_field.views[0].width == 64);
+  CHECK(Apart(capture.matte, [](int x, int y) { return Person(127 - y, x); }) < 2);
 }
 
 TEST_CASE("HEIC: without a depth map, the matte divides the photo into two surfaces") {
@@ -109,15 +285,6 @@ TEST_CASE("HEIC: without a portrait effects matte, hair and skin are the subject
   }
 }
 
-TEST_CASE("HEIC: mattes turn with the picture") {
-  Capture capture;
-  REQUIRE(Open(Changed(Seed("heif/mattes.heic"), "irot", 0, "\1"), &capture) == "");
-  REQUIRE(capture.matte.width == 64);
-  REQUIRE(capture.matte.height == 128);
-  CHECK(capture.light_field.views[0].width == 64);
-  CHECK(Apart(capture.matte, [](int x, int y) { return Person(127 - y, x); }) < 2);
-}
-
 TEST_CASE("HEIC: damaged mattes are ignored with a note if the photo has depth") {
   const std::string depth = Damaged(Damaged(Damaged(Seed("heif/mattes.heic"), 3), 4), 5);
   Capture capture;
@@ -133,14 +300,6 @@ TEST_CASE("HEIC: damaged mattes are ignored with a note if the photo has depth")
   REQUIRE(Open(Damaged(Seed("heif/mattes.heic"), 2), &capture) == "");
   CHECK(HasNote(capture, "the depth map in the file is ignored: "));
   CHECK(capture.format == "HEIF photo with a matte");
-}
-
-TEST_CASE("HEIC: a matte that is too large for its file is not decoded") {
-  // The first declared size belongs to all pictures.
-  const std::string large("\0\0\x30\0\0\0\x30\0", 8);
-  Capture capture;
-  CHECK(Contains(Open(Changed(Seed("heif/mattes.heic"), "ispe", 4, large), &capture),
-                 "32768 pixels for each byte"));
 }
 #endif
 
@@ -298,6 +457,8 @@ TEST_CASE("Dynamic Depth: a mask is ignored if the photo has depth of any origin
   const std::string photo = folder.file("photo.jpg"), depth = folder.file("photo-depth.png");
   Write(photo, Masked(Ramp(kWidth, kHeight), "", false));
   const Image ramp = Ramp(kWidth, kHeight);
+  const Capture own = OpenMasked(ramp, "", Near::kUnknown, true);
+  CHECK(double(own.light_field.disparity.at(0, 3)) == doctest::Approx(kPortrait).epsilon(0.02));
   CaptureOptions estimated;
   estimated.map.estimate = [&](const Image&) -> Result<Samples> {
     return DecodeSamples("", Alpha::kIgnored, ValueOf(ReadFile(folder.file("other.png"))));
@@ -324,16 +485,8 @@ TEST_CASE("Dynamic Depth: a mask is ignored if the photo has depth of any origin
     CHECK(std::abs(capture.light_field.views[0].pixels[0] - kOriginalLevel) <= 2);
     CHECK(FactOf(capture, "mattes") == "ignored: mask of the subject");
   }
-}
-
-TEST_CASE("stored mattes: --near applies to masks only") {
-  if (!CanReadXmp()) return;
-  CaptureOptions options;
-  options.map.near = Near::kWhite;
-  Capture capture;
-  const Error error =
-      Open(AppleJpeg(Halves(kWidth, kHeight, 255, 0), kWholeXml), &capture, options);
-  CHECK(Contains(error, "for --near, found a matte without depth"));
+  CHECK(own.matte.alpha.empty());
+  CHECK(FactOf(own, "mattes") == "ignored: mask of the subject");
 }
 
 TEST_CASE("Dynamic Depth: a separate matte replaces the mask in the file without a word about it") {
@@ -351,24 +504,26 @@ TEST_CASE("Dynamic Depth: a separate matte replaces the mask in the file without
   CHECK(Apart(capture.matte, [](int x, int) { return x * 255 / (kWidth - 1); }) < 2);
 }
 
-TEST_CASE("Dynamic Depth: an empty or full mask is an error that names the file") {
+TEST_CASE("stored mattes: empty and full masks, and --near for other mattes are rejected") {
   if (!CanReadXmp()) return;
-  Capture capture;
-  for (const auto& [level, found] : {std::pair(255, "an empty matte"), {0, "a full matte"}}) {
-    const Image mask = Plain(kWidth, kHeight, level);
-    const Error error = Open(Masked(mask, "DepthMap:Format=\"x\"", false), &capture);
-    CHECK(Contains(error, "photo.jpg: expected a matte with a "));
-    CHECK(Contains(error, found));
+  const struct {
+    std::string file, error;
+    Near near;
+  } rows[] = {{Masked(Plain(kWidth, kHeight, 255), "DepthMap:Format=\"x\"", false),
+               "found an empty matte", Near::kUnknown},
+              {Masked(Plain(kWidth, kHeight, 0), "DepthMap:Format=\"x\"", false),
+               "found a full matte", Near::kUnknown},
+              {AppleJpeg(Halves(kWidth, kHeight, 255, 0), kWholeXml),
+               "for --near, found a matte without depth", Near::kWhite}};
+  for (const auto& row : rows) {
+    CaptureOptions options;
+    options.map.near = row.near;
+    Capture capture;
+    const Error error = Open(row.file, &capture, options);
+    CHECK(Contains(error, "photo.jpg: expected a"));
+    CHECK(Contains(error, row.error));
   }
 }
 
-TEST_CASE("Dynamic Depth: a mask is ignored if the file has a depth map") {
-  if (!CanReadXmp()) return;
-  const Capture capture = OpenMasked(Ramp(kWidth, kHeight), "", Near::kUnknown, true);
-  CHECK(FactOf(capture, "mattes") == "ignored: mask of the subject");
-  CHECK(capture.matte.alpha.empty());
-  CHECK(double(capture.light_field.disparity.at(0, 3)) == doctest::Approx(kPortrait).epsilon(0.02));
-}
-
 }  // namespace
-}  // namespace starfocus::stored_matte_test
+}  // namespace starfocus::mattes_test

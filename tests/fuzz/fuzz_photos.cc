@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three fuzz targets of depth photos: `heif` for HEIF files, which also tests the calls of libheif;
+// `photo` for all other files, because HEIF is ten times as slow; and `xmp`, whose input is an XMP
+// packet. The pictures around this packet are valid, so that nearly all inputs reach the reader of
+// depth maps. Each target is built from this file with its name in STARFOCUS_FUZZ_TARGET.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "platform/icc_profile.h"
+#include "platform/readers/depth_photo_file.h"
+#include "platform/readers/heic.h"
+#include "platform/readers/heif_boxes.h"
+#include "platform/readers/photo_scale.h"
+#include "platform/readers/stereo_pair.h"
+#include "platform/readers/xmp.h"
+#include "platform/writers/jpeg_segments.h"
+#include "starfocus/starfocus.h"
+#include "tests/fuzz/input.h"
+#include "tests/support/photo_files.h"
+#include "tests/support/sanitizers.h"
+
+namespace starfocus::fuzz {
+namespace {
+
+// Largest number of pixels that a reader accepts. Larger numbers are reduced to this limit.
+constexpr int64_t kMostPixels = int64_t{1} << 28;
+
+int64_t PixelsOf(int64_t width, int64_t height) {
+  return width > 0 && height > kMostPixels / width ? kMostPixels : width * height;
+}
+
+int64_t WholeAt(const uint8_t* data, int bytes, bool big) {
+  int64_t value = 0;
+  for (int k = 0; k < bytes; ++k) value = value << 8 | data[big ? k : bytes - 1 - k];
+  return value;
+}
+
+// Returns the sum of the pixels that all PNG headers and JPEG frames in the file declare. A photo
+// may contain several pictures.
+int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
+  int64_t pixels = 0;
+  for (size_t at = 0; at + 12 <= size; ++at) {
+    const uint8_t* here = data + at;
+    if (std::memcmp(here, "IHDR", 4) == 0)
+      pixels += PixelsOf(WholeAt(here + 4, 4, true), WholeAt(here + 8, 4, true));
+    if (here[0] == 0xff && here[1] >= 0xc0 && here[1] <= 0xcf && here[1] != 0xc4) {
+      pixels += WholeAt(here + 5, 2, true) * WholeAt(here + 7, 2, true);
+    }
+  }
+  return pixels;
+}
+
+// Returns the number of pixels of a WebP file (RFC 9649, 2.5 to 2.7). For a file with a canvas,
+// returns the number of pixels of the canvas.
+int64_t PixelsOfWebp(const uint8_t* data, size_t size) {
+  if (size < 30) return 0;
+  if (std::memcmp(data + 12, "VP8X", 4) == 0) {
+    return (WholeAt(data + 24, 3, false) + 1) * (WholeAt(data + 27, 3, false) + 1);
+  }
+  if (std::memcmp(data + 12, "VP8L", 4) == 0) {
+    const int64_t bits = WholeAt(data + 21, 4, false);
+    return ((bits & 0x3fff) + 1) * ((bits >> 14 & 0x3fff) + 1);
+  }
+  return (WholeAt(data + 26, 2, false) & 0x3fff) * (WholeAt(data + 28, 2, false) & 0x3fff);
+}
+
+int64_t DeclaredPixels(const uint8_t* data, size_t size) {
+  if (size >= 12 && std::memcmp(data, "RIFF", 4) == 0) return PixelsOfWebp(data, size);
+  const auto items = HeifBrands({data, size}).empty() ? std::nullopt : ReadHeifItems({data, size});
+  if (items) {
+    int64_t pixels = 0;
+    for (const auto& [id, item] : *items) pixels += PixelsOf(item.width, item.height);
+    return pixels;
+  }
+  return PixelsOfHeaders(data, size);
+}
+
+// Returns the number of KiB in the named line of /proc/self/status, or -1 if there is no such line.
+int64_t StatusOf(const std::string& name) {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, name.size(), name) == 0) return std::atoll(line.c_str() + name.size());
+  }
+  return -1;
+}
+
+// Limits the memory that reading a picture takes to 64 MiB plus 16 bytes for each pixel that the
+// file declares. Aborts if a reader exceeds the limit. Only Linux can measure the memory of each
+// input; other systems check nothing.
+class MemoryBudget {
+ public:
+  MemoryBudget(const uint8_t* data, size_t size) : pixels_(DeclaredPixels(data, size)) {
+    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak to the current memory use
+    before_ = StatusOf("VmHWM:");
+  }
+  ~MemoryBudget() {
+    const int64_t most = kShare * (64 * 1024 + 16 * pixels_ / 1024),
+                  used = StatusOf("VmHWM:") - before_;
+    if (before_ < 0 || used <= most) return;
+    std::fprintf(stderr, "%lld KiB for %lld declared pixels, expected at most %lld\n",
+                 static_cast<long long>(used), static_cast<long long>(pixels_),
+                 static_cast<long long>(most));
+    std::abort();
+  }
+  MemoryBudget(const MemoryBudget&) = delete;
+  MemoryBudget& operator=(const MemoryBudget&) = delete;
+
+ private:
+  // AddressSanitizer keeps freed memory for a while.
+  static constexpr int64_t kShare = test::kSanitized ? 4 : 1;
+
+  const int64_t pixels_;
+  int64_t before_ = 0;
+};
+
+// Checks that the XMP that a writer makes is well-formed. The written XMP may be nested deeper than
+// the XMP that was read.
+void CheckCaptions(const Metadata& metadata) {
+  const std::string packet = XmpPacket(metadata.xmp);
+  if (packet.empty() || !CanReadXmp()) return;
+  const Result<XmpNode> root = ParseXmp("captions", packet.data(), packet.size());
+  if (root.error().line().find("well-formed") != std::string::npos) std::abort();
+}
+
+Result<DepthPhoto> Decode(const uint8_t* data, size_t size) {
+  const MemoryBudget budget(data, size);
+  const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
+  return DecodeDepthPhoto("photo", {data, size}, true, near);
+}
+
+void CheckPhoto(const uint8_t* data, size_t size) {
+  Result<DepthPhoto> decoded = Decode(data, size);
+  if (!decoded) return;
+  DepthPhoto& photo = *decoded;
+  CheckCaptions(photo.metadata);
+  const Bytes& icc = photo.metadata.icc;
+  if (!icc.empty() && !IsRgbProfile(icc)) std::abort();
+  if (photo.map.values.empty() && photo.matte.values.empty()) {
+    if (ReadStereoPair("photo", {data, size}, &photo) &&
+        photo.right.pixels.size() != photo.picture.pixels.size()) {
+      std::abort();
+    }
+    return;
+  }
+  for (const FloatMap* map : {&photo.map, &photo.matte}) {
+    if (map->values.size() != size_t(map->width) * size_t(map->height)) std::abort();
+  }
+  // Only small photos are processed further, since the engine has its own fuzz target.
+  if (photo.picture.pixels.size() > 1 << 20) return;
+  Result<LightField> made = MakePhotoField("photo", &photo);
+  if (!made) return;
+  LightField& field = *made;
+  FitMap(&field);
+  const Image& view = field.views[0];
+  if (view.pixels.size() != view.stride() * size_t(view.height)) std::abort();
+  if (field.width() != view.width || field.height() != view.height) std::abort();
+  for (const float disparity : field.disparity.values) {
+    if (std::fabs(disparity) > float(STARFOCUS_MAX_DISPARITY)) std::abort();
+  }
+}
+
+using namespace photos;
+
+struct Pictures {
+  std::string jpeg = Encode(Ramp(8, 8), ".jpg"), png = Encode(Ramp(4, 4), ".png");
+};
+
+void CheckFile(const std::string& file) {
+  const auto* bytes = reinterpret_cast<const uint8_t*>(file.data());
+  const auto photo = DecodeDepthPhoto("photo", {bytes, file.size()}, true, Near::kUnknown);
+  if (photo && photo->picture.pixels.empty()) std::abort();
+  CheckCaptions(photo->metadata);
+}
+
+void CheckPacket(const uint8_t* data, size_t size) {
+  static const Pictures pictures;
+  if (size < 1 || size > 60000) return;
+  const std::string packet(reinterpret_cast<const char*>(data) + 1, size - 1);
+  if (data[0] % 4 == 0) {  // Apple's packet is in the second picture
+    CheckFile(MultiPicture(pictures.jpeg, Insert(pictures.jpeg, XmpSegment(packet))));
+  } else if (data[0] % 4 == 1) {  // extended XMP: the main packet has everything except the map
+    CheckFile(Gdepth(pictures.jpeg,
+                     "GDepth:Format=\"RangeInverse\" GDepth:Near=\"1\" GDepth:Far=\"2\"",
+                     "/>" + packet, 1 + size / 3));
+  } else if (data[0] % 4 == 2) {
+    CheckFile(Insert(pictures.jpeg, XmpSegment(packet)) + pictures.png);
+  } else {  // a second packet
+    CheckFile(Insert(pictures.jpeg,
+                     XmpSegment(Packet(kGoogle, "GDepth:Near=\"1\"")) + XmpSegment(packet)) +
+              pictures.png);
+  }
+}
+
+}  // namespace
+}  // namespace starfocus::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  constexpr std::string_view kTarget = STARFOCUS_FUZZ_TARGET;
+  const bool is_heif = starfocus::IsHeif({data, size});
+  if (kTarget == "xmp") starfocus::fuzz::CheckPacket(data, size);
+  if (kTarget == (is_heif ? "heif" : "photo")) starfocus::fuzz::CheckPhoto(data, size);
+  return 0;
+}
