@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uses every part of the API that does not need the types of browsers.
+// Uses every part of the API that does not need the types of browsers or of node.
 
 import {
   createRefocuser, ErrorCode, estimateDisparity, Mode, openPhoto, Renderer, Shape, StarfocusError, Transfer, type Block, type Call,
