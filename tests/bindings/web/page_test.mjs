@@ -4,6 +4,7 @@
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
 import test, {after, before} from 'node:test';
 import sharp from 'sharp';
 
@@ -17,7 +18,8 @@ let demo, centre;
 
 before(async () => {
   demo = makeDemoFolder();
-  centre = refocusByProgram(demo, '--focus', '0', '--aperture', '0');
+  centre = refocusByProgram(join(demo, 'view_+0.0_+0.0.jpg'), '--depth', join(demo, 'disparity.pfm'), '--depth-unit', 'disparity',
+                            '--no-repair', '--focus', '0', '--strength', '0');
   driver.browser = await launch();
   driver.address = await serve();
   await load(driver.address);
