@@ -64,13 +64,12 @@ same() {
   printf '%-40s %s\n' "$1" "$(paste -s -d ' ' "$work/sums")"
 }
 
-# project KIND FOLDER ARGUMENT...: configures, builds and runs a project of tests/bindings/consumers.
+# project KIND WAY LANGUAGE ARGUMENT...: configures, builds and runs the project of tests/bindings/consumers.
 project() {
-  kind=$1
-  folder=$2
-  shift 2
+  kind=$1 way=$2 language=$3
+  shift 3
   rm -rf "$work/build"
-  quietly cmake -S "$work/consumers/$folder" -B "$work/build" "$@"
+  quietly cmake -S "$work/consumers" -B "$work/build" -DWAY=$way -DLANGUAGE=$language "$@"
   quietly cmake --build "$work/build" --parallel "$(nproc)"
   cp "$work/build/sums" "$work/sums"
   same "$kind"
@@ -99,15 +98,12 @@ library() {
 package() {
   prefix=$work/prefix
   quietly cmake --install "$build" --prefix "$prefix"
-  for kind in shared static; do
-    project "CMake package, C, $kind" cmake_package -DLANGUAGE=C -DKIND=$kind \
-      -DCMAKE_PREFIX_PATH="$prefix"
+  for form in shared static; do
+    for pool in OFF ON; do
+      project "CMake package, C, $form, pool $pool" package C -DKIND=$form -DWITH_POOL=$pool -DCMAKE_PREFIX_PATH="$prefix"
+    done
   done
-  for kind in shared static; do
-    project "CMake package, C, $kind, pool" cmake_package -DLANGUAGE=C -DKIND=$kind -DWITH_POOL=ON \
-      -DCMAKE_PREFIX_PATH="$prefix"
-  done
-  project 'CMake package, C++' cmake_package -DLANGUAGE=CXX -DCMAKE_PREFIX_PATH="$prefix"
+  project 'CMake package, C++' package CXX -DCMAKE_PREFIX_PATH="$prefix"
 
   # Checks that the installation prefix can be moved, and that the command of docs/library.md links the static library
   # although the shared library exists: the linked programs would not find the shared library.
@@ -129,11 +125,11 @@ package() {
 
 # Builds projects without optimization, since such builds are faster, and checksums must not depend on optimization.
 source_tree() {
-  project 'add_subdirectory, C' subproject "-DSTARFOCUS_DIR=$sources" \
+  project 'add_subdirectory, C' subfolder C "-DSTARFOCUS_DIR=$sources" \
     -DSTARFOCUS_STATIC_DISPATCH=ON
-  quietly cmake -S "$work/consumers/subproject" -B "$work/everything" \
+  quietly cmake -S "$work/consumers" -B "$work/everything" -DWAY=subfolder -DLANGUAGE=C \
     "-DSTARFOCUS_DIR=$sources" -DSTARFOCUS_PROGRAMS=ON -DSTARFOCUS_TESTS=ON
-  project 'FetchContent, C++, shared, -ffast-math' fetch_content "-DSTARFOCUS_DIR=$sources" \
+  project 'FetchContent, C++, shared, -ffast-math' fetch CXX "-DSTARFOCUS_DIR=$sources" \
     -DSTARFOCUS_STATIC_DISPATCH=ON
 }
 
@@ -144,7 +140,7 @@ m32() {
   echo 'int main(void) { return 0; }' >"$work/nothing.c"
   quietly cc -m32 -o "$work/nothing" "$work/nothing.c"
   "$work/nothing" 2>/dev/null || emulator='-DCMAKE_SYSTEM_NAME=Linux -DCMAKE_CROSSCOMPILING_EMULATOR=qemu-i386'
-  project '-m32, C' cmake_package -DLANGUAGE=C -DCMAKE_C_FLAGS=-m32 \
+  project '-m32, C' package C -DCMAKE_C_FLAGS=-m32 \
     -DCMAKE_PREFIX_PATH="$work/m32" $emulator
 }
 
@@ -152,7 +148,7 @@ wasm() {
   NODE_PATH=/usr/share/nodejs
   export NODE_PATH
   library wasm "-DCMAKE_TOOLCHAIN_FILE=$sources/toolchains/wasm-emscripten.cmake"
-  project 'WebAssembly SIMD, C' cmake_package -DLANGUAGE=C -DKIND=static \
+  project 'WebAssembly SIMD, C' package C -DKIND=static \
     "-DCMAKE_TOOLCHAIN_FILE=$sources/toolchains/wasm-emscripten.cmake" \
     -DCMAKE_EXE_LINKER_FLAGS='-sSINGLE_FILE=1 -sALLOW_MEMORY_GROWTH=1' \
     "-Dstarfocus_DIR=$(dirname "$(find "$work/wasm" -name starfocus-config.cmake)")"
@@ -164,7 +160,7 @@ preset() {
   other=$(dirname "$build")/$1
   toolchain=$(sed -n 's/^CMAKE_TOOLCHAIN_FILE:[A-Z]*=//p' "$other/CMakeCache.txt")
   quietly cmake --install "$other" --prefix "$work/$1"
-  project "CMake package, C, $1" cmake_package -DLANGUAGE=C -DKIND=static \
+  project "CMake package, C, $1" package C -DKIND=static \
     "-DCMAKE_TOOLCHAIN_FILE=$toolchain" \
     "-Dstarfocus_DIR=$(dirname "$(find "$work/$1" -name starfocus-config.cmake)")"
 }

@@ -138,8 +138,7 @@ TEXT
 page_alignment "$library"
 mkdir "$work/classes"
 compile "$java_sources"/main/java/dev/starfocus/*.java
-compile "$sources/examples/java/Refocus.java" "$sources/tests/bindings/java/RefocuserTest.java" \
-  "$sources/tests/bindings/java/LightFieldTest.java"
+compile "$sources/examples/java/Refocus.java" "$sources/tests/bindings/java/RefocuserTest.java"
 run dev.starfocus.RefocuserTest
 quietly "$build/starfocus-lab" scene "$work/scene" --name portrait --size 320x240 --views 5
 for focus in -2.5 1.5; do

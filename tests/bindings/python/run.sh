@@ -37,7 +37,7 @@ install() {
   quietly /usr/bin/python3 -m venv --system-site-packages --without-pip "$work/environment"
   python=$work/environment/bin/python
   quietly "$python" -m pip install --no-index --no-deps --no-build-isolation "$1"
-  cases "$2" "$python" "$tests/starfocus_test.py" "$build/starfocus" "$work/scene" "$sources/lib/include/starfocus"
+  cases "$2" "$python" "$tests/pictures_test.py" "$build/starfocus" "$work/scene" "$sources/lib/include/starfocus"
 }
 
 quietly "$build/starfocus-lab" scene "$work/scene" --name portrait --size 320x240 --views 5
@@ -53,15 +53,11 @@ quietly /usr/bin/python3 -m pip wheel --no-index --no-deps --no-build-isolation 
 install "$work"/wheels/starfocus-*-py3-none-*.whl 'Python, wheel'
 install "$sources/platform/python" 'Python, pip install of the tree'
 cases 'Python, reader' "$python" "$tests/reader_test.py" "$build/starfocus" "$work/scene"
-cases 'Python, streams and frames' "$python" "$tests/frames_test.py" "$work/scene"
-cases 'Python, quality' "$python" "$tests/quality_test.py"
-cases 'Python, depth maps' "$python" "$tests/depth_map_test.py"
+cases 'Python, maps' "$python" "$tests/maps_test.py"
 cases 'Python, types' /usr/bin/python3 -m mypy --config-file "$sources/platform/python/pyproject.toml" \
   --cache-dir "$work/mypy" "$sources/platform/python/starfocus" "$tests/typed_calls.py"
-cases 'Python, notebook' "$python" "$tests/notebook_test.py" "$sources/examples/python/tour.ipynb" "$work/scene" \
-  "$work/notebook"
 cases 'Python, documents' "$python" "$tests/documents_test.py" "$work/scene" "$work/documents" \
-  "$sources/docs/bindings.md" "$sources/platform/python/README.md"
+  "$sources/docs/bindings.md" "$sources/platform/python/README.md" "$sources/examples/python/tour.ipynb"
 cases 'Python, batch with Dask' "$python" "$tests/batch_dask_test.py" "$build/starfocus" "$work/scene" "$work/batch"
 # A wheel with shared libraries of this machine is not self-contained.
 tag=$sources/toolchains/packaging/tag_wheel.py

@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
-import {copyFileSync, mkdirSync, mkdtempSync, readFileSync, writeFileSync} from 'node:fs';
+import {cpSync, mkdtempSync, readFileSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
 import {chromium} from 'playwright-core';
@@ -39,30 +39,17 @@ export function refocusByProgram(folder, ...values) {
   return readPng(path).data;
 }
 
-/** Writes a little-endian PFM, whose bottom row is first. */
-function writePfm(path, data, width, height) {
-  const values = Buffer.alloc(4 * width * height);
-  data.forEach((value, i) => {
-    const x = i % width, y = Math.floor(i / width);
-    values.writeFloatLE(value, 4 * ((height - 1 - y) * width + x));
-  });
-  writeFileSync(path, Buffer.concat([Buffer.from(`Pf\n${width} ${height}\n-1.0\n`), values]));
-}
-
 /** Writes the demo of the page as a light-field folder of the program, and returns the folder. */
 export function makeDemoFolder() {
   const demo = join(site, 'demo'), folder = join(scratch, 'demo');
-  mkdirSync(folder);
+  cpSync(demo, folder, {recursive: true});
   const {scale, offset} = JSON.parse(readFileSync(join(demo, 'disparity.json')));
-  const {data, width, height} = readPng(join(demo, 'disparity.png'));
-  const disparities = Float32Array.from({length: width * height}, (_, i) => (data[3 * i] << 8 | data[3 * i + 1]) * scale + offset);
-  writePfm(join(folder, 'disparity.pfm'), disparities, width, height);
-  for (const position of ['+0.0_+0.0', '+1.0_+0.0', '-1.0_+0.0', '+0.0_+1.0', '+0.0_-1.0']) {
-    execFileSync(program, ['refocus', join(demo, `view_${position}.jpg`), '--depth', join(folder, 'disparity.pfm'),
-                           '--depth-unit', 'disparity', '--no-repair', '--focus', '0', '--strength', '0',
-                           '-o', join(folder, `view_${position}.png`)], {stdio: 'pipe'});
+  const {data, width, height} = readPng(join(demo, 'disparity.png')), pfm = Buffer.alloc(4 * width * height);
+  for (let i = 0; i < width * height; ++i) {  // the bottom row of a PFM is first
+    const row = height - 1 - Math.trunc(i / width), code = data[3 * i] << 8 | data[3 * i + 1];
+    pfm.writeFloatLE(code * scale + offset, 4 * (row * width + i % width));
   }
-  copyFileSync(join(demo, 'meta.txt'), join(folder, 'meta.txt'));
+  writeFileSync(join(folder, 'disparity.pfm'), Buffer.concat([Buffer.from(`Pf\n${width} ${height}\n-1.0\n`), pfm]));
   return folder;
 }
 
@@ -191,6 +178,20 @@ export async function without(folder, action) {
   await context.route(pattern, route => route.fulfill({status: 404}));
   await action();
   await context.unroute(pattern);
+}
+
+/** Performs an action in a page of a new context, and closes the context. */
+export async function inNewPage(prepare, action) {
+  const before = driver.page, context = await driver.browser.newContext();
+  try {
+    await prepare(context);
+    driver.page = await context.newPage();
+    await driver.page.goto(driver.address);
+    await action(driver.page);
+  } finally {
+    await context.close();
+    driver.page = before;
+  }
 }
 
 /** Opens the page in a new context, performs an action, and closes the context. */

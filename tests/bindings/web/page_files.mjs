@@ -40,17 +40,6 @@ function makeExif() {
   return Buffer.concat([Buffer.from([0xFF, 0xE1, 0, body.length + 2]), body]);
 }
 
-/** Returns a grey PNG of 64 x 48 pixels with 16 bits, whose values differ only in the low 8 bits. */
-const makePng16 = () => sharp(Uint16Array.from({length: 64 * 48}, (_, i) => 0x1000 + 4 * (i % 64)),
-                              {raw: {width: 64, height: 48, channels: 1}}).toColourspace('grey16').png().toBuffer();
-
-test('a depth picture with 16 bits keeps its bits', async () => {
-  await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', await makePng16()));
-  const depth = await shownDepth(), row = depth.subarray(0, 3 * 320);
-  assert.ok(Math.abs(row[3 * 310] - row[3 * 10]) > 100, 'the low bits are visible');
-  await choose('picture');
-});
-
 /** Returns the JPEG with EXIF that states this orientation. */
 function turn(jpeg, orientation) {
   const exif = makeExif();
@@ -58,7 +47,7 @@ function turn(jpeg, orientation) {
   return Buffer.concat([jpeg.subarray(0, 2), exif, jpeg.subarray(2)]);
 }
 
-test('a depth map of 16 bits keeps its bits in every orientation', async () => {
+test('a depth map of 16 bits keeps its bits, in every orientation', async () => {
   const levels = Uint16Array.from({length: 64 * 48}, (_, i) => 0x1000 + i % 64 + 2 * Math.trunc(i / 64));
   const png = await sharp(levels, {raw: {width: 64, height: 48, channels: 1}}).toColourspace('grey16').png().toBuffer();
   const {jpeg} = await drawPhoto(64, 48);
@@ -77,6 +66,9 @@ test('a depth map of 16 bits keeps its bits in every orientation', async () => {
                 `orientation ${orientation}: levels of the stored corners ${stored}`);
     }
   }
+  await opened(/^Opened: photo\.png with depth\.png/, photo(), file('depth.png', png));
+  const row = (await shownDepth()).subarray(0, 3 * 320);
+  assert.ok(Math.abs(row[3 * 310] - row[3 * 10]) > 50, 'a file of 16 bits keeps its low bits');
   await choose('picture');
 });
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests a visit to the page: a phone, light and dark colours, the address, the return to the page, slow connections,
-// and large photos. page_test.mjs imports these tests.
+// large photos, actions while a photo opens, and parts that cannot be loaded. page_test.mjs imports these tests.
 
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -10,14 +10,15 @@ import test from 'node:test';
 
 import {makeGDepth} from './gdepth_photo.mjs';
 import {
-  andFull, andWait, drawPhoto, driver, file, full, openFiles, place, program, screenshot, setSlider, shown, site, small,
-  sources, tap, visit, waitFor
+  andFull, andWait, choose, drawPhoto, driver, error, file, full, inNewPage, openFiles, place, program, screenshot, setSlider,
+  shown, site, small, sources, tap, visit, waitFor
 } from './page_driver.mjs';
-import {assertSameBytes} from './pictures.mjs';
+import {assertSameBytes, readPng} from './pictures.mjs';
 
 const PHONE = {viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true, deviceScaleFactor: 2};
 
-test('fits a phone, in light and dark colours', async () => {
+test('fits a phone and a desktop, in light and dark colours', async () => {
+  const colours = new Set();
   for (const colorScheme of ['light', 'dark']) {
     await visit({...PHONE, colorScheme}, async page => {
       await tap(...place('middle'));
@@ -29,7 +30,14 @@ test('fits a phone, in light and dark colours', async () => {
       await page.setViewportSize({width: 390, height: 1200});  // the whole page
       await screenshot(`phone-${colorScheme}`);
     });
+    await visit({colorScheme}, async page => {
+      await tap(...place('near'));
+      assert.match(await page.locator('body').innerText(), /Drop a portrait, a depth photo/);
+      colours.add(await page.evaluate(() => getComputedStyle(document.body).backgroundColor));
+      await screenshot(`desktop-${colorScheme}`);
+    });
   }
+  assert.equal(colours.size, 2);
 });
 
 test('the gallery of the site fits phones', async () => {
@@ -45,27 +53,6 @@ test('the gallery of the site fits phones', async () => {
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
     await context.close();
   }
-});
-
-test('fits a desktop, in light and dark colours', async () => {
-  const colours = {};
-  for (const colorScheme of ['light', 'dark']) {
-    await visit({colorScheme}, async page => {
-      await tap(...place('near'));
-      assert.match(await page.locator('body').innerText(), /Drop a portrait, a depth photo/);
-      colours[colorScheme] = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-      await screenshot(`desktop-${colorScheme}`);
-    });
-  }
-  assert.notEqual(colours.light, colours.dark);
-});
-
-test('shows the focus in words', async () => {
-  await visit({}, async page => {
-    await andFull(() => setSlider('focus', 0));
-    assert.doesNotMatch(await page.locator('body').innerText(), /disparity/i);
-    assert.equal(await page.getAttribute('#focus', 'aria-valuetext'), 'in the middle');
-  });
 });
 
 test('the address is a link to the lens', async () => {
@@ -162,34 +149,73 @@ function sizeOfJpeg(bytes) {
   return [bytes.readUInt16BE(at + 7), bytes.readUInt16BE(at + 5)];
 }
 
-/** Opens a photo, taps on it and downloads it. Returns the times in ms until the sharp photo is visible and until the
- *  picture can be tapped, and the longest time for which the page did not respond. */
-async function openLarge(photo) {
-  const {page} = driver;
-  await page.evaluate(() => {
-    globalThis.longest = 0;
-    new PerformanceObserver(list => list.getEntries().forEach(({duration}) => longest = Math.max(longest, duration)))
-        .observe({entryTypes: ['longtask']});
-    const picture = document.getElementById('picture'), begin = {};
-    document.getElementById('files').addEventListener('change', () => begin.time = performance.now(), {capture: true});
-    new MutationObserver(() => globalThis.sharp = performance.now() - begin.time).observe(picture, {attributeFilter: ['width']});
-    new MutationObserver(() => {
-      if (/^Opened: depth/.test(document.getElementById('status').textContent)) globalThis.ready ??= performance.now() - begin.time;
-    }).observe(document.getElementById('status'), {childList: true});
-  });
-  await andWait(() => openFiles(photo), /^Opened: depth photo large\.jpg, 4000 x 3000/);
-  await tap(100, 100);
-  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#download')]);
-  assert.ok(readFileSync(await download.path()).length > 100000);
-  return page.evaluate(() => ({sharp: globalThis.sharp, ready: globalThis.ready, longest: globalThis.longest}));
-}
-
 test('a photo of 12 megapixels is visible before it can be tapped', async () => {
   const {jpeg, png} = await drawPhoto(4000, 3000), photo = file('large.jpg', makeGDepth(jpeg, png));
-  await visit({}, async () => {
-    const {sharp, ready, longest} = await openLarge(photo);
-    console.log(`# 12 megapixels: sharp after ${sharp.toFixed()} ms, ready after ${ready.toFixed()} ms, page blocked for ` +
-                `at most ${longest.toFixed()} ms`);
+  await visit({}, async page => {
+    await page.evaluate(() => {
+      const picture = document.getElementById('picture'), status = document.getElementById('status'), begin = {};
+      document.getElementById('files').addEventListener('change', () => begin.time = performance.now(), {capture: true});
+      new MutationObserver(() => globalThis.sharp = performance.now() - begin.time).observe(picture, {attributeFilter: ['width']});
+      new MutationObserver(() => {
+        if (/^Opened: depth/.test(status.textContent)) globalThis.ready ??= performance.now() - begin.time;
+      }).observe(status, {childList: true});
+    });
+    await andWait(() => openFiles(photo), /^Opened: depth photo large\.jpg, 4000 x 3000/);
+    await tap(100, 100);
+    const [sharp, ready] = await page.evaluate(() => [globalThis.sharp, globalThis.ready]);
+    console.log(`# 12 megapixels: sharp after ${sharp.toFixed()} ms, ready after ${ready.toFixed()} ms`);
     assert.ok(sharp < ready);
   });
 });
+
+const LARGE = /^Opened: photo\.jpg with depth\.png/;
+
+test('a picture of the photo before does not replace a new photo', async () => {
+  const old = await drawPhoto(2400, 1800), {jpeg, png} = await drawPhoto(4000, 3000);
+  await visit({}, async page => {
+    await andWait(() => openFiles(file('photo.jpg', old.jpeg), file('depth.png', old.png)), LARGE);
+    await andWait(() => setSlider('focus', 'min'), /^Preview at 1\/\d: [\d.]+ ms/);
+    await andWait(() => openFiles(file('photo.jpg', jpeg), file('depth.png', png)), LARGE);
+    await page.waitForTimeout(500);
+    const sharp = await shown();
+    await setSlider('wipe', 100);
+    const row = 3 * (await page.evaluate(() => document.getElementById('picture').width) - 2);  // without the line
+    assertSameBytes(sharp.subarray(0, row), (await shown()).subarray(0, row));
+  });
+});
+
+test('a demo that arrives late does not replace files of the user', async () => {
+  let release;
+  const released = new Promise(resolve => release = resolve);
+  const hold = context => context.route(/view_%2B0\.0_%2B0\.0/, route => released.then(() => route.continue()));
+  await inNewPage(hold, async page => {
+    const files = [file('photo.png', file('view_+0.0_+0.0.png').buffer), file('map.pfm', file('disparity.pfm').buffer)];
+    await andWait(() => openFiles(...files), /^Opened: photo\.png with map\.pfm/);
+    release();
+    await page.waitForTimeout(500);
+    assertSameBytes(await shown(), readPng(join(small, 'view_+0.0_+0.0.png')).data);
+  });
+});
+
+test('the depth of a large photo is repaired after the photo was opened', async () => {
+  const {jpeg, png} = await drawPhoto(2400, 1800), engine = () => driver.page.textContent('#engine');
+  await visit({}, async page => {
+    await choose('depth');
+    await andWait(() => openFiles(file('photo.jpg', jpeg), file('depth.png', png)), LARGE);
+    assert.match(await engine(), /threads?\. The depth is being repaired\.$/);
+    await page.waitForTimeout(300);
+    const rough = await shown();
+    await andWait(() => openFiles(file('notes.txt', Buffer.from('no picture'))), /^Still open/);
+    await page.waitForFunction(() => !/repaired/.test(document.getElementById('engine').textContent), null, {timeout: 60000});
+    await page.waitForTimeout(300);
+    const repaired = await shown();
+    assert.equal(repaired.length, rough.length);
+    assert.ok(repaired.some((byte, i) => byte !== rough[i]), 'the depth changes');
+    await choose('picture');
+    await tap(100, 100);
+  });
+});
+
+test('names parts of the page that cannot be loaded', () => inNewPage(
+    context => context.route(/pixels_worker/, route => route.fulfill({status: 404})),
+    async () => assert.equal(await error(), 'A part of the page could not be loaded. Reload the page.')));

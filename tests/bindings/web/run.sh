@@ -3,11 +3,12 @@
 # usage: run.sh BUILD WEB
 # Packs the npm package of the build folder WEB, installs it into an empty project, and tests it in node. Then
 # tests the page of WEB in Debian's Chromium, which playwright-core from npm controls. The programs of BUILD
-# compute the expected pictures. Finally builds the README's example with bundlers, and compiles programs that use the
-# package's types. bundlers/package-lock.json has the versions of all tools.
+# compute the expected pictures. Finally builds the README's example with vite, and compiles programs that use the
+# package's types. package-lock.json has the versions of all tools.
 set -eu
 [ $# = 2 ] || { echo "usage: $0 BUILD WEB" >&2; exit 2; }
 sources=$(cd "$(dirname "$0")/../../.." && pwd)
+tests=$sources/tests/bindings/web
 build=$(cd "$1" && pwd)
 web=$(cd "$2" && pwd)
 work=$(mktemp -d)
@@ -43,30 +44,24 @@ printf '%-40s %d bytes\n' 'the npm package' "$size"
 [ "$size" -le 250000 ] || { echo "web: package too large (expected at most 250000 bytes, found $size)" >&2; exit 1; }
 mkdir -p "$work/project" "$STARFOCUS_SCREENSHOTS"
 cd "$work/project"
-cp "$sources"/tests/bindings/web/*.mjs .
+cp "$tests"/*.mjs "$tests"/*.ts .
 echo '{"private": true, "type": "module"}' >package.json
 quietly npm install --offline --no-audit --no-fund "$STARFOCUS_PACKAGE"
-run depth_test.mjs
 run golden_test.mjs
-run matte_test.mjs
 run package_test.mjs
 run photo_test.mjs
 
-# The projects find the tools, and the unpacked package, in the parent folder. npm keeps the downloads in its cache. After
-# a change of a version, `npm install --package-lock-only --omit-lockfile-registry-resolved` updates the lock file. The
-# lock file must contain no addresses: delete its `funding` fields.
-! grep -n :// "$sources/tests/bindings/web/bundlers/package-lock.json" || exit 1
-cp "$sources"/tests/bindings/web/bundlers/package*.json "$work"
+# The project finds the tools in the parent folder. npm keeps the downloads in its cache. After a change of a version,
+# `npm install --package-lock-only --omit-lockfile-registry-resolved` updates the lock file. The lock file must contain no
+# addresses: delete its `funding` fields.
+! grep -n :// "$tests/package-lock.json" || exit 1
+cp "$tests"/package*.json "$work"
 (cd "$work" && quietly npm ci --prefer-offline --no-audit --no-fund)
-mkdir "$work/node_modules/starfocus"
-tar -xzf "$STARFOCUS_PACKAGE" -C "$work/node_modules/starfocus" --strip-components=1
-cp -r "$sources/tests/bindings/web/bundlers" "$work"
-rm "$work"/bundlers/package*.json
 
-# The page uses one core for most of its time, and the bundlers use the other core.
+# The page uses one core for most of its time, and vite uses the other core.
 run page_test.mjs &
 page=$! result=0
-(cd "$work/bundlers" && run bundlers_test.mjs && run types_test.mjs) &
+run bundler_test.mjs &
 wait $page || result=1
 wait $! || result=1
 exit $result
