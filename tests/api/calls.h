@@ -121,6 +121,18 @@ struct Call {
     }
     return in("params.", "starfocus_params", static_cast<starfocus_params*>(&params));
   }
+  // Makes `at` the argument or the pointer field with a name.
+  void Pass(const std::string& name, void* at) {
+    if (name == "params") {
+      params_at = static_cast<const starfocus_params*>(at);
+    } else if (name == "light_field") {
+      field_at = static_cast<const starfocus_light_field*>(at);
+    } else if (name == "report") {
+      report_at = static_cast<starfocus_report*>(at);
+    } else {
+      At(name).Put(at);
+    }
+  }
   // Returns true if no output was written.
   bool Untouched() const {
     starfocus_report poison;
