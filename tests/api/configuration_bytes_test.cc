@@ -13,7 +13,7 @@
 #include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/api/field_values.h"
+#include "tests/api/calls.h"
 #include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -21,7 +21,7 @@
 namespace configuration_bytes_test {
 namespace {
 
-using namespace field_values;
+using namespace calls;
 
 constexpr int kWidth = 20, kHeight = 12;
 

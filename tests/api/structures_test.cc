@@ -24,7 +24,6 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/version.h"
 #include "tests/api/calls.h"
-#include "tests/api/field_values.h"
 #include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -446,7 +445,7 @@ TEST_CASE("structures: the defaults match the documentation in the headers") {
                                 test::kPoison);
     REQUIRE(starfocus_defaults(row.structure.c_str(), memory.data(), uint32_t(memory.size())) ==
             STARFOCUS_OK);
-    const double value = field_values::FieldAt(row.structure, memory.data(), row.field).Get();
+    const double value = FieldAt(row.structure, memory.data(), row.field).Get();
     CHECK(value == doctest::Approx(row.value).epsilon(1e-12));
   }
 }
