@@ -79,7 +79,11 @@ inline Field FieldAt(std::string structure, void* at, const std::string& path) {
       const bool is_short = field->type == STARFOCUS_FIELD_INT32;
       return {address + index * (is_short ? sizeof(int32_t) : sizeof(size_t)), field->type};
     }
-    if (field->type == STARFOCUS_FIELD_POINTER) std::memcpy(&address, address, sizeof address);
+    if (field->type == STARFOCUS_FIELD_POINTER) {
+      void* target;
+      std::memcpy(&target, address, sizeof target);
+      address = static_cast<char*>(target);
+    }
     address += index * starfocus_fields(field->structure, nullptr, nullptr);
     return FieldAt(field->structure, address, path.substr(dot + 1));
   }
