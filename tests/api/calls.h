@@ -1,20 +1,124 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of the functions that refocus, prepare and stream. Tests spoil one argument of a call.
+// Tools of tests that spoil one argument: fields of public structures by name, values beyond their
+// ranges, and calls of the functions that refocus, prepare and stream.
 #ifndef STARFOCUS_TESTS_API_CALLS_H_
 #define STARFOCUS_TESTS_API_CALLS_H_
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <string>
+#include <vector>
 
+#include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/api/field_values.h"
 #include "tests/support/config.h"
 #include "tests/support/image_field.h"
 #include "tests/support/prepared_memory.h"
 
 namespace calls {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+// A field of a structure in memory.
+struct Field {
+  void* at;
+  int32_t type;  // one of STARFOCUS_FIELD_
+
+  template <class Value>
+  void Put(Value value) {
+    std::memcpy(at, &value, sizeof value);
+  }
+  template <class Value>
+  double As() const {
+    Value value;
+    std::memcpy(&value, at, sizeof value);
+    return double(value);
+  }
+  // Returns the number, or 0 if the field is a null pointer.
+  double Get() const {
+    if (type == STARFOCUS_FIELD_DOUBLE) return As<double>();
+    if (type == STARFOCUS_FIELD_POINTER) return As<uintptr_t>();
+    return type == STARFOCUS_FIELD_INT32 ? As<int32_t>() : As<uint32_t>();
+  }
+  // Writes a number, or a null pointer if the field is a pointer. The number -1 in a field without
+  // a sign is the largest value of its type.
+  void Set(double value) {
+    const bool is_real = type == STARFOCUS_FIELD_DOUBLE;
+    const int64_t whole = is_real ? 0 : static_cast<int64_t>(value);
+    if (is_real) return Put(value);
+    if (type == STARFOCUS_FIELD_POINTER) return Put(static_cast<void*>(nullptr));
+    if (type == STARFOCUS_FIELD_UINT64) return Put(static_cast<uint64_t>(whole));
+    if (type == STARFOCUS_FIELD_UINT32) return Put(static_cast<uint32_t>(whole));
+    REQUIRE(type == STARFOCUS_FIELD_INT32);
+    Put(static_cast<int32_t>(whole));
+  }
+};
+
+// Returns the field with a path such as "views[1].planes[0]" in `structure`, which lies at `at`.
+// The path may lead through pointers to structures.
+inline Field FieldAt(std::string structure, void* at, const std::string& path) {
+  const size_t dot = path.find('.');
+  const std::string part = path.substr(0, dot);
+  const size_t bracket = part.find('[');
+  const starfocus_field* fields = nullptr;
+  int32_t count = 0;
+  starfocus_fields(structure.c_str(), &fields, &count);
+  for (const starfocus_field* field = fields; field != fields + count; ++field) {
+    if (field->name != part.substr(0, bracket)) continue;
+    char* address = static_cast<char*>(at) + field->offset;
+    size_t index = 0;
+    if (bracket != std::string::npos) index = size_t(std::atoi(part.c_str() + bracket + 1));
+    if (dot == std::string::npos) {
+      const bool is_short = field->type == STARFOCUS_FIELD_INT32;
+      return {address + index * (is_short ? sizeof(int32_t) : sizeof(size_t)), field->type};
+    }
+    if (field->type == STARFOCUS_FIELD_POINTER) {
+      void* target;
+      std::memcpy(&target, address, sizeof target);
+      address = static_cast<char*>(target);
+    }
+    address += index * starfocus_fields(field->structure, nullptr, nullptr);
+    return FieldAt(field->structure, address, path.substr(dot + 1));
+  }
+  FAIL("expected a field of ", structure, ", found ", path);
+  return {};
+}
+
+// Returns values just outside a range, values far outside it, and values that are no numbers.
+inline std::vector<double> Outside(int32_t type, double low, double high) {
+  if (type == STARFOCUS_FIELD_DOUBLE) {
+    return {std::nextafter(low, -kInf), std::nextafter(high, kInf), kNan, kInf, -kInf};
+  }
+  if (type == STARFOCUS_FIELD_UINT32) return {high + 1, double(1u << 31), double(UINT32_MAX)};
+  return {low - 1, high + 1, INT32_MIN, INT32_MAX};
+}
+
+// Checks a problem. If the field has a range, the value of the problem must lie outside.
+inline void CheckProblem(const starfocus_problem* problem, starfocus_status status,
+                         const std::string& field) {
+  REQUIRE(problem != nullptr);
+  CHECK(problem->status == status);
+  CHECK(std::string(problem->field) == field);
+  CHECK((problem->expected[0] != 0 || status == STARFOCUS_OK));
+  if (status != STARFOCUS_ERROR_RANGE) return;
+  CHECK(!(problem->value >= problem->low && problem->value <= problem->high));
+}
+
+// Checks that a problem names a field with a value and its range.
+inline void CheckRange(const starfocus_problem* problem, const std::string& field, double value,
+                       double low, double high) {
+  CheckProblem(problem, STARFOCUS_ERROR_RANGE, field);
+  CHECK((problem->value == value || (std::isnan(problem->value) && std::isnan(value))));
+  CHECK(problem->low == low);
+  CHECK(problem->high == high);
+}
 
 constexpr int kHeight = 12;
 
@@ -106,12 +210,12 @@ struct Call {
     report->layers = nullptr;
   }
   // Returns the field with a path as errors name it, with indices: "out.strides[0]", "aperture".
-  field_values::Field At(std::string path) {
+  Field At(std::string path) {
     const auto begins = [&](const std::string& root) {
       return path.compare(0, root.size(), root) == 0;
     };
     const auto in = [&](const std::string& root, const char* structure, void* at) {
-      return field_values::FieldAt(structure, at, begins(root) ? path.substr(root.size()) : path);
+      return FieldAt(structure, at, begins(root) ? path.substr(root.size()) : path);
     };
     if (begins("out.")) return in("out.", "starfocus_image", &out);
     if (begins("report.")) return in("report.", "starfocus_report", &report);
@@ -120,6 +224,18 @@ struct Call {
       return in("light_field.", "starfocus_light_field", &field);
     }
     return in("params.", "starfocus_params", static_cast<starfocus_params*>(&params));
+  }
+  // Makes `at` the argument or the pointer field with a name.
+  void Pass(const std::string& name, void* at) {
+    if (name == "params") {
+      params_at = static_cast<const starfocus_params*>(at);
+    } else if (name == "light_field") {
+      field_at = static_cast<const starfocus_light_field*>(at);
+    } else if (name == "report") {
+      report_at = static_cast<starfocus_report*>(at);
+    } else {
+      At(name).Put(at);
+    }
   }
   // Returns true if no output was written.
   bool Untouched() const {

@@ -13,7 +13,7 @@
 #include "starfocus/depth.h"
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
-#include "tests/api/field_values.h"
+#include "tests/api/calls.h"
 #include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -21,7 +21,7 @@
 namespace configuration_bytes_test {
 namespace {
 
-using namespace field_values;
+using namespace calls;
 
 constexpr int kWidth = 20, kHeight = 12;
 
@@ -171,24 +171,28 @@ TEST_CASE("configuration: bad positions of views are rejected and named") {
 
 TEST_CASE("configuration: null pointers and uninitialized structures are rejected") {
   Fixture f;
-  size_t bytes = 0;
+  test::Engine legal(f.config);
+  uint8_t* const memory = legal.workspace();
+  size_t bytes = legal.bytes();
   starfocus_engine* engine = nullptr;
+  starfocus_problem problem;
+  const auto check = [&](starfocus_status found, starfocus_status expected, const char* field) {
+    CHECK(found == expected);
+    CheckProblem(&problem, expected, field);
+  };
+  constexpr starfocus_status kNull = STARFOCUS_ERROR_NULL, kStructure = STARFOCUS_ERROR_STRUCTURE;
   const starfocus_config zero = {};
-  CHECK(starfocus_workspace_size(nullptr, &bytes, nullptr) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_workspace_size(&f.config, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
-  starfocus_problem problem = {};
-  CHECK(starfocus_workspace_size(&zero, &bytes, &problem) == STARFOCUS_ERROR_STRUCTURE);
-  CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "config.size");
-  starfocus_tuning tuning = {};
+  const starfocus_tuning tuning = {};
   starfocus_config tuned = f.config;
   tuned.tuning = &tuning;
-  CHECK(starfocus_workspace_size(&tuned, &bytes, &problem) == STARFOCUS_ERROR_STRUCTURE);
-  CheckProblem(&problem, STARFOCUS_ERROR_STRUCTURE, "tuning.size");
-  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
-  std::vector<uint8_t> memory(bytes + STARFOCUS_ALIGNMENT);
-  CHECK(starfocus_init(nullptr, memory.data(), bytes, &engine, nullptr) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_init(&f.config, nullptr, bytes, &engine, nullptr) == STARFOCUS_ERROR_NULL);
-  CHECK(starfocus_init(&f.config, memory.data(), bytes, nullptr, nullptr) == STARFOCUS_ERROR_NULL);
+  check(starfocus_workspace_size(nullptr, &bytes, &problem), kNull, "config");
+  check(starfocus_workspace_size(&f.config, nullptr, &problem), kNull, "bytes");
+  check(starfocus_workspace_size(&zero, &bytes, &problem), kStructure, "config.size");
+  check(starfocus_workspace_size(&tuned, &bytes, &problem), kStructure, "tuning.size");
+  check(starfocus_init(nullptr, memory, bytes, &engine, &problem), kNull, "config");
+  check(starfocus_init(&f.config, nullptr, bytes, &engine, &problem), kNull, "workspace");
+  check(starfocus_init(&f.config, memory, bytes, nullptr, &problem), kNull, "engine");
+  CHECK(starfocus_init(nullptr, nullptr, 0, nullptr, nullptr) == kNull);
   starfocus_config_init(nullptr);
   starfocus_params_init(nullptr);
 }
@@ -258,30 +262,26 @@ TEST_CASE(
 
 TEST_CASE("workspace: memory that is too small or misaligned is rejected") {
   Fixture f;
-  size_t bytes = 0;
-  REQUIRE(starfocus_workspace_size(&f.config, &bytes, nullptr) == STARFOCUS_OK);
   test::Engine legal(f.config);
   REQUIRE(legal.status() == STARFOCUS_OK);
-  uint8_t* workspace = legal.workspace();
-  for (size_t size : {size_t{0}, size_t{1}, size_t{64}, bytes / 2, bytes - 1}) {
-    starfocus_engine* engine = legal.get();
-    CHECK(starfocus_init(&f.config, workspace, size, &engine, nullptr) ==
-          STARFOCUS_ERROR_WORKSPACE);
-    CHECK(engine == nullptr);
-  }
+  const size_t bytes = legal.bytes();
   std::vector<uint8_t> larger(bytes + 2 * STARFOCUS_ALIGNMENT);
   const size_t address = reinterpret_cast<uintptr_t>(larger.data());
-  uint8_t* aligned =
-      larger.data() + (STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT) % STARFOCUS_ALIGNMENT;
-  for (int offset : {1, 2, 8, 16, 32, 63}) {
+  uint8_t* const aligned = larger.data() + STARFOCUS_ALIGNMENT - address % STARFOCUS_ALIGNMENT;
+  const auto init = [&](uint8_t* memory, size_t size) {
     starfocus_engine* engine = legal.get();
-    CHECK(starfocus_init(&f.config, aligned + offset, bytes, &engine, nullptr) ==
-          STARFOCUS_ERROR_WORKSPACE);
-    CHECK(engine == nullptr);
+    const starfocus_status status = starfocus_init(&f.config, memory, size, &engine, nullptr);
+    CHECK((engine == nullptr) == (status != STARFOCUS_OK));
+    return status;
+  };
+  for (const size_t size : {size_t{0}, size_t{1}, size_t{64}, bytes / 2, bytes - 1}) {
+    CHECK(init(aligned, size) == STARFOCUS_ERROR_WORKSPACE);
   }
-  starfocus_engine* engine = nullptr;
-  CHECK(starfocus_init(&f.config, aligned, bytes + 64, &engine, nullptr) == STARFOCUS_OK);
-  CHECK(engine != nullptr);
+  for (const int offset : {1, 2, 8, 16, 32, 63}) {
+    CHECK(init(aligned + offset, bytes) == STARFOCUS_ERROR_WORKSPACE);
+  }
+  CHECK(init(aligned, bytes) == STARFOCUS_OK);
+  CHECK(init(aligned, bytes + 64) == STARFOCUS_OK);
 }
 
 TEST_CASE("refocus: output may be adjacent to the inputs, but must not overlap them") {

@@ -60,65 +60,49 @@ TEST_CASE("maps: illegal maps and pixels are rejected and named") {
   constexpr starfocus_status kNull = STARFOCUS_ERROR_NULL, kRange = STARFOCUS_ERROR_RANGE,
                              kStride = STARFOCUS_ERROR_STRIDE;
   Map map(5, 4, 1, 2);
+  const Map before = map;
   float* const data = map.values.data();
-  float* const odd = reinterpret_cast<float*>(reinterpret_cast<char*>(data) + 1);
-  const size_t wide = size_t{1} << 30;
-  const struct {
-    starfocus_status status;
-    std::string field, filled;  // names of the field in a starfocus_depth_map and in a filled map
-    float* data;
-    size_t stride;
-    int width, height;
-  } rows[] = {{kNull, "depth.data", "disparity", nullptr, 28, 5, 4},
-              {kStride, "depth.data", "disparity", odd, 28, 5, 4},
-              {kStride, "depth.stride", "stride", data, 0, 5, 4},
-              {kStride, "depth.stride", "stride", data, 16, 5, 4},
-              {kStride, "depth.stride", "stride", data, 21, 5, 4},
-              {kStride, "depth.stride", "stride", data, 22, 5, 4},
-              {kStride, "depth.stride", "stride", data, SIZE_MAX - 3, 5, 4},
-              {kRange, "depth.width", "width", data, wide, 0, 4},
-              {kRange, "depth.width", "width", data, wide, -1, 4},
-              {kRange, "depth.width", "width", data, wide, STARFOCUS_MAX_SIZE + 1, 4},
-              {kRange, "depth.width", "width", data, wide, INT32_MAX, 4},
-              {kRange, "depth.width", "width", data, wide, INT32_MIN, 4},
-              {kRange, "depth.height", "height", data, 28, 5, 0},
-              {kRange, "depth.height", "height", data, 28, 5, -1},
-              {kRange, "depth.height", "height", data, 28, 5, STARFOCUS_MAX_SIZE + 1},
-              {kRange, "depth.height", "height", data, 28, 5, INT32_MAX},
-              {kRange, "depth.height", "height", data, 28, 5, INT32_MIN}};
-  const std::vector<float> before = map.values;
   starfocus_disparity_stats stats;
   std::memset(&stats, test::kPoison, sizeof stats);
   const starfocus_disparity_stats poison = stats;
   double focus = -77;
   starfocus_problem problem;
-  for (const auto& row : rows) {
-    CAPTURES(row.field, row.stride, row.width, row.height);
-    const starfocus_depth_map depth =
-        starfocus_depth_float(row.data, row.stride, row.width, row.height);
-    CHECK(starfocus_measure_disparity(&depth, &stats, &problem) == row.status);
-    CHECK(problem.field == row.field);
-    CHECK(starfocus_focus_at(&depth, 5, 4, 0, 0, &focus, &problem) == row.status);
-    CHECK(problem.field == row.field);
-    CHECK(starfocus_fill_disparity(row.data, row.stride, row.width, row.height, &problem) ==
-          row.status);
-    CHECK(problem.field == row.filled);
+  // `filled` is the name of the field for starfocus_fill_disparity.
+  const auto check = [&](starfocus_status status, const std::string& field,
+                         const std::string& filled, void* at, size_t stride, int width,
+                         int height) {
+    CAPTURES(field, stride, width, height);
+    auto* const values = static_cast<float*>(at);
+    const starfocus_depth_map depth = starfocus_depth_float(values, stride, width, height);
+    CHECK(starfocus_measure_disparity(&depth, &stats, &problem) == status);
+    CHECK(problem.field == field);
+    CHECK(starfocus_focus_at(&depth, 5, 4, 0, 0, &focus, &problem) == status);
+    CHECK(problem.field == field);
+    CHECK(starfocus_fill_disparity(values, stride, width, height, &problem) == status);
+    CHECK(problem.field == filled);
+  };
+  check(kNull, "depth.data", "disparity", nullptr, 28, 5, 4);
+  check(kStride, "depth.data", "disparity", reinterpret_cast<char*>(data) + 1, 28, 5, 4);
+  for (const size_t stride : {size_t{0}, size_t{16}, size_t{21}, size_t{22}, SIZE_MAX - 3}) {
+    check(kStride, "depth.stride", "stride", data, stride, 5, 4);
+  }
+  for (const int size : {0, -1, STARFOCUS_MAX_SIZE + 1, INT32_MAX, INT32_MIN}) {
+    check(kRange, "depth.width", "width", data, size_t{1} << 30, size, 4);
+    check(kRange, "depth.height", "height", data, 28, 5, size);
   }
   const starfocus_depth_map depth = map.Depth();
-  const struct {
-    std::string field;
-    int width, height, x, y;
-  } pixels[] = {{"depth.width", 4, 4, 0, 0},  // the map must not be larger than the picture
-                {"depth.height", 5, 3, 0, 0}, {"width", STARFOCUS_MAX_SIZE + 1, 4, 0, 0},
-                {"x", 5, 4, -1, 0},           {"x", 5, 4, 5, 0},
-                {"x", 5, 4, INT32_MIN, 0},    {"x", 5, 4, INT32_MAX, 0},
-                {"y", 5, 4, 0, -1},           {"y", 5, 4, 0, 4},
-                {"y", 5, 4, 0, INT32_MIN},    {"y", 5, 4, 0, INT32_MAX}};
-  for (const auto& row : pixels) {
-    CAPTURES(row.field, row.x, row.y);
-    CHECK(starfocus_focus_at(&depth, row.width, row.height, row.x, row.y, &focus, &problem) ==
-          kRange);
-    CHECK(problem.field == row.field);
+  const auto check_pixel = [&](const std::string& field, int width, int height, int x, int y) {
+    CAPTURES(field, x, y);
+    CHECK(starfocus_focus_at(&depth, width, height, x, y, &focus, &problem) == kRange);
+    CHECK(problem.field == field);
+  };
+  // The map must not be larger than the picture.
+  check_pixel("depth.width", 4, 4, 0, 0);
+  check_pixel("depth.height", 5, 3, 0, 0);
+  check_pixel("width", STARFOCUS_MAX_SIZE + 1, 4, 0, 0);
+  for (const int outside : {-1, 5, INT32_MIN, INT32_MAX}) {
+    check_pixel("x", 5, 4, outside, 0);
+    check_pixel("y", 5, 4, 0, outside == 5 ? 4 : outside);
   }
   starfocus_depth_map flat = depth;
   flat.scale = 0;
@@ -129,7 +113,7 @@ TEST_CASE("maps: illegal maps and pixels are rejected and named") {
   CHECK(starfocus_focus_at(&depth, 5, 4, 0, 0, nullptr, nullptr) == kNull);
   CHECK(std::memcmp(&stats, &poison, sizeof stats) == 0);
   CHECK(focus == -77);
-  CHECK(map.values == before);
+  CHECK(map.values == before.values);
 }
 
 // Checks the rows of a filled map that had at least one finite disparity before filling. Finite

@@ -14,7 +14,6 @@
 
 #include "starfocus/starfocus.hpp"
 #include "tests/api/calls.h"
-#include "tests/api/field_values.h"
 #include "tests/support/refocused.h"
 #include "tests/support/stream_steps.h"
 
@@ -22,7 +21,6 @@ namespace refusals_bytes_test {
 namespace {
 
 using namespace calls;
-using namespace field_values;
 
 // Returns the name by which errors call the field with a path: "views[].planes" of
 // "views[1].planes[0]".
@@ -145,6 +143,16 @@ const Values kPictureValues[] = {
     {kAfter, kFeature, {"previous.light_field.views[2].format"}, {STARFOCUS_FORMAT_BGR}},
     {kAfter, kRange, {"previous.out.format"}, {99}},
     {kAfter, kRange, {"previous.out.pixel_stride"}, {2}},
+    {kAfter,
+     kRange,
+     {"previous.light_field.depth.type", "previous.light_field.depth.meaning"},
+     {9}},
+    {kAfter,
+     kRange,
+     {"previous.light_field.depth.width", "previous.light_field.depth.height"},
+     {0}},
+    {kAfter, kRange, {"previous.light_field.depth.scale"}, {0}},
+    {kAfter, kNull, {"previous.light_field.depth.data"}, {0}},
     {kInPlace | kBegin, kRange, {"preview_shift"}, {1}},
     {kPreview, kOther, {"preview_shift"}, {-1, 3, 32}},
     {kTakesParams, kFeature, {"shape"}, {STARFOCUS_SHAPE_POLYGON}},

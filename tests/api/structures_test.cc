@@ -24,7 +24,6 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/version.h"
 #include "tests/api/calls.h"
-#include "tests/api/field_values.h"
 #include "tests/support/config.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
@@ -89,64 +88,48 @@ struct MapCall {
   starfocus_disparity_output map = {};
 };
 
-// Functions of the set `functions`, or other calls, with a structure at `at`. All must have the
-// same status, except that a structure that lacks fields may be illegal for some.
+using Statuses = std::vector<starfocus_status>;
+
+// Calls with a structure at `at`: of all functions of the set `functions`, with the structure as
+// the argument or field `argument` of Call, or else `others`.
 struct Row {
   std::string structure;
   unsigned functions;
-  std::vector<starfocus_status> (*call)(Call* c, void* at);
+  std::string argument;
+  Statuses (*others)(Call* c, void* at);
+
+  Statuses Run(Call* c, void* at) const {
+    if (others != nullptr) return others(c, at);
+    c->Pass(argument, at);
+    return {c->Run()};
+  }
 };
-using Statuses = std::vector<starfocus_status>;
 
 const Row kRows[] = {
-    {"starfocus_params", kTakesParams,
-     [](Call* c, void* at) {
-       c->params_at = As<starfocus_params>(at);
-       return Statuses{c->Run()};
-     }},
-    {"starfocus_study", kTakesParams,
-     [](Call* c, void* at) {
-       c->params.starfocus_params::study = As<starfocus_study>(at);
-       return Statuses{c->Run()};
-     }},
-    {"starfocus_light_field", kTakesField,
-     [](Call* c, void* at) {
-       c->field_at = As<starfocus_light_field>(at);
-       return Statuses{c->Run()};
-     }},
-    {"starfocus_light_field", kAfter,
-     [](Call* c, void* at) {
-       c->before.light_field = As<starfocus_light_field>(at);
-       return Statuses{c->Run()};
-     }},
-    {"starfocus_previous", kAfter,
-     [](Call* c, void* at) {
-       c->params.previous = As<starfocus_previous>(at);
-       return Statuses{c->Run()};
-     }},
-    {"starfocus_report", kTakesOut,
-     [](Call* c, void* at) {
-       c->report_at = static_cast<starfocus_report*>(at);
-       return Statuses{c->Run()};
-     }},
-    {"starfocus_params", kRefocus,
+    {"starfocus_params", kTakesParams, "params", nullptr},
+    {"starfocus_study", kTakesParams, "study", nullptr},
+    {"starfocus_light_field", kTakesField, "light_field", nullptr},
+    {"starfocus_light_field", kAfter, "previous.light_field", nullptr},
+    {"starfocus_previous", kAfter, "previous", nullptr},
+    {"starfocus_report", kTakesOut, "report", nullptr},
+    {"starfocus_params", kRefocus, "",
      [](Call* c, void* at) {
        double aperture = 0;
        return Statuses{starfocus_largest_aperture(c->engine, As<starfocus_params>(at), &aperture)};
      }},
-    {"starfocus_observer", kRefocus,
+    {"starfocus_observer", kRefocus, "",
      [](Call* c, void* at) {
        starfocus_callbacks callbacks = {};
        callbacks.observer = As<starfocus_observer>(at);
        return Statuses{starfocus_set_callbacks(c->engine, &callbacks)};
      }},
-    {"starfocus_tuning", kRefocus,
+    {"starfocus_tuning", kRefocus, "",
      [](Call* c, void* at) {
        starfocus_config config = c->f.config;
        config.tuning = As<starfocus_tuning>(at);
        return Statuses{starfocus_workspace_size(&config, &c->bytes, nullptr)};
      }},
-    {"starfocus_config", kRefocus,
+    {"starfocus_config", kRefocus, "",
      [](Call* c, void* at) {
        const auto* const config = As<starfocus_config>(at);
        MapCall map(*c);
@@ -162,7 +145,7 @@ const Row kRows[] = {
        starfocus_destroy(made[1]);
        return statuses;
      }},
-    {"starfocus_light_field", kRefocus,
+    {"starfocus_light_field", kRefocus, "",
      [](Call* c, void* at) {
        const auto* const field = As<starfocus_light_field>(at);
        return Statuses{MapCall(*c).Run(starfocus_estimate_disparity, &c->f.config, field),
@@ -196,7 +179,7 @@ TEST_CASE("structures: no entry point touches memory after a structure of any si
         CAPTURE(size);
         Call call(&f, function);
         void* const at = page.Put(WholeOf(row.structure, &call, &observer), bytes, uint32_t(size));
-        for (const starfocus_status status : row.call(&call, at)) CHECK(is_right(status));
+        for (const starfocus_status status : row.Run(&call, at)) CHECK(is_right(status));
       };
       const auto is_ok = [](starfocus_status status) { return status == STARFOCUS_OK; };
       const auto is_wrong = [](starfocus_status status) {
@@ -462,7 +445,7 @@ TEST_CASE("structures: the defaults match the documentation in the headers") {
                                 test::kPoison);
     REQUIRE(starfocus_defaults(row.structure.c_str(), memory.data(), uint32_t(memory.size())) ==
             STARFOCUS_OK);
-    const double value = field_values::FieldAt(row.structure, memory.data(), row.field).Get();
+    const double value = FieldAt(row.structure, memory.data(), row.field).Get();
     CHECK(value == doctest::Approx(row.value).epsilon(1e-12));
   }
 }
