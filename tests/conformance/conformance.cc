@@ -85,12 +85,10 @@ void SetDepth(Depth depth, test::Scene* scene, test::Random* random) {
   const double base = random->Real(low, high);
   const double dx = depth == Depth::kConstant ? 0 : random->Real(-0.3, 0.3);
   const double dy = depth == Depth::kConstant ? 0 : random->Real(-0.3, 0.3);
-  for (int y = 0; y < scene->height; ++y) {
-    for (int x = 0; x < scene->width; ++x) {
-      scene->Disparity(x, y) =
-          std::clamp(float(base + dx * x + dy * y), scene->disparity_min, scene->disparity_max);
-    }
-  }
+  reference::ForEachPixel(scene->width, scene->height, [&](int x, int y) {
+    scene->Disparity(x, y) =
+        std::clamp(float(base + dx * x + dy * y), scene->disparity_min, scene->disparity_max);
+  });
 }
 
 void SetColours(Colours colours, test::Scene* scene, test::Random* random) {
@@ -113,12 +111,10 @@ double OneOf(std::initializer_list<double> values, test::Random* random) {
 // Makes a chequerboard of near and far rectangles of one or more pixels.
 void Alternate(test::Scene* scene, test::Random* random) {
   const int step_x = random->Int(1, 5), step_y = random->Int(1, 5);
-  for (int y = 0; y < scene->height; ++y) {
-    for (int x = 0; x < scene->width; ++x) {
-      const bool near = (x / step_x + y / step_y) % 2 == 1;
-      scene->Disparity(x, y) = near ? scene->disparity_max : scene->disparity_min;
-    }
-  }
+  reference::ForEachPixel(scene->width, scene->height, [&](int x, int y) {
+    const bool near = (x / step_x + y / step_y) % 2 == 1;
+    scene->Disparity(x, y) = near ? scene->disparity_max : scene->disparity_min;
+  });
 }
 
 // In all views, gives near pixels one colour and far pixels another colour, with a little noise.
@@ -131,15 +127,13 @@ void TwoColours(test::Scene* scene, test::Random* random) {
     for (uint8_t& level : colour) level = random->Byte();
   }
   for (int view = 0; view < scene->views(); ++view) {
-    for (int y = 0; y < scene->height; ++y) {
-      for (int x = 0; x < scene->width; ++x) {
-        const uint8_t* colour = colours[scene->Disparity(x, y) > middle ? 1 : 0];
-        for (int c = 0; c < 3; ++c) {
-          scene->Pixel(view, x, y)[c] =
-              uint8_t(std::clamp(colour[c] + random->Int(-noise, noise), 0, 255));
-        }
+    reference::ForEachPixel(scene->width, scene->height, [&](int x, int y) {
+      const uint8_t* colour = colours[scene->Disparity(x, y) > middle ? 1 : 0];
+      for (int c = 0; c < 3; ++c) {
+        scene->Pixel(view, x, y)[c] =
+            uint8_t(std::clamp(colour[c] + random->Int(-noise, noise), 0, 255));
       }
-    }
+    });
   }
 }
 

@@ -34,14 +34,12 @@ int RunThrough(const test::Scene& scene, int view, int x, int y, int dx, int dy)
 }
 
 bool HasHighlights(const test::Scene& scene) {
+  bool any = false;
   for (int view = 0; view < scene.views(); ++view) {
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) {
-        if (IsHighlight(scene.Pixel(view, x, y))) return true;
-      }
-    }
+    ForEachPixel(scene.width, scene.height,
+                 [&](int x, int y) { any = any || IsHighlight(scene.Pixel(view, x, y)); });
   }
-  return false;
+  return any;
 }
 
 // Loads the excess of a scene: the light of highlights beyond white. A clipped sample has an excess
@@ -52,21 +50,19 @@ LightField LoadExcess(const test::Scene& scene, int transfer) {
   for (int view = 0; view < scene.views(); ++view) {
     Picture& picture = field.at(PositionOf(scene, view));
     picture.light = picture.colours;
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) {
-        const uint8_t* codes = scene.Pixel(view, x, y);
-        Colour& colour = picture.colours[picture.At(x, y)];
-        colour = {0, 0, 0};
-        if (!IsHighlight(codes)) continue;
-        const int run =
-            std::min(RunThrough(scene, view, x, y, 1, 0), RunThrough(scene, view, x, y, 0, 1));
-        const double share = std::clamp(2 - double(run) / lamp, 0.0, 1.0);
-        for (size_t c = 0; c < 3; ++c) {
-          const double step = std::max(0, codes[c] - 250) / 5.0;
-          colour[c] = 255 * step * step * share;
-        }
+    ForEachPixel(scene.width, scene.height, [&](int x, int y) {
+      const uint8_t* codes = scene.Pixel(view, x, y);
+      Colour& colour = picture.colours[picture.At(x, y)];
+      colour = {0, 0, 0};
+      if (!IsHighlight(codes)) return;
+      const int run =
+          std::min(RunThrough(scene, view, x, y, 1, 0), RunThrough(scene, view, x, y, 0, 1));
+      const double share = std::clamp(2 - double(run) / lamp, 0.0, 1.0);
+      for (size_t c = 0; c < 3; ++c) {
+        const double step = std::max(0, codes[c] - 250) / 5.0;
+        colour[c] = 255 * step * step * share;
       }
-    }
+    });
   }
   return field;
 }
@@ -136,21 +132,16 @@ Picture Down(const Picture& from) {
     return sum;
   };
   Picture half((from.width + 1) / 2 + 1, from.height);
-  for (int y = 0; y < half.height; ++y) {
-    for (int x = 0; x < half.width; ++x) {
-      half.colours[half.At(x, y)] = filtered([&](int k) {
-        return from.colours[from.At(std::clamp(2 * x + k, 0, from.width - 1), y)];
-      });
-    }
-  }
+  ForEachPixel(half.width, half.height, [&](int x, int y) {
+    half.colours[half.At(x, y)] = filtered(
+        [&](int k) { return from.colours[from.At(std::clamp(2 * x + k, 0, from.width - 1), y)]; });
+  });
   Picture to(half.width, (from.height + 1) / 2 + 1);
-  for (int y = 0; y < to.height; ++y) {
-    for (int x = 0; x < to.width; ++x) {
-      to.colours[to.At(x, y)] = Clamped(filtered([&](int k) {
-        return half.colours[half.At(x, std::clamp(2 * y + k, 0, from.height - 1))];
-      }));
-    }
-  }
+  ForEachPixel(to.width, to.height, [&](int x, int y) {
+    to.colours[to.At(x, y)] = Clamped(filtered([&](int k) {
+      return half.colours[half.At(x, std::clamp(2 * y + k, 0, from.height - 1))];
+    }));
+  });
   return to;
 }
 
@@ -160,12 +151,10 @@ std::vector<Picture> MakeLayers(const Picture& picture) {
   for (int layer = 1; layer <= 2; ++layer) {
     layers.push_back(Down(layers.back()));
     Picture& to = layers.back();
-    for (int y = 0; y < to.height; ++y) {
-      for (int x = 0; x < to.width; ++x) {
-        to.disparities[to.At(x, y)] = picture.disparities[picture.At(
-            std::min(x << layer, picture.width - 1), std::min(y << layer, picture.height - 1))];
-      }
-    }
+    ForEachPixel(to.width, to.height, [&](int x, int y) {
+      to.disparities[to.At(x, y)] = picture.disparities[picture.At(
+          std::min(x << layer, picture.width - 1), std::min(y << layer, picture.height - 1))];
+    });
   }
   return layers;
 }
@@ -188,19 +177,17 @@ Part Up(const Part& from, int x, int y, int width, int height) {
                Sum(at(before - 1), far, at(before + 2), far), 1);
   };
   Part to = {x, y, Picture(width, height)};
-  for (int row = 0; row < height; ++row) {
-    for (int column = 0; column < width; ++column) {
-      to.picture.colours[to.picture.At(column, row)] = Clamped(between(
-          [&](int k) -> Colour {
-            return between(
-                [&](int l) -> Colour {
-                  return from.picture.colours[from.picture.At(k - from.x, l - from.y)];
-                },
-                y + row);
-          },
-          x + column));
-    }
-  }
+  ForEachPixel(width, height, [&](int column, int row) {
+    to.picture.colours[to.picture.At(column, row)] = Clamped(between(
+        [&](int k) -> Colour {
+          return between(
+              [&](int l) -> Colour {
+                return from.picture.colours[from.picture.At(k - from.x, l - from.y)];
+              },
+              y + row);
+        },
+        x + column));
+  });
   return to;
 }
 
@@ -217,12 +204,10 @@ Picture Finished(const Block& block, const Picture& rendered) {
 }
 
 void Put(const Picture& from, int x0, int y0, int width, std::vector<double>* rgb) {
-  for (int y = 0; y < from.height; ++y) {
-    for (int x = 0; x < from.width; ++x) {
-      std::copy_n(from.colours[from.At(x, y)].data(), 3,
-                  &(*rgb)[3 * (size_t(y0 + y) * size_t(width) + size_t(x0 + x))]);
-    }
-  }
+  ForEachPixel(from.width, from.height, [&](int x, int y) {
+    std::copy_n(from.colours[from.At(x, y)].data(), 3,
+                &(*rgb)[3 * (size_t(y0 + y) * size_t(width) + size_t(x0 + x))]);
+  });
 }
 
 // Converts light to codes and adds the excess of highlights. `excess` is empty if there are no
@@ -242,14 +227,12 @@ LightField Load(const test::Scene& scene, int transfer) {
   LightField field;
   for (int view = 0; view < scene.views(); ++view) {
     Picture picture(scene.width, scene.height);
-    for (int y = 0; y < scene.height; ++y) {
-      for (int x = 0; x < scene.width; ++x) {
-        const uint8_t* rgb = scene.Pixel(view, x, y);
-        Colour& colour = picture.colours[picture.At(x, y)];
-        for (size_t c = 0; c < 3; ++c) colour[c] = test::LightOf(rgb[c], transfer);
-        picture.disparities[picture.At(x, y)] = RoundedTo64(scene.Disparity(x, y));
-      }
-    }
+    ForEachPixel(scene.width, scene.height, [&](int x, int y) {
+      const uint8_t* rgb = scene.Pixel(view, x, y);
+      Colour& colour = picture.colours[picture.At(x, y)];
+      for (size_t c = 0; c < 3; ++c) colour[c] = test::LightOf(rgb[c], transfer);
+      picture.disparities[picture.At(x, y)] = RoundedTo64(scene.Disparity(x, y));
+    });
     field.emplace(PositionOf(scene, view), std::move(picture));
   }
   return field;
@@ -270,11 +253,9 @@ namespace {
 
 // Copies `from` to position (x0, y0) of `to`.
 void Paste(const Picture& from, int x0, int y0, Picture* to) {
-  for (int y = 0; y < from.height; ++y) {
-    for (int x = 0; x < from.width; ++x) {
-      to->colours[to->At(x0 + x, y0 + y)] = from.colours[from.At(x, y)];
-    }
-  }
+  ForEachPixel(from.width, from.height, [&](int x, int y) {
+    to->colours[to->At(x0 + x, y0 + y)] = from.colours[from.At(x, y)];
+  });
 }
 
 // For all blocks, adds the rendered views and the cells that are blurred without rendering views to

@@ -354,9 +354,7 @@ class Parter {
  private:
   using Act = std::function<void(int x, int y)>;
   void ForEach(const Act& act) const {
-    for (int y = 0; y < centre_.height; ++y) {
-      for (int x = 0; x < centre_.width; ++x) act(x, y);
-    }
+    ForEachPixel(centre_.width, centre_.height, [&](int x, int y) { act(x, y); });
   }
   size_t Index(int x, int y) const { return centre_.At(x, y); }
   Pixel& At(int x, int y) { return pixels_[Index(x, y)]; }
@@ -385,24 +383,22 @@ class Parter {
   }
 
   void MarkRagged() {
-    for (int row = 0; row < rows_; ++row) {
-      for (int column = 0; column < columns_; ++column) {
-        int low = map_.Disparity(column * kTile, row * kTile), high = low;
-        int beside = 0, strands = 0;
-        for (int y = -1; y <= kTile; ++y) {
-          for (int x = -1; x <= kTile; ++x) {
-            const bool inside = x >= 0 && x < kTile && y >= 0 && y < kTile;
-            const int left = column * kTile + x, top = row * kTile + y;
-            low = std::min(low, map_.Disparity(left, top));
-            high = std::max(high, map_.Disparity(left, top));
-            beside += inside && map_.IsBesideNearer(left, top) ? 1 : 0;
-            strands += inside && map_.IsStrand(left, top) ? 1 : 0;
-          }
+    ForEachPixel(columns_, rows_, [&](int column, int row) {
+      int low = map_.Disparity(column * kTile, row * kTile), high = low;
+      int beside = 0, strands = 0;
+      for (int y = -1; y <= kTile; ++y) {
+        for (int x = -1; x <= kTile; ++x) {
+          const bool inside = x >= 0 && x < kTile && y >= 0 && y < kTile;
+          const int left = column * kTile + x, top = row * kTile + y;
+          low = std::min(low, map_.Disparity(left, top));
+          high = std::max(high, map_.Disparity(left, top));
+          beside += inside && map_.IsBesideNearer(left, top) ? 1 : 0;
+          strands += inside && map_.IsStrand(left, top) ? 1 : 0;
         }
-        const bool thin = beside >= kLeastRagged && strands >= kLeastStrands;
-        if (high - low > kThinEdge && (!given_.empty() || thin)) ragged_.insert({column, row});
       }
-    }
+      const bool thin = beside >= kLeastRagged && strands >= kLeastStrands;
+      if (high - low > kThinEdge && (!given_.empty() || thin)) ragged_.insert({column, row});
+    });
   }
 
   // Marks the tiles in which any pixel has given coverage and two surfaces.

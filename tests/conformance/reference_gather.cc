@@ -65,15 +65,13 @@ class Gather {
     row = std::clamp(row, 0, (picture_.height - 1) / kCell);
     *low = INT32_MAX;
     *high = INT32_MIN;
-    for (int y = 0; y < kCell; ++y) {
-      for (int x = 0; x < kCell; ++x) {
-        const size_t at = picture_.At(std::min(kCell * column + x, picture_.width - 1),
-                                      std::min(kCell * row + y, picture_.height - 1));
-        const int disparity = lens_.Closed(picture_.disparities[at]);
-        *low = std::min(*low, disparity);
-        *high = std::max(*high, disparity);
-      }
-    }
+    ForEachPixel(kCell, kCell, [&](int x, int y) {
+      const size_t at = picture_.At(std::min(kCell * column + x, picture_.width - 1),
+                                    std::min(kCell * row + y, picture_.height - 1));
+      const int disparity = lens_.Closed(picture_.disparities[at]);
+      *low = std::min(*low, disparity);
+      *high = std::max(*high, disparity);
+    });
   }
 
   // Returns the signed radius at the upper left corner of a cell, in 1/1024 pixels of the picture.
@@ -126,17 +124,15 @@ class Gather {
   Picture Filtered(const Picture& extended, int border, int width, int height,
                    const Psf& kernel) const {
     Picture to(width, height);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        Colour& sum = to.colours[to.At(x, y)];
-        for (int m = -kernel.size; m <= kernel.size; ++m) {
-          for (int n = -kernel.size; n <= kernel.size; ++n) {
-            const size_t at = extended.At(x + n + border, y + m + border);
-            for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * extended.colours[at][c];
-          }
+    ForEachPixel(width, height, [&](int x, int y) {
+      Colour& sum = to.colours[to.At(x, y)];
+      for (int m = -kernel.size; m <= kernel.size; ++m) {
+        for (int n = -kernel.size; n <= kernel.size; ++n) {
+          const size_t at = extended.At(x + n + border, y + m + border);
+          for (size_t c = 0; c < 3; ++c) sum[c] += kernel.At(n, m) * extended.colours[at][c];
         }
       }
-    }
+    });
     return to;
   }
 
@@ -160,11 +156,9 @@ class Gather {
     const Psf kernel = PsfOf(nearest, lens_.opening);
     const Picture filtered =
         Filtered(Around(cell, kernel.size), kernel.size, cell.at_width, cell.at_height, kernel);
-    for (int y = 0; y < cell.at_height; ++y) {
-      for (int x = 0; x < cell.at_width; ++x) {
-        Out(cell.at_x + x, cell.at_y + y) = filtered.colours[filtered.At(x, y)];
-      }
-    }
+    ForEachPixel(cell.at_width, cell.at_height, [&](int x, int y) {
+      Out(cell.at_x + x, cell.at_y + y) = filtered.colours[filtered.At(x, y)];
+    });
   }
 
   // Returns the position of radius^2 in the range from between.low^2 to between.high^2, as a number
@@ -188,16 +182,13 @@ class Gather {
     Picture mixed = Filtered(extended, border, cell.at_width, cell.at_height, less);
     const Picture wider = Filtered(extended, border, cell.at_width, cell.at_height, more);
     const Corners corners = CornersOf(cell);
-    for (int y = 0; y < cell.at_height; ++y) {
-      for (int x = 0; x < cell.at_width; ++x) {
-        const double share =
-            ShareOf(RadiusAt(cell, corners, cell.at_x + x, cell.at_y + y), between);
-        const size_t at = mixed.At(x, y);
-        for (size_t c = 0; c < 3; ++c) {
-          mixed.colours[at][c] += share * (wider.colours[at][c] - mixed.colours[at][c]);
-        }
+    ForEachPixel(cell.at_width, cell.at_height, [&](int x, int y) {
+      const double share = ShareOf(RadiusAt(cell, corners, cell.at_x + x, cell.at_y + y), between);
+      const size_t at = mixed.At(x, y);
+      for (size_t c = 0; c < 3; ++c) {
+        mixed.colours[at][c] += share * (wider.colours[at][c] - mixed.colours[at][c]);
       }
-    }
+    });
     Move(cell, corners, mixed);
   }
 
@@ -221,16 +212,14 @@ class Gather {
     const double unit = MeanSquare(lens_.opening) * radius / 1024 / (2 * kCell) / 2;
     const double across = unit * (r[1] + r[3] - r[0] - r[2]);
     const double down = unit * (r[2] + r[3] - r[0] - r[1]);
-    for (int y = 0; y < cell.at_height; ++y) {
-      for (int x = 0; x < cell.at_width; ++x) {
-        for (size_t c = 0; c < 3; ++c) {
-          const double value = mixed.colours[mixed.At(x, y)][c] +
-                               across * Difference(mixed, x, y, 1, 0, c) +
-                               down * Difference(mixed, x, y, 0, 1, c);
-          Out(cell.at_x + x, cell.at_y + y)[c] = std::clamp(value, 0.0, 255.0);
-        }
+    ForEachPixel(cell.at_width, cell.at_height, [&](int x, int y) {
+      for (size_t c = 0; c < 3; ++c) {
+        const double value = mixed.colours[mixed.At(x, y)][c] +
+                             across * Difference(mixed, x, y, 1, 0, c) +
+                             down * Difference(mixed, x, y, 0, 1, c);
+        Out(cell.at_x + x, cell.at_y + y)[c] = std::clamp(value, 0.0, 255.0);
       }
-    }
+    });
   }
 
   const LightField& field_;

@@ -142,6 +142,14 @@ inline int64_t Rounded(int64_t value, int bits) {
 
 inline int RoundedTo64(double value) { return static_cast<int>(std::floor(value * 64 + 0.5)); }
 
+// Calls visit(x, y) for each pixel of a rectangle, row by row.
+template <class Visit>
+void ForEachPixel(int width, int height, const Visit& visit) {
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) visit(x, y);
+  }
+}
+
 // Picture of a rendered or captured view; the disparities, in 1/64 pixel, are 0 if the view has no
 // map.
 struct Picture {

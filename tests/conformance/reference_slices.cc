@@ -33,13 +33,11 @@ class RangeFinder {
       }
     }
     while ((high - low_) / bin_ >= starfocus::kSliceBins) bin_ *= 2;
-    for (int y = 0; y < map.height; ++y) {
-      for (int x = 0; x < map.width; ++x) {
-        for (const Surface& surface : map.At(x, y)) {
-          if (Reaches(surface.disparity, x, y)) occupied_.insert((surface.disparity - low_) / bin_);
-        }
+    ForEachPixel(map.width, map.height, [&](int x, int y) {
+      for (const Surface& surface : map.At(x, y)) {
+        if (Reaches(surface.disparity, x, y)) occupied_.insert((surface.disparity - low_) / bin_);
       }
-    }
+    });
   }
 
   // Returns the ranges of disparity of the slices, from near to far: the finest ranges within the
@@ -327,15 +325,13 @@ class Stack {
   void AddView(const std::vector<Plane>& column, int j, double weight) {
     std::vector<Offset> offsets;
     for (const Range& range : ranges_) offsets.push_back(OffsetOf(lens_, j, range.Disparity()));
-    for (int y = 0; y < rect_.height; ++y) {
-      for (int x = 0; x < rect_.width; ++x) {
-        double light = 1;
-        for (size_t k = 0; k < column.size() && light > 0; ++k) {
-          const auto at = [&](int row) { return column[k].At(x, y + row); };
-          Take(offsets[k].See(at), weight, &light, &sum_.At(x, y));
-        }
+    ForEachPixel(rect_.width, rect_.height, [&](int x, int y) {
+      double light = 1;
+      for (size_t k = 0; k < column.size() && light > 0; ++k) {
+        const auto at = [&](int row) { return column[k].At(x, y + row); };
+        Take(offsets[k].See(at), weight, &light, &sum_.At(x, y));
       }
-    }
+    });
   }
 
   // Adds a slice, and subtracts the coverage of the slice from the light that is left. A slice
@@ -379,17 +375,15 @@ void CompositeBucket(const SurfaceMap& map, const Picture& extended, const Lens&
   const std::vector<Range> ranges = RangeFinder(map, lens, tile, slicing).Find();
   Stack stack(map, ranges, lens, tile);
   const Plane& sum = stack.AddViews();
-  for (int y = 0; y < tile.height; ++y) {
-    for (int x = 0; x < tile.width; ++x) {
-      // If the slices take less than a quarter of the light of all views, the pixel of the centre
-      // view is used.
-      const Light& light = sum.At(x, y);
-      Colour& colour = picture->colours[picture->At(left + x, top + y)];
-      colour = extended.colours[extended.At(x + tile.left, y + tile.top)];
-      if (4 * light[3] < stack.total()) continue;
-      for (size_t c = 0; c < 3; ++c) colour[c] = std::min(255.0, light[c] / light[3]);
-    }
-  }
+  ForEachPixel(tile.width, tile.height, [&](int x, int y) {
+    // If the slices take less than a quarter of the light of all views, the pixel of the centre
+    // view is used.
+    const Light& light = sum.At(x, y);
+    Colour& colour = picture->colours[picture->At(left + x, top + y)];
+    colour = extended.colours[extended.At(x + tile.left, y + tile.top)];
+    if (4 * light[3] < stack.total()) return;
+    for (size_t c = 0; c < 3; ++c) colour[c] = std::min(255.0, light[c] / light[3]);
+  });
 }
 
 }  // namespace

@@ -27,29 +27,23 @@ class Filler {
   }
 
   void TakeSources() {
-    for (int y = 0; y < map_.height; ++y) {
-      for (int x = 0; x < map_.width; ++x) TakeSource(x, y);
-    }
+    ForEachPixel(map_.width, map_.height, [&](int x, int y) { TakeSource(x, y); });
   }
 
   // Each smoothing step computes all pixels from the colours before the step.
   void Smooth(int step) {
     std::vector<Colour> before;
     for (const Surface* far : far_) before.push_back(far->colour);
-    for (int y = 0; y < map_.height; ++y) {
-      for (int x = 0; x < map_.width; ++x) {
-        if (2 * Far(x, y).repeated >= step) Far(x, y).colour = Mean(before, x, y, step);
-      }
-    }
+    ForEachPixel(map_.width, map_.height, [&](int x, int y) {
+      if (2 * Far(x, y).repeated >= step) Far(x, y).colour = Mean(before, x, y, step);
+    });
   }
 
   // Limits colours that differ much from both neighbours across the direction of their source.
   void Limit() {
     std::vector<Colour> before;
     for (const Surface* far : far_) before.push_back(far->colour);
-    for (int y = 0; y < map_.height; ++y) {
-      for (int x = 0; x < map_.width; ++x) LimitAt(before, x, y);
-    }
+    ForEachPixel(map_.width, map_.height, [&](int x, int y) { LimitAt(before, x, y); });
   }
 
  private:
@@ -154,9 +148,8 @@ class SurfaceFinder {
 
   SurfaceMap Find() const {
     SurfaceMap map = {extended_.width, extended_.height, {}};
-    for (int y = 0; y < map.height; ++y) {
-      for (int x = 0; x < map.width; ++x) map.pixels.push_back(SurfacesOf(x, y));
-    }
+    ForEachPixel(map.width, map.height,
+                 [&](int x, int y) { map.pixels.push_back(SurfacesOf(x, y)); });
     return map;
   }
 

@@ -175,14 +175,12 @@ Colour Read(const LightField& field, int layer, const Position& view, double x, 
 Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
   const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
   Picture centre(rect.left + rect.width + rect.right, rect.top + rect.height + rect.bottom);
-  for (int y = 0; y < centre.height; ++y) {
-    for (int x = 0; x < centre.width; ++x) {
-      const size_t from =
-          layer.At(std::clamp(x0 + x, 0, layer.width - 1), std::clamp(y0 + y, 0, layer.height - 1));
-      centre.colours[centre.At(x, y)] = layer.colours[from];
-      centre.disparities[centre.At(x, y)] = layer.disparities[from];
-    }
-  }
+  ForEachPixel(centre.width, centre.height, [&](int x, int y) {
+    const size_t from =
+        layer.At(std::clamp(x0 + x, 0, layer.width - 1), std::clamp(y0 + y, 0, layer.height - 1));
+    centre.colours[centre.At(x, y)] = layer.colours[from];
+    centre.disparities[centre.At(x, y)] = layer.disparities[from];
+  });
   return centre;
 }
 
@@ -216,28 +214,26 @@ void ExtendEdges(const LightField& field, const Picture& picture, int layer, con
                  Picture* extended) {
   const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
   const int right = ((picture.width - 1) >> layer), bottom = ((picture.height - 1) >> layer);
-  for (int row = 0; row < extended->height; ++row) {
-    for (int column = 0; column < extended->width; ++column) {
-      const int x = x0 + column, y = y0 + row;
-      const Direction out = {(x > right) - (x < 0), (y > bottom) - (y < 0)};
-      // ExtendEdges changes no pixels inside the picture or beyond its corners.
-      if ((out.x == 0) == (out.y == 0)) continue;
-      const int edge_x = std::clamp(x, 0, right), edge_y = std::clamp(y, 0, bottom);
-      const int disparity =
-          picture.disparities[picture.At(edge_x * (1 << layer), edge_y * (1 << layer))];
-      const Direction side = {disparity < 0 ? -out.x : out.x, disparity < 0 ? -out.y : out.y};
-      const std::vector<Position> occlusion_views = LooksOn(field, side);
-      if (occlusion_views.empty()) continue;
-      const auto [u, v] = occlusion_views[0];
-      const int seen =
-          SeenBeyond(picture, layer, edge_x, edge_y, out, std::abs(out.x != 0 ? u : v), disparity);
-      const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
-      if (seen == 0) continue;
-      extended->colours[extended->At(column, row)] =
-          Read(field, layer, occlusion_views[0], edge_x + out.x * k - Moved(u, disparity, layer),
-               edge_y + out.y * k - Moved(v, disparity, layer));
-    }
-  }
+  ForEachPixel(extended->width, extended->height, [&](int column, int row) {
+    const int x = x0 + column, y = y0 + row;
+    const Direction out = {(x > right) - (x < 0), (y > bottom) - (y < 0)};
+    // ExtendEdges changes no pixels inside the picture or beyond its corners.
+    if ((out.x == 0) == (out.y == 0)) return;
+    const int edge_x = std::clamp(x, 0, right), edge_y = std::clamp(y, 0, bottom);
+    const int disparity =
+        picture.disparities[picture.At(edge_x * (1 << layer), edge_y * (1 << layer))];
+    const Direction side = {disparity < 0 ? -out.x : out.x, disparity < 0 ? -out.y : out.y};
+    const std::vector<Position> occlusion_views = LooksOn(field, side);
+    if (occlusion_views.empty()) return;
+    const auto [u, v] = occlusion_views[0];
+    const int seen =
+        SeenBeyond(picture, layer, edge_x, edge_y, out, std::abs(out.x != 0 ? u : v), disparity);
+    const int k = std::min(seen, std::abs(x - edge_x) + std::abs(y - edge_y));
+    if (seen == 0) return;
+    extended->colours[extended->At(column, row)] =
+        Read(field, layer, occlusion_views[0], edge_x + out.x * k - Moved(u, disparity, layer),
+             edge_y + out.y * k - Moved(v, disparity, layer));
+  });
 }
 
 namespace {
@@ -255,13 +251,11 @@ struct Cut {
 
 Picture Inside(const Picture& from, const Cut& cut) {
   Picture part(from.width - cut.left - cut.right, from.height - cut.top - cut.bottom);
-  for (int y = 0; y < part.height; ++y) {
-    for (int x = 0; x < part.width; ++x) {
-      const size_t at = from.At(x + cut.left, y + cut.top);
-      part.colours[part.At(x, y)] = from.colours[at];
-      part.disparities[part.At(x, y)] = from.disparities[at];
-    }
-  }
+  ForEachPixel(part.width, part.height, [&](int x, int y) {
+    const size_t at = from.At(x + cut.left, y + cut.top);
+    part.colours[part.At(x, y)] = from.colours[at];
+    part.disparities[part.At(x, y)] = from.disparities[at];
+  });
   return part;
 }
 
@@ -333,14 +327,12 @@ class Views {
   }
 
   void AddInner(const Picture& view, const Cut& cut, double weight, Picture* sum) const {
-    for (int y = 0; y < rect_.height; ++y) {
-      for (int x = 0; x < rect_.width; ++x) {
-        const Colour& colour =
-            view.colours[view.At(x + rect_.left - cut.left, y + rect_.top - cut.top)];
-        Colour& to = sum->colours[sum->At(x, y)];
-        for (size_t c = 0; c < 3; ++c) to[c] += weight * colour[c];
-      }
-    }
+    ForEachPixel(rect_.width, rect_.height, [&](int x, int y) {
+      const Colour& colour =
+          view.colours[view.At(x + rect_.left - cut.left, y + rect_.top - cut.top)];
+      Colour& to = sum->colours[sum->At(x, y)];
+      for (size_t c = 0; c < 3; ++c) to[c] += weight * colour[c];
+    });
   }
 
   // Returns the colour of a surface, read from the captured view in the direction of view (i, j).
