@@ -19,6 +19,11 @@ namespace {
 
 enum : int { kEstimate = 1, kRepair = 2, kBoth = 3 };
 
+constexpr starfocus_status kNull = STARFOCUS_ERROR_NULL, kStride = STARFOCUS_ERROR_STRIDE,
+                           kWorkspace = STARFOCUS_ERROR_WORKSPACE,
+                           kOverlap = STARFOCUS_ERROR_OVERLAP, kRange = STARFOCUS_ERROR_RANGE,
+                           kStructure = STARFOCUS_ERROR_STRUCTURE;
+
 // The arguments of a call: an estimate from 17 views, or a repair of one view with coverage.
 struct Call {
   explicit Call(int to) : function(to) {
@@ -81,77 +86,65 @@ struct Refusal {
 uint8_t* BytesOf(void* data) { return static_cast<uint8_t*>(data); }
 
 const Refusal kArguments[] = {
-    {kBoth, STARFOCUS_ERROR_NULL, [](Call* c) { c->out_at = nullptr; }},
-    {kBoth, STARFOCUS_ERROR_NULL, [](Call* c) { c->out.disparity = nullptr; }},
-    {kBoth, STARFOCUS_ERROR_NULL, [](Call* c) { c->at = nullptr; }},
-    {kBoth, STARFOCUS_ERROR_NULL, [](Call* c) { c->field.views[0].planes[0] = nullptr; }},
-    {kEstimate, STARFOCUS_ERROR_NULL, [](Call* c) { c->field.views[16].planes[0] = nullptr; }},
-    {kRepair, STARFOCUS_ERROR_NULL, [](Call* c) { c->field.depth.data = nullptr; }},
-    {kBoth, STARFOCUS_ERROR_STRIDE, [](Call* c) { c->out.disparity_stride -= 4; }},
-    {kBoth, STARFOCUS_ERROR_STRIDE, [](Call* c) { c->out.disparity_stride += 2; }},
-    {kBoth, STARFOCUS_ERROR_STRIDE, [](Call* c) { --c->out.confidence_stride; }},
-    {kRepair, STARFOCUS_ERROR_STRIDE, [](Call* c) { --c->out.coverage_stride; }},
-    {kBoth, STARFOCUS_ERROR_STRIDE, [](Call* c) { --c->field.views[0].strides[0]; }},
-    {kEstimate, STARFOCUS_ERROR_STRIDE, [](Call* c) { --c->field.views[3].strides[0]; }},
-    {kRepair, STARFOCUS_ERROR_STRIDE, [](Call* c) { c->field.depth.stride -= 4; }},
-    {kBoth, STARFOCUS_ERROR_WORKSPACE, [](Call* c) { --c->bytes; }},
-    {kBoth, STARFOCUS_ERROR_WORKSPACE, [](Call* c) { c->at += 4; }},
-    {kBoth, STARFOCUS_ERROR_OVERLAP,
-     [](Call* c) { c->out.disparity = static_cast<float*>(c->memory.data); }},
-    {kBoth, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->out.confidence = BytesOf(&c->map[1]); }},
-    {kEstimate, STARFOCUS_ERROR_OVERLAP,
-     [](Call* c) { c->out.confidence = c->planes.views[16].data(); }},
-    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->field.depth.data = c->map.data(); }},
-    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->field.depth.data = c->memory.data; }},
-    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->out.coverage = c->sure.data(); }},
-    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->out.coverage = BytesOf(c->map.data()); }},
-    {kRepair, STARFOCUS_ERROR_OVERLAP,
-     [](Call* c) { c->out.coverage = c->planes.views[0].data(); }},
-    {kRepair, STARFOCUS_ERROR_OVERLAP, [](Call* c) { c->out.coverage = BytesOf(c->memory.data); }},
+    {kBoth, kNull, [](Call* c) { c->out_at = nullptr; }},
+    {kBoth, kNull, [](Call* c) { c->out.disparity = nullptr; }},
+    {kBoth, kNull, [](Call* c) { c->at = nullptr; }},
+    {kBoth, kNull, [](Call* c) { c->field.views[0].planes[0] = nullptr; }},
+    {kEstimate, kNull, [](Call* c) { c->field.views[16].planes[0] = nullptr; }},
+    {kRepair, kNull, [](Call* c) { c->field.depth.data = nullptr; }},
+    {kBoth, kStride, [](Call* c) { c->out.disparity_stride -= 4; }},
+    {kBoth, kStride, [](Call* c) { c->out.disparity_stride += 2; }},
+    {kBoth, kStride, [](Call* c) { --c->out.confidence_stride; }},
+    {kRepair, kStride, [](Call* c) { --c->out.coverage_stride; }},
+    {kBoth, kStride, [](Call* c) { --c->field.views[0].strides[0]; }},
+    {kEstimate, kStride, [](Call* c) { --c->field.views[3].strides[0]; }},
+    {kRepair, kStride, [](Call* c) { c->field.depth.stride -= 4; }},
+    {kBoth, kWorkspace, [](Call* c) { --c->bytes; }},
+    {kBoth, kWorkspace, [](Call* c) { c->at += 4; }},
+    {kBoth, kOverlap, [](Call* c) { c->out.disparity = static_cast<float*>(c->memory.data); }},
+    {kBoth, kOverlap, [](Call* c) { c->out.confidence = BytesOf(&c->map[1]); }},
+    {kEstimate, kOverlap, [](Call* c) { c->out.confidence = c->planes.views[16].data(); }},
+    {kRepair, kOverlap, [](Call* c) { c->field.depth.data = c->map.data(); }},
+    {kRepair, kOverlap, [](Call* c) { c->field.depth.data = c->memory.data; }},
+    {kRepair, kOverlap, [](Call* c) { c->out.coverage = c->sure.data(); }},
+    {kRepair, kOverlap, [](Call* c) { c->out.coverage = BytesOf(c->map.data()); }},
+    {kRepair, kOverlap, [](Call* c) { c->out.coverage = c->planes.views[0].data(); }},
+    {kRepair, kOverlap, [](Call* c) { c->out.coverage = BytesOf(c->memory.data); }},
     {kRepair, STARFOCUS_ERROR_DISPARITY, [](Call* c) { c->given[100] = 8.01F; }},
     {kRepair, STARFOCUS_ERROR_ALL_INVALID,
      [](Call* c) { std::fill(c->given.begin(), c->given.end(), NAN); }},
 };
 
-// Sets the number of views, and the position of view 1.
-void Place(int32_t views, const starfocus_position& position, Call* call) {
-  call->config.views = views;
-  call->config.positions[1] = position;
+// Configures a pair of views.
+void Place(double u, double v, Call* call) {
+  call->config.views = 2;
+  call->config.positions[1] = {u, v};
 }
 
 const Refusal kConfigurations[] = {
-    {kBoth, STARFOCUS_ERROR_STRUCTURE, [](Call* c) { c->config.size = 0; }},
-    {kBoth, STARFOCUS_ERROR_STRUCTURE, [](Call* c) { ++c->config.size; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.width = 0; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.height = 65536; }},
-    {kEstimate, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.views = 1; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.views = 18; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.views = 4; }},
-    {kEstimate, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.positions[1].u = 1; }},
-    {kEstimate, STARFOCUS_ERROR_RANGE,
-     [](Call* c) {
-       Place(2, {1.01, 0}, c);
-     }},
-    {kEstimate, STARFOCUS_ERROR_RANGE,
-     [](Call* c) {
-       Place(2, {0, NAN}, c);
-     }},
-    {kRepair, STARFOCUS_ERROR_RANGE,
-     [](Call* c) {
-       Place(2, {1, 0}, c);
-     }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = 9; }},
-    {kEstimate, STARFOCUS_ERROR_RANGE,
+    {kBoth, kStructure, [](Call* c) { c->config.size = 0; }},
+    {kBoth, kStructure, [](Call* c) { ++c->config.size; }},
+    {kBoth, kRange, [](Call* c) { c->config.width = 0; }},
+    {kBoth, kRange, [](Call* c) { c->config.height = 65536; }},
+    {kEstimate, kRange, [](Call* c) { c->config.views = 1; }},
+    {kBoth, kRange, [](Call* c) { c->config.views = 18; }},
+    {kBoth, kRange, [](Call* c) { c->config.views = 4; }},
+    {kEstimate, kRange, [](Call* c) { c->config.positions[1].u = 1; }},
+    {kEstimate, kRange, [](Call* c) { Place(1.01, 0, c); }},
+    {kEstimate, kRange, [](Call* c) { Place(0, NAN, c); }},
+    {kRepair, kRange, [](Call* c) { Place(1, 0, c); }},
+    {kBoth, kRange, [](Call* c) { c->config.disparity_min = 9; }},
+    {kEstimate, kRange,
      [](Call* c) {
        const test::Config fresh;
        c->config.disparity_min = fresh.disparity_min;
        c->config.disparity_max = fresh.disparity_max;
      }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_min = NAN; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = NAN; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.disparity_max = 501; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.max_workers = 0; }},
-    {kBoth, STARFOCUS_ERROR_RANGE, [](Call* c) { c->config.max_workers = 65; }},
+    {kBoth, kRange, [](Call* c) { c->config.disparity_min = NAN; }},
+    {kBoth, kRange, [](Call* c) { c->config.disparity_max = NAN; }},
+    {kBoth, kRange, [](Call* c) { c->config.disparity_max = 501; }},
+    {kBoth, kRange, [](Call* c) { c->config.max_workers = 0; }},
+    {kBoth, kRange, [](Call* c) { c->config.max_workers = 65; }},
 };
 
 // Runs each row of a table for each function that the row names.
@@ -194,8 +187,8 @@ TEST_CASE("maps: calls with bad configurations return the expected status") {
   size_t needed = 0;
   for (const int function : {kEstimate, kRepair}) {
     Call call(function);
-    CHECK(call.SizeOf(nullptr, &needed) == STARFOCUS_ERROR_NULL);
-    CHECK(call.SizeOf(&call.config, nullptr) == STARFOCUS_ERROR_NULL);
+    CHECK(call.SizeOf(nullptr, &needed) == kNull);
+    CHECK(call.SizeOf(&call.config, nullptr) == kNull);
     call.callbacks.runner = [](void*, starfocus_job, void*, int32_t) { return 0; };
     CHECK(call.Run() == STARFOCUS_ERROR_RUNNER);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests the labels, views and tiles of an estimate.
+// Tests the labels, views and tiles of an estimate, and at which pixels a repair tries all labels.
 #include "lib/depth/setup.h"
 
 #include <doctest/doctest.h>
@@ -9,23 +9,23 @@
 #include <initializer_list>
 #include <vector>
 
-#include "starfocus/depth.h"
+#include "lib/depth/sweep.h"
+#include "lib/depth/swept.h"
+#include "starfocus/starfocus.hpp"
+#include "tests/depth/depth_scene.h"
 #include "tests/support/config.h"
 
 namespace setup_test {
 namespace {
 
-using starfocus::MakeSetup;
-using starfocus::SweepSetup;
+using namespace starfocus;
+using test::PlaneScene;
 
-SweepSetup SetupOf(int width, int height, int views, float low, float high) {
-  test::Config config;
-  config.width = width;
-  config.height = height;
-  config.views = views;
-  config.disparity_min = low;
-  config.disparity_max = high;
-  return MakeSetup(config, false);
+SweepSetup SetupOf(int width, int height, int views, float low, float high,
+                   const std::vector<starfocus_position>& positions = {}) {
+  test::PlaneField field = {width, height, {}, positions};
+  field.views.resize(size_t(views));
+  return MakeSetup(test::ConfigOf(field, low, high), false);
 }
 
 TEST_CASE("setup: tiles cover the picture, are symmetric, and are neither small nor large") {
@@ -34,7 +34,7 @@ TEST_CASE("setup: tiles cover the picture, are symmetric, and are neither small 
     CAPTURE(length);
     int32_t end = 0;
     for (int32_t k = 0; k < setup.columns; ++k) {
-      const starfocus::Rect tile = TileOf(setup, k), other = TileOf(setup, setup.columns - 1 - k);
+      const Rect tile = TileOf(setup, k), other = TileOf(setup, setup.columns - 1 - k);
       CHECK(tile.x == end);
       end = tile.x + tile.width;
       CHECK(other.x == length - end);
@@ -46,32 +46,8 @@ TEST_CASE("setup: tiles cover the picture, are symmetric, and are neither small 
   }
 }
 
-TEST_CASE("setup: views of a ring lie opposite each other, at the positions of the star set") {
-  for (const int views : {5, 9, 17}) {
-    const SweepSetup setup = SetupOf(10, 10, views, 0, 1);
-    CHECK(setup.side_views == views - 1);
-    CHECK(!setup.one_sided());
-    for (int32_t k = 0; k < setup.side_views; ++k) {
-      double u = 0, v = 0;
-      REQUIRE(starfocus_view_position(setup.side[k].index, &u, &v, nullptr) == STARFOCUS_OK);
-      CHECK(setup.side[k].at.u == starfocus::kViewOne * u);
-      CHECK(setup.side[k].at.v == starfocus::kViewOne * v);
-      const int32_t ring = k / setup.arms * setup.arms;
-      const starfocus::SideView& other = setup.side[ring + (k + setup.arms / 2) % setup.arms];
-      CHECK(other.at.u == -setup.side[k].at.u);
-      CHECK(other.at.v == -setup.side[k].at.v);
-    }
-  }
-}
-
 SweepSetup PlanAt(const std::vector<starfocus_position>& positions, float low, float high) {
-  test::Config config;
-  config.width = config.height = 10;
-  config.views = int32_t(positions.size());
-  std::copy(positions.begin(), positions.end(), config.positions);
-  config.disparity_min = low;
-  config.disparity_max = high;
-  return MakeSetup(config, false);
+  return SetupOf(10, 10, int(positions.size()), low, high, positions);
 }
 
 TEST_CASE(
@@ -92,15 +68,15 @@ TEST_CASE(
 
 TEST_CASE("setup: shifts of views at any position differ by quarter pixels") {
   const SweepSetup setup = PlanAt({{0, 0}, {0.3, -0.7}}, -3.1F, 9);
-  const starfocus::SideView& view = setup.side[0];
-  const starfocus::ViewPhases phases = setup.PhasesOf(view);
+  const SideView& view = setup.side[0];
+  const ViewPhases phases = setup.PhasesOf(view);
   for (int32_t l = 0; l < setup.labels; ++l) {
-    const starfocus::LabelMove move = setup.MoveOf(view, l);
+    const LabelMove move = setup.MoveOf(view, l);
     CAPTURE(l);
     CHECK(std::abs(move.across - MoveAcross(view, setup.Disparity(l))) <= 17);
     CHECK(std::abs(move.down - MoveDown(view, setup.Disparity(l))) <= 17);
     REQUIRE(phases.slot[move.phase] >= 0);
-    const starfocus::LabelMove& same = phases.move[phases.slot[move.phase]];
+    const LabelMove& same = phases.move[phases.slot[move.phase]];
     CHECK((same.across & 127) == (move.across & 127));
     CHECK((same.down & 127) == (move.down & 127));
   }
@@ -116,36 +92,79 @@ TEST_CASE("setup: labels are half a pixel apart, or farther apart in a wide rang
   const SweepSetup single = SetupOf(10, 10, 5, 2, 2);
   CHECK(single.labels == 1);
   const SweepSetup wide = SetupOf(10, 10, 5, -500, 500);
-  CHECK(wide.labels <= starfocus::kMostLabels);
+  CHECK(wide.labels <= kMostLabels);
   CHECK(wide.Disparity(wide.labels - 1) >= 500 * 64);
   CHECK(wide.Disparity(wide.labels - 1) + 64 <= INT16_MAX);
 }
 
 TEST_CASE("setup: WholeMove rounds shifts to whole pixels, and halves towards 0") {
-  using starfocus::WholeMove;
-  CHECK(WholeMove(64) == 0);
-  CHECK(WholeMove(65) == 1);
-  CHECK(WholeMove(-64) == 0);
-  CHECK(WholeMove(-65) == -1);
-  CHECK(WholeMove(-300) == -2);
-  using starfocus::WholeMoveBy;
-  CHECK(WholeMoveBy(starfocus::kViewOne, 32) == 0);
-  CHECK(WholeMoveBy(starfocus::kViewOne, 33) == -1);
-  CHECK(WholeMoveBy(-starfocus::kViewOne, 32) == 0);
-  CHECK(WholeMoveBy(-starfocus::kViewOne / 2, 66) == 1);
+  struct Row {
+    int32_t shift, whole;
+  };
+  for (const Row& row : {Row{64, 0}, {65, 1}, {-64, 0}, {-65, -1}, {-300, -2}}) {
+    CHECK(WholeMove(row.shift) == row.whole);
+    // The shift of a view at a position, of a pixel with a disparity.
+    const int32_t half = row.shift / 2 + row.shift % 2;
+    CHECK(WholeMoveBy(-kViewOne, half) == row.whole);
+    CHECK(WholeMoveBy(kViewOne, half) == -row.whole);
+    CHECK(WholeMoveBy(-kViewOne / 2, 2 * half) == row.whole);
+  }
 }
 
 TEST_CASE("setup: CoarseSetup keeps every other label and the range of the labels") {
-  test::Config config;
-  config.width = config.height = 10;
   for (int range = 0; range <= 1000; range = range < 70 ? range + 1 : range + 93) {
-    config.disparity_min = -float(range) / 2;
-    config.disparity_max = float(range) / 2;
-    const SweepSetup setup = MakeSetup(config, false), coarse = CoarseSetup(setup);
+    const float most = float(range) / 2;
+    const SweepSetup setup = SetupOf(10, 10, 1, -most, most), coarse = CoarseSetup(setup);
     CAPTURE(range);
     CHECK(coarse.labels >= 1);
     CHECK(coarse.Disparity(coarse.labels - 1) <= setup.Disparity(setup.labels - 1));
     CHECK(coarse.Disparity(coarse.labels) > setup.Disparity(setup.labels - 1) - setup.step);
+  }
+}
+
+// Returns a mask of the pixels at which a repair of the map `given` tries all disparities.
+std::vector<uint8_t> SweptOf(const PlaneScene& scene, const std::vector<float>& given) {
+  const test::PlaneField field = RenderPlanes(scene);
+  const SweepSetup setup = MakeSetup(ConfigOf(field, -6, 8), true);
+  Arena counted(nullptr);
+  TakeEstimate(setup, 1, &counted);
+  const test::Memory bytes(counted.Bytes());
+  Arena arena(bytes.data);
+  const EstimateMemory memory = TakeEstimate(setup, 1, &arena);
+  starfocus_light_field light_field = field.Get();
+  light_field.depth = starfocus_depth_float(given.data(), sizeof(float) * size_t(scene.width),
+                                            scene.width, scene.height);
+  const int tiles = setup.columns * setup.rows;
+  for (int k = 0; k < tiles; ++k) ReadGiven(setup, light_field, TileOf(setup, k), memory);
+  for (int k = 0; k < tiles; ++k) {
+    FindTrusted(setup, TileOf(setup, k), memory.given, memory.trusted);
+    FindDoubts(setup, light_field, TileOf(setup, k), memory);
+  }
+  for (int k = 0; k < tiles; ++k)
+    FindSwept(setup, TileOf(setup, k), memory.workers[0].cost, memory);
+  return {memory.swept, memory.swept + given.size()};
+}
+
+TEST_CASE(
+    "setup: in a correct map, all disparities are tried only around steps, even at tile "
+    "boundaries") {
+  PlaneScene scene;
+  scene.width = 400;
+  scene.near_left = 130;
+  scene.near_right = 262;
+  for (const int views : {5, 9, 17}) {
+    scene.views = views;
+    const std::vector<uint8_t> swept = SweptOf(scene, MapOf(scene));
+    for (int x = 0; x < scene.width; ++x) {
+      // The repair distrusts the pixels on both sides of a step, and tries all disparities within
+      // kSweptRadius of a distrusted pixel.
+      const bool near = (x >= 129 - kSweptRadius && x <= 130 + kSweptRadius) ||
+                        (x >= 261 - kSweptRadius && x <= 262 + kSweptRadius);
+      CAPTURE(x);
+      for (int y = 0; y < scene.height; ++y) {
+        REQUIRE(int(swept[size_t(y * scene.width + x)]) == int(near));
+      }
+    }
   }
 }
 
