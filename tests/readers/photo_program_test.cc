@@ -62,8 +62,10 @@ void MakeViews(const TempFolder& folder) {
   for (int level = 0; level < 100; ++level) {
     Write(folder.file(std::to_string(level)), Encode(Plain(4, 3, level), ".ppm"));
   }
-  Require(WritePfm(folder.file("map.pfm"), {4, 3, std::vector<float>(12, 0.75F)}));
-  Require(WritePfm(folder.file("inf.pfm"), {4, 3, std::vector<float>(12, HUGE_VALF)}));
+  FloatMap map = {4, 3, std::vector<float>(12, 0.75F)};
+  Require(WritePfm(folder.file("map.pfm"), map));
+  map.values[0] = HUGE_VALF;
+  Require(WritePfm(folder.file("inf.pfm"), map));
 }
 
 // Adds photos whose EXIF contains an orientation and a subject, and may contain the size of the
@@ -108,9 +110,8 @@ TEST_CASE("photos: every session of the tables succeeds") {
       Write(folder.file(name), Seed("photo/" + name));
     }
   };
-  RunSessions("readers/plain_sessions.txt",
-              {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
-  for (const char* table : {"readers/depth_command_sessions.txt", "readers/matte_sessions.txt"}) {
+  RunSessions("readers/photos.txt", {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
+  for (const char* table : {"readers/depth_commands.txt", "readers/mattes.txt"}) {
     RunSessions(table, {{"photo and map", MakePhotoAndMap}});
   }
   RunSessions("readers/layouts.txt", {{"views", MakeViews}});
@@ -118,7 +119,7 @@ TEST_CASE("photos: every session of the tables succeeds") {
   RunSessions("readers/subjects.txt", {{"subjects", MakeSubjects}});
 #endif
   if (!CanReadXmp()) return;
-  RunSessions("readers/sessions.txt",
+  RunSessions("readers/depth_photos.txt",
               {{"GDepth photo", write_photo}, {"stored mattes", copy_seeds}});
 }
 
