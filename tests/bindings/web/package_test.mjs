@@ -9,20 +9,12 @@ import {join} from 'node:path';
 import test, {after, before} from 'node:test';
 import {createRefocuser, ErrorCode, estimateDisparity, Mode, openPhoto, Shape, StarfocusError} from 'starfocus';
 
-import {assertSameBytes, dropAlpha, readLightField, readPng} from './pictures.mjs';
+import {assertSameBytes, dropAlpha, folder, program, readLightField, refocusByProgram} from './pictures.mjs';
 
-const program = process.env.STARFOCUS_PROGRAM, folder = process.env.STARFOCUS_FIELD;
-const field = readLightField(folder);
+const field = readLightField();
 const {width, height, low, high} = field, views = field.views.map(view => view.data);
 const options = {width, height, views: 5, disparityMin: low, disparityMax: high, maxBlur: 20, previews: 3, shapes: true};
 let refocuser;
-
-/** Refocuses the light-field folder with the program, and returns the R, G, B bytes. */
-function refocusByProgram(...values) {
-  const path = join(folder, 'out.png');
-  execFileSync(program, ['refocus', folder, '-o', path, ...values]);
-  return readPng(path).data;
-}
 
 before(async () => {
   refocuser = await createRefocuser({...options, threads: 2});
@@ -46,7 +38,7 @@ test('taps, changed settings and a range in focus give the bytes of the program'
     await refocuser.configure(settings);
     const picture = await refocuser.refocus(params);
     assert.equal(picture.width, width);
-    assertSameBytes(dropAlpha(picture.data), refocusByProgram(...values));
+    assertSameBytes(dropAlpha(picture.data), refocusByProgram(folder, ...values));
   }
 });
 
@@ -83,28 +75,27 @@ test('views at positions give the bytes of the program, in any order', async () 
     return (await opened.refocus({focus: 1})).data;
   });
   const star = await focused([0, 1, 2, 3, 4]);
-  assertSameBytes(dropAlpha(star), refocusByProgram('--focus', '1'));
+  assertSameBytes(dropAlpha(star), refocusByProgram(folder, '--focus', '1'));
   assertSameBytes(await focused([0, 4, 2, 1, 3], [0, 4, 2, 1, 3].map(index => STAR[index])), star);
   for (const order of [[0, 1], [0, 4, 2]]) {
-    const pairs = order.map(index => STAR[index]), folder = join(process.env.STARFOCUS_FIELD, `part-${order.length}`);
-    execFileSync(program, ['import', process.env.STARFOCUS_FIELD, folder, '--views', pairs.join(':')], {stdio: 'pipe'});
-    const path = join(folder, 'out.png');
-    execFileSync(program, ['refocus', folder, '-o', path, '--focus', '1'], {stdio: 'pipe'});
-    assertSameBytes(dropAlpha(await focused(order, pairs)), readPng(path).data);
+    const pairs = order.map(index => STAR[index]), part = join(folder, `part-${order.length}`);
+    execFileSync(program, ['import', folder, part, '--views', pairs.join(':')], {stdio: 'pipe'});
+    const expected = refocusByProgram(part, '--focus', '1');
+    assertSameBytes(dropAlpha(await focused(order, pairs)), expected);
     const photo = await openPhoto(order.map(index => field.views[index]), field.disparity, {disparity: true, positions: pairs});
-    assertSameBytes(dropAlpha((await photo.refocus({focus: 1})).data), readPng(path).data);
+    assertSameBytes(dropAlpha((await photo.refocus({focus: 1})).data), expected);
     photo.close();
-    await checkEstimate(order.map(index => field.views[index]), {positions: pairs}, folder);
+    await checkEstimate(order.map(index => field.views[index]), {positions: pairs}, part);
   }
-  await checkEstimate(field.views, {}, process.env.STARFOCUS_FIELD);
+  await checkEstimate(field.views, {}, folder);
 });
 
 /** Checks that an estimate is that of the program for the folder, with a searched and with a given range. */
-async function checkEstimate(pictures, given, folder) {
-  const path = join(process.env.STARFOCUS_FIELD, 'map.pfm'), steps = [];
+async function checkEstimate(pictures, given, input) {
+  const path = join(folder, 'map.pfm'), steps = [];
   for (const range of [[], [-4, 5]]) {
     const [disparityMin, disparityMax] = range;
-    execFileSync(program, ['disparity', folder, '-o', path, ...range.length ? ['--range', range.join(':')] : []], {stdio: 'pipe'});
+    execFileSync(program, ['disparity', input, '-o', path, ...range.length ? ['--range', range.join(':')] : []], {stdio: 'pipe'});
     const {data} = await estimateDisparity(pictures, {...given, disparityMin, disparityMax, onProgress: done => steps.push(done)});
     const bytes = readFileSync(path).subarray(-4 * width * height), row = 4 * width;
     for (let y = 0; y < height; ++y) {
@@ -119,7 +110,7 @@ test('coverage gives the bytes of the program', async () => {
   writeFileSync(path, Buffer.concat([Buffer.from(`P5 ${width} ${height} 255\n`), coverage]));
   await refocuser.prepare(views, field.disparity.data, {coverage});
   const picture = await refocuser.refocus({focus: 1});
-  assertSameBytes(dropAlpha(picture.data), refocusByProgram('--focus', '1', '--coverage', path));
+  assertSameBytes(dropAlpha(picture.data), refocusByProgram(folder, '--focus', '1', '--coverage', path));
   await assert.rejects(refocuser.prepare(views, field.disparity.data, {coverage: coverage.subarray(1)}),
                        /coverage: expected/);
   await refocuser.prepare(views, field.disparity.data);
