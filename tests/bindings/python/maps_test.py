@@ -91,12 +91,12 @@ class Maps(unittest.TestCase):
     def test_the_largest_aperture_is_accepted(self):
         engine = starfocus.Refocuser(8, 8, 1, disparity_min=2, disparity_max=16, max_blur=7)
         views, disparity = np.zeros((1, 8, 8, 3), np.uint8), np.full((8, 8), 2, np.float32)
-        for focus, lens, expected in ((2, {}, 0.5), (4, {"focus_nearer": 2, "focus_farther": 1}, 0.7)):
-            aperture = engine.largest_aperture(focus, **lens)
-            self.assertEqual(aperture, expected)
-            engine.refocus(views, disparity, focus=focus, aperture=aperture, **lens)
-            with self.assertRaisesRegex(starfocus.ArgumentError, "aperture"):
-                engine.refocus(views, disparity, focus=focus, aperture=math.nextafter(aperture, 1), **lens)
+        lens = {"focus_nearer": 2, "focus_farther": 1}
+        self.assertEqual(engine.largest_aperture(2), 0.5)
+        self.assertEqual(engine.largest_aperture(4, **lens), 0.7)
+        engine.refocus(views, disparity, focus=4, aperture=0.7, **lens)
+        with self.assertRaisesRegex(starfocus.ArgumentError, "aperture"):
+            engine.refocus(views, disparity, focus=4, aperture=math.nextafter(0.7, 1), **lens)
 
 
 def layouts(values: np.ndarray):
