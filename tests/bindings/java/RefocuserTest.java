@@ -268,6 +268,13 @@ public final class RefocuserTest {
     final String few = "view 0, plane 0: expected a buffer of";
     final Configuration wrong = configuration();
     wrong.views = 4;
+    final Refocuser closed = new Refocuser(configuration());
+    closed.close();
+    closed.close();
+    closed.cancel();
+    check(closed.rowsDone() == 0, "rowsDone() is 0 after close()");
+    checkThrows(OF_STATE, "closed", () -> closed.refocus(field(), plain, out));
+    checkThrows(OF_STATE, "closed", () -> closed.largestAperture(plain));
     checkThrows(OF_LIBRARY, "views", () -> new Refocuser(wrong));
     checkThrows(OF_BUFFER, "direct", () -> rgb(ByteBuffer.allocate(size)));
     try (Refocuser refocuser = new Refocuser(configuration())) {
@@ -476,17 +483,6 @@ public final class RefocuserTest {
     }
   }
 
-  private static void aClosedRefocuserRejectsCalls() {
-    final Refocuser closed = new Refocuser(configuration());
-    closed.close();
-    closed.close();
-    closed.cancel();
-    check(closed.rowsDone() == 0, "rowsDone() is 0 after close()");
-    checkThrows(
-        OF_STATE, "closed", () -> closed.refocus(field(), new Parameters(), rgb(bytes(3 * SIZE))));
-    checkThrows(OF_STATE, "closed", () -> closed.largestAperture(new Parameters()));
-  }
-
   private static void anotherThreadCallsOff() throws InterruptedException {
     final Configuration configuration = configuration();
     configuration.workers = 2;
@@ -531,7 +527,6 @@ public final class RefocuserTest {
     mapsOfAnyStrideAreRead();
     coverageChangesThePicture();
     preparedCopiesStayAlive();
-    aClosedRefocuserRejectsCalls();
     anotherThreadCallsOff();
     if (failures == 0)
       System.out.println(checks + " checks");

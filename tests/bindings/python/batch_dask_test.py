@@ -27,14 +27,13 @@ def kill_worker(pids: list[int], folder: Path) -> None:
     os.kill(pids[0], signal.SIGKILL)
 
 
-def check_error(arguments: list[str], message: str) -> None:
-    """Checks that the script exits with an error message that matches a regular expression."""
+def error_of(arguments: list[str]) -> str:
+    """Returns the error message with which the script exits."""
     try:
         with mock.patch.object(sys, "argv", ["batch_dask.py", *arguments]):
-            code = batch_dask.main()
+            return str(batch_dask.main())
     except SystemExit as error:
-        code = error.code
-    assert isinstance(code, str) and re.search("^batch_dask.py: .*" + message, code), code
+        return str(error.code)
 
 
 def main() -> None:
@@ -72,11 +71,14 @@ def main() -> None:
         assert batch_dask.run(client, batch_dask.name_pictures(names[:-1], folder), OPTIONS) == {}
         assert pictures[0].read_bytes() == expected.read_bytes()
         assert times == {path: path.stat().st_mtime_ns for path in pictures[1:]}, "pictures were written again"
-    check_error([str(folder), "a/x.jpg", "b/x.png"], "x.jpg: expected one input, found .*/a/x.jpg and .*/b/x.png$")
-    check_error([str(bad), "x.jpg"], "File exists: .*bad.jpg")
     with dask.config.set({"distributed.comm.timeouts.connect": "1s"}):
-        check_error(["--scheduler", "tcp://127.0.0.1:1", str(folder), "x.jpg"], "Timed out .* tcp://127.0.0.1:1")
-    check_error(["--scheduler", "node1", str(folder), "x.jpg"], "missing port number in address 'node1'")
+        for arguments, message in (
+                ([str(folder), "a/x.jpg", "b/x.png"], "x.jpg: expected one input, found .*/a/x.jpg and .*/b/x.png$"),
+                ([str(bad), "x.jpg"], "File exists: .*bad.jpg"),
+                (["--scheduler", "tcp://127.0.0.1:1", str(folder), "x.jpg"], "Timed out .* tcp://127.0.0.1:1"),
+                (["--scheduler", "node1", str(folder), "x.jpg"], "missing port number in address 'node1'")):
+            found = error_of(arguments)
+            assert re.search("^batch_dask.py: .*" + message, found), found
     print(f"{INPUTS} inputs, one worker killed")
 
 

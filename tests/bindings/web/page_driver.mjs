@@ -3,15 +3,16 @@
 // canvas. The tests share one page, `driver.page`.
 
 import assert from 'node:assert/strict';
-import {execFileSync, spawn} from 'node:child_process';
+import {spawn} from 'node:child_process';
 import {cpSync, mkdtempSync, readFileSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
 import {chromium} from 'playwright-core';
+import sharp from 'sharp';
 
-import {dropAlpha, readPng} from './pictures.mjs';
+import {dropAlpha, folder as small} from './pictures.mjs';
 
-export const {STARFOCUS_PROGRAM: program, STARFOCUS_SITE: site, STARFOCUS_FIELD: small} = process.env;
+export const site = process.env.STARFOCUS_SITE;
 export const sources = join(dirname(process.env.STARFOCUS_SERVER), '..', '..');
 const scratch = mkdtempSync(join(tmpdir(), 'starfocus-web-'));
 const servers = [];
@@ -32,19 +33,13 @@ export async function end() {
   servers.forEach(server => server.kill());
 }
 
-/** Returns the bytes of the picture that the program computes. */
-export function refocusByProgram(folder, ...values) {
-  const path = join(scratch, 'expected.png');
-  execFileSync(program, ['refocus', folder, '-o', path, ...values], {stdio: 'pipe'});
-  return readPng(path).data;
-}
-
 /** Writes the demo of the page as a light-field folder of the program, and returns the folder. */
-export function makeDemoFolder() {
+export async function makeDemoFolder() {
   const demo = join(site, 'demo'), folder = join(scratch, 'demo');
   cpSync(demo, folder, {recursive: true});
   const {scale, offset} = JSON.parse(readFileSync(join(demo, 'disparity.json')));
-  const {data, width, height} = readPng(join(demo, 'disparity.png')), pfm = Buffer.alloc(4 * width * height);
+  const {data, info: {width, height}} = await sharp(join(demo, 'disparity.png')).raw().toBuffer({resolveWithObject: true});
+  const pfm = Buffer.alloc(4 * width * height);
   for (let i = 0; i < width * height; ++i) {  // the bottom row of a PFM is first
     const row = height - 1 - Math.trunc(i / width), code = data[3 * i] << 8 | data[3 * i + 1];
     pfm.writeFloatLE(code * scale + offset, 4 * (row * width + i % width));
@@ -140,29 +135,19 @@ export const screenshot = (name, page = driver.page) =>
 export const file = (name, buffer = readFileSync(join(small, name))) => ({name, mimeType: '', buffer});
 export const openFiles = (...files) => driver.page.setInputFiles('#files', files);
 
-/** Makes a JPEG photo and a grey PNG of its depth, which is a ramp from left to right, in the browser. */
-export async function drawPhoto(width, height, quality = 0.9) {
-  const text = await driver.page.evaluate(async ([width, height, quality]) => {
-    const encode = async (canvas, type) => {
-      const bytes = new Uint8Array(await (await canvas.convertToBlob({type, quality})).arrayBuffer());
-      let letters = '';
-      for (let i = 0; i < bytes.length; i += 0x8000) letters += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
-      return btoa(letters);
-    };
-    const photo = new OffscreenCanvas(width, height), context = photo.getContext('2d');
-    for (let i = 0; i < 3000; ++i) {
-      context.fillStyle = `hsl(${i * 47 % 360} 60% ${20 + i * 13 % 60}%)`;
-      context.fillRect(i * 7919 % width, i * 6007 % height, width / 20, height / 20);
-    }
-    const depth = new OffscreenCanvas(Math.min(width, 800), Math.min(height, 600)), ramp = depth.getContext('2d');
-    for (let x = 0; x < depth.width; ++x) {
-      const level = Math.round(255 * x / (depth.width - 1));
-      ramp.fillStyle = `rgb(${level} ${level} ${level})`;
-      ramp.fillRect(x, 0, 1, depth.height);
-    }
-    return {jpeg: await encode(photo, 'image/jpeg'), png: await encode(depth, 'image/png')};
-  }, [width, height, quality]);
-  return {jpeg: Buffer.from(text.jpeg, 'base64'), png: Buffer.from(text.png, 'base64')};
+/** Makes a JPEG photo of coloured rectangles, and a grey PNG of its depth, which is a ramp from left to right. */
+export async function drawPhoto(width, height, quality = 90) {
+  const across = Math.min(width, 800), down = Math.min(height, 600);
+  const photo = Buffer.alloc(3 * width * height), ramp = Buffer.alloc(across * down, 0);
+  for (let i = 0; i < photo.length; ++i) {
+    const x = Math.trunc(i / 3) % width, y = Math.trunc(i / (3 * width));
+    photo[i] = Math.trunc(50 * x / width) * 89 + Math.trunc(50 * y / height) * 151 + i % 3 * 61;
+  }
+  for (let i = 0; i < ramp.length; ++i) ramp[i] = Math.round(255 * (i % across) / (across - 1));
+  return {
+    jpeg: await sharp(photo, {raw: {width, height, channels: 3}}).jpeg({quality}).toBuffer(),
+    png: await sharp(ramp, {raw: {width: across, height: down, channels: 1}}).png().toBuffer()
+  };
 }
 
 export async function load(url, options = {}) {

@@ -10,15 +10,15 @@ import sharp from 'sharp';
 
 import {makeDynamicDepth, markApple} from './gdepth_photo.mjs';
 import {
-  andFull, andWait, choose, driver, error, file, focusText, full, openFiles, place, refocusByProgram, screenshot, shown, shownDepth,
-  site, small, sources, tap, visit, waitFor, without
+  andFull, andWait, choose, driver, error, file, focusText, full, openFiles, place, screenshot, shown, shownDepth,
+  site, sources, tap, visit, waitFor, without
 } from './page_driver.mjs';
-import {assertSameBytes, readLightField} from './pictures.mjs';
+import {assertSameBytes, folder as small, readLightField, refocusByProgram} from './pictures.mjs';
 
 const segmenter = join(site, 'segmenter');
 const noDecoder = !existsSync(join(site, 'heic'));
 const noSegmenter = !existsSync(segmenter) && 'the site has no segmenter';
-const {width, height, disparity} = readLightField(small);
+const {width, height, disparity} = readLightField();
 const F_STOP = ['--f-stop', String(2 ** 0.85)];  // of the slider, which has steps
 const photo = (name = 'photo.png') => file(name, file('view_+0.0_+0.0.png').buffer);
 

@@ -9,17 +9,16 @@ import test, {after, before} from 'node:test';
 import sharp from 'sharp';
 
 import {
-  andFull, choose, driver, end, error, focusText, full, launch, load, makeDemoFolder, place, refocusByProgram, screenshot, serve,
+  andFull, choose, driver, end, error, focusText, full, launch, load, makeDemoFolder, place, screenshot, serve,
   setSlider, shown, status, tap, waitFor
 } from './page_driver.mjs';
-import {assertSameBytes} from './pictures.mjs';
+import {assertSameBytes, readPicture, refocusByProgram} from './pictures.mjs';
 
 let demo, centre;
 
 before(async () => {
-  demo = makeDemoFolder();
-  centre = refocusByProgram(join(demo, 'view_+0.0_+0.0.jpg'), '--depth', join(demo, 'disparity.pfm'), '--depth-unit', 'disparity',
-                            '--no-repair', '--focus', '0', '--strength', '0');
+  demo = await makeDemoFolder();
+  centre = readPicture(join(demo, 'view_+0.0_+0.0.jpg'), join(demo, 'disparity.pfm')).data;
   driver.browser = await launch();
   driver.address = await serve();
   await load(driver.address);

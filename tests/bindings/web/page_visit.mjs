@@ -3,17 +3,16 @@
 // large photos, actions while a photo opens, and parts that cannot be loaded. page_test.mjs imports these tests.
 
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
 import {readdirSync, readFileSync, statSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 
 import {makeGDepth} from './gdepth_photo.mjs';
 import {
-  andFull, andWait, choose, drawPhoto, driver, error, file, full, inNewPage, openFiles, place, program, screenshot, setSlider,
-  shown, site, small, sources, tap, visit, waitFor
+  andFull, andWait, choose, drawPhoto, driver, error, file, full, inNewPage, openFiles, place, screenshot, setSlider,
+  shown, site, sources, tap, visit, waitFor
 } from './page_driver.mjs';
-import {assertSameBytes, readPng} from './pictures.mjs';
+import {assertSameBytes, folder as small, readPicture, refocusByProgram} from './pictures.mjs';
 
 const PHONE = {viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true, deviceScaleFactor: 2};
 
@@ -42,7 +41,7 @@ test('fits a phone and a desktop, in light and dark colours', async () => {
 
 test('the gallery of the site fits phones', async () => {
   const compared = join(small, 'compare.html');
-  execFileSync(program, ['refocus', small, '-o', join(small, 'compare.png'), '--focus', '1', '--compare', compared], {stdio: 'pipe'});
+  refocusByProgram(small, '--focus', '1', '--compare', compared);
   const made = readFileSync(compared, 'utf8'), style = readFileSync(join(sources, 'toolchains', 'site', 'site.css'), 'utf8');
   const [slider] = /<div class="slider".*?<div class="divider"><\/div>\n<\/div>/s.exec(made);
   const rules = /<style>(.*?)<\/style>/s.exec(made)[1].match(/^\.(?:slider|tag|divider).*$/gm).join('\n');
@@ -122,7 +121,7 @@ test('on a slow phone the centre view is visible before the picture can be tappe
 });
 
 test('a photo above 16 megapixels is reduced before any canvas is drawn', async () => {
-  const {jpeg, png} = await drawPhoto(5000, 4000, 0.5);
+  const {jpeg, png} = await drawPhoto(5000, 4000, 50);
   await visit({}, async page => {
     // Canvases above 2 ** 24 pixels fail, as on iOS before version 18, in the page and in its workers.
     const context = page.context();
@@ -193,7 +192,7 @@ test('a demo that arrives late does not replace files of the user', async () => 
     await andWait(() => openFiles(...files), /^Opened: photo\.png with map\.pfm/);
     release();
     await page.waitForTimeout(500);
-    assertSameBytes(await shown(), readPng(join(small, 'view_+0.0_+0.0.png')).data);
+    assertSameBytes(await shown(), readPicture(join(small, 'view_+0.0_+0.0.png'), join(small, 'disparity.pfm')).data);
   });
 });
 

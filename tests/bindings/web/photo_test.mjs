@@ -3,7 +3,6 @@
 // requests, errors, and the range of depth maps. page_test.mjs tests files, images and canvases.
 
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
 import {getEventListeners} from 'node:events';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
@@ -11,10 +10,9 @@ import {dirname, join} from 'node:path';
 import test, {after, before} from 'node:test';
 import {openPhoto, StarfocusError} from 'starfocus';
 
-import {assertSameBytes, dropAlpha, readLightField, readPng} from './pictures.mjs';
+import {assertSameBytes, dropAlpha, folder, readLightField, refocusByProgram} from './pictures.mjs';
 
-const program = process.env.STARFOCUS_PROGRAM, folder = process.env.STARFOCUS_FIELD;
-const field = readLightField(folder), {width, height, low, high, disparity} = field, [image] = field.views;
+const field = readLightField(), {width, height, low, high, disparity} = field, [image] = field.views;
 const codes = Uint8Array.from(disparity.data, d => Math.round(255 * (d - low) / (high - low)));
 const depth = {data: codes, width, height};
 let photo;
@@ -27,13 +25,11 @@ function writeGrey(name, {data, width: across, height: down}) {
 }
 
 /** Refocuses the photo with the program, which reads depth and matte from files. */
-function refocusByProgram({depth, matte}, ...values) {
-  const picture = join(folder, 'photo.ppm'), out = join(folder, 'photo-out.png');
+function photoByProgram({depth, matte}, ...values) {
+  const picture = join(folder, 'photo.ppm');
   writeFileSync(picture, Buffer.concat([Buffer.from(`P6 ${width} ${height} 255\n`), image.data]));
-  if (depth) values.push('--depth', writeGrey('photo-map', depth));
-  if (matte) values.push('--matte', writeGrey('photo-alpha', matte));
-  execFileSync(program, ['refocus', picture, '-o', out, ...values], {stdio: 'pipe'});
-  return readPng(out).data;
+  return refocusByProgram(picture, ...depth ? ['--depth', writeGrey('photo-map', depth)] : [],
+                          ...matte ? ['--matte', writeGrey('photo-alpha', matte)] : [], ...values);
 }
 
 /** Opens the photo with these options, with depth or without, calls a function, and closes the photo. */
@@ -66,7 +62,7 @@ test('a tap gives the picture of the program, with depth of any size repaired', 
     await withPhoto({depth: map, threads: 2}, async opened => {
       const picture = await opened.refocus({focus: await opened.focusAt({x, y})});
       assert.deepEqual([picture.width, picture.height, picture.shift], [width, height, 0]);
-      assertSameBytes(dropAlpha(picture.data), refocusByProgram(
+      assertSameBytes(dropAlpha(picture.data), photoByProgram(
           {depth: map}, '--focus-at', `${Math.floor(x)},${Math.floor(y)}`, '--f-stop', '1.8'));
     });
   }
@@ -145,10 +141,9 @@ test('a signal aborts refocus and openPhoto', async () => {
 });
 
 test('a light field of five views gives the picture of the program', async () => {
-  const opened = await openPhoto(field.views, {...disparity}, {disparity: true, threads: 2}), out = join(folder, 'field-out.png');
+  const opened = await openPhoto(field.views, {...disparity}, {disparity: true, threads: 2});
   assert.deepEqual([opened.focusMin, opened.focusMax], [low, high].map(Math.fround));
-  execFileSync(program, ['refocus', folder, '-o', out, '--focus', '2']);
-  assertSameBytes(dropAlpha((await opened.refocus({focus: 2})).data), readPng(out).data);
+  assertSameBytes(dropAlpha((await opened.refocus({focus: 2})).data), refocusByProgram(folder, '--focus', '2'));
   assertSameBytes((await opened.disparity()).data, disparity.data);
   opened.close();
 });
@@ -175,15 +170,15 @@ test('a matte gives two surfaces, and the pictures of the program', () => withPh
   assert.deepEqual([opened.focusMin, opened.focusMax, opened.subjectFocus, opened.near], [0, 7.703125, 7.703125, 'bright']);
   assert.equal(await opened.focusAt({x: 132, y: 129}), opened.subjectFocus);
   assert.equal(await opened.focusAt({x: width - 9, y: 5}), 0);
-  assertSameBytes(await focusedOnSubject(opened), refocusByProgram({matte}));
-  assertSameBytes(dropAlpha((await opened.refocus({focus: 0})).data), refocusByProgram({matte}, '--focus', '0'));
+  assertSameBytes(await focusedOnSubject(opened), photoByProgram({matte}));
+  assertSameBytes(dropAlpha((await opened.refocus({focus: 0})).data), photoByProgram({matte}, '--focus', '0'));
 }));
 
 test('a floor and mattes of other sizes give the pictures of the program', async () => {
   for (const [across, down, floor] of [[64, 48, true], [80, 61, false], [900, 675, true], [128, 128, false]]) {
     const other = makeMatte(across, down);
     assertSameBytes(await withPhoto({matte: other, floor}, focusedOnSubject),
-                    refocusByProgram({matte: other}, ...floor ? ['--floor'] : []));
+                    photoByProgram({matte: other}, ...floor ? ['--floor'] : []));
   }
 });
 
@@ -198,7 +193,7 @@ test('with depth, mattes of any softness and size change the outlines as in the 
   for (const [alpha, map, options, values] of [[matte, beside, {}, []], [matte, beside, {repair: false}, ['--no-repair']],
                                                [soft, plain, {}, []], [dot, plain, {}, []]]) {
     assertSameBytes(await withPhoto({matte: alpha, depth: map, ...options}, focusedOnSubject),
-                    refocusByProgram({matte: alpha, depth: map}, '--near', 'white', ...values));
+                    photoByProgram({matte: alpha, depth: map}, '--near', 'white', ...values));
   }
   for (const alpha of [soft, dot]) {
     await withPhoto({matte: alpha}, async opened => assert.equal(opened.subjectFocus, opened.focusMax));
@@ -225,14 +220,10 @@ test('wrong arguments are rejected with a code, in one line', async () => {
   const wrong = [
     [() => openPhoto(), 'ARGUMENT', /^image: expected a Blob, ImageData/],
     [open(depth, {near: 'white'}), 'ARGUMENT', /^near: expected 'bright' or 'dark', found 'white'/],
-    [open(depth, {blur: 0}), 'RANGE', /^blur: expected more than 0/],
     [open(depth, {nonsense: 1}), 'ARGUMENT', /'nonsense'/],
     [open({...depth, data: codes.subarray(1)}), 'RANGE', /^depth.data: expected 320 x 240 x 1 or 3 or 4 values, found 76799/],
     [open({...depth, data: codes.map(() => 7)}), 'NOT_FINITE', /all values are equal/],
-    [open({data: new Float64Array(9), width: 3, height: 3}), 'ARGUMENT', /^depth.data: .*Float64Array/],
-    [open({data: new Float32Array(27), width: 3, height: 3}), 'RANGE', /^depth.data: expected 3 x 3 x 1 /],
     [open({...disparity, data: disparity.data.map(() => NaN)}, {disparity: true}), 'NOT_FINITE', /^depth: expected a map with finite disparities/],
-    [() => openPhoto(pixels(image.data.subarray(5)), depth), 'RANGE', /^image.data: expected/],
     [() => openPhoto(pixels(image.data.subarray(0, width * height)), depth), 'RANGE', /^image.data: expected/],
     [() => openPhoto(pixels(new Uint16Array(3 * width * height)), depth), 'ARGUMENT', /^image.data: .*Uint16Array/],
     [() => openPhoto([image, image], depth), 'RANGE', /^image: expected one picture, or 5, 9 or 17 views, found 2/],
@@ -243,17 +234,13 @@ test('wrong arguments are rejected with a code, in one line', async () => {
     [() => photo.refocus({}), 'ARGUMENT', /a value of focus/],
     [() => photo.refocus({focus: 1000}), 'RANGE', /^focus: expected 0 to 7\.7.*, found 1000/],
     [() => photo.refocus({focus: 1, highlights: 0}), 'RANGE', /^highlights: expected 1 to 64, found 0/],
-    [() => photo.refocus({focus: 1, fStop: 0.5}), 'RANGE', /^fStop: expected at least 1, found 0.5/],
-    [() => photo.focusAt({x: NaN, y: 0}), 'RANGE', /^x: expected a number, found NaN/],
     [alpha(matte.data.map(() => 127)), 'RANGE', /^matte: expected a matte with a subject, found an empty matte\.$/],
     [alpha(matte.data.map(() => 128)), 'RANGE', /^matte: expected a matte with a background, found a matte that is full everywhere\.$/],
     [alpha(makeMatte(100, 50).data, {width: 100, height: 50}), 'RANGE', /^matte: expected the proportions of the picture, 320 x 240, found '100 x 50'\.$/],
     [alpha(image.data), 'RANGE', /^matte: expected alpha or grey levels, found colours\.$/],
     [alpha(Float32Array.from(matte.data)), 'RANGE', /^matte\.data: expected values from 0 to 1, found \d+\.$/],
-    [alpha(matte.data.subarray(1)), 'RANGE', /^matte\.data: expected 320 x 240 x 1 or 3 or 4 values, found 76799\.$/],
     [() => openPhoto(image, {matte: 7}), 'ARGUMENT', /^matte: expected a Blob/],
     [() => openPhoto(image, {matte, near: 'dark'}), 'ARGUMENT', /^near: expected no value for a photo without depth, found 'dark'\.$/],
-    [() => openPhoto(image, {matte, repair: true}), 'ARGUMENT', /^repair: expected no value/],
     [open(disparity, {matte, floor: true}), 'ARGUMENT', /^floor: expected false for a photo with depth, found true\.$/],
     [() => openPhoto(Array(5).fill(image), {matte}), 'ARGUMENT', /^depth: expected a map for several views/]
   ];
