@@ -96,6 +96,8 @@ const Range kLensRanges[] = {
     {kTakesParams & ~kBegin, "region.height", 1, kHeight - 4},
 };
 
+// All views and the output are images of 21x12 pixels. View 0 is R, G, B. Views 1 and 4 are NV12.
+// View 2 and the output are I420.
 const Range kImageRanges[] = {
     {kViews, "views[0].format", 0, STARFOCUS_FORMAT_YUV_420_888},
     {kViews, "views[1].matrix", 0, STARFOCUS_MATRIX_BT709},
@@ -274,8 +276,6 @@ const Change kPictureChanges[] = {
      }},
 };
 
-// All views and the output are images of 21x12 pixels. View 0 is R, G, B. Views 1 and 4 are NV12.
-// View 2 and the output are I420.
 const Change kImageChanges[] = {
     {kAll & ~kAfter, "", kOk, [](Call*) {}},
     {kViews, "views[0].strides", kStride, [](Call* c) { c->field.views[0].pixel_stride = 4; }},
