@@ -110,37 +110,24 @@ struct Taps {
   }
 };
 
-Colour Clamped(Colour colour) {
-  for (double& value : colour) value = std::clamp(value, 0.0, 255.0);
-  return colour;
-}
-
-Colour Sum(const Colour& a, double wa, const Colour& b, double wb) {
-  return {wa * a[0] + wb * b[0], wa * a[1] + wb * b[1], wa * a[2] + wb * b[2]};
-}
-
 // Subsamples a picture by two. The result has half the size plus one pixel, with edges repeated.
 // Disparities are taken from every second pixel.
 Picture Down(const Picture& from) {
   const Taps taps(1.28);
   const double unit = 1 / (taps.centre + 2 * (taps.near + taps.far));
   const auto filtered = [&](const auto& at) {
-    Colour sum = Sum(at(0), unit * taps.centre, at(0), 0);
-    for (const int side : {-1, 1}) {
-      sum = Sum(sum, 1, Sum(at(side), unit * taps.near, at(3 * side), unit * taps.far), 1);
-    }
-    return sum;
+    return unit *
+           (taps.centre * at(0) + taps.near * (at(-1) + at(1)) + taps.far * (at(-3) + at(3)));
   };
   Picture half((from.width + 1) / 2 + 1, from.height);
   ForEachPixel(half.width, half.height, [&](int x, int y) {
-    half.colours[half.At(x, y)] = filtered(
-        [&](int k) { return from.colours[from.At(std::clamp(2 * x + k, 0, from.width - 1), y)]; });
+    half.colours[half.At(x, y)] =
+        filtered([&](int k) { return from.colours[from.Nearest(2 * x + k, y)]; });
   });
   Picture to(half.width, (from.height + 1) / 2 + 1);
   ForEachPixel(to.width, to.height, [&](int x, int y) {
-    to.colours[to.At(x, y)] = Clamped(filtered([&](int k) {
-      return half.colours[half.At(x, std::clamp(2 * y + k, 0, from.height - 1))];
-    }));
+    to.colours[to.At(x, y)] =
+        Clamped(filtered([&](int k) { return half.colours[half.Nearest(x, 2 * y + k)]; }));
   });
   return to;
 }
@@ -152,8 +139,7 @@ std::vector<Picture> MakeLayers(const Picture& picture) {
     layers.push_back(Down(layers.back()));
     Picture& to = layers.back();
     ForEachPixel(to.width, to.height, [&](int x, int y) {
-      to.disparities[to.At(x, y)] = picture.disparities[picture.At(
-          std::min(x << layer, picture.width - 1), std::min(y << layer, picture.height - 1))];
+      to.disparities[to.At(x, y)] = picture.disparities[picture.Nearest(x << layer, y << layer)];
     });
   }
   return layers;
@@ -173,8 +159,7 @@ Part Up(const Part& from, int x, int y, int width, int height) {
   const auto between = [&](const auto& at, int position) {
     const int before = position >> 1;
     if (position % 2 == 0) return at(before);
-    return Sum(Sum(at(before), near, at(before + 1), near), 1,
-               Sum(at(before - 1), far, at(before + 2), far), 1);
+    return near * (at(before) + at(before + 1)) + far * (at(before - 1) + at(before + 2));
   };
   Part to = {x, y, Picture(width, height)};
   ForEachPixel(width, height, [&](int column, int row) {

@@ -12,154 +12,137 @@
 
 namespace reference {
 
+namespace {
+
 // Threshold of edges of thin structures: a larger step of disparity, in 1/64 pixel, is an edge.
-inline constexpr int kThinEdge = 5 * 64;
+constexpr int kThinEdge = 5 * 64;
 
 class ThinMap {
  public:
   explicit ThinMap(const Picture& picture) : picture_(picture) {}
 
   // Returns the disparity of a pixel. Beyond the picture, the outermost pixels are repeated.
-  int Disparity(int x, int y) const;
-  bool IsBesideNearer(int x, int y) const;
+  int Disparity(int x, int y) const { return picture_.disparities[picture_.Nearest(x, y)]; }
+
+  bool IsBesideNearer(int x, int y) const {
+    for (const Direction& side : kDirections) {
+      if (Disparity(x + side.x, y + side.y) - Disparity(x, y) > kThinEdge) return true;
+    }
+    return false;
+  }
+
   // Returns true if two opposite neighbours of a pixel are farther.
-  bool IsStrand(int x, int y) const;
-  // Returns true if the disparity of a pixel lies between the disparities of two opposite pixels.
-  bool IsRamp(int x, int y) const;
+  bool IsStrand(int x, int y) const {
+    for (const Direction& to : {kDirections[0], kDirections[2]}) {
+      const int beside = std::max(Disparity(x - to.x, y - to.y), Disparity(x + to.x, y + to.y));
+      if (Disparity(x, y) - beside > kThinEdge) return true;
+    }
+    return false;
+  }
+
+  // Returns true if the disparity of the pixel lies between the disparities of two opposite pixels
+  // at an equal distance of 1 to 3 pixels. Either both steps must be edges, or the pixels must be
+  // adjacent, both steps at least half a pixel, and the larger step at most 4 times the smaller
+  // one.
+  bool IsRamp(int x, int y) const {
+    constexpr Direction kOpposite[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
+    for (const Direction& to : kOpposite) {
+      for (int k = 1; k <= 3; ++k) {
+        const int here = Disparity(x, y);
+        const int before = here - Disparity(x - k * to.x, y - k * to.y);
+        const int after = Disparity(x + k * to.x, y + k * to.y) - here;
+        const int least = std::min(std::abs(before), std::abs(after));
+        const int most = std::max(std::abs(before), std::abs(after));
+        const bool ramp = least > kThinEdge || (k == 1 && least >= 32 && most <= 4 * least);
+        if ((before > 0) == (after > 0) && ramp) return true;
+      }
+    }
+    return false;
+  }
+
   // FindGiven and FindEdge find the disparities of the two surfaces of a pixel, and return false if
   // the pixel has only one surface. FindGiven, for given coverage, uses the nearest surfaces within
   // 32 pixels, without ramps. FindEdge uses the surfaces at the nearest edge within 3 pixels.
   // `square` receives the squared distance to the pixel beyond the edge.
-  bool FindGiven(int x, int y, int* low, int* high) const;
-  bool FindEdge(int x, int y, int* low, int* high, int* square) const;
+  bool FindGiven(int x, int y, int* low, int* high) const {
+    const int here = Disparity(x, y);
+    const auto find = [&](int from, int to) {
+      return Nearest(x, y, 32, [&](int column, int row) {
+        const int there = Disparity(column, row);
+        return there >= from && there <= to && !IsRamp(column, row);
+      });
+    };
+    const auto disparity = [&](const std::pair<int, int>& at) {
+      return Disparity(x + at.first, y + at.second);
+    };
+    if (IsRamp(x, y)) {
+      *high = disparity(find(here + 1, INT16_MAX));
+      *low = disparity(find(INT16_MIN, here - 1));
+      if (*high - *low > kThinEdge) return true;
+    }
+    const auto nearer = find(here + kThinEdge + 1, INT16_MAX);
+    const auto farther = find(INT16_MIN, here - kThinEdge - 1);
+    const auto square = [](const std::pair<int, int>& at) {
+      const int sum = at.first * at.first + at.second * at.second;
+      return sum == 0 ? INT32_MAX : sum;
+    };
+    const bool is_near = square(farther) <= square(nearer);
+    *high = is_near ? here : disparity(nearer);
+    *low = is_near ? disparity(farther) : here;
+    return std::min(square(nearer), square(farther)) != INT32_MAX;
+  }
+
+  bool FindEdge(int x, int y, int* low, int* high, int* square) const {
+    const int here = Disparity(x, y);
+    int other = here;
+    *square = 0;
+    ForEachAround(3, [&](int dx, int dy) {
+      const int there = Disparity(x + dx, y + dy), distance = dx * dx + dy * dy;
+      if (std::abs(there - here) <= kThinEdge || (*square != 0 && distance > *square)) return;
+      // Among equally near pixels, the one with the largest disparity counts.
+      other = distance == *square ? std::max(other, there) : there;
+      *square = distance;
+    });
+    *low = std::min(here, other);
+    *high = std::max(here, other);
+    return *square != 0;
+  }
+
   // Returns the mean of the disparities within 2 pixels that are close to the disparity `near`.
-  double SmoothNear(int x, int y, int near) const;
+  double SmoothNear(int x, int y, int near) const {
+    constexpr int kWeights[] = {6, 4, 1};
+    double sum = 0, weights = 0;
+    ForEachAround(2, [&](int dx, int dy) {
+      if (std::abs(Disparity(x + dx, y + dy) - near) > 2 * 64) return;
+      const double weight = kWeights[std::abs(dx)] * kWeights[std::abs(dy)];
+      sum += weight * (Disparity(x + dx, y + dy) - near);
+      weights += weight;
+    });
+    return weights == 0 ? near : near + std::round(sum / weights);
+  }
 
  private:
   using Is = std::function<bool(int x, int y)>;
-  std::pair<int, int> Nearest(int x, int y, int reach, const Is& is) const;
+  // Returns the offset of the nearest pixel within `reach` for which `is` returns true, or (0, 0)
+  // if no pixel is found. Among equally near pixels, the pixel with the smaller maximum of |dx| and
+  // |dy| is chosen, then the first in row order.
+  std::pair<int, int> Nearest(int x, int y, int reach, const Is& is) const {
+    std::pair<int, int> nearest = {0, 0};
+    std::pair<int, int> least = {INT32_MAX, 0};
+    ForEachAround(reach, [&](int dx, int dy) {
+      const std::pair<int, int> rank = {dx * dx + dy * dy, std::max(std::abs(dx), std::abs(dy))};
+      if (rank.first == 0 || !(rank < least) || !is(x + dx, y + dy)) return;
+      least = rank;
+      nearest = {dx, dy};
+    });
+    return nearest;
+  }
 
   const Picture& picture_;
 };
 
-int ThinMap::Disparity(int x, int y) const {
-  return picture_.disparities[picture_.At(std::clamp(x, 0, picture_.width - 1),
-                                          std::clamp(y, 0, picture_.height - 1))];
-}
-
-bool ThinMap::IsBesideNearer(int x, int y) const {
-  for (const Direction& side : kDirections) {
-    if (Disparity(x + side.x, y + side.y) - Disparity(x, y) > kThinEdge) return true;
-  }
-  return false;
-}
-
-// Returns the offset of the nearest pixel within `reach` for which `is` returns true, or (0, 0) if
-// no pixel is found. Among equally near pixels, the pixel with the smaller maximum of |dx| and |dy|
-// is chosen, then the first in row order.
-std::pair<int, int> ThinMap::Nearest(int x, int y, int reach, const Is& is) const {
-  std::pair<int, int> nearest = {0, 0};
-  std::pair<int, int> least = {INT32_MAX, 0};
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const std::pair<int, int> rank = {dx * dx + dy * dy, std::max(std::abs(dx), std::abs(dy))};
-      if (rank.first == 0 || !(rank < least) || !is(x + dx, y + dy)) continue;
-      least = rank;
-      nearest = {dx, dy};
-    }
-  }
-  return nearest;
-}
-
-// Returns true if the disparity of the pixel lies between the disparities of two opposite pixels at
-// an equal distance of 1 to 3 pixels. Either both steps must be edges, or the pixels must be
-// adjacent, both steps at least half a pixel, and the larger step at most 4 times the smaller one.
-bool ThinMap::IsRamp(int x, int y) const {
-  constexpr Direction kOpposite[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
-  for (const Direction& to : kOpposite) {
-    for (int k = 1; k <= 3; ++k) {
-      const int here = Disparity(x, y);
-      const int before = here - Disparity(x - k * to.x, y - k * to.y);
-      const int after = Disparity(x + k * to.x, y + k * to.y) - here;
-      const int least = std::min(std::abs(before), std::abs(after));
-      const int most = std::max(std::abs(before), std::abs(after));
-      const bool ramp = least > kThinEdge || (k == 1 && least >= 32 && most <= 4 * least);
-      if ((before > 0) == (after > 0) && ramp) return true;
-    }
-  }
-  return false;
-}
-
-bool ThinMap::FindGiven(int x, int y, int* low, int* high) const {
-  const int here = Disparity(x, y);
-  const auto find = [&](int from, int to) {
-    return Nearest(x, y, 32, [&](int column, int row) {
-      const int there = Disparity(column, row);
-      return there >= from && there <= to && !IsRamp(column, row);
-    });
-  };
-  const auto disparity = [&](const std::pair<int, int>& at) {
-    return Disparity(x + at.first, y + at.second);
-  };
-  if (IsRamp(x, y)) {
-    *high = disparity(find(here + 1, INT16_MAX));
-    *low = disparity(find(INT16_MIN, here - 1));
-    if (*high - *low > kThinEdge) return true;
-  }
-  const auto nearer = find(here + kThinEdge + 1, INT16_MAX);
-  const auto farther = find(INT16_MIN, here - kThinEdge - 1);
-  const auto square = [](const std::pair<int, int>& at) {
-    const int sum = at.first * at.first + at.second * at.second;
-    return sum == 0 ? INT32_MAX : sum;
-  };
-  const bool is_near = square(farther) <= square(nearer);
-  *high = is_near ? here : disparity(nearer);
-  *low = is_near ? disparity(farther) : here;
-  return std::min(square(nearer), square(farther)) != INT32_MAX;
-}
-
-bool ThinMap::FindEdge(int x, int y, int* low, int* high, int* square) const {
-  const int here = Disparity(x, y);
-  int other = here;
-  *square = 0;
-  for (int dy = -3; dy <= 3; ++dy) {
-    for (int dx = -3; dx <= 3; ++dx) {
-      const int there = Disparity(x + dx, y + dy), distance = dx * dx + dy * dy;
-      if (std::abs(there - here) <= kThinEdge || (*square != 0 && distance > *square)) continue;
-      // Among equally near pixels, the one with the largest disparity counts.
-      other = distance == *square ? std::max(other, there) : there;
-      *square = distance;
-    }
-  }
-  *low = std::min(here, other);
-  *high = std::max(here, other);
-  return *square != 0;
-}
-
-bool ThinMap::IsStrand(int x, int y) const {
-  for (const Direction& to : {kDirections[0], kDirections[2]}) {
-    const int beside = std::max(Disparity(x - to.x, y - to.y), Disparity(x + to.x, y + to.y));
-    if (Disparity(x, y) - beside > kThinEdge) return true;
-  }
-  return false;
-}
-
-double ThinMap::SmoothNear(int x, int y, int near) const {
-  constexpr int kWeights[] = {6, 4, 1};
-  double sum = 0, weights = 0;
-  for (int dy = -2; dy <= 2; ++dy) {
-    for (int dx = -2; dx <= 2; ++dx) {
-      if (std::abs(Disparity(x + dx, y + dy) - near) > 2 * 64) continue;
-      const double weight = kWeights[std::abs(dx)] * kWeights[std::abs(dy)];
-      sum += weight * (Disparity(x + dx, y + dy) - near);
-      weights += weight;
-    }
-  }
-  return weights == 0 ? near : near + std::round(sum / weights);
-}
-
 // Side of the tiles that are tested for thin structure, in pixels.
-inline constexpr int kTile = 16;
+constexpr int kTile = 16;
 
 struct FarLight {
   Colour light = {0, 0, 0};
@@ -167,37 +150,10 @@ struct FarLight {
   double disparity = 0;  // Disparity of the farther surface, in units of 1/64 pixel.
 };
 
-// Planes of cells with sides of 1, 2, 4, 8 and 16 pixels. The planes extend beyond the picture by
-// one tile on each side.
-class FarPyramid {
- public:
-  FarPyramid(int columns, int rows);  // numbers of tiles
-
-  FarLight& Pixel(int x, int y) { return At(0, x, y); }
-  // Averages cells into cells of twice their side, and fills cells without known light.
-  void Fill();
-  // Returns the light of a pixel. Where the light of the pixel is not known, the light of the
-  // larger cells around the pixel is used.
-  FarLight Filled(int x, int y) const;
-
- private:
-  struct Level {
-    int margin, width, height;
-    std::vector<FarLight> cells;
-  };
-  FarLight& At(int level, int x, int y);
-  FarLight Get(const std::vector<Level>& levels, int level, int x, int y) const;
-  FarLight Pushed(int level, int x, int y, FarLight cell, double disparity) const;
-  std::vector<FarLight> Above(int level, int x, int y) const;
-
-  std::vector<Level> levels_, filled_;
-};
-
-namespace {
-
 constexpr int kLastLevel = 4;
 
-// Returns the disparity of the farthest surface with known light in any of the cells, or infinity.
+// Returns the disparity of the farthest surface with known light in any of the cells, or
+// infinity.
 double Farthest(const std::vector<FarLight>& cells) {
   double farthest = std::numeric_limits<double>::infinity();
   for (const FarLight& cell : cells) {
@@ -207,8 +163,8 @@ double Farthest(const std::vector<FarLight>& cells) {
 }
 
 // Returns the weighted mean of the light of the cells that show the surface at `disparity`. The
-// weight of a cell is the product of its element of `parts` and FarLight::known. FarLight::known of
-// the result is the sum of the weights of all averaged cells.
+// weight of a cell is the product of its element of `parts` and FarLight::known. FarLight::known
+// of the result is the sum of the weights of all averaged cells.
 FarLight MeanOf(const std::vector<FarLight>& cells, const std::vector<double>& parts,
                 double disparity) {
   FarLight mean;
@@ -225,83 +181,94 @@ FarLight MeanOf(const std::vector<FarLight>& cells, const std::vector<double>& p
   return mean;
 }
 
-}  // namespace
-
-FarPyramid::FarPyramid(int columns, int rows) {
-  for (int level = 0; level <= kLastLevel; ++level) {
-    const int side = kTile >> level, width = (columns + 2) * side, height = (rows + 2) * side;
-    levels_.push_back({side, width, height, std::vector<FarLight>(size_t(width) * size_t(height))});
+// Planes of cells with sides of 1, 2, 4, 8 and 16 pixels. The planes extend beyond the picture by
+// one tile on each side.
+class FarPyramid {
+ public:
+  FarPyramid(int columns, int rows) {
+    for (int level = 0; level <= kLastLevel; ++level) {
+      const int side = kTile >> level, width = (columns + 2) * side, height = (rows + 2) * side;
+      levels_.push_back(
+          {side, width, height, std::vector<FarLight>(size_t(width) * size_t(height))});
+    }
   }
-}
 
-FarLight& FarPyramid::At(int level, int x, int y) {
-  Level& plane = levels_[size_t(level)];
-  return plane.cells[size_t(y + plane.margin) * size_t(plane.width) + size_t(x + plane.margin)];
-}
+  FarLight& Pixel(int x, int y) { return At(0, x, y); }
 
-FarLight FarPyramid::Get(const std::vector<Level>& levels, int level, int x, int y) const {
-  const Level& plane = levels[size_t(level)];
-  const int column = x + plane.margin, row = y + plane.margin;
-  if (column < 0 || column >= plane.width || row < 0 || row >= plane.height) return {};
-  return plane.cells[size_t(row) * size_t(plane.width) + size_t(column)];
-}
-
-// Returns the filled cells of the next coarser level that surround a cell. The first returned cell
-// contains the given cell.
-std::vector<FarLight> FarPyramid::Above(int level, int x, int y) const {
-  const int column = int(std::floor(x / 2.0)), row = int(std::floor(y / 2.0));
-  const int beside = x == 2 * column ? column - 1 : column + 1;
-  const int next = y == 2 * row ? row - 1 : row + 1;
-  return {Get(filled_, level + 1, column, row), Get(filled_, level + 1, beside, row),
-          Get(filled_, level + 1, column, next), Get(filled_, level + 1, beside, next)};
-}
-
-FarLight FarPyramid::Pushed(int level, int x, int y, FarLight cell, double disparity) const {
-  if (cell.known >= 1) return cell;
-  const FarLight mean = MeanOf(Above(level, x, y), {9, 3, 3, 1}, disparity);
-  if (mean.known == 0) return cell;
-  for (size_t c = 0; c < 3; ++c) {
-    cell.light[c] = mean.light[c] + (cell.light[c] - mean.light[c]) * cell.known;
-  }
-  if (cell.known == 0) cell.disparity = mean.disparity;
-  cell.known = 1;
-  return cell;
-}
-
-void FarPyramid::Fill() {
-  for (int level = 1; level <= kLastLevel; ++level) {
-    const Level& plane = levels_[size_t(level)];
-    for (int y = -plane.margin; y < plane.height - plane.margin; ++y) {
-      for (int x = -plane.margin; x < plane.width - plane.margin; ++x) {
-        const std::vector<FarLight> below = {
-            At(level - 1, 2 * x, 2 * y), At(level - 1, 2 * x + 1, 2 * y),
-            At(level - 1, 2 * x, 2 * y + 1), At(level - 1, 2 * x + 1, 2 * y + 1)};
-        FarLight& cell = At(level, x, y) = MeanOf(below, {1, 1, 1, 1}, Farthest(below));
-        cell.known = std::min(cell.known, 1.0);
+  // Averages cells into cells of twice their side, and fills cells without known light.
+  void Fill() {
+    for (int level = 1; level <= kLastLevel; ++level) {
+      const Level& plane = levels_[size_t(level)];
+      for (int y = -plane.margin; y < plane.height - plane.margin; ++y) {
+        for (int x = -plane.margin; x < plane.width - plane.margin; ++x) {
+          const std::vector<FarLight> below = {
+              At(level - 1, 2 * x, 2 * y), At(level - 1, 2 * x + 1, 2 * y),
+              At(level - 1, 2 * x, 2 * y + 1), At(level - 1, 2 * x + 1, 2 * y + 1)};
+          FarLight& cell = At(level, x, y) = MeanOf(below, {1, 1, 1, 1}, Farthest(below));
+          cell.known = std::min(cell.known, 1.0);
+        }
+      }
+    }
+    filled_ = levels_;
+    for (int level = kLastLevel - 1; level > 0; --level) {
+      Level& plane = filled_[size_t(level)];
+      for (size_t n = 0; n < plane.cells.size(); ++n) {
+        const int x = int(n) % plane.width - plane.margin, y = int(n) / plane.width - plane.margin;
+        FarLight& cell = plane.cells[n];
+        const double disparity = cell.known > 0 ? cell.disparity : Farthest(Above(level, x, y));
+        cell = Pushed(level, x, y, cell, disparity);
       }
     }
   }
-  filled_ = levels_;
-  for (int level = kLastLevel - 1; level > 0; --level) {
-    Level& plane = filled_[size_t(level)];
-    for (size_t n = 0; n < plane.cells.size(); ++n) {
-      const int x = int(n) % plane.width - plane.margin, y = int(n) / plane.width - plane.margin;
-      FarLight& cell = plane.cells[n];
-      const double disparity = cell.known > 0 ? cell.disparity : Farthest(Above(level, x, y));
-      cell = Pushed(level, x, y, cell, disparity);
-    }
+
+  // Returns the light of a pixel. Where the light of the pixel is not known, the light of the
+  // larger cells around the pixel is used.
+  FarLight Filled(int x, int y) const {
+    const FarLight cell = Get(levels_, 0, x, y);
+    return Pushed(0, x, y, cell, cell.disparity);
   }
-}
 
-FarLight FarPyramid::Filled(int x, int y) const {
-  const FarLight cell = Get(levels_, 0, x, y);
-  return Pushed(0, x, y, cell, cell.disparity);
-}
+ private:
+  struct Level {
+    int margin, width, height;
+    std::vector<FarLight> cells;
+  };
+  FarLight& At(int level, int x, int y) {
+    Level& plane = levels_[size_t(level)];
+    return plane.cells[size_t(y + plane.margin) * size_t(plane.width) + size_t(x + plane.margin)];
+  }
+  FarLight Get(const std::vector<Level>& levels, int level, int x, int y) const {
+    const Level& plane = levels[size_t(level)];
+    const int column = x + plane.margin, row = y + plane.margin;
+    if (column < 0 || column >= plane.width || row < 0 || row >= plane.height) return {};
+    return plane.cells[size_t(row) * size_t(plane.width) + size_t(column)];
+  }
 
-namespace {
+  FarLight Pushed(int level, int x, int y, FarLight cell, double disparity) const {
+    if (cell.known >= 1) return cell;
+    const FarLight mean = MeanOf(Above(level, x, y), {9, 3, 3, 1}, disparity);
+    if (mean.known == 0) return cell;
+    cell.light = mean.light + cell.known * (cell.light - mean.light);
+    if (cell.known == 0) cell.disparity = mean.disparity;
+    cell.known = 1;
+    return cell;
+  }
 
-// Smallest numbers of pixels with a nearer neighbour, and of pixels of strands one pixel wide, in a
-// tile of thin structure.
+  // Returns the filled cells of the next coarser level that surround a cell. The first returned
+  // cell contains the given cell.
+  std::vector<FarLight> Above(int level, int x, int y) const {
+    const int column = int(std::floor(x / 2.0)), row = int(std::floor(y / 2.0));
+    const int beside = x == 2 * column ? column - 1 : column + 1;
+    const int next = y == 2 * row ? row - 1 : row + 1;
+    return {Get(filled_, level + 1, column, row), Get(filled_, level + 1, beside, row),
+            Get(filled_, level + 1, column, next), Get(filled_, level + 1, beside, next)};
+  }
+
+  std::vector<Level> levels_, filled_;
+};
+
+// Smallest numbers of pixels with a nearer neighbour, and of pixels of strands one pixel wide, in
+// a tile of thin structure.
 constexpr int kLeastRagged = 36, kLeastStrands = 2;
 
 // Rounds coverage, and the certainty of the farther surface's light, as the engine rounds these
@@ -311,7 +278,6 @@ double Kept(double known) { return std::floor(known * 256) / 256; }
 double EighthPower(double value) { return Kept(std::pow(value, 8)); }
 
 double Dot(const Colour& a, const Colour& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Colour Less(const Colour& a, const Colour& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 // Values of a pixel, computed in several passes.
 struct Pixel {
@@ -409,21 +375,20 @@ class Parter {
     });
   }
 
-  // Returns true if the given coverage of any pixel within 3 pixels along both axes is above 2/128
-  // and below 115/128, from where the near surface covers the whole pixel.
+  // Returns true if the given coverage of any pixel within 3 pixels along both axes is above
+  // 2/128 and below 115/128, from where the near surface covers the whole pixel.
   bool IsBesideMixture(int x, int y) const {
-    for (int row = std::max(y - 3, 0); row <= std::min(y + 3, centre_.height - 1); ++row) {
-      for (int column = std::max(x - 3, 0); column <= std::min(x + 3, centre_.width - 1);
-           ++column) {
-        const double alpha = GivenAt(column, row);
-        if (alpha > 2 / 128.0 && alpha < 115 / 128.0) return true;
-      }
-    }
-    return false;
+    bool any = false;
+    ForEachAround(3, [&](int dx, int dy) {
+      if (!centre_.Inside(x + dx, y + dy)) return;
+      const double alpha = GivenAt(x + dx, y + dy);
+      any = any || (alpha > 2 / 128.0 && alpha < 115 / 128.0);
+    });
+    return any;
   }
 
-  // Finds the two surfaces of a pixel with given coverage. Returns false if the pixel is not split,
-  // because no edge is near, or because the coverage only repeats the map.
+  // Finds the two surfaces of a pixel with given coverage. Returns false if the pixel is not
+  // split, because no edge is near, or because the coverage only repeats the map.
   bool FindGiven(int x, int y, int* low, int* high) const {
     const int here = map_.Disparity(x, y);
     if (!map_.FindGiven(x, y, low, high)) return false;
@@ -433,27 +398,27 @@ class Parter {
     return differs || map_.IsRamp(x, y) || IsBesideMixture(x, y);
   }
 
+  // Computes the mean of the near light around a pixel with given coverage, and returns the trust
+  // in this light, which is 0 if no pixel shows the near surface alone.
+  double GivenNearLight(int x, int y, Colour* light) const {
+    double weights = 0;
+    *light = {0, 0, 0};
+    ForEachAround(3, [&](int dx, int dy) {
+      if (!centre_.Inside(x + dx, y + dy)) return;
+      const double weight = EighthPower(GivenAt(x + dx, y + dy));
+      weights += weight;
+      *light = *light + weight * Light(x + dx, y + dy);
+    });
+    if (weights > 0) *light = 1 / weights * *light;
+    return std::min(64 * weights, 1.0);
+  }
+
   // Returns the light of a pixel without the light of its near surface, which is the mean of the
   // near light around the pixel.
   Colour WithoutNear(int x, int y) const {
-    constexpr int kReach = 3;
-    Colour near = {0, 0, 0};
-    double weights = 0;
-    for (int row = y - kReach; row <= y + kReach; ++row) {
-      for (int column = x - kReach; column <= x + kReach; ++column) {
-        if (!centre_.Inside(column, row)) continue;
-        const double weight = EighthPower(GivenAt(column, row));
-        weights += weight;
-        for (size_t c = 0; c < 3; ++c) near[c] += weight * Light(column, row)[c];
-      }
-    }
-    const double alpha = At(x, y).first, known = std::min(64 * weights, 1.0);
-    Colour light = Light(x, y);
-    for (size_t c = 0; c < 3 && weights > 0; ++c) {
-      const double contrast = known * (light[c] - near[c] / weights);
-      light[c] = std::clamp(light[c] + alpha * contrast / (1 - alpha), 0.0, 255.0);
-    }
-    return light;
+    Colour near, light = Light(x, y);
+    const double alpha = At(x, y).first, known = GivenNearLight(x, y, &near);
+    return Clamped(light + alpha * known / (1 - alpha) * (light - near));
   }
 
   void StartPixel(int x, int y) {
@@ -485,25 +450,22 @@ class Parter {
   // --- Coverage computed from colours ---
 
   // Computes the light of the near surface around a pixel. The weight of each neighbour (x, y)
-  // includes the factor shown(x, y). Returns the trust in the light, which is 0 if all weights are
-  // 0.
+  // includes the factor shown(x, y). Returns the trust in the light, which is 0 if all weights
+  // are 0.
   double NearLight(int x, int y, const std::function<double(int x, int y)>& shown,
                    Colour* light) const {
     constexpr double kTaps[3][3] = {{10, 8, 4}, {8, 7, 3}, {4, 3, 2}};
     double weights = 0;
     *light = {0, 0, 0};
-    for (int dy = -2; dy <= 2; ++dy) {
-      for (int dx = -2; dx <= 2; ++dx) {
-        if (!centre_.Inside(x + dx, y + dy)) continue;
-        if (std::fabs(At(x + dx, y + dy).near - At(x, y).near) > kThinEdge) continue;
-        const double weight = kTaps[std::abs(dy)][std::abs(dx)] * shown(x + dx, y + dy);
-        weights += weight;
-        // The engine rounds each product, which matters where all weights are small.
-        for (size_t c = 0; c < 3; ++c) {
-          (*light)[c] += std::floor(weight * Light(x + dx, y + dy)[c] + 0.5);
-        }
-      }
-    }
+    ForEachAround(2, [&](int dx, int dy) {
+      if (!centre_.Inside(x + dx, y + dy)) return;
+      if (std::fabs(At(x + dx, y + dy).near - At(x, y).near) > kThinEdge) return;
+      const double weight = kTaps[std::abs(dy)][std::abs(dx)] * shown(x + dx, y + dy);
+      weights += weight;
+      // The engine rounds each product, which matters where all weights are small.
+      const Colour& there = Light(x + dx, y + dy);
+      for (size_t c = 0; c < 3; ++c) (*light)[c] += std::floor(weight * there[c] + 0.5);
+    });
     for (double& value : *light) value /= weights > 0 ? weights : 1;
     return std::min(1.0, weights / 4);
   }
@@ -512,7 +474,7 @@ class Parter {
   // `guess` replaces the result. `trust` is the trust in `near`.
   static double AlphaOf(const Colour& near, const Colour& far, const Colour& mixed, double guess,
                         double trust) {
-    const Colour whole = Less(near, far), part = Less(mixed, far);
+    const Colour whole = near - far, part = mixed - far;
     const double contrast = Dot(whole, whole), along = Dot(whole, part);
     if (contrast == 0) return guess;
     const double beside = Dot(part, part) - along * along / contrast;
@@ -525,13 +487,8 @@ class Parter {
     // The weight of a pixel near an edge increases with the coverage in its 3x3 neighbourhood.
     const auto shown = [&](int x, int y) {
       double count = 0;
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          count += At(std::clamp(x + dx, 0, centre_.width - 1),
-                      std::clamp(y + dy, 0, centre_.height - 1))
-                       .guess;
-        }
-      }
+      ForEachAround(
+          1, [&](int dx, int dy) { count += pixels_[centre_.Nearest(x + dx, y + dy)].guess; });
       return 3 * count * count * At(x, y).guess / 256;
     };
     ForEach([&](int x, int y) {
@@ -546,8 +503,8 @@ class Parter {
 
   // --- Light of far surfaces, read from all views ---
 
-  // Returns the largest coverage by nearer surfaces in a view, at the point where the view shows a
-  // pixel's far surface. Only nearer pixels that the view shows within 1.5 pixels of the far
+  // Returns the largest coverage by nearer surfaces in a view, at the point where the view shows
+  // a pixel's far surface. Only nearer pixels that the view shows within 1.5 pixels of the far
   // surface's point are counted.
   double CoveredIn(const Position& view, int x, int y) const {
     const bool down = std::abs(view.second) > std::abs(view.first);
@@ -595,29 +552,13 @@ class Parter {
   }
 
   // Returns the light of the far surface of a pixel with detail. The far surface gets
-  // (1 - coverage)^3 of the light that `far` and the mean light of the near surface do not explain,
-  // and half as much with side views.
+  // (1 - coverage)^3 of the light that `far` and the mean light of the near surface do not
+  // explain, and half as much with side views.
   Colour WithDetail(int x, int y, const Colour& far) const {
-    constexpr int kReach = 3;
-    Colour near = {0, 0, 0};
-    double weights = 0;
-    for (int row = y - kReach; row <= y + kReach; ++row) {
-      for (int column = x - kReach; column <= x + kReach; ++column) {
-        if (!centre_.Inside(column, row)) continue;
-        const double weight = EighthPower(GivenAt(column, row));
-        weights += weight;
-        for (size_t c = 0; c < 3; ++c) near[c] += weight * Light(column, row)[c];
-      }
-    }
-    const double alpha = At(x, y).first, known = std::min(64 * weights, 1.0);
+    Colour near;
+    const double alpha = At(x, y).first, known = GivenNearLight(x, y, &near);
     const double part = std::pow(1 - alpha, 3) / (field_.size() > 1 ? 2 : 1);
-    Colour light = far;
-    for (size_t c = 0; c < 3; ++c) {
-      const double mean = weights > 0 ? near[c] / weights : 0;
-      const double detail = Light(x, y)[c] - far[c] - alpha * known * (mean - far[c]);
-      light[c] = std::clamp(far[c] + part * detail, 0.0, 255.0);
-    }
-    return light;
+    return Clamped(far + part * (Light(x, y) - far - alpha * known * (near - far)));
   }
 
   PartedPixel Parted(int x, int y) const {

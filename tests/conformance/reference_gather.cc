@@ -185,9 +185,7 @@ class Gather {
     ForEachPixel(cell.at_width, cell.at_height, [&](int x, int y) {
       const double share = ShareOf(RadiusAt(cell, corners, cell.at_x + x, cell.at_y + y), between);
       const size_t at = mixed.At(x, y);
-      for (size_t c = 0; c < 3; ++c) {
-        mixed.colours[at][c] += share * (wider.colours[at][c] - mixed.colours[at][c]);
-      }
+      mixed.colours[at] = mixed.colours[at] + share * (wider.colours[at] - mixed.colours[at]);
     });
     Move(cell, corners, mixed);
   }

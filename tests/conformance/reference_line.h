@@ -129,6 +129,20 @@ struct ApertureShape {
 
 using Colour = std::array<double, 3>;
 
+inline Colour operator+(const Colour& a, const Colour& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Colour operator-(const Colour& a, const Colour& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Colour operator*(double factor, const Colour& a) {
+  return {factor * a[0], factor * a[1], factor * a[2]};
+}
+inline Colour Clamped(Colour colour) {
+  for (double& value : colour) value = std::clamp(value, 0.0, 255.0);
+  return colour;
+}
+
 // Largest difference of disparity, in 1/64 pixel, between neighbouring pixels of one surface.
 inline constexpr int kSurfaceStep = 96;
 // Widest gap, in pixels, that is closed by stretching a surface.
@@ -150,6 +164,14 @@ void ForEachPixel(int width, int height, const Visit& visit) {
   }
 }
 
+// Calls visit(dx, dy) for each offset of up to `reach` pixels along both axes, row by row.
+template <class Visit>
+void ForEachAround(int reach, const Visit& visit) {
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) visit(dx, dy);
+  }
+}
+
 // Picture of a rendered or captured view; the disparities, in 1/64 pixel, are 0 if the view has no
 // map.
 struct Picture {
@@ -164,6 +186,10 @@ struct Picture {
       : width(w), height(h), colours(size_t(w) * size_t(h)), disparities(size_t(w) * size_t(h)) {}
 
   size_t At(int x, int y) const { return size_t(y) * size_t(width) + size_t(x); }
+  // Returns the index of a pixel. Beyond the picture, the outermost pixels are repeated.
+  size_t Nearest(int x, int y) const {
+    return At(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1));
+  }
   bool Inside(int x, int y) const { return x >= 0 && x < width && y >= 0 && y < height; }
 };
 
@@ -411,9 +437,7 @@ Picture RenderAlong(const Picture& from, int u, int v, const Lens& lens, int k, 
         if (owner.hole) {
           colour = hole(x0 + int(p) * u, y0 + int(p) * v, from.disparities[source], colour);
         }
-        for (size_t c = 0; c < 3; ++c) {
-          colour[c] += owner.share * (from.colours[other][c] - colour[c]);
-        }
+        colour = colour + owner.share * (from.colours[other] - colour);
       }
     }
   }

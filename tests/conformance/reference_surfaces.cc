@@ -192,20 +192,16 @@ class SurfaceFinder {
                            : MixtureOfLevel(x, y, side);
       near.disparity = std::max(near.disparity, disparity);
       if (mixed.share == 0) continue;
-      for (size_t c = 0; c < 3; ++c) {
-        near.colour[c] += mixed.share * mixed.near[c];
-        far.colour[c] += mixed.share * mixed.far[c];
-      }
+      near.colour = near.colour + mixed.share * mixed.near;
+      far.colour = far.colour + mixed.share * mixed.far;
       near.share = std::max(near.share, mixed.share);
       shares += mixed.share;
     }
     // The share is rounded to 1/128 as in the engine.
     near.share = std::floor(near.share * 128 + 0.5) / 128;
     if (near.share == 0) return;
-    for (size_t c = 0; c < 3; ++c) {
-      near.colour[c] /= shares;
-      far.colour[c] /= shares;
-    }
+    near.colour = 1 / shares * near.colour;
+    far.colour = 1 / shares * far.colour;
     // AddCopy's copy of the pixel is removed, because the copy has the colour of the mixture.
     if (surfaces->size() > 1 && !IsEdge(far.disparity, (*surfaces)[1].disparity)) {
       surfaces->erase(surfaces->begin() + 1);
@@ -229,10 +225,7 @@ class SurfaceFinder {
   // Returns the near share and both colours of a mixed pixel at layers 1 and 2. The colours of both
   // surfaces come from the neighbours or from a captured view.
   Mixed MixtureOfLevel(int x, int y, const Direction& side) const {
-    const auto at = [&](int k) {
-      return extended_.At(std::clamp(x + k * side.x, 0, extended_.width - 1),
-                          std::clamp(y + k * side.y, 0, extended_.height - 1));
-    };
+    const auto at = [&](int k) { return extended_.Nearest(x + k * side.x, y + k * side.y); };
     const auto same = [&](int a, int b) {
       return std::abs(extended_.disparities[at(a)] - extended_.disparities[at(b)]) <= unit_ * 3 / 4;
     };

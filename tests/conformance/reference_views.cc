@@ -19,8 +19,7 @@ Colour ReadPicture(const LightField& field, const Position& view, double x, doub
   for (int row = top; row <= top + 1; ++row) {
     for (int column = left; column <= left + 1; ++column) {
       const double weight = (1 - std::fabs(x - column)) * (1 - std::fabs(y - row));
-      const Colour& pixel = (picture.*colours)[picture.At(std::clamp(column, 0, picture.width - 1),
-                                                          std::clamp(row, 0, picture.height - 1))];
+      const Colour& pixel = (picture.*colours)[picture.Nearest(column, row)];
       for (size_t c = 0; c < 3; ++c) colour[c] += weight * pixel[c];
     }
   }
@@ -95,10 +94,7 @@ double Moved(int position, int disparity, int layer) {
 Mixed MixtureAt(const LightField& field, int x, int y, const Direction& side, int step,
                 double contrast_fade) {
   const Picture& picture = field.at({0, 0});
-  const auto at = [&](int k) {
-    return picture.At(std::clamp(x + k * side.x, 0, picture.width - 1),
-                      std::clamp(y + k * side.y, 0, picture.height - 1));
-  };
+  const auto at = [&](int k) { return picture.Nearest(x + k * side.x, y + k * side.y); };
   const int disparity = picture.disparities[at(0)], near = picture.disparities[at(1)];
   const std::vector<Position> occlusion_views = LooksOn(field, {-side.x, -side.y});
   const int beyond = std::abs(picture.disparities[at(2)] - near) <= step ? 2 : 1;
@@ -147,9 +143,7 @@ void Unmix(const LightField& field, const Lens& lens, const Rectangle& rect, Pic
         shares += mixture.share;
       }
       if (shares == 0) continue;
-      for (size_t c = 0; c < 3; ++c) {
-        centre->colours[centre->At(x, y)][c] = mixed[c] + sum[c] / shares;
-      }
+      centre->colours[centre->At(x, y)] = mixed + 1 / shares * sum;
     }
   }
 }
@@ -176,8 +170,7 @@ Picture ExtendedRectangle(const Picture& layer, const Rectangle& rect) {
   const int x0 = rect.x - rect.left, y0 = rect.y - rect.top;
   Picture centre(rect.left + rect.width + rect.right, rect.top + rect.height + rect.bottom);
   ForEachPixel(centre.width, centre.height, [&](int x, int y) {
-    const size_t from =
-        layer.At(std::clamp(x0 + x, 0, layer.width - 1), std::clamp(y0 + y, 0, layer.height - 1));
+    const size_t from = layer.Nearest(x0 + x, y0 + y);
     centre.colours[centre.At(x, y)] = layer.colours[from];
     centre.disparities[centre.At(x, y)] = layer.disparities[from];
   });
@@ -358,11 +351,7 @@ class Views {
     const Colour b = Read(field_, lens_.layer, {0, v * kViewUnit}, x + moved(i, false), y_far);
     const double weight_a = std::pow(Difference(b, behind), 2) + 1;
     const double weight_b = std::pow(Difference(a, behind), 2) + 1;
-    Colour mixed;
-    for (size_t c = 0; c < 3; ++c) {
-      mixed[c] = (a[c] * weight_a + b[c] * weight_b) / (weight_a + weight_b);
-    }
-    return mixed;
+    return 1 / (weight_a + weight_b) * (weight_a * a + weight_b * b);
   }
 
   const LightField& field_;

@@ -6,8 +6,7 @@
 
 #include "tests/kernels/kernel_cases.h"
 
-namespace test {
-namespace line_scan_cases {
+namespace test::kernel_cases {
 namespace {
 
 struct Spans {
@@ -52,67 +51,6 @@ T* MakeTarget(const char* name, const Spans& spans, CallMemory* call) {
   }
   return target;
 }
-
-std::vector<int16_t> LineDisparities(size_t count, Draw* draw) {
-  const int kind = draw->timed() ? 2 : draw->Int(0, 3);
-  const int most = kind == 0 ? 32000 : kind == 1 ? 300 : 40;
-  return Filled<int16_t>(count, [&] {
-    const int d = draw->Int(-most, most);
-    return kind != 3 ? d : d < 0 ? -32000 : 32000;
-  });
-}
-
-}  // namespace
-
-void Blend(Draw* draw, LineScanCall* call) {
-  const Spans spans = MakeSpans(true, draw, call);
-  auto* line = MakeTarget<int16_t>("line", spans, call);
-  call->Calls(&LineScanKernels::Blend, spans.spans, spans.count, line);
-}
-
-void FindRuns(Draw* draw, LineScanCall* call) {
-  const size_t length = draw->Length(1, 70, 64), count = draw->Size(1, 40, 48);
-  const size_t stride = count + draw->Size(0, 9, 0);
-  const bool backwards = draw->Int(0, 1) == 1;
-  const int16_t* disparity =
-      call->Input("disparity", LineDisparities((length - 1) * stride + count, draw), kPadding);
-  call->IgnoreRows(disparity + count, length - 1, stride, stride - count);
-  const int16_t* first = disparity + (backwards ? (length - 1) * stride : 0);
-  const ptrdiff_t step = backwards ? -ptrdiff_t(stride) : ptrdiff_t(stride);
-  const int kind = draw->Int(0, 3);
-  const int edge = kind == 0 ? 32766 : kind == 1 ? draw->Int(0, 32766) : draw->Int(0, 96);
-  const int spread = draw->Int(0, 2) == 0 ? edge : draw->Int(0, edge);
-
-  const size_t whole = (count + kRunLanes - 1) / kRunLanes * kRunLanes, rows = (length + 15) / 16;
-  RunMarks marks;
-  marks.stride = whole + kRunLanes * draw->Size(0, 1, 0);
-  marks.starts = call->Output<uint16_t>("starts", rows * marks.stride);
-  marks.edges = call->Output<uint16_t>("edges", rows * marks.stride);
-  marks.middles = call->Output<int16_t>("middles", length * marks.stride);
-  call->ResultRows(marks.middles, length, marks.stride, count, whole - count);
-  for (const uint16_t* words : {marks.starts, marks.edges}) {
-    call->ResultRows(words, rows, marks.stride, count, whole - count);
-  }
-  call->Calls(&LineScanKernels::FindRuns, first, step, length, count, int16_t(spread),
-              int16_t(edge), marks);
-}
-
-}  // namespace line_scan_cases
-
-namespace kernel_cases {
-
-void Accumulate(Draw* draw, KernelCall* call) {
-  const line_scan_cases::Spans spans = line_scan_cases::MakeSpans(false, draw, call);
-  auto* accumulators = line_scan_cases::MakeTarget<uint32_t>("accumulators", spans, call);
-  for (size_t n = 0; n < spans.end; ++n) accumulators[n] = draw->Next() >> 4;
-  call->Calls(&Kernels::Accumulate, spans.spans, spans.count, accumulators);
-}
-
-}  // namespace kernel_cases
-}  // namespace test
-
-namespace test::kernel_cases {
-namespace {
 
 size_t OctantIndex(int x, int y) {
   const int high = std::max(std::abs(x), std::abs(y)), low = std::min(std::abs(x), std::abs(y));
@@ -170,13 +108,18 @@ struct Filtered {
 
   template <class Sample>
   Sample* Output(KernelCall* call) const {
-    auto* out = call->Output<Sample>("out", in.rows * out_stride);
-    call->ResultRows(out, in.rows, out_stride, in.count);
-    return out;
+    return call->OutputRows<Sample>("out", in.rows, out_stride, in.count);
   }
 };
 
 }  // namespace
+
+void Accumulate(Draw* draw, KernelCall* call) {
+  const Spans spans = MakeSpans(false, draw, call);
+  auto* accumulators = MakeTarget<uint32_t>("accumulators", spans, call);
+  for (size_t n = 0; n < spans.end; ++n) accumulators[n] = draw->Next() >> 4;
+  call->Calls(&Kernels::Accumulate, spans.spans, spans.count, accumulators);
+}
 
 void FilterDisc(Draw* draw, KernelCall* call) {
   const Filtered filtered(draw, call);
@@ -247,10 +190,55 @@ void MoveSamples(Draw* draw, KernelCall* call) {
     if (draw->Rarely(8)) value = Between(draw, -kLayerWhite, 2 * kLayerWhite);
   }
   const int16_t* in = call->Input("in", values);
-  auto* out = call->Output<int16_t>("out", rows * out_stride);
-  call->ResultRows(out, rows, out_stride, whole);
+  auto* out = call->OutputRows<int16_t>("out", rows, out_stride, whole);
   call->Calls(&Kernels::MoveSamples, SampleRows{in + stride + 3, stride, rows, count}, move, out,
               out_stride);
 }
 
 }  // namespace test::kernel_cases
+
+namespace test::line_scan_cases {
+namespace {
+
+std::vector<int16_t> LineDisparities(size_t count, Draw* draw) {
+  const int kind = draw->timed() ? 2 : draw->Int(0, 3);
+  const int most = kind == 0 ? 32000 : kind == 1 ? 300 : 40;
+  return Filled<int16_t>(count, [&] {
+    const int d = draw->Int(-most, most);
+    return kind != 3 ? d : d < 0 ? -32000 : 32000;
+  });
+}
+
+}  // namespace
+
+void Blend(Draw* draw, LineScanCall* call) {
+  const auto spans = kernel_cases::MakeSpans(true, draw, call);
+  auto* line = kernel_cases::MakeTarget<int16_t>("line", spans, call);
+  call->Calls(&LineScanKernels::Blend, spans.spans, spans.count, line);
+}
+
+void FindRuns(Draw* draw, LineScanCall* call) {
+  const size_t length = draw->Length(1, 70, 64), count = draw->Size(1, 40, 48);
+  const size_t stride = count + draw->Size(0, 9, 0);
+  const bool backwards = draw->Int(0, 1) == 1;
+  const int16_t* disparity =
+      call->Input("disparity", LineDisparities((length - 1) * stride + count, draw), kPadding);
+  call->IgnoreRows(disparity + count, length - 1, stride, stride - count);
+  const int16_t* first = disparity + (backwards ? (length - 1) * stride : 0);
+  const ptrdiff_t step = backwards ? -ptrdiff_t(stride) : ptrdiff_t(stride);
+  const int kind = draw->Int(0, 3);
+  const int edge = kind == 0 ? 32766 : kind == 1 ? draw->Int(0, 32766) : draw->Int(0, 96);
+  const int spread = draw->Int(0, 2) == 0 ? edge : draw->Int(0, edge);
+
+  const size_t whole = (count + kRunLanes - 1) / kRunLanes * kRunLanes, rows = (length + 15) / 16;
+  RunMarks marks;
+  marks.stride = whole + kRunLanes * draw->Size(0, 1, 0);
+  const size_t free = whole - count;
+  marks.starts = call->OutputRows<uint16_t>("starts", rows, marks.stride, count, free);
+  marks.edges = call->OutputRows<uint16_t>("edges", rows, marks.stride, count, free);
+  marks.middles = call->OutputRows<int16_t>("middles", length, marks.stride, count, free);
+  call->Calls(&LineScanKernels::FindRuns, first, step, length, count, int16_t(spread),
+              int16_t(edge), marks);
+}
+
+}  // namespace test::line_scan_cases

@@ -40,11 +40,9 @@ std::vector<uint8_t> Portions(size_t count, Draw* draw) {
 // Allocates the output row of CopyFarthest or SmoothFar: the farthest surface of each pixel.
 FarRow OutputOf(size_t whole, Draw* draw, KernelCall* call) {
   const size_t plane = whole + draw->Size(0, 9, 0);
-  const FarRow far = {call->Results<int16_t>("far disparity", whole),
-                      call->Output<int16_t>("far rgb", 3 * plane),
-                      call->Results<uint16_t>("far source", whole), plane};
-  call->ResultRows(far.rgb, 3, plane, whole);
-  return far;
+  return {call->Results<int16_t>("far disparity", whole),
+          call->OutputRows<int16_t>("far rgb", 3, plane, whole),
+          call->Results<uint16_t>("far source", whole), plane};
 }
 
 }  // namespace
@@ -90,9 +88,7 @@ ThreeRows RowsOf(Draw* draw, KernelCall* call) {
     made.rows.rgb[k] = call->Input("rgb", Light(3 * row, draw)) + kSliceLanes;
   }
   made.rows.source = call->Input("source", AnySources(whole, draw));
-  made.out = call->Output<int16_t>("out", 3 * row);
-  std::fill_n(made.out, 3 * row, int16_t{77});
-  call->ResultRows(made.out, 3, row, whole);
+  made.out = call->OutputRows<int16_t>("out", 3, row, whole);
   return made;
 }
 
@@ -122,9 +118,7 @@ void PutFarthest(Draw* draw, KernelCall* call) {
                       call->Input("far rgb", Light(3 * plane, draw)),
                       call->Input("far source", sources), plane};
   const int16_t* surface = call->Input("disparity", disparity);
-  auto* out = call->Output<int16_t>("out", 3 * plane);
-  std::fill_n(out, 3 * plane, int16_t{-1});
-  call->ResultRows(out, 3, plane, whole);
+  auto* out = call->OutputRows<int16_t>("out", 3, plane, whole);
   call->Calls(&Kernels::PutFarthest, far, surface, hiding, plane, out);
 }
 

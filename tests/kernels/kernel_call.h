@@ -54,6 +54,12 @@ std::vector<T> Filled(size_t count, const Make& make) {
   return values;
 }
 
+// Returns a vector of random integers in [low, high].
+template <class T>
+std::vector<T> Ints(size_t count, int low, int high, Draw* draw) {
+  return Filled<T>(count, [&] { return draw->Int(low, high); });
+}
+
 // Returns true if is_right(n) is true for all n below `count`.
 template <class IsRight>
 bool AllRight(size_t count, const IsRight& is_right) {
@@ -119,6 +125,14 @@ class CallMemory {
       Result(first + y * stride, count);
       Free(first + y * stride + count, free);
     }
+  }
+  // Allocates rows of results, as ResultRows marks them. The last row ends after `count` results
+  // and `free` values.
+  template <class T>
+  T* OutputRows(const char* name, size_t rows, size_t stride, size_t count, size_t free = 0) {
+    T* first = Output<T>(name, (rows - 1) * stride + count + free);
+    ResultRows(first, rows, stride, count, free);
+    return first;
   }
   // Marks output values that the kernel may set to anything.
   template <class T>

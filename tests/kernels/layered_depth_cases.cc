@@ -29,8 +29,7 @@ std::vector<int16_t> MovedRows(size_t rows, size_t whole, int step, Draw* draw) 
 void Deinterleave(Draw* draw, KernelCall* call) {
   const size_t count = draw->Length(1, 70, kTimedSamples / 3), plane = count + draw->Size(0, 9, 0);
   const int16_t* rgb = call->Input("rgb", Light(3 * count, draw), kPadding);
-  auto* out = call->Output<int16_t>("out", 3 * plane);
-  call->ResultRows(out, 3, plane, count);
+  auto* out = call->OutputRows<int16_t>("out", 3, plane, count);
   call->Calls(&Kernels::Deinterleave, rgb, count, plane, out);
 }
 
@@ -84,13 +83,12 @@ void FindCopies(Draw* draw, KernelCall* call) {
 void ColourCopies(Draw* draw, KernelCall* call) {
   const size_t groups = draw->Size(1, 4, kTimedSamples / kSliceLanes);
   const size_t stride = groups * kSliceLanes + 2, plane = 3 * stride + draw->Size(0, 7, 0);
-  std::vector<int16_t> disparities(3 * stride), colours(3 * plane);
-  for (int16_t& d : disparities) d = int16_t(draw->Int(-2, 2));
-  for (int16_t& c : colours) c = int16_t(draw->Int(0, INT16_MAX));
-  std::vector<int16_t> lower(groups * kSliceLanes);
-  for (int16_t& copy : lower) copy = draw->Int(0, 3) == 0 ? kNoSurface : int16_t(draw->Int(-2, 2));
-  const int16_t* row = call->Input("field", disparities, kPadding) + stride + 1;
-  const int16_t* rgb = call->Input("rgb", colours, kPadding) + stride + 1;
+  const int16_t* row =
+      call->Input("field", Ints<int16_t>(3 * stride, -2, 2, draw), kPadding) + stride + 1;
+  const int16_t* rgb =
+      call->Input("rgb", Ints<int16_t>(3 * plane, 0, INT16_MAX, draw), kPadding) + stride + 1;
+  std::vector<int16_t> lower = Ints<int16_t>(groups * kSliceLanes, -2, 2, draw);
+  for (int16_t& copy : lower) copy = draw->Int(0, 3) == 0 ? kNoSurface : copy;
   const int16_t* copies = call->Input("copies", lower, kPadding);
   auto* out = call->Results<int16_t>("out", 3 * groups * kSliceLanes);
   call->Runs([=](const Kernels& kernels) {

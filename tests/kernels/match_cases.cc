@@ -19,8 +19,7 @@ void DeinterleaveRow(Draw* draw, DepthCall* call) {
   const size_t count = draw->Length(0, kLongestPlane, kTimedPlane),
                stride = count + draw->Size(0, 9, 0);
   const uint8_t* rgb = call->Input("rgb", RandomBytes(3 * count, draw));
-  uint8_t* plane = call->Output<uint8_t>("planes", 3 * stride);
-  call->ResultRows(plane, 3, stride, count);
+  auto* plane = call->OutputRows<uint8_t>("planes", 3, stride, count);
   call->Calls(&DepthKernels::DeinterleaveRow, rgb, count, stride, plane);
 }
 
@@ -62,8 +61,7 @@ void CostLabels(Draw* draw, DepthCall* call) {
   // Half of the calls use similar pictures, because the kernel limits large differences.
   const int least = draw->Int(0, 1) == 0 ? 0 : 225;
   row.plane = count + 2 * kReach;
-  const auto planes =
-      Filled<uint8_t>(3 * (views + 1) * row.plane, [&] { return draw->Int(least, 255); });
+  const auto planes = Ints<uint8_t>(3 * (views + 1) * row.plane, least, 255, draw);
   row.pixels = call->Input("planes", planes, kPadding) + kReach;
   // A view does not see a pixel at labels below the value of `hidden`. With many views, random
   // values seldom hide a pixel in all views. Therefore a third of the calls use larger values.
@@ -79,8 +77,8 @@ void CostLabels(Draw* draw, DepthCall* call) {
   }
   row.moves = call->Input("moves", moves);
   const size_t places = SliceSamples(row.labels) + 16 * draw->Size(0, 1, 0);
-  uint8_t* cost = call->Output<uint8_t>("cost", count * places);
-  call->ResultRows(cost, count, places, row.labels, SliceSamples(row.labels) - row.labels);
+  auto* cost = call->OutputRows<uint8_t>("cost", count, places, row.labels,
+                                         SliceSamples(row.labels) - row.labels);
   call->Calls(&DepthKernels::CostLabels, row, count, places, cost);
   call->is_right = [=](uint64_t, Met* met) {
     return AllRight(count * places, [&](size_t n) {
@@ -115,8 +113,8 @@ void AddPaths(Draw* draw, DepthCall* call) {
   const size_t first = step > 0 ? 0 : count - 1;  // Index of the first pixel on the path.
   // The path continues from the previous row or from the previous pixel.
   const bool from_row = draw->timed() || draw->Int(0, 1) == 0;
-  const auto costs = Filled<uint8_t>(count * places, [&] { return draw->Int(0, kMostCost); });
-  const auto jumps = Filled<int16_t>(count, [&] { return draw->Int(kSlopeCost, kMostJump); });
+  const auto costs = Ints<uint8_t>(count * places, 0, kMostCost, draw);
+  const auto jumps = Ints<int16_t>(count, kSlopeCost, kMostJump, draw);
   std::vector<int16_t> before(1 + count * places, kNoLabel), before_least(count);
   for (size_t k = 0; k < count; ++k) {
     before_least[k] = FillPath(labels, draw, &before[1 + k * places]);
@@ -155,12 +153,9 @@ void AddPaths(Draw* draw, DepthCall* call) {
 void FindJumps(Draw* draw, DepthCall* call) {
   const size_t count = draw->Length(1, 70, 320), plane = count + draw->Size(0, 9, 0);
   const int least = draw->Int(0, 1) == 0 ? 0 : 240;
-  const auto pixels = [&] {
-    const auto planes = Filled<uint8_t>(2 * plane + count, [&] { return draw->Int(least, 255); });
-    return call->Input("pixels", planes, kPadding);
-  };
-  const uint8_t* here = pixels();
-  const uint8_t* before = pixels();
+  const auto pixels = [&] { return Ints<uint8_t>(2 * plane + count, least, 255, draw); };
+  const uint8_t* here = call->Input("here", pixels(), kPadding);
+  const uint8_t* before = call->Input("before", pixels(), kPadding);
   auto* jump = call->Results<int16_t>("jump", count);
   call->Calls(&DepthKernels::FindJumps, here, before, plane, count, jump);
   call->is_right = [=](uint64_t, Met* met) {

@@ -113,25 +113,16 @@ void SumVotes(Draw* draw, DepthCall* call) {
   const int spread = draw->Int(0, 383), rarity = draw->timed() ? 1 : draw->Int(1, 9);
   std::array<const int16_t*, 3> colours;
   for (const int16_t*& colour : colours) {
-    colour =
-        call->Input("colour",
-                    Filled<int16_t>(samples, [&] { return int16_t(draw->Int(-spread, spread)); })) +
-        own;
+    colour = call->Input("colour", Ints<int16_t>(samples, -spread, spread, draw)) + own;
   }
-  const auto disparity = [&] { return int16_t(draw->Int(-100, 100)); };
-  const int16_t* surface = call->Input("surface", Filled<int16_t>(samples, disparity)) + own;
-  const int16_t* trust =
-      call->Input(
-          "trust",
-          Filled<int16_t>(
-              samples,
-              [&] { return int16_t(draw->Int(1, rarity) > 1 ? 0 : draw->Int(0, kMostTrust)); })) +
-      own;
-  const int16_t* middle = call->Input("middle", Filled<int16_t>(kSliceLanes, disparity));
-  const int16_t* closeness =
-      call->Input("closeness", Filled<int16_t>(kMostVoteSide * kMostVoteSide, [&] {
-                    return int16_t(draw->Int(0, kMostCloseness * kClosenessUnit));
-                  }));
+  const int16_t* surface = call->Input("surface", Ints<int16_t>(samples, -100, 100, draw)) + own;
+  std::vector<int16_t> trusts = Ints<int16_t>(samples, 0, kMostTrust, draw);
+  for (int16_t& trust : trusts) trust = draw->Int(1, rarity) > 1 ? int16_t{0} : trust;
+  const int16_t* trust = call->Input("trust", trusts) + own;
+  const int16_t* middle = call->Input("middle", Ints<int16_t>(kSliceLanes, -100, 100, draw));
+  const int16_t* closeness = call->Input(
+      "closeness",
+      Ints<int16_t>(kMostVoteSide * kMostVoteSide, 0, kMostCloseness * kClosenessUnit, draw));
   auto* sums = call->Results<uint16_t>("sums", 4 * kSliceLanes);
   call->Runs([=](const DepthKernels& kernels) {
     VoteSums votes;

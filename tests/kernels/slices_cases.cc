@@ -56,8 +56,7 @@ void SelectSlice(Draw* draw, KernelCall* call) {
   const auto low = int16_t(std::max(-32700, middle - more));
   const auto high = int16_t(std::min(32700, middle + more / 2));
   const auto overlap = int16_t(std::min(32700, middle + more));
-  auto* out = call->Output<int16_t>("out", 3 * plane + whole);
-  call->ResultRows(out, 4, plane, count, whole - count);
+  auto* out = call->OutputRows<int16_t>("out", 4, plane, count, whole - count);
   auto* cover = call->Results<SliceCover>("cover", 1);
   call->Runs([=](const Kernels& kernels) {
     *cover = kernels.SelectSlice(row, low, high, overlap, count, plane, out);
@@ -145,8 +144,7 @@ void ShiftSlice(Draw* draw, KernelCall* call) {
   samples.resize(samples.size() - (more - first));
   const int16_t* in = call->Input("in", samples) + first;
   const SliceOffset offset = Offset(draw->Int(-3, 3), draw);
-  auto* out = call->Output<int16_t>("out", 3 * plane + rows * kSliceLanes);
-  call->ResultRows(out, 4, plane, rows * kSliceLanes);
+  auto* out = call->OutputRows<int16_t>("out", 4, plane, rows * kSliceLanes);
   auto* near = call->Results<int8_t>("near", kRowsAhead + rows);
   constexpr int8_t kLeft = 9;
   std::fill_n(near, kRowsAhead + rows, kLeft);
@@ -207,8 +205,7 @@ SliceViews MakeViews(size_t rows, Draw* draw, KernelCall* call, Met* met) {
     slices.push_back(
         MakeTile(kMost + kSkipped + rows + kMost + kRowsAhead, kMost, draw, call, met));
   }
-  const auto weights = Filled<int16_t>(
-      view_count, [&] { return draw->Int(0, std::min(16383, 58000 / int(view_count))); });
+  const auto weights = Ints<int16_t>(view_count, 0, std::min(16383, 58000 / int(view_count)), draw);
   std::vector<SliceOffset> offsets;
   for (size_t n = 0; n < view_count * count; ++n) {
     offsets.push_back(Offset(draw->Int(-int(kMost), int(kMost)), draw));
