@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "examples/scene/builders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "examples/scene/scene.h"
 
 namespace starfocus {
 namespace {
@@ -69,6 +73,116 @@ Surface Tuft(std::vector<Strand> strands, const Material& material) {
   tuft.strands = std::make_shared<const Strands>(std::move(strands));
   Dress(material, &tuft);
   return tuft;
+}
+
+namespace {
+
+void ToLocal(const Surface& s, double dx, double dy, double* lx, double* ly) {
+  *lx = dx * s.ax + dy * s.ay;
+  *ly = dy * s.ax - dx * s.ay;
+}
+
+bool Inside(const Surface& s, double lx, double ly) {
+  const double x = s.rx > 0 ? lx / s.rx : 0, y = s.ry > 0 ? ly / s.ry : 0;
+  const double square = x * x + y * y;
+  switch (s.outline) {
+    case Outline::kNone:
+      return true;
+    case Outline::kBox:
+      return std::fabs(x) <= 1 && std::fabs(y) <= 1;
+    case Outline::kEllipse:
+      return square <= 1;
+    case Outline::kRing: {
+      const double ix = lx / (s.rx - s.thickness), iy = ly / (s.ry - s.thickness);
+      return square <= 1 && ix * ix + iy * iy >= 1;
+    }
+    case Outline::kLeaf:
+      return std::fabs(x) <= 1 && std::fabs(y) <= (1 - x * x) * (1.1 - 0.3 * x);
+  }
+  return false;
+}
+
+bool IntersectPlane(const Surface& s, const Ray& ray, Hit* hit) {
+  const double denominator = 1 - s.slope_x * ray.u - s.slope_y * ray.v;
+  if (denominator <= 0) return false;
+  const double d = (s.cd + s.slope_x * (ray.ox - s.cx) + s.slope_y * (ray.oy - s.cy)) / denominator;
+  const double x = ray.ox + ray.u * d, y = ray.oy + ray.v * d;
+  double lx, ly;
+  ToLocal(s, x - s.cx, y - s.cy, &lx, &ly);
+  if (!Inside(s, lx, ly)) return false;
+  *hit = {x, y, d, lx, ly, 0, 0, 1, 0};
+  return true;
+}
+
+bool IntersectEllipsoid(const Surface& s, const Ray& ray, Hit* hit) {
+  // Local coordinates divided by the radii are linear in t = d - cd: (p + q * t, t / rd).
+  double px, py, qx, qy;
+  ToLocal(s, ray.ox + ray.u * s.cd - s.cx, ray.oy + ray.v * s.cd - s.cy, &px, &py);
+  ToLocal(s, ray.u, ray.v, &qx, &qy);
+  px /= s.rx;
+  py /= s.ry;
+  qx /= s.rx;
+  qy /= s.ry;
+  const double a = qx * qx + qy * qy + 1 / (s.rd * s.rd);
+  const double b = px * qx + py * qy, c = px * px + py * py - 1;
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return false;
+  const double t = (std::sqrt(discriminant) - b) / a;
+  const double nx = px + qx * t, ny = py + qy * t;
+  const double d = s.cd + t;
+  *hit = {ray.ox + ray.u * d,    ray.oy + ray.v * d,    d,        nx * s.rx, ny * s.ry,
+          nx * s.ax - ny * s.ay, nx * s.ay + ny * s.ax, t / s.rd, 0};
+  return true;
+}
+
+bool IntersectStrands(const Surface& s, const Ray& ray, Hit* hit) {
+  StrandHit found;
+  if (!s.strands->Find({ray.ox, ray.oy}, ray.u, ray.v, &found)) return false;
+  *hit = {found.x, found.y, found.d, found.along, found.across, 0, 0, 1, found.strand};
+  return true;
+}
+
+}  // namespace
+
+bool Intersect(const Surface& surface, const Ray& ray, Hit* hit) {
+  if (surface.shape == Shape::kStrands) return IntersectStrands(surface, ray, hit);
+  return surface.shape == Shape::kPlane ? IntersectPlane(surface, ray, hit)
+                                        : IntersectEllipsoid(surface, ray, hit);
+}
+
+Bounds SurfaceBounds(const Surface& s, double reach) {
+  if (s.shape == Shape::kStrands) return s.strands->bounds();
+  const bool endless = s.shape == Shape::kPlane && s.outline == Outline::kNone;
+  // The outline of a leaf reaches up to 1.14 times the leaf's radius ry.
+  const double ry = s.outline == Outline::kLeaf ? 1.2 * s.ry : s.ry;
+  const double wide = std::fabs(s.ax) * s.rx + std::fabs(s.ay) * ry;
+  const double high = std::fabs(s.ay) * s.rx + std::fabs(s.ax) * ry;
+  Bounds box = {s.cx - wide, s.cx + wide, s.cy - high, s.cy + high, s.cd - s.rd, s.cd + s.rd};
+  if (endless) box = {-reach, reach, -reach, reach, s.cd, s.cd};
+  if (s.shape == Shape::kPlane) {
+    const double x = std::max(std::fabs(box.x0 - s.cx), std::fabs(box.x1 - s.cx));
+    const double y = std::max(std::fabs(box.y0 - s.cy), std::fabs(box.y1 - s.cy));
+    const double rise = std::fabs(s.slope_x) * x + std::fabs(s.slope_y) * y;
+    box.d0 = s.cd - rise;
+    box.d1 = s.cd + rise;
+  }
+  return box;
+}
+
+bool Scene::HasForeground() const {
+  return std::any_of(surfaces.begin(), surfaces.end(),
+                     [](const Surface& surface) { return surface.foreground; });
+}
+
+std::optional<Scene> MakeScene(const std::string& name, uint32_t seed) {
+  if (name == "portrait") return MakePortrait();
+  if (name == "wires") return MakeWires();
+  if (name == "ramp") return MakeRamp();
+  if (name == "lamps") return MakeLamps();
+  if (name == "hair") return MakeHair(seed);
+  if (name == "grass") return MakeGrass(seed);
+  if (name == "cutout") return MakeCutout(seed);
+  return {};
 }
 
 }  // namespace starfocus

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "examples/scene/render.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <limits>
 
 #include "examples/scene/noise.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
 // A point of the lens, or a rotation by the angle of that point.
@@ -312,6 +314,102 @@ std::vector<uint8_t> RayTracer::Coverage(Progress* progress) const {
                     coverage[size_t(y) * size_t(width_) + size_t(x)] = CoverageOf(candidates, x, y);
                   });
   return coverage;
+}
+
+namespace {
+
+// Returns value^2.4. Uses only arithmetic that IEEE 754 defines exactly, because std::pow differs
+// between libraries.
+double Power(double value) {
+  const double square = value * value;
+  double root = std::max(1.0, square);
+  for (int step = 0; step < 100; ++step) {
+    const double fourth = root * root * root * root;
+    root -= (fourth * root - square) / (5 * fourth);
+  }
+  return square * root;
+}
+
+}  // namespace
+
+LightCurve::LightCurve(starfocus_transfer transfer) {
+  if (transfer == STARFOCUS_TRANSFER_NONE) return;
+  for (int k = 0; k <= kMostCode * kSteps; ++k) {
+    const double value = k / (255.0 * kSteps);
+    light_.push_back(255 * (value <= 0.04045 ? value / 12.92 : Power((value + 0.055) / 1.055)));
+  }
+}
+
+double LightCurve::LightOf(double code) const {
+  if (light_.empty()) return code;
+  const double place = std::clamp(code, 0.0, kMostCode - 1.0) * kSteps;
+  const auto step = static_cast<size_t>(place);
+  return light_[step] + (light_[step + 1] - light_[step]) * (place - static_cast<double>(step));
+}
+
+double LightCurve::CodeOf(double light) const {
+  if (light_.empty() || light <= 0) return light;
+  const auto above = std::upper_bound(light_.begin(), light_.end() - 1, light);
+  const auto step = static_cast<double>(above - light_.begin() - 1);
+  return (step + (light - above[-1]) / (above[0] - above[-1])) / kSteps;
+}
+
+Color LightCurve::Decode(const Color& codes) const {
+  return {LightOf(codes.r), LightOf(codes.g), LightOf(codes.b)};
+}
+
+Color LightCurve::Encode(const Color& light) const {
+  return {CodeOf(light.r), CodeOf(light.g), CodeOf(light.b)};
+}
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kTheta = 0.26 * kPi;
+constexpr double kCotSquared = 0.8818383898322281;  // cot^2 of kTheta, equal on all machines
+
+double Square(double x) { return x * x; }
+
+}  // namespace
+
+SceneOpening::SceneOpening(const starfocus::Params& lens)
+    : shape_(static_cast<starfocus_shape>(lens.shape)),
+      inner_(lens.ring_inner),
+      cats_eye_(lens.cats_eye),
+      curvature_(lens.curvature),
+      half_(kPi / lens.blades) {
+  if (shape_ == STARFOCUS_SHAPE_FALL_OFF) {
+    fall_off_ = lens.theta == kTheta ? kCotSquared : 1 / Square(std::tan(lens.theta));
+  }
+  for (int k = 0; k < lens.blades; ++k) {
+    const double angle = lens.rotation * kPi / 180 + (2 * k + 1) * half_;
+    edges_.push_back({std::sin(angle), -std::cos(angle)});
+  }
+}
+
+double SceneOpening::LeastShare() const {
+  // Two unit discs at distance s overlap in at least 1 - 2 s / pi of their area.
+  const double both = 1 - 2 / kPi * cats_eye_;
+  if (shape_ == STARFOCUS_SHAPE_RING) return both * (1 - inner_ * inner_);
+  return shape_ == STARFOCUS_SHAPE_POLYGON ? both * std::sin(2 * half_) / (2 * half_) : both;
+}
+
+bool SceneOpening::Passes(double u, double v, double x, double y) const {
+  if (cats_eye_ > 0 && Square(u + cats_eye_ * x) + Square(v + cats_eye_ * y) > 1) return false;
+  if (shape_ == STARFOCUS_SHAPE_RING) return u * u + v * v >= inner_ * inner_;
+  if (shape_ != STARFOCUS_SHAPE_POLYGON) return true;
+  for (const Edge& edge : edges_) {
+    if (curvature_ == 0) {
+      if (u * edge.x + v * edge.y > std::cos(half_)) return false;
+      continue;
+    }
+    // The edge is an arc of the circle with radius 1 / `curvature_` through the two corners of the
+    // edge.
+    const double radius = 1 / curvature_;
+    const double centre = std::cos(half_) - std::sqrt(radius * radius - Square(std::sin(half_)));
+    if (Square(u - centre * edge.x) + Square(v - centre * edge.y) > radius * radius) return false;
+  }
+  return true;
 }
 
 }  // namespace starfocus

@@ -1,18 +1,74 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ray-traces a scene: captured views, disparity map, coverage and thin-lens ground truth. The
-// output does not depend on the number of threads or the machine.
+// output does not depend on the number of threads or the machine. LightCurve converts codes to
+// light and back, and SceneOpening is the opening of the lens.
 #ifndef STARFOCUS_EXAMPLES_SCENE_RENDER_H_
 #define STARFOCUS_EXAMPLES_SCENE_RENDER_H_
 
-#include "examples/scene/light_curve.h"
-#include "examples/scene/opening.h"
+#include <vector>
+
 #include "examples/scene/scene.h"
 #include "platform/image.h"
 #include "platform/pfm.h"
 #include "platform/progress.h"
 #include "platform/runner.h"
+#include "starfocus/starfocus.h"
+#include "starfocus/starfocus.hpp"
 
 namespace starfocus {
+
+// Pictures of a scene are averages of light. Codes up to kMostCode, where 255 is white, are
+// converted to light in units of 1/255 of white. The tables use only IEEE 754 arithmetic, so that
+// they are equal on all machines.
+class LightCurve {
+ public:
+  explicit LightCurve(starfocus_transfer transfer);
+
+  Color Decode(const Color& codes) const;
+  Color Encode(const Color& light) const;
+
+ private:
+  // Largest code of the table, and number of table entries per code.
+  static constexpr int kMostCode = 2048, kSteps = 4;
+
+  double LightOf(double code) const;
+  double CodeOf(double light) const;
+
+  std::vector<double> light_;  // light of every table entry; empty if light equals the code
+};
+
+// The opening of a thin lens, in double precision. This class shares no code with the engine.
+
+class SceneOpening {
+ public:
+  // @param lens a valid lens
+  explicit SceneOpening(const starfocus::Params& lens);
+
+  // Returns cot^2(theta) of the density (3), or 0 if the opening is equally bright everywhere.
+  double fall_off() const { return fall_off_; }
+
+  // Returns approximately the fraction of the disc through which light reaches a corner of the
+  // picture.
+  double LeastShare() const;
+
+  // Returns true if the ray through point (u, v) of the unit disc passes the opening. (x, y) is the
+  // position of the pixel relative to the centre of the picture, in half diagonals.
+  bool Passes(double u, double v, double x, double y) const;
+
+ private:
+  struct Edge {
+    double x, y;  // normal of the edge
+  };
+
+  starfocus_shape shape_;
+  double fall_off_ = 0, inner_, cats_eye_;
+  // Curvature of a polygon's edges, and half the angle between two corners.
+  double curvature_, half_;
+  std::vector<Edge> edges_;
+};
+
+// Ray-traces a scene: captured views, disparity map, coverage and thin-lens ground truth. The
+// output does not depend on the number of threads or the machine.
 
 // Smallest and largest disparity in focus, in pixels per unit of u. Both are equal for a thin lens.
 struct SceneFocus {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "examples/scene/light_curve.h"
+#include "examples/scene/render.h"
 
 namespace starfocus {
 

@@ -6,12 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "examples/lab/analysis/aperture.h"
-#include "examples/lab/analysis/half_band.h"
 #include "examples/lab/analysis/ideal.h"
-#include "examples/lab/analysis/integral.h"
-#include "examples/lab/analysis/selection.h"
-#include "examples/lab/analysis/star_psf.h"
 #include "examples/lab/analysis/subaperture_rule.h"
 #include "examples/lab/analysis/subsampled.h"
 #include "examples/lab/analysis/view_psf.h"

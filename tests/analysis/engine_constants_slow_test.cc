@@ -9,13 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "examples/lab/analysis/aperture.h"
-#include "examples/lab/analysis/engine_steps.h"
-#include "examples/lab/analysis/half_band.h"
+#include "examples/lab/analysis/engine_psf.h"
 #include "examples/lab/analysis/ideal.h"
-#include "examples/lab/analysis/search.h"
-#include "examples/lab/analysis/selection.h"
-#include "examples/lab/analysis/star_psf.h"
 #include "examples/lab/analysis/subaperture_rule.h"
 #include "examples/lab/analysis/subsampled.h"
 #include "examples/lab/analysis/view_psf.h"

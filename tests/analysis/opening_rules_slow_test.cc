@@ -5,9 +5,8 @@
 
 #include <algorithm>
 
-#include "examples/lab/analysis/aperture.h"
-#include "examples/lab/analysis/opening.h"
-#include "examples/lab/analysis/selection.h"
+#include "examples/lab/analysis/ideal.h"
+#include "examples/lab/analysis/subaperture_rule.h"
 #include "examples/lab/analysis/subsampled.h"
 #include "lib/optics/rules.h"
 

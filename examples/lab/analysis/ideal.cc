@@ -1,14 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
+
 #include "examples/lab/analysis/ideal.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
-#include "examples/lab/analysis/aperture.h"
-#include "examples/lab/analysis/integral.h"
-
 namespace starfocus::analysis {
+
+double Taps::Sum() const { return std::accumulate(taps_.begin(), taps_.end(), 0.0); }
+
+void Taps::Scale(double factor) {
+  for (double& tap : taps_) tap *= factor;
+}
+
+double SampledPsf::Sum() const { return std::accumulate(taps_.begin(), taps_.end(), 0.0); }
+
+void SampledPsf::Scale(double factor) {
+  for (double& tap : taps_) tap *= factor;
+}
+
+double SquaredError(const SampledPsf& a, const SampledPsf& b) {
+  const int radius = std::max(a.radius(), b.radius());
+  double sum = 0;
+  for (int n = -radius; n <= radius; ++n) {
+    for (int m = -radius; m <= radius; ++m) {
+      const double difference = a(n, m) - b(n, m);
+      sum += difference * difference;
+    }
+  }
+  return sum;
+}
+
+double SquaredError(const Taps& a, const Taps& b) {
+  const int radius = std::max(a.radius(), b.radius());
+  double sum = 0;
+  for (int n = -radius; n <= radius; ++n) sum += (a(n) - b(n)) * (a(n) - b(n));
+  return sum;
+}
+
+double Energy(const SampledPsf& psf) { return SquaredError(psf, SampledPsf(0)); }
+
+double FallOff(double theta) {
+  const double tangent = std::tan(theta);
+  return 1 / (tangent * tangent);
+}
+
+double Aperture(double square, double theta) {
+  if (square > 1) return 0;
+  const double c = FallOff(theta), cosine = std::cos(theta);
+  return c * c / (kPi * cosine * cosine * (square + c) * (square + c));
+}
+
+double Aperture1(double u, double theta) {
+  if (std::fabs(u) > 1) return 0;
+  const double c = FallOff(theta), denominator = u * u + c;
+  return 1 / (denominator * denominator) / InverseSquare(-1, 1, c);
+}
+
 namespace {
 
 // Longest interval, in radians, that one quadrature covers.

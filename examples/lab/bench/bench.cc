@@ -5,10 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "examples/lab/bench/machine.h"
+#include "examples/lab/bench/measure.h"
 #include "examples/lab/bench/output.h"
 #include "examples/lab/bench/rivals.h"
-#include "examples/lab/bench/studies.h"
 #include "examples/lab/bench/timed_engine.h"
 #include "platform/file.h"
 

@@ -1,19 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the times of one scene's blocks.
+// Measures the times of blocks of scenes, and fits the timing model (14) to them by least squares.
 #ifndef STARFOCUS_EXAMPLES_LAB_CALIBRATE_SCENE_TIMES_H_
 #define STARFOCUS_EXAMPLES_LAB_CALIBRATE_SCENE_TIMES_H_
 
 #include <string>
 #include <vector>
 
-#include "examples/lab/calibrate/block_bench.h"
-#include "examples/lab/calibrate/block_sampler.h"
-#include "examples/lab/calibrate/timing_fit.h"
+#include "examples/cli/engine_run.h"
+#include "examples/lab/calibrate/block_times.h"
 #include "platform/light_field.h"
 #include "platform/progress.h"
 #include "platform/result.h"
+#include "starfocus/experimental.h"
 
 namespace starfocus {
+
+struct Measurement {
+  BlockWork work;
+  double picoseconds;
+};
+
+// Returns the non-negative coefficients that minimize the weighted sum of squared errors. The
+// weight of a block is the reciprocal of its measured time. This weight is a compromise between
+// absolute and relative errors, so that small blocks have an influence.
+starfocus_timing FitTiming(const std::vector<Measurement>& measurements);
+
+// Coefficients of determination R^2: without weights, and with the weights of the fit.
+struct Agreement {
+  double plain, weighted;
+};
+Agreement Compare(const starfocus_timing& timing, const std::vector<Measurement>& measurements);
+
+// Measures the times of one scene's blocks.
 
 class SceneTimes {
  public:

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "examples/lab/steps/block_pictures.h"
-
 #include <algorithm>
 #include <iterator>
 #include <vector>
 
+#include "examples/lab/steps/step_pictures.h"
 #include "lib/engine/stripe.h"
 #include "lib/slices/compositor.h"
 #include "lib/slices/slice_plane.h"

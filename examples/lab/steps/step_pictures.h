@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "lib/engine/engine.h"
 #include "platform/image.h"
 #include "platform/light_field.h"
 #include "platform/result.h"
@@ -33,6 +34,27 @@ struct StepPictures {
 // Draws all pictures. Errors start with `where`, the name of the light field.
 Result<StepPictures> DrawSteps(const std::string& where, const LightField& light_field,
                                const StepLens& lens);
+
+// Draws the surfaces, slices and views of one block. DrawSteps calls these functions while the
+// engine plans a stripe.
+
+// A block of the current stripe of an engine, and the light field that the engine refocuses.
+struct PlannedBlock {
+  const EngineState& engine;
+  const Block& block;
+  const LightField& light_field;
+};
+
+// Draws the block in all pictures except `gathered`. The block must be at layer 0, and
+// block.gathers must be false.
+void DrawRendered(const PlannedBlock& planned, StepPictures* pictures);
+
+// Sets pixels of pictures->gathered to white if the engine computes these pixels by filtering
+// instead of rendering views.
+void MarkGathered(const PlannedBlock& planned, StepPictures* pictures);
+
+// Replaces `percent` of a pixel's colour by `colour`.
+void Tint(const uint8_t (&colour)[3], int percent, uint8_t* pixel);
 
 }  // namespace starfocus
 
