@@ -38,28 +38,18 @@ SceneOpening DefaultOpening() {
   return SceneOpening(params);
 }
 
-// Returns 1 if all pixels in the 3x3 neighbourhood of (x, y) are near, 0 if all are far, and -1
-// otherwise.
-int SideAround(const FloatMap& map, int x, int y) {
-  int near = 0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) near += map.at(x + dx, y + dy) > 0 ? 1 : 0;
-  }
-  return near == 9 ? 1 : near == 0 ? 0 : -1;
-}
-
-// Returns 1 if all pixels in the 3x3 neighbourhood of (x, y) are fully covered, 0 if no pixel is
-// covered, and -1 otherwise.
-int CoverAround(const std::vector<uint8_t>& coverage, int x, int y) {
-  int whole = 0, none = 0;
+// Returns 1 if `is` holds for all pixels in the 3x3 neighbourhood of (x, y), 0 if `is_not` holds
+// for all of them, and -1 otherwise.
+template <class Is, class IsNot>
+int Around(int x, int y, const Is& is, const IsNot& is_not) {
+  int yes = 0, no = 0;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
-      const int level = coverage[size_t((y + dy) * kWidth + x + dx)];
-      whole += level == 255 ? 1 : 0;
-      none += level == 0 ? 1 : 0;
+      yes += is(x + dx, y + dy) ? 1 : 0;
+      no += is_not(x + dx, y + dy) ? 1 : 0;
     }
   }
-  return whole == 9 ? 1 : none == 9 ? 0 : -1;
+  return yes == 9 ? 1 : no == 9 ? 0 : -1;
 }
 
 // Returns the bilinear sample of a view at (x, y), or -1 if (x, y) is outside the view.
@@ -126,11 +116,9 @@ TEST_CASE("scene: views warped by the exact disparity equal the centre view") {
 
 TEST_CASE("scene: with a pinhole aperture, the ray-traced picture is the centre view") {
   ThreadRunner runner(2);
-  const std::pair<const char*, double> foci[] = {{"portrait", 0.5}, {"hair", 9}, {"grass", 9}};
-  for (const auto& pair : foci) {
-    const char* const name = pair.first;
-    const double focus = pair.second;
-    CAPTURE(std::string(name));
+  for (const std::string name : {"portrait", "hair", "grass"}) {
+    const double focus = name == "portrait" ? 0.5 : 9;
+    CAPTURE(name);
     const Scene scene = Made(name);
     const RayTracer renderer(scene, kWidth / 2, kHeight / 2, STARFOCUS_TRANSFER_NONE, &runner);
     const std::vector<uint8_t> centre = renderer.View(0, 0, nullptr).pixels;
@@ -189,11 +177,16 @@ TEST_CASE("scene: pictures depend on the seed, and not on the number of threads"
   }
 }
 
-TEST_CASE("scene: the points to focus on have decreasing disparities at any size") {
+TEST_CASE("scene: at any size, disparities are finite, and decrease over the points to focus on") {
   ThreadRunner runner(1);
   for (const char* name : kNames) {
     const Scene scene = Made(name);
     REQUIRE(scene.points.size() == (name == std::string("cutout") ? 2 : 3));
+    for (const int width : {1, 2, 300}) {
+      const RayTracer renderer(scene, width, 3, STARFOCUS_TRANSFER_NONE, &runner);
+      CHECK(renderer.View(1, -1, nullptr).pixels.size() == size_t(9 * width));
+      for (const float d : renderer.Disparity().values) CHECK(std::isfinite(d));
+    }
     for (const int width : {1024, 96, 40}) {
       const int height = width == 40 ? 90 : width * 3 / 4;
       const RayTracer renderer(scene, width, height, STARFOCUS_TRANSFER_NONE, &runner);
@@ -209,18 +202,6 @@ TEST_CASE("scene: the points to focus on have decreasing disparities at any size
         disparity.push_back(map.at(x, y));
       }
       CHECK(std::is_sorted(disparity.rbegin(), disparity.rend(), std::less_equal<float>()));
-    }
-  }
-}
-
-TEST_CASE("scene: tiny pictures can be rendered, and every disparity is finite") {
-  ThreadRunner runner(1);
-  for (const char* name : kNames) {
-    const Scene scene = Made(name);
-    for (const int width : {1, 2, 300}) {
-      const RayTracer renderer(scene, width, 3, STARFOCUS_TRANSFER_NONE, &runner);
-      CHECK(renderer.View(1, -1, nullptr).pixels.size() == size_t(9 * width));
-      for (float d : renderer.Disparity().values) CHECK(std::isfinite(d));
     }
   }
   CHECK_FALSE(MakeScene("other"));
@@ -350,20 +331,25 @@ TEST_CASE("strand scenes: coverage agrees with the map") {
     const RayTracer tracer(scene, kWidth, kHeight, STARFOCUS_TRANSFER_NONE, &runner);
     const FloatMap map = tracer.Disparity();
     const std::vector<uint8_t> coverage = tracer.Coverage(nullptr);
+    const auto is_near = [&](int x, int y) { return map.at(x, y) > 0; };
+    const auto is_far = [&](int x, int y) { return !is_near(x, y); };
+    const auto level_at = [&](int x, int y) { return int{coverage[size_t(y * kWidth + x)]}; };
+    const auto is_whole = [&](int x, int y) { return level_at(x, y) == 255; };
+    const auto is_empty = [&](int x, int y) { return level_at(x, y) == 0; };
     int clear = 0, against = 0, fractions = 0, lost = 0;
     double covered = 0, near = 0;
     for (int y = 1; y + 1 < kHeight; ++y) {
       for (int x = 1; x + 1 < kWidth; ++x) {
-        const int level = coverage[size_t(y * kWidth + x)];
-        const int cover = CoverAround(coverage, x, y);
+        const int level = level_at(x, y), cover = Around(x, y, is_whole, is_empty);
+        const int side = Around(x, y, is_near, is_far);
         covered += level / 255.0;
         near += map.at(x, y) > 0 ? 1 : 0;
         clear += cover >= 0 ? 1 : 0;
-        against += cover >= 0 && SideAround(map, x, y) != cover ? 1 : 0;
+        against += cover >= 0 && side != cover ? 1 : 0;
         fractions += level > 0 && level < 255 ? 1 : 0;
         // Counts pixels that a strand covers in part, although the map around the pixel has no
         // strand.
-        lost += level > 0 && SideAround(map, x, y) == 0 ? 1 : 0;
+        lost += level > 0 && side == 0 ? 1 : 0;
       }
     }
     CHECK(clear > kWidth * kHeight / 3);
