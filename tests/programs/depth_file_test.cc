@@ -42,8 +42,8 @@ std::string Npy(const std::string& type, const std::string& shape, const std::st
   const std::string header = "{'descr': '" + type +
                              "', 'fortran_order': " + (is_fortran_order ? "True" : "False") +
                              ", 'shape': (" + shape + "), }   \n";
-  return "\x93NUMPY" + Little(static_cast<uint32_t>(version), 2) +
-         Little(static_cast<uint32_t>(header.size()), version == 1 ? 2 : 4) + header + values;
+  return "\x93NUMPY" + Little(version, 2) + Little(header.size(), version == 1 ? 2 : 4) + header +
+         values;
 }
 
 // Entries of a TIFF directory: a tag and its number. The entries must be sorted by tag.
@@ -66,7 +66,7 @@ void SetTag(uint32_t tag, uint32_t value, Tags* tags) {
 std::string Tiff(const Tags& tags, const std::string& strip) {
   const auto end = static_cast<uint32_t>(kDataAt + strip.size());
   std::string file = "II*" + std::string(1, '\0') + Little(end, 4) + strip;
-  file += Little(static_cast<uint32_t>(tags.size()), 2);
+  file += Little(tags.size(), 2);
   constexpr uint32_t kLong = 4;
   for (const auto& [tag, value] : tags) {
     file += Little(tag, 2) + Little(kLong, 2) + Little(1, 4) + Little(value, 4);
@@ -83,6 +83,11 @@ void CheckSamples(const Result<Samples>& samples, int largest, const std::vector
   CHECK(samples->largest == largest);
   CHECK(!samples->larger_is_nearer);
   CHECK(samples->map.values == values);
+}
+
+std::vector<float> ValuesOf(const Result<Samples>& samples) {
+  REQUIRE(samples == "");
+  return samples->map.values;
 }
 
 bool HasTiff() { return !Contains(Decode(Tiff({}, "")), "built without libtiff"); }
@@ -159,18 +164,16 @@ TEST_CASE("npy: values that are not finite keep their meaning in all floats") {
   for (const std::string& file :
        {Npy("<f2", "2, 3", BytesOf(halves)), Npy("<f4", "2, 3", BytesOf(floats)),
         Npy("<f8", "2, 3", BytesOf(doubles))}) {
-    const Result<Samples> samples = Decode(file);
-    REQUIRE(samples == "");
+    const std::vector<float> values = ValuesOf(Decode(file));
     for (size_t k = 0; k < floats.size(); ++k) {
       CAPTURE(k);
-      const float value = samples->map.values[k];
+      const float value = values[k];
       CHECK((std::isnan(floats[k]) ? std::isnan(value) : value == floats[k]));
     }
   }
   const std::vector<double> large = {1e39, -1e300, 3e38};
-  const Result<Samples> most = Decode(Npy("<f8", "1, 3", BytesOf(large)));
-  REQUIRE(most == "");
-  CHECK(most->map.values == std::vector<float>{HUGE_VALF, -HUGE_VALF, 3e38F});
+  CHECK(ValuesOf(Decode(Npy("<f8", "1, 3", BytesOf(large)))) ==
+        std::vector<float>{HUGE_VALF, -HUGE_VALF, 3e38F});
 }
 
 TEST_CASE("npy: other arrays are rejected with the found property and a conversion") {
@@ -219,42 +222,34 @@ TEST_CASE("tiff: floats and integers are read in both byte orders and compressed
       for (int shift = 24; shift >= 0; shift -= 8) big += static_cast<char>(part >> shift);
     }
   }
-  const Result<Samples> samples = Decode(big + std::string(4, '\0'));
-  REQUIRE(samples == "");
-  CHECK(samples->map.values == std::vector<float>{0, 1, 2});
+  CHECK(ValuesOf(Decode(big + std::string(4, '\0'))) == std::vector<float>{0, 1, 2});
 }
 
 TEST_CASE("tiff: other layouts and damaged files are rejected with a conversion") {
   if (!HasTiff()) return;
-  const std::string strip = BytesOf(kFloats);
-  const auto changed = [&strip](uint32_t tag, uint32_t value) {
+  const struct {
+    Tags changes;
+    const char* error;
+  } rows[] = {{{{258, 24}}, "found 24-bit floats (convert the map to PFM or NPY"},
+              {{{258, 4}}, "found 4-bit floats"},
+              {{{339, 6}}, "found 32-bit samples of another type"},
+              {{{262, 0}}, "found black as the largest value"},
+              {{{262, 2}}, "found photometric interpretation 2"},
+              {{{277, 3}}, "found 3 samples for each pixel"},
+              {{{259, 50000}}, "found compression 50000"},
+              {{{256, 70000}}, "found 70000x2"},
+              {{{257, 60000}}, "an undamaged TIFF file"},
+              {{{273, 4000}}, "an undamaged TIFF file"},
+              {{{256, 16384}, {257, 16384}}, "too small for its pixels"}};
+  for (const auto& row : rows) {
+    CAPTURE(row.error);
     Tags tags = TagsOf(32, 3, 24);
-    SetTag(tag, value, &tags);
-    return Decode(Tiff(tags, strip));
-  };
-  for (const auto& row :
-       {std::tuple{258U, 24U, "found 24-bit floats (convert the map to PFM or NPY"},
-        std::tuple{258U, 4U, "found 4-bit floats"},
-        std::tuple{339U, 6U, "found 32-bit samples of another type"},
-        std::tuple{262U, 0U, "found black as the largest value"},
-        std::tuple{262U, 2U, "found photometric interpretation 2"},
-        std::tuple{277U, 3U, "found 3 samples for each pixel"},
-        std::tuple{259U, 50000U, "found compression 50000"},
-        std::tuple{256U, 70000U, "found 70000x2"},
-        std::tuple{257U, 60000U, "an undamaged TIFF file"},
-        std::tuple{273U, 4000U, "an undamaged TIFF file"}}) {
-    const uint32_t tag = std::get<0>(row), value = std::get<1>(row);
-    CAPTURE(tag);
-    CAPTURE(value);
-    CHECK(Contains(changed(tag, value), std::get<2>(row)));
+    for (const auto& [tag, value] : row.changes) SetTag(tag, value, &tags);
+    CHECK(Contains(Decode(Tiff(tags, BytesOf(kFloats))), row.error));
   }
-  Tags huge = TagsOf(32, 3, 24);
-  SetTag(256, 16384, &huge);
-  SetTag(257, 16384, &huge);
-  CHECK(Contains(Decode(Tiff(huge, strip)), "too small for its pixels"));
   Tags turned = TagsOf(32, 3, 24);
   turned.insert(turned.begin() + 6, {274, 6});
-  CHECK(Contains(Decode(Tiff(turned, strip)), "a TIFF of orientation 1, found 6"));
+  CHECK(Contains(Decode(Tiff(turned, BytesOf(kFloats))), "a TIFF of orientation 1, found 6"));
   CHECK(Contains(Decode(std::string("II*\0\377\377\0\0", 8)), "an undamaged TIFF file"));
 }
 
@@ -293,9 +288,7 @@ struct ArchiveChange {
   std::string comment = "";
 };
 
-std::string Long(uint64_t value) {
-  return Little(static_cast<uint32_t>(value), 4) + Little(static_cast<uint32_t>(value >> 32), 4);
-}
+std::string Long(uint64_t value) { return Little(value, 8); }
 
 // Writes a ZIP archive as APPNOTE.TXT of PKWARE describes it.
 std::string Zip(const std::vector<ArchiveFile>& files, const ArchiveChange& change = {}) {
@@ -310,7 +303,7 @@ std::string Zip(const std::vector<ArchiveFile>& files, const ArchiveChange& chan
     const std::string checked = Little(change.flags, 2) +
                                 Little(change.method + (file.deflated ? 8 : 0), 2) + Little(0, 4) +
                                 Little(photos::Crc(file.bytes) ^ change.crc, 4);
-    const auto name = Little(static_cast<uint32_t>(file.name.size()), 2);
+    const auto name = Little(file.name.size(), 2);
     zip += "PK\3\4" + Little(20, 2) + checked + Little(0, 8) + name + Little(4, 2) + file.name +
            Little(0xCAFE, 4) + packed;
     const std::string extra = change.is_64
@@ -319,9 +312,8 @@ std::string Zip(const std::vector<ArchiveFile>& files, const ArchiveChange& chan
                                   : "";
     const std::string sizes = Little(stored, 4) + Little(bytes, 4), none(8, '\xff');
     directory += "PK\1\2" + Little(20, 2) + Little(20, 2) + checked +
-                 (change.is_64 ? none : sizes) + name +
-                 Little(static_cast<uint32_t>(extra.size()), 2) + Little(0, 2) + Little(0, 8) +
-                 (change.is_64 ? none.substr(4) : Little(at, 4)) + file.name + extra;
+                 (change.is_64 ? none : sizes) + name + Little(extra.size(), 2) + Little(0, 2) +
+                 Little(0, 8) + (change.is_64 ? none.substr(4) : Little(at, 4)) + file.name + extra;
   }
   const auto at = static_cast<uint32_t>(zip.size()), size = static_cast<uint32_t>(directory.size());
   const auto count = static_cast<uint32_t>(files.size());
@@ -333,8 +325,8 @@ std::string Zip(const std::vector<ArchiveFile>& files, const ArchiveChange& chan
   }
   return zip + "PK\5\6" + Little(0, 4) + Little(change.is_64 ? 65535 : count, 2) +
          Little(change.is_64 ? 65535 : count, 2) + Little(size, 4) +
-         Little(change.is_64 ? 0xffffffff : at, 4) +
-         Little(static_cast<uint32_t>(change.comment.size()), 2) + change.comment;
+         Little(change.is_64 ? 0xffffffff : at, 4) + Little(change.comment.size(), 2) +
+         change.comment;
 }
 
 std::string Floats(const std::string& shape, size_t count) {
@@ -359,9 +351,7 @@ TEST_CASE("npz: the array named depth, or the only map, is read from all forms o
                  kFloats);
     const std::vector<ArchiveFile> other = {
         focal, matrix, {"mask.npy", mask, deflated}, {"pred.npy", wide, deflated}};
-    const Result<Samples> only = Decode(Zip(other));
-    REQUIRE(only == "");
-    CHECK(only->map.values == std::vector<float>(30, 7));
+    CHECK(ValuesOf(Decode(Zip(other))) == std::vector<float>(30, 7));
     CHECK(Contains(Decode(Zip({{"a.npy", wide, deflated}, {"b.npy", wide, deflated}, focal})),
                    "found 2: a, b (numpy.save('depth.npy', numpy.load(FILE)['NAME'])"));
     CHECK(Contains(Decode(Zip({focal, {"clip.npy", Floats("2, 2, 3", 12), deflated}})),
@@ -378,9 +368,7 @@ TEST_CASE("npz: of a matte, the array named matte or alpha is read, or the only 
   for (const char* name : {"matte.npy", "Alpha.npy"}) {
     CheckSamples(DecodeMatte(Zip({{"depth.npy", depth}, {name, matte}})), 0, kFloats);
   }
-  const Result<Samples> only = DecodeMatte(Zip({{"mask.npy", mask}}));
-  REQUIRE(only == "");
-  CHECK(only->map.values == std::vector<float>(30, 1));
+  CHECK(ValuesOf(DecodeMatte(Zip({{"mask.npy", mask}}))) == std::vector<float>(30, 1));
   CHECK(Contains(DecodeMatte(Zip({{"depth.npy", depth}, {"mask.npy", mask}})),
                  "expected an array named matte or alpha, or a single array of rows and columns, "
                  "found 2: depth, mask (numpy.save('matte.npy', numpy.load(FILE)['NAME'])"));

@@ -81,6 +81,12 @@ TEST_CASE("helper: the result of a decoder arrives unchanged") {
 TEST_CASE("helper: files, networks, programs and other processes are out of reach") {
   if (!HasHelpers()) return;
   const char* const arguments[] = {"/bin/true", nullptr};
+  const int file = open("/dev/null", O_RDONLY);
+  // No open file of the program is left but the channel.
+  CHECK(Attempt({[&] { return lseek(file, 0, SEEK_CUR) >= 0; },
+                 [] { return write(STDERR_FILENO, "", 0) >= 0; }}) == std::vector<int>(2, EBADF));
+  close(file);
+  CHECK(ErrorOf([] { std::thread([] {}).join(); }) == "");  // threads may start
   const std::vector<int> codes = Attempt({
       [] { return open("/dev/null", O_RDONLY) >= 0; },
       [] { return socket(AF_INET, SOCK_STREAM, 0) >= 0; },
@@ -114,20 +120,6 @@ TEST_CASE("helper: a confined program reads files, but starts no programs and us
   CHECK(WEXITSTATUS(status) == 5);
 }
 
-TEST_CASE("helper: no open file of the program is left but the channel") {
-  if (!HasHelpers()) return;
-  const int file = open("/dev/null", O_RDONLY);
-  const std::vector<int> codes = Attempt({[&] { return lseek(file, 0, SEEK_CUR) >= 0; },
-                                          [] { return write(STDERR_FILENO, "", 0) >= 0; }});
-  CHECK(codes == std::vector<int>(2, EBADF));
-  close(file);
-}
-
-TEST_CASE("helper: decoders may start threads") {
-  if (!HasHelpers()) return;
-  CHECK(ErrorOf([] { std::thread([] {}).join(); }) == "");
-}
-
 TEST_CASE("helper: a decoder that crashes or exceeds a limit causes one error") {
   if (!HasHelpers()) return;
   const std::string crash =
@@ -152,11 +144,10 @@ TEST_CASE("helper: a decoder that crashes or exceeds a limit causes one error") 
         "photo.jpg: expected no internal error, found length");
 }
 
-// Runs `misbehave` with the channel of a helper process. Returns the error, and stores the seconds
-// that it took in `*seconds`. No process may remain.
-std::string SlowError(const HelperLimits& limits, const std::function<void(Channel*)>& misbehave,
-                      double* seconds) {
-  const double start = Seconds();
+// Runs `misbehave` with the channel of a helper process that should send a picture. Returns the
+// error. No process may remain.
+std::string ErrorOfPart(const HelperLimits& limits,
+                        const std::function<void(Channel*)>& misbehave) {
   const Error error = RunHelper(
       "photo.jpg", limits, [] {},
       [&](Channel* channel) {
@@ -164,7 +155,6 @@ std::string SlowError(const HelperLimits& limits, const std::function<void(Chann
         Image picture;
         Pass(channel, &picture);
       });
-  *seconds = Seconds() - start;
   CHECK(waitpid(-1, nullptr, WNOHANG) == -1);
   CHECK(errno == ECHILD);
   return error.line();
@@ -183,65 +173,85 @@ void Trickle(Channel* channel) {
   }
 }
 
-TEST_CASE("helper: a decoder without progress causes one error within the limit") {
-  if (!HasHelpers()) return;
-  constexpr HelperLimits kImpatient = {uint64_t{1} << 30, 5, 20, 0.2};
-  const std::vector<std::pair<std::string, std::function<void(Channel*)>>> kinds = {
-      {"sleeps", [](Channel*) { sleep(100); }},
-      {"waits for a lock",
-       [](Channel*) {
-         std::mutex mutex;
-         mutex.lock();
-         std::thread([&] { mutex.lock(); }).join();
-       }},
-      {"stops itself", [](Channel*) { raise(SIGSTOP); }},
-      {"ignores signals and sleeps",
-       [](Channel*) {
-         sigset_t all;
-         sigfillset(&all);
-         pthread_sigmask(SIG_SETMASK, &all, nullptr);
-         for (;;) sleep(100);
-       }},
-      {"trickles", Trickle}};
-  for (const auto& one : kinds) {
-    const auto& kind = one.first;
-    const auto& misbehave = one.second;
-    CAPTURE(kind);
-    double seconds = 0;
-    CHECK(
-        SlowError(kImpatient, misbehave, &seconds) ==
-        "photo.jpg: expected a file that can be decoded, found one whose decoder makes no progress "
-        "for 0.2 seconds");
-    CHECK(seconds >= 0.2);
-    CHECK(seconds < 5);
+// Sends part after part of a result for a longer time than the idle limit.
+void Pretend(Channel* channel) {
+  for (;; usleep(5000)) {
+    for (const double end = ThreadNanoseconds() + 3e6; ThreadNanoseconds() < end;) continue;
+    channel->Flush();
   }
 }
 
-TEST_CASE("helper: a decoder that pretends to work is limited by the wall clock") {
-  if (!HasHelpers()) return;
-  double seconds = 0;
-  const auto pretend = [](Channel* channel) {
-    for (;; usleep(5000)) {
-      for (const double end = ThreadNanoseconds() + 3e6; ThreadNanoseconds() < end;) continue;
-      channel->Flush();
-    }
-  };
-  CHECK(SlowError({uint64_t{1} << 30, 5, 0.3, 0.2}, pretend, &seconds) ==
-        "photo.jpg: expected a file that can be decoded within 0.3 seconds, found one that takes "
-        "longer");
-  CHECK(seconds < 6);
+// Computes for 0.3 s, and sends a picture.
+void Work(Channel* channel) {
+  for (const double end = ThreadNanoseconds() + 3e8; ThreadNanoseconds() < end;) continue;
+  Image picture(3000, 100);
+  Pass(channel, &picture);
 }
 
-TEST_CASE("helper: a decoder that computes or sends for longer than the idle limit succeeds") {
+void UseUpMemory() {
+  while (mmap(nullptr, size_t{1} << 24, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=
+         MAP_FAILED) {
+  }
+}
+
+TEST_CASE("helper: a decoder without progress causes one error within the limit") {
   if (!HasHelpers()) return;
-  double seconds = 0;
-  const auto work = [](Channel* channel) {
-    for (const double end = ThreadNanoseconds() + 3e8; ThreadNanoseconds() < end;) continue;
-    Image picture(3000, 100);
-    Pass(channel, &picture);
+  constexpr uint64_t kMuch = uint64_t{1} << 30, kLittle = uint64_t{1} << 28;
+  const std::string decoded = "photo.jpg: expected a file that can be decoded";
+  const std::string idle = decoded + ", found one whose decoder makes no progress for 0.2 seconds";
+  const std::string memory = "photo.jpg: out of memory, cannot read it";
+  const auto freeze = [](Channel*) {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, nullptr);
+    for (;;) sleep(100);
   };
-  CHECK(SlowError({uint64_t{1} << 30, 5, 20, 0.1}, work, &seconds) == "");
-  CHECK(seconds >= 0.3);
+  const auto lock = [](Channel*) {
+    std::mutex mutex;
+    mutex.lock();
+    std::thread([&] { mutex.lock(); }).join();
+  };
+  const struct {
+    std::string what;
+    std::function<void(Channel*)> misbehave;
+    HelperLimits limits;
+    std::string error;
+    double least_seconds;
+  } rows[] = {
+      {"sleeps", [](Channel*) { sleep(100); }, {kMuch, 5, 20, 0.2}, idle, 0.2},
+      {"waits for a lock", lock, {kMuch, 5, 20, 0.2}, idle, 0.2},
+      {"stops itself", [](Channel*) { raise(SIGSTOP); }, {kMuch, 5, 20, 0.2}, idle, 0.2},
+      {"ignores signals and sleeps", freeze, {kMuch, 5, 20, 0.2}, idle, 0.2},
+      {"trickles", Trickle, {kMuch, 5, 20, 0.2}, idle, 0.2},
+      {"pretends to work",
+       Pretend,
+       {kMuch, 5, 0.3, 0.2},
+       decoded + " within 0.3 seconds, found one that takes longer",
+       0.3},
+      {"computes and sends for longer than the idle limit", Work, {kMuch, 5, 20, 0.1}, "", 0.3},
+      {"waits because its memory is used up",
+       [](Channel*) {
+         UseUpMemory();
+         sleep(100);
+       },
+       {kLittle, 5, 20, 0.1},
+       memory,
+       0},
+      {"crashes because its memory is used up",
+       [](Channel*) {
+         UseUpMemory();
+         std::abort();
+       },
+       {kLittle, 5, 20, 0.1},
+       memory,
+       0}};
+  for (const auto& row : rows) {
+    CAPTURE(row.what);
+    const double start = Seconds();
+    CHECK(ErrorOfPart(row.limits, row.misbehave) == row.error);
+    CHECK(Seconds() - start >= row.least_seconds);
+    CHECK(Seconds() - start < 6);
+  }
 }
 
 TEST_CASE("helper: time in which the program is stopped or busy does not count") {
@@ -257,50 +267,28 @@ TEST_CASE("helper: time in which the program is stopped or busy does not count")
   CHECK(error.line() == "");
 }
 
-TEST_CASE("helper: a decoder that waits because its memory is used up runs out of memory") {
-  if (!HasHelpers()) return;
-  double seconds = 0;
-  const auto wait = [](Channel*) {
-    while (mmap(nullptr, size_t{1} << 24, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=
-           MAP_FAILED) {
-    }
-    sleep(100);
-  };
-  CHECK(SlowError({uint64_t{1} << 28, 5, 20, 0.1}, wait, &seconds) ==
-        "photo.jpg: out of memory, cannot read it");
-  const auto crash = [](Channel*) {
-    while (mmap(nullptr, size_t{1} << 24, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) !=
-           MAP_FAILED) {
-    }
-    std::abort();
-  };
-  CHECK(SlowError({uint64_t{1} << 28, 5, 20, 0.1}, crash, &seconds) ==
-        "photo.jpg: out of memory, cannot read it");
-}
-
-TEST_CASE("helper: a size is rejected before memory for it is allocated") {
+TEST_CASE("helper: a size that contradicts itself is rejected before memory for it is allocated") {
   if (!HasHelpers()) return;
   const auto lie = [](int width, int height, uint64_t count) {
-    double seconds = 0;
-    return SlowError(
-        {uint64_t{1} << 30, 5, 20, 5},
-        [=](Channel* channel) {
-          int sizes[] = {width, height};
-          uint64_t number = count;
-          channel->Value(&sizes[0]);
-          channel->Value(&sizes[1]);
-          channel->Value(&number);
-          std::vector<uint8_t> flood(1 << 20);
-          while (channel->is_sound()) channel->Value(&(flood[0] = 0)), channel->Block(&flood);
-        },
-        &seconds);
+    return ErrorOfPart({uint64_t{1} << 30, 5, 20, 5}, [=](Channel* channel) {
+      int sizes[] = {width, height};
+      uint64_t number = count;
+      channel->Value(&sizes[0]);
+      channel->Value(&sizes[1]);
+      channel->Value(&number);
+      std::vector<uint8_t> flood(1 << 20);
+      while (channel->is_sound()) channel->Value(&(flood[0] = 0)), channel->Block(&flood);
+    });
   };
   rusage before, after;
   getrusage(RUSAGE_SELF, &before);
   for (const auto& one : {std::tuple{65535, 65535, uint64_t{1} << 30},
                           {-1, -1, 3},
+                          {-3, -2, 18},
                           {0, 5, 0},
+                          {0, 0, 18},
                           {1, 0, 0},
+                          {4, 2, 18},
                           {20000, 20000, uint64_t{1200000000}},
                           {10, 10, uint64_t{1} << 30},
                           {10, 10, ~uint64_t{0}},
@@ -335,25 +323,6 @@ TEST_CASE("helper: a decoder uses no more processors than threads") {
     CHECK(processors <= threads);
   }
   SetDecoderThreads(before);
-}
-
-TEST_CASE("helper: results that contradict themselves are rejected") {
-  if (!HasHelpers()) return;
-  const auto send = [](Image image) {
-    return Confined<Image>("photo.jpg", [&] { return Result<Image>(image); }).error().line();
-  };
-  Image image(3, 2);
-  CHECK(send(image) == "");
-  image.width = 4;
-  const std::string expected =
-      "photo.jpg: expected a file that can be decoded, found one that makes the decoder crash (it "
-      "sent no whole result)";
-  CHECK(send(image) == expected);
-  image.width = -3;
-  image.height = -2;
-  CHECK(send(image) == expected);
-  image.width = image.height = 0;
-  CHECK(send(image) == expected);
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ struct ButtonEvent {
 
 TEST_CASE("button: only edges that start a press count as presses, however contacts bounce") {
   const struct {
-    const char* what;
+    std::string what;
     std::vector<ButtonEvent> events;
   } rows[] = {
       {"the first edge of a press counts immediately",

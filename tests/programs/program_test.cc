@@ -232,22 +232,8 @@ TEST_CASE("program: the default number of threads is the number of cores that it
   REQUIRE(sched_setaffinity(0, sizeof(all), &all) == 0);
 }
 
-TEST_CASE("program: an error line names the cause of the error") {
-  TempFolder folder;
-  Prepare(folder);
-  const size_t before = LightFieldFiles(folder.file("lf")).size();
-  CheckRefusals(folder, "causes.txt");
-  CHECK(LightFieldFiles(folder.file("lf")).size() == before);
-  CHECK(!fs::exists(folder.file("lf/lf.png")));
-  CHECK(!fs::exists(folder.file("bare/disparity.pfm")));
-  if (geteuid() == 0) return;  // Root can write to any folder, so the calls below would not fail.
-  fs::create_directory(folder.file("locked"));
-  fs::permissions(folder.file("locked"), fs::perms::owner_read | fs::perms::owner_exec);
-  for (const char* arguments :
-       {"import lf locked/new", "scene locked/new", "analyze -o locked/new",
-        "steps lf -o locked/new --focus 1", "refocus lf tiny -o locked/new --focus 1"}) {
-    CheckRefused(folder, arguments, "cannot create folder locked/new: permission denied");
-  }
+TEST_CASE("program: every session of causes.txt succeeds") {
+  RunSessions("programs/causes.txt", {{"light fields", MakeLightFields}});
 }
 
 }  // namespace

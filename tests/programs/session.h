@@ -126,70 +126,13 @@ inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
   CHECK(folder.count() == before);
 }
 
-// Checks each row of the table tests/programs/NAME.
-inline void CheckRefusals(const TempFolder& folder, const std::string& name) {
-  std::ifstream table(STARFOCUS_SOURCE_DIR "/tests/programs/" + name);
-  int rows = 0;
-  for (std::string row; std::getline(table, row);) {
-    const size_t arrow = row.find(" -> ");
-    if (row.rfind("#", 0) == 0 || arrow == std::string::npos) continue;
-    CheckRefused(folder, row.substr(0, arrow), row.substr(arrow + 4));
-    ++rows;
-  }
-  CHECK(rows > 50);
-}
-
-// Writes malformed files and the light field `lf`, which has 40x30 pixels and 5 views. `bare` is a
-// copy of `lf` without map, and `grid` is a copy of `lf` with other names of views. `link` is a
-// link to `lf`.
-inline void Prepare(const TempFolder& folder) {
-  namespace fs = std::filesystem;
-  Succeed(folder, "scene lf --size 40x30 --views 5 --name wires");
-  REQUIRE(WriteFile(folder.file("text.png"), Bytes{'h', 'e', 'l', 'l', 'o'}) == "");
-  REQUIRE(WriteImage(folder.file("small.png"), Image(4, 4)) == "");
-  REQUIRE(WriteImage(folder.file("large.png"), Image(5, 4)) == "");
-  for (const char* name : {"missing", "broken", "nan", "huge", "short", "bare", "linked"}) {
-    fs::copy(folder.file("lf"), folder.file(name));
-  }
-  fs::rename(folder.file("linked/view_+1.0_+0.0.png"), folder.file("target.png"));
-  fs::create_symlink("../target.png", folder.file("linked/view_+1.0_+0.0.png"));
-  fs::create_symlink("../target.png", folder.file("linked/out.png"));
-  fs::remove(folder.file("missing/view_+0.0_+0.0.png"));
-  REQUIRE(WriteFile(folder.file("broken/view_-1.0_+0.0.png"), Bytes{1, 2, 3}) == "");
-  FloatMap map = ValueOf(ReadPfm(folder.file("lf/disparity.pfm")));
-  map.values[45] = std::numeric_limits<float>::quiet_NaN();
-  REQUIRE(WritePfm(folder.file("nan/disparity.pfm"), map) == "");
-  map.values[45] = 1e9f;
-  REQUIRE(WritePfm(folder.file("huge/disparity.pfm"), map) == "");
-  fs::resize_file(folder.file("short/disparity.pfm"), 100);
-  fs::create_directory(folder.file("taken_002.png"));
-  fs::remove(folder.file("bare/disparity.pfm"));
-  fs::create_directory_symlink("lf", folder.file("link"));
-  fs::create_directory(folder.file("grid"));
-  for (const char* name : {"v_0_0.png", "v_0_1.png", "v_0_2.png"}) {
-    fs::copy_file(folder.file("lf/view_+0.0_+0.0.png"), folder.file(std::string("grid/") + name));
-  }
-  fs::copy_file(folder.file("lf/disparity.pfm"), folder.file("grid/disparity.pfm"));
-  fs::create_hard_link(folder.file("grid/v_0_1.png"), folder.file("hard.png"));
-  Succeed(folder, "scene truths --size 40x30 --views 1 --truth 1,1");
-  Succeed(folder, "scene tiny --size 20x10 --views 5");
-  Succeed(folder, "scene single --size 40x30 --views 1");
-}
-
-// Writes two folders with a portrait: `truth` has the coverage of the hair, and `closed` has no
-// coverage.
-inline void PrepareHair(const TempFolder& folder) {
-  const test::ClosedHair portrait = test::MakeClosedHair();
-  LightField field;
-  field.views.emplace_back(test::ClosedHair::kWidth, test::ClosedHair::kHeight);
-  field.views[0].pixels = portrait.rgb;
-  field.disparity.width = test::ClosedHair::kWidth;
-  field.disparity.height = test::ClosedHair::kHeight;
-  field.disparity.values = portrait.map;
-  ThreadRunner runner(1);
-  REQUIRE(SaveLightField(folder.file("closed"), field, &runner) == "");
-  field.coverage = portrait.coverage;
-  REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
+// Runs a shell command, in which `starfocus` and `lab` are the programs. Returns its exit status.
+inline int RunShell(const TempFolder& folder, const std::string& command) {
+  const std::string programs =
+      "starfocus() { " STARFOCUS_EMULATOR " '" STARFOCUS_PROGRAM
+      "' \"$@\"; }; lab() { " STARFOCUS_EMULATOR " '" STARFOCUS_PROGRAM "-lab' \"$@\"; }; ";
+  return std::system(
+      ("cd '" + folder.path() + "' && { " + programs + command + "; } >/dev/null").c_str());
 }
 
 using Preparations = std::map<std::string, std::function<void(const TempFolder&)>>;
@@ -237,13 +180,48 @@ inline void CheckCloseness(const TempFolder& folder, const std::string& line) {
   CHECK((bad.empty() ? found >= std::stod(limit) : found > other + std::stod(limit)));
 }
 
-// Runs a shell command, in which `starfocus` and `lab` are the programs. Returns its exit status.
-inline int RunShell(const TempFolder& folder, const std::string& command) {
-  const std::string programs =
-      "starfocus() { " STARFOCUS_EMULATOR " '" STARFOCUS_PROGRAM
-      "' \"$@\"; }; lab() { " STARFOCUS_EMULATOR " '" STARFOCUS_PROGRAM "-lab' \"$@\"; }; ";
-  return std::system(
-      ("cd '" + folder.path() + "' && { " + programs + command + "; } >/dev/null").c_str());
+// Writes malformed files and the light field `lf`, which has 40x30 pixels and 5 views. `bare` is a
+// copy of `lf` without map, and `grid` is a copy of `lf` with other names of views. `link` is a
+// link to `lf`.
+inline void MakeLightFields(const TempFolder& folder) {
+  REQUIRE(RunShell(folder, R"(set -e
+lab scene lf --size 40x30 --views 5 --name wires
+lab scene truths --size 40x30 --views 1 --truth 1,1
+lab scene tiny --size 20x10 --views 5
+lab scene single --size 40x30 --views 1
+lab scene small --size 4x4 --views 1 && mv small/view_+0.0_+0.0.png small.png && rm -r small
+lab scene large --size 5x4 --views 1 && mv large/view_+0.0_+0.0.png large.png && rm -r large
+printf hello >text.png
+for name in missing broken nan huge short bare linked; do cp -r lf $name; done
+mv linked/view_+1.0_+0.0.png target.png
+ln -s ../target.png linked/view_+1.0_+0.0.png
+ln -s ../target.png linked/out.png
+rm missing/view_+0.0_+0.0.png bare/disparity.pfm
+printf '\1\2\3' >broken/view_-1.0_+0.0.png
+head -c 100 lf/disparity.pfm >short/disparity.pfm
+mkdir taken_002.png grid
+ln -s lf link
+for number in 0 1 2; do cp lf/view_+0.0_+0.0.png grid/v_0_$number.png; done
+cp lf/disparity.pfm grid
+ln grid/v_0_1.png hard.png)") == 0);
+  ChangeMap(folder, "nan 5,1,1,1=nan");
+  ChangeMap(folder, "huge 5,1,1,1=1e9");
+}
+
+// Writes two folders with a portrait: `truth` has the coverage of the hair, and `closed` has no
+// coverage.
+inline void PrepareHair(const TempFolder& folder) {
+  const test::ClosedHair portrait = test::MakeClosedHair();
+  LightField field;
+  field.views.emplace_back(test::ClosedHair::kWidth, test::ClosedHair::kHeight);
+  field.views[0].pixels = portrait.rgb;
+  field.disparity.width = test::ClosedHair::kWidth;
+  field.disparity.height = test::ClosedHair::kHeight;
+  field.disparity.values = portrait.map;
+  ThreadRunner runner(1);
+  REQUIRE(SaveLightField(folder.file("closed"), field, &runner) == "");
+  field.coverage = portrait.coverage;
+  REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
 }
 
 // Checks the output of the last call against an out or err line of a session.

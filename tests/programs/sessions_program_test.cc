@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the sessions that take little time. Tests the pairing of frames with a folder of depth
-// pictures, and the colours of frames.
+// Runs the sessions that take little time, and tests the colours of the frames of videos.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -65,90 +64,6 @@ TEST_CASE("sessions: every session of sessions.txt succeeds") {
 
 TEST_CASE("sessions: every session of video_sessions.txt succeeds") {
   RunSessions("programs/video_sessions.txt", {{"clip", MakeClip}});
-}
-
-std::string Name(const std::string& pattern, int number) {
-  char name[64];
-  std::snprintf(name, sizeof(name), pattern.c_str(), number);
-  return name;
-}
-
-// Writes frames and depth pictures to folders of their own. A pattern contains the number as %d.
-void MakeFolders(const TempFolder& folder, const std::string& frames,
-                 const std::vector<std::string>& depths) {
-  for (const char* name : {"rgb", "depth", "out"}) {
-    fs::remove_all(folder.file(name));
-    if (name[0] != 'o') fs::create_directory(folder.file(name));
-  }
-  for (int frame = kFirst; frame <= kLast; ++frame) {
-    const std::string number = std::to_string(frame), from = "clip/frame_" + number;
-    fs::copy(folder.file(from + ".png"), folder.file("rgb/" + Name(frames, frame)));
-    for (const std::string& depth : depths) {
-      fs::copy(folder.file(from + "-depth.png"), folder.file("depth/" + Name(depth, frame)));
-    }
-  }
-}
-
-TEST_CASE("video: a folder of depth pictures is paired with the frames by name, then by number") {
-  TempFolder folder;
-  MakeClip(folder);
-  Succeed(folder, "video clip -o true --no-repair --near white --focus-at 16,20");
-  // Names of frames, and names of depth pictures. Depth pictures are recognized by their content.
-  const std::vector<std::vector<std::string>> rows = {
-      {"%05d.png", "%05d.png"},
-      {"%05d.png", "%05d.pgm"},
-      {"frame_%d.png", "depth_%04d.png"},
-      {"frame_%04d.png", "depth_%d.png"},
-      {"frame_%d.png", "frame_%02d.png"},
-      {"IMG_%03d.PNG", "img_%03d.png"},
-      {"%d.png", "%d_depth.png"},
-      {"%d.png", "Depth%06d.tif"},
-      {"shot_2_%d.png", "shot_02_%d-depth.png"},
-      {"shot_2_%d.png", "disp_%04d.png"},
-      {"%d.png", "depth_v2_%d.png"},
-      {"%d.png", "depth_%d_640x480.png"},
-      {"take2_%d.png", "v3_%04d_16bit.png"},
-      // By name, although the numbers of other pictures fit, too.
-      {"frame_%d.png", "frame_%d.png", "view_%d.png"},
-  };
-  for (const std::vector<std::string>& row : rows) {
-    CAPTURE(row[0]);
-    CAPTURE(row[1]);
-    MakeFolders(folder, row[0], {row.begin() + 1, row.end()});
-    const Outcome outcome =
-        Call(folder, "video rgb -o out --depth depth --no-repair --near white --focus-at 16,20");
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 0);
-    CHECK(Contains(outcome.err, "belong to no frame") == (row.size() > 2));
-    for (int frame = kFirst; frame <= kLast && outcome.code == 0; ++frame) {
-      const std::string stem = fs::path(Name(row[0], frame)).stem().string();
-      CHECK(Text(folder.file("out/" + stem + ".png")) ==
-            Text(folder.file("true/frame_" + std::to_string(frame) + ".png")));
-    }
-  }
-}
-
-TEST_CASE("video: frames that a folder of depth pictures does not pair are an error before work") {
-  TempFolder folder;
-  MakeClip(folder);
-  const std::string call = "video rgb -o out --depth depth --near white --focus 1";
-  const std::string expected =
-      "expected one depth picture with the name or number of the frame in ";
-  MakeFolders(folder, "shot_%d.png", {"shot_%d.png"});
-  fs::rename(folder.file("depth/shot_10.png"), folder.file("depth/thumb_10.png"));
-  CheckRefused(folder, call, "rgb/shot_10.png: " + expected + "depth, found none (3 of 4 frames");
-  MakeFolders(folder, "%d.png", {"depth_%d.png"});
-  fs::copy(folder.file("depth/depth_8.png"), folder.file("depth/depth_08.png"));
-  CheckRefused(folder, call,
-               "rgb/8.png: " + expected + "depth, found depth_08.png and depth_8.png");
-  MakeFolders(folder, "%d.png", {"%d.png", "%d.npy"});
-  CheckRefused(folder, call, "rgb/8.png: " + expected + "depth, found 8.npy and 8.png");
-  MakeFolders(folder, "%d.png", {"depth_%d.png", "vis_%d.png"});
-  CheckRefused(folder, call, "rgb/8.png: " + expected + "depth, found depth_8.png and vis_8.png");
-  MakeFolders(folder, "%d.png", {});
-  CheckRefused(folder, call, "depth: expected a folder with depth pictures, found none");
-  Succeed(folder, "scene lf --size 40x30 --views 1");
-  CheckRefused(folder, "video lf -o out --depth depth --focus 1", "depth");
 }
 
 TEST_CASE("video: frames keep their colours, and light is averaged as the colours say") {
