@@ -110,16 +110,16 @@ TEST_CASE("photos: every session of the tables succeeds") {
       Write(folder.file(name), Seed("photo/" + name));
     }
   };
-  RunSessions("readers/photos.txt", {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
-  for (const char* table : {"readers/depth_commands.txt", "readers/mattes.txt"}) {
+  RunSessions("programs/photos.txt", {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
+  for (const char* table : {"programs/depth_commands.txt", "programs/mattes.txt"}) {
     RunSessions(table, {{"photo and map", MakePhotoAndMap}});
   }
-  RunSessions("readers/layouts.txt", {{"views", MakeViews}});
+  RunSessions("programs/layouts.txt", {{"views", MakeViews}});
 #ifdef STARFOCUS_HAS_EXIF
-  RunSessions("readers/subjects.txt", {{"subjects", MakeSubjects}});
+  RunSessions("programs/subjects.txt", {{"subjects", MakeSubjects}});
 #endif
   if (!CanReadXmp()) return;
-  RunSessions("readers/depth_photos.txt",
+  RunSessions("programs/depth_photos.txt",
               {{"GDepth photo", write_photo}, {"stored mattes", copy_seeds}});
 }
 
