@@ -181,7 +181,7 @@ TEST_CASE("photos: captions are copied to every output, and only depth photos de
       CHECK((!has_iptc || Contains(file,
                                    "\4"
                                    "cats")));
-      if (!has_exiftool) continue;
+      if (!is_jpeg || !has_exiftool) continue;
       const std::string command = "cd '" + folder.path() + "' && exiftool -s -G -Title -Rating " +
                                   "-Caption-Abstract -Warning " + out + " >tags";
       REQUIRE(std::system(command.c_str()) == 0);
@@ -189,7 +189,7 @@ TEST_CASE("photos: captions are copied to every output, and only depth photos de
       CHECK(Contains(text, "Cats & dogs"));
       CHECK(Contains(text, "Rating                          : 4"));
       CHECK(!Contains(text, "Warning"));
-      CHECK((!has_iptc || Contains(text, ": cats")));
+      if (has_iptc) CHECK(Contains(text, ": cats"));
     }
   }
 }
