@@ -12,7 +12,7 @@
 #include "platform/readers/heic.h"
 #include "platform/readers/heif_limits.h"
 #include "platform/readers/xmp.h"
-#include "tests/readers/depth_scene.h"
+#include "tests/programs/depth_scene.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"

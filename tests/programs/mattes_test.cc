@@ -20,7 +20,7 @@
 #include "platform/readers/orientation.h"
 #include "platform/readers/photo_scale.h"
 #include "platform/readers/xmp.h"
-#include "tests/readers/depth_scene.h"
+#include "tests/programs/depth_scene.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"

@@ -110,16 +110,16 @@ TEST_CASE("photos: every session of the tables succeeds") {
       Write(folder.file(name), Seed("photo/" + name));
     }
   };
-  RunSessions("readers/photos.txt", {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
-  for (const char* table : {"readers/depth_commands.txt", "readers/mattes.txt"}) {
+  RunSessions("programs/photos.txt", {{"MPO", write_pair}, {"photo and map", MakePhotoAndMap}});
+  for (const char* table : {"programs/depth_commands.txt", "programs/mattes.txt"}) {
     RunSessions(table, {{"photo and map", MakePhotoAndMap}});
   }
-  RunSessions("readers/layouts.txt", {{"views", MakeViews}});
+  RunSessions("programs/layouts.txt", {{"views", MakeViews}});
 #ifdef STARFOCUS_HAS_EXIF
-  RunSessions("readers/subjects.txt", {{"subjects", MakeSubjects}});
+  RunSessions("programs/subjects.txt", {{"subjects", MakeSubjects}});
 #endif
   if (!CanReadXmp()) return;
-  RunSessions("readers/depth_photos.txt",
+  RunSessions("programs/depth_photos.txt",
               {{"GDepth photo", write_photo}, {"stored mattes", copy_seeds}});
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("photos: captions are copied to every output, and only depth photos de
       CHECK((!has_iptc || Contains(file,
                                    "\4"
                                    "cats")));
-      if (!has_exiftool) continue;
+      if (!is_jpeg || !has_exiftool) continue;
       const std::string command = "cd '" + folder.path() + "' && exiftool -s -G -Title -Rating " +
                                   "-Caption-Abstract -Warning " + out + " >tags";
       REQUIRE(std::system(command.c_str()) == 0);
@@ -189,7 +189,7 @@ TEST_CASE("photos: captions are copied to every output, and only depth photos de
       CHECK(Contains(text, "Cats & dogs"));
       CHECK(Contains(text, "Rating                          : 4"));
       CHECK(!Contains(text, "Warning"));
-      CHECK((!has_iptc || Contains(text, ": cats")));
+      if (has_iptc) CHECK(Contains(text, ": cats"));
     }
   }
 }

@@ -14,7 +14,7 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/orientation.h"
 #include "platform/readers/unknown_depth.h"
-#include "tests/readers/depth_scene.h"
+#include "tests/programs/depth_scene.h"
 #include "tests/support/error_line.h"
 #include "tests/support/seed_file.h"
 

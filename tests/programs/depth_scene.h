@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scene of three surfaces, and its depth pictures in several formats, which tests open together
 // with a grey photo.
-#ifndef STARFOCUS_TESTS_READERS_DEPTH_SCENE_H_
-#define STARFOCUS_TESTS_READERS_DEPTH_SCENE_H_
+#ifndef STARFOCUS_TESTS_PROGRAMS_DEPTH_SCENE_H_
+#define STARFOCUS_TESTS_PROGRAMS_DEPTH_SCENE_H_
 
 #include <doctest/doctest.h>
 
@@ -139,4 +139,4 @@ inline void CheckScene(const Opened& opened) {
 
 }  // namespace starfocus::depth_scene
 
-#endif  // STARFOCUS_TESTS_READERS_DEPTH_SCENE_H_
+#endif  // STARFOCUS_TESTS_PROGRAMS_DEPTH_SCENE_H_
