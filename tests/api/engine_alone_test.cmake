@@ -24,7 +24,7 @@ function(expect program expected)
 endfunction()
 
 set(depth "starfocus_(estimate|repair)_|DepthKernels|AddPaths")
-set(developers "analysis::" "RayTracer" "stress::")
+set(developers "analysis::" "RayTracer")
 expect(minimal has "starfocus_init")
 expect(minimal lacks "starfocus_create" "LineScan|line_scan" "FindRuns" ${depth})
 expect(starfocus has "LineScan" "FindRuns" ${depth})

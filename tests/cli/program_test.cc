@@ -90,8 +90,7 @@ TEST_CASE("program: every way to request help prints the same text") {
     CHECK(!Contains(one.out, " TEXT"));
   }
   CHECK(Call(folder, "help --help-all").out == Call(folder, "help --help").out);
-  for (const std::string command :
-       {"scene", "compare", "sheet", "analyze", "calibrate", "steps", "stress"}) {
+  for (const std::string command : {"scene", "compare", "sheet", "analyze", "calibrate", "steps"}) {
     CAPTURE(command);
     CHECK(!Contains(all.out, "\n  " + command + " "));
     const Outcome one = Call(folder, command + " --help");
@@ -132,7 +131,7 @@ TEST_CASE("program: the help of each command ends with two examples") {
   const Outcome manual = Call(folder, "help --man");
   for (const std::string command :
        {"refocus", "disparity", "video", "view", "info", "import", "help", "scene", "compare",
-        "sheet", "analyze", "calibrate", "steps", "stress"}) {
+        "sheet", "analyze", "calibrate", "steps"}) {
     CAPTURE(command);
     const std::string path = ProgramFor(command);
     const std::string name = path.substr(path.rfind('/') + 1);
@@ -328,8 +327,7 @@ TEST_CASE("program: the program fails if it cannot write its output") {
 TEST_CASE(
     "program: if starfocus gets a subcommand of starfocus-lab, the error names starfocus-lab") {
   TempFolder folder;
-  for (const std::string name :
-       {"analyze", "calibrate", "compare", "scene", "sheet", "steps", "stress"}) {
+  for (const std::string name : {"analyze", "calibrate", "compare", "scene", "sheet", "steps"}) {
     CAPTURE(name);
     CHECK(Call(folder, name + " --help").code == 0);  // Call selects the program starfocus-lab.
     // With quotes around the subcommand, Call selects starfocus.
