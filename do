@@ -92,16 +92,16 @@ build_sanitized() {
 # sets, tests of examples/lab/analysis and tests of the source tree are skipped, since sanitizers find nothing in these
 # tests. AddressSanitizer keeps one stack frame per allocation, because whole stacks make the conformance tests four
 # times slower. To get whole stacks, set ASAN_OPTIONS=malloc_context_size=30. Valgrind finds invalid addresses and
-# undefined values. The stress family `differential` compares all output bytes, and leaves the workspace uninitialized in
-# some cases.
+# undefined values. The random calls of operations_bytes_test.cc compare all output bytes, and leave the workspace
+# uninitialized in some cases.
 check() {
   install valgrind
   build
   export ASAN_OPTIONS=${ASAN_OPTIONS:-malloc_context_size=1}
   build_sanitized all
   ctest --test-dir build/sanitize --output-on-failure --parallel "$(nproc)" || exit 1
-  step valgrind "refocusing under valgrind" tests/support/valgrind.sh $BUILD --quiet --error-exitcode=1 \
-    $BUILD/starfocus-lab stress --seconds 30 --family differential
+  STARFOCUS_SECONDS=30 step valgrind "refocusing under valgrind" tests/support/valgrind.sh $BUILD --quiet \
+    --error-exitcode=1 $BUILD/tests/operations_byte_tests --no-intro=true '--test-case=ways: random*'
 }
 
 # fuzz_target SECONDS NAME: runs the fuzz target NAME, starting from the seeds and from inputs that earlier runs found.

@@ -13,7 +13,6 @@ Command SheetCommand();
 Command AnalyzeCommand();
 Command CalibrateCommand();
 Command StepsCommand();
-Command StressCommand();
 
 }  // namespace starfocus
 

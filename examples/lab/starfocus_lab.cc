@@ -26,11 +26,10 @@ Error Run(int argc, char** argv) {
                    {"Engine",
                     {{"analyze", "Compute the paper's filter analysis"},
                      {"calibrate", "Measure the coefficients of the timing model"},
-                     {"stress", "Test the engine with random refocusings"},
                      {"help"}}},
                    {"Options", {{"--help"}, {"--help-all"}, {"--version"}}}}};
-  program.commands = {SceneCommand(),     CompareCommand(), SheetCommand(),  AnalyzeCommand(),
-                      CalibrateCommand(), StepsCommand(),   StressCommand(), HelpCommand(&program)};
+  program.commands = {SceneCommand(),     CompareCommand(), SheetCommand(),       AnalyzeCommand(),
+                      CalibrateCommand(), StepsCommand(),   HelpCommand(&program)};
   return RunCommandLine(program, argc, argv);
 }
 

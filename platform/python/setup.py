@@ -30,7 +30,7 @@ HERE = Path(__file__).resolve().parent
 COPY = HERE / "sources"
 ROOT = COPY if COPY.exists() else HERE.parent.parent
 # Files and folders of ROOT that building the library and the program requires.
-SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "examples", "lib", "platform", "simd", "tests/operations")
+SOURCES = ("CMakeLists.txt", "LICENSE", "cmake", "examples", "lib", "platform", "simd")
 LIBRARY = "libstarfocus_python.so"
 PROGRAM = "starfocus"
 

@@ -33,7 +33,12 @@ using Bytes = std::vector<uint8_t>;
 // Conditions of an operation that must not affect the bytes of the result.
 struct Setup {
   int workers = 1;
-  bool used = false;  // True if the engine and its memory were used before.
+  bool used = false;           // True if the engine and its memory were used before.
+  int poison = test::kPoison;  // First bytes of the memory; negative: those of the heap.
+  double room = 1;             // Factor of test::Config.max_blur.
+  bool spare = true;           // True if features are reserved that the operation does not use.
+  // Seed of another engine that prepares light fields and then ends; 0: the engine itself.
+  uint64_t maker = 0;
   // A null pointer selects the best kernels of this machine.
   const starfocus::simd::Kernels* kernels = nullptr;
   const starfocus::simd::DepthKernels* depth_kernels = nullptr;
@@ -59,6 +64,14 @@ inline Bytes Made(const Run& run, const starfocus_callbacks& callbacks = {}) {
   return bytes;
 }
 
+// Returns the indices of `count` jobs in a random order.
+inline std::vector<int32_t> Shuffled(int32_t count, test::Random* random) {
+  std::vector<int32_t> order(static_cast<size_t>(count));
+  for (int32_t i = 0; i < count; ++i) order[size_t(i)] = i;
+  for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random->Next() % i]);
+  return order;
+}
+
 // Runner that starts one thread per worker. The threads run the jobs in a shuffled order.
 struct ShuffledRunner {
   int workers, sets = 0, jobs = 0;
@@ -67,9 +80,7 @@ struct ShuffledRunner {
     ShuffledRunner* runner = static_cast<ShuffledRunner*>(self);
     runner->jobs += count;
     test::Random random(uint64_t(10 * runner->workers + ++runner->sets));
-    std::vector<int32_t> order(static_cast<size_t>(count));
-    for (int32_t i = 0; i < count; ++i) order[size_t(i)] = i;
-    for (size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.Next() % i]);
+    const std::vector<int32_t> order = Shuffled(count, &random);
     std::atomic<size_t> next{0};
     std::vector<std::thread> threads;
     for (int32_t worker = 0; worker < runner->workers; ++worker) {
@@ -110,14 +121,16 @@ inline void CheckSetups(const Operation& operation, const std::vector<Setup>& se
   }
 }
 
-// Runner that runs only half of the jobs of one set. The runner reports only every second failure,
-// since the engine must detect missing jobs even if the runner reports success.
+// Runner that runs only half of the jobs of one set, or of `times` sets. The runner reports only
+// every second failure, since the engine must detect missing jobs even if the runner reports
+// success.
 struct FailingRunner {
-  int fails_at, sets = 0;
+  int fails_at, times = 1, sets = 0;
 
   static int Run(void* self, starfocus_job job, void* data, int32_t count) {
     FailingRunner* runner = static_cast<FailingRunner*>(self);
-    const bool fails = runner->sets++ == runner->fails_at;
+    const int set = runner->sets++;
+    const bool fails = set >= runner->fails_at && set < runner->fails_at + runner->times;
     for (int32_t i = 0; i < (fails ? count / 2 : count); ++i) job(data, i, 0);
     return fails ? runner->fails_at % 2 : 0;
   }

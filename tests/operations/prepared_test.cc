@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests which engines may use a prepared light field, and the size of the memory of the light
-// field. ways_test.cc tests the bytes refocused from prepared light fields.
+// field. operations_bytes_test.cc tests the bytes refocused from prepared light fields.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,51 +19,6 @@
 
 namespace prepared_test {
 namespace {
-
-TEST_CASE(
-    "prepared: an engine may use a light field prepared by another engine, and stream in between") {
-  const test::Scene scene = test::LayeredScene(140, 100, 5, 7, 11);
-  test::Config config = test::ConfigFor(scene, 20);
-  test::Engine maker(config);
-  test::PreparedMemory memory(maker);
-  const starfocus_prepared* prepared = memory.Prepare(maker.get(), scene.Field());
-  config.max_workers = 3;
-  config.features |= STARFOCUS_FEATURE_STREAMING;
-  config.superblock = 32;
-  config.max_blur = 16;
-  test::Engine user(config);
-  const auto params = [](double focus) { return test::Params(focus, 1, STARFOCUS_MODE_BLOCK); };
-  const auto check = [&](double focus) {
-    const starfocus::Params asked = params(focus);
-    test::Output got(140, 100);
-    REQUIRE(test::RefocusPreparedRgb(user.get(), &asked, prepared, got.bytes.data(), got.stride,
-                                     nullptr) == STARFOCUS_OK);
-    CHECK((got.bytes == test::OutputOf(&user, asked, scene).bytes));
-  };
-  check(2);
-  test::Output streamed(140, 100);
-  const test::Output whole = test::OutputOf(&user, params(-3), scene);
-  check(8);
-  REQUIRE(test::Stream(&user, params(-3), scene, &streamed, 9, 9) == STARFOCUS_OK);
-  CHECK((streamed.bytes == whole.bytes));
-}
-
-TEST_CASE("prepared: a prepared light field outlives the engine that prepared it") {
-  const test::Scene scene = test::LayeredScene(70, 50, 5, 7, 11);
-  const test::Config config = test::ConfigFor(scene, 20);
-  test::PreparedMemory memory(config);
-  const starfocus_prepared* prepared = nullptr;
-  {
-    test::Engine maker(config);
-    prepared = memory.Prepare(maker.get(), scene.Field());
-  }
-  test::Engine user(config);
-  const starfocus::Params params = test::Params(2, 1, STARFOCUS_MODE_BLOCK);
-  test::Output got(70, 50);
-  REQUIRE(test::RefocusPreparedRgb(user.get(), &params, prepared, got.bytes.data(), got.stride,
-                                   nullptr) == STARFOCUS_OK);
-  CHECK((got.bytes == test::OutputOf(&user, params, scene).bytes));
-}
 
 TEST_CASE("prepared: refocusing does not read the map again, and previews read no plane again") {
   test::Scene scene = test::LayeredScene(90, 70, 5, 7, 13);
@@ -139,27 +94,6 @@ TEST_CASE("prepared: engines of another configuration reject a prepared light fi
                                    nullptr) == STARFOCUS_ERROR_PREPARED);
   }
   CHECK(out.Untouched());
-}
-
-TEST_CASE("prepared: a bad map is rejected before anything is written") {
-  test::Scene scene = test::LayeredScene(50, 90, 5, 3, 12);
-  const test::Config config = test::ConfigFor(scene, 8);
-  test::Engine engine(config);
-  test::PreparedMemory memory(engine);
-  const std::vector<uint8_t> before(memory.get(), memory.get() + memory.bytes);
-  for (const int row : {0, 40, 89}) {
-    CAPTURE(row);
-    const float good = scene.Disparity(49, row);
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), 1000.0f}) {
-      scene.Disparity(49, row) = bad;
-      const starfocus_light_field field = scene.Field();
-      starfocus_prepared* prepared = nullptr;
-      CHECK(starfocus_prepare(engine.get(), &field, memory.get(), memory.bytes, &prepared) ==
-            (bad == bad ? STARFOCUS_ERROR_DISPARITY : STARFOCUS_ERROR_NOT_FINITE));
-      CHECK(std::equal(before.begin(), before.end(), memory.get()));
-    }
-    scene.Disparity(49, row) = good;
-  }
 }
 
 }  // namespace

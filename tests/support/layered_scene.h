@@ -12,8 +12,29 @@
 
 namespace test {
 
-// Makes a scene of a slanted background and rectangles. The scene has edges, and flat areas that
-// are large enough for layers 1 and 2.
+// Sets the disparities of a slanted background and a few rectangles, with edges, and with flat
+// areas that are large enough for layers 1 and 2.
+inline void SetSurfaces(Scene* scene, Random* random) {
+  const int width = scene->width, height = scene->height;
+  const float low = scene->disparity_min, high = scene->disparity_max;
+  const int pieces = random->Int(1, 5);
+  for (int piece = 0; piece <= pieces; ++piece) {
+    const int x0 = piece == 0 ? 0 : random->Int(0, width - 1);
+    const int y0 = piece == 0 ? 0 : random->Int(0, height - 1);
+    const int x1 = piece == 0 ? width : std::min(width, x0 + random->Int(1, width));
+    const int y1 = piece == 0 ? height : std::min(height, y0 + random->Int(1, height));
+    const double base = random->Real(low, high),
+                 slant = random->Int(0, 1) * random->Real(-.05, .05);
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const float d = float(base + slant * (x - x0 + y - y0));
+        scene->Disparity(x, y) = std::clamp(d, low, high);
+      }
+    }
+  }
+}
+
+// Makes a scene of the surfaces of SetSurfaces.
 inline Scene LayeredScene(int width, int height, int views, float limit, uint64_t seed) {
   Random random(seed);
   Scene scene = EmptyScene(width, height, views, -limit, limit, int(seed % 4));
@@ -30,21 +51,7 @@ inline Scene LayeredScene(int width, int height, int views, float limit, uint64_
       }
     }
   }
-  const int pieces = random.Int(1, 5);
-  for (int piece = 0; piece <= pieces; ++piece) {
-    const int x0 = piece == 0 ? 0 : random.Int(0, width - 1);
-    const int y0 = piece == 0 ? 0 : random.Int(0, height - 1);
-    const int x1 = piece == 0 ? width : std::min(width, x0 + random.Int(1, width));
-    const int y1 = piece == 0 ? height : std::min(height, y0 + random.Int(1, height));
-    const double base = random.Real(-limit, limit),
-                 slant = random.Int(0, 1) * random.Real(-.05, .05);
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) {
-        const float d = float(base + slant * (x - x0 + y - y0));
-        scene.Disparity(x, y) = std::clamp(d, -limit, limit);
-      }
-    }
-  }
+  SetSurfaces(&scene, &random);
   return scene;
 }
 

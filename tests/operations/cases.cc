@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/operations/setup.h"
+#include "tests/operations/cases.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
+#include <vector>
 
-#include "starfocus/starfocus.hpp"
-#include "tests/support/config.h"
+#include "tests/support/layered_scene.h"
 #include "tests/support/shapes.h"
 #include "tests/support/strands.h"
 
-namespace starfocus::stress {
+namespace properties {
 namespace {
 
-constexpr int kViews[] = {1, 5, 9, 17};
-constexpr int kBlocks[] = {32, 64, 128, 256};
+constexpr int kBlockSizes[] = {32, 64, 128, 256};
 constexpr const char* kModes[] = {"frame", "benchmark", "block", "blur"};
 // Radii at which N changes by (9), or the layer L changes by (12).
 constexpr double kThresholds[] = {0.5, 1, 2, 3, 4, 4 / 0.787, 6, 8, 12};
@@ -32,16 +33,48 @@ double OftenAnEnd(double low, double high, test::Random* random) {
   return end == 0 ? low : end == 1 ? high : random->Real(low, high);
 }
 
+// Largest number of rendered views times pixels, for modes whose number of views grows with the
+// radius.
+constexpr double kMostWork = 300000;
+
+bool IsLineByLine(const Case& of) {
+  const starfocus::Params& params = of.params;
+  return params.study.renderer == STARFOCUS_RENDERER_LINE_SCAN ||
+         params.study.mode == STARFOCUS_MODE_BENCHMARK ||
+         (params.study.mode == STARFOCUS_MODE_FRAME &&
+          params.study.renderer == STARFOCUS_RENDERER_AUTO && of.config.views > 1);
+}
+
+// Limits the work of the line scan, whose number of views grows with the square of the radius.
+void LimitWork(Case* of) {
+  const double n = 1 + of->Radius() * std::max(1.0, of->config.tuning.n_scale);
+  const double views = 3.2 * n * n * (of->params.study.mode == STARFOCUS_MODE_BENCHMARK ? 4 : 1);
+  if (!IsLineByLine(*of) || views * of->config.width * of->config.height < kMostWork) return;
+  of->params.study.mode = STARFOCUS_MODE_BLOCK;
+  of->params.study.renderer = STARFOCUS_RENDERER_SLICES;
+}
+
+// Makes parts of some rows unknown.
+void ForgetDepth(Case* of, test::Random* random) {
+  of->config.unknown = STARFOCUS_UNKNOWN_FILL;
+  for (int y = 0; y < of->scene.height; ++y) {
+    const int first = random->Int(1, of->scene.width), last = random->Int(0, of->scene.width - 1);
+    for (int x = first; x <= last; ++x) {
+      of->scene.Disparity(x, y) = std::numeric_limits<float>::infinity();
+    }
+  }
+}
+
 }  // namespace
 
-double Setup::Radius() const {
+double Case::Radius() const {
   const starfocus::Params& lens = params;
   const double nearer = config.disparity_max - (lens.focus + lens.focus_nearer);
   const double farther = lens.focus - lens.focus_farther - config.disparity_min;
   return lens.aperture * std::max({0.0, nearer, farther});
 }
 
-std::string Setup::Text() const {
+std::string Case::Text() const {
   return std::to_string(config.width) + "x" + std::to_string(config.height) + ", " +
          std::to_string(config.views) + " views, " + kModes[params.study.mode] + ", renderer " +
          std::to_string(params.study.renderer) + ", disparity [" + Number(config.disparity_min) +
@@ -53,7 +86,9 @@ std::string Setup::Text() const {
          std::to_string(config.transfer) + ", highlights " + Number(double{config.highlights}) +
          ", theta " + Number(params.theta) + ", n_scale " + Number(config.tuning.n_scale) +
          (config.tuning.gather != 0 ? "" : ", nothing gathered") +
-         (scene.coverage.empty() ? "" : ", coverage") + ", " + test::ShapeText(params);
+         (scene.coverage.empty() ? "" : ", coverage") +
+         (config.unknown == STARFOCUS_UNKNOWN_FILL ? ", unknown" : "") + ", " +
+         test::ShapeText(params);
 }
 
 double RandomRadius(double largest, test::Random* random) {
@@ -69,6 +104,7 @@ double RandomRadius(double largest, test::Random* random) {
 void SetDepth(Depth depth, test::Scene* scene, test::Random* random) {
   if (depth == Depth::kPiecewise) return test::RandomDisparity(scene, random);
   if (depth == Depth::kNoisy) return test::NoisyDisparity(scene, random);
+  if (depth == Depth::kSurfaces) return test::SetSurfaces(scene, random);
   const double low = scene->disparity_min, high = scene->disparity_max;
   const double base = random->Real(low, high);
   const bool slanted = depth == Depth::kSlanted;
@@ -76,6 +112,8 @@ void SetDepth(Depth depth, test::Scene* scene, test::Random* random) {
   const double dy = slanted ? random->Real(-0.3, 0.3) : 0;
   const int step_x = random->Int(1, 3), step_y = random->Int(1, 3);
   const double far = random->Int(0, 1) == 0 ? low : high;
+  std::vector<double> levels(static_cast<size_t>(random->Int(5, 16)));
+  for (double& level : levels) level = random->Real(low, high);
   for (int y = 0; y < scene->height; ++y) {
     for (int x = 0; x < scene->width; ++x) {
       const bool odd = (x / step_x + y / step_y) % 2 == 1;
@@ -83,6 +121,7 @@ void SetDepth(Depth depth, test::Scene* scene, test::Random* random) {
       double value = base + dx * x + dy * y;
       if (depth == Depth::kAlternating) value = odd ? high : low;
       if (depth == Depth::kFramed && rim) value = far;
+      if (depth == Depth::kLevels) value = levels[random->Next() % levels.size()];
       if (depth == Depth::kSparse && random->Int(0, 40) == 0) value = far;
       scene->Disparity(x, y) =
           std::clamp(static_cast<float>(value), scene->disparity_min, scene->disparity_max);
@@ -132,17 +171,25 @@ void SetColours(Colours colours, test::Scene* scene, test::Random* random) {
   }
 }
 
-void FitBlur(Setup* setup) {
-  const double radius = setup->Radius();
-  setup->config.max_blur = radius > 0 ? radius : 0.5;
+void SetColour(const uint8_t rgb[3], test::Scene* scene) {
+  for (int view = 0; view < scene->views(); ++view) {
+    for (int y = 0; y < scene->height; ++y) {
+      for (int x = 0; x < scene->width; ++x) std::copy_n(rgb, 3, scene->Pixel(view, x, y));
+    }
+  }
 }
 
-void RandomMode(int modes, Setup* setup, test::Random* random) {
-  setup->params.study.mode = random->Int(0, modes - 1);
-  setup->params.study.renderer = random->Int(STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES);
+void FitBlur(Case* of) {
+  const double radius = of->Radius();
+  of->config.max_blur = radius > 0 ? radius : 0.5;
+}
+
+void RandomMode(Case* of, test::Random* random) {
+  of->params.study.mode = random->Int(STARFOCUS_MODE_FRAME, STARFOCUS_MODE_BLUR);
+  of->params.study.renderer = random->Int(STARFOCUS_RENDERER_AUTO, STARFOCUS_RENDERER_SLICES);
   // In benchmark mode, the number of views is proportional to the square of twice the radius.
-  if (setup->params.study.mode == STARFOCUS_MODE_BENCHMARK && setup->Radius() > 4) {
-    setup->params.study.mode = STARFOCUS_MODE_BLOCK;
+  if (of->params.study.mode == STARFOCUS_MODE_BENCHMARK && of->Radius() > 4) {
+    of->params.study.mode = STARFOCUS_MODE_BLOCK;
   }
 }
 
@@ -154,46 +201,45 @@ void SetFocus(double end, bool in_front, starfocus_params* lens, test::Random* r
   lens->focus_nearer = in_front ? away : toward;
 }
 
-void RandomLens(double radius, int modes, Setup* setup, test::Random* random) {
-  const test::Scene& scene = setup->scene;
+void RandomLens(double radius, Case* of, test::Random* random) {
+  const test::Scene& scene = of->scene;
   const double half = 0.5 * (double{scene.disparity_max} - scene.disparity_min);
   const double centre = 0.5 * (double{scene.disparity_max} + scene.disparity_min);
   double aperture = random->Int(0, 1) == 0 ? 1 : random->Real(0.05, 1);
   if (aperture * half > radius) aperture = std::max(radius / half, 1e-6);
   const double offset = std::max(0.0, radius / aperture - half);
   const bool in_front = random->Int(0, 1) == 0;
-  setup->params = test::Params(0, aperture);
-  SetFocus(centre + (in_front ? offset : -offset), in_front, &setup->params, random);
-  setup->config = test::ConfigFor(scene);
-  setup->config.superblock = kBlocks[std::min(random->Int(0, 3), random->Int(0, 3))];
-  setup->config.tuning.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
-  if (random->Int(0, 3) == 0) setup->config.tuning.deblocking = random->Int(0, 255);
+  of->params = test::Params(0, aperture);
+  SetFocus(centre + (in_front ? offset : -offset), in_front, &of->params, random);
+  of->config = test::ConfigFor(scene);
+  of->config.superblock = kBlockSizes[std::min(random->Int(0, 3), random->Int(0, 3))];
+  of->config.tuning.max_layer = random->Int(0, 3) == 0 ? random->Int(0, 1) : 2;
+  if (random->Int(0, 3) == 0) of->config.tuning.deblocking = random->Int(0, 255);
   if (random->Int(0, 3) == 0) {
-    setup->params.theta = OftenAnEnd(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA, random);
+    of->params.theta = OftenAnEnd(STARFOCUS_MIN_THETA, STARFOCUS_MAX_THETA, random);
   }
   // A low cost per block makes the partition fine, and a high cost makes the partition coarse.
-  if (random->Int(0, 1) == 0) setup->config.tuning.timing.block = 1u << random->Int(0, 26);
-  FitBlur(setup);
-  RandomMode(modes, setup, random);
-  setup->config.transfer =
-      random->Int(0, 1) == 0 ? STARFOCUS_TRANSFER_SRGB : STARFOCUS_TRANSFER_NONE;
+  if (random->Int(0, 1) == 0) of->config.tuning.timing.block = 1u << random->Int(0, 26);
+  FitBlur(of);
+  RandomMode(of, random);
+  of->config.transfer = random->Int(0, 1) == 0 ? STARFOCUS_TRANSFER_SRGB : STARFOCUS_TRANSFER_NONE;
 }
 
-Setup FlatSetup(int width, int height, double radius, test::Random* random) {
-  Setup setup;
-  setup.scene = test::EmptyScene(width, height, kViews[random->Int(0, 3)], 0, 0);
-  RandomLens(radius, 4, &setup, random);
-  setup.params.aperture = 1;
+Case FlatCase(int width, int height, double radius, test::Random* random) {
+  Case made;
+  made.scene = test::EmptyScene(width, height, test::kStars[random->Int(0, 3)], 0, 0);
+  RandomLens(radius, &made, random);
+  made.params.aperture = 1;
   const bool in_front = random->Int(0, 1) == 0;
-  SetFocus(in_front ? radius : -radius, in_front, &setup.params, random);
-  FitBlur(&setup);
-  RandomMode(4, &setup, random);
-  return setup;
+  SetFocus(in_front ? radius : -radius, in_front, &made.params, random);
+  FitBlur(&made);
+  RandomMode(&made, random);
+  return made;
 }
 
-Setup RandomSetup(const Bounds& bounds, test::Random* random) {
+Case RandomCase(const Bounds& bounds, test::Random* random) {
   const int low = std::min(bounds.size, random->Int(0, 3) == 0 ? bounds.size : 20);
-  Setup setup;
+  Case made;
   const double a = random->Real(-bounds.disparity, bounds.disparity);
   // The scene has surfaces that are far apart, strands, or surfaces that are close together.
   const int kind = random->Int(0, 3);
@@ -204,27 +250,54 @@ Setup RandomSetup(const Bounds& bounds, test::Random* random) {
   // The search with given coverage covers a wide area around each pixel, which is slow under
   // sanitizers.
   const int least = strands ? std::min(16, low) : 1, most = strands ? std::min(80, low) : low;
-  setup.scene = test::EmptyScene(
-      random->Int(least, most), random->Int(least, most), kViews[random->Int(0, 3)],
+  made.scene = test::EmptyScene(
+      random->Int(least, most), random->Int(least, most), test::kStars[random->Int(0, 3)],
       static_cast<float>(std::max<double>(-bounds.disparity, std::min(a, b))),
       static_cast<float>(std::min<double>(bounds.disparity, std::max(a, b))), random->Int(0, 3));
-  RandomLens(RandomRadius(bounds.radius, random), bounds.modes, &setup, random);
-  if (random->Int(0, 3) == 0) setup.config.tuning.gather = 0;
+  RandomLens(RandomRadius(bounds.radius, random), &made, random);
+  if (random->Int(0, 3) == 0) made.config.tuning.gather = 0;
   if (random->Int(0, 3) == 0)
-    setup.config.tuning.n_scale = OftenAnEnd(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE, random);
+    made.config.tuning.n_scale = OftenAnEnd(STARFOCUS_MIN_N_SCALE, STARFOCUS_MAX_N_SCALE, random);
   // Pictures use a separate random generator, since a fuzzer does not supply enough bytes for
   // pictures.
   test::Random fill(random->Next());
-  setup.strands = strands;
+  made.strands = strands;
   if (strands) {
-    SetStrands(&setup.scene, &fill);
+    SetStrands(&made.scene, &fill);
   } else {
-    SetDepth(static_cast<Depth>(random->Int(0, 6)), &setup.scene, &fill);
-    SetColours(static_cast<Colours>(random->Int(0, 3)), &setup.scene, &fill);
+    SetDepth(static_cast<Depth>(random->Int(0, 8)), &made.scene, &fill);
+    SetColours(static_cast<Colours>(random->Int(0, 3)), &made.scene, &fill);
   }
-  if (fill.Int(0, 3) == 0) test::RandomShape(&setup.params, &fill);
-  test::ReserveFor(setup.params, &setup.config);
-  return setup;
+  if (fill.Int(0, 3) == 0) test::RandomShape(&made.params, &fill);
+  test::ReserveFor(made.params, &made.config);
+  return made;
 }
 
-}  // namespace starfocus::stress
+Case RandomCase(test::Random* random) {
+  // Larger blurs have smaller pictures and are selected less often.
+  constexpr Bounds kRegimes[] = {
+      {160, 3, 8}, {160, 6, 500}, {100, 16, 40}, {64, 50, 500}, {40, 128, 500}};
+  Case made = RandomCase(kRegimes[std::min(random->Int(0, 4), random->Int(0, 4))], random);
+  LimitWork(&made);
+  if (random->Int(0, 7) == 0) made.config.superblock = 0;  // The library selects the block size.
+  if (random->Int(0, 3) == 0)
+    made.config.highlights = float(random->Real(1, STARFOCUS_MAX_HIGHLIGHTS));
+  if (random->Int(0, 3) == 0) {
+    made.config.max_blur =
+        std::min(STARFOCUS_MAX_BLUR, std::ceil(made.config.max_blur) + random->Int(0, 8));
+  }
+  if (random->Int(0, 3) == 0) {
+    starfocus_timing& timing = made.config.tuning.timing;
+    for (uint32_t* coefficient : {&timing.block, &timing.field, &timing.a, &timing.b, &timing.c,
+                                  &timing.upsample, &timing.span, &timing.hole}) {
+      *coefficient = random->Int(0, 2) == 0 ? 0 : random->Next() % (STARFOCUS_MAX_TIMING + 1);
+    }
+  }
+  if (made.params.study.renderer != STARFOCUS_RENDERER_LINE_SCAN && random->Int(0, 2) == 0) {
+    test::RandomViews(&made.scene, &made.config, random);
+  }
+  if (!made.strands && random->Int(0, 5) == 0) ForgetDepth(&made, random);
+  return made;
+}
+
+}  // namespace properties
