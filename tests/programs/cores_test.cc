@@ -5,8 +5,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "platform/pool/big_cores.h"
@@ -86,44 +86,42 @@ TEST_CASE("big cores: this machine has big cores, and a thread can run on them")
 }
 #endif
 
-using Files = std::vector<std::pair<const char*, const char*>>;  // paths and contents
-
-int QuotaOf(const std::string& groups, const Files& files) {
+// Returns the cores of a quota. `files` has lines "PATH: CONTENT" of files of control groups.
+int QuotaOf(const std::string& groups, const std::string& files) {
   TempFolder folder;
   std::ofstream(folder.file("groups")) << groups;
-  for (const auto& [path, text] : files) {
-    const std::filesystem::path file = folder.file("mounted") + "/" + path;
+  std::istringstream lines(files);
+  for (std::string line; std::getline(lines, line);) {
+    const size_t colon = line.find(": ");
+    const std::filesystem::path file = folder.file("mounted") + "/" + line.substr(0, colon);
     std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file) << text;
+    std::ofstream(file) << line.substr(colon + 2) << "\n";
   }
   return QuotaCores(folder.file("groups").c_str(), folder.file("mounted").c_str());
 }
 
 TEST_CASE("quota: the least quota of the group and its parents counts, rounded up") {
   const struct {
-    std::string groups;
-    Files files;
+    std::string groups, files;
     int cores;
-  } rows[] = {
-      {"0::/\n", {{"cpu.max", "200000 100000\n"}}, 2},
-      {"0::/\n", {{"cpu.max", "150000 100000\n"}}, 2},
-      {"0::/\n", {{"cpu.max", "1000 100000\n"}}, 1},
-      {"0::/\n", {{"cpu.max", "max 100000\n"}}, 0},
-      {"0::/a/b\n", {{"a/b/cpu.max", "max 100000\n"}, {"a/cpu.max", "300000 100000\n"}}, 3},
-      {"0::/a/b\n", {{"a/b/cpu.max", "100000 50000\n"}, {"a/cpu.max", "300000 100000\n"}}, 2},
-      {"0::/a/b\n", {{"a/b/cpu.max", "900000 100000\n"}, {"cpu.max", "400000 100000"}}, 4},
-      // A container sees the names of the host's groups, but not their folders.
-      {"0::/docker/c0ffee\n", {{"cpu.max", "500000 100000\n"}}, 5},
-      {"4:cpu,cpuacct:/docker/c0ffee\n1:name=systemd:/a\n",
-       {{"cpu/cpu.cfs_quota_us", "600000\n"}, {"cpu/cpu.cfs_period_us", "100000\n"}},
-       6},
-      // Without a quota, and without control groups, nothing is limited.
-      {"", {}, 0},
-      {"no colons\n", {{"cpu.max", "100000 100000\n"}}, 0},
-      {"0::/\n", {{"cpu.max", "text"}}, 0},
-      {"0::/\n", {{"cpu.max", "100000 0\n"}}, 0},
-      {"4:cpu:/\n", {{"cpu/cpu.cfs_quota_us", "-1\n"}, {"cpu/cpu.cfs_period_us", "100000\n"}}, 0},
-      {"0::/" + std::string(5000, 'a') + "\n", {{"cpu.max", "max 100000\n"}}, 0}};
+  } rows[] = {{"0::/\n", "cpu.max: 200000 100000", 2},
+              {"0::/\n", "cpu.max: 150000 100000", 2},
+              {"0::/\n", "cpu.max: 1000 100000", 1},
+              {"0::/\n", "cpu.max: max 100000", 0},
+              {"0::/a/b\n", "a/b/cpu.max: max 100000\na/cpu.max: 300000 100000", 3},
+              {"0::/a/b\n", "a/b/cpu.max: 100000 50000\na/cpu.max: 300000 100000", 2},
+              {"0::/a/b\n", "a/b/cpu.max: 900000 100000\ncpu.max: 400000 100000", 4},
+              // A container sees the names of the host's groups, but not their folders.
+              {"0::/docker/c0ffee\n", "cpu.max: 500000 100000", 5},
+              {"4:cpu,cpuacct:/docker/c0ffee\n1:name=systemd:/a\n",
+               "cpu/cpu.cfs_quota_us: 600000\ncpu/cpu.cfs_period_us: 100000", 6},
+              // Without a quota, and without control groups, nothing is limited.
+              {"", "", 0},
+              {"no colons\n", "cpu.max: 100000 100000", 0},
+              {"0::/\n", "cpu.max: text", 0},
+              {"0::/\n", "cpu.max: 100000 0", 0},
+              {"4:cpu:/\n", "cpu/cpu.cfs_quota_us: -1\ncpu/cpu.cfs_period_us: 100000", 0},
+              {"0::/" + std::string(5000, 'a') + "\n", "cpu.max: max 100000", 0}};
   for (const auto& row : rows) {
     CAPTURE(row.groups);
     CHECK(QuotaOf(row.groups, row.files) == row.cores);

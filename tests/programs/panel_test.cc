@@ -5,10 +5,13 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdio>
+#include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "examples/board/framebuffer.h"
+#include "tests/support/error_line.h"
 #include "tests/support/test_scene.h"
 
 namespace starfocus::panel_test {
@@ -93,59 +96,30 @@ TEST_CASE("encoder: a lost edge loses at most one step and never adds a wrong st
 
 constexpr int64_t kMs = 1000000;
 
-// An edge of a button, or a call of Settle (`kSettle`), at a time in ms. `counts` is true if the
-// call returns that a press begins, and `unsettled` is the state of the button after it.
-enum Event { kPress, kRelease, kSettle };
-struct ButtonEvent {
-  int ms;
-  Event event;
-  bool counts, unsettled;
-};
-
 TEST_CASE("button: only edges that start a press count as presses, however contacts bounce") {
-  const struct {
-    std::string what;
-    std::vector<ButtonEvent> events;
-  } rows[] = {
-      {"the first edge of a press counts immediately",
-       {{0, kPress, true, false}, {100, kRelease, false, false}, {200, kPress, true, false}}},
-      {"the next press counts even if no level has settled",
-       {{0, kPress, true, false}, {3, kRelease, false, true}, {500, kPress, true, false}}},
-      {"presses count after a lost release and a lost press",
-       {{0, kPress, true, false},
-        {500, kPress, true, false},
-        {900, kRelease, false, false},
-        {990, kRelease, false, false},
-        {1500, kPress, true, false}}},
-      {"bouncing of press and release makes one press",
-       {{0, kPress, true, false},
-        {1, kRelease, false, true},
-        {2, kPress, false, false},
-        {50, kRelease, false, false},
-        {51, kPress, false, true},
-        {52, kRelease, false, false},
-        {1000, kPress, true, false}}},
-      {"a tap shorter than the bouncing time is recognised as released",
-       {{0, kPress, true, false},
-        {3, kRelease, false, true},
-        {9, kSettle, false, true},
-        {10, kSettle, false, false},
-        {11, kPress, true, false}}},
-      {"a press while the release bounces is counted when the button settles",
-       {{0, kPress, true, false},
-        {100, kRelease, false, false},
-        {105, kPress, false, true},
-        {110, kSettle, true, false},
-        {300, kRelease, false, false}}}};
+  // Each event has a time in ms, "+" for an edge to pressed, "-" for an edge to released or "." for
+  // a call of Settle, "!" if a press counts, and "?" if the button is unsettled afterwards.
+  const std::pair<const char*, const char*> rows[] = {
+      {"the first edge of a press counts immediately", "0+! 100- 200+!"},
+      {"the next press counts even if no level has settled", "0+! 3-? 500+!"},
+      {"presses count after a lost release and a lost press", "0+! 500+! 900- 990- 1500+!"},
+      {"bouncing of press and release makes one press", "0+! 1-? 2+ 50- 51+? 52- 1000+!"},
+      {"a tap shorter than the bouncing time is recognised as released", "0+! 3-? 9.? 10. 11+!"},
+      {"a press while the release bounces counts as the button settles",
+       "0+! 100- 105+? 110.! 300-"}};
   for (const auto& row : rows) {
-    CAPTURE(row.what);
+    const std::string what = row.first;
+    CAPTURE(what);
     Debouncer button(10 * kMs);
-    for (const ButtonEvent& event : row.events) {
-      CAPTURE(event.ms);
-      const int64_t at = event.ms * kMs;
-      CHECK((event.event == kSettle ? button.Settle(at) : button.Edge(event.event == kPress, at)) ==
-            event.counts);
-      CHECK(button.unsettled() == event.unsettled);
+    std::istringstream events(row.second);
+    for (std::string event; events >> event;) {
+      CAPTURE(event);
+      const size_t at = event.find_first_of("+-.");
+      const int64_t time = std::stoi(event) * kMs;
+      const bool counts =
+          event[at] == '.' ? button.Settle(time) : button.Edge(event[at] == '+', time);
+      CHECK(counts == Contains(event, "!"));
+      CHECK(button.unsettled() == Contains(event, "?"));
     }
   }
 }
