@@ -68,6 +68,7 @@ void MakeViews(const TempFolder& folder) {
   Require(WritePfm(folder.file("inf.pfm"), map));
 }
 
+#ifdef STARFOCUS_HAS_EXIF
 // Adds photos whose EXIF contains an orientation and a subject, and may contain the size of the
 // picture that the subject refers to.
 void MakeSubjects(const TempFolder& folder) {
@@ -96,6 +97,7 @@ void MakeSubjects(const TempFolder& folder) {
     Write(folder.file(name + std::string(".jpg")), Insert(photo, exif));
   }
 }
+#endif
 
 TEST_CASE("photos: every session of the tables succeeds") {
   const auto write_pair = [](const TempFolder& folder) {

@@ -230,6 +230,7 @@ TEST_CASE(
     CHECK(std::isnan(capture.light_field.disparity.at(20, 0)));
     CHECK(capture.care == MapCare::kFill);
   }
+  CHECK(IsLightFieldFile("disp0GT.pfm"));
   TempFolder folder;  // without a second picture, the size determines the multiple
   WriteGreyMapPair(folder, ppm, 375, 4);
   Capture capture = ValueOf(OpenCapture(folder.path(), {}));
