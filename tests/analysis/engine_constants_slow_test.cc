@@ -128,28 +128,21 @@ TEST_CASE("constants: the layer filters have beta_D of Table I at r = 3 and the 
                 "kBetaDown of examples/lab/analysis differs from beta_D of Table I");
 }
 
-TEST_CASE("constants: layers begin at the radii of equation (12)") {
+TEST_CASE("constants: layers begin at the radii of equation (12), or at 7 and 24 by subapertures") {
   CHECK_MESSAGE(OptimiseOnGrid(2.5).error > kThreshold,
                 "by Table I, layer 1 could begin at r = 2.5");
   CHECK_MESSAGE(OptimiseOnGrid(3).error < kThreshold, "by Table I, layer 1 must begin above r = 3");
-  const double below = std::nextafter(3.0, 0.0);
-  CHECK_MESSAGE(LayerByPaper(below) == 0, "LayerByPaper: layer 1 begins below r = 3");
-  CHECK_MESSAGE(LayerByPaper(3) == 1, "LayerByPaper: layer 1 begins above r = 3");
-  CHECK_MESSAGE(LayerByPaper(2 * below) == 1, "LayerByPaper: layer 2 begins below r = 6");
-  CHECK_MESSAGE(LayerByPaper(6) == 2, "LayerByPaper: layer 2 begins above r = 6");
-}
-
-TEST_CASE("constants: by the rule for subapertures, layers begin at radii 7 and 24") {
-  const double below = std::nextafter(7.0, 0.0);
-  CHECK_MESSAGE(LayerBySubaperture(below, false) == 0,
-                "LayerBySubaperture: layer 1 begins below r = 7");
-  CHECK_MESSAGE(LayerBySubaperture(7, false) == 1,
-                "LayerBySubaperture: layer 1 begins above r = 7");
-  const double second = std::nextafter(24.0, 0.0);
-  CHECK_MESSAGE(LayerBySubaperture(second, false) == 1,
-                "LayerBySubaperture: layer 2 begins below r = 24");
-  CHECK_MESSAGE(LayerBySubaperture(24, false) == 2,
-                "LayerBySubaperture: layer 2 begins above r = 24");
+  for (const int layer : {1, 2}) {
+    const double paper = layer == 1 ? 3 : 6, subapertures = layer == 1 ? 7 : 24;
+    CAPTURE(layer);
+    CHECK_MESSAGE(LayerByPaper(paper) == layer, "LayerByPaper: the layer begins above " << paper);
+    CHECK_MESSAGE(LayerByPaper(std::nextafter(paper, 0.0)) == layer - 1,
+                  "LayerByPaper: the layer begins below " << paper);
+    CHECK_MESSAGE(LayerBySubaperture(subapertures, false) == layer,
+                  "LayerBySubaperture: the layer begins above " << subapertures);
+    CHECK_MESSAGE(LayerBySubaperture(std::nextafter(subapertures, 0.0), false) == layer - 1,
+                  "LayerBySubaperture: the layer begins below " << subapertures);
+  }
 }
 
 TEST_CASE("constants: layers have the error of equation (10) and the aliasing of equation (11)") {

@@ -29,16 +29,21 @@ struct Made {
   starfocus_problem problem = {};
 };
 
-Made Make(const ImageField& field, bool repairs, uint32_t features, int workers = 1,
-          const starfocus_callbacks& callbacks = {}) {
-  const test::Scene& scene = field.converted;
-  Made made;
+test::Config ConfigOf(const test::Scene& scene) {
   test::Config config;
   config.width = scene.width;
   config.height = scene.height;
   config.views = scene.views();
   config.disparity_min = scene.disparity_min;
   config.disparity_max = scene.disparity_max;
+  return config;
+}
+
+Made Make(const ImageField& field, bool repairs, uint32_t features, int workers = 1,
+          const starfocus_callbacks& callbacks = {}) {
+  const test::Scene& scene = field.converted;
+  Made made;
+  test::Config config = ConfigOf(scene);
   config.features = features;
   config.max_workers = workers;
   size_t bytes = 0;
@@ -133,12 +138,7 @@ TEST_CASE("maps of any format: without the feature, other formats are rejected")
   const ImageField field = Field(1, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, &random);
   const test::Scene& scene = field.converted;
   starfocus_problem problem = {};
-  test::Config config;
-  config.width = scene.width;
-  config.height = scene.height;
-  config.views = 1;
-  config.disparity_min = scene.disparity_min;
-  config.disparity_max = scene.disparity_max;
+  test::Config config = ConfigOf(scene);
   size_t bytes = 0, with = 0;
   REQUIRE(starfocus_map_workspace_size(&config, 1, &bytes, nullptr) == STARFOCUS_OK);
   const test::Memory memory(bytes);

@@ -46,6 +46,24 @@ TEST_CASE("setup: tiles cover the picture, are symmetric, and are neither small 
   }
 }
 
+TEST_CASE("setup: views of a ring lie opposite each other, at the positions of the star set") {
+  for (const int views : {5, 9, 17}) {
+    const SweepSetup setup = SetupOf(10, 10, views, 0, 1);
+    CHECK(setup.side_views == views - 1);
+    CHECK(!setup.one_sided());
+    for (int32_t k = 0; k < setup.side_views; ++k) {
+      double u = 0, v = 0;
+      REQUIRE(starfocus_view_position(setup.side[k].index, &u, &v, nullptr) == STARFOCUS_OK);
+      CHECK(setup.side[k].at.u == kViewOne * u);
+      CHECK(setup.side[k].at.v == kViewOne * v);
+      const int32_t ring = k / setup.arms * setup.arms;
+      const SideView& other = setup.side[ring + (k + setup.arms / 2) % setup.arms];
+      CHECK(other.at.u == -setup.side[k].at.u);
+      CHECK(other.at.v == -setup.side[k].at.v);
+    }
+  }
+}
+
 SweepSetup PlanAt(const std::vector<starfocus_position>& positions, float low, float high) {
   return SetupOf(10, 10, int(positions.size()), low, high, positions);
 }

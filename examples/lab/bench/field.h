@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the light fields of the bench with their ray-traced pictures (truths). Creates larger and
 // stretched copies for the sweeps of the size and the blur radius. Used by bench.cc, count.cc and
-// studies.cc.
+// measure.cc.
 #ifndef STARFOCUS_EXAMPLES_LAB_BENCH_FIELD_H_
 #define STARFOCUS_EXAMPLES_LAB_BENCH_FIELD_H_
 
