@@ -100,7 +100,8 @@ package() {
   quietly cmake --install "$build" --prefix "$prefix"
   for form in shared static; do
     for pool in OFF ON; do
-      project "CMake package, C, $form, pool $pool" package C -DKIND=$form -DWITH_POOL=$pool -DCMAKE_PREFIX_PATH="$prefix"
+      project "CMake package, C, $form, pool $pool" package C -DKIND=$form -DWITH_POOL=$pool \
+        -DCMAKE_PREFIX_PATH="$prefix"
     done
   done
   project 'CMake package, C++' package CXX -DCMAKE_PREFIX_PATH="$prefix"
