@@ -238,7 +238,8 @@ Case FlatCase(int width, int height, double radius, test::Random* random) {
 }
 
 Case RandomCase(const Bounds& bounds, test::Random* random) {
-  const int low = std::min(bounds.size, random->Int(0, 3) == 0 ? bounds.size : 20);
+  const bool any = bounds.least > 1 || random->Int(0, 3) == 0;
+  const int low = any ? bounds.size : std::min(bounds.size, 20);
   Case made;
   const double a = random->Real(-bounds.disparity, bounds.disparity);
   // The scene has surfaces that are far apart, strands, or surfaces that are close together.
@@ -249,7 +250,8 @@ Case RandomCase(const Bounds& bounds, test::Random* random) {
                              : a + random->Real(-3, 3);
   // The search with given coverage covers a wide area around each pixel, which is slow under
   // sanitizers.
-  const int least = strands ? std::min(16, low) : 1, most = strands ? std::min(80, low) : low;
+  const int least = strands ? std::min(16, low) : bounds.least,
+            most = strands ? std::min(80, low) : low;
   made.scene = test::EmptyScene(
       random->Int(least, most), random->Int(least, most), test::kStars[random->Int(0, 3)],
       static_cast<float>(std::max<double>(-bounds.disparity, std::min(a, b))),

@@ -37,9 +37,10 @@ struct Case {
 
 // Bounds of a random case.
 struct Bounds {
-  int size = 40;        // Width and height are in [1, size].
+  int size = 40;        // Width and height are in [least, size].
   double radius = 6;    // Largest blur radius; most radii are much smaller.
   float disparity = 8;  // Largest absolute disparity.
+  int least = 1;        // If 1, most sizes are at most 20.
 };
 
 // Returns a radius below, at or above a threshold of the rules, or a random radius.

@@ -20,6 +20,18 @@ TEST_CASE("ways: random calls with random conditions return the bytes of the who
   });
 }
 
+TEST_CASE("ways: frames and regions of many blocks have the bytes of the whole picture") {
+  ForRandomCases(60, [](test::Random* random) {
+    Case of = RandomCase({260, 12, 8, 100}, random);
+    of.config.superblock = 32;
+    if (of.params.study.mode == STARFOCUS_MODE_BENCHMARK)
+      of.params.study.mode = STARFOCUS_MODE_BLOCK;
+    for (const Entry entry : {Entry::kAfter, Entry::kAfter, Entry::kAfter, Entry::kWhole}) {
+      CheckWay(of, RandomWay(of, entry, false, random), random);
+    }
+  });
+}
+
 // Cases that random draws rarely or never make.
 struct Corner {
   const char* name;

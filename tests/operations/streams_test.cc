@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/operations/picture_operations.h"
+#include "tests/support/inside.h"
 #include "tests/support/refocused.h"
 
 namespace streams_test {
@@ -134,6 +135,17 @@ TEST_CASE("streams: a picture of 20,000 rows fits the workspace of a picture of 
   test::Output streamed(kColumns, kTall);
   REQUIRE(test::Stream(&engine, params, scene, &streamed, 100, 100) == STARFOCUS_OK);
   CHECK((streamed.bytes == test::OutputOf(config, params, scene).bytes));
+}
+
+TEST_CASE("streams: of images, rings hold an even number of rows for every range of disparities") {
+  test::Config config = CaseOf(kBlocks).config;
+  config.features |= STARFOCUS_FEATURE_STREAMING | STARFOCUS_FEATURE_IMAGES;
+  for (float most = 3; most < 12; most += 0.5f) {
+    config.disparity_max = most;
+    const starfocus::Borders borders = test::BordersOf(config);
+    CHECK(borders.streamed % 2 == 0);
+    CHECK(borders.streamed >= borders.views);
+  }
 }
 
 TEST_CASE("streams: the alpha of a stream does not appear in the next stream") {
