@@ -14,10 +14,8 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
-#include "tests/support/layered_scene.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
-#include "tests/support/stream_steps.h"
+#include "tests/support/scenes.h"
 #include "tests/support/test_scene.h"
 
 namespace callbacks_test {

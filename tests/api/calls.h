@@ -18,8 +18,8 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
-#include "tests/support/image_field.h"
-#include "tests/support/prepared_memory.h"
+#include "tests/support/images.h"
+#include "tests/support/refocused.h"
 
 namespace calls {
 

@@ -13,11 +13,9 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
-#include "tests/support/layered_scene.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
+#include "tests/support/scenes.h"
 #include "tests/support/shapes.h"
-#include "tests/support/stream_steps.h"
 #include "tests/support/test_scene.h"
 
 namespace lens_test {

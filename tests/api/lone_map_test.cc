@@ -15,7 +15,7 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
-#include "tests/support/image_scene.h"
+#include "tests/support/images.h"
 #include "tests/support/test_scene.h"
 
 namespace lone_map_test {

@@ -11,10 +11,9 @@
 #include "lib/base/transfer.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
-#include "tests/support/layered_scene.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
+#include "tests/support/scenes.h"
 
 namespace preview_test {
 namespace {

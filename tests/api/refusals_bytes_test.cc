@@ -15,7 +15,6 @@
 #include "starfocus/starfocus.hpp"
 #include "tests/api/calls.h"
 #include "tests/support/refocused.h"
-#include "tests/support/stream_steps.h"
 
 namespace refusals_bytes_test {
 namespace {

@@ -12,8 +12,8 @@
 #include "starfocus/starfocus.h"
 #include "tests/conformance/reference.h"
 #include "tests/support/config.h"
+#include "tests/support/hair.h"
 #include "tests/support/inside.h"
-#include "tests/support/strands.h"
 #include "tests/support/test_scene.h"
 
 namespace coverage_conformance_slow_test {

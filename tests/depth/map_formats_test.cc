@@ -13,7 +13,7 @@
 #include "tests/depth/depth_scene.h"
 #include "tests/operations/operations.h"
 #include "tests/support/config.h"
-#include "tests/support/image_field.h"
+#include "tests/support/images.h"
 
 namespace map_formats_test {
 namespace {

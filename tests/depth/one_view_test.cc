@@ -17,7 +17,7 @@
 #include "starfocus/starfocus.hpp"
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"
-#include "tests/support/closed_hair.h"
+#include "tests/support/hair.h"
 #include "tests/support/test_scene.h"
 
 namespace one_view_test {

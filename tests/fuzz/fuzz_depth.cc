@@ -11,7 +11,7 @@
 #include "starfocus/matte.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/fuzz/engine_input.h"
-#include "tests/support/strands.h"
+#include "tests/support/hair.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/fuzz/engine_input.h"
-#include "tests/support/features.h"
-#include "tests/support/rgb_calls.h"
-#include "tests/support/strands.h"
+#include "tests/support/config.h"
+#include "tests/support/hair.h"
+#include "tests/support/test_scene.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/fuzz/engine_input.h"
-#include "tests/support/features.h"
+#include "tests/support/config.h"
 
 namespace {
 

@@ -14,9 +14,9 @@
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
-#include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
+#include "tests/support/scenes.h"
 #include "tests/support/test_scene.h"
 
 namespace blocks_test {

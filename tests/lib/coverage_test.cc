@@ -12,7 +12,6 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
 

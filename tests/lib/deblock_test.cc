@@ -13,8 +13,8 @@
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
-#include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
+#include "tests/support/scenes.h"
 #include "tests/support/test_scene.h"
 #include "tests/support/transfer_curve.h"
 

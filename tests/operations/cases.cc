@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "tests/support/layered_scene.h"
+#include "tests/support/hair.h"
+#include "tests/support/scenes.h"
 #include "tests/support/shapes.h"
-#include "tests/support/strands.h"
 
 namespace properties {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "tests/operations/picture_operations.h"
 #include "tests/support/refocused.h"
-#include "tests/support/rgb_calls.h"
 #include "tests/support/simd_targets.h"
+#include "tests/support/test_scene.h"
 
 namespace properties {
 namespace {

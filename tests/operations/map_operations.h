@@ -22,8 +22,8 @@
 #include "tests/depth/depth_scene.h"
 #include "tests/depth/disc_photo.h"
 #include "tests/operations/operations.h"
-#include "tests/support/closed_hair.h"
 #include "tests/support/config.h"
+#include "tests/support/hair.h"
 
 namespace properties {
 

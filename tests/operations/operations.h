@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "starfocus/starfocus.h"
+#include "tests/support/refocused.h"
 #include "tests/support/rounds.h"
 #include "tests/support/symmetry.h"
 #include "tests/support/test_scene.h"
-#include "tests/support/watch.h"
 
 namespace starfocus::simd {
 struct DepthKernels;

@@ -9,7 +9,7 @@
 
 #include "tests/support/inside.h"
 #include "tests/support/refocused.h"
-#include "tests/support/rgb_calls.h"
+#include "tests/support/test_scene.h"
 
 namespace properties {
 namespace {

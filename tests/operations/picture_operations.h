@@ -12,7 +12,7 @@
 
 #include "tests/operations/cases.h"
 #include "tests/operations/operations.h"
-#include "tests/support/image_field.h"
+#include "tests/support/images.h"
 
 namespace properties {
 

@@ -12,9 +12,8 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
-#include "tests/support/layered_scene.h"
-#include "tests/support/prepared_memory.h"
 #include "tests/support/refocused.h"
+#include "tests/support/scenes.h"
 #include "tests/support/test_scene.h"
 
 namespace prepared_test {

@@ -12,9 +12,8 @@
 #include "starfocus/starfocus.hpp"
 #include "tests/operations/picture_operations.h"
 #include "tests/support/inside.h"
-#include "tests/support/layered_scene.h"
 #include "tests/support/refocused.h"
-#include "tests/support/watch.h"
+#include "tests/support/scenes.h"
 
 namespace work_test {
 namespace {

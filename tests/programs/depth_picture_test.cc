@@ -16,7 +16,7 @@
 #include "platform/readers/unknown_depth.h"
 #include "tests/programs/depth_scene.h"
 #include "tests/support/error_line.h"
-#include "tests/support/seed_file.h"
+#include "tests/support/opened_photo.h"
 
 namespace starfocus::depth_picture_test {
 namespace {

@@ -28,9 +28,9 @@
 #include "platform/temporary_file.h"
 #include "platform/temporary_folder.h"
 #include "starfocus/starfocus.h"
-#include "tests/support/child.h"
 #include "tests/support/config.h"
 #include "tests/support/error_line.h"
+#include "tests/support/processes.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::file_test {

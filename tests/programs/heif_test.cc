@@ -14,7 +14,6 @@
 #include "platform/readers/heif_boxes.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
-#include "tests/support/seed_file.h"
 
 namespace starfocus::heif_test {
 namespace {

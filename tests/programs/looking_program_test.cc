@@ -12,7 +12,7 @@
 #include "platform/image_io.h"
 #include "platform/light_field.h"
 #include "tests/programs/session.h"
-#include "tests/support/terminal.h"
+#include "tests/support/processes.h"
 
 namespace starfocus::looking_program_test {
 namespace {

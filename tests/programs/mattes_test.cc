@@ -24,8 +24,6 @@
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
-#include "tests/support/portrait_files.h"
-#include "tests/support/seed_file.h"
 
 namespace starfocus::mattes_test {
 namespace {

@@ -16,7 +16,7 @@
 #include "platform/readers/xmp.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
-#include "tests/support/portrait_files.h"
+#include "tests/support/photo_files.h"
 
 namespace starfocus::photo_formats_test {
 namespace {

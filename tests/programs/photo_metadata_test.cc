@@ -20,7 +20,6 @@
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
-#include "tests/support/seed_file.h"
 
 namespace starfocus::photo_metadata_test {
 namespace {

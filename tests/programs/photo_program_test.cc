@@ -19,8 +19,8 @@
 #include "platform/readers/xmp.h"
 #include "platform/runner.h"
 #include "tests/programs/session.h"
+#include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
-#include "tests/support/seed_file.h"
 
 namespace starfocus::photo_program_test {
 namespace {

@@ -25,8 +25,8 @@
 #include "platform/text.h"
 #include "starfocus/pool.h"
 #include "tests/programs/session.h"
-#include "tests/support/child.h"
 #include "tests/support/error_line.h"
+#include "tests/support/processes.h"
 
 namespace starfocus::program_test {
 namespace {

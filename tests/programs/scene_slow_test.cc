@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <string>
@@ -17,9 +19,19 @@
 #include "starfocus/starfocus.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
-#include "tests/support/psnr.h"
 #include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
+
+namespace test {
+
+// Returns the PSNR of two pictures in dB, or 99 if the pictures are equal.
+inline double Psnr(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum == 0 ? 99 : 10 * std::log10(255.0 * 255.0 * double(a.size()) / sum);
+}
+
+}  // namespace test
 
 namespace starfocus::scene_slow_test {
 namespace {

@@ -38,8 +38,8 @@
 #include "platform/light_field.h"
 #include "platform/pfm.h"
 #include "platform/runner.h"
-#include "tests/support/closed_hair.h"
 #include "tests/support/error_line.h"
+#include "tests/support/hair.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus {

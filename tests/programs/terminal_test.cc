@@ -2,8 +2,6 @@
 // Tests the lines of the programs on terminals of any width: lines never continue the progress
 // line, the progress line never wraps, and no text contains control characters. Tests how the
 // answers of terminals with graphics are read, and that a signal restores the terminal.
-#include "tests/support/terminal.h"
-
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -21,7 +19,7 @@
 #include "platform/signal_cleanup.h"
 #include "platform/terminal_graphics.h"
 #include "platform/text.h"
-#include "tests/support/child.h"
+#include "tests/support/processes.h"
 
 namespace starfocus::terminal_test {
 namespace {

@@ -26,8 +26,8 @@
 #include "starfocus/pool.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/config.h"
+#include "tests/support/refocused.h"
 #include "tests/support/test_scene.h"
-#include "tests/support/watch.h"
 
 namespace starfocus::threads_test {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The configuration and the parameters of tests.
+// The configuration, the report and the features of tests.
 #ifndef STARFOCUS_TESTS_SUPPORT_CONFIG_H_
 #define STARFOCUS_TESTS_SUPPORT_CONFIG_H_
 
 #include <algorithm>
+#include <cstdint>
 
 #include "lib/api/validate.h"
 #include "starfocus/starfocus.hpp"
@@ -49,6 +50,12 @@ struct Report : starfocus_report {
 
   starfocus_layer_report layers[STARFOCUS_LAYERS] = {};
 };
+
+inline bool Has(uint32_t features, uint32_t feature) { return (features & feature) != 0; }
+
+inline void SetFeature(uint32_t feature, bool on, uint32_t* features) {
+  *features = on ? *features | feature : *features & ~feature;
+}
 
 }  // namespace test
 

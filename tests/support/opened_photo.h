@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests of photo readers: makes a small depth photo, opens photos and checks their contents.
+// For tests of photo readers: changes copies of the seeds of the fuzz targets, makes a small depth
+// photo, opens photos and checks their contents.
 #ifndef STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
 #define STARFOCUS_TESTS_SUPPORT_OPENED_PHOTO_H_
 
@@ -8,9 +9,28 @@
 #include <cmath>
 #include <string>
 
+#include "platform/file.h"
 #include "platform/readers/capture.h"
 #include "platform/result.h"
+#include "tests/support/error_line.h"
 #include "tests/support/photo_files.h"
+
+namespace starfocus {
+
+inline std::string Seed(const std::string& name) {
+  const Bytes bytes = ValueOf(ReadFile(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/" + name));
+  return {bytes.begin(), bytes.end()};
+}
+
+// Returns `file` with `bytes` written `behind` bytes after the end of the first `text`.
+inline std::string Changed(std::string file, const std::string& text, size_t behind,
+                           const std::string& bytes) {
+  const size_t at = file.find(text);
+  REQUIRE(at != std::string::npos);
+  return file.replace(at + text.size() + behind, bytes.size(), bytes);
+}
+
+}  // namespace starfocus
 
 namespace starfocus::photos {
 

@@ -10,7 +10,7 @@
 
 #include "simd/kernels.h"
 #include "tests/support/inside.h"
-#include "tests/support/integer_scene.h"
+#include "tests/support/scenes.h"
 #include "tests/support/simd_targets.h"
 
 namespace {

@@ -20,7 +20,7 @@
 #include "tests/kernels/kernel_cases.h"
 #include "tests/support/config.h"
 #include "tests/support/inside.h"
-#include "tests/support/integer_scene.h"
+#include "tests/support/scenes.h"
 #include "tests/support/simd_targets.h"
 #include "tests/support/test_scene.h"
 

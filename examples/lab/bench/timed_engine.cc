@@ -8,7 +8,7 @@
 #include "simd/kernels.h"
 #include "starfocus/starfocus.hpp"
 #include "tests/support/inside.h"
-#include "tests/support/rgb_calls.h"
+#include "tests/support/test_scene.h"
 
 namespace starfocus::bench {
 namespace {

@@ -9,7 +9,7 @@ import {createRefocuser, Mode, Renderer, Shape, Transfer} from 'starfocus';
 
 import {dropAlpha} from './pictures.mjs';
 
-// Light fields that are computed with integers only, as by tests/support/integer_scene.h.
+// Light fields that are computed with integers only, as by tests/support/scenes.h.
 
 const mask = 0xFFFFFFFFFFFFFFFFn;
 
