@@ -103,6 +103,11 @@ struct CoverageMap {
   FarLight* far[kFarLevels] = {};
   // First row of tiles that each pass has not processed yet; negative before the first row.
   int32_t done[kCoveragePasses] = {};
+  // next[pass * jobs + job] is the first row of tiles that a job of a pass has not processed. A job
+  // that is repeated after a failure or cancellation leaves out earlier rows, since a pass may
+  // overwrite what it reads.
+  int32_t* next = nullptr;
+  int32_t jobs = 0;
 
   int32_t Rows() const { return (height + kCoverageTile - 1) / kCoverageTile; }
   CoverageTile& Tile(int32_t column, int32_t row) const {

@@ -195,12 +195,13 @@ starfocus_status RunPasses(const FullConfig& config, const Input& input, const R
       const auto run = [&](int32_t column, int32_t) {
         const int32_t first = column * side, last = Min(first + side, map->columns);
         CancelToken cancel(&jobs->call_progress);
-        for (int32_t row = rows.first; row < rows.last; ++row) {
+        int32_t& next = map->next[pass * map->jobs + column];
+        for (next = Max(next, rows.first); next < rows.last; ++next) {
           if (!cancel.Spend(int64_t{last - first} * kCoverageTile * kCoverageTile)) return;
-          for (int32_t k = first; k < last; ++k) RunPass(input, pass, k, row);
+          for (int32_t k = first; k < last; ++k) RunPass(input, pass, k, next);
         }
       };
-      const starfocus_status status = ForEach((map->columns + side - 1) / side, jobs, run);
+      const starfocus_status status = ForEach(map->jobs, jobs, run);
       if (status != STARFOCUS_OK) return status;
     }
     done = Max(rows.first, rows.last);
@@ -275,6 +276,8 @@ void TakeCoverage(const FullConfig& config, int32_t border, Arena* arena, Covera
   while (range >> map->bin_bits >= 64) ++map->bin_bits;
   const auto tiles = static_cast<size_t>(map->columns) * static_cast<size_t>(map->tile_rows);
   const size_t pixels = map->Stride() * static_cast<size_t>(map->tile_rows) * kCoverageTile;
+  map->jobs = (map->columns + TilesOfSuperblock(config) - 1) / TilesOfSuperblock(config);
+  map->next = arena->Take<int32_t>(static_cast<size_t>(kCoveragePasses * map->jobs));
   map->tiles = arena->Take<CoverageTile>(tiles);
   map->first = arena->Take<uint8_t>(pixels);
   map->alpha = arena->Take<uint8_t>(pixels);
@@ -286,6 +289,7 @@ void TakeCoverage(const FullConfig& config, int32_t border, Arena* arena, Covera
 
 void ForgetCoverage(CoverageMap* map) {
   for (int32_t& done : map->done) done = -1;
+  for (int32_t k = 0; k < kCoveragePasses * map->jobs; ++k) map->next[k] = 0;
 }
 
 starfocus_status FindCoverage(const FullConfig& config, const Input& input, const Range& rows,

@@ -38,11 +38,7 @@ struct Stream {
 std::vector<Stream> Streams() {
   std::vector<Stream> all;
   for (const Lens& lens : kLenses) {
-    Case of = CaseOf(lens);
-    // With one view, the pass UnmixFirst of the search for coverage changes its own input, so that
-    // a pull that failed during this pass cannot be repeated exactly.
-    if (lens.views == 1) of.config.features &= ~STARFOCUS_FEATURE_COVERAGE;
-    all.push_back({lens.name, of, {Entry::kStream}});
+    all.push_back({lens.name, CaseOf(lens), {Entry::kStream}});
   }
   for (const Lens& lens : {kBlocks, kBlur}) {
     Way way = {Entry::kStream};
