@@ -9,7 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <sstream>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "platform/image_io.h"
 #include "platform/natural_order.h"
@@ -17,6 +21,7 @@
 #include "platform/writers/png.h"
 #include "tests/support/config.h"
 #include "tests/support/error_line.h"
+#include "tests/support/photo_files.h"
 #include "tests/support/temp_folder.h"
 
 namespace starfocus::light_field_test {
@@ -31,13 +36,9 @@ std::string StarName(int index) {
 LightField Make(int views, int width, int height) {
   LightField light_field;
   for (int i = 0; i < views; ++i) {
-    Image view(width, height);
-    for (uint8_t& sample : view.pixels) sample = static_cast<uint8_t>(10 * i + 3);
-    light_field.views.push_back(view);
+    light_field.views.push_back(photos::Plain(width, height, 10 * i + 3));
   }
-  light_field.disparity.width = width;
-  light_field.disparity.height = height;
-  light_field.disparity.values.assign(size_t(width) * size_t(height), 1.5f);
+  light_field.disparity = {width, height, std::vector<float>(size_t(width * height), 1.5f)};
   return light_field;
 }
 
@@ -183,8 +184,7 @@ TEST_CASE("light_field: files whose names only resemble views are ignored") {
     REQUIRE(WriteFile(folder.file(name), {}) == "");
     CHECK_FALSE(IsLightFieldFile(name));
   }
-  LightField back = ValueOf(Load(folder));
-  CHECK(back.views.size() == 1);
+  CHECK(ValueOf(Load(folder)).views.size() == 1);
 }
 
 TEST_CASE("light_field: a stereo pair in the Middlebury layout has its second view at (1, 0)") {
@@ -206,8 +206,7 @@ TEST_CASE("light_field: a stereo pair in the Middlebury layout has its second vi
   FloatMap map = light_field.disparity;
   map.values[0] = 2;
   REQUIRE(WritePfm(folder.file("disparity.pfm"), map) == "");
-  back = ValueOf(Load(folder));
-  CHECK(back.disparity.at(0, 0) == 2);
+  CHECK(ValueOf(Load(folder)).disparity.at(0, 0) == 2);
 }
 
 TEST_CASE(
@@ -247,10 +246,9 @@ TEST_CASE("pfm: maps of either byte order are read back exactly") {
   const FloatMap map = {3, 2, {1.5f, -2.25f, 1e-30f, HUGE_VALF, -HUGE_VALF, 7}};
   for (ByteOrder order : {ByteOrder::kLittle, ByteOrder::kBig}) {
     REQUIRE(WritePfm(folder.file("a.pfm"), map, order) == "");
-    FloatMap back = ValueOf(ReadPfm(folder.file("a.pfm")));
-    CHECK(back.width == 3);
-    CHECK(back.height == 2);
-    CHECK(back.values == map.values);
+    const FloatMap back = ValueOf(ReadPfm(folder.file("a.pfm")));
+    CHECK(std::tie(back.width, back.height, back.values) ==
+          std::tie(map.width, map.height, map.values));
   }
   CHECK(folder.count() == 1);
 }
@@ -269,27 +267,26 @@ TEST_CASE("pfm: rows are stored from bottom to top, and the sign of the scale is
 }
 
 TEST_CASE("pfm: malformed files cause one-line errors") {
-  const std::string bad[] = {"",
-                             "Pf",
-                             "PF\n1 1\n-1\n0123456789ab",
-                             "P6\n1 1\n255\nabc",
-                             "Pf\n0 1\n-1\n",
-                             "Pf\n1 0\n-1\n",
-                             "Pf\n-1 1\n-1\nabcd",
-                             "Pf\n1 -1\n-1\nabcd",
-                             "Pf\n65536 1\n-1\nabcd",
-                             "Pf\n99999999999999999999 1\n-1\nabcd",
-                             "Pf\n65535 65535\n-1\nabcd",
-                             "Pf\n1.5 1\n-1\nabcd",
-                             "Pf\n1 1\n0\nabcd",
-                             "Pf\n1 1\nnan\nabcd",
-                             "Pf\n1 1\ninf\nabcd",
-                             "Pf\n1 1\nx\nabcd",
-                             "Pf\n1 1\n-1",
-                             "Pf\n1 1\n-1\nabc",
-                             "Pf\n1 1\n-1\nabcde",
-                             "Pf\n1 1\n-1\r\nabcd"};
-  for (const std::string& text : bad) {
+  for (const char* text : {"",
+                           "Pf",
+                           "PF\n1 1\n-1\n0123456789ab",
+                           "P6\n1 1\n255\nabc",
+                           "Pf\n0 1\n-1\n",
+                           "Pf\n1 0\n-1\n",
+                           "Pf\n-1 1\n-1\nabcd",
+                           "Pf\n1 -1\n-1\nabcd",
+                           "Pf\n65536 1\n-1\nabcd",
+                           "Pf\n99999999999999999999 1\n-1\nabcd",
+                           "Pf\n65535 65535\n-1\nabcd",
+                           "Pf\n1.5 1\n-1\nabcd",
+                           "Pf\n1 1\n0\nabcd",
+                           "Pf\n1 1\nnan\nabcd",
+                           "Pf\n1 1\ninf\nabcd",
+                           "Pf\n1 1\nx\nabcd",
+                           "Pf\n1 1\n-1",
+                           "Pf\n1 1\n-1\nabc",
+                           "Pf\n1 1\n-1\nabcde",
+                           "Pf\n1 1\n-1\r\nabcd"}) {
     CAPTURE(text);
     const std::string error = ReadText(text).error().line();
     CHECK(Contains(error, ": expected "));
@@ -300,27 +297,10 @@ TEST_CASE("pfm: malformed files cause one-line errors") {
 using Names = std::vector<std::string>;
 
 TEST_CASE("natural order: names are sorted by their numbers, whatever order they come in") {
-  const Names sorted = {"-1",
-                        "0",
-                        "00",
-                        "1.5",
-                        "1.10",
-                        "2",
-                        "F_1",
-                        "a",
-                        "a01",
-                        "a1",
-                        "a1b2",
-                        "a1b10",
-                        "a2b1",
-                        "a10",
-                        "a10-x",
-                        "a010_1",
-                        "frame",
-                        "frame_9.png",
-                        "frame_10.png",
-                        "frame_18446744073709551616",
-                        "frame_18446744073709551617"};
+  std::istringstream words(
+      "-1 0 00 1.5 1.10 2 F_1 a a01 a1 a1b2 a1b10 a2b1 a10 a10-x a010_1 frame frame_9.png "
+      "frame_10.png frame_18446744073709551616 frame_18446744073709551617");
+  const Names sorted{std::istream_iterator<std::string>(words), {}};
   for (const std::string& a : sorted) {
     for (const std::string& b : sorted) {
       CAPTURE(a);
