@@ -102,11 +102,9 @@ std::vector<Unrun> ReadUnrun() {
 Outcome RunScript(const std::string& folder, const std::string& script) {
   TempFolder logs;
   starfocus::photos::Write(logs.file("script"), script);
-  const std::string shell = "cd '" + folder + "' && PATH=\"$PWD:$PATH\" exec bash -euo pipefail '" +
-                            logs.file("script") + "' >'" + logs.file("out") + "' 2>'" +
-                            logs.file("err") + "' </dev/null";
-  const int status = std::system(shell.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", starfocus::Text(logs.file("err"))};
+  return starfocus::RunLogged("cd '" + folder +
+                              "' && PATH=\"$PWD:$PATH\" exec bash -euo pipefail '" +
+                              logs.file("script") + "' </dev/null");
 }
 
 // Makes inputs with the names that documents use. starfocus-lab renders scenes of 80x60 pixels,

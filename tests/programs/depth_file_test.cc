@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tests/support/error_line.h"
@@ -78,11 +79,10 @@ const std::vector<float> kFloats = {0.5F, 1.25F, -3, 7, 1e-3F, 9};
 
 void CheckSamples(const Result<Samples>& samples, int largest, const std::vector<float>& values) {
   REQUIRE(samples == "");
-  CHECK(samples->map.width == 3);
-  CHECK(samples->map.height == 2);
-  CHECK(samples->largest == largest);
-  CHECK(!samples->larger_is_nearer);
-  CHECK(samples->map.values == values);
+  const FloatMap& map = samples->map;
+  CHECK(std::tuple(map.width, map.height, samples->largest, samples->larger_is_nearer) ==
+        std::tuple(3, 2, largest, false));
+  CHECK(map.values == values);
 }
 
 std::vector<float> ValuesOf(const Result<Samples>& samples) {

@@ -63,15 +63,12 @@ TEST_CASE("helper: the result of a decoder arrives unchanged") {
   samples.is_wide = samples.is_alpha = samples.larger_is_nearer = true;
   const Result<Samples> sent = Confined<Samples>("map", [&] { return Result<Samples>(samples); });
   REQUIRE(sent);
-  CHECK(sent->map.width == 700);
-  CHECK(sent->map.height == 500);
+  CHECK(std::tuple(sent->map.width, sent->map.height, sent->largest) ==
+        std::tuple(700, 500, 65535));
+  CHECK((sent->is_wide && sent->is_alpha && sent->larger_is_nearer));
   REQUIRE(sent->map.values.size() == 350000);
   CHECK(std::isnan(sent->map.values[349998]));
   CHECK(sent->map.values[349999] == -2.5F);
-  CHECK(sent->largest == 65535);
-  CHECK(sent->is_wide);
-  CHECK(sent->is_alpha);
-  CHECK(sent->larger_is_nearer);
   const Result<bool> failed =
       Confined<bool>("map", [&] { return Result<bool>(Expected("map", "a", "b")); });
   CHECK(failed.error().line() == "map: expected a, found b");
@@ -160,30 +157,37 @@ std::string ErrorOfPart(const HelperLimits& limits,
   return error.line();
 }
 
+// Sends the size of a picture, and the number of its samples.
+void SendSize(int width, int height, uint64_t samples, Channel* channel) {
+  channel->Value(&width);
+  channel->Value(&height);
+  channel->Value(&samples);
+}
+
 // Sends a picture at 100 bytes a second after its size.
 void Trickle(Channel* channel) {
-  int size = 1000;
-  uint64_t count = 3000000;
-  channel->Value(&size);
-  channel->Value(&size);
-  channel->Value(&count);
+  SendSize(1000, 1000, 3000000, channel);
   for (char byte = 0;; usleep(10000)) {
     channel->Value(&byte);
     channel->Flush();
   }
 }
 
+void Compute(double nanoseconds) {
+  for (const double end = ThreadNanoseconds() + nanoseconds; ThreadNanoseconds() < end;) continue;
+}
+
 // Sends part after part of a result for a longer time than the idle limit.
 void Pretend(Channel* channel) {
   for (;; usleep(5000)) {
-    for (const double end = ThreadNanoseconds() + 3e6; ThreadNanoseconds() < end;) continue;
+    Compute(3e6);
     channel->Flush();
   }
 }
 
 // Computes for 0.3 s, and sends a picture.
 void Work(Channel* channel) {
-  for (const double end = ThreadNanoseconds() + 3e8; ThreadNanoseconds() < end;) continue;
+  Compute(3e8);
   Image picture(3000, 100);
   Pass(channel, &picture);
 }
@@ -196,9 +200,11 @@ void UseUpMemory() {
 
 TEST_CASE("helper: a decoder without progress causes one error within the limit") {
   if (!HasHelpers()) return;
-  constexpr uint64_t kMuch = uint64_t{1} << 30, kLittle = uint64_t{1} << 28;
+  constexpr uint64_t kMuch = uint64_t{1} << 30;
+  constexpr HelperLimits kIdle = {kMuch, 5, 20, 0.2}, kSmall = {uint64_t{1} << 28, 5, 20, 0.1};
   const std::string decoded = "photo.jpg: expected a file that can be decoded";
   const std::string idle = decoded + ", found one whose decoder makes no progress for 0.2 seconds";
+  const std::string slow = decoded + " within 0.3 seconds, found one that takes longer";
   const std::string memory = "photo.jpg: out of memory, cannot read it";
   const auto freeze = [](Channel*) {
     sigset_t all;
@@ -211,6 +217,14 @@ TEST_CASE("helper: a decoder without progress causes one error within the limit"
     mutex.lock();
     std::thread([&] { mutex.lock(); }).join();
   };
+  const auto starve = [](Channel*) {
+    UseUpMemory();
+    sleep(100);
+  };
+  const auto crash = [](Channel*) {
+    UseUpMemory();
+    std::abort();
+  };
   const struct {
     std::string what;
     std::function<void(Channel*)> misbehave;
@@ -218,33 +232,15 @@ TEST_CASE("helper: a decoder without progress causes one error within the limit"
     std::string error;
     double least_seconds;
   } rows[] = {
-      {"sleeps", [](Channel*) { sleep(100); }, {kMuch, 5, 20, 0.2}, idle, 0.2},
-      {"waits for a lock", lock, {kMuch, 5, 20, 0.2}, idle, 0.2},
-      {"stops itself", [](Channel*) { raise(SIGSTOP); }, {kMuch, 5, 20, 0.2}, idle, 0.2},
-      {"ignores signals and sleeps", freeze, {kMuch, 5, 20, 0.2}, idle, 0.2},
-      {"trickles", Trickle, {kMuch, 5, 20, 0.2}, idle, 0.2},
-      {"pretends to work",
-       Pretend,
-       {kMuch, 5, 0.3, 0.2},
-       decoded + " within 0.3 seconds, found one that takes longer",
-       0.3},
+      {"sleeps", [](Channel*) { sleep(100); }, kIdle, idle, 0.2},
+      {"waits for a lock", lock, kIdle, idle, 0.2},
+      {"stops itself", [](Channel*) { raise(SIGSTOP); }, kIdle, idle, 0.2},
+      {"ignores signals and sleeps", freeze, kIdle, idle, 0.2},
+      {"trickles", Trickle, kIdle, idle, 0.2},
+      {"pretends to work", Pretend, {kMuch, 5, 0.3, 0.2}, slow, 0.3},
       {"computes and sends for longer than the idle limit", Work, {kMuch, 5, 20, 0.1}, "", 0.3},
-      {"waits because its memory is used up",
-       [](Channel*) {
-         UseUpMemory();
-         sleep(100);
-       },
-       {kLittle, 5, 20, 0.1},
-       memory,
-       0},
-      {"crashes because its memory is used up",
-       [](Channel*) {
-         UseUpMemory();
-         std::abort();
-       },
-       {kLittle, 5, 20, 0.1},
-       memory,
-       0}};
+      {"waits because its memory is used up", starve, kSmall, memory, 0},
+      {"crashes because its memory is used up", crash, kSmall, memory, 0}};
   for (const auto& row : rows) {
     CAPTURE(row.what);
     const double start = Seconds();
@@ -271,11 +267,7 @@ TEST_CASE("helper: a size that contradicts itself is rejected before memory for 
   if (!HasHelpers()) return;
   const auto lie = [](int width, int height, uint64_t count) {
     return ErrorOfPart({uint64_t{1} << 30, 5, 20, 5}, [=](Channel* channel) {
-      int sizes[] = {width, height};
-      uint64_t number = count;
-      channel->Value(&sizes[0]);
-      channel->Value(&sizes[1]);
-      channel->Value(&number);
+      SendSize(width, height, count, channel);
       std::vector<uint8_t> flood(1 << 20);
       while (channel->is_sound()) channel->Value(&(flood[0] = 0)), channel->Block(&flood);
     });

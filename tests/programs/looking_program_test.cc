@@ -26,8 +26,7 @@ constexpr char kQuery[] = "\x1b[c\r\x1b[K";
 void MakeField(const TempFolder& folder, int width, int height) {
   LightField field;
   field.views.emplace_back(width, height);
-  field.disparity.width = width;
-  field.disparity.height = height;
+  field.disparity = {width, height, {}};
   for (int i = 0; i < width * height; ++i) {
     const int x = i % width, y = i / width;
     for (int c = 0; c < 3; ++c) {
@@ -35,8 +34,7 @@ void MakeField(const TempFolder& folder, int width, int height) {
     }
     field.disparity.values.push_back(3 * x < 2 * width ? -2.0f : 6.0f);
   }
-  ThreadRunner runner(1);
-  REQUIRE(SaveLightField(folder.file("<&>"), field, &runner) == "");
+  SaveField(folder, "<&>", field);
 }
 
 void MakeSmallField(const TempFolder& folder) { MakeField(folder, 60, 40); }
@@ -58,10 +56,13 @@ std::vector<Image> PicturesIn(const std::string& page) {
   return pictures;
 }
 
+std::string SizeOf(const Image& picture) {
+  return std::to_string(picture.width) + "x" + std::to_string(picture.height);
+}
+
 // Returns the mean difference of the samples of two pictures of the same size.
 double MeanDifference(const Image& a, const Image& b) {
-  REQUIRE(a.width == b.width);
-  REQUIRE(a.height == b.height);
+  REQUIRE(SizeOf(a) == SizeOf(b));
   int64_t sum = 0;
   for (size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
   return double(sum) / double(a.pixels.size());
@@ -82,8 +83,8 @@ TEST_CASE("compare: the page has the picture before and after, its depth, and th
   const std::string page = Text(folder.file("page.html"));
   const std::vector<Image> pictures = PicturesIn(page);
   REQUIRE(pictures.size() == 4);
-  CHECK(MeanDifference(pictures[0], ValueOf(ReadImage(folder.file("<&>/view_+0.0_+0.0.png")))) < 4);
-  CHECK(MeanDifference(pictures[1], ValueOf(ReadImage(folder.file("out.png")))) < 4);
+  CHECK(MeanDifference(pictures[0], Picture(folder, "<&>/view_+0.0_+0.0.png")) < 4);
+  CHECK(MeanDifference(pictures[1], Picture(folder, "out.png")) < 4);
   CHECK(MeanDifference(pictures[0], pictures[1]) > 8);
   // The first and the last colour of the legend, and grey and orange for pixels out of and in
   // focus.
@@ -103,10 +104,8 @@ TEST_CASE("compare: large pictures are reduced, and their depth and focus stay a
   REQUIRE(flat.size() == 4);
   REQUIRE(upright.size() == 4);
   for (const size_t i : {0, 1, 2, 3}) {
-    CHECK(flat[i].width == (i < 2 ? 1600 : 600));
-    CHECK(flat[i].height == (i < 2 ? 21 : 8));
-    CHECK(upright[i].width == (i < 2 ? 21 : 8));
-    CHECK(upright[i].height == (i < 2 ? 1575 : 600));
+    CHECK(SizeOf(flat[i]) == (i < 2 ? "1600x21" : "600x8"));
+    CHECK(SizeOf(upright[i]) == (i < 2 ? "21x1575" : "8x600"));
   }
   CHECK(IsNear(flat[2], 395, 4, {68, 1, 84}, 20));
   CHECK(IsNear(flat[2], 404, 4, {253, 231, 37}, 20));
@@ -170,16 +169,14 @@ TEST_CASE("show: a terminal with the kitty protocol gets the pixels, reduced if 
   CHECK(Text(folder.file("errors")) == "out.png: focus at disparity 6, f/1\n");
   CHECK(Count(run.out, kQuery) == 1);
   CHECK(Contains(run.out, ",q=2,"));  // Answers would appear as typed text.
-  CHECK(ReadKitty(run.out).pixels == ValueOf(ReadImage(folder.file("out.png"))).pixels);
+  CHECK(ReadKitty(run.out).pixels == Picture(folder, "out.png").pixels);
   // The last of 10 rows is for the prompt: 20 - 2 = 18 pixels remain, and 60 * 18 / 40 = 27.
   const Image low = ReadKitty(Show(folder, "\x1b_Gi=31;OK\x1b\\\x1b[?62c", 800, 20).out);
-  CHECK(low.width == 27);
-  CHECK(low.height == 18);
+  CHECK(SizeOf(low) == "27x18");
   // A terminal that states its size only in an answer.
   const Image narrow =
       ReadKitty(Show(folder, "\x1b_Gi=31;OK\x1b\\\x1b[4;600;30t\x1b[?62c", 0, 0).out);
-  CHECK(narrow.width == 30);
-  CHECK(narrow.height == 20);
+  CHECK(SizeOf(narrow) == "30x20");
 }
 
 TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture" *
@@ -204,8 +201,7 @@ TEST_CASE("show: a terminal with sixels gets sixels that decode to the picture" 
   REQUIRE(std::system(("cd '" + folder.path() + "' && sixel2png -i sixels -o shown.png").c_str()) ==
           0);
   // A sixel colour has 101 levels, and the colours are dithered.
-  CHECK(MeanDifference(ValueOf(ReadImage(folder.file("shown.png"))),
-                       ValueOf(ReadImage(folder.file("out.png")))) < 6);
+  CHECK(MeanDifference(Picture(folder, "shown.png"), Picture(folder, "out.png")) < 6);
 }
 
 TEST_CASE(

@@ -25,8 +25,10 @@ struct EncoderEdge {
 // lines.
 constexpr EncoderEdge kStep[] = {{true, false}, {false, false}, {true, true}, {false, true}};
 
-void AddStep(bool clockwise, std::vector<EncoderEdge>* edges) {
-  for (const EncoderEdge& edge : kStep) edges->push_back({edge.of_a == clockwise, edge.high});
+std::vector<EncoderEdge> Step(bool clockwise) {
+  std::vector<EncoderEdge> edges;
+  for (const EncoderEdge& edge : kStep) edges.push_back({edge.of_a == clockwise, edge.high});
+  return edges;
 }
 
 int Decode(const std::vector<EncoderEdge>& edges, QuadratureDecoder* decoder) {
@@ -56,9 +58,8 @@ TEST_CASE("encoder: bouncing contacts, and half a step forward and back, add no 
   int wanted = 0, got = 0;
   for (int i = 0; i < 2000; ++i) {
     const bool clockwise = random.Int(0, 2) > 0;
-    std::vector<EncoderEdge> clean, bouncing;
-    AddStep(clockwise, &clean);
-    for (const EncoderEdge& edge : clean) {
+    std::vector<EncoderEdge> bouncing;
+    for (const EncoderEdge& edge : Step(clockwise)) {
       for (int bounce = random.Int(0, 4); bounce > 0; --bounce) {
         bouncing.push_back(edge);
         bouncing.push_back({edge.of_a, !edge.high});
@@ -78,9 +79,8 @@ TEST_CASE("encoder: a lost edge loses at most one step and never adds a wrong st
       CAPTURE(clockwise);
       CAPTURE(lost);
       QuadratureDecoder decoder;
-      std::vector<EncoderEdge> whole, edges;
-      AddStep(clockwise, &whole);
-      edges = whole;
+      const std::vector<EncoderEdge> whole = Step(clockwise);
+      std::vector<EncoderEdge> edges = whole;
       edges.erase(edges.begin() + static_cast<std::ptrdiff_t>(lost));
       const int direction = clockwise ? 1 : -1;
       int total = direction * Decode(edges, &decoder);
@@ -126,11 +126,7 @@ TEST_CASE("button: only edges that start a press count as presses, however conta
 
 TEST_CASE(
     "panel: edges are passed to their controls, and buttons connect to ground or to the supply") {
-  PanelLines lines;
-  lines.encoder_a = 4;
-  lines.encoder_b = 5;
-  lines.aperture = 6;
-  lines.shutter = 7;
+  const PanelLines lines = {4, 5, 6, 7}, alone = {-1, -1, -1, 3};
   CHECK(lines.All() == std::vector<int>{4, 5, 6, 7});
   Panel panel(lines, true, 10 * kMs, true, true);
   CHECK(panel.Wait(0) == -1);
@@ -147,8 +143,6 @@ TEST_CASE(
   CHECK(panel.Wait(40 * kMs) == -1);
   CHECK(panel.Edge(6, false, 60 * kMs).apertures == 1);
   CHECK_FALSE(panel.Edge(99, false, 60 * kMs).any());
-  PanelLines alone;
-  alone.shutter = 3;
   CHECK(alone.All() == std::vector<int>{3});
   Panel supply(alone, false, 10 * kMs, true, true);
   CHECK(supply.Edge(3, true, 20 * kMs).shutters == 1);
@@ -160,32 +154,15 @@ TEST_CASE(
   Image picture(2, 1);
   picture.pixels = {255, 128, 8, 1, 2, 3};
   std::vector<uint8_t> memory(3 * 20, 0xCD);
-  Screen screen;
-  screen.memory = memory.data();
-  screen.width = 4;
-  screen.height = 3;
-  screen.stride = 20;
-  screen.bytes_per_pixel = 4;
-  screen.red = {16, 8};
-  screen.green = {8, 8};
-  screen.blue = {0, 8};
-  Draw(picture, screen);
-  const uint8_t row[20] = {0, 0, 0, 0, 8, 128, 255,  0,    3,    2,
-                           1, 0, 0, 0, 0, 0,   0xCD, 0xCD, 0xCD, 0xCD};
-  CHECK(std::vector<uint8_t>(memory.begin() + 20, memory.begin() + 40) ==
-        std::vector<uint8_t>(row, row + 20));
+  Draw(picture, {memory.data(), 4, 3, 20, 4, {16, 8}, {8, 8}, {0, 8}});
+  const std::vector<uint8_t> row = {0, 0, 0, 0, 8, 128, 255,  0,    3,    2,
+                                    1, 0, 0, 0, 0, 0,   0xCD, 0xCD, 0xCD, 0xCD};
+  CHECK(std::vector<uint8_t>(memory.begin() + 20, memory.begin() + 40) == row);
   CHECK(memory[0] == 0);
   CHECK(memory[40] == 0);
-
-  screen.width = 1;
-  screen.height = 1;
-  screen.bytes_per_pixel = 2;
-  screen.red = {11, 5};
-  screen.green = {5, 6};
-  screen.blue = {0, 5};
   // The screen shows one pixel of a picture of two pixels. Cropping half a pixel on the left rounds
   // to 0, so the left pixel is visible.
-  Draw(picture, screen);
+  Draw(picture, {memory.data(), 1, 1, 20, 2, {11, 5}, {5, 6}, {0, 5}});
   const uint32_t pixel = (255u >> 3 << 11) | (128u >> 2 << 5) | (8u >> 3);
   CHECK(memory[0] == (pixel & 255));
   CHECK(memory[1] == pixel >> 8);
@@ -193,10 +170,11 @@ TEST_CASE(
 }
 
 TEST_CASE("framebuffer: files that are not framebuffers are rejected") {
-  CHECK(ShowOnFramebuffer("/nowhere/fb0", Image(1, 1))
-            .line()
-            .rfind("cannot open framebuffer /nowhere/fb0: ", 0) == 0);
-  CHECK(ShowOnFramebuffer("/dev/null", Image(1, 1)).line().rfind("/dev/null: expected", 0) == 0);
+  for (const auto& [path, error] :
+       {std::pair{"/nowhere/fb0", "cannot open framebuffer /nowhere/fb0: "},
+        {"/dev/null", "/dev/null: expected"}}) {
+    CHECK(ShowOnFramebuffer(path, Image(1, 1)).line().rfind(error, 0) == 0);
+  }
 }
 
 }  // namespace

@@ -63,21 +63,20 @@ inline std::string Text(const std::string& path) {
   return std::string(bytes.begin(), bytes.end());
 }
 
+// Runs a shell command.
+inline Outcome RunLogged(const std::string& command) {
+  TempFolder logs;
+  const std::string out = logs.file("out"), err = logs.file("err");
+  const int status = std::system(("exec >'" + out + "' 2>'" + err + "'; " + command).c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, Text(out), Text(err)};
+}
+
 // Runs a program in `folder` with shell-quoted arguments. The shell runs the command `before`
 // first.
 inline Outcome Call(const TempFolder& folder, const std::string& arguments,
                     const std::string& before = "") {
-  TempFolder logs;
-  const std::string command = "cd '" + folder.path() + "' && " + before +
-                              " exec " STARFOCUS_EMULATOR " '" + ProgramFor(arguments) + "' " +
-                              arguments;
-  const int status = std::system(
-      ("exec >'" + logs.file("out") + "' 2>'" + logs.file("err") + "'; " + command).c_str());
-  Outcome outcome;
-  if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
-  outcome.out = Text(logs.file("out"));
-  outcome.err = Text(logs.file("err"));
-  return outcome;
+  return RunLogged("cd '" + folder.path() + "' && " + before + " exec " STARFOCUS_EMULATOR " '" +
+                   ProgramFor(arguments) + "' " + arguments);
 }
 
 // Runs a call that must succeed.
@@ -124,6 +123,16 @@ inline void CheckRefused(const TempFolder& folder, const std::string& arguments,
   CheckErrorLine(outcome.err);
   CHECK(Contains(outcome.err, mention));
   CHECK(folder.count() == before);
+}
+
+// Writes a light field into the folder `name` of a folder.
+inline void SaveField(const TempFolder& folder, const std::string& name, const LightField& field) {
+  ThreadRunner runner(1);
+  REQUIRE(SaveLightField(folder.file(name), field, &runner) == "");
+}
+
+inline Image Picture(const TempFolder& folder, const std::string& name) {
+  return ValueOf(ReadImage(folder.file(name)));
 }
 
 // Runs a shell command, in which `starfocus` and `lab` are the programs. Returns its exit status.
@@ -215,13 +224,10 @@ inline void PrepareHair(const TempFolder& folder) {
   LightField field;
   field.views.emplace_back(test::ClosedHair::kWidth, test::ClosedHair::kHeight);
   field.views[0].pixels = portrait.rgb;
-  field.disparity.width = test::ClosedHair::kWidth;
-  field.disparity.height = test::ClosedHair::kHeight;
-  field.disparity.values = portrait.map;
-  ThreadRunner runner(1);
-  REQUIRE(SaveLightField(folder.file("closed"), field, &runner) == "");
+  field.disparity = {test::ClosedHair::kWidth, test::ClosedHair::kHeight, portrait.map};
+  SaveField(folder, "closed", field);
   field.coverage = portrait.coverage;
-  REQUIRE(SaveLightField(folder.file("truth"), field, &runner) == "");
+  SaveField(folder, "truth", field);
 }
 
 // Checks the output of the last call against an out or err line of a session.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the sessions that take little time, and tests the colours of the frames of videos.
+// Runs the sessions that take little time.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -39,22 +39,26 @@ Image MakeFrame(int frame) {
   return image;
 }
 
-void WriteDepth(const std::string& path, int frame) {
-  GreyImage depth = {kWidth, kHeight, {}};
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      depth.levels.push_back(static_cast<uint16_t>(65535 * DepthAt(frame, x, y)));
-    }
-  }
-  REQUIRE(WriteFile(path, EncodeGreyPng(path, depth)) == "");
-}
-
 void MakeClip(const TempFolder& folder) {
   fs::create_directory(folder.file("clip"));
   for (int frame = kFirst; frame <= kLast; ++frame) {
     const std::string name = folder.file("clip/frame_" + std::to_string(frame));
     REQUIRE(WriteImage(name + ".png", MakeFrame(frame)) == "");
-    WriteDepth(name + "-depth.png", frame);
+    std::vector<uint16_t> depth;
+    for (int k = 0; k < kWidth * kHeight; ++k) {
+      depth.push_back(static_cast<uint16_t>(65535 * DepthAt(frame, k % kWidth, k / kWidth)));
+    }
+    photos::Write(name + "-depth.png", photos::Png16(kWidth, kHeight, depth));
+  }
+}
+
+// Declares the colours of the frames of the clip as linear light.
+void MakeLinear(const TempFolder& folder) {
+  for (int frame = kFirst; frame <= kLast; ++frame) {
+    const std::string path = folder.file("clip/frame_" + std::to_string(frame) + ".png");
+    std::string png = Text(path);
+    png.insert(33, photos::Chunk("gAMA", photos::Big(100000, 4)));  // after signature and IHDR
+    photos::Write(path, png);
   }
 }
 
@@ -63,39 +67,7 @@ TEST_CASE("sessions: every session of sessions.txt succeeds") {
 }
 
 TEST_CASE("sessions: every session of video_sessions.txt succeeds") {
-  RunSessions("programs/video_sessions.txt", {{"clip", MakeClip}});
-}
-
-TEST_CASE("video: frames keep their colours, and light is averaged as the colours say") {
-  TempFolder folder;
-  MakeClip(folder);
-  const std::string how = " --near white --focus 9";  // blurs by several pixels
-  CHECK(Call(folder, "video clip -o srgb" + how).code == 0);
-  for (int frame = kFirst; frame <= kLast; ++frame) {
-    const std::string path = folder.file("clip/frame_" + std::to_string(frame) + ".png");
-    const Bytes png = ValueOf(ReadFile(path));
-    std::string text(png.begin(), png.end());
-    text.insert(33, photos::Chunk("gAMA", photos::Big(100000, 4)));  // after signature and IHDR
-    REQUIRE(WriteFile(path, Bytes(text.begin(), text.end())) == "");
-  }
-  CHECK(Call(folder, "video clip -o linear" + how).code == 0);
-  const auto read = [&](const std::string& path) {
-    return ValueOf(DecodeImage(path, ValueOf(ReadFile(folder.file(path)))));
-  };
-  for (int frame = kFirst; frame <= kLast; ++frame) {
-    const std::string name = "/frame_" + std::to_string(frame) + ".png";
-    const DecodedPicture linear = read("linear" + name), srgb = read("srgb" + name);
-    CHECK(srgb.metadata.icc.empty());
-    CHECK(!linear.metadata.icc.empty());
-    CHECK(linear.image.pixels != srgb.image.pixels);
-  }
-  CHECK(Contains(Call(folder, "import clip/frame_8.png lf --near white").err, "colour profile"));
-  REQUIRE(WriteImage(folder.file("clip/frame_9.png"), MakeFrame(9)) == "");
-  const Outcome mixed = Call(folder, "video clip -o mixed" + how);
-  CHECK(mixed.code == 1);
-  CHECK(Contains(mixed.err, "frame_9.png: expected light coded as in the first frame"));
-  CHECK(!fs::exists(folder.file("mixed")));
-  CHECK(!Contains(Call(folder, "import clip/frame_9.png lf2 --near white").err, "profile"));
+  RunSessions("programs/video_sessions.txt", {{"clip", MakeClip}, {"linear", MakeLinear}});
 }
 
 }  // namespace

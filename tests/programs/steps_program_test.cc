@@ -73,13 +73,10 @@ struct Steps {
   LightField field = TwoPlanes();
 
   Steps() {
-    ThreadRunner runner(1);
-    REQUIRE(SaveLightField(folder.file("lf"), field, &runner) == "");
+    SaveField(folder, "lf", field);
     Succeed(folder, "steps lf -o steps --focus -4");
   }
-  Image Picture(const std::string& name) const {
-    return ValueOf(ReadImage(folder.file("steps/" + name + ".png")));
-  }
+  Image Get(const std::string& name) const { return Picture(folder, "steps/" + name + ".png"); }
 };
 
 const uint8_t* At(const Image& picture, int x, int y) { return picture.row(y) + 3 * x; }
@@ -101,7 +98,7 @@ bool IsInSquare(int x, int y) { return x >= kLeft && x < kRight && y >= kTop && 
 
 TEST_CASE("steps: the mean is sharp in focus, and shows a copy of each view elsewhere") {
   const Steps steps;
-  const Image mean = steps.Picture("mean"), &centre = steps.field.views[0];
+  const Image mean = steps.Get("mean"), &centre = steps.field.views[0];
   for (int y = 0; y < kTop - 9; ++y) {
     for (int x = 8; x < kWidth - 8; ++x) CHECK(Distance(At(mean, x, y), At(centre, x, y)) <= 1);
   }
@@ -111,14 +108,14 @@ TEST_CASE("steps: the mean is sharp in focus, and shows a copy of each view else
   CHECK(red > At(centre, kRight + 4, 40)[0] + 10);
   CHECK(red < NearCode(0) - 50);
   Succeed(steps.folder, "steps lf -o near --focus 4");
-  const Image near = ValueOf(ReadImage(steps.folder.file("near/mean.png")));
+  const Image near = Picture(steps.folder, "near/mean.png");
   for (int x = kLeft; x < kRight; ++x) CHECK(Distance(At(near, x, 40), At(centre, x, 40)) <= 1);
   CHECK(Distance(At(near, 12, 12), At(centre, 12, 12)) > 1);
 }
 
 TEST_CASE("steps: disparities are brighter if nearer, and each plane is one slice") {
   const Steps steps;
-  const Image disparity = steps.Picture("disparity"), slices = steps.Picture("slices");
+  const Image disparity = steps.Get("disparity"), slices = steps.Get("slices");
   std::set<std::pair<int, int>> colours[2];
   ForSquare([&](int x, int y) {
     CHECK(At(disparity, x, y)[0] == (IsInSquare(x, y) ? 255 : 0));
@@ -140,10 +137,9 @@ size_t SlicesOfStep(float step) {
   for (int k = 0; k < kWidth * kHeight; ++k) {
     field.disparity.values.push_back(k % 32 < 16 ? 13 : 13 - step);
   }
-  ThreadRunner runner(1);
-  REQUIRE(SaveLightField(folder.file("lf"), field, &runner) == "");
+  SaveField(folder, "lf", field);
   Succeed(folder, "steps lf -o steps --focus 0");
-  const Image slices = ValueOf(ReadImage(folder.file("steps/slices.png")));
+  const Image slices = Picture(folder, "steps/slices.png");
   std::set<std::pair<int, int>> colours;
   for (int x = 0; x < kWidth; ++x) colours.insert({At(slices, x, 40)[0], At(slices, x, 40)[1]});
   return colours.size();
@@ -160,7 +156,7 @@ TEST_CASE("steps: slices are as thick as in the engine") {
 
 TEST_CASE("steps: hidden surfaces show the far plane behind edges only") {
   const Steps steps;
-  const Image hidden = steps.Picture("hidden");
+  const Image hidden = steps.Get("hidden");
   ForSquare([&](int x, int y) {
     const int inside = std::min({x - kLeft, kRight - 1 - x, y - kTop, kBottom - 1 - y});
     if (inside < 0 || inside > 8) {
@@ -176,7 +172,7 @@ TEST_CASE("steps: hidden surfaces show the far plane behind edges only") {
 
 TEST_CASE("steps: the matte and the coverage show shares of the nearer surface where they differ") {
   const Steps steps;
-  const Image matte = steps.Picture("matte"), coverage = steps.Picture("coverage");
+  const Image matte = steps.Get("matte"), coverage = steps.Get("coverage");
   ForSquare([&](int x, int y) {
     CHECK(!IsGrey(At(coverage, x, y)));  // coverage is measured in thin structures only
     if (x != kLeft - 1) CHECK(IsGrey(At(matte, x, y)));
@@ -195,7 +191,7 @@ TEST_CASE("steps: the matte and the coverage show shares of the nearer surface w
 TEST_CASE(
     "steps: `view` shows the scene from the right, and `holes` marks the square's right edge") {
   const Steps steps;
-  const Image view = steps.Picture("view"), holes = steps.Picture("holes");
+  const Image view = steps.Get("view"), holes = steps.Get("holes");
   const uint8_t magenta[3] = {255, 0, 255};
   ForSquare([&](int x, int y) {
     if (x > 30 && x < 54 && y > kTop + 1 && y < kBottom - 2) {
@@ -211,8 +207,8 @@ TEST_CASE(
 TEST_CASE("steps: the picture `gathered` marks only cells away from depth edges") {
   const Steps steps;
   Succeed(steps.folder, "refocus lf --focus -4 -o plain.png");
-  const Image gathered = steps.Picture("gathered");
-  const Image plain = ValueOf(ReadImage(steps.folder.file("plain.png")));
+  const Image gathered = steps.Get("gathered");
+  const Image plain = Picture(steps.folder, "plain.png");
   int marked = 0;
   ForSquare([&](int x, int y) {
     if (Distance(At(gathered, x, y), At(plain, x, y)) == 0) return;

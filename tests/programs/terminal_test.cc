@@ -160,20 +160,40 @@ TEST_CASE("progress: the line shows the share and, after a second, the remaining
   CHECK(Progress::State(100, 100, 60) == ": 100 %, 0 s left");
 }
 
-TEST_CASE("terminal: an answer is complete when the device attributes have arrived") {
+// Returns what a terminal has answered: the graphics, the attributes, and the sizes of the terminal
+// and of sixels, or "" if the answer is incomplete.
+std::string Read(const std::string& answer) {
+  const TerminalAnswers read = ReadTerminalAnswers(answer);
+  const auto size = [](int width, int height) {
+    return " " + std::to_string(width) + "x" + std::to_string(height);
+  };
+  return !read.done ? ""
+                    : std::string(read.kitty ? "kitty " : "") + (read.sixel ? "sixel " : "") +
+                          read.attributes + size(read.width, read.height) +
+                          size(read.sixel_width, read.sixel_height);
+}
+
+TEST_CASE(
+    "terminal: an answer is complete with the device attributes, sixels need attribute 4, and "
+    "kitty "
+    "graphics need the answer OK") {
   const std::string whole = "\x1b_Gi=31;OK\x1b\\\x1b[4;600;800t\x1b[?2;0;1000;900S\x1b[?62;4;22c";
-  for (size_t length = 0; length < whole.size(); ++length) {
-    CHECK_FALSE(ReadTerminalAnswers(whole.substr(0, length)).done);
+  for (size_t length = 0; length < whole.size(); ++length)
+    CHECK(Read(whole.substr(0, length)) == "");
+  for (const auto& [answer, read] :
+       {std::pair{"key" + whole + "key", "kitty sixel 62;4;22 800x600 1000x900"},
+        {"\x1b[?64;14;40c", "64;14;40 0x0 0x0"},
+        {"\x1b[?6c", "6 0x0 0x0"},
+        {"\x1b[?c", " 0x0 0x0"},
+        {"\x1b[?44;24c", "44;24 0x0 0x0"},
+        {"\x1b[?4c", "sixel 4 0x0 0x0"},
+        {"\x1b[?4;6c", "sixel 4;6 0x0 0x0"},
+        {"\x1b[?62;4c", "sixel 62;4 0x0 0x0"},
+        {"\x1b_Gi=31;ENOTSUP:no\x1b\\\x1b[?6c", "6 0x0 0x0"},
+        {"\x1b[4;123456;800t\x1b[?6c", "6 0x0 0x0"},
+        {"\x1b[?2;3;0S\x1b[?6c", "6 0x0 0x0"}}) {
+    CHECK(Read(answer) == read);
   }
-  const TerminalAnswers answers = ReadTerminalAnswers("key" + whole + "key");
-  CHECK(answers.done);
-  CHECK(answers.kitty);
-  CHECK(answers.sixel);
-  CHECK(answers.attributes == "62;4;22");
-  CHECK(answers.width == 800);
-  CHECK(answers.height == 600);
-  CHECK(answers.sixel_width == 1000);
-  CHECK(answers.sixel_height == 900);
 }
 
 TEST_CASE("terminal: a signal during the query restores the echo" *
@@ -200,21 +220,6 @@ TEST_CASE("terminal: a signal during the query restores the echo" *
   CHECK(echoes());
   close(program);
   close(terminal);
-}
-
-TEST_CASE("terminal: sixels need attribute 4, and kitty graphics need the answer OK") {
-  for (const char* without : {"\x1b[?64;14;40c", "\x1b[?6c", "\x1b[?c", "\x1b[?44;24c"}) {
-    CAPTURE(without);
-    CHECK(ReadTerminalAnswers(without).done);
-    CHECK_FALSE(ReadTerminalAnswers(without).sixel);
-  }
-  for (const char* with : {"\x1b[?4c", "\x1b[?4;6c", "\x1b[?62;4c"}) {
-    CAPTURE(with);
-    CHECK(ReadTerminalAnswers(with).sixel);
-  }
-  CHECK_FALSE(ReadTerminalAnswers("\x1b_Gi=31;ENOTSUP:no\x1b\\\x1b[?6c").kitty);
-  CHECK(ReadTerminalAnswers("\x1b[4;123456;800t\x1b[?6c").width == 0);
-  CHECK(ReadTerminalAnswers("\x1b[?2;3;0S\x1b[?6c").sixel_width == 0);
 }
 
 }  // namespace

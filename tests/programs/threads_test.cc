@@ -10,12 +10,14 @@
 #include <cstdint>
 #include <ctime>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <random>
 #include <set>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "examples/cli/batch.h"
@@ -58,49 +60,46 @@ struct Record {
   }
 };
 
-void CheckRuns(starfocus_pool* pool, int count) {
+using Pool = std::unique_ptr<starfocus_pool, void (*)(starfocus_pool*)>;
+
+Pool MakePool(int workers) { return {starfocus_pool_create(workers), starfocus_pool_destroy}; }
+
+void CheckRuns(const Pool& pool, int count) {
   Record record(count);
-  record.workers = starfocus_pool_workers(pool);
-  REQUIRE(starfocus_pool_run(pool, Record::Job, &record, count) == 0);
+  record.workers = starfocus_pool_workers(pool.get());
+  REQUIRE(starfocus_pool_run(pool.get(), Record::Job, &record, count) == 0);
   CHECK(record.Good(1));
 }
 
-TEST_CASE("pool: each job runs once, by the workers of the pool, in every batch") {
-  for (const int workers : {1, 2, 5, STARFOCUS_MAX_WORKERS}) {
-    starfocus_pool* const pool = starfocus_pool_create(workers);
+TEST_CASE(
+    "pool: each job of a batch runs once, by the asked workers, the maximum, or for numbers up to "
+    "0 "
+    "one worker per usable core") {
+  constexpr int kMost = STARFOCUS_MAX_WORKERS;
+  const int cores = starfocus_pool_cores();
+  CHECK((cores >= 1 && cores <= kMost));
+  const std::pair<int, int> rows[] = {{1, 1},         {2, 2},
+                                      {5, 5},         {0, cores},
+                                      {-1, cores},    {INT32_MIN, cores},
+                                      {kMost, kMost}, {INT32_MAX, kMost}};
+  for (const auto& [asked, workers] : rows) {
+    const Pool pool = MakePool(asked);
     REQUIRE(pool != nullptr);
-    CHECK(starfocus_pool_workers(pool) == workers);
+    CHECK(starfocus_pool_workers(pool.get()) == workers);
     for (int repeat = 0; repeat < 10; ++repeat) {
       for (const int count : {0, 1, 2, 3, 200, 1000}) CheckRuns(pool, count);
     }
-    starfocus_pool_destroy(pool);
   }
-}
-
-TEST_CASE(
-    "pool: 0 workers select one worker per usable core, and the maximum limits larger numbers") {
-  CHECK(starfocus_pool_cores() >= 1);
-  CHECK(starfocus_pool_cores() <= STARFOCUS_MAX_WORKERS);
-  for (const int workers : {0, -1, INT32_MIN}) {
-    starfocus_pool* const pool = starfocus_pool_create(workers);
-    CHECK(starfocus_pool_workers(pool) == starfocus_pool_cores());
-    CheckRuns(pool, 100);
-    starfocus_pool_destroy(pool);
-  }
-  starfocus_pool* const pool = starfocus_pool_create(INT32_MAX);
-  CHECK(starfocus_pool_workers(pool) == STARFOCUS_MAX_WORKERS);
-  starfocus_pool_destroy(pool);
 }
 
 TEST_CASE("pool: invalid arguments are rejected or clamped") {
-  starfocus_pool* const pool = starfocus_pool_create(2);
+  const Pool pool = MakePool(2);
   Record record(1);
   CHECK(starfocus_pool_run(nullptr, Record::Job, &record, 1) != 0);
-  CHECK(starfocus_pool_run(pool, nullptr, &record, 1) != 0);
-  CHECK(starfocus_pool_run(pool, Record::Job, &record, -1) != 0);
+  CHECK(starfocus_pool_run(pool.get(), nullptr, &record, 1) != 0);
+  CHECK(starfocus_pool_run(pool.get(), Record::Job, &record, -1) != 0);
   CHECK(record.calls[0] == 0);
   CHECK(starfocus_pool_workers(nullptr) == 0);
-  starfocus_pool_destroy(pool);
   starfocus_pool_destroy(nullptr);
   ThreadRunner runner(-5);
   CHECK(runner.workers() == 1);
@@ -108,25 +107,22 @@ TEST_CASE("pool: invalid arguments are rejected or clamped") {
 }
 
 TEST_CASE("pool: several pools can exist at once, and one pool can serve several callers in turn") {
-  starfocus_pool* const a = starfocus_pool_create(3);
-  starfocus_pool* const b = starfocus_pool_create(2);
+  const Pool a = MakePool(3), b = MakePool(2);
   Record shared(300);
   std::vector<std::thread> callers;
-  for (starfocus_pool* const pool : {a, a, a, b}) {
-    callers.emplace_back([&shared, a, pool] {
+  for (const Pool* const pool : {&a, &a, &a, &b}) {
+    callers.emplace_back([&, pool] {
       for (int repeat = 0; repeat < 20; ++repeat) {
-        if (pool == a) {
-          starfocus_pool_run(pool, Record::Job, &shared, 300);
+        if (pool == &a) {
+          starfocus_pool_run(a.get(), Record::Job, &shared, 300);
         } else {
-          CheckRuns(pool, 50);
+          CheckRuns(b, 50);
         }
       }
     });
   }
   for (std::thread& caller : callers) caller.join();
   CHECK(shared.Good(60));
-  starfocus_pool_destroy(a);
-  starfocus_pool_destroy(b);
 }
 
 TEST_CASE(
@@ -139,15 +135,15 @@ TEST_CASE(
   test::Engine one(config);
   REQUIRE(test::Refocus(&one, params, scene, &expected) == STARFOCUS_OK);
 
-  starfocus_pool* const pool = starfocus_pool_create(4);
-  config.max_workers = starfocus_pool_workers(pool);
+  const Pool pool = MakePool(4);
+  config.max_workers = starfocus_pool_workers(pool.get());
   test::Engine engine(config);
   for (const int stop : {test::Watch::kNever, 20, 0, 5, test::Watch::kNever}) {
     CAPTURE(stop);
     test::Watch watch(stop);
     starfocus_callbacks callbacks = test::ToldTo(test::Watch::Progress, &watch);
     callbacks.runner = starfocus_pool_run;
-    callbacks.runner_data = pool;
+    callbacks.runner_data = pool.get();
     test::Output out(300, 120);
     const starfocus_status status = test::Refocus(&engine, params, scene, &out, callbacks);
     CHECK(watch.Good());
@@ -156,54 +152,41 @@ TEST_CASE(
     CHECK(watch.Ended());
     CHECK(out.bytes == expected.bytes);
   }
-  starfocus_pool_destroy(pool);
 }
 
-// Each worker waits for all other workers, so that the test hangs if a worker does not wake.
+// Each worker waits for all other workers, so that the test hangs if a worker does not wake. Then
+// all but the caller work for some time.
 struct Meeting {
   int workers;
-  std::atomic<int> met{0};
+  std::chrono::microseconds time{0};
+  std::atomic<int> met{0}, done{0};
 
-  static void Job(void* data, int32_t, int32_t) {
+  static void Job(void* data, int32_t, int32_t worker) {
     auto* self = static_cast<Meeting*>(data);
     ++self->met;
     while (self->met < self->workers) std::this_thread::yield();
+    if (worker != 0) std::this_thread::sleep_for(self->time);
+    ++self->done;
   }
 };
 
-TEST_CASE("runner: threads wake for a batch at any time, and its jobs run at the same time") {
+TEST_CASE(
+    "runner: threads wake at any time, run the jobs of a batch at the same time, and the caller "
+    "waits for the last job") {
   for (const int workers : {2, 3, 64}) {
     ThreadRunner runner(workers);
-    // Batches begin before, while and after the threads fall asleep.
-    for (const int pause : {0, 50, 90, 100, 110, 150, 1000}) {
-      for (int repeat = 0; repeat < (workers == 3 ? 100 : 1); ++repeat) {
-        Meeting meeting{workers};
+    // Batches begin before, while and after the threads fall asleep, or end before, while and after
+    // the caller falls asleep.
+    for (const int microseconds : {0, 50, 90, 100, 110, 150, 1000}) {
+      const std::chrono::microseconds time(microseconds);
+      for (int repeat = 0; repeat < (workers == 64 ? 1 : 100); ++repeat) {
+        Meeting meeting{workers}, slow{workers, time};
         CHECK(ThreadRunner::Run(&runner, Meeting::Job, &meeting, workers) == 0);
-        CHECK(meeting.met == workers);
-        std::this_thread::sleep_for(std::chrono::microseconds(pause));
+        CHECK(meeting.done == workers);
+        std::this_thread::sleep_for(time);
+        CHECK(ThreadRunner::Run(&runner, Meeting::Job, &slow, workers) == 0);
+        CHECK(slow.done == workers);
       }
-    }
-  }
-}
-
-TEST_CASE("runner: the caller waits for the last job, however long it takes") {
-  ThreadRunner runner(2);
-  struct Slow {
-    std::chrono::microseconds time;
-    std::atomic<int> met{0}, done{0};
-  };
-  const auto job = [](void* data, int32_t, int32_t worker) {
-    auto* slow = static_cast<Slow*>(data);
-    ++slow->met;
-    while (slow->met < 2) std::this_thread::yield();
-    if (worker != 0) std::this_thread::sleep_for(slow->time);
-    ++slow->done;
-  };
-  for (int time : {0, 50, 90, 100, 110, 150, 1000}) {
-    for (int repeat = 0; repeat < 50; ++repeat) {
-      Slow slow{std::chrono::microseconds(time)};
-      CHECK(ThreadRunner::Run(&runner, job, &slow, 2) == 0);
-      CHECK(slow.done == 2);
     }
   }
 }
@@ -242,7 +225,7 @@ TEST_CASE("runner: the caller gets the first exception of a batch after all jobs
       // The pool must run the next batch normally.
       Meeting meeting{workers};
       REQUIRE(ThreadRunner::Run(&runner, Meeting::Job, &meeting, workers) == 0);
-      CHECK(meeting.met == workers);
+      CHECK(meeting.done == workers);
     }
   }
 }
