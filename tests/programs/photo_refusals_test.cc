@@ -122,7 +122,7 @@ TEST_CASE("depth pictures: values, types and sizes that do not fit are rejected"
     colours.pixels[k + 2] = static_cast<uint8_t>(255 - k / 21);
   }
   const auto open_with = [](const DepthOptions& options) {
-    return [options](const std::string& file) { return Opened("map", file, options).error; };
+    return [options](const std::string& file) { return OpenMap(file, options).error().line(); };
   };
   std::vector<Row> rows = {
       {PfmOf({kColumns, kRows, std::vector<float>(1728, kNan)}), "a map with known depths"}};
@@ -165,12 +165,7 @@ TEST_CASE("mattes: unsuitable mattes are rejected with their cause") {
        {"no picture", "(convert the matte to PNG)"},
        {"v/1\x01 and more", "(oiiotool FILE --ch A -o matte.png writes its alpha channel)"}},
       [](const std::string& matte) {
-        TempFolder folder;
-        Write(folder.file("photo.jpg"), Encode(Plain(kColumns, kRows, 90), ".jpg"));
-        Write(folder.file("matte"), matte);
-        CaptureOptions options;
-        options.matte = folder.file("matte");
-        return OpenCapture(folder.file("photo.jpg"), options).error().line();
+        return OpenWith(Plain(kColumns, kRows, 90), "", {}, matte).error().line();
       });
 }
 
