@@ -406,11 +406,7 @@ TEST_CASE("Dynamic Depth: in a mask without a range, the subject is in the middl
     CHECK(capture.matte.alpha[20 * size_t(kWidth) + 15] > 250);
     CHECK(capture.matte.alpha[20 * size_t(kWidth) + 35] < 5);
   }
-}
-
-TEST_CASE("Dynamic Depth: the subject of a mask is found in the upright picture") {
-  if (!CanReadXmp()) return;
-  // Orientation 6: the left edge of the file is the upper edge of the picture.
+  // In a file of orientation 6, the left edge is the upper edge of the picture.
   Image mask = Plain(kWidth, kHeight, 0);
   for (int y = 6; y < 18; ++y) std::fill(mask.row(y) + 30, mask.row(y) + 3 * kWidth, uint8_t{255});
   const Capture capture = OpenPhoto(Insert(Masked(mask, "", false), ExifSegment(6, 0)));

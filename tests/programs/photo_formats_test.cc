@@ -14,6 +14,7 @@
 #include "platform/readers/capture.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/xmp.h"
+#include "tests/programs/depth_scene.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/portrait_files.h"
@@ -21,7 +22,7 @@
 namespace starfocus::photo_formats_test {
 namespace {
 
-using namespace photos;
+using namespace depth_scene;
 
 // A photo of 40x24 pixels with a map of levels that increase from black on the left to white on the
 // right, and the disparities of black and white.
@@ -34,13 +35,9 @@ struct Row {
 };
 
 void CheckRows(const std::string& format, const std::vector<Row>& rows) {
-  for (size_t k = 0; k < rows.size(); ++k) {
-    const Row& row = rows[k];
-    CAPTURE(k);
-    CaptureOptions options;
-    options.map.near = row.near;
-    Capture capture;
-    REQUIRE(Open(row.file, &capture, options) == "");
+  for (const Row& row : rows) {
+    CAPTURE(&row - rows.data());
+    const Capture capture = OpenPhoto(row.file, {"", NearIs(row.near)});
     CHECK(capture.photo);
     CHECK(capture.care == MapCare::kRepair);
     CHECK(capture.format == format);
@@ -50,8 +47,7 @@ void CheckRows(const std::string& format, const std::vector<Row>& rows) {
     CHECK(double(map.at(0, 3)) == doctest::Approx(row.black).epsilon(row.tolerance));
     CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(row.white).epsilon(row.tolerance));
     for (const std::string& note : capture.notes) INFO(note);
-    CHECK(capture.notes.empty() == row.note.empty());
-    CHECK((row.note.empty() || HasNote(capture, row.note)));
+    CHECK(HasNote(capture, row.note) == !row.note.empty());
   }
 }
 
@@ -141,9 +137,7 @@ TEST_CASE("GDepth: ranges, units, packets and segments in every form give the di
   // Between the ends, levels are linear in the inverse distance or in the distance, and levels of
   // 16 bits keep their accuracy.
   const auto at = [](const std::string& file, int x) {
-    Capture capture;
-    REQUIRE(Open(file, &capture) == "");
-    return double(capture.light_field.disparity.at(x, 0));
+    return double(OpenPhoto(file).light_field.disparity.at(x, 0));
   };
   const double level = LevelAt(kWidth / 2);
   CHECK(at(rows[0].file, kWidth / 2) ==
@@ -200,12 +194,12 @@ TEST_CASE("Apple's JPEG: the auxiliary disparities are found by any index, and w
     return Row{file, kPortrait / 4, kPortrait, note, Near::kUnknown, 0.02};
   };
   std::vector<Row> rows = {row(Photo() + map(type + range), missing),
-                           row(Photo() + "between\xff\xd8\xff" + map(type + range), missing)};
-  rows.push_back(row(MultiPicture(Photo(), map(type))));
-  rows.back().black = 0;
-  rows.push_back(row(MultiPicture(Photo(), map(type + range + absolute))));
-  rows.back().black = PerDiopter(50) / 2;
-  rows.back().white = PerDiopter(50) * 2;
+                           row(Photo() + "between\xff\xd8\xff" + map(type + range), missing),
+                           row(MultiPicture(Photo(), map(type))),
+                           row(MultiPicture(Photo(), map(type + range + absolute)))};
+  rows[2].black = 0;
+  rows[3].black = PerDiopter(50) / 2;
+  rows[3].white = PerDiopter(50) * 2;
   for (const bool little : {false, true}) {
     const auto file = [&](uint32_t entries, uint32_t moved) {
       return MultiPicture(Photo(), map(type + range), {little, entries, moved});
@@ -224,15 +218,14 @@ TEST_CASE("Apple's JPEG: the auxiliary disparities are found by any index, and w
 
 TEST_CASE("GDepth: the focus, the facts and the sharp picture of the file are used, upright") {
   if (!CanReadXmp()) return;
-  Capture capture;
   const std::string range =
       "GDepth:Format=\"RangeInverse\" GDepth:Near=\"500\" "
       "GDepth:Far=\"4000\" GFocus:FocalDistance=\"2000\" ";
-  REQUIRE(Open(GdepthOf(range + "GDepth:Units=\"mm\""), &capture) == "");
+  Capture capture = OpenPhoto(GdepthOf(range + "GDepth:Units=\"mm\""));
   CHECK(!capture.has_focus);
   CHECK(capture.focus == doctest::Approx(PerDiopter(50) / 2));
   CHECK(FactOf(capture, "map") == "40x24, RangeInverse from 500 to 4000 mm");
-  REQUIRE(Open(GdepthOf(range), &capture) == "");
+  capture = OpenPhoto(GdepthOf(range));
   CHECK(capture.focus == doctest::Approx(kPortrait / 4));
   CHECK(FactOf(capture, "scale").find("unknown") == 0);
 #ifdef STARFOCUS_HAS_EXIF
@@ -240,13 +233,10 @@ TEST_CASE("GDepth: the focus, the facts and the sharp picture of the file are us
   // file is the top.
   Image sharp = Plain(kWidth, kHeight, 0);
   std::fill_n(sharp.row(0), 12, uint8_t{255});  // the first pixels of the first row in the file
-  REQUIRE(Open(Gdepth(Insert(Photo(), ExifSegment(6, 0)),
-                      kInverse +
-                          "GFocus:FocalPointX=\"0.25\" GFocus:FocalPointY=\"0.125\" "
-                          "GImage:Data=\"" +
-                          Base64(Encode(sharp, ".png")) + "\"",
-                      Data(RampPng())),
-               &capture) == "");
+  const std::string focus = "GFocus:FocalPointX=\"0.25\" GFocus:FocalPointY=\"0.125\" ",
+                    image = "GImage:Data=\"" + Base64(Encode(sharp, ".png")) + "\"";
+  capture = OpenPhoto(
+      Gdepth(Insert(Photo(), ExifSegment(6, 0)), kInverse + focus + image, Data(RampPng())));
   const Image& upright = capture.light_field.views[0];
   REQUIRE(upright.width == kHeight);
   REQUIRE(upright.height == kWidth);
@@ -267,37 +257,34 @@ TEST_CASE("XMP that is lost or malformed is ignored for the depth picture next t
   const std::string text = Packet(kGoogle, Data(RampPng()));
   std::vector<std::string> gap = ExtensionSegments(text, text.size() / 5);
   gap.erase(gap.begin() + 2);
-  const struct {
-    std::string file, note, error;
-  } rows[] = {{Insert(Photo(), XmpSegment(lost)), "the extended XMP is ignored",
-               "the extended XMP is ignored"},
-              {Insert(Photo(), XmpSegment(lost) + Joined(gap)), "the extended XMP is ignored",
-               "the extended XMP is ignored"},
-              {Insert(Photo(), XmpSegment(lost.substr(0, lost.size() / 2))), "XMP is ignored",
-               "XMP is ignored"},
-              {Insert(Photo(), XmpSegment("<a><b></a>")), "XMP is ignored", "XMP is ignored"},
-              {Insert(Photo(), XmpSegment(Packet(kGoogle, kInverse + "GDepth:Data=\"????\""))),
-               "base64", "base64"},
-              {Insert(Photo(), XmpSegment(Packet(kGoogle, kInverse + Data("no picture")))),
-               "the depth map in the file", ""},
-              {Unnamed(kInverse), "", ""}};
-  for (const auto& row : rows) {
-    CAPTURE(row.note);
+  const auto with = [](const std::string& packet, const std::vector<std::string>& more = {}) {
+    return Insert(Photo(), XmpSegment(packet) + Joined(more));
+  };
+  const std::pair<std::string, std::string> rows[] = {
+      {with(lost), "the extended XMP is ignored"},
+      {with(lost, gap), "the extended XMP is ignored"},
+      {with(lost.substr(0, lost.size() / 2)), "XMP is ignored"},
+      {with("<a><b></a>"), "XMP is ignored"},
+      {with(Packet(kGoogle, kInverse + "GDepth:Data=\"????\"")),
+       "GDepth:Data: expected a picture in base64"},
+      {with(Packet(kGoogle, kInverse + Data("no picture"))), "GDepth:Data: expected a PNG"},
+      {Unnamed(kInverse), ""}};  // the file has a map
+  for (const auto& [file, note] : rows) {
+    CAPTURE(note);
     TempFolder folder;
-    Write(folder.file("photo.jpg"), row.file);
+    Write(folder.file("photo.jpg"), file);
     Write(folder.file("photo-depth.png"), RampPng());
-    CaptureOptions options;
-    options.map.near = Near::kWhite;
-    const Capture capture = ValueOf(OpenCapture(folder.file("photo.jpg"), options));
+    const Capture capture =
+        ValueOf(OpenCapture(folder.file("photo.jpg"), {"", NearIs(Near::kWhite)}));
     CHECK(capture.format == "photo and depth picture");
     CheckRamp(capture, 0, kPortrait);
-    CHECK(HasNote(capture, row.note));
-    if (row.note.empty()) continue;  // the file has a map
+    CHECK(HasNote(capture, note));
+    if (note.empty()) continue;
     // If the depth picture is absent, the error must name the cause that the note names.
     std::filesystem::remove(folder.file("photo-depth.png"));
     const Error error = OpenCapture(folder.file("photo.jpg"), {}).error();
     CHECK(Contains(error, ": expected a depth map"));
-    CHECK(Contains(error, row.error));
+    CHECK(Contains(error, note));
   }
 }
 
@@ -315,10 +302,8 @@ std::string Difference(const std::string& file, int level = kOriginalLevel) {
     return "inverse distances from " + std::to_string(near) + " to " + std::to_string(far);
   }
   if (photo->is_blurred == (level == kOriginalLevel)) return "the wrong picture as the blurred one";
-  for (const auto& fact : photo->facts) {
-    if (fact.first == "gain map") return "";
-  }
-  return "no gain map";
+  const auto is_gain_map = [](const auto& fact) { return fact.first == "gain map"; };
+  return std::any_of(photo->facts.begin(), photo->facts.end(), is_gain_map) ? "" : "no gain map";
 }
 
 std::vector<Part> Parts() { return PortraitParts(kWidth, kHeight); }
@@ -382,12 +367,11 @@ TEST_CASE("portraits: blur of the camera is noted, unless the file has the sharp
   if (!CanReadXmp()) return;
   std::vector<Part> parts = Parts();
   parts[1].bytes = Encode(Plain(kHeight, kWidth, kOriginalLevel), ".jpg");
-  Capture capture;
   for (const bool other : {true, false}) {  // a picture of other proportions, or none
     if (!other) parts.erase(parts.begin() + 1);
     const std::string file = Portrait(Photo(), parts, Directories::kBoth, Lengths::kRight);
     CHECK(Difference(file, 128) == "");
-    REQUIRE(Open(file, &capture) == "");
+    const Capture capture = OpenPhoto(file);
     CHECK(HasNote(capture, "already blurred"));
     CHECK(HasNote(capture, "the sharp picture in the file is ignored") == other);
   }
@@ -395,11 +379,11 @@ TEST_CASE("portraits: blur of the camera is noted, unless the file has the sharp
   for (const int rendered : {0, 1, 2, 6, 7, 8}) {
     CAPTURE(rendered);
     const std::string jpeg = Insert(Photo(), ExifSegment(1, 0, rendered));
-    REQUIRE(Open(Gdepth(jpeg, kInverse, Data(RampPng())), &capture) == "");
+    Capture capture = OpenPhoto(Gdepth(jpeg, kInverse, Data(RampPng())));
     CHECK(HasNote(capture, "already blurred the background of this portrait") == (rendered >= 7));
     CHECK((FactOf(capture, "portrait") != "") == (rendered >= 7));
     const std::string sharp = " GImage:Data=\"" + Base64(Photo()) + "\"";
-    REQUIRE(Open(Gdepth(jpeg, kInverse, Data(RampPng()) + sharp), &capture) == "");
+    capture = OpenPhoto(Gdepth(jpeg, kInverse, Data(RampPng()) + sharp));
     CHECK(!HasNote(capture, "already blurred"));
   }
 #endif
