@@ -31,13 +31,15 @@ inline void DrawDisparities(Input* input, test::Config* config) {
   config->disparity_max = static_cast<float>(std::max(a, b));
 }
 
-// Writes arbitrary bytes into one field in a few cases. The fuzzer does not select pointers, which
+// Bytes of the numbers at the start of a configuration. The fuzzer does not select pointers, which
 // must be valid.
-inline void SpoilRarely(Input* input, test::Config* config) {
+inline constexpr size_t kNumbersOfConfig = offsetof(starfocus_config, tuning);
+
+// Writes arbitrary bytes into one field of the first `size` bytes in a few cases.
+inline void SpoilRarely(Input* input, void* fields, size_t size) {
   if (!input->Rarely()) return;
-  constexpr size_t kNumbers = offsetof(starfocus_config, tuning);
-  uint8_t* bytes = reinterpret_cast<uint8_t*>(static_cast<starfocus_config*>(config));
-  input->Bytes(bytes + input->Int(0, static_cast<int>(kNumbers / 4) - 1) * 4, 4);
+  const int field = input->Int(0, static_cast<int>(size / 4) - 1);
+  input->Bytes(static_cast<uint8_t*>(fields) + 4 * field, 4);
 }
 
 // Returns callbacks that cancel after at most `most` calls of progress in a few cases.
@@ -64,6 +66,21 @@ struct Rows {
   size_t stride, count;
   std::unique_ptr<T[]> values;
 };
+
+// Returns the workspace of a small picture, or null if it is too large for a quick run.
+inline std::unique_ptr<void, void (*)(void*)> TakeWorkspace(const test::Config& config,
+                                                            size_t bytes) {
+  const bool small = int64_t{config.width} * config.height <= 20000 && bytes <= size_t{300} << 20;
+  if (!small) return {nullptr, std::free};
+  return TakeMemory(bytes);
+}
+
+// Returns an engine in `workspace`. The configuration has been accepted before.
+inline starfocus_engine* Started(const test::Config& config, void* workspace, size_t bytes) {
+  starfocus_engine* engine = nullptr;
+  Must(starfocus_init(&config, workspace, bytes, &engine, nullptr) == STARFOCUS_OK);
+  return engine;
+}
 
 // Fills a picture with kStep bytes of the input, which change from one repetition to the next.
 template <size_t kStep = 16>

@@ -3,7 +3,6 @@
 // computes maps and coverage from mattes.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -32,7 +31,7 @@ test::Config MakeConfig(Input* input) {
   }
   DrawDisparities(input, &config);
   config.max_workers = input->Rarely() ? STARFOCUS_MAX_WORKERS : 1;
-  SpoilRarely(input, &config);
+  SpoilRarely(input, static_cast<starfocus_config*>(&config), kNumbersOfConfig);
   return config;
 }
 
@@ -65,12 +64,26 @@ void FillHair(const test::Config& config, Input* input, Rows<uint8_t>* picture, 
   }
 }
 
+starfocus_depth_map DepthOf(const test::Config& config, const Rows<float>& map) {
+  return starfocus_depth_float(map.values.get(), map.stride * sizeof(float), config.width,
+                               config.height);
+}
+
+starfocus_disparity_output OutputOf(Rows<float>* map, Rows<uint8_t>* coverage) {
+  starfocus_disparity_output out = {};
+  out.disparity = map->values.get();
+  out.disparity_stride = map->stride * sizeof(float);
+  out.coverage = coverage->values.get();
+  out.coverage_stride = coverage->stride;
+  return out;
+}
+
 // Checks that all values of the map are in the range of the configuration.
 void CheckMap(const test::Config& config, const Rows<float>& map) {
   for (int32_t y = 0; y < config.height; ++y) {
     for (int32_t x = 0; x < config.width; ++x) {
       const float value = map.values[static_cast<size_t>(y) * map.stride + static_cast<size_t>(x)];
-      if (!(value >= config.disparity_min && value <= config.disparity_max)) std::abort();
+      Must(value >= config.disparity_min && value <= config.disparity_max);
     }
   }
 }
@@ -87,23 +100,17 @@ void UseMatte(const test::Config& config, const Rows<float>& map, Input* input) 
   region.height = input->Int(1, config.height - region.y);
   Rows<float> field(static_cast<size_t>(region.width), region.height, 5, input);
   Rows<uint8_t> coverage(static_cast<size_t>(region.width), region.height, 5, input);
-  starfocus_disparity_output out = {};
-  out.disparity = field.values.get();
-  out.disparity_stride = field.stride * sizeof(float);
-  out.coverage = coverage.values.get();
-  out.coverage_stride = coverage.stride;
-  const starfocus_depth_map depth = starfocus_depth_float(
-      map.values.get(), map.stride * sizeof(float), config.width, config.height);
+  starfocus_disparity_output out = OutputOf(&field, &coverage);
+  const starfocus_depth_map depth = DepthOf(config, map);
   const starfocus_matte_depth surfaces = {config.disparity_max, config.disparity_min,
                                           input->Real(0, 0.5), input->Real(0.6, 1)};
   starfocus_matte_stats stats;
-  if (starfocus_measure_matte(&matte, &stats, nullptr) != STARFOCUS_OK ||
-      starfocus_matte_coverage(&matte, &depth, config.width, config.height, &region, &out,
-                               nullptr) != STARFOCUS_OK ||
-      starfocus_matte_field(&matte, &surfaces, config.width, config.height, &region, &out,
-                            nullptr) != STARFOCUS_OK) {
-    std::abort();
-  }
+  const int32_t columns = config.width, rows = config.height;
+  Must(starfocus_measure_matte(&matte, &stats, nullptr) == STARFOCUS_OK);
+  Must(starfocus_matte_coverage(&matte, &depth, columns, rows, &region, &out, nullptr) ==
+       STARFOCUS_OK);
+  Must(starfocus_matte_field(&matte, &surfaces, columns, rows, &region, &out, nullptr) ==
+       STARFOCUS_OK);
 }
 
 }  // namespace
@@ -114,12 +121,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const starfocus_callbacks callbacks = DrawCallbacks(20, &input);
   const bool repairs = input.Int(0, 1) == 1;
   size_t bytes = 0;
-  if (starfocus_map_workspace_size(&config, repairs ? 1 : 0, &bytes, nullptr) != STARFOCUS_OK ||
-      bytes > (size_t{300} << 20)) {
+  if (starfocus_map_workspace_size(&config, repairs ? 1 : 0, &bytes, nullptr) != STARFOCUS_OK) {
     return 0;
   }
-  if (int64_t{config.width} * config.height > 20000) return 0;
-  const auto workspace = TakeMemory(bytes);
+  const auto workspace = TakeWorkspace(config, bytes);
   if (!workspace) return 0;
   starfocus_light_field field = starfocus::NewLightField();
   std::vector<Rows<uint8_t>> pictures;
@@ -135,34 +140,25 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (config.views == 1 && input.Int(0, 1) == 1) {
     FillHair(config, &input, &pictures[0], &given);
   }
-  field.depth = starfocus_depth_float(given.values.get(), given.stride * sizeof(float),
-                                      config.width, config.height);
+  field.depth = DepthOf(config, given);
   const auto make = repairs ? starfocus_repair_disparity : starfocus_estimate_disparity;
-  starfocus_disparity_output out = {map.values.get(),
-                                    map.stride * sizeof(float),
-                                    sure.values.get(),
-                                    sure.stride,
-                                    coverage.values.get(),
-                                    coverage.stride,
-                                    -1};
-  if (input.Rarely()) out.confidence = nullptr;
+  starfocus_disparity_output out = OutputOf(&map, &coverage);
+  out.confidence = input.Rarely() ? nullptr : sure.values.get();
+  out.confidence_stride = sure.stride;
+  out.has_coverage = -1;
   if (input.Rarely()) out.coverage = nullptr;
   const starfocus_status status =
       make(&config, &callbacks, &field, &out, workspace.get(), bytes, nullptr);
   if (status == STARFOCUS_OK) {
     CheckMap(config, map);
     UseMatte(config, map, &input);
-  }
-  const bool may_cover = repairs && config.views == 1 && out.coverage != nullptr;
-  if (status == STARFOCUS_OK && out.has_coverage != 0 && (out.has_coverage != 1 || !may_cover)) {
-    std::abort();
+    const bool may_cover = repairs && config.views == 1 && out.coverage != nullptr;
+    Must(out.has_coverage == 0 || (out.has_coverage == 1 && may_cover));
+    return 0;
   }
   // All arguments except the map are valid, so only the map may cause an error.
   const bool cancelled = callbacks.progress != nullptr && status == STARFOCUS_ERROR_CANCELLED;
-  if (status != STARFOCUS_OK && !cancelled &&
-      !(repairs &&
-        (status == STARFOCUS_ERROR_DISPARITY || status == STARFOCUS_ERROR_ALL_INVALID))) {
-    std::abort();
-  }
+  Must(cancelled ||
+       (repairs && (status == STARFOCUS_ERROR_DISPARITY || status == STARFOCUS_ERROR_ALL_INVALID)));
   return 0;
 }

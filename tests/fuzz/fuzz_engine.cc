@@ -66,20 +66,19 @@ test::Config MakeConfig(bool strands, Input* input, starfocus_params* lens) {
   config.tuning.timing.block = 1u << input->Int(0, 26);
   config.tuning.timing.c = static_cast<uint32_t>(input->Int(0, 100000));
   // The following fields derive from tuning.deblocking, so that recorded inputs keep their meaning.
-  config.tuning.gather = config.tuning.deblocking % 3 != 0;
-  config.previews = config.tuning.deblocking / 4 % 4;
-  config.tuning.n_scale = 0.5 + 0.25 * (config.tuning.deblocking % 7);
-  if (config.tuning.deblocking % 7 == 1)
-    config.highlights = 1.0F + static_cast<float>(config.tuning.deblocking) / 8;
-  config.transfer =
-      config.tuning.deblocking % 5 == 0 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
-  if (config.tuning.deblocking % 2 == 0) {
-    SetShape(config.tuning.deblocking * 2 / 3, lens);
+  const int drawn = config.tuning.deblocking;
+  config.tuning.gather = drawn % 3 != 0;
+  config.previews = drawn / 4 % 4;
+  config.tuning.n_scale = 0.5 + 0.25 * (drawn % 7);
+  if (drawn % 7 == 1) config.highlights = 1.0F + static_cast<float>(drawn) / 8;
+  config.transfer = drawn % 5 == 0 ? STARFOCUS_TRANSFER_NONE : STARFOCUS_TRANSFER_SRGB;
+  if (drawn % 2 == 0) {
+    SetShape(drawn * 2 / 3, lens);
     config.features |= STARFOCUS_FEATURE_SHAPES;
   }
-  if (config.tuning.deblocking % 6 == 1) SetPositions(config.tuning.deblocking, &config);
-  if (config.tuning.deblocking % 8 == 3) config.features = 0;
-  SpoilRarely(input, &config);
+  if (drawn % 6 == 1) SetPositions(drawn, &config);
+  if (drawn % 8 == 3) config.features = 0;
+  SpoilRarely(input, static_cast<starfocus_config*>(&config), kNumbersOfConfig);
   return config;
 }
 
@@ -103,11 +102,8 @@ void SetParams(const test::Config& config, Input* input, starfocus::Params* give
     params.region = {input->Int(0, config.width), input->Int(0, config.height),
                      input->Int(0, config.width), input->Int(0, config.height)};
   }
-  if (input->Rarely()) {
-    uint8_t* bytes = reinterpret_cast<uint8_t*>(&params);
-    input->Bytes(bytes + input->Int(0, static_cast<int>(sizeof(params) / 4) - 1) * 4, 4);
-    params.previous = nullptr;  // the caller passes only valid pointers
-  }
+  SpoilRarely(input, &params, sizeof params);
+  params.previous = nullptr;  // the caller passes only valid pointers
 }
 
 struct Pictures {
@@ -168,17 +164,14 @@ Pictures MakePictures(const test::Config& config, const Strands& strands, Input*
   return pictures;
 }
 
-starfocus_light_field From(const starfocus_light_field& field, int views, int row) {
-  starfocus_light_field from = field;
+starfocus_light_field From(starfocus_light_field field, int views, size_t row) {
   for (int view = 0; view < views; ++view) {
-    starfocus_image& image = from.views[view];
-    image.planes[0] =
-        static_cast<uint8_t*>(image.planes[0]) + static_cast<size_t>(row) * image.strides[0];
+    starfocus_image& image = field.views[view];
+    image.planes[0] = static_cast<uint8_t*>(image.planes[0]) + row * image.strides[0];
   }
-  from.depth.data =
-      static_cast<const char*>(from.depth.data) + static_cast<size_t>(row) * from.depth.stride;
-  if (from.coverage != nullptr) from.coverage += static_cast<size_t>(row) * from.coverage_stride;
-  return from;
+  field.depth.data = static_cast<const char*>(field.depth.data) + row * field.depth.stride;
+  if (field.coverage != nullptr) field.coverage += row * field.coverage_stride;
+  return field;
 }
 
 int RowCount(int left, Input* input) {
@@ -193,7 +186,8 @@ void Stream(starfocus_engine* engine, const test::Config& config, const starfocu
   for (int round = 0; round < 200 && pulled < config.height; ++round) {
     int32_t moved = 0;
     if (pushed < config.height) {
-      const starfocus_light_field rows = From(pictures.field, config.views, pushed);
+      const starfocus_light_field rows =
+          From(pictures.field, config.views, static_cast<size_t>(pushed));
       const int count = RowCount(config.height - pushed, input);
       if (starfocus_stream_push(engine, &rows, count, &moved) != STARFOCUS_OK) return;
       pushed += moved;
@@ -228,7 +222,7 @@ void Refocus(starfocus_engine* engine, const test::Config& config, const starfoc
     return;
   }
   size_t bytes = 0;
-  if (starfocus_prepared_size(&config, &bytes, nullptr) != STARFOCUS_OK) std::abort();
+  Must(starfocus_prepared_size(&config, &bytes, nullptr) == STARFOCUS_OK);
   const auto memory = TakeMemory(bytes);
   if (!memory) return;
   starfocus_prepared* prepared = nullptr;
@@ -248,22 +242,17 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   starfocus::Params lens;
   const test::Config config = MakeConfig(strands.any(), &input, &lens);
   size_t bytes = 0;
-  if (starfocus_workspace_size(&config, &bytes, nullptr) != STARFOCUS_OK ||
-      bytes > (size_t{200} << 20))
-    return 0;
-  if (int64_t{config.width} * config.height > 20000) return 0;
-  const auto workspace = TakeMemory(bytes);
+  if (starfocus_workspace_size(&config, &bytes, nullptr) != STARFOCUS_OK) return 0;
+  const auto workspace = TakeWorkspace(config, bytes);
   if (!workspace) return 0;
-  starfocus_engine* engine = nullptr;
-  if (starfocus_init(&config, workspace.get(), bytes, &engine, nullptr) != STARFOCUS_OK)
-    std::abort();
+  starfocus_engine* engine = Started(config, workspace.get(), bytes);
   const Pictures pictures = MakePictures(config, strands, &input);
   const Rows<uint8_t> out(3 * static_cast<size_t>(config.width), config.height, 5, &input);
   for (int round = 0; round < 2; ++round) {
     starfocus::Params params = lens;
     SetParams(config, &input, &params);
     const starfocus_callbacks callbacks = DrawCallbacks(100, &input);
-    if (starfocus_set_callbacks(engine, &callbacks) != STARFOCUS_OK) std::abort();
+    Must(starfocus_set_callbacks(engine, &callbacks) == STARFOCUS_OK);
     const double scale = params.study.mode == STARFOCUS_MODE_BENCHMARK ? 2 : config.tuning.n_scale;
     const bool frame = params.study.mode == STARFOCUS_MODE_FRAME;
     const bool by_default =

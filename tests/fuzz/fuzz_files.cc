@@ -8,8 +8,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,12 @@
 namespace starfocus::fuzz {
 namespace {
 
+// Checks the number of values of a map.
+template <class Map>
+void CheckSize(const Map& map) {
+  Must(map.values.size() == size_t(map.width) * size_t(map.height));
+}
+
 // A file in memory, and a path that opens this file.
 class MemoryFile {
  public:
@@ -49,54 +56,43 @@ class MemoryFile {
 
 void CheckFile(const uint8_t* data, size_t size) {
   const MemoryFile file(data, size);
-  if (const auto map = ReadPfm(file.path())) {
-    if (map->values.size() != size_t(map->width) * size_t(map->height)) std::abort();
-  }
+  if (const auto map = ReadPfm(file.path())) CheckSize(*map);
   const auto small = ReadSmallFile(file.path());
-  if (bool(small) != (size <= kMostSmallBytes) || (small && small->size() != size)) std::abort();
-  if (DescribeFile(*small).empty()) std::abort();
-  if (const auto image = ReadImage(file.path())) {
-    if (image->pixels.size() != image->stride() * size_t(image->height)) std::abort();
-  }
+  Must(bool(small) == (size <= kMostSmallBytes) && (!small || small->size() == size));
+  Must(!DescribeFile(*small).empty());
+  const auto image = ReadImage(file.path());
+  Must(!image || image->pixels.size() == image->stride() * size_t(image->height));
   const starfocus::Bytes bytes(data, data + size);
   if (const auto levels = DecodeLevels("levels", bytes)) {
-    if (levels->values.size() != size_t(levels->width) * size_t(levels->height)) std::abort();
-    for (const float level : levels->values) {
-      if (level < 0 || level > 1) std::abort();
-    }
+    CheckSize(*levels);
+    for (const float level : levels->values) Must(!(level < 0) && !(level > 1));
   }
-  if (const auto samples = DecodeDepthFile("depth", Alpha::kTransparent, bytes)) {
-    const FloatMap& map = samples->map;
-    if (map.values.size() != size_t(map.width) * size_t(map.height)) std::abort();
-  }
+  const auto depth = DecodeDepthFile("depth", Alpha::kTransparent, bytes);
+  if (depth) CheckSize(depth->map);
   if (const auto samples = DecodeSamples("coverage", Alpha::kTaken, bytes)) {
-    for (const float sample : samples->map.values) {
-      if (!(sample >= 0 && sample <= static_cast<float>(samples->largest))) std::abort();
-    }
+    const auto largest = static_cast<float>(samples->largest);
+    for (const float sample : samples->map.values) Must(sample >= 0 && sample <= largest);
   }
 }
 
 constexpr const char* kExtensions[] = {".png", ".ppm", ".jpg"};
 
-void Write(const std::string& path, const void* data, size_t size) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) std::abort();
-  if (size != 0) std::fwrite(data, 1, size, file);
-  std::fclose(file);
+void Write(const std::string& path, const std::string& bytes) {
+  Must(bool(std::ofstream(path, std::ios::binary) << bytes));
 }
 
-void Write(const std::string& path, std::string bytes, Input* input) {
-  if (input->Rarely()) bytes.resize(bytes.size() / 2);
-  Write(path, bytes.data(), bytes.size());
+// Writes the whole file, or its first half.
+void Write(const std::string& path, const std::string& bytes, Input* input) {
+  Write(path, bytes.substr(0, bytes.size() / (input->Rarely() ? 2 : 1)));
 }
 
 // Writes a valid picture of one colour, or bytes of the input.
 void WriteView(const std::string& path, int side, Input* input) {
   if (input->Rarely()) {
     const size_t wanted = input->Value<uint8_t>(), size = std::min(wanted, input->size());
-    Write(path, input->data(), size);
+    const std::string bytes(reinterpret_cast<const char*>(input->data()), size);
     input->Skip(size);
-    return;
+    return Write(path, bytes);
   }
   const std::string header = "P6 " + std::to_string(side) + " 2 255\n";
   const std::string pixels(static_cast<size_t>(6 * side), static_cast<char>(input->Int(0, 255)));
@@ -145,36 +141,29 @@ void CheckFolder(const uint8_t* data, size_t size) {
   const Positions wanted = StarPositions(kWanted[input.Int(0, 4)]);
   if (const auto field = LoadLightField(folder.path(), wanted)) {
     const size_t loaded = field->views.size();
-    if (loaded < 1 || loaded > STARFOCUS_MAX_VIEWS || field->positions.size() != loaded)
-      std::abort();
-    if (!wanted.empty() && loaded != wanted.size()) std::abort();
+    Must(loaded >= 1 && loaded <= STARFOCUS_MAX_VIEWS && field->positions.size() == loaded);
+    Must(wanted.empty() || loaded == wanted.size());
     for (const Image& image : field->views) {
-      if (image.width != field->width() || image.height != field->height()) std::abort();
+      Must(image.width == field->width() && image.height == field->height());
     }
   }
   for (const std::string& path : written) unlink(path.c_str());
 }
 
 void CheckArray(const std::string& text) {
-  std::vector<std::string> names(1);
-  for (const char c : text) {
-    if (c == '\n') {
-      names.emplace_back();
-    } else {
-      names.back() += c;
-    }
-  }
+  std::vector<std::string> names;
+  std::istringstream lines(text);
+  for (std::string name; std::getline(lines, name);) names.push_back(name);
   const auto array = FindArray("folder", names);
   if (!array || array->paths.empty()) return;
-  if (array->paths.size() != size_t(array->rows) * size_t(array->columns)) std::abort();
+  Must(array->paths.size() == size_t(array->rows) * size_t(array->columns));
   Facts facts;
   const auto star = ChooseStar("folder", *array, &facts);
   if (!star) return;
-  if (star->views.empty() || star->views.size() > STARFOCUS_MAX_VIEWS) std::abort();
-  if (star->views[0].position.u != 0 || star->views[0].position.v != 0) std::abort();
+  Must(!star->views.empty() && star->views.size() <= STARFOCUS_MAX_VIEWS);
+  Must(star->views[0].position.u == 0 && star->views[0].position.v == 0);
   for (const ViewFile& view : star->views) {
-    if (view.position.u < -1 || view.position.u > 1) std::abort();
-    if (view.position.v < -1 || view.position.v > 1) std::abort();
+    for (const double at : {view.position.u, view.position.v}) Must(at >= -1 && at <= 1);
   }
 }
 
@@ -183,20 +172,19 @@ void CheckParts(const uint8_t* data, size_t size) {
   const auto read = ReadJpegParts("photo", {data, size});
   if (!read) return;
   const JpegParts& parts = *read;
-  if (parts.end > size) std::abort();
+  Must(parts.end <= size);
   const MultiPictures listed =
       ListMultiPictures({data, size}, parts, ListAppendedPictures({data, size}, parts.end));
   for (const MultiPicture& picture : listed.pictures) {
     const Span& file = picture.file;
-    if (file.data < data + parts.end || file.data + file.size > data + size) std::abort();
-    if (file.size != picture.parts.end) std::abort();
+    Must(file.data >= data + parts.end && file.data + file.size <= data + size);
+    Must(file.size == picture.parts.end);
   }
-  if (!parts.metadata.icc.empty() && !IsRgbProfile(parts.metadata.icc)) std::abort();
-  if (parts.metadata.iptc.size() > size) std::abort();
-  if (!parts.extensions.empty()) {
-    const auto text = JoinExtensions("photo", parts, parts.extensions[0].guid);
-    if (text && text->size() > size) std::abort();
-  }
+  Must(parts.metadata.icc.empty() || IsRgbProfile(parts.metadata.icc));
+  Must(parts.metadata.iptc.size() <= size);
+  if (parts.extensions.empty()) return;
+  const auto text = JoinExtensions("photo", parts, parts.extensions[0].guid);
+  Must(!text || text->size() <= size);
 }
 
 void CheckLayout(const uint8_t* data, size_t size) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: images and depth maps of any format, size, stride and content.
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -114,12 +113,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   params.focus = input.Real(-2, 2);
   params.study.mode = input.Rarely() ? STARFOCUS_MODE_BLUR : STARFOCUS_MODE_BLOCK;
   size_t bytes = 0;
-  if (starfocus_workspace_size(&config, &bytes, nullptr) != STARFOCUS_OK) std::abort();
+  Must(starfocus_workspace_size(&config, &bytes, nullptr) == STARFOCUS_OK);
   const auto workspace = TakeMemory(bytes);
   if (!workspace) return 0;
-  starfocus_engine* engine = nullptr;
-  if (starfocus_init(&config, workspace.get(), bytes, &engine, nullptr) != STARFOCUS_OK)
-    std::abort();
+  starfocus_engine* engine = Started(config, workspace.get(), bytes);
   Planes planes;
   starfocus_light_field field = starfocus::NewLightField();
   for (int view = 0; view < config.views; ++view) {
@@ -130,6 +127,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const starfocus_status status = test::Has(config.features, STARFOCUS_FEATURE_STREAMING)
                                       ? StreamAll(engine, params, field, out, picture)
                                       : starfocus_refocus(engine, &params, &field, &out, nullptr);
-  if (!MayBe(status)) std::abort();
+  Must(MayBe(status));
   return 0;
 }

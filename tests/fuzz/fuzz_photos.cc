@@ -10,10 +10,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "platform/icc_profile.h"
+#include "platform/readers/decoding_memory.h"
 #include "platform/readers/depth_photo_file.h"
 #include "platform/readers/heic.h"
 #include "platform/readers/heif_boxes.h"
@@ -36,9 +38,9 @@ int64_t PixelsOf(int64_t width, int64_t height) {
   return width > 0 && height > kMostPixels / width ? kMostPixels : width * height;
 }
 
-int64_t WholeAt(const uint8_t* data, int bytes, bool big) {
+int64_t WholeAt(const uint8_t* data, int bytes) {
   int64_t value = 0;
-  for (int k = 0; k < bytes; ++k) value = value << 8 | data[big ? k : bytes - 1 - k];
+  for (int k = 0; k < bytes; ++k) value = value << 8 | data[k];
   return value;
 }
 
@@ -49,30 +51,21 @@ int64_t PixelsOfHeaders(const uint8_t* data, size_t size) {
   for (size_t at = 0; at + 12 <= size; ++at) {
     const uint8_t* here = data + at;
     if (std::memcmp(here, "IHDR", 4) == 0)
-      pixels += PixelsOf(WholeAt(here + 4, 4, true), WholeAt(here + 8, 4, true));
+      pixels += PixelsOf(WholeAt(here + 4, 4), WholeAt(here + 8, 4));
     if (here[0] == 0xff && here[1] >= 0xc0 && here[1] <= 0xcf && here[1] != 0xc4) {
-      pixels += WholeAt(here + 5, 2, true) * WholeAt(here + 7, 2, true);
+      pixels += WholeAt(here + 5, 2) * WholeAt(here + 7, 2);
     }
   }
   return pixels;
 }
 
-// Returns the number of pixels of a WebP file (RFC 9649, 2.5 to 2.7). For a file with a canvas,
-// returns the number of pixels of the canvas.
-int64_t PixelsOfWebp(const uint8_t* data, size_t size) {
-  if (size < 30) return 0;
-  if (std::memcmp(data + 12, "VP8X", 4) == 0) {
-    return (WholeAt(data + 24, 3, false) + 1) * (WholeAt(data + 27, 3, false) + 1);
-  }
-  if (std::memcmp(data + 12, "VP8L", 4) == 0) {
-    const int64_t bits = WholeAt(data + 21, 4, false);
-    return ((bits & 0x3fff) + 1) * ((bits >> 14 & 0x3fff) + 1);
-  }
-  return (WholeAt(data + 26, 2, false) & 0x3fff) * (WholeAt(data + 28, 2, false) & 0x3fff);
-}
-
+// Returns the number of pixels that the file declares. The program estimates the memory of a WebP
+// file, which has one picture, from the same header.
 int64_t DeclaredPixels(const uint8_t* data, size_t size) {
-  if (size >= 12 && std::memcmp(data, "RIFF", 4) == 0) return PixelsOfWebp(data, size);
+  if (size >= 12 && std::memcmp(data, "RIFF", 4) == 0) {
+    const uint64_t bytes = DecodingBytes({data, size});
+    return bytes == UINT64_MAX ? 0 : static_cast<int64_t>(bytes / 16);
+  }
   const auto items = HeifBrands({data, size}).empty() ? std::nullopt : ReadHeifItems({data, size});
   if (items) {
     int64_t pixels = 0;
@@ -126,31 +119,26 @@ void CheckCaptions(const Metadata& metadata) {
   const std::string packet = XmpPacket(metadata.xmp);
   if (packet.empty() || !CanReadXmp()) return;
   const Result<XmpNode> root = ParseXmp("captions", packet.data(), packet.size());
-  if (root.error().line().find("well-formed") != std::string::npos) std::abort();
-}
-
-Result<DepthPhoto> Decode(const uint8_t* data, size_t size) {
-  const MemoryBudget budget(data, size);
-  const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
-  return DecodeDepthPhoto("photo", {data, size}, true, near);
+  Must(!Contains(root, "well-formed"));
 }
 
 void CheckPhoto(const uint8_t* data, size_t size) {
-  Result<DepthPhoto> decoded = Decode(data, size);
+  std::optional<MemoryBudget> budget(std::in_place, data, size);
+  const Near near = size % 2 == 0 ? Near::kUnknown : Near::kWhite;
+  Result<DepthPhoto> decoded = DecodeDepthPhoto("photo", {data, size}, true, near);
+  budget.reset();
   if (!decoded) return;
   DepthPhoto& photo = *decoded;
+  Must(!photo.picture.pixels.empty());
   CheckCaptions(photo.metadata);
   const Bytes& icc = photo.metadata.icc;
-  if (!icc.empty() && !IsRgbProfile(icc)) std::abort();
+  Must(icc.empty() || IsRgbProfile(icc));
   if (photo.map.values.empty() && photo.matte.values.empty()) {
-    if (ReadStereoPair("photo", {data, size}, &photo) &&
-        photo.right.pixels.size() != photo.picture.pixels.size()) {
-      std::abort();
-    }
-    return;
+    return Must(!ReadStereoPair("photo", {data, size}, &photo) ||
+                photo.right.pixels.size() == photo.picture.pixels.size());
   }
   for (const FloatMap* map : {&photo.map, &photo.matte}) {
-    if (map->values.size() != size_t(map->width) * size_t(map->height)) std::abort();
+    Must(map->values.size() == size_t(map->width) * size_t(map->height));
   }
   // Only small photos are processed further, since the engine has its own fuzz target.
   if (photo.picture.pixels.size() > 1 << 20) return;
@@ -159,10 +147,10 @@ void CheckPhoto(const uint8_t* data, size_t size) {
   LightField& field = *made;
   FitMap(&field);
   const Image& view = field.views[0];
-  if (view.pixels.size() != view.stride() * size_t(view.height)) std::abort();
-  if (field.width() != view.width || field.height() != view.height) std::abort();
+  Must(view.pixels.size() == view.stride() * size_t(view.height));
+  Must(field.width() == view.width && field.height() == view.height);
   for (const float disparity : field.disparity.values) {
-    if (std::fabs(disparity) > float(STARFOCUS_MAX_DISPARITY)) std::abort();
+    Must(!(std::fabs(disparity) > float(STARFOCUS_MAX_DISPARITY)));
   }
 }
 
@@ -173,28 +161,22 @@ struct Pictures {
 };
 
 void CheckFile(const std::string& file) {
-  const auto* bytes = reinterpret_cast<const uint8_t*>(file.data());
-  const auto photo = DecodeDepthPhoto("photo", {bytes, file.size()}, true, Near::kUnknown);
-  if (photo && photo->picture.pixels.empty()) std::abort();
-  CheckCaptions(photo->metadata);
+  CheckPhoto(reinterpret_cast<const uint8_t*>(file.data()), file.size());
 }
 
 void CheckPacket(const uint8_t* data, size_t size) {
   static const Pictures pictures;
   if (size < 1 || size > 60000) return;
   const std::string packet(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const std::string range = "GDepth:Format=\"RangeInverse\" GDepth:Near=\"1\" GDepth:Far=\"2\"",
+                    near = XmpSegment(Packet(kGoogle, "GDepth:Near=\"1\""));
   if (data[0] % 4 == 0) {  // Apple's packet is in the second picture
     CheckFile(MultiPicture(pictures.jpeg, Insert(pictures.jpeg, XmpSegment(packet))));
   } else if (data[0] % 4 == 1) {  // extended XMP: the main packet has everything except the map
-    CheckFile(Gdepth(pictures.jpeg,
-                     "GDepth:Format=\"RangeInverse\" GDepth:Near=\"1\" GDepth:Far=\"2\"",
-                     "/>" + packet, 1 + size / 3));
-  } else if (data[0] % 4 == 2) {
-    CheckFile(Insert(pictures.jpeg, XmpSegment(packet)) + pictures.png);
-  } else {  // a second packet
-    CheckFile(Insert(pictures.jpeg,
-                     XmpSegment(Packet(kGoogle, "GDepth:Near=\"1\"")) + XmpSegment(packet)) +
-              pictures.png);
+    CheckFile(Gdepth(pictures.jpeg, range, "/>" + packet, 1 + size / 3));
+  } else {  // the only packet, or a second one
+    const std::string first = data[0] % 4 == 2 ? "" : near;
+    CheckFile(Insert(pictures.jpeg, first + XmpSegment(packet)) + pictures.png);
   }
 }
 

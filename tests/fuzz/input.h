@@ -5,11 +5,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace starfocus::fuzz {
+
+// Ends the process, which reports a failure of the target, unless `holds` is true.
+inline void Must(bool holds) {
+  if (!holds) std::abort();
+}
 
 // Reads the bytes of an input, and zeros after the end of the input.
 class Input {

@@ -32,51 +32,57 @@ struct Scene {
   }
 };
 
-inline FloatMap MapOf(const Scene& scene) {
-  FloatMap map = {kColumns, kRows, {}};
+inline FloatMap MapOf(const Scene& scene, int columns = kColumns) {
+  FloatMap map = {columns, kRows, {}};
   for (int y = 0; y < kRows; ++y) {
-    for (int x = 0; x < kColumns; ++x) map.values.push_back(static_cast<float>(scene.At(x, y)));
+    for (int x = 0; x < columns; ++x) map.values.push_back(static_cast<float>(scene.At(x, y)));
   }
   return map;
 }
 
-inline std::vector<uint16_t> LevelsOf(const Scene& scene) {
-  std::vector<uint16_t> levels;
-  for (const float value : MapOf(scene).values) {
-    levels.push_back(static_cast<uint16_t>(std::lround(value)));
-  }
-  return levels;
-}
-
 inline size_t Index(int x, int y) { return size_t(y) * kColumns + size_t(x); }
 
-inline std::string GreyPng(const std::vector<uint16_t>& levels) {
-  return Png16(kColumns, kRows, levels);
+inline FloatMap WithColumns(FloatMap map, int from, int to, float value) {
+  for (int y = 0; y < kRows; ++y) {
+    for (int x = from; x < to; ++x) map.values[Index(x, y)] = value;
+  }
+  return map;
 }
 
-// Opens a grey photo with a depth picture of the given name and content.
-struct Opened {
-  std::string error;
-  Capture capture;
+// Opens a photo with a depth picture and a matte in separate files, unless their content is empty.
+inline Result<Capture> OpenWith(const Image& photo, const std::string& depth,
+                                CaptureOptions options = {}, const std::string& matte = "",
+                                int orientation = 1) {
+  TempFolder folder;
+  const std::string path = folder.file("photo.jpg");
+  Write(path, Insert(Encode(photo, ".jpg"), ExifSegment(orientation, 0)));
+  const auto write = [&](const std::string& name, const std::string& bytes) {
+    if (bytes.empty()) return std::string();
+    Write(folder.file(name), bytes);
+    return folder.file(name);
+  };
+  options.depth = write("map", depth);
+  options.matte = write("matte", matte);
+  return OpenCapture(path, options);
+}
 
-  Opened(const std::string& name, const std::string& depth, const DepthOptions& options) {
-    TempFolder folder;
-    Write(folder.file("photo.jpg"), Encode(Plain(kColumns, kRows, 128), ".jpg"));
-    Write(folder.file(name), depth);
-    const auto opened = OpenCapture(folder.file("photo.jpg"), {folder.file(name), options});
-    error = opened.error().line();
-    capture = *opened;
-  }
-
-  double At(int x, int y) const { return double(capture.light_field.disparity.at(x, y)); }
-  bool HasNote(const std::string& part) const { return photos::HasNote(capture, part); }
-};
+// Opens a grey photo with a depth picture.
+inline Result<Capture> OpenMap(const std::string& depth, const DepthOptions& options) {
+  return OpenWith(Plain(kColumns, kRows, 128), depth, {"", options});
+}
 
 inline std::string PfmOf(const FloatMap& map, ByteOrder order = ByteOrder::kLittle) {
   TempFolder folder;
   Require(WritePfm(folder.file("map.pfm"), map, order));
   const Bytes bytes = ValueOf(ReadFile(folder.file("map.pfm")));
   return {bytes.begin(), bytes.end()};
+}
+
+// Opens a file that stores its depth or matte.
+inline Capture OpenPhoto(const std::string& file, const CaptureOptions& options = {}) {
+  Capture capture;
+  Require(Open(file, &capture, options));
+  return capture;
 }
 
 inline DepthOptions NearIs(Near near) {
@@ -125,17 +131,8 @@ inline DepthOptions UnitIs(DepthUnit unit, double metres = 1) {
 }
 
 inline constexpr Scene kMillimetres = {3000, 1500, 900};
-inline constexpr int kWall[] = {40, 4}, kFloor[] = {40, 35}, kBox[] = {20, 15};
-
 // The largest disparity of a map without units: a portrait at 1.5 m from a 50 mm lens.
 inline const double kNearest = 50.0 * 50 / 1000 / 2 / 43.2666 * std::hypot(kColumns, kRows) / 1.5;
-
-inline void CheckScene(const Opened& opened) {
-  REQUIRE(opened.error == "");
-  CHECK(opened.At(kWall[0], kWall[1]) == doctest::Approx(0));
-  CHECK(opened.At(kBox[0], kBox[1]) == doctest::Approx(kNearest));
-  CHECK(opened.At(kFloor[0], kFloor[1]) == doctest::Approx(kNearest * 1500 / 2100).epsilon(0.001));
-}
 
 }  // namespace starfocus::depth_scene
 

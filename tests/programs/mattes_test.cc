@@ -50,16 +50,9 @@ Image PictureOfBox() {
 }
 
 // Opens a photo with the orientation, a matte, and a depth picture unless its content is empty.
-Capture OpenMatted(int orientation, const std::string& matte, CaptureOptions options = {},
+Capture OpenMatted(int orientation, const std::string& matte, const CaptureOptions& options = {},
                    const std::string& depth = "") {
-  TempFolder folder;
-  Write(folder.file("photo.jpg"),
-        Insert(Encode(PictureOfBox(), ".jpg"), ExifSegment(orientation, 0)));
-  Write(folder.file("matte"), matte);
-  Write(folder.file("depth"), depth);
-  options.matte = folder.file("matte");
-  if (!depth.empty()) options.depth = folder.file("depth");
-  return ValueOf(OpenCapture(folder.file("photo.jpg"), options));
+  return ValueOf(OpenWith(PictureOfBox(), depth, options, matte, orientation));
 }
 
 TEST_CASE("mattes: a photo without depth becomes two surfaces with the matte as coverage") {
@@ -97,55 +90,44 @@ TEST_CASE("mattes: every format of one matte gives the same light field") {
   // Masks of labels contain 0 and 1 only.
   for (const std::string& file :
        {AlphaPng(MapOf({0, 0, 1.0 / 255}), 1), IntegerNpyOf(MapOf({0, 0, 1}))}) {
-    CHECK(OpenMatted(1, file).light_field.coverage[Index(kBox[0], kBox[1])] == 255);
+    CHECK(OpenMatted(1, file).light_field.coverage[Index(20, 15)] == 255);
   }
 }
 
 #ifdef STARFOCUS_HAS_EXIF
-TEST_CASE("mattes: a matte is rotated with its photo, unless it is upright already") {
-  for (int orientation = 1; orientation <= 8; ++orientation) {
-    CAPTURE(orientation);
-    FloatMap upright = MatteMap();
-    TurnMap(orientation, &upright);
-    CaptureOptions told;
-    told.map.orientation = DepthOrientation::kUpright;
-    const Capture captures[] = {OpenMatted(orientation, AlphaPng(MatteMap(), 4)),
-                                OpenMatted(orientation, AlphaPng(upright, 1)),
-                                OpenMatted(orientation, AlphaPng(upright, 1), told)};
-    for (const Capture& capture : captures) {
-      CHECK(capture.light_field.disparity.width == upright.width);
-      CHECK(capture.light_field.disparity.values == captures[0].light_field.disparity.values);
-      CHECK(capture.light_field.coverage == Matte(upright).alpha);
-    }
-    const bool judged = orientation > 1 && orientation < 5;
-    CHECK(HasNote(captures[1], "the matte is taken to be upright already") == judged);
-    CHECK(captures[2].notes.empty());
-  }
-}
-
-TEST_CASE("mattes: depth picture and matte are rotated independently") {
+TEST_CASE(
+    "mattes: depth picture and matte are each rotated with the photo unless upright already") {
   // The map and the matte show the same box, which is not symmetric in any orientation.
   for (int orientation = 1; orientation <= 8; ++orientation) {
-    for (const int upright : {0, 1, 2, 3}) {
+    FloatMap upright = MatteMap();
+    TurnMap(orientation, &upright);
+    for (const bool is_upright : {false, true}) {
       CAPTURE(orientation);
-      CAPTURE(upright);
-      FloatMap expected = MatteMap();
-      TurnMap(orientation, &expected);
-      const std::string depth = PfmOf((upright & 1) != 0 ? expected : MatteMap());
-      const std::string matte = AlphaPng((upright & 2) != 0 ? expected : MatteMap(), 1);
+      CAPTURE(is_upright);
+      const std::string matte = is_upright ? AlphaPng(upright, 1) : AlphaPng(MatteMap(), 4);
+      CaptureOptions computed, told;
       // The picture that a command receives is upright, and so is its map.
-      CaptureOptions computed;
       computed.map.near = Near::kWhite;
-      computed.map.estimate = [&](const Image&) -> Result<Samples> { return Samples{expected}; };
-      for (const Capture& capture :
-           {OpenMatted(orientation, matte, {}, depth), OpenMatted(orientation, matte, computed)}) {
-        CHECK(capture.matte.alpha == Matte(expected).alpha);
-        CHECK(capture.light_field.disparity.width == expected.width);
-        for (size_t k = 0; k < expected.values.size(); ++k) {
+      computed.map.estimate = [&](const Image&) -> Result<Samples> { return Samples{upright}; };
+      if (is_upright) told.map.orientation = DepthOrientation::kUpright;
+      const Capture captures[] = {OpenMatted(orientation, matte),
+                                  OpenMatted(orientation, matte, told),
+                                  OpenMatted(orientation, matte, computed),
+                                  OpenMatted(orientation, matte, {}, PfmOf(MatteMap())),
+                                  OpenMatted(orientation, matte, {}, PfmOf(upright))};
+      for (const Capture& capture : captures) {
+        CHECK(capture.matte.alpha == Matte(upright).alpha);
+        CHECK(capture.light_field.disparity.width == upright.width);
+        for (size_t k = 0; k < upright.values.size(); ++k) {
           REQUIRE((capture.light_field.disparity.values[k] > 0.5 * kNearest) ==
-                  (expected.values[k] > 0.5F));
+                  (upright.values[k] > 0.5F));
         }
       }
+      const bool judged = orientation > 1 && orientation < 5;
+      CHECK(captures[0].light_field.coverage == Matte(upright).alpha);
+      CHECK(HasNote(captures[0], "the matte is taken to be upright already") ==
+            (judged && is_upright));
+      CHECK((captures[1].notes.empty() || !is_upright));
     }
   }
 }
@@ -183,10 +165,7 @@ TEST_CASE("mattes: with a map, the matte is the coverage of the outline that bot
   LightField field;
   field.views = {Plain(kColumns, kRows, 90)};
   // The map has a second surface at the right, which the matte does not contain.
-  field.disparity = MapOf({0, 0, 20});
-  for (int y = 0; y < kRows; ++y) {
-    for (int x = 40; x < kColumns; ++x) field.disparity.values[Index(x, y)] = 20;
-  }
+  field.disparity = WithColumns(MapOf({0, 0, 20}), 40, kColumns, 20);
   ThreadRunner runner(2);
   REQUIRE(CoverByMatte("photo", Matte(MatteMap()), &runner, &field) == "");
   CHECK(field.coverage[Index(20, 15)] == 255);
@@ -237,26 +216,23 @@ std::string Damaged(std::string file, uint32_t id) {
 }
 
 TEST_CASE("HEIC: beside a depth map, the portrait effects matte gives the matte of the subject") {
-  Capture capture;
-  REQUIRE(Open(Seed("heif/mattes.heic"), &capture) == "");
+  const std::string file = Seed("heif/mattes.heic");
+  const Capture capture = OpenPhoto(file);
   CHECK(capture.format == "HEIF depth photo");
   CHECK(FactOf(capture, "mattes") == "portrait effects; ignored: hair, skin, sky");
   CHECK(capture.notes.empty());
-  REQUIRE(capture.matte.width == 128);
-  REQUIRE(capture.matte.height == 64);
+  CHECK(capture.matte.alpha.size() == 128 * 64);
   CHECK(Apart(capture.matte, Person) < 2);
   CHECK(capture.light_field.disparity.at(48, 24) > 2 * capture.light_field.disparity.at(100, 24));
   // Mattes turn with the picture.
-  REQUIRE(Open(Changed(Seed("heif/mattes.heic"), "irot", 0, "\1"), &capture) == "");
-  REQUIRE(capture.matte.width == 64);
-  REQUIRE(capture.matte.height == 128);
-  CHECK(capture.light_field.views[0].width == 64);
-  CHECK(Apart(capture.matte, [](int x, int y) { return Person(127 - y, x); }) < 2);
+  const Capture turned = OpenPhoto(Changed(file, "irot", 0, "\1"));
+  CHECK(turned.matte.alpha.size() == 128 * 64);
+  CHECK(turned.light_field.views[0].width == 64);
+  CHECK(Apart(turned.matte, [](int x, int y) { return Person(127 - y, x); }) < 2);
 }
 
 TEST_CASE("HEIC: without a depth map, the matte divides the photo into two surfaces") {
-  Capture capture;
-  REQUIRE(Open(WithoutDepth(), &capture) == "");
+  const Capture capture = OpenPhoto(WithoutDepth());
   CHECK(capture.format == "HEIF photo with a matte");
   const FloatMap& map = capture.light_field.disparity;
   CHECK(map.at(100, 24) == 0);
@@ -266,17 +242,16 @@ TEST_CASE("HEIC: without a depth map, the matte divides the photo into two surfa
   CHECK(capture.light_field.coverage[24 * 128 + 48] > 250);
   CHECK(capture.light_field.coverage[24 * 128 + 100] < 5);
   TempFolder folder;
-  Write(folder.file("photo.heic"), WithoutDepth());
-  CHECK(StoresDepth(folder.file("photo.heic")));
-  Write(folder.file("photo.heic"), Without(WithoutDepth(), kWhole));
-  CHECK(StoresDepth(folder.file("photo.heic")));
+  for (const std::string& file : {WithoutDepth(), Without(WithoutDepth(), kWhole)}) {
+    Write(folder.file("photo.heic"), file);
+    CHECK(StoresDepth(folder.file("photo.heic")));
+  }
 }
 
 TEST_CASE("HEIC: without a portrait effects matte, hair and skin are the subject, with a note") {
   for (const std::string& file :
        {Without(Seed("heif/mattes.heic"), kWhole), Damaged(Seed("heif/mattes.heic"), 3)}) {
-    Capture capture;
-    REQUIRE(Open(file, &capture) == "");
+    const Capture capture = OpenPhoto(file);
     CHECK(HasNote(capture, "the matte of the subject contains only hair, skin"));
     // Where hair and skin meet, both are half transparent.
     CHECK(Apart(capture.matte, Head) < 3);
@@ -285,8 +260,7 @@ TEST_CASE("HEIC: without a portrait effects matte, hair and skin are the subject
 
 TEST_CASE("HEIC: damaged mattes are ignored with a note if the photo has depth") {
   const std::string depth = Damaged(Damaged(Damaged(Seed("heif/mattes.heic"), 3), 4), 5);
-  Capture capture;
-  REQUIRE(Open(depth, &capture) == "");
+  Capture capture = OpenPhoto(depth);
   for (const std::string name : {"portrait effects", "hair", "skin"}) {
     CHECK(HasNote(capture, "the " + name + " matte in the file is ignored: "));
   }
@@ -295,7 +269,7 @@ TEST_CASE("HEIC: damaged mattes are ignored with a note if the photo has depth")
   const Error error = Open(Changed(depth, "auxid:", 0, "9"), &capture);
   CHECK(Contains(error, "that can be read (the portrait effects matte in the file is ignored"));
   // A damaged depth map is ignored if the photo has a matte.
-  REQUIRE(Open(Damaged(Seed("heif/mattes.heic"), 2), &capture) == "");
+  capture = OpenPhoto(Damaged(Seed("heif/mattes.heic"), 2));
   CHECK(HasNote(capture, "the depth map in the file is ignored: "));
   CHECK(capture.format == "HEIF photo with a matte");
 }
@@ -335,13 +309,12 @@ TEST_CASE("Apple's JPEG: a matte is never a depth map, and gives the matte of th
   for (const std::string& type :
        {kWholeXml, TypeXml("urn:com:apple:photo:2018:aux:portraiteffectsmatte"),
         TypeXml("urn:com:apple:photo:2019:aux:semantichairmatte")}) {
-    Capture capture;
-    REQUIRE(Open(AppleJpeg(matte, type) + disparity, &capture) == "");
+    Capture capture = OpenPhoto(AppleJpeg(matte, type) + disparity);
     CHECK(capture.format == "Apple depth photo (JPEG)");
     CHECK(double(capture.light_field.disparity.at(0, 5)) ==
           doctest::Approx(kPortrait / 4).epsilon(0.05));
     CHECK(Apart(capture.matte, is_left) < 2);
-    REQUIRE(Open(AppleJpeg(matte, type), &capture) == "");
+    capture = OpenPhoto(AppleJpeg(matte, type));
     CHECK(capture.format == "Apple photo with a matte (JPEG)");
     CHECK(capture.light_field.disparity.at(kWidth - 2, 5) == 0);
     CHECK(double(capture.light_field.disparity.at(2, 5)) ==
@@ -391,10 +364,7 @@ std::string Masked(const Image& mask, const std::string& format, bool with_depth
 
 Capture OpenMasked(const Image& mask, const std::string& format, Near near = Near::kUnknown,
                    bool with_depth = false) {
-  CaptureOptions options;
-  options.map.near = near;
-  Capture capture;
-  REQUIRE(Open(Masked(mask, format, with_depth), &capture, options) == "");
+  const Capture capture = OpenPhoto(Masked(mask, format, with_depth), {"", NearIs(near)});
   CHECK(FactOf(capture, "picture") != "");
   CHECK(capture.format == "Dynamic Depth photo (JPEG)");
   return capture;
@@ -434,15 +404,10 @@ TEST_CASE("Dynamic Depth: in a mask without a range, the subject is in the middl
     CHECK(capture.matte.alpha[20 * size_t(kWidth) + 15] > 250);
     CHECK(capture.matte.alpha[20 * size_t(kWidth) + 35] < 5);
   }
-}
-
-TEST_CASE("Dynamic Depth: the subject of a mask is found in the upright picture") {
-  if (!CanReadXmp()) return;
-  // Orientation 6: the left edge of the file is the upper edge of the picture.
+  // In a file of orientation 6, the left edge is the upper edge of the picture.
   Image mask = Plain(kWidth, kHeight, 0);
   for (int y = 6; y < 18; ++y) std::fill(mask.row(y) + 30, mask.row(y) + 3 * kWidth, uint8_t{255});
-  Capture capture;
-  REQUIRE(Open(Insert(Masked(mask, "", false), ExifSegment(6, 0)), &capture) == "");
+  const Capture capture = OpenPhoto(Insert(Masked(mask, "", false), ExifSegment(6, 0)));
   CHECK(HasNote(capture, "in which white is the subject"));
   REQUIRE(capture.matte.width == kHeight);
   CHECK(capture.matte.alpha[35 * size_t(kHeight) + 12] > 250);
@@ -452,39 +417,34 @@ TEST_CASE("Dynamic Depth: the subject of a mask is found in the upright picture"
 TEST_CASE("Dynamic Depth: a mask is ignored if the photo has depth of any origin") {
   if (!CanReadXmp()) return;
   TempFolder folder;
-  const std::string photo = folder.file("photo.jpg"), depth = folder.file("photo-depth.png");
-  Write(photo, Masked(Ramp(kWidth, kHeight), "", false));
+  const std::string photo = folder.file("photo.jpg"), other = folder.file("other.png");
   const Image ramp = Ramp(kWidth, kHeight);
-  const Capture own = OpenMasked(ramp, "", Near::kUnknown, true);
-  CHECK(double(own.light_field.disparity.at(0, 3)) == doctest::Approx(kPortrait).epsilon(0.02));
-  CaptureOptions estimated;
+  Write(photo, Masked(ramp, "", false));
+  Require(WriteImage(other, ramp));
+  CaptureOptions estimated = {"", NearIs(Near::kWhite)};
   estimated.map.estimate = [&](const Image&) -> Result<Samples> {
-    return DecodeSamples("", Alpha::kIgnored, ValueOf(ReadFile(folder.file("other.png"))));
+    return DecodeSamples("", Alpha::kIgnored, ValueOf(ReadFile(other)));
   };
-  Require(WriteImage(folder.file("other.png"), ramp));
-  CaptureOptions named;
-  named.depth = folder.file("other.png");
-  std::vector<Capture> captures;
-  for (CaptureOptions* options : {&estimated, &named}) {
-    options->map.near = Near::kWhite;
-    captures.push_back(ValueOf(OpenCapture(photo, *options)));
-  }
-  CaptureOptions beside;
-  beside.map.near = Near::kWhite;
-  Require(WriteImage(depth, ramp));
-  captures.push_back(ValueOf(OpenCapture(photo, beside)));
+  std::vector<Capture> captures = {OpenMasked(ramp, "", Near::kUnknown, true),
+                                   ValueOf(OpenCapture(photo, estimated)),
+                                   ValueOf(OpenCapture(photo, {other, NearIs(Near::kWhite)}))};
+  Require(WriteImage(folder.file("photo-depth.png"), ramp));
+  captures.push_back(ValueOf(OpenCapture(photo, {"", NearIs(Near::kWhite)})));
   for (const Capture& capture : captures) {
     CHECK(capture.matte.alpha.empty());
     CHECK(!HasNote(capture, "mask of the subject"));
     CHECK(capture.light_field.coverage.empty());
-    CHECK(capture.light_field.disparity.values == captures[0].light_field.disparity.values);
     // All of them show the original of the portrait.
-    CHECK(capture.light_field.views[0].pixels == captures[0].light_field.views[0].pixels);
+    CHECK(capture.light_field.views[0].pixels == captures[1].light_field.views[0].pixels);
     CHECK(std::abs(capture.light_field.views[0].pixels[0] - kOriginalLevel) <= 2);
     CHECK(FactOf(capture, "mattes") == "ignored: mask of the subject");
+    const FloatMap& map = capture.light_field.disparity;
+    // The map in the file is a JPEG file of distances, in which black is near.
+    if (&capture != captures.data()) CHECK(map.values == captures[1].light_field.disparity.values);
+    if (&capture == captures.data()) {
+      CHECK(double(map.at(0, 3)) == doctest::Approx(kPortrait).epsilon(0.02));
+    }
   }
-  CHECK(own.matte.alpha.empty());
-  CHECK(FactOf(own, "mattes") == "ignored: mask of the subject");
 }
 
 TEST_CASE("Dynamic Depth: a separate matte replaces the mask in the file without a word about it") {
@@ -494,8 +454,7 @@ TEST_CASE("Dynamic Depth: a separate matte replaces the mask in the file without
   Write(folder.file("matte.png"), Encode(ramp, ".png"));
   CaptureOptions options;
   options.matte = folder.file("matte.png");
-  Capture capture;
-  REQUIRE(Open(Masked(ramp, "DepthMap:Format=\"x\"", false), &capture, options) == "");
+  const Capture capture = OpenPhoto(Masked(ramp, "DepthMap:Format=\"x\"", false), options);
   CHECK(FactOf(capture, "mattes") == "");
   CHECK(FactOf(capture, "matte picture") == options.matte);
   CHECK(!HasNote(capture, "mask of the subject"));
@@ -514,10 +473,8 @@ TEST_CASE("stored mattes: empty and full masks, and --near for other mattes are 
               {AppleJpeg(Halves(kWidth, kHeight, 255, 0), kWholeXml),
                "for --near, found a matte without depth", Near::kWhite}};
   for (const auto& row : rows) {
-    CaptureOptions options;
-    options.map.near = row.near;
     Capture capture;
-    const Error error = Open(row.file, &capture, options);
+    const Error error = Open(row.file, &capture, {"", NearIs(row.near)});
     CHECK(Contains(error, "photo.jpg: expected a"));
     CHECK(Contains(error, row.error));
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of valid depth photos in JPEG files: each row has a file, made as the specification of its
-// format defines, and the disparities and the note that opening this file must give. A new kind of
-// photo is a new row. photo_refusals_test.cc has the files that are rejected, heif_test.cc the HEIF
-// files, depth_picture_test.cc the separate depth pictures, and layouts.txt the folders.
+// Table of valid depth photos in JPEG and HEIF files: each row has a file, made as the
+// specification of its format defines, and the disparities and the note that opening this file must
+// give. A new kind of photo is a new row. The HEIF files are the seeds of tests/fuzz/corpus/heif.
+// photo_refusals_test.cc has the files that are rejected, mattes_test.cc the mattes,
+// photo_metadata_test.cc the colours, depth_picture_test.cc the separate depth pictures, and
+// layouts.txt the folders.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,8 +14,12 @@
 #include <vector>
 
 #include "platform/readers/capture.h"
+#include "platform/readers/coded_size.h"
 #include "platform/readers/depth_photo_file.h"
+#include "platform/readers/heic.h"
+#include "platform/readers/heif_boxes.h"
 #include "platform/readers/xmp.h"
+#include "tests/programs/depth_scene.h"
 #include "tests/support/error_line.h"
 #include "tests/support/opened_photo.h"
 #include "tests/support/photo_files.h"
@@ -21,7 +27,7 @@
 namespace starfocus::photo_formats_test {
 namespace {
 
-using namespace photos;
+using namespace depth_scene;
 
 // A photo of 40x24 pixels with a map of levels that increase from black on the left to white on the
 // right, and the disparities of black and white.
@@ -34,13 +40,9 @@ struct Row {
 };
 
 void CheckRows(const std::string& format, const std::vector<Row>& rows) {
-  for (size_t k = 0; k < rows.size(); ++k) {
-    const Row& row = rows[k];
-    CAPTURE(k);
-    CaptureOptions options;
-    options.map.near = row.near;
-    Capture capture;
-    REQUIRE(Open(row.file, &capture, options) == "");
+  for (const Row& row : rows) {
+    CAPTURE(&row - rows.data());
+    const Capture capture = OpenPhoto(row.file, {"", NearIs(row.near)});
     CHECK(capture.photo);
     CHECK(capture.care == MapCare::kRepair);
     CHECK(capture.format == format);
@@ -50,8 +52,7 @@ void CheckRows(const std::string& format, const std::vector<Row>& rows) {
     CHECK(double(map.at(0, 3)) == doctest::Approx(row.black).epsilon(row.tolerance));
     CHECK(double(map.at(kWidth - 1, 3)) == doctest::Approx(row.white).epsilon(row.tolerance));
     for (const std::string& note : capture.notes) INFO(note);
-    CHECK(capture.notes.empty() == row.note.empty());
-    CHECK((row.note.empty() || HasNote(capture, row.note)));
+    CHECK(HasNote(capture, row.note) == !row.note.empty());
   }
 }
 
@@ -141,9 +142,7 @@ TEST_CASE("GDepth: ranges, units, packets and segments in every form give the di
   // Between the ends, levels are linear in the inverse distance or in the distance, and levels of
   // 16 bits keep their accuracy.
   const auto at = [](const std::string& file, int x) {
-    Capture capture;
-    REQUIRE(Open(file, &capture) == "");
-    return double(capture.light_field.disparity.at(x, 0));
+    return double(OpenPhoto(file).light_field.disparity.at(x, 0));
   };
   const double level = LevelAt(kWidth / 2);
   CHECK(at(rows[0].file, kWidth / 2) ==
@@ -200,12 +199,12 @@ TEST_CASE("Apple's JPEG: the auxiliary disparities are found by any index, and w
     return Row{file, kPortrait / 4, kPortrait, note, Near::kUnknown, 0.02};
   };
   std::vector<Row> rows = {row(Photo() + map(type + range), missing),
-                           row(Photo() + "between\xff\xd8\xff" + map(type + range), missing)};
-  rows.push_back(row(MultiPicture(Photo(), map(type))));
-  rows.back().black = 0;
-  rows.push_back(row(MultiPicture(Photo(), map(type + range + absolute))));
-  rows.back().black = PerDiopter(50) / 2;
-  rows.back().white = PerDiopter(50) * 2;
+                           row(Photo() + "between\xff\xd8\xff" + map(type + range), missing),
+                           row(MultiPicture(Photo(), map(type))),
+                           row(MultiPicture(Photo(), map(type + range + absolute)))};
+  rows[2].black = 0;
+  rows[3].black = PerDiopter(50) / 2;
+  rows[3].white = PerDiopter(50) * 2;
   for (const bool little : {false, true}) {
     const auto file = [&](uint32_t entries, uint32_t moved) {
       return MultiPicture(Photo(), map(type + range), {little, entries, moved});
@@ -224,15 +223,14 @@ TEST_CASE("Apple's JPEG: the auxiliary disparities are found by any index, and w
 
 TEST_CASE("GDepth: the focus, the facts and the sharp picture of the file are used, upright") {
   if (!CanReadXmp()) return;
-  Capture capture;
   const std::string range =
       "GDepth:Format=\"RangeInverse\" GDepth:Near=\"500\" "
       "GDepth:Far=\"4000\" GFocus:FocalDistance=\"2000\" ";
-  REQUIRE(Open(GdepthOf(range + "GDepth:Units=\"mm\""), &capture) == "");
+  Capture capture = OpenPhoto(GdepthOf(range + "GDepth:Units=\"mm\""));
   CHECK(!capture.has_focus);
   CHECK(capture.focus == doctest::Approx(PerDiopter(50) / 2));
   CHECK(FactOf(capture, "map") == "40x24, RangeInverse from 500 to 4000 mm");
-  REQUIRE(Open(GdepthOf(range), &capture) == "");
+  capture = OpenPhoto(GdepthOf(range));
   CHECK(capture.focus == doctest::Approx(kPortrait / 4));
   CHECK(FactOf(capture, "scale").find("unknown") == 0);
 #ifdef STARFOCUS_HAS_EXIF
@@ -240,13 +238,10 @@ TEST_CASE("GDepth: the focus, the facts and the sharp picture of the file are us
   // file is the top.
   Image sharp = Plain(kWidth, kHeight, 0);
   std::fill_n(sharp.row(0), 12, uint8_t{255});  // the first pixels of the first row in the file
-  REQUIRE(Open(Gdepth(Insert(Photo(), ExifSegment(6, 0)),
-                      kInverse +
-                          "GFocus:FocalPointX=\"0.25\" GFocus:FocalPointY=\"0.125\" "
-                          "GImage:Data=\"" +
-                          Base64(Encode(sharp, ".png")) + "\"",
-                      Data(RampPng())),
-               &capture) == "");
+  const std::string focus = "GFocus:FocalPointX=\"0.25\" GFocus:FocalPointY=\"0.125\" ",
+                    image = "GImage:Data=\"" + Base64(Encode(sharp, ".png")) + "\"";
+  capture = OpenPhoto(
+      Gdepth(Insert(Photo(), ExifSegment(6, 0)), kInverse + focus + image, Data(RampPng())));
   const Image& upright = capture.light_field.views[0];
   REQUIRE(upright.width == kHeight);
   REQUIRE(upright.height == kWidth);
@@ -267,37 +262,34 @@ TEST_CASE("XMP that is lost or malformed is ignored for the depth picture next t
   const std::string text = Packet(kGoogle, Data(RampPng()));
   std::vector<std::string> gap = ExtensionSegments(text, text.size() / 5);
   gap.erase(gap.begin() + 2);
-  const struct {
-    std::string file, note, error;
-  } rows[] = {{Insert(Photo(), XmpSegment(lost)), "the extended XMP is ignored",
-               "the extended XMP is ignored"},
-              {Insert(Photo(), XmpSegment(lost) + Joined(gap)), "the extended XMP is ignored",
-               "the extended XMP is ignored"},
-              {Insert(Photo(), XmpSegment(lost.substr(0, lost.size() / 2))), "XMP is ignored",
-               "XMP is ignored"},
-              {Insert(Photo(), XmpSegment("<a><b></a>")), "XMP is ignored", "XMP is ignored"},
-              {Insert(Photo(), XmpSegment(Packet(kGoogle, kInverse + "GDepth:Data=\"????\""))),
-               "base64", "base64"},
-              {Insert(Photo(), XmpSegment(Packet(kGoogle, kInverse + Data("no picture")))),
-               "the depth map in the file", ""},
-              {Unnamed(kInverse), "", ""}};
-  for (const auto& row : rows) {
-    CAPTURE(row.note);
+  const auto with = [](const std::string& packet, const std::vector<std::string>& more = {}) {
+    return Insert(Photo(), XmpSegment(packet) + Joined(more));
+  };
+  const std::pair<std::string, std::string> rows[] = {
+      {with(lost), "the extended XMP is ignored"},
+      {with(lost, gap), "the extended XMP is ignored"},
+      {with(lost.substr(0, lost.size() / 2)), "XMP is ignored"},
+      {with("<a><b></a>"), "XMP is ignored"},
+      {with(Packet(kGoogle, kInverse + "GDepth:Data=\"????\"")),
+       "GDepth:Data: expected a picture in base64"},
+      {with(Packet(kGoogle, kInverse + Data("no picture"))), "GDepth:Data: expected a PNG"},
+      {Unnamed(kInverse), ""}};  // the file has a map
+  for (const auto& [file, note] : rows) {
+    CAPTURE(note);
     TempFolder folder;
-    Write(folder.file("photo.jpg"), row.file);
+    Write(folder.file("photo.jpg"), file);
     Write(folder.file("photo-depth.png"), RampPng());
-    CaptureOptions options;
-    options.map.near = Near::kWhite;
-    const Capture capture = ValueOf(OpenCapture(folder.file("photo.jpg"), options));
+    const Capture capture =
+        ValueOf(OpenCapture(folder.file("photo.jpg"), {"", NearIs(Near::kWhite)}));
     CHECK(capture.format == "photo and depth picture");
     CheckRamp(capture, 0, kPortrait);
-    CHECK(HasNote(capture, row.note));
-    if (row.note.empty()) continue;  // the file has a map
+    CHECK(HasNote(capture, note));
+    if (note.empty()) continue;
     // If the depth picture is absent, the error must name the cause that the note names.
     std::filesystem::remove(folder.file("photo-depth.png"));
     const Error error = OpenCapture(folder.file("photo.jpg"), {}).error();
     CHECK(Contains(error, ": expected a depth map"));
-    CHECK(Contains(error, row.error));
+    CHECK(Contains(error, note));
   }
 }
 
@@ -315,10 +307,8 @@ std::string Difference(const std::string& file, int level = kOriginalLevel) {
     return "inverse distances from " + std::to_string(near) + " to " + std::to_string(far);
   }
   if (photo->is_blurred == (level == kOriginalLevel)) return "the wrong picture as the blurred one";
-  for (const auto& fact : photo->facts) {
-    if (fact.first == "gain map") return "";
-  }
-  return "no gain map";
+  const auto is_gain_map = [](const auto& fact) { return fact.first == "gain map"; };
+  return std::any_of(photo->facts.begin(), photo->facts.end(), is_gain_map) ? "" : "no gain map";
 }
 
 std::vector<Part> Parts() { return PortraitParts(kWidth, kHeight); }
@@ -382,12 +372,11 @@ TEST_CASE("portraits: blur of the camera is noted, unless the file has the sharp
   if (!CanReadXmp()) return;
   std::vector<Part> parts = Parts();
   parts[1].bytes = Encode(Plain(kHeight, kWidth, kOriginalLevel), ".jpg");
-  Capture capture;
   for (const bool other : {true, false}) {  // a picture of other proportions, or none
     if (!other) parts.erase(parts.begin() + 1);
     const std::string file = Portrait(Photo(), parts, Directories::kBoth, Lengths::kRight);
     CHECK(Difference(file, 128) == "");
-    REQUIRE(Open(file, &capture) == "");
+    const Capture capture = OpenPhoto(file);
     CHECK(HasNote(capture, "already blurred"));
     CHECK(HasNote(capture, "the sharp picture in the file is ignored") == other);
   }
@@ -395,13 +384,93 @@ TEST_CASE("portraits: blur of the camera is noted, unless the file has the sharp
   for (const int rendered : {0, 1, 2, 6, 7, 8}) {
     CAPTURE(rendered);
     const std::string jpeg = Insert(Photo(), ExifSegment(1, 0, rendered));
-    REQUIRE(Open(Gdepth(jpeg, kInverse, Data(RampPng())), &capture) == "");
+    Capture capture = OpenPhoto(Gdepth(jpeg, kInverse, Data(RampPng())));
     CHECK(HasNote(capture, "already blurred the background of this portrait") == (rendered >= 7));
     CHECK((FactOf(capture, "portrait") != "") == (rendered >= 7));
     const std::string sharp = " GImage:Data=\"" + Base64(Photo()) + "\"";
-    REQUIRE(Open(Gdepth(jpeg, kInverse, Data(RampPng()) + sharp), &capture) == "");
+    capture = OpenPhoto(Gdepth(jpeg, kInverse, Data(RampPng()) + sharp));
     CHECK(!HasNote(capture, "already blurred"));
   }
+#endif
+}
+
+Span SpanOf(const std::string& bytes) {
+  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+}
+
+TEST_CASE("HEIF: the brands of still pictures and sequences are found anywhere in the list") {
+  std::string file = Seed("heif/plain.avif");
+  for (const std::string brand : {"avif", "avis", "miaf", "mif1"}) {
+    CHECK(IsHeif(SpanOf(file.replace(8, 4, brand))));
+  }
+  CHECK(IsHeif(SpanOf(file.replace(8, 4, "abcd"))));  // other brands in the list remain
+  CHECK(!IsHeif(SpanOf(Big(16, 4) + "ftypisom" + Big(0, 4))));
+  CHECK(!IsHeif(SpanOf(file.substr(0, 7))));
+}
+
+TEST_CASE("HEIF: sizes are read from the headers of the codecs") {
+  const HeifItems items = ReadHeifItems(SpanOf(Seed("heif/depth.heic"))).value();
+  REQUIRE(items.size() == 4);
+  CHECK(items.at(2).type == "grid");
+  CHECK(items.at(2).inputs == std::vector<uint32_t>{1});
+  CHECK(items.at(1).width == 64);
+  const CodedSize hevc = HevcSize(items.at(1).configuration, items.at(1).head);
+  CHECK(hevc.width == 64);
+  CHECK(hevc.height == 64);
+  const HeifItem item = ReadHeifItems(SpanOf(Seed("heif/plain.avif"))).value().at(1);
+  const CodedSize av1 = Av1Size(item.configuration, item.head);
+  CHECK(av1.width == 24);
+  CHECK(av1.height == 16);
+}
+
+TEST_CASE("HEIF: the auxiliary depth picture is read, and more than 8 bits are noted") {
+  const auto read = [](const std::string& file) {
+    return ReadHeif("x", SpanOf(file), Near::kUnknown);
+  };
+  const std::string depth = Seed("heif/depth.heic");
+#ifdef STARFOCUS_HAS_HEIF
+  const DepthPhoto photo = ValueOf(read(depth));
+  CHECK(photo.picture.width == 16);
+  REQUIRE(photo.map.values.size() == 16 * 16);
+  // The depth differs between the left and the right side.
+  CHECK(std::fabs(photo.map.at(0, 8) - photo.map.at(15, 8)) > 0.8F);
+  for (const size_t size : {size_t{30}, depth.size() / 2, depth.size() - 1}) {
+    CHECK(Contains(read(depth.substr(0, size)), "the HEIF file is truncated"));
+  }
+  const DepthPhoto deep = ValueOf(read(Seed("heif/ten_bits.heic")));
+  REQUIRE(deep.notes.size() == 1);
+  CHECK(Contains(deep.notes[0], "the pixels have 10 bits for each colour"));
+  // The levels of the file increase from 100 to 856 of 1023.
+  CHECK(deep.picture.width == 64);
+  CHECK(std::abs(deep.picture.row(9)[0] - 25) < 10);
+  CHECK(std::abs(deep.picture.row(9)[3 * 63] - 213) < 10);
+  CHECK(ValueOf(read(Seed("heif/plain.avif"))).notes.empty());
+#else
+  CHECK(Contains(read(depth), "built without libheif"));
+#endif
+}
+
+TEST_CASE("HEIF: a spatial photo has the pictures of its stereo group") {
+  const std::string file = Seed("heif/stereo.heic");
+  CHECK(HeifStereoPair(SpanOf(file)) == std::vector<uint32_t>{2, 4});
+  for (size_t size = 0; size < file.size(); size += 7) {
+    const std::vector<uint32_t> ids = HeifStereoPair(SpanOf(file.substr(0, size)));
+    CHECK((ids.empty() || ids.size() == 2));
+  }
+  // A group of two equal pictures is not a pair.
+  const std::string first = file.substr(file.find("ster") + 16, 4);
+  CHECK(HeifStereoPair(SpanOf(Changed(file, "ster", 16, first))).empty());
+#ifdef STARFOCUS_HAS_HEIF
+  const Capture capture =
+      ValueOf(OpenCapture(STARFOCUS_SOURCE_DIR "/tests/fuzz/corpus/heif/stereo.heic", {}));
+  CHECK(capture.format == "stereo pair (HEIF)");
+  REQUIRE(capture.light_field.views.size() == 2);
+  CHECK(capture.light_field.positions[1].u == 1);
+  // The left picture is grey, and the right picture becomes brighter to the right.
+  const uint8_t* left = capture.light_field.views[0].row(9);
+  const uint8_t* right = capture.light_field.views[1].row(9);
+  CHECK(std::abs(left[0] - left[3 * 39]) < 4);
+  CHECK(right[3 * 39] - right[0] > 240);
 #endif
 }
 

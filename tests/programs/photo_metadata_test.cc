@@ -143,13 +143,8 @@ TEST_CASE("profiles: invalid chromaticities give no profile") {
       CHECK(profile(at).empty());
     }
   }
-  Chromaticities line = bt709;
-  line[4] = line[2];
-  line[5] = line[3];
-  CHECK(profile(line).empty());
-  Chromaticities dark = bt709;
-  dark[7] = 0;
-  CHECK(profile(dark).empty());
+  CHECK(profile({64000, 33000, 30000, 60000, 30000, 60000, 31270, 32900}).empty());  // a line
+  CHECK(profile({64000, 33000, 30000, 60000, 15000, 6000, 31270, 0}).empty());
 }
 
 // Returns an RGB picture of 2x1 pixels with more chunks.
@@ -316,28 +311,23 @@ TEST_CASE("profiles: parts are joined by number, and incomplete or non-RGB profi
 
 TEST_CASE("alpha: a note reports transparent pixels, but not an opaque alpha channel") {
   if (!HasProfiles()) return;
-  const auto text = [](std::initializer_list<int> bytes) {
-    std::string result;
-    for (const int byte : bytes) result += static_cast<char>(byte);
-    return result;
-  };
+  const auto clear = [](const Bytes& bytes) { return Chunk("tRNS", TextOf(bytes)); };
   const std::string palette = Chunk("PLTE", "abcdef");
-  const auto clear = [&](std::initializer_list<int> bytes) { return Chunk("tRNS", text(bytes)); };
   const struct {
     std::string file;
     bool transparent;
   } rows[] = {
-      {Png(2, 1, {8, 6}, text({1, 2, 3, 255, 4, 5, 6, 255}), 8), false},
-      {Png(2, 1, {8, 6}, text({1, 2, 3, 255, 4, 5, 6, 254}), 8), true},
-      {Png(2, 1, {8, 4}, text({1, 255, 4, 255}), 4), false},
-      {Png(2, 1, {8, 4}, text({1, 0, 4, 255}), 4), true},
-      {Png(2, 1, {16, 4}, text({1, 0, 9, 0, 4, 0, 255, 255}), 8), true},
-      {Png(2, 1, {8, 2, clear({0, 4, 0, 5, 0, 6})}, text({1, 2, 3, 4, 5, 6}), 6), true},
-      {Png(2, 1, {8, 2, clear({0, 9, 0, 5, 0, 6})}, text({1, 2, 3, 4, 5, 6}), 6), false},
-      {Png(2, 1, {8, 0, clear({0, 4})}, text({1, 4}), 2), true},
-      {Png(2, 1, {8, 3, palette + clear({255, 7})}, text({0, 0}), 2), false},
-      {Png(2, 1, {8, 3, palette + clear({255, 7})}, text({0, 1}), 2), true},
-      {Png(2, 1, {8, 3, palette}, text({0, 1}), 2), false},
+      {Png(2, 1, {8, 6}, TextOf({1, 2, 3, 255, 4, 5, 6, 255}), 8), false},
+      {Png(2, 1, {8, 6}, TextOf({1, 2, 3, 255, 4, 5, 6, 254}), 8), true},
+      {Png(2, 1, {8, 4}, TextOf({1, 255, 4, 255}), 4), false},
+      {Png(2, 1, {8, 4}, TextOf({1, 0, 4, 255}), 4), true},
+      {Png(2, 1, {16, 4}, TextOf({1, 0, 9, 0, 4, 0, 255, 255}), 8), true},
+      {Png(2, 1, {8, 2, clear({0, 4, 0, 5, 0, 6})}, TextOf({1, 2, 3, 4, 5, 6}), 6), true},
+      {Png(2, 1, {8, 2, clear({0, 9, 0, 5, 0, 6})}, TextOf({1, 2, 3, 4, 5, 6}), 6), false},
+      {Png(2, 1, {8, 0, clear({0, 4})}, TextOf({1, 4}), 2), true},
+      {Png(2, 1, {8, 3, palette + clear({255, 7})}, TextOf({0, 0}), 2), false},
+      {Png(2, 1, {8, 3, palette + clear({255, 7})}, TextOf({0, 1}), 2), true},
+      {Png(2, 1, {8, 3, palette}, TextOf({0, 1}), 2), false},
   };
   for (const auto& row : rows) {
     CAPTURE(&row - rows);
@@ -346,9 +336,8 @@ TEST_CASE("alpha: a note reports transparent pixels, but not an opaque alpha cha
     CHECK(Contains(Joined(photo.notes), "transparent pixels of the picture become opaque") ==
           row.transparent);
   }
-  const DepthPhoto rgba = Read("a.png", rows[1].file), grey = Read("a.png", rows[3].file);
-  CHECK((rgba.picture.pixels == std::vector<uint8_t>{1, 2, 3, 4, 5, 6}));
-  CHECK((grey.picture.pixels == std::vector<uint8_t>{1, 1, 1, 4, 4, 4}));
+  CHECK(Read("a.png", rows[1].file).picture.pixels == Bytes{1, 2, 3, 4, 5, 6});
+  CHECK(Read("a.png", rows[3].file).picture.pixels == Bytes{1, 1, 1, 4, 4, 4});
 }
 
 // Returns the file with orientation 6 instead of 1 in the EXIF.
@@ -396,10 +385,11 @@ TEST_CASE("captions: XMP and IPTC of a photo are kept, except properties of its 
   const std::string packet =
       Packet(names, kInverse + "xmp:Rating=\"4\" tiff:Orientation=\"6\" " + Data(RampPng()),
              title + "<GFocus:Extra>1</GFocus:Extra>");
-  const Metadata kept =
-      Read("photo.jpg", Insert(Photo(), IptcSegment(records) + XmpSegment(packet) +
-                                            XmpSegment(Packet(names, "xmp:Rating=\"1\""))))
-          .metadata;
+  const auto read = [](const std::string& segments) {
+    return Read("photo.jpg", Insert(Photo(), segments)).metadata;
+  };
+  const Metadata kept = read(IptcSegment(records) + XmpSegment(packet) +
+                             XmpSegment(Packet(names, "xmp:Rating=\"1\"")));
   CHECK(kept.xmp ==
         "<rdf:Description rdf:about=\"\" xmlns:dc=\"http://purl.org/dc/elements/1.1/\" "
         "xmlns:xmp=\"http://ns.adobe.com/xap/1.0/\"><xmp:Rating>4</xmp:Rating>" +
@@ -413,11 +403,8 @@ TEST_CASE("captions: XMP and IPTC of a photo are kept, except properties of its 
   CHECK(again.metadata.xmp == kept.xmp);
   CHECK(again.metadata.iptc == kept.iptc);
   // A photo without captions has no metadata, and truncated IPTC is ignored.
-  const Metadata none =
-      Read("photo.jpg", Insert(Photo(), XmpSegment(Packet(kGoogle, kInverse)) +
-                                            Segment(0xed, std::string("Photoshop 3.0\0", 14) +
-                                                              "8BIM\4\4" + std::string(3, '\0'))))
-          .metadata;
+  const std::string cut = std::string("Photoshop 3.0\0", 14) + "8BIM\4\4" + std::string(3, '\0');
+  const Metadata none = read(XmpSegment(Packet(kGoogle, kInverse)) + Segment(0xed, cut));
   CHECK(none.xmp.empty());
   CHECK(none.iptc.empty());
 }

@@ -28,10 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace photos;
 
-const std::string kRange =
-    "GDepth:Format=\"RangeInverse\" GDepth:Near=\"0.5\" GDepth:Far=\"4\" GDepth:Units=\"m\" "
-    "GDepth:Mime=\"image/png\" ";
-
 // Returns a photo of 96 x 64 pixels whose left half is near, with a map of half the size.
 std::string GdepthPhoto() {
   Image map = Plain(48, 32, 255), picture = Ramp(96, 64);
@@ -39,8 +35,10 @@ std::string GdepthPhoto() {
   for (int y = 0; y < picture.height; y += 4)
     std::fill_n(picture.row(y), picture.stride(), uint8_t{30});
   return Gdepth(Encode(picture, ".jpg"),
-                kRange + "GFocus:FocalPointX=\"0.25\" GFocus:FocalPointY=\"0.5\"",
-                "GDepth:Data=\"" + Base64(Encode(map, ".png")) + "\"");
+                kInverse +
+                    "GDepth:Units=\"m\" GDepth:Mime=\"image/png\" "
+                    "GFocus:FocalPointX=\"0.25\" GFocus:FocalPointY=\"0.5\"",
+                Data(Encode(map, ".png")));
 }
 
 // Writes a grey photo, a photo of noise and depth pictures. In the first picture, the left half is
@@ -101,8 +99,7 @@ void MakeSubjects(const TempFolder& folder) {
 
 TEST_CASE("photos: every session of the tables succeeds") {
   const auto write_pair = [](const TempFolder& folder) {
-    const std::string left = Encode(Plain(40, 24, 90), ".jpg");
-    Write(folder.file("pair.mpo"), MultiPicture(left, Encode(Ramp(40, 24), ".jpg")));
+    Write(folder.file("pair.mpo"), MultiPicture(Photo(), Encode(Ramp(40, 24), ".jpg")));
   };
   const auto write_photo = [](const TempFolder& folder) {
     Write(folder.file("photo.jpg"), GdepthPhoto());
@@ -129,11 +126,9 @@ TEST_CASE("photos: the depth command runs if the parent of the program ignores S
   TempFolder folder;
   MakePhotoAndMap(folder);
   std::filesystem::remove(folder.file("a-depth.png"));
-  CHECK(std::system(("cd '" + folder.path() +
-                     "' && env --ignore-signal=CHLD '" STARFOCUS_PROGRAM
-                     "' refocus a.png -o x.png --near white --depth-timeout 5 "
-                     "--depth-command 'cp map.png {output}; : {input}'")
-                        .c_str()) == 0);
+  CHECK(RunShell(folder, "env --ignore-signal=CHLD '" STARFOCUS_PROGRAM
+                         "' refocus a.png -o x.png --near white --depth-timeout 5 "
+                         "--depth-command 'cp map.png {output}; : {input}'") == 0);
 }
 
 #ifdef STARFOCUS_HAS_HEIF
@@ -144,6 +139,15 @@ TEST_CASE("photos: HEIC is read from standard input") {
   CHECK(fs::exists(folder.file("a.png")));
 }
 #endif
+
+// Returns what exiftool prints.
+std::string Exiftool(const TempFolder& folder, const std::string& arguments) {
+  REQUIRE(std::system(
+              ("cd '" + folder.path() + "' && exiftool " + arguments + " >printed").c_str()) == 0);
+  return Text(folder.file("printed"));
+}
+
+bool HasExiftool() { return std::system("command -v exiftool >/dev/null 2>&1") == 0; }
 
 TEST_CASE("photos: captions are copied to every output, and only depth photos declare a map") {
   if (!CanReadXmp()) return;
@@ -161,7 +165,7 @@ TEST_CASE("photos: captions are copied to every output, and only depth photos de
   PictureOptions options;
   options.metadata.xmp =
       "<rdf:Description rdf:about='' " + names + ">" + rating + title + "</rdf:Description>";
-  const bool has_exiftool = std::system("command -v exiftool >/dev/null 2>&1") == 0;
+  const bool has_exiftool = HasExiftool();
   for (const std::string in : {"in.jpg", "in.png", "in.webp"}) {
     const bool is_jpeg = in == "in.jpg";
     // Builds without libwebp or libpng write no WebP files or no captions in PNG files.
@@ -170,9 +174,10 @@ TEST_CASE("photos: captions are copied to every output, and only depth photos de
       CAPTURE(in);
       CAPTURE(out);
       const bool is_deep = out == "deep.jpg";
+      const std::string depth = is_jpeg ? "" : " --depth map.png --near white",
+                        saved = is_deep ? " --depth-photo" : "";
       const Outcome outcome =
-          Call(folder, "refocus " + in + (is_jpeg ? "" : " --depth map.png --near white") +
-                           " --focus-at 48,40 -o " + out + (is_deep ? " --depth-photo" : ""));
+          Call(folder, "refocus " + in + depth + " --focus-at 48,40 -o " + out + saved);
       if (Contains(outcome.err, "libwebp") || Contains(outcome.err, "libpng")) continue;
       REQUIRE(outcome.code == 0);
       const std::string file = Text(folder.file(out));
@@ -180,14 +185,10 @@ TEST_CASE("photos: captions are copied to every output, and only depth photos de
       CHECK(Contains(file, rating));
       CHECK(Contains(file, "GDepth") == is_deep);
       const bool has_iptc = is_jpeg && Contains(out, ".jpg");
-      CHECK((!has_iptc || Contains(file,
-                                   "\4"
-                                   "cats")));
+      CHECK((!has_iptc || Contains(file, std::string(1, '\4') + "cats")));
       if (!is_jpeg || !has_exiftool) continue;
-      const std::string command = "cd '" + folder.path() + "' && exiftool -s -G -Title -Rating " +
-                                  "-Caption-Abstract -Warning " + out + " >tags";
-      REQUIRE(std::system(command.c_str()) == 0);
-      const std::string text = Text(folder.file("tags"));
+      const std::string text =
+          Exiftool(folder, "-s -G -Title -Rating -Caption-Abstract -Warning " + out);
       CHECK(Contains(text, "Cats & dogs"));
       CHECK(Contains(text, "Rating                          : 4"));
       CHECK(!Contains(text, "Warning"));
@@ -229,9 +230,9 @@ TEST_CASE("photos: a saved depth photo keeps the disparities and the blur of its
     CAPTURE(kind.low);
     TempFolder folder;
     MakeSteps(folder, "lf", kind.low, kind.high);
-    const std::string lens = " --focus-at 40,40 --f-stop 4 -o ";
-    Succeed(folder, "refocus lf" + std::string(kind.widest) + lens +
-                        "saved.jpg --quality 100 --depth-photo");
+    const std::string lens = " --focus-at 40,40 --f-stop 4 -o ",
+                      refocus = "refocus lf" + std::string(kind.widest) + lens;
+    Succeed(folder, refocus + "saved.jpg --quality 100 --depth-photo");
     Capture capture = ValueOf(OpenCapture(folder.file("saved.jpg"), {}));
     const FloatMap& map = capture.light_field.disparity;
     const double step = kind.factor * double(kind.high - kind.low) / 255;
@@ -243,47 +244,38 @@ TEST_CASE("photos: a saved depth photo keeps the disparities and the blur of its
     CHECK(capture.focus == doctest::Approx(map.at(40, 40)).epsilon(0.01));
     // The refocused saved photo must have the same blur as the refocused source. A blur larger by a
     // quarter would change pixels by several levels.
-    Succeed(folder, "refocus lf" + std::string(kind.widest) + lens + "first.png");
+    Succeed(folder, refocus + "first.png");
     Succeed(folder, "refocus saved.jpg" + lens + "again.png");
-    const std::string psnr = Call(folder, "compare first.png again.png").out.substr(5);
-    CHECK(std::stod(psnr) > 44.6);  // a root mean square of 1.5 levels
+    CHECK(PsnrOf(folder, "first.png", "again.png") > 44.6);  // a root mean square of 1.5 levels
   }
   TempFolder folder;
   MakeSteps(folder, "lf", -300, 300);
-  const Outcome wide =
-      Call(folder, "refocus lf --focus 0 --widest 2 --f-stop 8 -o a.jpg --depth-photo");
-  CHECK(wide.code == 1);
-  CHECK(Contains(wide.err, "at f/1"));
-  CHECK(!fs::exists(folder.file("a.jpg")));
+  CheckRefused(folder, "refocus lf --focus 0 --widest 2 --f-stop 8 -o a.jpg --depth-photo",
+               "at f/1");
 }
 
 TEST_CASE(
     "photos: GDepth files that exiftool writes are read, and exiftool reads the test's files" *
     doctest::test_suite("exiftool")) {
-  if (!CanReadXmp() || std::system("command -v exiftool >/dev/null 2>&1") != 0) {
+  if (!CanReadXmp() || !HasExiftool()) {
     std::printf("SKIPPED: exiftool is not there\n");
     return;
   }
   TempFolder folder;
   Write(folder.file("ours.jpg"), GdepthPhoto());
-  const std::string here = "cd '" + folder.path() + "' && ";
-  REQUIRE(std::system((here + "exiftool -b -XMP-GDepth:DepthImage ours.jpg > map.png && "
-                              "exiftool -s3 -XMP-GDepth:Far ours.jpg > far.txt")
-                          .c_str()) == 0);
-  CHECK(Text(folder.file("far.txt")) == "4\n");
-  Image map = ValueOf(ReadImage(folder.file("map.png")));
-  CHECK(map.width == 48);
+  CHECK(Exiftool(folder, "-s3 -XMP-GDepth:Far ours.jpg") == "4\n");
+  Write(folder.file("map.png"), Exiftool(folder, "-b -XMP-GDepth:DepthImage ours.jpg"));
+  CHECK(ValueOf(ReadImage(folder.file("map.png"))).width == 48);
   Write(folder.file("theirs.jpg"), Encode(Ramp(96, 64), ".jpg"));
   // exiftool also writes the EXIF: the orientation is 8, and the focal length is 26 mm.
-  REQUIRE(
-      std::system((here + "exiftool -q -XMP-GDepth:Format=RangeLinear -XMP-GDepth:Near=1 "
-                          "-XMP-GDepth:Far=3 -XMP-GDepth:Units=m '-XMP-GDepth:DepthImage<=map.png' "
-                          "-n -Orientation=8 -FocalLengthIn35mmFormat=26 theirs.jpg")
-                      .c_str()) == 0);
+  Exiftool(folder,
+           "-q -XMP-GDepth:Format=RangeLinear -XMP-GDepth:Near=1 -XMP-GDepth:Far=3 "
+           "-XMP-GDepth:Units=m '-XMP-GDepth:DepthImage<=map.png' -n -Orientation=8 "
+           "-FocalLengthIn35mmFormat=26 theirs.jpg");
   Capture capture = ValueOf(OpenCapture(folder.file("theirs.jpg"), {}));
   CHECK(capture.light_field.width() == 64);
   const FloatMap& disparity = capture.light_field.disparity;
-  const double per_diopter = 26.0 * 26 / 1000 / 2 / 43.2666 * std::hypot(96, 64);
+  const double per_diopter = PerDiopter(26) * std::hypot(96, 64) / std::hypot(kWidth, kHeight);
   CHECK(double(disparity.at(5, 90)) == doctest::Approx(per_diopter / 1));
   CHECK(double(disparity.at(5, 3)) == doctest::Approx(per_diopter / 3));
 }
@@ -304,7 +296,7 @@ TEST_CASE("photos: the phone photographs of the data sets are refocused near and
   const std::string shelf = "'" + photos + "shelf-image.jpg'";
   Succeed(folder, "refocus " + shelf + " -o near.png --focus 12");
   Succeed(folder, "refocus " + shelf + " -o far.png --focus 0");
-  CHECK(std::atof(Call(folder, "compare near.png far.png").out.c_str() + 5) < 40);
+  CHECK(PsnrOf(folder, "near.png", "far.png") < 40);
 #ifdef STARFOCUS_HAS_HEIF
   // The expected values come from a separate program that reads the same file.
   Capture capture = ValueOf(OpenCapture(photos + "pug.heic", {}));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens stereo pairs in one file, in two files, and in the folders of Middlebury whose maps are
-// grey pictures, and aligns pairs whose points differ in height. heif_test.cc has the pairs in
-// HEIF, and layouts.txt the other folders.
+// grey pictures, and aligns pairs whose points differ in height. photo_formats_test.cc has the pairs
+// in HEIF, and layouts.txt the other folders.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -31,26 +31,32 @@ double LevelOf(int x, int y, int seed) {
   return (hash ^ (hash >> 16)) & 255;
 }
 
+// Returns a grey picture whose pixels have the levels `level_at(x, y)`.
+template <class Level>
+Image Drawn(const Level& level_at) {
+  Image image(kSide, kSide);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      std::fill_n(image.row(y) + 3 * x, 3, static_cast<uint8_t>(level_at(x, y)));
+    }
+  }
+  return image;
+}
+
 // Returns a picture of a random texture. Pixel (x, y) shows point (x + dx, y + dy), after a
 // rotation of the picture around its centre. `seed` selects the texture.
 Image Texture(double dx, double dy, double rotation, int seed = 0) {
   constexpr double kGrid = 4;  // distance between the random levels in pixels
-  Image image(kSide, kSide);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      const double u = x - kSide / 2, v = y - kSide / 2;
-      const double a = (x + dx - rotation * v + kSide) / kGrid;
-      const double b = (y + dy + rotation * u + kSide) / kGrid;
-      const int i = int(a), j = int(b);
-      const auto between = [&](int row) {
-        return LevelOf(i, row, seed) +
-               (a - i) * (LevelOf(i + 1, row, seed) - LevelOf(i, row, seed));
-      };
-      const double level = between(j) + (b - j) * (between(j + 1) - between(j));
-      std::fill_n(image.row(y) + 3 * x, 3, static_cast<uint8_t>(level));
-    }
-  }
-  return image;
+  return Drawn([&](int x, int y) {
+    const double u = x - kSide / 2, v = y - kSide / 2;
+    const double a = (x + dx - rotation * v + kSide) / kGrid;
+    const double b = (y + dy + rotation * u + kSide) / kGrid;
+    const int i = int(a), j = int(b);
+    const auto between = [&](int row) {
+      return LevelOf(i, row, seed) + (a - i) * (LevelOf(i + 1, row, seed) - LevelOf(i, row, seed));
+    };
+    return between(j) + (b - j) * (between(j + 1) - between(j));
+  });
 }
 
 // Returns the mean difference between the middle parts of two pictures.
@@ -64,10 +70,11 @@ double MeanApart(const Image& a, const Image& b) {
   return sum / (3 * (kSide - 2 * kEdge) * (kSide - 2 * kEdge));
 }
 
-DepthPhoto PairOf(const Image& left, const Image& right) {
+DepthPhoto Aligned(const Image& left, const Image& right) {
   DepthPhoto photo;
   photo.picture = left;
   photo.right = right;
+  Require(AlignPair("x", &photo));
   return photo;
 }
 
@@ -77,8 +84,7 @@ TEST_CASE("stereo pair: points of the right picture are moved to the heights of 
     for (const double rise : {3.0, -2.5}) {
       CAPTURE(rotation);
       CAPTURE(rise);
-      DepthPhoto photo = PairOf(left, Texture(4, rise, rotation));
-      CHECK(AlignPair("x", &photo) == "");
+      const DepthPhoto photo = Aligned(left, Texture(4, rise, rotation));
       REQUIRE(photo.notes.size() == 1);
       CHECK(Contains(photo.notes[0], "moved up or down by up to"));
       CHECK(MeanApart(photo.right, Texture(4, 0, 0)) < 6);
@@ -88,37 +94,26 @@ TEST_CASE("stereo pair: points of the right picture are moved to the heights of 
 
 TEST_CASE("stereo pair: an aligned pair and a pair without corners keep their bytes") {
   const Image left = Texture(0, 0, 0), right = Texture(4, 0, 0);
-  DepthPhoto photo = PairOf(left, right);
-  CHECK(AlignPair("x", &photo) == "");
+  const DepthPhoto photo = Aligned(left, right);
   CHECK(photo.notes.empty());
   CHECK(photo.right.pixels == right.pixels);
-  photo = PairOf(Plain(9, 7, 90), Ramp(9, 7));
-  CHECK(AlignPair("x", &photo) == "");
-  CHECK(photo.right.pixels == Ramp(9, 7).pixels);
+  CHECK(Aligned(Plain(9, 7, 90), Ramp(9, 7)).right.pixels == Ramp(9, 7).pixels);
 }
 
 TEST_CASE("stereo pair: pictures of different scenes and large rotations are rejected") {
   const Image left = Texture(0, 0, 0);
   for (const Image& right : {Texture(0, 0, 0, 1), Texture(2, 0, 0.12), Noise(kSide, kSide)}) {
-    DepthPhoto photo = PairOf(left, right);
-    CHECK(Contains(AlignPair("x", &photo), "x: expected two pictures of one scene"));
+    CHECK_THROWS_WITH(Aligned(left, right),
+                      doctest::Contains("x: expected two pictures of one scene"));
   }
 }
 
 TEST_CASE("stereo pair: a repeated pattern is not rejected, and a note states the uncertainty") {
   // Returns a chessboard whose columns are moved by `dx`.
   const auto board = [](int dx) {
-    Image image(kSide, kSide);
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) {
-        const bool white = ((x + dx) / 8 + y / 8) % 2 == 0;
-        std::fill_n(image.row(y) + 3 * x, 3, static_cast<uint8_t>(white ? 200 : 50));
-      }
-    }
-    return image;
+    return Drawn([dx](int x, int y) { return ((x + dx) / 8 + y / 8) % 2 == 0 ? 200 : 50; });
   };
-  DepthPhoto photo = PairOf(board(0), board(3));
-  CHECK(AlignPair("x", &photo) == "");
+  const DepthPhoto photo = Aligned(board(0), board(3));
   CHECK(photo.right.pixels == board(3).pixels);
   REQUIRE(photo.notes.size() == 1);
   CHECK(Contains(photo.notes[0], "resemble several points of the right one"));
@@ -179,23 +174,19 @@ TEST_CASE("stereo pair: a file with a sign of a pair has two views and no map") 
 void WriteGreyMapPair(const TempFolder& folder, const std::vector<std::string>& names, int height,
                       int multiple) {
   constexpr int kColumns = 160, kDisparity = 9;
-  Image left = Noise(kColumns, height), right(kColumns, height), map = Plain(kColumns, height, 0);
+  const size_t shift = 3 * kDisparity;
+  Image left = Noise(kColumns, height), right(kColumns, height);
+  Image map = Plain(kColumns, height, multiple * kDisparity);
+  std::fill_n(map.row(0), map.stride(), uint8_t{0});
   for (int y = 0; y < height; ++y) {
-    for (int k = 0; k < 3 * kColumns; ++k) {
-      const int from = k + 3 * kDisparity;
-      right.row(y)[k] = from < 3 * kColumns ? left.row(y)[from] : uint8_t{0};
-      if (y > 0) map.row(y)[k] = static_cast<uint8_t>(multiple * kDisparity);
-    }
+    std::copy_n(left.row(y) + shift, left.stride() - shift, right.row(y));
   }
   Require(WriteImage(folder.file(names[0]), left));
   Require(WriteImage(folder.file(names[1]), right));
-  if (names[2].substr(names[2].size() - 4) == ".pgm") {
-    std::string pgm = "P5 " + std::to_string(kColumns) + " " + std::to_string(height) + " 255\n";
-    for (size_t k = 0; k < map.pixels.size(); k += 3) pgm += static_cast<char>(map.pixels[k]);
-    Write(folder.file(names[2]), pgm);
-  } else {
-    Require(WriteImage(folder.file(names[2]), map));
-  }
+  if (!Contains(names[2], ".pgm")) return Require(WriteImage(folder.file(names[2]), map));
+  std::string pgm = "P5 " + std::to_string(kColumns) + " " + std::to_string(height) + " 255\n";
+  for (size_t k = 0; k < map.pixels.size(); k += 3) pgm += static_cast<char>(map.pixels[k]);
+  Write(folder.file(names[2]), pgm);
 }
 
 TEST_CASE(
