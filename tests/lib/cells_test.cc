@@ -244,6 +244,12 @@ struct Tally {
 };
 using Tallies = Tally[kSizes][3];
 
+int SideOf(const Border& border, int side) {
+  return side == kLeft    ? border.left
+         : side == kRight ? border.right
+         : side == kTop   ? border.top
+                          : border.bottom;
+}
 int Sum(const Border& border) { return border.left + border.right + border.top + border.bottom; }
 
 void CheckBlock(const Map& map, int x0, int y0, int level, double largest, const BlockStats& stats,
@@ -338,6 +344,33 @@ TEST_CASE(
       REQUIRE(tally.blocks > 0);
       // On average, a border is wider than the exact border by less than a cell on each side.
       CHECK(tally.excess < 4 * kCellSize * tally.blocks);
+    }
+  }
+}
+
+TEST_CASE("cells: a pixel out of focus widens only the borders of blocks that the pixel reaches") {
+  // A pixel of radius 5 lies beside the block of 16x16 pixels at (32, 32).
+  for (int distance = 1; distance <= 8; ++distance) {
+    for (int side = 0; side < 4; ++side) {
+      CAPTURES(distance, side);
+      const bool across = side == kTop || side == kBottom,
+                 after = side == kRight || side == kBottom;
+      const int at = after ? 47 + distance : 32 - distance, far = after ? 2 : 6;
+      Map map = EmptyMap(96, 96, 0, 1);
+      map.At(across ? 40 : at, across ? at : 40) = Fixed(5);
+      const Cells cells(map, 0, 96, 3);
+      const BlockStats stats = test::MeasureBlock(cells.grid, map.scale, 4, 4, 3);
+      // The block on the other side is not reached, so that its r_max ignores the pixel.
+      const BlockStats other =
+          test::MeasureBlock(cells.grid, map.scale, across ? 4 : far, across ? far : 4, 3);
+      for (int of = 0; of < 4; ++of) {
+        CHECK(SideOf(stats.border[0], of) >= (of == side && distance <= 5 ? distance : 0));
+        CHECK(SideOf(stats.border[0], of) <= (of == side && distance <= 6 ? distance : 1));
+        CHECK(SideOf(other.border[0], of) <= 1);
+      }
+      if (distance <= 5) CHECK(stats.r_max >= 5 * kDisparityOne);
+      CHECK(stats.r_min == 0);
+      CHECK(other.r_max == 0);
     }
   }
 }
