@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Usage: cmake -DSOURCE=… -DBUILD=… -DCC=… -DCXX=… -P document_code_test.cmake
 # Compiles the C and C++ code of README.md and docs/library.md, and the examples in the comments of the public headers,
-# as C11 and C++17. Each code block of a document becomes the body of a function, after declarations of the variables
-# that the documents do not declare.
+# as C11 and C++17; README.md, and with it starfocus.h, also as C99. Each code block of a document becomes the body of a
+# function, after declarations of the variables that the documents do not declare.
 set(of_readme [[
 static uint8_t view[320 * 200 * 3], out[320 * 200 * 3];
 static float disparity[320 * 200];
@@ -84,6 +84,7 @@ function(compile document language declarations least compiler)
   endif()
 endfunction()
 
+compile(README.md c "${of_readme}" 1 ${CC} -std=c99 -Wstrict-prototypes)
 compile(README.md c "${of_readme}" 1 ${CC} -std=c11)
 compile(docs/library.md c "${of_library}" 10 ${CC} -std=c11)
 compile(docs/library.md cpp "${of_library_cpp}" 1 ${CXX} -std=c++17)
