@@ -138,28 +138,52 @@ struct Memory {
   void* data;
 };
 
+// All outputs of a call, and the problem that the call reported.
 struct MadeMap {
   std::vector<float> disparity;
-  std::vector<uint8_t> confidence;
+  std::vector<uint8_t> confidence, coverage;
+  int32_t has_coverage = -1;
+  starfocus_status status = STARFOCUS_OK;
+  starfocus_problem problem = {};
 };
+
+// Value of samples of confidence and coverage that no call has written; such disparities are NaN.
+constexpr uint8_t kUnset = 77;
+
+enum class Makes { kEstimate, kRepair, kRepairWithCoverage };
+
+// Estimates or repairs the map of a light field.
+inline MadeMap TryMap(const test::Config& config, const starfocus_light_field& field, Makes makes,
+                      const starfocus_callbacks* callbacks = nullptr) {
+  const bool estimates = makes == Makes::kEstimate;
+  size_t bytes = 0;
+  REQUIRE(starfocus_map_workspace_size(&config, estimates ? 0 : 1, &bytes, nullptr) ==
+          STARFOCUS_OK);
+  const Memory memory(bytes);
+  const auto width = size_t(config.width), pixels = width * size_t(config.height);
+  MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, kUnset),
+                  std::vector<uint8_t>(pixels, kUnset)};
+  starfocus_disparity_output out = {
+      made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, nullptr, width,
+      made.has_coverage};
+  if (makes == Makes::kRepairWithCoverage) out.coverage = made.coverage.data();
+  made.status = (estimates ? starfocus_estimate_disparity : starfocus_repair_disparity)(
+      &config, callbacks, &field, &out, memory.data, memory.bytes, &made.problem);
+  made.has_coverage = out.has_coverage;
+  return made;
+}
 
 // Returns the estimated map, or the repaired map if `given` is not empty.
 inline MadeMap MakeMap(const PlaneField& field, const test::Config& config,
-                       const std::vector<float>& given = {}) {
-  size_t bytes = 0;
-  REQUIRE(starfocus_map_workspace_size(&config, given.empty() ? 0 : 1, &bytes, nullptr) ==
-          STARFOCUS_OK);
-  const Memory memory(bytes);
-  const auto width = size_t(field.width), pixels = width * size_t(field.height);
-  MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, 77)};
+                       const std::vector<float>& given = {}, bool covers = false) {
   starfocus_light_field light_field = field.Get();
-  light_field.depth =
-      starfocus_depth_float(given.data(), sizeof(float) * width, field.width, field.height);
-  starfocus_disparity_output map = {
-      made.disparity.data(), sizeof(float) * width, made.confidence.data(), width, nullptr, 0, 0};
-  const auto make = given.empty() ? starfocus_estimate_disparity : starfocus_repair_disparity;
-  REQUIRE(make(&config, nullptr, &light_field, &map, memory.data, memory.bytes, nullptr) ==
-          STARFOCUS_OK);
+  light_field.depth = starfocus_depth_float(given.data(), sizeof(float) * size_t(field.width),
+                                            field.width, field.height);
+  MadeMap made = TryMap(config, light_field,
+                        given.empty() ? Makes::kEstimate
+                        : covers      ? Makes::kRepairWithCoverage
+                                      : Makes::kRepair);
+  REQUIRE(made.status == STARFOCUS_OK);
   return made;
 }
 

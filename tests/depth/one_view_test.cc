@@ -24,6 +24,8 @@ namespace one_view_test {
 namespace {
 
 using test::Area;
+using test::kUnset;
+using test::MadeMap;
 using test::MakeClosedHair;
 using test::MakeDisc;
 using test::Photo;
@@ -31,32 +33,10 @@ using Portrait = test::ClosedHair;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr uint8_t kUnset = 77;
 
-struct Repaired {
-  std::vector<float> map;
-  std::vector<uint8_t> confidence, coverage;
-  int32_t has_coverage = -1;
-};
-
-Repaired Repair(const Photo& photo, bool covers = false, float low = -500, float high = 500) {
+MadeMap Repair(const Photo& photo, bool covers = false, float low = -500, float high = 500) {
   const test::PlaneField plane = {photo.width, photo.height, {photo.rgb}};
-  const test::Config config = test::ConfigOf(plane, low, high);
-  size_t bytes = 0;
-  REQUIRE(starfocus_map_workspace_size(&config, 1, &bytes, nullptr) == STARFOCUS_OK);
-  const test::Memory memory(bytes);
-  const size_t width = size_t(photo.width), row = sizeof(float) * width, pixels = photo.map.size();
-  starfocus_light_field field = plane.Get();
-  field.depth = starfocus_depth_float(photo.map.data(), row, photo.width, photo.height);
-  Repaired made = {std::vector<float>(pixels, kNan), std::vector<uint8_t>(pixels, kUnset),
-                   std::vector<uint8_t>(pixels, kUnset)};
-  starfocus_disparity_output out = {made.map.data(), row, made.confidence.data(), width, nullptr,
-                                    width,           -1};
-  if (covers) out.coverage = made.coverage.data();
-  REQUIRE(starfocus_repair_disparity(&config, nullptr, &field, &out, memory.data, bytes, nullptr) ==
-          STARFOCUS_OK);
-  made.has_coverage = out.has_coverage;
-  return made;
+  return MakeMap(plane, ConfigOf(plane, low, high), photo.map, covers);
 }
 
 // Calls change(x, y, distance) for each pixel, with the distance from the middle of the disc.
@@ -174,7 +154,7 @@ TEST_CASE("one view: a damaged map of a disc becomes the map of the picture") {
     damage.change(&truth, &photo);
     CAPTURE(damage.name);
     CHECK(CountWrong(photo.map, truth) >= damage.before);
-    CHECK(CountWrong(Repair(photo).map, truth) <= damage.after);
+    CHECK(CountWrong(Repair(photo).disparity, truth) <= damage.after);
   }
 }
 
@@ -184,16 +164,16 @@ TEST_CASE("one view: no bit of a correct map with steps, planes and fractions ch
   ForPixels(plane,
             [&](int x, int y, double) { plane.Map(x, y) = 0.013F * float(x) - 0.07F * float(y); });
   for (const Photo& photo : {disc, plane}) {
-    const std::vector<float> map = Repair(photo).map;
+    const std::vector<float> map = Repair(photo).disparity;
     CHECK(std::memcmp(map.data(), photo.map.data(), map.size() * sizeof(float)) == 0);
   }
 }
 
 TEST_CASE("one view: in a picture of one colour, only the outline may change, without confidence") {
   Photo photo = MakeDisc(0);
-  std::fill(photo.rgb.begin(), photo.rgb.end(), uint8_t{77});
-  const Repaired repaired = Repair(photo);
-  CHECK(CountWrong(repaired.map, photo) < 60);
+  std::fill(photo.rgb.begin(), photo.rgb.end(), uint8_t{kUnset});
+  const MadeMap repaired = Repair(photo);
+  CHECK(CountWrong(repaired.disparity, photo) < 60);
   CHECK(repaired.confidence[photo.At(5, 5)] == 255);
   CHECK(repaired.confidence[photo.At(151, 26)] < 100);
 }
@@ -203,14 +183,15 @@ TEST_CASE("one view: unknown values get the disparity of the nearest known pixel
     Photo photo(7, 5);
     std::fill(photo.map.begin(), photo.map.end(), kNan);
     photo.map[size_t(at)] = 2.5F;
-    for (const float d : Repair(photo).map) CHECK(d == 2.5F);
+    for (const float d : Repair(photo).disparity) CHECK(d == 2.5F);
   }
   Photo photo(2, 8);
   std::fill(photo.map.begin(), photo.map.end(), kNan);
   photo.Map(0, 2) = 1, photo.Map(1, 2) = 4;
   photo.Map(0, 6) = 3, photo.Map(1, 6) = 2;
   // A row that is equally near to two known rows gets the farther surface.
-  CHECK(Repair(photo).map == std::vector<float>{1, 4, 1, 4, 1, 4, 1, 4, 1, 2, 3, 2, 3, 2, 3, 2});
+  CHECK(Repair(photo).disparity ==
+        std::vector<float>{1, 4, 1, 4, 1, 4, 1, 4, 1, 2, 3, 2, 3, 2, 3, 2});
 }
 
 TEST_CASE("one view: disparities stay within the configured range") {
@@ -221,7 +202,7 @@ TEST_CASE("one view: disparities stay within the configured range") {
         photo.map[k] = float(int(k * k % 23) - 11) * 45.0F;
         photo.rgb[3 * k] = uint8_t(k * 37);
       }
-      test::CheckWithin(Repair(photo).map, -500, 500);
+      test::CheckWithin(Repair(photo).disparity, -500, 500);
     }
   }
   Photo noisy(64, 64);
@@ -230,7 +211,7 @@ TEST_CASE("one view: disparities stay within the configured range") {
   for (size_t at = 0; at < noisy.map.size(); ++at) {
     noisy.map[at] = at % 64 < 16 ? low : float(random.Real(4, high));
   }
-  const std::vector<float> found = Repair(noisy, false, low, high).map;
+  const std::vector<float> found = Repair(noisy, false, low, high).disparity;
   CHECK(found != noisy.map);
   test::CheckWithin(found, low, high);
 }
@@ -424,7 +405,7 @@ TEST_CASE("hair: a repair finds coverage where the map has closed the outline of
     Portrait portrait = MakeClosedHair();
     hair.change(&portrait);
     const Photo photo = PhotoOf(portrait);
-    const Repaired found = Repair(photo, true, -12, 12);
+    const MadeMap found = Repair(photo, true, -12, 12);
     CAPTURE(hair.name);
     CHECK(found.has_coverage == int(!hair.bounds.empty()));
     for (const Hair::Bound& bound : hair.bounds) {
@@ -432,11 +413,11 @@ TEST_CASE("hair: a repair finds coverage where the map has closed the outline of
     }
     for (int y = hair.near.top; y < hair.near.bottom; ++y) {
       for (int x = hair.near.left; x < hair.near.right; ++x) {
-        REQUIRE(found.map[photo.At(x, y)] == Portrait::kNear);
+        REQUIRE(found.disparity[photo.At(x, y)] == Portrait::kNear);
       }
     }
-    for (size_t at = 0; at < found.map.size(); ++at) {
-      const auto steps = int64_t(found.map[at] * 64);
+    for (size_t at = 0; at < found.disparity.size(); ++at) {
+      const auto steps = int64_t(found.disparity[at] * 64);
       checksum = checksum * 31 + uint64_t(steps) + found.coverage[at] * 3 + found.confidence[at];
     }
   }
@@ -446,7 +427,7 @@ TEST_CASE("hair: a repair finds coverage where the map has closed the outline of
 
 TEST_CASE("hair: confidence is high where map and coverage agree") {
   const Photo photo = PhotoOf(MakeClosedHair());
-  const Repaired found = Repair(photo, true);
+  const MadeMap found = Repair(photo, true);
   REQUIRE(found.has_coverage == 1);
   // In these rows and columns, all pixels of the map are near.
   CHECK(Difference({60, 70, 160, 100}, found.confidence, found.coverage) == 0);
@@ -457,10 +438,10 @@ TEST_CASE("hair: without hair, a request for coverage changes neither map nor co
   portrait.Draw();
   for (size_t k = 0; k < portrait.map.size(); k += 7) portrait.map[k] += 0.01F;
   const Photo photo = PhotoOf(portrait);
-  const Repaired asked = Repair(photo, true), unasked = Repair(photo);
+  const MadeMap asked = Repair(photo, true), unasked = Repair(photo);
   CHECK(asked.has_coverage == 0);
   CHECK(unasked.has_coverage == 0);
-  CHECK(asked.map == unasked.map);
+  CHECK(asked.disparity == unasked.disparity);
   CHECK(asked.confidence == unasked.confidence);
   CHECK(unasked.coverage == std::vector<uint8_t>(unasked.coverage.size(), kUnset));
 }
