@@ -161,7 +161,7 @@ void WidenCase(const std::vector<T>& all, void (*ImageKernels::*kernel)(const T*
   const size_t count = all.size();
   const T* values = call->Input("values", all);
   auto* z = call->Results<float>("z", count);
-  call->Runs([=](const ImageKernels& kernels) { (kernels.*kernel)(values, count, z); });
+  call->Calls(kernel, values, count, z);
 }
 
 }  // namespace
