@@ -199,15 +199,14 @@ class FarPyramid {
   void Fill() {
     for (int level = 1; level <= kLastLevel; ++level) {
       const Level& plane = levels_[size_t(level)];
-      for (int y = -plane.margin; y < plane.height - plane.margin; ++y) {
-        for (int x = -plane.margin; x < plane.width - plane.margin; ++x) {
-          const std::vector<FarLight> below = {
-              At(level - 1, 2 * x, 2 * y), At(level - 1, 2 * x + 1, 2 * y),
-              At(level - 1, 2 * x, 2 * y + 1), At(level - 1, 2 * x + 1, 2 * y + 1)};
-          FarLight& cell = At(level, x, y) = MeanOf(below, {1, 1, 1, 1}, Farthest(below));
-          cell.known = std::min(cell.known, 1.0);
-        }
-      }
+      ForEachIn(-plane.margin, -plane.margin, plane.width - plane.margin,
+                plane.height - plane.margin, [&](int x, int y) {
+                  const std::vector<FarLight> below = {
+                      At(level - 1, 2 * x, 2 * y), At(level - 1, 2 * x + 1, 2 * y),
+                      At(level - 1, 2 * x, 2 * y + 1), At(level - 1, 2 * x + 1, 2 * y + 1)};
+                  FarLight& cell = At(level, x, y) = MeanOf(below, {1, 1, 1, 1}, Farthest(below));
+                  cell.known = std::min(cell.known, 1.0);
+                });
     }
     filled_ = levels_;
     for (int level = kLastLevel - 1; level > 0; --level) {
@@ -352,16 +351,14 @@ class Parter {
     ForEachPixel(columns_, rows_, [&](int column, int row) {
       int low = map_.Disparity(column * kTile, row * kTile), high = low;
       int beside = 0, strands = 0;
-      for (int y = -1; y <= kTile; ++y) {
-        for (int x = -1; x <= kTile; ++x) {
-          const bool inside = x >= 0 && x < kTile && y >= 0 && y < kTile;
-          const int left = column * kTile + x, top = row * kTile + y;
-          low = std::min(low, map_.Disparity(left, top));
-          high = std::max(high, map_.Disparity(left, top));
-          beside += inside && map_.IsBesideNearer(left, top) ? 1 : 0;
-          strands += inside && map_.IsStrand(left, top) ? 1 : 0;
-        }
-      }
+      ForEachIn(-1, -1, kTile + 1, kTile + 1, [&](int x, int y) {
+        const bool inside = x >= 0 && x < kTile && y >= 0 && y < kTile;
+        const int left = column * kTile + x, top = row * kTile + y;
+        low = std::min(low, map_.Disparity(left, top));
+        high = std::max(high, map_.Disparity(left, top));
+        beside += inside && map_.IsBesideNearer(left, top) ? 1 : 0;
+        strands += inside && map_.IsStrand(left, top) ? 1 : 0;
+      });
       const bool thin = beside >= kLeastRagged && strands >= kLeastStrands;
       if (high - low > kThinEdge && (!given_.empty() || thin)) ragged_.insert({column, row});
     });
@@ -540,9 +537,7 @@ class Parter {
     for (double& light : sum) light *= known;
     for (const Position& view : views) {
       const double weight = EighthPower(1 - CoveredIn(view, x, y));
-      const int far = int(pixel.far);
-      const Colour light =
-          Read(field_, 0, view, x - Moved(view.first, far, 0), y - Moved(view.second, far, 0));
+      const Colour light = ReadMoved(field_, 0, view, x, y, int(pixel.far));
       for (size_t c = 0; c < 3; ++c) sum[c] += weight * light[c];
       known += weight;
     }
