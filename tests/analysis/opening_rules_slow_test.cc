@@ -9,6 +9,7 @@
 #include "examples/lab/analysis/subaperture_rule.h"
 #include "examples/lab/analysis/subsampled.h"
 #include "lib/optics/rules.h"
+#include "tests/support/test_scene.h"
 
 namespace starfocus::opening_rules_slow_test {
 namespace {
@@ -60,8 +61,7 @@ TEST_CASE("openings: errors meet the threshold, or a quarter of the threshold if
       worst = std::max(worst, error);
       if (r > 5) beyond = std::max(beyond, error);
     }
-    CAPTURE(worst);
-    CAPTURE(beyond);
+    CAPTURES(worst, beyond);
     CHECK(worst <= kThreshold);
     if (asked.demand == Demand::kDisc) continue;
     CHECK(beyond <= kThreshold / 4);
