@@ -15,20 +15,20 @@
 namespace map_golden_bytes_test {
 namespace {
 
-constexpr int kHeight = 48, kMargin = 8;
+constexpr int kMargin = 8;
 constexpr int kNear = 4, kFar = -2;
 
 // A near plane with an uneven outline in front of a far plane, made with integer arithmetic. The
 // pictures of other views show the planes at whole pixels. The near plane begins at least 20 pixels
 // right of `left`.
 struct IntegerPlanes {
-  const int width, left;
+  const int width, height, left;
   std::vector<uint8_t> texture[2] = {};
 
-  IntegerPlanes(int w, int l) : width(w), left(l) {
+  IntegerPlanes(int w, int h, int l) : width(w), height(h), left(l) {
     test::Random random(7);
     for (std::vector<uint8_t>& samples : texture) {
-      for (int n = 0; n < 3 * (width + 2 * kMargin) * (kHeight + 2 * kMargin); ++n) {
+      for (int n = 0; n < 3 * (width + 2 * kMargin) * (height + 2 * kMargin); ++n) {
         const int shade = n / 3 / 9 % 11 * 10;
         samples.push_back(uint8_t(shade + random.Int(0, &samples == texture ? 90 : 140)));
       }
@@ -48,7 +48,7 @@ struct IntegerPlanes {
 // unknown and wrong disparities.
 std::vector<float> GivenMap(const IntegerPlanes& planes) {
   std::vector<float> map;
-  for (int y = 0; y < kHeight; ++y) {
+  for (int y = 0; y < planes.height; ++y) {
     for (int x = 0; x < planes.width; ++x) {
       const bool near = planes.IsNear(x - 2, y) || planes.IsNear(x + 2, y);
       map.push_back(float((near ? kNear : kFar) + (x + y) % 3 / 8.0));
@@ -74,8 +74,8 @@ struct Row {
   int views;
   bool repair;
   uint64_t hash;
-  // A width of 400 pixels gives three tiles, with an edge across a boundary of tiles.
-  int width = 72, left = 0;
+  // Lengths of 400 pixels give three tiles, with an edge across a boundary of tiles.
+  int width = 72, left = 0, height = 48;
 };
 
 TEST_CASE("map golden: maps match the recorded checksums on every machine and SIMD target") {
@@ -90,15 +90,16 @@ TEST_CASE("map golden: maps match the recorded checksums on every machine and SI
       {"repair, 1 view", {}, 1, true, 0x6AE351DB2E8BC8AAU},
       {"repair, 5 views", {}, 5, true, 0xB888B16522B416B6U},
       {"repair, 17 views", {}, 17, true, 0x8E0B216A1F4D6760U},
-      {"repair of three tiles, 1 view", {}, 1, true, 0xDC147EEEB660E2E3U, 400, 110},
-      {"repair of three tiles, 5 views", {}, 5, true, 0xF08328215A52F0E2U, 400, 110},
+      {"repair, 1 view, 3 rows of tiles", {}, 1, true, 0xCE2F4D00AC427D67U, 72, 0, 400},
+      {"repair, 1 view, 3 tiles", {}, 1, true, 0xDC147EEEB660E2E3U, 400, 110},
+      {"repair, 5 views, 3 tiles", {}, 5, true, 0xF08328215A52F0E2U, 400, 110},
   };
   for (const Row& row : kRows) {
-    const IntegerPlanes planes(row.width, row.left);
-    test::PlaneField field = {row.width, kHeight, {}, row.positions};
-    if (row.positions.empty()) field = test::RenderViews(row.width, kHeight, row.views, planes);
+    const IntegerPlanes planes(row.width, row.height, row.left);
+    test::PlaneField field = {row.width, row.height, {}, row.positions};
+    if (row.positions.empty()) field = test::RenderViews(row.width, row.height, row.views, planes);
     for (const starfocus_position& position : row.positions) {
-      field.views.push_back(test::RenderView(row.width, kHeight, position, planes));
+      field.views.push_back(test::RenderView(row.width, row.height, position, planes));
     }
     const test::MadeMap map = test::MakeMap(field, test::ConfigOf(field, -6, 8),
                                             row.repair ? GivenMap(planes) : std::vector<float>());

@@ -112,20 +112,6 @@ TEST_CASE("setup: labels are half a pixel apart, or farther apart in a wide rang
   CHECK(wide.Disparity(wide.labels - 1) + 64 <= INT16_MAX);
 }
 
-TEST_CASE("setup: WholeMove rounds shifts to whole pixels, and halves towards 0") {
-  struct Row {
-    int32_t shift, whole;
-  };
-  for (const Row& row : {Row{64, 0}, {65, 1}, {-64, 0}, {-65, -1}, {-300, -2}}) {
-    CHECK(WholeMove(row.shift) == row.whole);
-    // The shift of a view at a position, of a pixel with a disparity.
-    const int32_t half = row.shift / 2 + row.shift % 2;
-    CHECK(WholeMoveBy(-kViewOne, half) == row.whole);
-    CHECK(WholeMoveBy(kViewOne, half) == -row.whole);
-    CHECK(WholeMoveBy(-kViewOne / 2, 2 * half) == row.whole);
-  }
-}
-
 TEST_CASE("setup: CoarseSetup keeps every other label and the range of the labels") {
   for (int range = 0; range <= 1000; range = range < 70 ? range + 1 : range + 93) {
     const float most = float(range) / 2;
