@@ -59,25 +59,21 @@ struct PlaneField {
   }
 };
 
-// Renders a view whose samples are pixel(u, v, x, y, c).
+// Renders views whose samples are pixel(u, v, x, y, c): a star of `views` views, or the views at
+// the given positions.
 template <class Pixel>
-std::vector<uint8_t> RenderView(int width, int height, const starfocus_position& position,
-                                const Pixel& pixel) {
-  std::vector<uint8_t> view;
-  for (int at = 0; at < 3 * width * height; ++at) {
-    view.push_back(pixel(position.u, position.v, at / 3 % width, at / 3 / width, at % 3));
-  }
-  return view;
-}
-
-// Renders a star of views whose samples are pixel(u, v, x, y, c).
-template <class Pixel>
-PlaneField RenderViews(int width, int height, int views, const Pixel& pixel) {
-  PlaneField field = {width, height, {}};
+PlaneField RenderViews(int width, int height, int views, const Pixel& pixel,
+                       const std::vector<starfocus_position>& positions = {}) {
+  PlaneField field = {width, height, {}, positions};
+  if (!positions.empty()) views = int(positions.size());
+  field.views.resize(size_t(views));
   for (int k = 0; k < views; ++k) {
-    starfocus_position position = {};
-    starfocus_view_position(k, &position.u, &position.v, nullptr);
-    field.views.push_back(RenderView(width, height, position, pixel));
+    double u = 0, v = 0;
+    starfocus_view_position(k, &u, &v, nullptr);
+    if (!positions.empty()) u = positions[size_t(k)].u, v = positions[size_t(k)].v;
+    for (int at = 0; at < 3 * width * height; ++at) {
+      field.views[size_t(k)].push_back(pixel(u, v, at / 3 % width, at / 3 / width, at % 3));
+    }
   }
   return field;
 }
@@ -86,12 +82,7 @@ inline PlaneField RenderPlanes(const PlaneScene& scene) {
   const auto pixel = [&](double u, double v, int x, int y, int c) {
     return scene.Pixel(u, v, x, y, c);
   };
-  if (scene.positions.empty()) return RenderViews(scene.width, scene.height, scene.views, pixel);
-  PlaneField field = {scene.width, scene.height, {}, scene.positions};
-  for (const starfocus_position& position : scene.positions) {
-    field.views.push_back(RenderView(scene.width, scene.height, position, pixel));
-  }
-  return field;
+  return RenderViews(scene.width, scene.height, scene.views, pixel, scene.positions);
 }
 
 // Returns the map of the scene, with a near plane that is wider by `grown` pixels on both sides.

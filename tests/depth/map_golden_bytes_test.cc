@@ -96,11 +96,8 @@ TEST_CASE("map golden: maps match the recorded checksums on every machine and SI
   };
   for (const Row& row : kRows) {
     const IntegerPlanes planes(row.width, row.height, row.left);
-    test::PlaneField field = {row.width, row.height, {}, row.positions};
-    if (row.positions.empty()) field = test::RenderViews(row.width, row.height, row.views, planes);
-    for (const starfocus_position& position : row.positions) {
-      field.views.push_back(test::RenderView(row.width, row.height, position, planes));
-    }
+    const test::PlaneField field =
+        test::RenderViews(row.width, row.height, row.views, planes, row.positions);
     const test::MadeMap map = test::MakeMap(field, test::ConfigOf(field, -6, 8),
                                             row.repair ? GivenMap(planes) : std::vector<float>());
     CAPTURE(row.name);
