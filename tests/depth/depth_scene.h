@@ -129,6 +129,9 @@ struct Memory {
   void* data;
 };
 
+// Value of samples of confidence and coverage that no call has written; such disparities are NaN.
+constexpr uint8_t kUnset = 77;
+
 // All outputs of a call, and the problem that the call reported.
 struct MadeMap {
   std::vector<float> disparity;
@@ -136,21 +139,24 @@ struct MadeMap {
   int32_t has_coverage = -1;
   starfocus_status status = STARFOCUS_OK;
   starfocus_problem problem = {};
-};
 
-// Value of samples of confidence and coverage that no call has written; such disparities are NaN.
-constexpr uint8_t kUnset = 77;
+  // Returns true if no call has written disparities or confidence.
+  bool IsUnset() const {
+    return std::all_of(disparity.begin(), disparity.end(), [](float d) { return std::isnan(d); }) &&
+           confidence == std::vector<uint8_t>(confidence.size(), kUnset);
+  }
+};
 
 enum class Makes { kEstimate, kRepair, kRepairWithCoverage };
 
-// Estimates or repairs the map of a light field.
+// Estimates or repairs the map of a light field, with memory that lacks `missing` bytes.
 inline MadeMap TryMap(const test::Config& config, const starfocus_light_field& field, Makes makes,
-                      const starfocus_callbacks* callbacks = nullptr) {
+                      const starfocus_callbacks* callbacks = nullptr, size_t missing = 0) {
   const bool estimates = makes == Makes::kEstimate;
   size_t bytes = 0;
   REQUIRE(starfocus_map_workspace_size(&config, estimates ? 0 : 1, &bytes, nullptr) ==
           STARFOCUS_OK);
-  const Memory memory(bytes);
+  const Memory memory(bytes - missing);
   const auto width = size_t(config.width), pixels = width * size_t(config.height);
   MadeMap made = {std::vector<float>(pixels, NAN), std::vector<uint8_t>(pixels, kUnset),
                   std::vector<uint8_t>(pixels, kUnset)};

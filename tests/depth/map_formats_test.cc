@@ -114,36 +114,29 @@ TEST_CASE("maps of any format: workers, cancelling and failed runners") {
 TEST_CASE("maps of any format: without the feature, other formats are rejected") {
   test::Random random(4);
   const ImageField field = Field(1, STARFOCUS_DEPTH_U16, STARFOCUS_DEPTH_LINEAR, &random);
-  const test::Scene& scene = field.converted;
-  starfocus_problem problem = {};
-  test::Config config = ConfigOf(scene);
-  size_t bytes = 0, with = 0;
-  REQUIRE(starfocus_map_workspace_size(&config, 1, &bytes, nullptr) == STARFOCUS_OK);
-  const test::Memory memory(bytes);
-  std::vector<float> map(size_t(scene.width * scene.height), -77);
-  starfocus_disparity_output out = {};
-  out.disparity = map.data();
-  out.disparity_stride = sizeof(float) * size_t(scene.width);
-  const starfocus_light_field images = field.Field();
-  const auto run = [&](const starfocus_light_field& given) {
-    return starfocus_repair_disparity(&config, nullptr, &given, &out, memory.data, memory.bytes,
-                                      &problem);
+  test::Config config = ConfigOf(field.converted);
+  const auto check_refused = [&](const starfocus_light_field& given, const char* named) {
+    const MadeMap made = TryMap(config, given, test::Makes::kRepair);
+    CHECK(made.status == STARFOCUS_ERROR_FEATURE);
+    CHECK(std::string(made.problem.field) == named);
+    const std::string feature = ", or STARFOCUS_FEATURE_IMAGES in config.features";
+    CHECK(std::string(made.problem.expected).find(feature) != std::string::npos);
+    CHECK(made.IsUnset());
   };
-  CHECK(run(images) == STARFOCUS_ERROR_FEATURE);
-  CHECK(std::string(problem.field) == "views[].format");
-  const std::string feature = ", or STARFOCUS_FEATURE_IMAGES in config.features";
-  CHECK(std::string(problem.expected).find(feature) != std::string::npos);
+  const starfocus_light_field images = field.Field();
+  check_refused(images, "views[].format");
   starfocus_light_field mixed = images;
-  mixed.views[0] = scene.Field().views[0];
-  CHECK(run(mixed) == STARFOCUS_ERROR_FEATURE);
-  CHECK(std::string(problem.field) == "depth");
-  CHECK(std::string(problem.expected).find(feature) != std::string::npos);
+  mixed.views[0] = field.converted.Field().views[0];
+  check_refused(mixed, "depth");
+  size_t without = 0, with = 0;
+  REQUIRE(starfocus_map_workspace_size(&config, 1, &without, nullptr) == STARFOCUS_OK);
   config.features = STARFOCUS_FEATURE_IMAGES;
-  CHECK(run(images) == STARFOCUS_ERROR_WORKSPACE);
   REQUIRE(starfocus_map_workspace_size(&config, 1, &with, nullptr) == STARFOCUS_OK);
-  const double more = double(with - bytes) / (scene.width * scene.height);
+  const MadeMap lacking = TryMap(config, images, test::Makes::kRepair, nullptr, with - without);
+  CHECK(lacking.status == STARFOCUS_ERROR_WORKSPACE);
+  CHECK(lacking.IsUnset());
+  const double more = double(with - without) / (config.width * config.height);
   CHECK(more == doctest::Approx(7).epsilon(0.2));
-  CHECK(map == std::vector<float>(map.size(), -77));
 }
 
 TEST_CASE("maps of any format: values of the map are checked before the map is converted") {
@@ -163,7 +156,7 @@ TEST_CASE("maps of any format: values of the map are checked before the map is c
   }
   const MadeMap unknown = Make(field, true, STARFOCUS_FEATURE_IMAGES);
   CHECK(unknown.status == STARFOCUS_ERROR_ALL_INVALID);
-  CHECK(unknown.confidence == std::vector<uint8_t>(unknown.confidence.size(), test::kUnset));
+  CHECK(unknown.IsUnset());
 }
 
 }  // namespace
