@@ -176,6 +176,27 @@ void ForEachAround(int reach, const Visit& visit) {
   ForEachIn(-reach, -reach, reach + 1, reach + 1, visit);
 }
 
+// Values of a rectangle that begins `left` columns before and `top` rows above (0, 0).
+template <class T>
+struct Grid {
+  int left, top, width, height;
+  std::vector<T> values;
+
+  Grid(int l, int t, int w, int h)
+      : left(l), top(t), width(w), height(h), values(size_t(w) * size_t(h), T{}) {}
+
+  bool Inside(int x, int y) const {
+    return x >= -left && x < width - left && y >= -top && y < height - top;
+  }
+  size_t Index(int x, int y) const { return size_t(y + top) * size_t(width) + size_t(x + left); }
+  T& At(int x, int y) { return values[Index(x, y)]; }
+  const T& At(int x, int y) const { return values[Index(x, y)]; }
+  template <class Visit>
+  void ForEach(const Visit& visit) const {
+    ForEachIn(-left, -top, width - left, height - top, visit);
+  }
+};
+
 // Picture of a rendered or captured view; the disparities, in 1/64 pixel, are 0 if the view has no
 // map.
 struct Picture {

@@ -112,25 +112,7 @@ using Light = std::array<double, 4>;
 
 // Pixels of a rectangle and its surroundings. Pixel (0, 0) is the first pixel of the refocused
 // rectangle.
-struct Plane {
-  int left, top, width, height;  // `left` and `top` are the numbers of pixels to the left of the
-                                 // rectangle and above it.
-  std::vector<Light> pixels;
-
-  Plane(int l, int t, int w, int h)
-      : left(l), top(t), width(w), height(h), pixels(size_t(w) * size_t(h), Light{}) {}
-
-  bool Inside(int x, int y) const {
-    return x >= -left && x < width - left && y >= -top && y < height - top;
-  }
-  size_t Index(int x, int y) const { return size_t(y + top) * size_t(width) + size_t(x + left); }
-  Light& At(int x, int y) { return pixels[Index(x, y)]; }
-  const Light& At(int x, int y) const { return pixels[Index(x, y)]; }
-  template <class Visit>
-  void ForEach(const Visit& visit) const {
-    ForEachIn(-left, -top, width - left, height - top, visit);
-  }
-};
+using Plane = Grid<Light>;
 
 // Widest subaperture, in pixels, that the filter of a view applies while the slice is moved. For
 // wider subapertures, the slice is spread before the slice is moved.
